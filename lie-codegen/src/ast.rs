@@ -1,0 +1,190 @@
+//! The syntax tree that both front ends produce: nothing in it is resolved or checked yet.
+//!
+//! Sums and products are n-ary, so that the depth of the tree is the nesting of the text and a
+//! long sum cannot exhaust the stack. Names may carry indices and sums may run over an index:
+//! families of systems need both, so they are in the tree from the start.
+
+use crate::diagnostic::Origin;
+use crate::exact::Rational;
+
+/// A name and its place.
+#[derive(Clone, Debug)]
+pub struct Name {
+    /// The identifier.
+    pub text: String,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// An expression with its place.
+#[derive(Clone, Debug)]
+pub struct Expr {
+    /// What it is.
+    pub kind: ExprKind,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// The forms of an expression.
+#[derive(Clone, Debug)]
+pub enum ExprKind {
+    /// An exact constant.
+    Number(Rational),
+    /// A name, with an index if it belongs to a family.
+    Name {
+        /// The identifier.
+        name: String,
+        /// `x[i+1]`.
+        index: Option<Index>,
+    },
+    /// `-a`.
+    Negative(Box<Expr>),
+    /// `a + b - c`: the flag is true where a minus stands before the term.
+    Sum(Vec<(bool, Expr)>),
+    /// `a * b / c`: the flag is true where the factor divides.
+    Product(Vec<(bool, Expr)>),
+    /// `a ^ b`.
+    Power(Box<Expr>, Box<Expr>),
+    /// `f(a, …)`.
+    Call {
+        /// The function.
+        function: Name,
+        /// Its arguments.
+        arguments: Vec<Expr>,
+    },
+    /// `sum(i in 0..N: body)`.
+    IndexedSum {
+        /// The running index.
+        index: Name,
+        /// First value.
+        from: Box<Expr>,
+        /// One past the last value.
+        to: Box<Expr>,
+        /// The summand.
+        body: Box<Expr>,
+    },
+}
+
+/// An index `i + offset` (modulo the size of the family) or a constant one.
+#[derive(Clone, Debug)]
+pub struct Index {
+    /// The running index, if there is one.
+    pub variable: Option<Name>,
+    /// What is added to it.
+    pub offset: i64,
+}
+
+/// `[left, right] = value`.
+#[derive(Clone, Debug)]
+pub struct Bracket {
+    /// First basis name.
+    pub left: Name,
+    /// Second basis name.
+    pub right: Name,
+    /// Linear in basis names.
+    pub value: Expr,
+    /// The whole bracket.
+    pub origin: Origin,
+}
+
+/// The matrix that represents one basis element.
+#[derive(Clone, Debug)]
+pub struct Matrix {
+    /// The basis name.
+    pub name: Name,
+    /// Rows of exact entries.
+    pub rows: Vec<Vec<Expr>>,
+    /// The whole matrix.
+    pub origin: Origin,
+}
+
+/// A Lie algebra as it was written.
+#[derive(Clone, Debug)]
+pub struct Algebra {
+    /// Names of the basis.
+    pub basis: Vec<Name>,
+    /// The brackets; `None` where the key is absent, so that matrices may define them.
+    pub brackets: Option<Vec<Bracket>>,
+    /// A matrix representation.
+    pub matrices: Vec<Matrix>,
+    /// The whole block.
+    pub origin: Origin,
+}
+
+/// A parameter with its default.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: Name,
+    /// Its default, an expression in constants.
+    pub default: Expr,
+    /// Whether brackets may use it (as an exact number).
+    pub exact: bool,
+    /// Unit, for people.
+    pub unit: Option<String>,
+    /// Description, for people.
+    pub description: Option<String>,
+}
+
+/// A Casimir; an unnamed one is named later.
+#[derive(Clone, Debug)]
+pub struct Casimir {
+    /// `NAME =`, if it was there.
+    pub name: Option<Name>,
+    /// The function.
+    pub value: Expr,
+}
+
+/// Which invariance the system has; the right-invariant one has the opposite sign.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Invariance {
+    /// `mu' = ad*_{grad H} mu`.
+    #[default]
+    Left,
+    /// `mu' = -ad*_{grad H} mu`.
+    Right,
+}
+
+/// One entry of `run`: option name (as on the command line, without dashes) and its text.
+#[derive(Clone, Debug)]
+pub struct RunOption {
+    /// The option.
+    pub name: Name,
+    /// Its values: one for most options, several for `at`.
+    pub values: Vec<(String, Origin)>,
+}
+
+/// A whole declaration.
+#[derive(Clone, Debug)]
+pub struct Declaration {
+    /// Visibility tokens of the macro form (`pub`, `pub(crate)`, nothing); `pub` for specs.
+    pub visibility: proc_macro2::TokenStream,
+    /// Name of the system.
+    pub name: Name,
+    /// Doc lines (macro) or the description (spec).
+    pub description: Vec<String>,
+    /// References, for people.
+    pub references: Vec<String>,
+    /// The algebra.
+    pub algebra: Algebra,
+    /// Names of the coordinates of `mu`.
+    pub state: Vec<Name>,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// Abbreviations, each may use the earlier ones.
+    pub lets: Vec<(Name, Expr)>,
+    /// The Hamiltonian.
+    pub hamiltonian: Expr,
+    /// Declared Casimirs.
+    pub casimirs: Vec<Casimir>,
+    /// Methods that get fused code.
+    pub methods: Vec<Name>,
+    /// Left or right invariance.
+    pub invariance: Invariance,
+    /// The initial state, expressions in constants and parameters.
+    pub initial: Option<Vec<Expr>>,
+    /// Where `initial` stands.
+    pub initial_origin: Option<Origin>,
+    /// Defaults of `lie run`.
+    pub run: Vec<RunOption>,
+}

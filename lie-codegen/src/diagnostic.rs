@@ -1,0 +1,159 @@
+//! Diagnostics: what is wrong, where, and what to do about it.
+
+use std::fmt;
+
+use proc_macro2::Span;
+
+/// The place of a token: a span of the macro input, or a byte range of the spec file.
+#[derive(Clone, Copy, Debug)]
+pub enum Origin {
+    /// A token of a macro invocation.
+    Span(Span),
+    /// A byte range of a spec file, or of an expression given on the command line.
+    Text {
+        /// First byte.
+        start: usize,
+        /// One past the last byte.
+        end: usize,
+    },
+}
+
+impl Origin {
+    /// The smallest place that covers both.
+    pub fn to(self, end: Origin) -> Origin {
+        match (self, end) {
+            (Origin::Text { start, .. }, Origin::Text { end, .. }) if start <= end => {
+                Origin::Text { start, end }
+            }
+            (Origin::Span(a), Origin::Span(b)) => Origin::Span(a.join(b).unwrap_or(a)),
+            (start, _) => start,
+        }
+    }
+}
+
+macro_rules! kinds {
+    ($($name:ident $text:literal $doc:literal),+ $(,)?) => {
+        /// The kind of a mistake, as it stands in `error[KIND]`.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum Kind { $(#[doc = $doc] $name),+ }
+        impl Kind {
+            /// Every kind.
+            pub const ALL: &'static [Kind] = &[$(Kind::$name),+];
+            /// The kind as it is printed.
+            pub fn as_str(self) -> &'static str {
+                match self { $(Kind::$name => $text),+ }
+            }
+        }
+    };
+}
+kinds! {
+    Syntax "syntax" "Malformed expression or declaration.",
+    Schema "schema" "Malformed JSON, unknown or repeated key, wrong type of a value.",
+    Number "number" "Malformed constant, or a constant divided by zero.",
+    UnknownSymbol "unknown-symbol" "A name that is not declared.",
+    UnknownFunction "unknown-function" "A function that the grammar does not have.",
+    Arity "arity" "Wrong number of arguments.",
+    DuplicateName "duplicate-name" "A name declared twice in one name space.",
+    ReservedName "reserved-name" "A name that the language keeps for itself.",
+    Basis "basis" "Empty basis; unknown or repeated basis name in `matrices`.",
+    Antisymmetry "antisymmetry" "`[a, a]` is not zero, or `[b, a]` disagrees with `[a, b]`.",
+    DuplicateBracket "duplicate-bracket" "The same pair twice, with different values.",
+    Jacobi "jacobi" "The Jacobi identity fails.",
+    Representation "representation" "The matrices do not represent the brackets.",
+    Casimir "casimir" "A declared Casimir is none, or cannot be proven to be one.",
+    Cocycle "cocycle" "The cocycle identity fails.",
+    StateLength "state-length" "Length of the state or the initial values differs from the basis.",
+    EmptyHamiltonian "empty-hamiltonian" "The text of the Hamiltonian is blank.",
+    Domain "domain" "The Hamiltonian, its gradient or a Casimir is not finite at the initial state.",
+    Method "method" "The method does not apply to the system, or is not built yet.",
+    Legendre "legendre" "The Legendre transform fails.",
+    Splitting "splitting" "The Hamiltonian has no such splitting.",
+    Option "option" "Bad or missing option.",
+    Io "io" "A file cannot be read or written.",
+    Toolchain "toolchain" "cargo is missing or failed.",
+    Checkpoint "checkpoint" "A checkpoint does not fit.",
+    Limit "limit" "A size limit is exceeded.",
+}
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// One mistake (or warning) with its place and its remedy.
+#[derive(Clone, Debug)]
+pub struct Diagnostic {
+    /// Kind of the mistake.
+    pub kind: Kind,
+    /// What is wrong, and why, in the words of the field.
+    pub message: String,
+    /// Where; `None` only where there is no token to point at.
+    pub origin: Option<Origin>,
+    /// What to do.
+    pub help: Option<String>,
+    /// Whether it only warns.
+    pub warning: bool,
+}
+
+impl Diagnostic {
+    /// An error at a place.
+    pub fn new(kind: Kind, origin: Origin, message: impl Into<String>) -> Self {
+        Self { kind, message: message.into(), origin: Some(origin), help: None, warning: false }
+    }
+
+    /// An error without a place in the text.
+    pub fn placeless(kind: Kind, message: impl Into<String>) -> Self {
+        Self { kind, message: message.into(), origin: None, help: None, warning: false }
+    }
+
+    /// Adds the remedy.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Turns the error into a warning.
+    #[must_use]
+    pub fn warning(mut self) -> Self {
+        self.warning = true;
+        self
+    }
+}
+
+/// Collects the diagnostics of the stages; a stage runs on what the earlier ones left standing.
+#[derive(Debug, Default)]
+pub struct Report {
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Report {
+    /// An empty report.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a diagnostic.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Whether any error (not only warnings) was reported.
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(|d| !d.warning)
+    }
+
+    /// The gate behind a stage: everything reported so far if there is an error.
+    ///
+    /// # Errors
+    /// All diagnostics, in the order in which they were found.
+    pub fn gate(&mut self) -> Result<(), Vec<Diagnostic>> {
+        if self.has_errors() { Err(std::mem::take(&mut self.diagnostics)) } else { Ok(()) }
+    }
+
+    /// All diagnostics.
+    pub fn into_diagnostics(self) -> Vec<Diagnostic> {
+        self.diagnostics
+    }
+}

@@ -1,0 +1,354 @@
+//! Rational numbers with a machine-word fast path.
+//!
+//! Nearly every constant of a Lie–Poisson system fits two machine words; arithmetic on them is
+//! checked and falls over to big integers only when a word overflows.
+
+use std::cmp::Ordering;
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+/// An exact rational number, always in lowest terms with a positive denominator.
+///
+/// A value that fits is always stored in words, so equal numbers have one representation.
+#[derive(Clone)]
+pub struct Rational(Repr);
+
+#[derive(Clone)]
+enum Repr {
+    Word(i64, i64),
+    Big(Box<BigRational>),
+}
+
+impl Rational {
+    /// Zero.
+    pub const ZERO: Self = Self(Repr::Word(0, 1));
+    /// One.
+    pub const ONE: Self = Self(Repr::Word(1, 1));
+    /// Minus one.
+    pub const MINUS_ONE: Self = Self(Repr::Word(-1, 1));
+
+    /// `numerator / denominator`, reduced; `None` where the denominator is zero.
+    pub fn new(numerator: i64, denominator: i64) -> Option<Self> {
+        (denominator != 0).then(|| Self::from_wide(numerator.into(), denominator.into()))
+    }
+
+    /// `numerator / denominator` of big integers, reduced; `None` where the denominator is zero.
+    pub fn from_big(numerator: BigInt, denominator: BigInt) -> Option<Self> {
+        (!denominator.is_zero()).then(|| Self::shrink(BigRational::new(numerator, denominator)))
+    }
+
+    /// The exact value of a finite float; `None` for infinities and NaN.
+    pub fn from_f64(value: f64) -> Option<Self> {
+        BigRational::from_float(value).map(Self::shrink)
+    }
+
+    /// The nearest `f64` (ties to even), infinite beyond the range.
+    pub fn to_f64(&self) -> f64 {
+        match &self.0 {
+            Repr::Word(n, d) if n.unsigned_abs() <= 1 << 53 && *d <= 1 << 53 => *n as f64 / *d as f64,
+            _ => nearest(&self.to_big()),
+        }
+    }
+
+    /// As a ratio of big integers.
+    pub fn to_big(&self) -> BigRational {
+        match &self.0 {
+            Repr::Word(n, d) => BigRational::new_raw((*n).into(), (*d).into()),
+            Repr::Big(value) => (**value).clone(),
+        }
+    }
+
+    /// Numerator and denominator where both fit a word.
+    pub fn to_words(&self) -> Option<(i64, i64)> {
+        match &self.0 {
+            Repr::Word(n, d) => Some((*n, *d)),
+            Repr::Big(_) => None,
+        }
+    }
+
+    /// The value as an integer that fits a word.
+    pub fn to_integer(&self) -> Option<i64> {
+        match self.0 {
+            Repr::Word(n, 1) => Some(n),
+            _ => None,
+        }
+    }
+
+    /// Whether the value is an integer.
+    pub fn is_integer(&self) -> bool {
+        match &self.0 {
+            Repr::Word(_, d) => *d == 1,
+            Repr::Big(value) => value.is_integer(),
+        }
+    }
+
+    /// Whether the value is zero.
+    pub fn is_zero(&self) -> bool {
+        matches!(self.0, Repr::Word(0, _))
+    }
+
+    /// Whether the value is one.
+    pub fn is_one(&self) -> bool {
+        matches!(self.0, Repr::Word(1, 1))
+    }
+
+    /// Whether the value is below zero.
+    pub fn is_negative(&self) -> bool {
+        match &self.0 {
+            Repr::Word(n, _) => *n < 0,
+            Repr::Big(value) => value.is_negative(),
+        }
+    }
+
+    /// The absolute value.
+    pub fn abs(&self) -> Self {
+        if self.is_negative() { -self } else { self.clone() }
+    }
+
+    /// `1 / self`; `None` for zero.
+    pub fn recip(&self) -> Option<Self> {
+        (!self.is_zero()).then(|| &Self::ONE / self)
+    }
+
+    /// `self^exponent`; `None` for a negative power of zero.
+    pub fn pow(&self, exponent: i32) -> Option<Self> {
+        if exponent < 0 && self.is_zero() {
+            return None;
+        }
+        Some(Self::shrink(self.to_big().pow(exponent)))
+    }
+
+    /// Size in bits of numerator and denominator together, the measure for size limits.
+    pub fn bits(&self) -> u64 {
+        match &self.0 {
+            Repr::Word(n, d) => u64::from(128 - n.unsigned_abs().leading_zeros() - d.leading_zeros()),
+            Repr::Big(value) => value.numer().bits() + value.denom().bits(),
+        }
+    }
+
+    fn from_wide(numerator: i128, denominator: i128) -> Self {
+        let divisor = numerator.gcd(&denominator);
+        let (mut n, mut d) = (numerator / divisor, denominator / divisor);
+        if d < 0 {
+            (n, d) = (-n, -d);
+        }
+        match (i64::try_from(n), i64::try_from(d)) {
+            (Ok(n), Ok(d)) => Self(Repr::Word(n, d)),
+            _ => Self(Repr::Big(Box::new(BigRational::new_raw(n.into(), d.into())))),
+        }
+    }
+
+    fn shrink(value: BigRational) -> Self {
+        match (value.numer().to_i64(), value.denom().to_i64()) {
+            (Some(n), Some(d)) => Self(Repr::Word(n, d)),
+            _ => Self(Repr::Big(Box::new(value))),
+        }
+    }
+}
+
+/// Correctly rounded quotient: scale to a 55-bit integer quotient with a sticky bit, then scale back.
+fn nearest(value: &BigRational) -> f64 {
+    let (n, d) = (value.numer().magnitude(), value.denom().magnitude());
+    if n.is_zero() {
+        return 0.0;
+    }
+    // The quotient has 64 to 65 bits; one conversion rounds it, the sticky bit breaks ties rightly.
+    let shift = 64 + d.bits() as i64 - n.bits() as i64;
+    // Below the normal range fewer bits may stay, so that rounding happens once.
+    let lost = (shift - (1074 + 2)).max(0);
+    let shift = shift - lost;
+    let (quotient, rest) = if shift >= 0 {
+        (n << shift as u64).div_rem(d)
+    } else {
+        n.div_rem(&(d << (-shift) as u64))
+    };
+    let sticky = u128::from(!rest.is_zero());
+    let quotient = (quotient.to_u128().unwrap_or(0) << 1) | sticky;
+    let exponent = -(shift + 1);
+    let magnitude = scale(quotient, exponent);
+    if value.is_negative() { -magnitude } else { magnitude }
+}
+
+/// `mantissa * 2^exponent`, rounded once to nearest even.
+fn scale(mantissa: u128, exponent: i64) -> f64 {
+    if mantissa == 0 {
+        return 0.0;
+    }
+    let bits = i64::from(128 - mantissa.leading_zeros());
+    let top = bits + exponent; // the value lies in [2^(top-1), 2^top)
+    if top > 1024 {
+        return f64::INFINITY;
+    }
+    let keep = 53.min(top + 1074);
+    if keep < 0 {
+        return 0.0;
+    }
+    let drop = bits - keep;
+    let (kept, exponent) = if drop <= 0 {
+        (mantissa, exponent)
+    } else {
+        let half = 1u128 << (drop - 1);
+        let mut kept = mantissa >> drop;
+        let rest = mantissa & ((1u128 << drop) - 1);
+        if rest > half || (rest == half && kept & 1 == 1) {
+            kept += 1;
+        }
+        (kept, exponent + drop)
+    };
+    // `kept` has at most 54 bits (2^53 after a carry), hence both factors and the product are exact.
+    let half = exponent / 2;
+    kept as f64 * 2f64.powi(half as i32) * 2f64.powi((exponent - half) as i32)
+}
+
+impl From<i64> for Rational {
+    fn from(value: i64) -> Self {
+        Self(Repr::Word(value, 1))
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, |$a:ident, $b:ident, $c:ident, $d:ident| $n:expr, $m:expr) => {
+        impl $trait for &Rational {
+            type Output = Rational;
+            fn $method(self, other: &Rational) -> Rational {
+                if let (Repr::Word(a, b), Repr::Word(c, d)) = (&self.0, &other.0) {
+                    let ($a, $b, $c, $d) =
+                        (i128::from(*a), i128::from(*b), i128::from(*c), i128::from(*d));
+                    // Products of two words fit i128; a sum of two such products may not.
+                    if let (Some(n), Some(m)) = ($n, $m) {
+                        return Rational::from_wide(n, m);
+                    }
+                }
+                Rational::shrink(self.to_big().$method(other.to_big()))
+            }
+        }
+        impl $trait for Rational {
+            type Output = Rational;
+            fn $method(self, other: Rational) -> Rational {
+                (&self).$method(&other)
+            }
+        }
+    };
+}
+operator!(Add, add, |a, b, c, d| (a * d).checked_add(c * b), Some(b * d));
+operator!(Sub, sub, |a, b, c, d| (a * d).checked_sub(c * b), Some(b * d));
+operator!(Mul, mul, |a, b, c, d| Some(a * c), Some(b * d));
+
+impl Div for &Rational {
+    type Output = Rational;
+    /// # Panics
+    /// On division by zero; callers divide only by what they have tested.
+    fn div(self, other: &Rational) -> Rational {
+        assert!(!other.is_zero(), "division by an exact zero");
+        if let (Repr::Word(a, b), Repr::Word(c, d)) = (&self.0, &other.0) {
+            return Rational::from_wide(
+                i128::from(*a) * i128::from(*d),
+                i128::from(*b) * i128::from(*c),
+            );
+        }
+        Rational::shrink(self.to_big() / other.to_big())
+    }
+}
+impl Div for Rational {
+    type Output = Rational;
+    fn div(self, other: Rational) -> Rational {
+        &self / &other
+    }
+}
+impl Neg for &Rational {
+    type Output = Rational;
+    fn neg(self) -> Rational {
+        &Rational::ZERO - self
+    }
+}
+impl Neg for Rational {
+    type Output = Rational;
+    fn neg(self) -> Rational {
+        -&self
+    }
+}
+
+impl PartialEq for Rational {
+    fn eq(&self, other: &Self) -> bool {
+        match (&self.0, &other.0) {
+            (Repr::Word(a, b), Repr::Word(c, d)) => (a, b) == (c, d),
+            (Repr::Big(a), Repr::Big(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+impl Eq for Rational {}
+impl Hash for Rational {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        match &self.0 {
+            Repr::Word(n, d) => (n, d).hash(state),
+            Repr::Big(value) => value.hash(state),
+        }
+    }
+}
+impl Ord for Rational {
+    fn cmp(&self, other: &Self) -> Ordering {
+        match (&self.0, &other.0) {
+            (Repr::Word(a, b), Repr::Word(c, d)) => {
+                (i128::from(*a) * i128::from(*d)).cmp(&(i128::from(*c) * i128::from(*b)))
+            }
+            _ => self.to_big().cmp(&other.to_big()),
+        }
+    }
+}
+impl PartialOrd for Rational {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl fmt::Display for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let value = self.to_big();
+        if value.denom().is_one() {
+            write!(f, "{}", value.numer())
+        } else {
+            write!(f, "{}/{}", value.numer(), value.denom())
+        }
+    }
+}
+impl fmt::Debug for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_and_big_integers_agree() {
+        let big = Rational::from(i64::MAX);
+        let sum = &(&big * &big) + &Rational::ONE;
+        assert_eq!(sum.to_words(), None);
+        assert_eq!(&(&sum - &Rational::ONE) / &big, big);
+        assert_eq!(Rational::new(6, -4).unwrap().to_string(), "-3/2");
+        assert_eq!(Rational::new(i64::MIN, -1).unwrap().to_string(), "9223372036854775808");
+    }
+
+    #[test]
+    fn floats_are_rounded_to_nearest() {
+        for text in ["0.1", "1e-3", "123456789012345678901234567890", "4.9e-324", "2.3e-308", "1.7976931348623157e308"] {
+            let value: f64 = text.parse().unwrap();
+            assert_eq!(Rational::from_f64(value).unwrap().to_f64(), value, "{text}");
+        }
+        let third = Rational::new(1, 3).unwrap();
+        assert_eq!(third.to_f64(), 1.0 / 3.0);
+        let n: BigInt = BigInt::from(10).pow(40) + 1;
+        let r = Rational::from_big(n, BigInt::from(10).pow(41) * 3).unwrap();
+        assert_eq!(r.to_f64(), 1.0 / 30.0);
+        assert_eq!(Rational::from(10).pow(400).unwrap().to_f64(), f64::INFINITY);
+        assert_eq!(Rational::from(10).pow(-400).unwrap().to_f64(), 0.0);
+    }
+}

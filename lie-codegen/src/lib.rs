@@ -1,0 +1,4 @@
+//! The compiler of lie-poisson.
+pub mod ast;
+pub mod diagnostic;
+pub mod exact;

@@ -1,0 +1,1 @@
+//! The `lie_poisson!` macro: a shell over `lie-codegen`.

@@ -1,0 +1,2 @@
+//! Runtime of lie-poisson.
+#![cfg_attr(not(feature = "std"), no_std)]

@@ -1,0 +1,2 @@
+//! The `lie` command.
+fn main() {}
