@@ -1,0 +1,134 @@
+//! Exact differentiation and substitution.
+
+use std::collections::HashMap;
+
+use super::graph::{ExprId, Graph, Node, Symbol};
+use super::Function;
+use crate::exact::Rational;
+
+impl Graph {
+    /// The partial derivative of an expression with respect to a symbol.
+    pub fn derivative(&mut self, id: ExprId, symbol: Symbol) -> ExprId {
+        for node in self.dependencies(&[id]) {
+            if !self.derivatives.contains_key(&(node, symbol)) {
+                let derivative = self.differentiate_node(node, symbol);
+                self.derivatives.insert((node, symbol), derivative);
+            }
+        }
+        self.derivatives[&(id, symbol)]
+    }
+
+    /// One node, the derivatives of whose children are known.
+    fn differentiate_node(&mut self, id: ExprId, symbol: Symbol) -> ExprId {
+        match self.node(id).clone() {
+            Node::Number(_) | Node::Pi => self.number(Rational::ZERO),
+            Node::Symbol(other) => self.integer(i64::from(other == symbol)),
+            Node::Sum { terms, .. } => {
+                let terms: Vec<_> =
+                    terms.iter().map(|(t, c)| (self.derivatives[&(*t, symbol)], c.clone())).collect();
+                self.linear(&terms)
+            }
+            Node::Product(factors) => {
+                let mut terms = Vec::new();
+                for (position, (base, exponent)) in factors.iter().enumerate() {
+                    let inner = self.derivatives[&(*base, symbol)];
+                    if self.is_zero(inner) {
+                        continue;
+                    }
+                    let mut rest = factors.to_vec();
+                    rest[position].1 = exponent - &Rational::ONE;
+                    rest.push((inner, Rational::ONE));
+                    terms.push((self.power_product(&rest), exponent.clone()));
+                }
+                self.linear(&terms)
+            }
+            Node::Call(function, arguments) => {
+                let inner = self.derivatives[&(arguments[0], symbol)];
+                if function == Function::Atan2 {
+                    let inner_x = self.derivatives[&(arguments[1], symbol)];
+                    return self.differentiate_atan2([arguments[0], arguments[1]], [inner, inner_x]);
+                }
+                if self.is_zero(inner) {
+                    return inner;
+                }
+                let outer = self.outer_derivative(function, arguments[0], id);
+                self.mul(outer, inner)
+            }
+        }
+    }
+
+    /// `d atan2(y, x) = (x dy - y dx) / (x^2 + y^2)`.
+    fn differentiate_atan2(&mut self, [y, x]: [ExprId; 2], [dy, dx]: [ExprId; 2]) -> ExprId {
+        if self.is_zero(dx) && self.is_zero(dy) {
+            return dx;
+        }
+        let (a, b) = (self.mul(x, dy), self.mul(y, dx));
+        let numerator = self.sub(a, b);
+        let two = Rational::from(2);
+        let (xx, yy) = (self.pow(x, &two), self.pow(y, &two));
+        let square = self.add(xx, yy);
+        self.div(numerator, square)
+    }
+
+    /// The derivative of a function of one argument; `value` is the function itself.
+    fn outer_derivative(&mut self, function: Function, x: ExprId, value: ExprId) -> ExprId {
+        let one = self.integer(1);
+        let two = Rational::from(2);
+        let square = self.pow(x, &two);
+        match function {
+            Function::Exp => value,
+            Function::Log => self.pow(x, &Rational::MINUS_ONE),
+            Function::Sin => self.call(Function::Cos, &[x]),
+            Function::Cos => {
+                let sine = self.call(Function::Sin, &[x]);
+                self.neg(sine)
+            }
+            Function::Tan => {
+                let tangent = self.pow(value, &two);
+                self.add(one, tangent)
+            }
+            Function::Asin | Function::Acos => {
+                let inside = self.sub(one, square);
+                let power = self.pow(inside, &Rational::new(-1, 2).unwrap_or(Rational::MINUS_ONE));
+                if function == Function::Asin { power } else { self.neg(power) }
+            }
+            Function::Atan => {
+                let inside = self.add(one, square);
+                self.pow(inside, &Rational::MINUS_ONE)
+            }
+            Function::Sinh => self.call(Function::Cosh, &[x]),
+            Function::Cosh => self.call(Function::Sinh, &[x]),
+            Function::Tanh => {
+                let tangent = self.pow(value, &two);
+                self.sub(one, tangent)
+            }
+            Function::Atan2 => unreachable!("atan2 has two arguments and its own rule"),
+        }
+    }
+
+    /// Replaces symbols by expressions.
+    pub fn substitute(&mut self, roots: &[ExprId], replace: &dyn Fn(Symbol) -> Option<ExprId>) -> Vec<ExprId> {
+        let mut image: HashMap<ExprId, ExprId> = HashMap::new();
+        for id in self.dependencies(roots) {
+            let new = match self.node(id).clone() {
+                Node::Number(_) | Node::Pi => id,
+                Node::Symbol(symbol) => replace(symbol).unwrap_or(id),
+                Node::Sum { constant, terms } => {
+                    let mut terms: Vec<_> = terms.iter().map(|(t, c)| (image[t], c.clone())).collect();
+                    terms.push((self.number(constant), Rational::ONE));
+                    self.linear(&terms)
+                }
+                Node::Product(factors) => {
+                    let factors: Vec<_> = factors.iter().map(|(b, e)| (image[b], e.clone())).collect();
+                    self.power_product(&factors)
+                }
+                Node::Call(function, arguments) => {
+                    let arguments: Vec<_> = arguments.iter().map(|a| image[a]).collect();
+                    self.call(function, &arguments)
+                }
+            };
+            image.insert(id, new);
+        }
+        roots.iter().map(|root| image[root]).collect()
+    }
+}

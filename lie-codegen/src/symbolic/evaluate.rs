@@ -1,0 +1,42 @@
+//! Evaluation in double precision: the oracle that generated code is tested against.
+
+use std::collections::HashMap;
+
+use super::graph::{ExprId, Graph, Node, Symbol};
+
+impl Graph {
+    /// The value of an expression.
+    pub fn evaluate(&self, id: ExprId, value: &dyn Fn(Symbol) -> f64) -> f64 {
+        self.evaluate_all(&[id], value)[0]
+    }
+
+    /// The values of several expressions, shared subexpressions evaluated once.
+    pub fn evaluate_all(&self, roots: &[ExprId], value: &dyn Fn(Symbol) -> f64) -> Vec<f64> {
+        let mut values: HashMap<ExprId, f64> = HashMap::new();
+        for id in self.dependencies(roots) {
+            let result = match self.node(id) {
+                Node::Number(number) => number.to_f64(),
+                Node::Pi => std::f64::consts::PI,
+                Node::Symbol(symbol) => value(*symbol),
+                Node::Sum { constant, terms } => {
+                    terms.iter().fold(constant.to_f64(), |sum, (t, c)| sum + c.to_f64() * values[t])
+                }
+                Node::Product(factors) => factors.iter().fold(1.0, |product, (base, exponent)| {
+                    let base = values[base];
+                    product
+                        * match exponent.to_words() {
+                            Some((n, 1)) if n.unsigned_abs() < 1 << 30 => base.powi(n as i32),
+                            Some((1, 2)) => base.sqrt(),
+                            _ => base.powf(exponent.to_f64()),
+                        }
+                }),
+                Node::Call(function, arguments) => {
+                    let arguments: Vec<f64> = arguments.iter().map(|a| values[a]).collect();
+                    function.evaluate(&arguments)
+                }
+            };
+            values.insert(id, result);
+        }
+        roots.iter().map(|root| values[root]).collect()
+    }
+}

@@ -1,0 +1,14 @@
+//! Symbolic expressions: an interned arena with normalising constructors and exact calculus.
+
+mod calculus;
+mod display;
+mod evaluate;
+mod function;
+mod graph;
+mod power;
+
+#[cfg(test)]
+mod tests;
+
+pub use function::Function;
+pub use graph::{ExprId, Graph, Node, Symbol};
