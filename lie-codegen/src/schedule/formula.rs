@@ -1,0 +1,385 @@
+//! Expressions as n-ary sums and products of atoms, signs and divisions made explicit.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::Known;
+use super::collect::is_known;
+use super::program::Value;
+use crate::exact::Rational;
+use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+
+/// Position of an [`Atom`] in its formula.
+pub type AtomId = usize;
+
+/// A term or factor: the flag is a minus sign.
+pub type Signed = (bool, AtomId);
+
+/// A quantity of a formula.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Atom {
+    Leaf(Value),
+    Sum(Vec<Signed>),
+    /// Factors sorted, powers repeated.
+    Product(Vec<AtomId>),
+    Quotient(AtomId, AtomId),
+    Root(AtomId),
+    Power(AtomId, Rational),
+    Call(Function, Vec<AtomId>),
+}
+
+/// All quantities of a kernel.
+pub struct Formula {
+    pub atoms: Vec<Atom>,
+    index: HashMap<Atom, AtomId>,
+    pub definitions: Vec<(Symbol, Signed)>,
+    pub outputs: Vec<Signed>,
+}
+
+/// How negative powers of a base are computed.
+#[derive(Clone, Copy, PartialEq)]
+enum Inverse {
+    /// By one division where it occurs.
+    Direct,
+    /// Through `1/base`, computed once.
+    Reciprocal,
+    /// Through `1/sqrt(base)`, computed once.
+    ReciprocalRoot,
+}
+
+struct Builder<'a> {
+    graph: &'a mut Graph,
+    known: Known,
+    group: bool,
+    cache: HashMap<ExprId, bool>,
+    inverse: BTreeMap<ExprId, Inverse>,
+    converted: HashMap<ExprId, Signed>,
+    formula: Formula,
+}
+
+impl Formula {
+    /// The formula of the roots: first the definitions of `symbols`, then the outputs; `group`
+    /// collects terms behind common coefficients.
+    pub fn new(graph: &mut Graph, symbols: &[Symbol], roots: &[ExprId], known: Known, group: bool) -> Self {
+        let formula =
+            Self { atoms: Vec::new(), index: HashMap::new(), definitions: Vec::new(), outputs: Vec::new() };
+        let mut builder = Builder {
+            graph,
+            known,
+            group,
+            cache: HashMap::new(),
+            inverse: BTreeMap::new(),
+            converted: HashMap::new(),
+            formula,
+        };
+        let order = builder.graph.dependencies(roots);
+        builder.choose_inverses(&order);
+        for id in order {
+            let signed = builder.convert(id, false);
+            builder.converted.insert(id, signed);
+        }
+        for (position, root) in roots.iter().enumerate() {
+            let mut signed = builder.converted[root];
+            if signed.0 {
+                // A minus sign in front of a whole result goes into its coefficient.
+                signed = builder.convert(*root, true);
+            }
+            match symbols.get(position) {
+                Some(symbol) => builder.formula.definitions.push((*symbol, signed)),
+                None => builder.formula.outputs.push(signed),
+            }
+        }
+        builder.formula
+    }
+
+    pub fn intern(&mut self, atom: Atom) -> AtomId {
+        if let Some(&id) = self.index.get(&atom) {
+            return id;
+        }
+        self.atoms.push(atom.clone());
+        self.index.insert(atom, self.atoms.len() - 1);
+        self.atoms.len() - 1
+    }
+}
+
+impl Builder<'_> {
+    fn is_known(&mut self, id: ExprId) -> bool {
+        is_known(self.graph, id, self.known, &mut self.cache)
+    }
+
+    /// Decides from the number of negative powers of each base how to divide by it.
+    fn choose_inverses(&mut self, order: &[ExprId]) {
+        let mut uses: BTreeMap<ExprId, (usize, bool)> = BTreeMap::new();
+        for &id in order {
+            let Node::Product(factors) = self.graph.node(id).clone() else { continue };
+            if self.is_known(id) {
+                continue;
+            }
+            for (base, exponent) in factors.iter().filter(|(_, e)| e.is_negative()) {
+                if self.is_known(*base) {
+                    continue;
+                }
+                let halves = halves(exponent).unwrap_or(2);
+                let entry = uses.entry(*base).or_insert((0, false));
+                entry.0 += if halves.abs() > 2 { 2 } else { 1 };
+                entry.1 |= halves % 2 != 0;
+            }
+        }
+        for (base, (count, half)) in uses {
+            let inverse = match (count, half) {
+                (1, _) => Inverse::Direct,
+                (_, false) => Inverse::Reciprocal,
+                (_, true) => Inverse::ReciprocalRoot,
+            };
+            self.inverse.insert(base, inverse);
+        }
+    }
+
+    /// The atom of an expression and its sign; `settle` asks for the sign inside the atom.
+    fn convert(&mut self, id: ExprId, settle: bool) -> Signed {
+        if self.is_known(id) {
+            return (false, self.leaf(id));
+        }
+        match self.graph.node(id).clone() {
+            Node::Number(_) | Node::Pi => (false, self.leaf(id)),
+            Node::Symbol(symbol) => (false, self.formula.intern(Atom::Leaf(Value::Symbol(symbol)))),
+            Node::Call(function, arguments) => {
+                let arguments = arguments.iter().map(|a| self.unsigned(*a)).collect();
+                (false, self.formula.intern(Atom::Call(function, arguments)))
+            }
+            Node::Product(factors) => {
+                let signed = self.term(&factors, &Rational::ONE);
+                self.settle(signed, settle)
+            }
+            Node::Sum { constant, terms } => self.convert_sum(&constant, &terms, settle),
+        }
+    }
+
+    fn convert_sum(&mut self, constant: &Rational, terms: &[(ExprId, Rational)], settle: bool) -> Signed {
+        let (known, varying): (Vec<_>, Vec<_>) = terms.iter().cloned().partition(|(t, _)| self.is_known(*t));
+        let mut known = known;
+        known.push((self.graph.number(constant.clone()), Rational::ONE));
+        let fixed = self.graph.linear(&known);
+        let mut signed = self.terms(&varying);
+        if !self.graph.is_zero(fixed) {
+            let negative = self.graph.as_number(fixed).is_some_and(Rational::is_negative);
+            let fixed = if negative { self.graph.neg(fixed) } else { fixed };
+            signed.push((negative, self.leaf(fixed)));
+        }
+        if let [only] = signed[..] {
+            return self.settle(only, settle);
+        }
+        signed.sort_by_key(|(negative, atom)| (*atom, *negative));
+        // `b - a` and `a - b` are one quantity.
+        let flip = signed[0].0 && !settle;
+        if flip {
+            for term in &mut signed {
+                term.0 = !term.0;
+            }
+        }
+        (flip, self.formula.intern(Atom::Sum(signed)))
+    }
+
+    /// The varying terms of a sum; those with one coefficient in common are grouped behind it.
+    fn terms(&mut self, varying: &[(ExprId, Rational)]) -> Vec<Signed> {
+        let mut groups: BTreeMap<ExprId, Vec<(Vec<(ExprId, Rational)>, bool)>> = BTreeMap::new();
+        let mut order: Vec<ExprId> = Vec::new();
+        for (term, coefficient) in varying {
+            let factors = match self.graph.node(*term) {
+                Node::Product(factors) => factors.to_vec(),
+                _ => vec![(*term, Rational::ONE)],
+            };
+            let (negative, coefficient, rest) = self.split(&factors, coefficient);
+            if !groups.contains_key(&coefficient) {
+                order.push(coefficient);
+            }
+            groups.entry(coefficient).or_default().push((rest, negative));
+        }
+        let one = self.graph.integer(1);
+        let mut signed = Vec::new();
+        for coefficient in order {
+            let group = groups.remove(&coefficient).unwrap_or_default();
+            if self.group && coefficient != one && group.len() > 1 {
+                let mut inner: Vec<Signed> = group
+                    .iter()
+                    .map(|(rest, negative)| {
+                        let (sign, atom) = self.assemble(one, rest);
+                        (sign != *negative, atom)
+                    })
+                    .collect();
+                inner.sort_by_key(|(negative, atom)| (*atom, *negative));
+                let flip = inner[0].0;
+                for term in &mut inner {
+                    term.0 ^= flip;
+                }
+                let sum = self.formula.intern(Atom::Sum(inner));
+                let leaf = self.leaf(coefficient);
+                signed.push((flip, self.multiply(vec![leaf, sum])));
+            } else {
+                for (rest, negative) in group {
+                    let (sign, atom) = self.assemble(coefficient, &rest);
+                    signed.push((sign != negative, atom));
+                }
+            }
+        }
+        signed
+    }
+
+    /// A sign that must not stay outside is applied.
+    fn settle(&mut self, (negative, atom): Signed, settle: bool) -> Signed {
+        if negative && settle { (false, self.negative(atom)) } else { (negative, atom) }
+    }
+
+    fn negative(&mut self, atom: AtomId) -> AtomId {
+        if let Atom::Leaf(Value::Number(value)) = &self.formula.atoms[atom] {
+            let value = -value;
+            return self.formula.intern(Atom::Leaf(Value::Number(value)));
+        }
+        if let Atom::Product(factors) = self.formula.atoms[atom].clone() {
+            for (position, &factor) in factors.iter().enumerate() {
+                let coefficient = match &self.formula.atoms[factor] {
+                    Atom::Leaf(Value::Prepared(id)) => *id,
+                    Atom::Leaf(Value::Number(value)) => {
+                        let value = value.clone();
+                        self.graph.number(value)
+                    }
+                    _ => continue,
+                };
+                let negated = self.graph.neg(coefficient);
+                let mut factors = factors;
+                factors[position] = self.leaf(negated);
+                factors.sort_unstable();
+                return self.formula.intern(Atom::Product(factors));
+            }
+        }
+        self.formula.intern(Atom::Sum(vec![(true, atom)]))
+    }
+
+    fn unsigned(&mut self, id: ExprId) -> AtomId {
+        let (negative, atom) = self.converted[&id];
+        if negative { self.negative(atom) } else { atom }
+    }
+
+    fn leaf(&mut self, id: ExprId) -> AtomId {
+        let value = match self.graph.as_number(id) {
+            Some(value) => Value::Number(value.clone()),
+            None => Value::Prepared(id),
+        };
+        self.formula.intern(Atom::Leaf(value))
+    }
+
+    /// `coefficient * product of base^exponent`.
+    fn term(&mut self, factors: &[(ExprId, Rational)], coefficient: &Rational) -> Signed {
+        let (negative, coefficient, rest) = self.split(factors, coefficient);
+        let (sign, atom) = self.assemble(coefficient, &rest);
+        (sign != negative, atom)
+    }
+
+    /// Sign, known coefficient and varying factors of a term.
+    fn split(
+        &mut self,
+        factors: &[(ExprId, Rational)],
+        coefficient: &Rational,
+    ) -> (bool, ExprId, Vec<(ExprId, Rational)>) {
+        let (known, varying): (Vec<_>, Vec<_>) = factors.iter().cloned().partition(|(b, _)| self.is_known(*b));
+        let known = self.graph.power_product(&known);
+        let coefficient = self.graph.scale(known, coefficient);
+        if self.leads_negative(coefficient) {
+            (true, self.graph.neg(coefficient), varying)
+        } else {
+            (false, coefficient, varying)
+        }
+    }
+
+    fn assemble(&mut self, coefficient: ExprId, varying: &[(ExprId, Rational)]) -> Signed {
+        let mut negative = false;
+        let mut above = Vec::new();
+        let mut below = Vec::new();
+        if !self.graph.as_number(coefficient).is_some_and(Rational::is_one) {
+            above.push(self.leaf(coefficient));
+        }
+        for (base, exponent) in varying {
+            negative ^= self.power(*base, exponent, &mut above, &mut below);
+        }
+        let numerator = self.multiply(above);
+        if below.is_empty() {
+            return (negative, numerator);
+        }
+        let denominator = self.multiply(below);
+        (negative, self.formula.intern(Atom::Quotient(numerator, denominator)))
+    }
+
+    /// Whether the first rational coefficient is negative: of `c` and `-c` one is chosen.
+    fn leads_negative(&self, id: ExprId) -> bool {
+        match self.graph.node(id) {
+            Node::Number(value) => value.is_negative(),
+            Node::Sum { terms, .. } => terms[0].1.is_negative(),
+            _ => false,
+        }
+    }
+
+    fn multiply(&mut self, mut factors: Vec<AtomId>) -> AtomId {
+        let mut flat = Vec::with_capacity(factors.len());
+        for factor in factors.drain(..) {
+            match &self.formula.atoms[factor] {
+                Atom::Product(inner) => flat.extend(inner.iter().copied()),
+                _ => flat.push(factor),
+            }
+        }
+        flat.sort_unstable();
+        match flat[..] {
+            [] => self.formula.intern(Atom::Leaf(Value::Number(Rational::ONE))),
+            [only] => only,
+            _ => self.formula.intern(Atom::Product(flat)),
+        }
+    }
+
+    /// Appends the atoms of `base^exponent`; returns whether a minus sign comes out.
+    fn power(
+        &mut self,
+        base: ExprId,
+        exponent: &Rational,
+        above: &mut Vec<AtomId>,
+        below: &mut Vec<AtomId>,
+    ) -> bool {
+        let (negative, atom) = self.converted[&base];
+        let Some(halves) = halves(exponent) else {
+            let atom = self.unsigned(base);
+            let power = self.formula.intern(Atom::Power(atom, exponent.abs()));
+            if exponent.is_negative() { below.push(power) } else { above.push(power) }
+            return false;
+        };
+        let count = usize::try_from(halves.unsigned_abs() / 2).unwrap_or(0);
+        let odd = halves % 2 != 0;
+        let inverse = self.inverse.get(&base).copied().unwrap_or(Inverse::Direct);
+        let one = self.formula.intern(Atom::Leaf(Value::Number(Rational::ONE)));
+        if odd || (halves < 0 && inverse == Inverse::ReciprocalRoot) {
+            let atom = self.unsigned(base);
+            let root = self.formula.intern(Atom::Root(atom));
+            if halves < 0 && inverse == Inverse::ReciprocalRoot {
+                let reciprocal = self.formula.intern(Atom::Quotient(one, root));
+                above.extend(std::iter::repeat_n(reciprocal, halves.unsigned_abs() as usize));
+                return false;
+            }
+            let side = if halves < 0 { below } else { above };
+            side.extend(std::iter::repeat_n(atom, count));
+            side.push(root);
+            return false;
+        }
+        let sign = negative && count % 2 == 1;
+        if halves > 0 {
+            above.extend(std::iter::repeat_n(atom, count));
+        } else if inverse == Inverse::Reciprocal {
+            let reciprocal = self.formula.intern(Atom::Quotient(one, atom));
+            above.extend(std::iter::repeat_n(reciprocal, count));
+        } else {
+            below.extend(std::iter::repeat_n(atom, count));
+        }
+        sign
+    }
+}
+
+/// Twice the exponent, where that is an integer of reasonable size.
+fn halves(exponent: &Rational) -> Option<i64> {
+    let doubled = (exponent * &Rational::from(2)).to_integer()?;
+    (doubled.abs() <= 4096).then_some(doubled)
+}

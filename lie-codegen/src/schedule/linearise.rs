@@ -1,0 +1,142 @@
+//! Atoms into binary operations, each just before its first use.
+
+use std::collections::HashMap;
+
+use super::formula::{Atom, AtomId, Formula, Signed};
+use super::program::{Operation, Program, Value};
+use crate::symbolic::Symbol;
+
+/// The straight-line program of a formula.
+pub fn linearise(formula: &Formula) -> Program {
+    let mut writer = Writer { formula, program: Program::default(), values: HashMap::new() };
+    for (symbol, signed) in &formula.definitions {
+        let value = writer.signed(*signed);
+        writer.program.definitions.push((*symbol, value));
+    }
+    for signed in &formula.outputs {
+        let value = writer.signed(*signed);
+        writer.program.outputs.push(value);
+    }
+    let mut program = writer.program;
+    for operation in &program.operations {
+        program.counts.record(operation);
+    }
+    program
+}
+
+struct Writer<'a> {
+    formula: &'a Formula,
+    program: Program,
+    values: HashMap<AtomId, Value>,
+}
+
+impl Writer<'_> {
+    fn push(&mut self, operation: Operation) -> Value {
+        self.program.operations.push(operation);
+        Value::Temporary(self.program.operations.len() - 1)
+    }
+
+    fn signed(&mut self, (negative, atom): Signed) -> Value {
+        let value = self.value(atom);
+        if negative { self.push(Operation::Neg(value)) } else { value }
+    }
+
+    /// The value of an atom; an explicit stack stands in for recursion.
+    fn value(&mut self, root: AtomId) -> Value {
+        let mut stack = vec![root];
+        while let Some(&atom) = stack.last() {
+            if self.values.contains_key(&atom) {
+                stack.pop();
+                continue;
+            }
+            let missing: Vec<AtomId> = self
+                .children(atom)
+                .into_iter()
+                .filter(|child| !self.values.contains_key(child))
+                .rev()
+                .collect();
+            if missing.is_empty() {
+                let value = self.write(atom);
+                self.values.insert(atom, value);
+                stack.pop();
+            } else {
+                stack.extend(missing);
+            }
+        }
+        self.values[&root].clone()
+    }
+
+    fn children(&self, atom: AtomId) -> Vec<AtomId> {
+        match &self.formula.atoms[atom] {
+            Atom::Leaf(_) => Vec::new(),
+            Atom::Sum(terms) => terms.iter().map(|(_, id)| *id).collect(),
+            Atom::Product(factors) => factors.clone(),
+            Atom::Quotient(a, b) => vec![*a, *b],
+            Atom::Root(a) | Atom::Power(a, _) => vec![*a],
+            Atom::Call(_, arguments) => arguments.clone(),
+        }
+    }
+
+    fn write(&mut self, atom: AtomId) -> Value {
+        match self.formula.atoms[atom].clone() {
+            Atom::Leaf(value) => match value {
+                Value::Symbol(symbol) => self.defined(symbol),
+                other => other,
+            },
+            Atom::Sum(mut terms) => {
+                if let Some(first) = terms.iter().position(|(negative, _)| !negative) {
+                    let term = terms.remove(first);
+                    terms.insert(0, term);
+                }
+                let mut terms = terms.into_iter();
+                let Some((negative, first)) = terms.next() else {
+                    return Value::Number(crate::exact::Rational::ZERO);
+                };
+                let mut sum = self.values[&first].clone();
+                if negative {
+                    sum = self.push(Operation::Neg(sum));
+                }
+                for (negative, term) in terms {
+                    let term = self.values[&term].clone();
+                    sum = self.push(if negative { Operation::Sub(sum, term) } else { Operation::Add(sum, term) });
+                }
+                sum
+            }
+            Atom::Product(factors) => {
+                let mut factors = factors.into_iter().map(|f| self.values[&f].clone()).collect::<Vec<_>>().into_iter();
+                let Some(mut product) = factors.next() else {
+                    return Value::Number(crate::exact::Rational::ONE);
+                };
+                for factor in factors {
+                    product = self.push(Operation::Mul(product, factor));
+                }
+                product
+            }
+            Atom::Quotient(a, b) => {
+                let (a, b) = (self.values[&a].clone(), self.values[&b].clone());
+                self.push(Operation::Div(a, b))
+            }
+            Atom::Root(a) => {
+                let a = self.values[&a].clone();
+                self.push(Operation::Sqrt(a))
+            }
+            Atom::Power(a, exponent) => {
+                let a = self.values[&a].clone();
+                self.push(Operation::Power(a, exponent))
+            }
+            Atom::Call(function, arguments) => {
+                let arguments = arguments.iter().map(|a| self.values[a].clone()).collect();
+                self.push(Operation::Call(function, arguments))
+            }
+        }
+    }
+
+    /// A defined symbol is the value of its definition.
+    fn defined(&self, symbol: Symbol) -> Value {
+        self.program
+            .definitions
+            .iter()
+            .find(|(defined, _)| *defined == symbol)
+            .map_or(Value::Symbol(symbol), |(_, value)| value.clone())
+    }
+}
