@@ -39,6 +39,10 @@ impl Budget {
     /// [`Exhausted`] where too little is left or the number is too long.
     pub fn spend_on(&self, product: &Rational) -> Result<(), Exhausted> {
         let bits = product.bits();
-        if bits > MAX_BITS { Err(Exhausted) } else { self.spend(1 + bits / 64) }
+        if bits > MAX_BITS {
+            Err(Exhausted)
+        } else {
+            self.spend(1 + bits / 64)
+        }
     }
 }

@@ -19,7 +19,10 @@ pub struct Fraction {
 
 impl From<Polynomial> for Fraction {
     fn from(numerator: Polynomial) -> Self {
-        Self { numerator, denominator: BTreeMap::new() }
+        Self {
+            numerator,
+            denominator: BTreeMap::new(),
+        }
     }
 }
 impl From<Rational> for Fraction {
@@ -51,7 +54,11 @@ impl Fraction {
 
     /// The value of a constant function.
     pub fn as_constant(&self) -> Option<Rational> {
-        if self.denominator.is_empty() { self.numerator.as_constant() } else { None }
+        if self.denominator.is_empty() {
+            self.numerator.as_constant()
+        } else {
+            None
+        }
     }
 
     /// `factor * self`.
@@ -59,7 +66,10 @@ impl Fraction {
         if factor.is_zero() {
             return Self::default();
         }
-        Self { numerator: self.numerator.scale(factor), denominator: self.denominator.clone() }
+        Self {
+            numerator: self.numerator.scale(factor),
+            denominator: self.denominator.clone(),
+        }
     }
 
     /// `-self`.
@@ -75,7 +85,11 @@ impl Fraction {
         budget.spend((self.numerator.terms().len() + other.numerator.terms().len()) as u64)?;
         if self.denominator == other.denominator {
             let numerator = &self.numerator + &other.numerator;
-            return Self { numerator, denominator: self.denominator.clone() }.reduce(budget);
+            return Self {
+                numerator,
+                denominator: self.denominator.clone(),
+            }
+            .reduce(budget);
         }
         let mut common = self.denominator.clone();
         for (factor, &exponent) in &other.denominator {
@@ -93,7 +107,11 @@ impl Fraction {
             Ok(numerator)
         };
         let numerator = &lift(self)? + &lift(other)?;
-        Self { numerator, denominator: common }.reduce(budget)
+        Self {
+            numerator,
+            denominator: common,
+        }
+        .reduce(budget)
     }
 
     /// The difference.
@@ -110,8 +128,16 @@ impl Fraction {
     /// [`Exhausted`] where the budget is too small for it.
     pub fn mul(&self, other: &Self, budget: &Budget) -> Result<Self, Exhausted> {
         // Cancelling crosswise first keeps the product small.
-        let mut left = Self { numerator: self.numerator.clone(), denominator: other.denominator.clone() }.reduce(budget)?;
-        let right = Self { numerator: other.numerator.clone(), denominator: self.denominator.clone() }.reduce(budget)?;
+        let mut left = Self {
+            numerator: self.numerator.clone(),
+            denominator: other.denominator.clone(),
+        }
+        .reduce(budget)?;
+        let right = Self {
+            numerator: other.numerator.clone(),
+            denominator: self.denominator.clone(),
+        }
+        .reduce(budget)?;
         left.numerator = left.numerator.mul(&right.numerator, budget)?;
         if left.numerator.is_zero() {
             return Ok(Self::default());
@@ -139,12 +165,17 @@ impl Fraction {
         let monomial = self.numerator.monomial_content();
         let inverse = content.recip().unwrap_or(Rational::ONE);
         let rest = self.numerator.strip(&monomial).scale(&inverse);
-        let mut denominator: BTreeMap<Polynomial, u32> =
-            monomial.powers().map(|(v, e)| (Polynomial::variable(v), e)).collect();
+        let mut denominator: BTreeMap<Polynomial, u32> = monomial
+            .powers()
+            .map(|(v, e)| (Polynomial::variable(v), e))
+            .collect();
         if rest.as_constant().is_none() {
             denominator.insert(rest, 1);
         }
-        Ok(Some(Self { numerator: numerator.scale(&inverse), denominator }))
+        Ok(Some(Self {
+            numerator: numerator.scale(&inverse),
+            denominator,
+        }))
     }
 
     /// The quotient; `None` for a zero divisor.
@@ -152,7 +183,10 @@ impl Fraction {
     /// # Errors
     /// [`Exhausted`] where the budget is too small for it.
     pub fn div(&self, other: &Self, budget: &Budget) -> Result<Option<Self>, Exhausted> {
-        other.recip(budget)?.map(|inverse| self.mul(&inverse, budget)).transpose()
+        other
+            .recip(budget)?
+            .map(|inverse| self.mul(&inverse, budget))
+            .transpose()
     }
 
     /// `self^exponent`; `None` for a negative power of zero.
@@ -160,7 +194,11 @@ impl Fraction {
     /// # Errors
     /// [`Exhausted`] where the budget is too small for it.
     pub fn pow(&self, exponent: i32, budget: &Budget) -> Result<Option<Self>, Exhausted> {
-        let base = if exponent < 0 { self.recip(budget)? } else { Some(self.clone()) };
+        let base = if exponent < 0 {
+            self.recip(budget)?
+        } else {
+            Some(self.clone())
+        };
         let Some(base) = base else { return Ok(None) };
         let exponent = exponent.unsigned_abs();
         let numerator = base.numerator.pow(exponent, budget)?;
@@ -171,7 +209,10 @@ impl Fraction {
         for e in denominator.values_mut() {
             *e = e.checked_mul(exponent).ok_or(Exhausted)?;
         }
-        Ok(Some(Self { numerator, denominator }))
+        Ok(Some(Self {
+            numerator,
+            denominator,
+        }))
     }
 
     /// Whether both are the same function.
@@ -186,7 +227,10 @@ impl Fraction {
     pub fn evaluate(&self, point: &dyn Fn(usize) -> Rational) -> Option<Rational> {
         let mut value = self.numerator.evaluate(point);
         for (factor, exponent) in &self.denominator {
-            let power = factor.evaluate(point).recip()?.pow(i32::try_from(*exponent).ok()?)?;
+            let power = factor
+                .evaluate(point)
+                .recip()?
+                .pow(i32::try_from(*exponent).ok()?)?;
             value = &value * &power;
         }
         Some(value)
@@ -196,7 +240,11 @@ impl Fraction {
     pub fn display(&self, name: &dyn Fn(usize) -> String) -> String {
         let bracketed = |p: &Polynomial| {
             let text = p.display(name);
-            if p.terms().len() > 1 { format!("({text})") } else { text }
+            if p.terms().len() > 1 {
+                format!("({text})")
+            } else {
+                text
+            }
         };
         if self.denominator.is_empty() {
             return self.numerator.display(name);
@@ -235,7 +283,9 @@ impl Fraction {
                 continue;
             }
             while *exponent > 0 && factor.degree() <= self.numerator.degree() {
-                let Some(quotient) = self.numerator.divide_exactly(factor, budget)? else { break };
+                let Some(quotient) = self.numerator.divide_exactly(factor, budget)? else {
+                    break;
+                };
                 self.numerator = quotient;
                 *exponent -= 1;
             }
@@ -266,15 +316,34 @@ mod tests {
         assert!(a.add(&c, &b).unwrap().equals(&d, &b).unwrap());
         assert!(!a.equals(&d, &b).unwrap());
         // (x^2 - y^2)/(x + y) = x - y, with nothing left below
-        let squares = x.pow(2, &b).unwrap().unwrap().sub(&y.pow(2, &b).unwrap().unwrap(), &b).unwrap();
+        let squares = x
+            .pow(2, &b)
+            .unwrap()
+            .unwrap()
+            .sub(&y.pow(2, &b).unwrap().unwrap(), &b)
+            .unwrap();
         let quotient = squares.div(&sum, &b).unwrap().unwrap();
         assert_eq!(quotient.display(&name), "x - y");
         // 1/x - 1/y = (y - x)/(x y)
-        let e = x.recip(&b).unwrap().unwrap().sub(&y.recip(&b).unwrap().unwrap(), &b).unwrap();
+        let e = x
+            .recip(&b)
+            .unwrap()
+            .unwrap()
+            .sub(&y.recip(&b).unwrap().unwrap(), &b)
+            .unwrap();
         assert_eq!(e.display(&name), "(-x + y)/y/x");
         assert_eq!(e.recip(&b).unwrap().unwrap().display(&name), "-x*y/(x - y)");
         assert!(Fraction::default().recip(&b).unwrap().is_none());
-        assert!(squares.pow(-3, &b).unwrap().unwrap().mul(&squares.pow(3, &b).unwrap().unwrap(), &b).unwrap().equals(&one, &b).unwrap());
+        assert!(
+            squares
+                .pow(-3, &b)
+                .unwrap()
+                .unwrap()
+                .mul(&squares.pow(3, &b).unwrap().unwrap(), &b)
+                .unwrap()
+                .equals(&one, &b)
+                .unwrap()
+        );
     }
 
     #[test]

@@ -62,8 +62,11 @@ pub fn nullspace(mut rows: Vec<Vec<Rational>>, columns: usize) -> Vec<Vec<Ration
 /// One solution of `A x = b` (free variables zero), `None` where there is none.
 pub fn solve(rows: &[Vec<Rational>], right: &[Rational]) -> Option<Vec<Rational>> {
     let columns = rows.first().map_or(0, Vec::len);
-    let mut extended: Vec<Vec<Rational>> =
-        rows.iter().zip(right).map(|(row, b)| row.iter().chain([b]).cloned().collect()).collect();
+    let mut extended: Vec<Vec<Rational>> = rows
+        .iter()
+        .zip(right)
+        .map(|(row, b)| row.iter().chain([b]).cloned().collect())
+        .collect();
     let pivots = reduce(&mut extended);
     if pivots.last() == Some(&columns) {
         return None;
@@ -79,29 +82,46 @@ pub fn solve(rows: &[Vec<Rational>], right: &[Rational]) -> Option<Vec<Rational>
 /// modulo a prime, which is never above the rank, reaches it, nothing else needs to be computed.
 pub fn rank(rows: &[Vec<Rational>], bound: usize) -> usize {
     let integers: Vec<Vec<BigInt>> = rows.iter().map(|row| to_integers(row)).collect();
-    if rank_modulo(&integers) >= bound { bound } else { bareiss(integers) }
+    if rank_modulo(&integers) >= bound {
+        bound
+    } else {
+        bareiss(integers)
+    }
 }
 
 /// The row times the common denominator of its entries, without common divisor.
 fn to_integers(row: &[Rational]) -> Vec<BigInt> {
     let values: Vec<_> = row.iter().map(Rational::to_big).collect();
     let denominator = values.iter().fold(BigInt::one(), |d, v| d.lcm(v.denom()));
-    let scaled: Vec<BigInt> = values.iter().map(|v| v.numer() * (&denominator / v.denom())).collect();
+    let scaled: Vec<BigInt> = values
+        .iter()
+        .map(|v| v.numer() * (&denominator / v.denom()))
+        .collect();
     let divisor = scaled.iter().fold(BigInt::zero(), |g, v| g.gcd(v));
-    if divisor.is_zero() { scaled } else { scaled.into_iter().map(|v| v / &divisor).collect() }
+    if divisor.is_zero() {
+        scaled
+    } else {
+        scaled.into_iter().map(|v| v / &divisor).collect()
+    }
 }
 
 fn rank_modulo(rows: &[Vec<BigInt>]) -> usize {
     let modulus = BigInt::from(PRIME);
     let mut rows: Vec<Vec<u64>> = rows
         .iter()
-        .map(|row| row.iter().map(|v| v.mod_floor(&modulus).to_u64().unwrap_or(0)).collect())
+        .map(|row| {
+            row.iter()
+                .map(|v| v.mod_floor(&modulus).to_u64().unwrap_or(0))
+                .collect()
+        })
         .collect();
     let times = |a: u64, b: u64| (u128::from(a) * u128::from(b) % u128::from(PRIME)) as u64;
     let columns = rows.first().map_or(0, Vec::len);
     let mut rank = 0;
     for column in 0..columns {
-        let Some(best) = (rank..rows.len()).find(|&r| rows[r][column] != 0) else { continue };
+        let Some(best) = (rank..rows.len()).find(|&r| rows[r][column] != 0) else {
+            continue;
+        };
         rows.swap(rank, best);
         let (above, below) = rows.split_at_mut(rank + 1);
         let pivot = &above[rank];
@@ -151,7 +171,11 @@ fn bareiss(mut rows: Vec<Vec<BigInt>>) -> usize {
                 if !factor.is_zero() && !p.is_zero() {
                     value -= &factor * p;
                 }
-                *entry = if value.is_zero() { value } else { value / &last };
+                *entry = if value.is_zero() {
+                    value
+                } else {
+                    value / &last
+                };
             }
             row[column] = BigInt::zero();
         }
@@ -182,20 +206,40 @@ impl Span {
         // [V | 1] -> [R | T] with T V = R: a zero row of R shows a relation.
         let mut rows: Vec<Vec<Rational>> = vectors.to_vec();
         for (i, row) in rows.iter_mut().enumerate() {
-            row.extend((0..count).map(|j| if i == j { Rational::ONE } else { Rational::ZERO }));
+            row.extend((0..count).map(|j| {
+                if i == j {
+                    Rational::ONE
+                } else {
+                    Rational::ZERO
+                }
+            }));
         }
-        let pivots: Vec<usize> = reduce(&mut rows).into_iter().filter(|&p| p < length).collect();
+        let pivots: Vec<usize> = reduce(&mut rows)
+            .into_iter()
+            .filter(|&p| p < length)
+            .collect();
         if pivots.len() < count {
             return Err(rows[pivots.len()][length..].to_vec());
         }
         // A vector v = sum c_i V_i has the entries v[pivots] = c V[., pivots], and T V[., pivots] = 1,
         // hence c = v[pivots] T.
         let sparse = |row: Vec<&Rational>| -> Vec<(usize, Rational)> {
-            row.into_iter().enumerate().filter(|(_, v)| !v.is_zero()).map(|(i, v)| (i, v.clone())).collect()
+            row.into_iter()
+                .enumerate()
+                .filter(|(_, v)| !v.is_zero())
+                .map(|(i, v)| (i, v.clone()))
+                .collect()
         };
-        let inverse = (0..count).map(|i| sparse(rows.iter().map(|row| &row[length + i]).collect())).collect();
+        let inverse = (0..count)
+            .map(|i| sparse(rows.iter().map(|row| &row[length + i]).collect()))
+            .collect();
         let vectors = vectors.iter().map(|v| sparse(v.iter().collect())).collect();
-        Ok(Self { vectors, pivots, inverse, length })
+        Ok(Self {
+            vectors,
+            pivots,
+            inverse,
+            length,
+        })
     }
 
     /// The coordinates of a vector, `None` where it is outside the span.
@@ -213,7 +257,11 @@ impl Span {
         }
         let mut rest = vector.to_vec();
         debug_assert!(self.vectors.is_empty() || rest.len() == self.length);
-        for (coordinate, basis) in result.iter().zip(&self.vectors).filter(|(c, _)| !c.is_zero()) {
+        for (coordinate, basis) in result
+            .iter()
+            .zip(&self.vectors)
+            .filter(|(c, _)| !c.is_zero())
+        {
             for (i, value) in basis {
                 rest[*i] = &rest[*i] - &(coordinate * value);
             }
@@ -227,7 +275,9 @@ mod tests {
     use super::*;
 
     fn matrix(rows: &[&[i64]]) -> Vec<Vec<Rational>> {
-        rows.iter().map(|row| row.iter().map(|&v| Rational::from(v)).collect()).collect()
+        rows.iter()
+            .map(|row| row.iter().map(|&v| Rational::from(v)).collect())
+            .collect()
     }
 
     #[test]
@@ -252,7 +302,10 @@ mod tests {
         assert_eq!(null.len(), 2);
         for vector in &null {
             for row in &rows {
-                let sum = row.iter().zip(vector).fold(Rational::ZERO, |s, (a, b)| &s + &(a * b));
+                let sum = row
+                    .iter()
+                    .zip(vector)
+                    .fold(Rational::ZERO, |s, (a, b)| &s + &(a * b));
                 assert!(sum.is_zero());
             }
         }
@@ -262,7 +315,10 @@ mod tests {
     fn systems_are_solved_or_refused() {
         let rows = matrix(&[&[1, 2], &[3, 4], &[4, 6]]);
         let right: Vec<_> = [5, 6, 11].map(Rational::from).into();
-        assert_eq!(solve(&rows, &right).unwrap(), vec![Rational::from(-4), Rational::new(9, 2).unwrap()]);
+        assert_eq!(
+            solve(&rows, &right).unwrap(),
+            vec![Rational::from(-4), Rational::new(9, 2).unwrap()]
+        );
         assert_eq!(solve(&rows, &[5, 6, 12].map(Rational::from)), None);
     }
 
@@ -276,6 +332,9 @@ mod tests {
         assert_eq!(span.coordinates(&matrix(&[&[2, -1, -4, 7]])[0]), None);
         let relation = Span::new(&matrix(&[&[1, 2], &[2, 4]])).unwrap_err();
         assert!(!relation.iter().all(Rational::is_zero));
-        assert_eq!(&relation[0] + &(&relation[1] * &Rational::from(2)), Rational::ZERO);
+        assert_eq!(
+            &relation[0] + &(&relation[1] * &Rational::from(2)),
+            Rational::ZERO
+        );
     }
 }

@@ -14,7 +14,11 @@ pub struct Monomial(Box<[(u32, u32)]>);
 impl Monomial {
     /// `variable^exponent`.
     pub fn power(variable: usize, exponent: u32) -> Self {
-        if exponent == 0 { Self::default() } else { Self(Box::new([(variable as u32, exponent)])) }
+        if exponent == 0 {
+            Self::default()
+        } else {
+            Self(Box::new([(variable as u32, exponent)]))
+        }
     }
 
     /// Pairs of variable and exponent, ascending, no exponent zero.
@@ -34,7 +38,10 @@ impl Monomial {
 
     /// The exponent of a variable.
     pub fn exponent(&self, variable: usize) -> u32 {
-        self.0.iter().find(|p| p.0 as usize == variable).map_or(0, |p| p.1)
+        self.0
+            .iter()
+            .find(|p| p.0 as usize == variable)
+            .map_or(0, |p| p.1)
     }
 
     /// The product.
@@ -68,7 +75,11 @@ impl Monomial {
             degree = degree.saturating_add(power.1);
             powers.push(power);
         }
-        if degree > MAX_DEGREE { Err(Exhausted) } else { Ok(Self(powers.into())) }
+        if degree > MAX_DEGREE {
+            Err(Exhausted)
+        } else {
+            Ok(Self(powers.into()))
+        }
     }
 
     /// The quotient where it is a monomial.
@@ -103,7 +114,12 @@ impl Monomial {
 
     /// Splits off the power of one variable.
     pub fn split(&self, variable: usize) -> (u32, Self) {
-        let rest = self.0.iter().copied().filter(|p| p.0 as usize != variable).collect();
+        let rest = self
+            .0
+            .iter()
+            .copied()
+            .filter(|p| p.0 as usize != variable)
+            .collect();
         (self.exponent(variable), Self(rest))
     }
 }

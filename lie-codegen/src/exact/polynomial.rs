@@ -38,13 +38,17 @@ impl Polynomial {
     pub fn as_constant(&self) -> Option<Rational> {
         match self.0.first_key_value() {
             None => Some(Rational::ZERO),
-            Some((monomial, value)) if self.0.len() == 1 && monomial.is_one() => Some(value.clone()),
+            Some((monomial, value)) if self.0.len() == 1 && monomial.is_one() => {
+                Some(value.clone())
+            }
             _ => None,
         }
     }
 
     /// The terms in ascending order.
-    pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Monomial, &Rational)> + ExactSizeIterator {
+    pub fn terms(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = (&Monomial, &Rational)> + ExactSizeIterator {
         self.0.iter()
     }
 
@@ -55,7 +59,9 @@ impl Polynomial {
 
     /// Whether all terms have one degree.
     pub fn is_homogeneous(&self) -> bool {
-        self.0.first_key_value().is_none_or(|(m, _)| m.degree() == self.degree())
+        self.0
+            .first_key_value()
+            .is_none_or(|(m, _)| m.degree() == self.degree())
     }
 
     /// The term of the greatest monomial.
@@ -88,7 +94,12 @@ impl Polynomial {
         if factor.is_zero() {
             return Self::default();
         }
-        Self(self.0.iter().map(|(m, c)| (m.clone(), c * factor)).collect())
+        Self(
+            self.0
+                .iter()
+                .map(|(m, c)| (m.clone(), c * factor))
+                .collect(),
+        )
     }
 
     /// The product.
@@ -112,7 +123,8 @@ impl Polynomial {
     /// # Errors
     /// [`Exhausted`] where the budget is too small for it.
     pub fn pow(&self, exponent: u32, budget: &Budget) -> Result<Self, Exhausted> {
-        let (mut result, mut square, mut left) = (Self::constant(Rational::ONE), self.clone(), exponent);
+        let (mut result, mut square, mut left) =
+            (Self::constant(Rational::ONE), self.clone(), exponent);
         while left > 0 {
             if left & 1 == 1 {
                 result = result.mul(&square, budget)?;
@@ -129,14 +141,21 @@ impl Polynomial {
     ///
     /// # Errors
     /// [`Exhausted`] where the budget is too small for it.
-    pub fn divide_exactly(&self, divisor: &Self, budget: &Budget) -> Result<Option<Self>, Exhausted> {
-        let Some((lead, inverse)) = divisor.leading().and_then(|(m, c)| Some((m, c.recip()?))) else {
+    pub fn divide_exactly(
+        &self,
+        divisor: &Self,
+        budget: &Budget,
+    ) -> Result<Option<Self>, Exhausted> {
+        let Some((lead, inverse)) = divisor.leading().and_then(|(m, c)| Some((m, c.recip()?)))
+        else {
             return Ok(None);
         };
         let (mut rest, mut quotient) = (self.clone(), Self::default());
         while let Some((monomial, coefficient)) = rest.leading() {
             // With a single divisor and a monomial order the leading terms must divide at each step.
-            let Some(shift) = monomial.divide(lead) else { return Ok(None) };
+            let Some(shift) = monomial.divide(lead) else {
+                return Ok(None);
+            };
             let factor = coefficient * &inverse;
             for (m, c) in &divisor.0 {
                 let product = c * &factor;
@@ -152,7 +171,9 @@ impl Polynomial {
     /// one; one for zero.
     pub fn content(&self) -> Rational {
         use num_integer::Integer;
-        let Some((_, lead)) = self.leading() else { return Rational::ONE };
+        let Some((_, lead)) = self.leading() else {
+            return Rational::ONE;
+        };
         let first = lead.to_big();
         let (mut n, mut d) = first.into_raw();
         for value in self.0.values() {
@@ -161,14 +182,24 @@ impl Polynomial {
             d = d.lcm(value.denom());
         }
         let content = Rational::from_big(n, d).unwrap_or(Rational::ONE).abs();
-        if lead.is_negative() { -content } else { content }
+        if lead.is_negative() {
+            -content
+        } else {
+            content
+        }
     }
 
     /// The greatest monomial that divides every term.
     pub fn monomial_content(&self) -> Monomial {
         let mut keys = self.0.keys();
         let first = keys.next().cloned().unwrap_or_default();
-        keys.fold(first, |common, m| if common.is_one() { common } else { common.gcd(m) })
+        keys.fold(first, |common, m| {
+            if common.is_one() {
+                common
+            } else {
+                common.gcd(m)
+            }
+        })
     }
 
     /// The quotient by a monomial that divides every term.
@@ -176,7 +207,12 @@ impl Polynomial {
         if monomial.is_one() {
             return self.clone();
         }
-        Self(self.0.iter().filter_map(|(m, c)| Some((m.divide(monomial)?, c.clone()))).collect())
+        Self(
+            self.0
+                .iter()
+                .filter_map(|(m, c)| Some((m.divide(monomial)?, c.clone())))
+                .collect(),
+        )
     }
 
     /// The partial derivative.
@@ -184,7 +220,10 @@ impl Polynomial {
         let mut result = Self::default();
         for (m, c) in &self.0 {
             if let Some(lower) = m.divide(&Monomial::power(variable, 1)) {
-                result.accumulate(lower, &(c * &Rational::from(i64::from(m.exponent(variable)))));
+                result.accumulate(
+                    lower,
+                    &(c * &Rational::from(i64::from(m.exponent(variable)))),
+                );
             }
         }
         result
@@ -225,7 +264,11 @@ impl Polynomial {
                 factors.push(size.to_string());
             }
             for (v, e) in m.powers() {
-                factors.push(if e == 1 { name(v) } else { format!("{}^{e}", name(v)) });
+                factors.push(if e == 1 {
+                    name(v)
+                } else {
+                    format!("{}^{e}", name(v))
+                });
             }
             let _ = write!(text, "{}", factors.join("*"));
         }
@@ -269,7 +312,10 @@ mod tests {
         let b = Budget::new(1000);
         let [x, y, z] = variables();
         let p = &(&x.mul(&z, &b).unwrap() + &y.mul(&y, &b).unwrap()) + &(&x - &z);
-        assert_eq!(p.display(&|v| ["x", "y", "z"][v].into()), "x*z + y^2 + x - z");
+        assert_eq!(
+            p.display(&|v| ["x", "y", "z"][v].into()),
+            "x*z + y^2 + x - z"
+        );
         assert!(!p.is_homogeneous());
     }
 
@@ -277,7 +323,9 @@ mod tests {
     fn exact_division_undoes_products() {
         let b = Budget::new(100_000);
         let [x, y, z] = variables();
-        let p = (&(&x + &y) + &z.scale(&Rational::new(2, 3).unwrap())).pow(5, &b).unwrap();
+        let p = (&(&x + &y) + &z.scale(&Rational::new(2, 3).unwrap()))
+            .pow(5, &b)
+            .unwrap();
         let q = (&x.mul(&y, &b).unwrap() - &z).pow(3, &b).unwrap();
         let product = p.mul(&q, &b).unwrap();
         assert_eq!(product.divide_exactly(&p, &b).unwrap().unwrap(), q);
@@ -296,7 +344,10 @@ mod tests {
         assert_eq!(p.monomial_content(), Monomial::power(0, 1));
         assert_eq!(p.strip(&Monomial::power(0, 1)).degree(), 1);
         let at = |v: usize| Rational::from(v as i64 + 2);
-        assert_eq!(p.derivative(0).evaluate(&at), &Rational::new(-4, 3).unwrap() * &Rational::from(3) - Rational::new(8, 5).unwrap());
+        assert_eq!(
+            p.derivative(0).evaluate(&at),
+            &Rational::new(-4, 3).unwrap() * &Rational::from(3) - Rational::new(8, 5).unwrap()
+        );
     }
 
     #[test]

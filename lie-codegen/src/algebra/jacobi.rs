@@ -1,0 +1,139 @@
+//! The Jacobi identity, exactly and identically in the exact parameters.
+
+use std::collections::BTreeMap;
+
+use super::ring::Ring;
+use super::{Scope, StructureConstants};
+use crate::ast::Algebra;
+use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::exact::{Budget, Exhausted, Fraction};
+
+/// A triple for which the identity fails.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// The basis indices, ascending.
+    pub triple: (usize, usize, usize),
+    /// `[[e_i, e_j], e_l] + [[e_j, e_l], e_i] + [[e_l, e_i], e_j]`, nonzero coefficients by index.
+    pub residual: Vec<(usize, Fraction)>,
+    /// How many triples fail.
+    pub count: usize,
+}
+
+/// Reports the first triple for which the Jacobi identity fails. A bracket that violates it has no
+/// coadjoint orbits: the flow would not conserve anything that it is generated to conserve.
+pub fn check(
+    algebra: &Algebra,
+    constants: &StructureConstants<Fraction>,
+    scope: &Scope<'_>,
+    budget: &Budget,
+    report: &mut Report,
+) -> bool {
+    match first_failure(constants, budget) {
+        Ok(None) => true,
+        Ok(Some(failure)) => {
+            report.push(diagnostic(algebra, scope, &failure));
+            false
+        }
+        Err(Exhausted) => {
+            report.push(Diagnostic::new(
+                Kind::Limit,
+                algebra.origin,
+                "the algebra is too large for the exact check of the Jacobi identity",
+            ));
+            false
+        }
+    }
+}
+
+/// The first triple for which the identity fails.
+///
+/// # Errors
+/// [`Exhausted`] where the budget is too small for all triples.
+pub fn first_failure(
+    constants: &StructureConstants<Fraction>,
+    budget: &Budget,
+) -> Result<Option<Failure>, Exhausted> {
+    match constants.try_map(Fraction::as_constant) {
+        Some(rationals) => search(&rationals, budget),
+        None => search(constants, budget),
+    }
+}
+
+fn search<T: Ring>(
+    constants: &StructureConstants<T>,
+    budget: &Budget,
+) -> Result<Option<Failure>, Exhausted> {
+    let n = constants.dimension();
+    let table = constants.table();
+    let mut first: Option<Failure> = None;
+    for i in 0..n {
+        for j in i + 1..n {
+            budget.spend((n - j) as u64 / 16 + 1)?;
+            for l in j + 1..n {
+                if table[i][j].is_empty() && table[j][l].is_empty() && table[l][i].is_empty() {
+                    continue;
+                }
+                let mut residual: BTreeMap<usize, T> = BTreeMap::new();
+                for (a, b, c) in [(i, j, l), (j, l, i), (l, i, j)] {
+                    for (p, value) in &table[a][b] {
+                        for (m, factor) in &table[*p][c] {
+                            residual
+                                .entry(*m)
+                                .or_insert_with(T::zero)
+                                .add_product(value, factor, budget)?;
+                        }
+                    }
+                }
+                residual.retain(|_, value| !value.is_zero());
+                if residual.is_empty() {
+                    continue;
+                }
+                match &mut first {
+                    Some(failure) => failure.count += 1,
+                    None => {
+                        let residual = residual
+                            .iter()
+                            .map(|(m, value)| (*m, value.to_fraction()))
+                            .collect();
+                        first = Some(Failure {
+                            triple: (i, j, l),
+                            residual,
+                            count: 1,
+                        });
+                    }
+                }
+            }
+        }
+    }
+    Ok(first)
+}
+
+fn diagnostic(algebra: &Algebra, scope: &Scope<'_>, failure: &Failure) -> Diagnostic {
+    let (i, j, l) = failure.triple;
+    let [a, b, c] = [i, j, l].map(|index| scope.basis()[index]);
+    let residual = scope.display(&failure.residual);
+    let mut message = format!(
+        "the Jacobi identity fails for ({a}, {b}, {c}): [[{a}, {b}], {c}] + [[{b}, {c}], {a}] + [[{c}, {a}], {b}] = {residual}"
+    );
+    match failure.count {
+        1 => {}
+        2 => message.push_str("; it fails for one other triple too"),
+        count => message.push_str(&format!("; it fails for {} other triples too", count - 1)),
+    }
+    // The place is a bracket of the triple; one of them is wrong, or one is missing.
+    let brackets = algebra.brackets.as_deref().unwrap_or_default();
+    let inside = |name: &str| [a, b, c].contains(&name);
+    let origin = brackets
+        .iter()
+        .find(|bracket| inside(&bracket.left.text) && inside(&bracket.right.text))
+        .map_or(algebra.origin, |bracket| bracket.origin);
+    let parametric = failure
+        .residual
+        .iter()
+        .any(|(_, value)| value.as_constant().is_none());
+    Diagnostic::new(Kind::Jacobi, origin, message).help(if parametric {
+        "the residual must vanish identically in the exact parameters; check the brackets of these three elements and those that they lead to"
+    } else {
+        "check the sign and the coefficient of the brackets of these three elements and those that they lead to; a bracket that is left out is zero"
+    })
+}

@@ -1,0 +1,331 @@
+//! Expressions that are linear in basis names, with rational functions of exact parameters as
+//! coefficients: the right sides of brackets, and exact constants as the case without names.
+
+use std::collections::BTreeMap;
+
+use super::scope::{Meaning, Scope};
+use crate::ast::{Expr, ExprKind};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::exact::{Budget, Exhausted, Fraction, Rational};
+use crate::suggest::did_you_mean;
+use crate::symbolic::Function;
+
+/// The largest exponent of a coefficient.
+const MAX_EXPONENT: i64 = 1000;
+/// Deeper nesting than any person writes; the traversal is recursive.
+pub(crate) const MAX_DEPTH: usize = 400;
+
+/// `constant + sum of coefficient * e_k`.
+#[derive(Clone, Debug, Default)]
+struct Form {
+    constant: Fraction,
+    linear: BTreeMap<usize, Fraction>,
+}
+
+impl From<Fraction> for Form {
+    fn from(constant: Fraction) -> Self {
+        Self {
+            constant,
+            linear: BTreeMap::new(),
+        }
+    }
+}
+
+/// Lowers one expression, reporting every mistake in it.
+struct Lowering<'a, 'b> {
+    /// `None` for constants, which know no names.
+    scope: Option<&'b Scope<'a>>,
+    report: &'b mut Report,
+    budget: &'b Budget,
+    depth: usize,
+}
+
+/// The right side of a bracket: the nonzero coefficients by basis index.
+pub(super) fn bracket_value(
+    value: &Expr,
+    scope: &Scope<'_>,
+    budget: &Budget,
+    report: &mut Report,
+) -> Option<Vec<(usize, Fraction)>> {
+    let form = Lowering {
+        scope: Some(scope),
+        report,
+        budget,
+        depth: 0,
+    }
+    .lower(value)?;
+    if !form.constant.is_zero() {
+        let constant = form.constant.display(&|p| scope.parameter(p));
+        report.push(
+            Diagnostic::new(
+                Kind::Syntax,
+                value.origin,
+                format!("the right side of a bracket is linear in the basis, but it has the constant term {constant}"),
+            )
+            .help("write a linear combination of basis names, or 0"),
+        );
+        return None;
+    }
+    Some(
+        form.linear
+            .into_iter()
+            .filter(|(_, c)| !c.is_zero())
+            .collect(),
+    )
+}
+
+/// The value of an exact rational constant; anything else is reported.
+pub fn rational(value: &Expr, budget: &Budget, report: &mut Report) -> Option<Rational> {
+    Lowering {
+        scope: None,
+        report,
+        budget,
+        depth: 0,
+    }
+    .lower(value)?
+    .constant
+    .as_constant()
+}
+
+impl Lowering<'_, '_> {
+    fn fail<T>(&mut self, kind: Kind, origin: Origin, message: impl Into<String>) -> Option<T> {
+        self.report.push(Diagnostic::new(kind, origin, message));
+        None
+    }
+
+    fn limited<T>(&mut self, result: Result<T, Exhausted>, origin: Origin) -> Option<T> {
+        result
+            .or_else(|Exhausted| {
+                self.fail(
+                    Kind::Limit,
+                    origin,
+                    "this expression is too large to be expanded exactly",
+                )
+                .ok_or(())
+            })
+            .ok()
+    }
+
+    /// What is said of anything that is not rational.
+    fn irrational<T>(&mut self, origin: Origin, what: &str) -> Option<T> {
+        let (kind, rule) = match self.scope {
+            Some(_) => (
+                Kind::Syntax,
+                "the right side of a bracket is linear in the basis, with rational functions of exact parameters as coefficients",
+            ),
+            None => (Kind::Number, "an exact rational constant is expected here"),
+        };
+        self.report
+            .push(Diagnostic::new(kind, origin, format!("{what}: {rule}")));
+        None
+    }
+
+    fn lower(&mut self, expr: &Expr) -> Option<Form> {
+        if self.depth > MAX_DEPTH {
+            return self.fail(
+                Kind::Limit,
+                expr.origin,
+                "the expression is nested too deeply",
+            );
+        }
+        self.depth += 1;
+        let form = self.lower_kind(expr);
+        self.depth -= 1;
+        form
+    }
+
+    fn lower_kind(&mut self, expr: &Expr) -> Option<Form> {
+        match &expr.kind {
+            ExprKind::Number(value) => Some(Fraction::from(value.clone()).into()),
+            ExprKind::Name { index: Some(_), .. } | ExprKind::IndexedSum { .. } => self.fail(
+                Kind::Syntax,
+                expr.origin,
+                "indexed names belong to families of systems, which are not available here",
+            ),
+            ExprKind::Name { name, index: None } => self.name(name, expr.origin),
+            ExprKind::Negative(inner) => {
+                let form = self.lower(inner)?;
+                self.scale(&form, &Fraction::from(Rational::MINUS_ONE), expr.origin)
+            }
+            ExprKind::Sum(terms) => {
+                // Every term is visited, so that all their mistakes are reported together.
+                let forms: Vec<_> = terms
+                    .iter()
+                    .map(|(minus, term)| (*minus, self.lower(term)))
+                    .collect();
+                let mut sum = Form::default();
+                for (minus, form) in forms {
+                    let form = form?;
+                    let sign = if minus {
+                        Rational::MINUS_ONE
+                    } else {
+                        Rational::ONE
+                    };
+                    let budget = self.budget;
+                    let added = sum.constant.add(&form.constant.scale(&sign), budget);
+                    sum.constant = self.limited(added, expr.origin)?;
+                    for (k, value) in form.linear {
+                        let entry = sum.linear.entry(k).or_default();
+                        let added = entry.add(&value.scale(&sign), budget);
+                        *entry = self.limited(added, expr.origin)?;
+                    }
+                }
+                Some(sum)
+            }
+            ExprKind::Product(factors) => self.product(factors, expr.origin),
+            ExprKind::Power(base, exponent) => self.power(base, exponent, expr.origin),
+            ExprKind::Call {
+                function,
+                arguments,
+            } => {
+                for argument in arguments {
+                    self.lower(argument);
+                }
+                let known =
+                    Function::from_name(&function.text).is_some() || function.text == "sqrt";
+                if known {
+                    return self
+                        .irrational(expr.origin, &format!("`{}` is not rational", function.text));
+                }
+                let mut diagnostic = Diagnostic::new(
+                    Kind::UnknownFunction,
+                    function.origin,
+                    format!("unknown function `{}`", function.text),
+                );
+                if let Some(near) =
+                    did_you_mean(&function.text, Function::ALL.iter().map(|f| f.name()))
+                {
+                    diagnostic = diagnostic.help(format!("did you mean `{near}`?"));
+                }
+                self.report.push(diagnostic);
+                None
+            }
+        }
+    }
+
+    fn name(&mut self, name: &str, origin: Origin) -> Option<Form> {
+        if name == "pi" || name == "t" {
+            return self.irrational(origin, &format!("`{name}` is not rational"));
+        }
+        let Some(scope) = self.scope else {
+            self.report.push(
+                Diagnostic::new(
+                    Kind::UnknownSymbol,
+                    origin,
+                    format!("`{name}`: no name is known here"),
+                )
+                .help("write an exact rational constant, such as 1/2"),
+            );
+            return None;
+        };
+        let wrong = match scope.meaning(name) {
+            Some(Meaning::Basis(k)) => {
+                let linear = BTreeMap::from([(k, Fraction::from(Rational::ONE))]);
+                return Some(Form { constant: Fraction::default(), linear });
+            }
+            Some(Meaning::Exact(parameter)) => return Some(Fraction::variable(parameter).into()),
+            Some(Meaning::Inexact) => Diagnostic::new(
+                Kind::UnknownSymbol,
+                origin,
+                format!("the parameter `{name}` is not exact, so a bracket cannot use it"),
+            )
+            .help(format!("declare it exact: `exact {name} = …;` in the macro, `\"exact\": true` in a spec")),
+            Some(Meaning::Let) => Diagnostic::new(
+                Kind::UnknownSymbol,
+                origin,
+                format!("`{name}` is an abbreviation; a bracket knows basis names and exact parameters only"),
+            )
+            .help("write it out"),
+            Some(Meaning::Coordinate) => Diagnostic::new(
+                Kind::UnknownSymbol,
+                origin,
+                format!("`{name}` is a coordinate; a bracket is written in basis names"),
+            )
+            .help(format!("the basis is {}", scope.basis().join(", "))),
+            None => {
+                let diagnostic = Diagnostic::new(
+                    Kind::UnknownSymbol,
+                    origin,
+                    format!("`{name}` is neither a basis name nor an exact parameter"),
+                );
+                match scope.nearest_basis(name) {
+                    Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+                    None => diagnostic.help("add it to the basis, or declare it as an exact parameter"),
+                }
+            }
+        };
+        self.report.push(wrong);
+        None
+    }
+
+    fn scale(&mut self, form: &Form, factor: &Fraction, origin: Origin) -> Option<Form> {
+        let budget = self.budget;
+        let constant = self.limited(form.constant.mul(factor, budget), origin)?;
+        let mut linear = BTreeMap::new();
+        for (k, value) in &form.linear {
+            linear.insert(*k, self.limited(value.mul(factor, budget), origin)?);
+        }
+        Some(Form { constant, linear })
+    }
+
+    fn product(&mut self, factors: &[(bool, Expr)], origin: Origin) -> Option<Form> {
+        let forms: Vec<_> = factors
+            .iter()
+            .map(|(divides, factor)| (*divides, self.lower(factor), factor.origin))
+            .collect();
+        let mut product = Form::from(Fraction::from(Rational::ONE));
+        for (divides, form, place) in forms {
+            let form = form?;
+            let scalar = form.linear.values().all(Fraction::is_zero);
+            if divides {
+                if !scalar {
+                    return self.irrational(place, "a basis name stands in a denominator");
+                }
+                let inverse = form.constant.recip(self.budget);
+                let Some(inverse) = self.limited(inverse, place)? else {
+                    return self.fail(Kind::Number, place, "division by zero");
+                };
+                product = self.scale(&product, &inverse, origin)?;
+            } else if scalar {
+                product = self.scale(&product, &form.constant, origin)?;
+            } else if product.linear.values().all(Fraction::is_zero) {
+                let factor = product.constant;
+                product = self.scale(&form, &factor, origin)?;
+            } else {
+                return self.irrational(origin, "a product of basis names");
+            }
+        }
+        Some(product)
+    }
+
+    fn power(&mut self, base: &Expr, exponent: &Expr, origin: Origin) -> Option<Form> {
+        let (form, power) = (self.lower(base), self.lower(exponent));
+        let (form, power) = (form?, power?);
+        let integer = power
+            .constant
+            .as_constant()
+            .filter(|_| power.linear.is_empty())
+            .filter(Rational::is_integer);
+        let Some(integer) = integer else {
+            return self.irrational(exponent.origin, "an exponent that is not an integer");
+        };
+        let Some(integer) = integer.to_integer().filter(|e| e.abs() <= MAX_EXPONENT) else {
+            return self.fail(
+                Kind::Limit,
+                exponent.origin,
+                format!("an exponent above {MAX_EXPONENT}"),
+            );
+        };
+        if integer == 1 {
+            return Some(form);
+        }
+        if !form.linear.values().all(Fraction::is_zero) {
+            return self.irrational(origin, "a power of a basis name");
+        }
+        let power = form.constant.pow(integer as i32, self.budget);
+        match self.limited(power, origin)? {
+            Some(power) => Some(power.into()),
+            None => self.fail(Kind::Number, base.origin, "a negative power of zero"),
+        }
+    }
+}

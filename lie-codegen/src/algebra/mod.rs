@@ -1,0 +1,26 @@
+//! Lie algebras over the rationals (or rational functions of exact parameters): lowering of
+//! brackets, the identities that they must satisfy, matrix representations, ranks.
+
+pub mod brackets;
+mod constants;
+pub mod jacobi;
+mod linear;
+pub mod rank;
+pub mod representation;
+mod ring;
+mod scope;
+mod sparse;
+mod triple;
+
+#[cfg(test)]
+pub(crate) mod known;
+#[cfg(test)]
+mod tests;
+
+pub use constants::StructureConstants;
+pub use linear::rational;
+pub use representation::Representation;
+pub use scope::Scope;
+
+/// Work allowed for the exact checks of one algebra: seconds, not minutes.
+pub(crate) const WORK: u64 = 50_000_000;

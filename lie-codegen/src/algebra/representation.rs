@@ -1,0 +1,308 @@
+//! Matrix representations: `rho(e_i) rho(e_j) - rho(e_j) rho(e_i) = sum_k C_ij^k rho(e_k)`.
+
+use super::linear::rational;
+use super::sparse::SparseMatrix;
+use super::{Scope, StructureConstants, triple};
+use crate::ast::{Algebra, Matrix};
+use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::exact::matrix::Span;
+use crate::exact::{Budget, Exhausted, Fraction, Rational};
+
+/// An entry `(a, b, c, d, T_abc^d)` of the triple product.
+pub type TripleEntry = (usize, usize, usize, usize, Rational);
+
+/// A matrix representation of the algebra.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Representation {
+    /// Size of the matrices.
+    pub dimension: usize,
+    /// The matrix of each basis element, by rows.
+    pub matrices: Vec<Vec<Vec<Rational>>>,
+    /// Where the span of the matrices is closed under the Jordan triple product:
+    /// `(rho_a rho_b rho_c + rho_c rho_b rho_a)/2 = sum_d T_abc^d rho_d`, every nonzero entry,
+    /// also both of `T_abc^d = T_cba^d`. Otherwise, and for dependent matrices, `None`.
+    pub triple: Option<Vec<TripleEntry>>,
+}
+
+/// The matrices as they were read, one for each basis element.
+pub struct Matrices<'a> {
+    declared: Vec<&'a Matrix>,
+    sparse: Vec<SparseMatrix>,
+    dimension: usize,
+}
+
+/// Reads the declared matrices: one square matrix of rationals for each basis element, of one size.
+pub fn read<'a>(
+    algebra: &'a Algebra,
+    scope: &Scope<'_>,
+    budget: &Budget,
+    report: &mut Report,
+) -> Option<Matrices<'a>> {
+    let mut slots: Vec<Option<&Matrix>> = vec![None; scope.basis().len()];
+    let mut complete = true;
+    for matrix in &algebra.matrices {
+        match scope.basis_index(&matrix.name.text) {
+            None => {
+                report.push(scope.unknown_basis(Kind::Basis, &matrix.name));
+                complete = false;
+            }
+            Some(index) if slots[index].is_some() => {
+                report.push(
+                    Diagnostic::new(
+                        Kind::Basis,
+                        matrix.name.origin,
+                        format!("a second matrix for `{}`", matrix.name.text),
+                    )
+                    .help("keep one of the two"),
+                );
+                complete = false;
+            }
+            Some(index) => slots[index] = Some(matrix),
+        }
+    }
+    let missing: Vec<&str> = slots
+        .iter()
+        .zip(scope.basis())
+        .filter(|(m, _)| m.is_none())
+        .map(|(_, name)| *name)
+        .collect();
+    if complete && !missing.is_empty() {
+        report.push(
+            Diagnostic::new(
+                Kind::Representation,
+                algebra.matrices[0].origin,
+                format!("no matrix for {}", missing.join(", ")),
+            )
+            .help("a representation has one matrix for every basis element"),
+        );
+        complete = false;
+    }
+    let dimension = algebra.matrices.first()?.rows.len();
+    let mut entries = Vec::new();
+    for matrix in &algebra.matrices {
+        if matrix.rows.len() != dimension
+            || matrix.rows.iter().any(|row| row.len() != dimension)
+            || dimension == 0
+        {
+            report.push(
+                Diagnostic::new(
+                    Kind::Representation,
+                    matrix.origin,
+                    format!(
+                        "the matrix of `{}` is not square, or not of the size of the others",
+                        matrix.name.text
+                    ),
+                )
+                .help("all matrices of a representation are square and of one size"),
+            );
+            complete = false;
+        }
+        let rows: Vec<Vec<Option<Rational>>> = matrix
+            .rows
+            .iter()
+            .map(|row| {
+                row.iter()
+                    .map(|entry| rational(entry, budget, report))
+                    .collect()
+            })
+            .collect();
+        let rows: Option<Vec<Vec<Rational>>> = rows
+            .into_iter()
+            .map(|row| row.into_iter().collect())
+            .collect();
+        complete &= rows.is_some();
+        entries.push((scope.basis_index(&matrix.name.text), rows));
+    }
+    if !complete {
+        return None;
+    }
+    entries.sort_by_key(|(index, _)| *index);
+    let sparse = entries
+        .into_iter()
+        .filter_map(|(_, rows)| rows)
+        .map(|rows| SparseMatrix::from_rows(&rows))
+        .collect();
+    Some(Matrices {
+        declared: slots.into_iter().flatten().collect(),
+        sparse,
+        dimension,
+    })
+}
+
+impl Matrices<'_> {
+    fn flat(&self) -> Vec<Vec<Rational>> {
+        self.sparse.iter().map(SparseMatrix::flat).collect()
+    }
+
+    fn limit(&self, report: &mut Report) {
+        let message = "the matrices are too large for the exact check";
+        report.push(Diagnostic::new(
+            Kind::Limit,
+            self.declared[0].origin,
+            message,
+        ));
+    }
+
+    /// The structure constants of the matrices themselves: they must be independent, and their
+    /// span must be closed under the commutator, or there is no algebra to compute.
+    pub fn constants(
+        &self,
+        scope: &Scope<'_>,
+        budget: &Budget,
+        report: &mut Report,
+    ) -> Option<StructureConstants<Fraction>> {
+        let span = match Span::new(&self.flat()) {
+            Ok(span) => span,
+            Err(relation) => {
+                let form: Vec<_> = relation
+                    .into_iter()
+                    .enumerate()
+                    .filter(|(_, c)| !c.is_zero())
+                    .collect();
+                let last = form.last().map_or(0, |(index, _)| *index);
+                let form: Vec<_> = form
+                    .into_iter()
+                    .map(|(k, c)| (k, Fraction::from(c)))
+                    .collect();
+                report.push(
+                    Diagnostic::new(
+                        Kind::Representation,
+                        self.declared[last].origin,
+                        format!("the matrices are linearly dependent: {} = 0", scope.display(&form)),
+                    )
+                    .help("brackets can only be computed from independent matrices; otherwise declare `brackets`"),
+                );
+                return None;
+            }
+        };
+        let mut entries = Vec::new();
+        for i in 0..self.sparse.len() {
+            for j in i + 1..self.sparse.len() {
+                let Ok(commutator) =
+                    SparseMatrix::commutator(&self.sparse[i], &self.sparse[j], budget)
+                else {
+                    self.limit(report);
+                    return None;
+                };
+                let Some(coordinates) = span.coordinates(&commutator.flat()) else {
+                    let (a, b) = (scope.basis()[i], scope.basis()[j]);
+                    report.push(
+                        Diagnostic::new(
+                            Kind::Representation,
+                            self.declared[j].origin,
+                            format!("the commutator of the matrices of `{a}` and `{b}` is outside the span of the matrices"),
+                        )
+                        .help("the matrices must span a Lie algebra; add the missing basis elements"),
+                    );
+                    return None;
+                };
+                let nonzero = coordinates
+                    .into_iter()
+                    .enumerate()
+                    .filter(|(_, c)| !c.is_zero());
+                entries.extend(nonzero.map(|(k, c)| (i, j, k, Fraction::from(c))));
+            }
+        }
+        Some(StructureConstants::new(self.sparse.len(), entries))
+    }
+
+    /// Checks the matrices against the brackets, and finds their triple product.
+    ///
+    /// A representation that is none would make every method that uses it leave the orbit.
+    pub fn check(
+        &self,
+        algebra: &Algebra,
+        constants: &StructureConstants<Fraction>,
+        scope: &Scope<'_>,
+        budget: &Budget,
+        report: &mut Report,
+    ) -> Option<Representation> {
+        for i in 0..self.sparse.len() {
+            for j in i + 1..self.sparse.len() {
+                match self.first_wrong_entry(i, j, constants, budget) {
+                    Ok(None) => {}
+                    Ok(Some((row, column, rest))) => {
+                        let [a, b] = [i, j].map(|index| scope.basis()[index]);
+                        let form: Vec<_> = constants
+                            .upper(i, j)
+                            .iter()
+                            .map(|(_, _, k, v)| (*k, v.clone()))
+                            .collect();
+                        let names = |n: &str| n == a || n == b;
+                        let bracket = algebra
+                            .brackets
+                            .iter()
+                            .flatten()
+                            .find(|x| names(&x.left.text) && names(&x.right.text));
+                        report.push(
+                            Diagnostic::new(
+                                Kind::Representation,
+                                bracket.map_or(self.declared[j].origin, |x| x.origin),
+                                format!(
+                                    "the matrices do not represent [{a}, {b}] = {}: entry ({}, {}) of the commutator minus the right side is {}",
+                                    scope.display(&form),
+                                    row + 1,
+                                    column + 1,
+                                    rest.display(&|p| scope.parameter(p)),
+                                ),
+                            )
+                            .help("correct the bracket or the matrices; without `brackets` they are computed from the matrices"),
+                        );
+                        return None;
+                    }
+                    Err(Exhausted) => {
+                        self.limit(report);
+                        return None;
+                    }
+                }
+            }
+        }
+        let triple = match Span::new(&self.flat()) {
+            Err(_) => None,
+            Ok(span) => triple::closure(&self.sparse, &span, budget).unwrap_or_else(|Exhausted| {
+                let message = "the matrices are too large to decide whether their span is closed under triple products; \
+                               the Cayley retraction is not available";
+                report.push(Diagnostic::new(Kind::Limit, self.declared[0].origin, message).warning());
+                None
+            }),
+        };
+        let matrices = self.sparse.iter().map(SparseMatrix::rows).collect();
+        Some(Representation {
+            dimension: self.dimension,
+            matrices,
+            triple,
+        })
+    }
+
+    /// The first entry of `[rho_i, rho_j] - C_ij^k rho_k` that is not zero.
+    fn first_wrong_entry(
+        &self,
+        i: usize,
+        j: usize,
+        constants: &StructureConstants<Fraction>,
+        budget: &Budget,
+    ) -> Result<Option<(usize, usize, Fraction)>, Exhausted> {
+        let mut rest = SparseMatrix::commutator(&self.sparse[i], &self.sparse[j], budget)?.flat();
+        let mut parametric: Vec<(&Fraction, usize)> = Vec::new();
+        for (_, _, k, value) in constants.upper(i, j) {
+            match value.as_constant() {
+                Some(value) => {
+                    for (position, entry) in self.sparse[*k].entries() {
+                        rest[position] = &rest[position] - &(&value * entry);
+                    }
+                }
+                None => parametric.push((value, *k)),
+            }
+        }
+        let mut rest: Vec<(usize, Fraction)> =
+            rest.into_iter().map(Fraction::from).enumerate().collect();
+        for (value, k) in parametric {
+            for (position, entry) in self.sparse[k].entries() {
+                rest[position].1 = rest[position].1.sub(&value.scale(entry), budget)?;
+            }
+        }
+        let wrong = rest.into_iter().find(|(_, value)| !value.is_zero());
+        Ok(wrong
+            .map(|(position, value)| (position / self.dimension, position % self.dimension, value)))
+    }
+}
