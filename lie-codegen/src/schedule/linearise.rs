@@ -4,15 +4,10 @@ use std::collections::HashMap;
 
 use super::formula::{Atom, AtomId, Formula, Signed};
 use super::program::{Operation, Program, Value};
-use crate::symbolic::Symbol;
 
 /// The straight-line program of a formula.
 pub fn linearise(formula: &Formula) -> Program {
     let mut writer = Writer { formula, program: Program::default(), values: HashMap::new() };
-    for (symbol, signed) in &formula.definitions {
-        let value = writer.signed(*signed);
-        writer.program.definitions.push((*symbol, value));
-    }
     for signed in &formula.outputs {
         let value = writer.signed(*signed);
         writer.program.outputs.push(value);
@@ -68,7 +63,7 @@ impl Writer<'_> {
 
     fn children(&self, atom: AtomId) -> Vec<AtomId> {
         match &self.formula.atoms[atom] {
-            Atom::Leaf(_) => Vec::new(),
+            Atom::Leaf(value) => self.definition(value).map(|(_, atom)| atom).into_iter().collect(),
             Atom::Sum(terms) => terms.iter().map(|(_, id)| *id).collect(),
             Atom::Product(factors) => factors.clone(),
             Atom::Quotient(a, b) => vec![*a, *b],
@@ -79,9 +74,12 @@ impl Writer<'_> {
 
     fn write(&mut self, atom: AtomId) -> Value {
         match self.formula.atoms[atom].clone() {
-            Atom::Leaf(value) => match value {
-                Value::Symbol(symbol) => self.defined(symbol),
-                other => other,
+            Atom::Leaf(leaf) => match self.definition(&leaf) {
+                Some((negative, atom)) => {
+                    let value = self.values[&atom].clone();
+                    if negative { self.push(Operation::Neg(value)) } else { value }
+                }
+                None => leaf,
             },
             Atom::Sum(mut terms) => {
                 if let Some(first) = terms.iter().position(|(negative, _)| !negative) {
@@ -131,12 +129,9 @@ impl Writer<'_> {
         }
     }
 
-    /// A defined symbol is the value of its definition.
-    fn defined(&self, symbol: Symbol) -> Value {
-        self.program
-            .definitions
-            .iter()
-            .find(|(defined, _)| *defined == symbol)
-            .map_or(Value::Symbol(symbol), |(_, value)| value.clone())
+    /// What a defined symbol stands for; a definition that nothing uses costs nothing.
+    fn definition(&self, leaf: &Value) -> Option<Signed> {
+        let Value::Symbol(symbol) = leaf else { return None };
+        self.formula.definitions.iter().find(|(defined, _)| defined == symbol).map(|(_, signed)| *signed)
     }
 }

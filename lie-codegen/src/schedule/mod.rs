@@ -18,6 +18,8 @@ use crate::symbolic::{ExprId, Graph, Symbol};
 /// Which symbols are known before the kernel runs, so that expressions in them are prepared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
+    /// Nothing but numbers: for what is prepared itself.
+    Nothing,
     /// Parameters only: prepared once, at construction.
     Parameters,
     /// Parameters and the step size: prepared once per run.
@@ -27,7 +29,11 @@ pub enum Known {
 impl Known {
     /// Whether the symbol is known.
     pub fn covers(self, symbol: Symbol) -> bool {
-        matches!(symbol, Symbol::Parameter(_)) || (self == Known::Step && symbol == Symbol::Step)
+        match symbol {
+            Symbol::Parameter(_) => self != Known::Nothing,
+            Symbol::Step => self == Known::Step,
+            _ => false,
+        }
     }
 }
 

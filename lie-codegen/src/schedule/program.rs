@@ -115,8 +115,6 @@ impl std::fmt::Display for Counts {
 pub struct Program {
     /// The operations, in order.
     pub operations: Vec<Operation>,
-    /// Definitions of symbols and their values.
-    pub definitions: Vec<(Symbol, Value)>,
     /// The results.
     pub outputs: Vec<Value>,
     /// How many operations there are.

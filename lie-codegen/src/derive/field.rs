@@ -1,0 +1,72 @@
+//! Energy, Casimirs and the field: the kernels of a Poisson system.
+
+use super::{Argument, Kernel, Source};
+use crate::symbolic::{ExprId, Symbol};
+
+pub(super) fn mu(source: &Source) -> Argument {
+    Argument { name: "mu", symbols: (0..source.dimension).map(Symbol::Coordinate).collect() }
+}
+
+pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
+    let gradient = source.gradient_of_h();
+    let hessian = source.hessian_of_h();
+    let field = source.field_of_h();
+    let jacobian = jacobian(source, &field);
+    let matrix = poisson_matrix(source);
+    let arguments = || vec![mu(source)];
+    let graph = &source.graph;
+    let mut kernels = vec![
+        Kernel::scalar("hamiltonian", "`H(mu)`", arguments(), source.hamiltonian),
+        Kernel::vector(graph, "gradient", "`out_i = dH/dmu_i`", arguments(), &gradient),
+        Kernel::matrix(graph, "hessian", "`out_ij = d^2H/dmu_i dmu_j`", arguments(), &hessian),
+        Kernel::matrix(graph, "poisson_matrix", "`out_ij = {mu_i, mu_j} = -C_ij^k mu_k`", arguments(), &matrix),
+        Kernel::vector(graph, "vector_field", "`f_j = C_ij^k (dH/dmu_i) mu_k`", arguments(), &field),
+        Kernel::matrix(graph, "jacobian", "`out_ij = df_i/dmu_j`", arguments(), &jacobian),
+        Kernel::fused(
+            graph,
+            "linearize",
+            "`f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`",
+            arguments(),
+            &field,
+            &jacobian,
+        ),
+    ];
+    let values = source.casimirs.clone();
+    kernels.push(Kernel::vector(graph, "casimirs", "`out_i = C_i(mu)`", arguments(), &values));
+    let gradients: Vec<Vec<ExprId>> = values
+        .iter()
+        .map(|c| (0..source.dimension).map(|i| source.graph.derivative(*c, Symbol::Coordinate(i))).collect())
+        .collect();
+    for gradient in gradients {
+        let arguments = vec![mu(source)];
+        kernels.push(Kernel::vector(
+            &source.graph,
+            "casimir_gradient",
+            "`out_i = dC/dmu_i`",
+            arguments,
+            &gradient,
+        ));
+    }
+    kernels
+}
+
+/// `df_i/dmu_j`
+pub(super) fn jacobian(source: &mut Source, field: &[ExprId]) -> Vec<Vec<ExprId>> {
+    field
+        .iter()
+        .map(|f| (0..source.dimension).map(|j| source.graph.derivative(*f, Symbol::Coordinate(j))).collect())
+        .collect()
+}
+
+/// `Pi_ab = -C_ab^k mu_k`
+fn poisson_matrix(source: &mut Source) -> Vec<Vec<ExprId>> {
+    let n = source.dimension;
+    let mu = source.coordinates();
+    let zero = source.graph.integer(0);
+    let mut rows = vec![vec![zero; n]; n];
+    for (a, b, k, value) in source.all_constants() {
+        let term = source.graph.mul(value, mu[k]);
+        rows[a][b] = source.graph.sub(rows[a][b], term);
+    }
+    rows
+}

@@ -1,0 +1,115 @@
+//! A kernel: named outputs as expressions in its arguments.
+
+use crate::schedule::{Known, Program, Task, schedule};
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// A vector argument and the symbols of its entries.
+#[derive(Clone, Debug)]
+pub struct Argument {
+    /// Its name in the signature.
+    pub name: &'static str,
+    /// The symbols of its entries.
+    pub symbols: Vec<Symbol>,
+}
+
+/// What a kernel writes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Returns one scalar.
+    Scalar,
+    /// Writes the nonzero entries of a vector: the index of each output.
+    Vector(Vec<usize>),
+    /// Writes the nonzero entries of a matrix: row and column of each output.
+    Matrix(Vec<(usize, usize)>),
+    /// Writes a vector, then a matrix: the index, then row and column of each output.
+    VectorAndMatrix(Vec<usize>, Vec<(usize, usize)>),
+}
+
+/// One function of the generated code.
+#[derive(Clone, Debug)]
+pub struct Kernel {
+    /// Its name.
+    pub name: &'static str,
+    /// What it computes, as a formula.
+    pub formula: &'static str,
+    /// Its vector arguments.
+    pub arguments: Vec<Argument>,
+    /// What it writes.
+    pub shape: Shape,
+    /// What is to be computed.
+    pub task: Task,
+}
+
+impl Kernel {
+    /// A kernel that returns a scalar.
+    pub fn scalar(name: &'static str, formula: &'static str, arguments: Vec<Argument>, value: ExprId) -> Self {
+        let task = Task { definitions: Vec::new(), outputs: vec![value], known: Known::Parameters };
+        Self { name, formula, arguments, shape: Shape::Scalar, task }
+    }
+
+    /// A kernel that writes a vector.
+    pub fn vector(
+        graph: &Graph,
+        name: &'static str,
+        formula: &'static str,
+        arguments: Vec<Argument>,
+        entries: &[ExprId],
+    ) -> Self {
+        let (indices, outputs) = sparse_vector(graph, entries);
+        let task = Task { definitions: Vec::new(), outputs, known: Known::Parameters };
+        Self { name, formula, arguments, shape: Shape::Vector(indices), task }
+    }
+
+    /// A kernel that writes a matrix, given by rows.
+    pub fn matrix(
+        graph: &Graph,
+        name: &'static str,
+        formula: &'static str,
+        arguments: Vec<Argument>,
+        rows: &[Vec<ExprId>],
+    ) -> Self {
+        let (places, outputs) = sparse_matrix(graph, rows);
+        let task = Task { definitions: Vec::new(), outputs, known: Known::Parameters };
+        Self { name, formula, arguments, shape: Shape::Matrix(places), task }
+    }
+
+    /// A kernel that writes a vector and a matrix.
+    pub fn fused(
+        graph: &Graph,
+        name: &'static str,
+        formula: &'static str,
+        arguments: Vec<Argument>,
+        entries: &[ExprId],
+        rows: &[Vec<ExprId>],
+    ) -> Self {
+        let (indices, mut outputs) = sparse_vector(graph, entries);
+        let (places, matrix) = sparse_matrix(graph, rows);
+        outputs.extend(matrix);
+        let task = Task { definitions: Vec::new(), outputs, known: Known::Parameters };
+        Self { name, formula, arguments, shape: Shape::VectorAndMatrix(indices, places), task }
+    }
+
+    /// The same kernel with definitions, in which the step size is known too.
+    #[must_use]
+    pub fn within_step(mut self, definitions: Vec<(Symbol, ExprId)>) -> Self {
+        self.task.definitions = definitions;
+        self.task.known = Known::Step;
+        self
+    }
+
+    /// The cheapest program found.
+    pub fn program(&self, graph: &mut Graph) -> Program {
+        schedule(graph, &self.task)
+    }
+}
+
+fn sparse_vector(graph: &Graph, entries: &[ExprId]) -> (Vec<usize>, Vec<ExprId>) {
+    entries.iter().copied().enumerate().filter(|(_, e)| !graph.is_zero(*e)).unzip()
+}
+
+fn sparse_matrix(graph: &Graph, rows: &[Vec<ExprId>]) -> (Vec<(usize, usize)>, Vec<ExprId>) {
+    let entries = rows.iter().enumerate().flat_map(|(i, row)| {
+        row.iter().copied().enumerate().map(move |(j, entry)| ((i, j), entry))
+    });
+    entries.filter(|(_, e)| !graph.is_zero(*e)).unzip()
+}

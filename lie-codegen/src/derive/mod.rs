@@ -1,0 +1,130 @@
+//! From a checked system to the kernels that its traits need, as expressions.
+
+mod cayley;
+mod coadjoint;
+mod field;
+mod kernel;
+mod midpoint;
+
+pub use kernel::{Argument, Kernel, Shape};
+
+use crate::exact::Rational;
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// What the kernels are derived from.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The arena of all expressions.
+    pub graph: Graph,
+    /// Number of coordinates n.
+    pub dimension: usize,
+    /// Structure constants `(i, j, k, C_ij^k)` with `i < j`.
+    pub constants: Vec<(usize, usize, usize, ExprId)>,
+    /// The Hamiltonian.
+    pub hamiltonian: ExprId,
+    /// The Casimirs.
+    pub casimirs: Vec<ExprId>,
+    /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
+    /// representation is closed under it.
+    pub triple: Option<Vec<(usize, usize, usize, usize, Rational)>>,
+}
+
+/// Vector arguments of kernels besides the state; each has n symbols.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Block {
+    /// An element of the algebra, or `x = h grad H`.
+    Xi,
+    /// A second element of the algebra.
+    Eta,
+    /// The unknown of an equation.
+    Unknown,
+    /// The midpoint of a step.
+    Middle,
+}
+
+impl Source {
+    pub(crate) fn coordinates(&mut self) -> Vec<ExprId> {
+        (0..self.dimension).map(|i| self.graph.symbol(Symbol::Coordinate(i))).collect()
+    }
+
+    pub(crate) fn symbols(&self, block: Block) -> Vec<Symbol> {
+        let start = block as usize * self.dimension;
+        (start..start + self.dimension).map(Symbol::Input).collect()
+    }
+
+    pub(crate) fn block(&mut self, block: Block) -> Vec<ExprId> {
+        self.symbols(block).into_iter().map(|s| self.graph.symbol(s)).collect()
+    }
+
+    /// Both halves of the structure constants: `(i, j, k, C_ij^k)` for all i, j.
+    pub(crate) fn all_constants(&mut self) -> Vec<(usize, usize, usize, ExprId)> {
+        let mut all = Vec::with_capacity(2 * self.constants.len());
+        for (i, j, k, value) in self.constants.clone() {
+            let negative = self.graph.neg(value);
+            all.push((i, j, k, value));
+            all.push((j, i, k, negative));
+        }
+        all
+    }
+
+    /// `(ad*_xi mu)_j = C_ij^k xi^i mu_k`
+    pub(crate) fn ad_star_of(&mut self, xi: &[ExprId], mu: &[ExprId]) -> Vec<ExprId> {
+        let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); self.dimension];
+        for (i, j, k, value) in self.all_constants() {
+            let term = self.graph.product(&[value, xi[i], mu[k]]);
+            terms[j].push(term);
+        }
+        terms.into_iter().map(|terms| self.graph.sum(&terms)).collect()
+    }
+
+    /// `dH/dmu_i`
+    pub(crate) fn gradient_of_h(&mut self) -> Vec<ExprId> {
+        (0..self.dimension)
+            .map(|i| self.graph.derivative(self.hamiltonian, Symbol::Coordinate(i)))
+            .collect()
+    }
+
+    /// `f = Pi(mu) grad H`
+    pub(crate) fn field_of_h(&mut self) -> Vec<ExprId> {
+        let gradient = self.gradient_of_h();
+        let mu = self.coordinates();
+        self.ad_star_of(&gradient, &mu)
+    }
+
+    /// The Hessian of H, both halves, row by row.
+    pub(crate) fn hessian_of_h(&mut self) -> Vec<Vec<ExprId>> {
+        let gradient = self.gradient_of_h();
+        gradient
+            .into_iter()
+            .map(|g| (0..self.dimension).map(|j| self.graph.derivative(g, Symbol::Coordinate(j))).collect())
+            .collect()
+    }
+
+    /// The expressions with the coordinates replaced by another block of symbols.
+    pub(crate) fn at(&mut self, expressions: &[ExprId], point: &[ExprId]) -> Vec<ExprId> {
+        self.graph.substitute(expressions, &|symbol| match symbol {
+            Symbol::Coordinate(i) => Some(point[i]),
+            _ => None,
+        })
+    }
+
+    /// The kernels of the basic traits.
+    pub fn basic_kernels(&mut self) -> Vec<Kernel> {
+        let mut kernels = field::kernels(self);
+        kernels.extend(coadjoint::kernels(self));
+        if self.triple.is_some() {
+            kernels.push(cayley::triple(self));
+        }
+        kernels
+    }
+
+    /// Residual, Jacobian and result of the Poisson midpoint rule.
+    pub fn midpoint_kernels(&mut self) -> Vec<Kernel> {
+        midpoint::kernels(self)
+    }
+
+    /// Residual, Jacobian and result of the retraction method with the Cayley map.
+    pub fn cayley_kernels(&mut self) -> Option<Vec<Kernel>> {
+        self.triple.is_some().then(|| cayley::kernels(self))
+    }
+}
