@@ -1,2 +1,47 @@
-//! The `lie` command.
-fn main() {}
+//! The `lie` command: checks, expands and runs Lie–Poisson systems from spec files.
+
+mod command;
+mod message;
+mod render;
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use command::usage::Parsed;
+use message::INVALID;
+
+/// Deeply nested specs are refused by the compiler; what it accepts fits in this stack.
+const STACK: usize = 256 << 20;
+
+fn main() -> ExitCode {
+    let thread = std::thread::Builder::new()
+        .stack_size(STACK)
+        .spawn(real_main);
+    match thread.map(std::thread::JoinHandle::join) {
+        Ok(Ok(code)) => ExitCode::from(code),
+        // The panic hook has said what happened.
+        _ => ExitCode::from(message::SURROUNDINGS),
+    }
+}
+
+fn real_main() -> u8 {
+    let cli = match command::usage::parse(std::env::args_os()) {
+        Ok(Parsed::Command(cli)) => cli,
+        Ok(Parsed::Text(text)) => {
+            // A reader that has gone away does not want the help.
+            let _ = std::io::stdout().write_all(text.as_bytes());
+            return 0;
+        }
+        Err(message) => {
+            render::print(&[*message]);
+            return INVALID;
+        }
+    };
+    match command::run(cli.command) {
+        Ok(code) => code,
+        Err(failure) => {
+            render::print(&failure.messages);
+            failure.code
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Where built programs are kept.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use lie_codegen::diagnostic::Kind;
+
+use crate::message::{Failure, Message};
+
+/// The cache folder: `$LIE_CACHE_DIR`, else `lie-poisson` in the platform's folder for caches.
+///
+/// # Errors
+/// `io` if no such folder is known or can be created.
+pub fn root() -> Result<PathBuf, Failure> {
+    let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty());
+    let root = chosen(&variable).ok_or_else(|| {
+        let text = "no folder for the cache: none of LIE_CACHE_DIR, XDG_CACHE_HOME, HOME is set";
+        let help = "set LIE_CACHE_DIR to a folder that can be written";
+        Failure::surroundings(Message::new(Kind::Io, text).help(help))
+    })?;
+    let root = std::path::absolute(&root).unwrap_or(root);
+    std::fs::create_dir_all(&root).map_err(|error| failure(&root, &error))?;
+    Ok(root)
+}
+
+fn chosen(variable: &dyn Fn(&str) -> Option<std::ffi::OsString>) -> Option<PathBuf> {
+    if let Some(folder) = variable("LIE_CACHE_DIR") {
+        return Some(folder.into());
+    }
+    // The XDG specification wants relative values ignored.
+    let xdg = variable("XDG_CACHE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
+    let folder = if let Some(xdg) = xdg {
+        xdg
+    } else if cfg!(windows) {
+        variable("LOCALAPPDATA")?.into()
+    } else if cfg!(target_os = "macos") {
+        Path::new(&variable("HOME")?).join("Library/Caches")
+    } else {
+        Path::new(&variable("HOME")?).join(".cache")
+    };
+    Some(folder.join("lie-poisson"))
+}
+
+/// A file of the cache that cannot be read or written.
+pub fn failure(path: &Path, error: &io::Error) -> Failure {
+    let message = Message::io(path, format!("the cache cannot be used: {error}"));
+    Failure::surroundings(message.help("set LIE_CACHE_DIR to a folder that can be written"))
+}
+
+/// Writes a file so that other processes see all of it or nothing.
+pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut file = tempfile::NamedTempFile::new_in(folder)?;
+    io::Write::write_all(&mut file, content)?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn order_of_the_variables() {
+        let with = |set: &'static [(&str, &str)]| {
+            chosen(&move |name| {
+                set.iter().find(|(known, _)| *known == name).map(|(_, value)| value.into())
+            })
+        };
+        let all = &[("LIE_CACHE_DIR", "a"), ("XDG_CACHE_HOME", "/x"), ("HOME", "/h")];
+        assert_eq!(with(all), Some("a".into()));
+        assert_eq!(with(&all[1..]), Some("/x/lie-poisson".into()));
+        if cfg!(target_os = "linux") {
+            assert_eq!(with(&all[2..]), Some("/h/.cache/lie-poisson".into()));
+            let relative = &[("XDG_CACHE_HOME", "x"), ("HOME", "/h")];
+            assert_eq!(with(relative), Some("/h/.cache/lie-poisson".into()));
+            assert_eq!(with(&[]), None);
+        }
+    }
+}

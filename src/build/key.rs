@@ -1,0 +1,54 @@
+//! The key of a built program: a hash of everything that goes into it.
+
+/// FNV-1a with 128 bits (Fowler, Noll, Vo), stable across versions of Rust and machines.
+///
+/// It needs no package and no cryptography: whoever can write to the cache can do worse than
+/// find a collision, and the generated source is compared byte by byte besides.
+pub struct Key(u128);
+
+impl Key {
+    const BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
+    const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
+
+    /// The hash of nothing.
+    pub fn new() -> Self {
+        Self(Self::BASIS)
+    }
+
+    /// Adds one ingredient; its length is hashed too, so that ingredients cannot run together.
+    #[must_use]
+    pub fn with(self, ingredient: &str) -> Self {
+        self.bytes(ingredient.as_bytes()).bytes(&(ingredient.len() as u64).to_le_bytes())
+    }
+
+    fn bytes(mut self, bytes: &[u8]) -> Self {
+        for &byte in bytes {
+            self.0 = (self.0 ^ u128::from(byte)).wrapping_mul(Self::PRIME);
+        }
+        self
+    }
+
+    /// 32 hexadecimal digits.
+    pub fn hex(&self) -> String {
+        format!("{:032x}", self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn published_values() {
+        assert_eq!(Key::new().hex(), "6c62272e07bb014262b821756295c58d");
+        assert_eq!(Key::new().bytes(b"a").hex(), "d228cb696f1a8caf78912b704e4a8964");
+        assert_eq!(Key::new().bytes(b"foobar").hex(), "343e1662793c64bf6f0d3597ba446f18");
+    }
+
+    #[test]
+    fn ingredients_do_not_run_together() {
+        let joined = Key::new().with("ab").with("c").hex();
+        assert_ne!(joined, Key::new().with("a").with("bc").hex());
+        assert_ne!(joined, Key::new().with("abc").hex());
+    }
+}

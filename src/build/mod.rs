@@ -1,0 +1,194 @@
+//! Builds the program of a system: source in, path of a compiled program out.
+//!
+//! ```text
+//! CACHE/runtime/VERSION-HASH/     the runtime's sources, unpacked once
+//! CACHE/programs/KEY/             manifest, lock file, main.rs and the finished program
+//! CACHE/target/                   cargo's folder, shared so that packages compile once
+//! CACHE/lock                      held while cargo runs
+//! ```
+
+mod cache;
+mod key;
+pub mod protocol;
+mod runtime;
+mod toolchain;
+
+use std::ffi::OsString;
+use std::fs::{File, TryLockError};
+use std::path::{Path, PathBuf};
+use std::process::Output;
+use std::time::Instant;
+
+use lie_codegen::diagnostic::Kind;
+
+use crate::message::{Failure, Message};
+use key::Key;
+use toolchain::Toolchain;
+
+const MANIFEST: &str = include_str!("template/Cargo.toml");
+const LOCK: &str = include_str!("template/Cargo.lock");
+
+/// What is built.
+pub struct Request<'a> {
+    /// Name of the system, for people.
+    pub name: &'a str,
+    /// The generated `main.rs`.
+    pub source: &'a str,
+    /// Whether to use every instruction of this machine.
+    pub native: bool,
+    /// Whether to say nothing.
+    pub quiet: bool,
+}
+
+/// The path of the compiled program, built if it is not in the cache.
+///
+/// # Errors
+/// `io` for the cache folder, `toolchain` for everything that cargo cannot do.
+pub fn program(request: &Request<'_>) -> Result<PathBuf, Failure> {
+    let cache = cache::root()?;
+    let toolchain = Toolchain::find(&cache, request.native)?;
+    let key = Key::new()
+        .with(request.source)
+        .with(&toolchain.identity)
+        .with(&runtime::identity())
+        .with(MANIFEST)
+        .with(LOCK)
+        .with(if request.native { "native" } else { "portable" })
+        .hex();
+    let folder = cache.join("programs").join(&key);
+    let program = folder.join(format!("program{}", std::env::consts::EXE_SUFFIX));
+    if is_built(&folder, &program, request.source) {
+        return Ok(program);
+    }
+    let _lock = lock(&cache, request.quiet)?;
+    if is_built(&folder, &program, request.source) {
+        return Ok(program);
+    }
+    let built = build(request, &toolchain, &cache, &folder, &key)?;
+    install(&built, &program).map_err(|error| cache::failure(&program, &error))?;
+    Ok(program)
+}
+
+/// The program appears last, by a rename: where it is, the source beside it is what it was built
+/// from.
+fn is_built(folder: &Path, program: &Path, source: &str) -> bool {
+    program.is_file()
+        && std::fs::read(folder.join("main.rs")).is_ok_and(|text| text == source.as_bytes())
+}
+
+/// Waits until no other `lie` builds.
+fn lock(cache: &Path, quiet: bool) -> Result<File, Failure> {
+    let path = cache.join("lock");
+    let failure = |error| cache::failure(&path, &error);
+    let file = File::options().create(true).append(true).open(&path).map_err(failure)?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => {
+            if !quiet {
+                eprintln!("Waiting for another `lie` that is building…");
+            }
+            file.lock().map_err(failure)?;
+            Ok(file)
+        }
+        // A file system without locks: cargo's own lock on the target folder still holds.
+        Err(TryLockError::Error(_)) => Ok(file),
+    }
+}
+
+fn build(
+    request: &Request<'_>,
+    toolchain: &Toolchain,
+    cache: &Path,
+    folder: &Path,
+    key: &str,
+) -> Result<PathBuf, Failure> {
+    runtime::unpack(cache).map_err(|error| cache::failure(cache, &error))?;
+    let name = format!("lie-{key}");
+    // Relative, so that no character of the cache's path can break the manifest.
+    let runtime = format!("../../runtime/{}", runtime::identity());
+    let manifest = MANIFEST.replace("PROGRAM", &name).replace("RUNTIME", &runtime);
+    let write = |file: &str, content: &str| {
+        let path = folder.join(file);
+        cache::write(&path, content.as_bytes()).map_err(|error| cache::failure(&path, &error))
+    };
+    std::fs::create_dir_all(folder).map_err(|error| cache::failure(folder, &error))?;
+    write("Cargo.toml", &manifest)?;
+    write("Cargo.lock", LOCK)?;
+    write("main.rs", request.source)?;
+
+    let say = |text: &str| {
+        if !request.quiet {
+            eprintln!("{text}");
+        }
+    };
+    let start = Instant::now();
+    say(&format!("Building the program of {} (once, then it is kept)…", request.name));
+    let target = cache.join("target");
+    let cargo = |offline| {
+        toolchain.build(folder, &target, offline).map_err(|error| {
+            let cargo = toolchain::cargo_name();
+            let text = format!("`{}` cannot be started: {error}", cargo.to_string_lossy());
+            Failure::surroundings(Message::new(Kind::Toolchain, text).help(
+                "`lie run` compiles the system with cargo: install Rust from https://rustup.rs, or set CARGO",
+            ))
+        })
+    };
+    let mut output = cargo(true)?;
+    if !output.status.success() && is_for_want_of_packages(&output) {
+        say("Packages are missing from cargo's cache; once more with the network…");
+        output = cargo(false)?;
+    }
+    if !output.status.success() {
+        return Err(failed(&output, folder));
+    }
+    let executable = executable(&output.stdout, &name).ok_or_else(|| failed(&output, folder))?;
+    say(&format!("Built in {:.1} s.", start.elapsed().as_secs_f64()));
+    Ok(executable)
+}
+
+/// Whether cargo failed before it compiled anything.
+fn is_for_want_of_packages(output: &Output) -> bool {
+    let text = String::from_utf8_lossy(&output.stderr);
+    !["could not compile", "linker `", "failed to run custom build command"]
+        .iter()
+        .any(|sign| text.contains(sign))
+}
+
+fn failed(output: &Output, folder: &Path) -> Failure {
+    let text = String::from_utf8_lossy(&output.stderr);
+    let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
+    let first = lines.iter().position(|line| line.starts_with("error")).unwrap_or(0);
+    let shown = lines[first..].iter().take(12).copied().collect::<Vec<_>>().join("\n");
+    let manifest = folder.join("Cargo.toml");
+    let message = Message::new(Kind::Toolchain, format!("cargo failed:\n{shown}"));
+    let help = if is_for_want_of_packages(output) {
+        format!(
+            "where there is a network, run `cargo fetch --locked --manifest-path {}`, then try again",
+            manifest.display()
+        )
+    } else {
+        format!("the build can be repeated with `cargo build --release --manifest-path {}`", manifest.display())
+    };
+    Failure::surroundings(message.help(help))
+}
+
+/// The path of the program, from cargo's messages: its folder depends on the configuration.
+fn executable(messages: &[u8], name: &str) -> Option<PathBuf> {
+    String::from_utf8_lossy(messages).lines().rev().find_map(|line| {
+        let message: serde_json::Value = serde_json::from_str(line).ok()?;
+        (message["target"]["name"] == name)
+            .then(|| message["executable"].as_str().map(PathBuf::from))?
+    })
+}
+
+/// Puts the program in its place: beside it first, then by a rename.
+fn install(built: &Path, program: &Path) -> std::io::Result<()> {
+    let mut draft = OsString::from(program);
+    draft.push(format!(".{}", std::process::id()));
+    let draft = PathBuf::from(draft);
+    let _ = std::fs::remove_file(&draft);
+    if std::fs::hard_link(built, &draft).is_err() {
+        std::fs::copy(built, &draft)?;
+    }
+    std::fs::rename(&draft, program)
+}

@@ -1,0 +1,106 @@
+//! The user's Rust toolchain: which compiler it is, and how cargo is called.
+
+use std::ffi::OsString;
+use std::io;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use lie_codegen::diagnostic::Kind;
+
+use crate::message::{Failure, Message};
+
+/// Settings of the caller's environment that must not change what is built or where.
+///
+/// `CARGO_ENCODED_RUSTFLAGS` is set by us, which silences every other source of flags.
+const FOREIGN: &[&str] = &[
+    "RUSTFLAGS",
+    "CARGO_BUILD_RUSTFLAGS",
+    "CARGO_BUILD_TARGET",
+    "CARGO_BUILD_TARGET_DIR",
+    "CARGO_BUILD_BUILD_DIR",
+    "CARGO_TARGET_DIR",
+    "CARGO_INCREMENTAL",
+    "CARGO_NET_OFFLINE",
+    "RUSTC_WORKSPACE_WRAPPER",
+    "CARGO_BUILD_RUSTC_WORKSPACE_WRAPPER",
+];
+
+/// A compiler and the processor that it compiles for.
+pub struct Toolchain {
+    /// `rustc -vV`, and for the native processor the features that it has.
+    pub identity: String,
+    /// The target triple of this machine.
+    pub host: String,
+    native: bool,
+}
+
+fn program(variable: &str, default: &str) -> OsString {
+    std::env::var_os(variable).filter(|value| !value.is_empty()).unwrap_or_else(|| default.into())
+}
+
+/// cargo's name or path as it is called: `$CARGO`, else `cargo`.
+pub fn cargo_name() -> OsString {
+    program("CARGO", "cargo")
+}
+
+impl Toolchain {
+    /// Asks the compiler who it is; `folder` is where cargo will run.
+    ///
+    /// # Errors
+    /// `toolchain` if there is no compiler that answers.
+    pub fn find(folder: &Path, native: bool) -> Result<Self, Failure> {
+        let ask = |arguments: &[&str]| -> Result<String, Failure> {
+            let mut command = Command::new(program("RUSTC", "rustc"));
+            command.args(arguments).current_dir(folder).stdin(Stdio::null());
+            match command.output() {
+                Ok(output) if output.status.success() => {
+                    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+                }
+                Ok(output) => Err(missing(&String::from_utf8_lossy(&output.stderr))),
+                Err(error) => Err(missing(&format!("rustc cannot be started: {error}"))),
+            }
+        };
+        let mut identity = ask(&["-vV"])?;
+        let host = identity.lines().find_map(|line| line.strip_prefix("host: "));
+        let host = host.unwrap_or_default().trim().to_owned();
+        if native {
+            // A cache that several machines share must not serve one with another's instructions.
+            identity.push_str(&ask(&["--print", "cfg", "-C", "target-cpu=native"])?);
+        }
+        Ok(Self { identity, host, native })
+    }
+
+    /// `cargo build --release --locked` of the package in `folder`.
+    ///
+    /// # Errors
+    /// cargo could not be started.
+    pub fn build(&self, folder: &Path, target: &Path, offline: bool) -> io::Result<Output> {
+        let mut command = Command::new(cargo_name());
+        command.args(["build", "--release", "--locked", "--message-format"]);
+        command.arg("json-render-diagnostics");
+        // The explicit target keeps the flags away from build scripts and proc-macros, and a
+        // target in the user's configuration from producing something that cannot run here.
+        command.arg("--target").arg(&self.host);
+        command.arg("--target-dir").arg(target);
+        if offline {
+            command.arg("--offline");
+        }
+        let foreign_profile = std::env::vars_os()
+            .map(|(name, _)| name)
+            .filter(|name| name.to_string_lossy().starts_with("CARGO_PROFILE_"));
+        for name in FOREIGN.iter().map(OsString::from).chain(foreign_profile) {
+            command.env_remove(name);
+        }
+        let flags = if self.native { "-Ctarget-cpu=native" } else { "" };
+        command.env("CARGO_ENCODED_RUSTFLAGS", flags);
+        command.current_dir(folder).stdin(Stdio::null()).output()
+    }
+}
+
+fn missing(reason: &str) -> Failure {
+    let reason = reason.trim();
+    let message = Message::new(Kind::Toolchain, format!("no Rust toolchain: {reason}"));
+    Failure::surroundings(message.help(
+        "`lie run` compiles the system with cargo: install Rust from https://rustup.rs, or set CARGO and RUSTC",
+    ))
+}

@@ -1,0 +1,188 @@
+//! The command line, as clap reads it. Values that may be exact constants stay text here.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Structure-preserving integrators for Lie–Poisson systems.
+#[derive(Debug, Parser)]
+#[command(
+    name = "lie",
+    version,
+    about,
+    max_term_width = 100,
+    disable_help_subcommand = true
+)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Checks specs: algebra, Hamiltonian, Casimirs, and which methods apply
+    Check(Check),
+    /// Prints the generated Rust code of a spec
+    Expand(Expand),
+    /// Integrates a spec with its generated, compiled code
+    Run(Run),
+    /// Lists the methods: order, what they preserve, what they need, reference
+    Methods(Methods),
+    /// Prints the JSON Schema of spec files
+    Schema,
+    #[command(flatten)]
+    Later(Later),
+}
+
+/// Names that are kept for commands to come.
+#[derive(Debug, Subcommand)]
+pub enum Later {
+    #[command(hide = true)]
+    Verify(Anything),
+    #[command(hide = true)]
+    Bench(Anything),
+    #[command(hide = true)]
+    Stress(Anything),
+    #[command(hide = true)]
+    Ensemble(Anything),
+    #[command(hide = true)]
+    Merge(Anything),
+    #[command(hide = true)]
+    Resume(Anything),
+    #[command(hide = true)]
+    Advise(Anything),
+    #[command(hide = true)]
+    Report(Anything),
+    #[command(hide = true)]
+    Equilibria(Anything),
+}
+
+impl Later {
+    /// The name as it was typed.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Later::Verify(_) => "verify",
+            Later::Bench(_) => "bench",
+            Later::Stress(_) => "stress",
+            Later::Ensemble(_) => "ensemble",
+            Later::Merge(_) => "merge",
+            Later::Resume(_) => "resume",
+            Later::Advise(_) => "advise",
+            Later::Report(_) => "report",
+            Later::Equilibria(_) => "equilibria",
+        }
+    }
+}
+
+/// Whatever follows the name of a command that does not exist yet.
+#[derive(Args, Debug)]
+pub struct Anything {
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    _rest: Vec<String>,
+}
+
+/// `lie check`.
+#[derive(Args, Debug)]
+pub struct Check {
+    /// The spec files
+    #[arg(value_name = "SPEC", required = true)]
+    pub specs: Vec<PathBuf>,
+    /// Prints one JSON object (an array for several specs)
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `lie expand`.
+#[derive(Args, Debug)]
+pub struct Expand {
+    /// The spec file
+    #[arg(value_name = "SPEC")]
+    pub spec: PathBuf,
+    /// Emits fused code for this method (repeatable), in place of the spec's `methods`
+    #[arg(long, value_name = "ID")]
+    pub method: Vec<String>,
+}
+
+/// `lie methods`.
+#[derive(Args, Debug)]
+pub struct Methods {
+    /// Prints the catalogue as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `lie run`.
+#[derive(Args, Debug)]
+#[command(after_help = "Numbers may be exact constants: 1/7, -1/2, cos(11/10).
+Flags override the `run` keys of the spec; without either: --method lie-midpoint --step 0.01 --until 10.
+Exit codes: 0 done, 1 surroundings failed, 2 invalid input, 3 integration stopped early, 130 Ctrl-C.")]
+pub struct Run {
+    /// The spec file
+    #[arg(value_name = "SPEC", required = true)]
+    pub specs: Vec<PathBuf>,
+    /// The method, see `lie methods`
+    #[arg(long, value_name = "ID")]
+    pub method: Option<String>,
+    /// Step size; negative to go backwards
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub step: Option<String>,
+    /// Final time
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub until: Option<String>,
+    /// Writes every K-th step (default 1) and the last one
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    pub every: Option<String>,
+    /// Writes the state at these times only, separated by commas; excludes --until and --every
+    #[arg(long, value_name = "T1,T2,…", allow_hyphen_values = true)]
+    pub at: Option<String>,
+    /// Sets a parameter (repeatable)
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub param: Vec<String>,
+    /// Initial state, separated by commas
+    #[arg(long, value_name = "V1,V2,…", allow_hyphen_values = true)]
+    pub initial: Option<String>,
+    /// Retraction of lie-midpoint: exp or cayley
+    #[arg(long, value_name = "NAME")]
+    pub retraction: Option<String>,
+    /// Relative tolerance of dopri5 (default 1e-6)
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
+    pub rtol: Option<String>,
+    /// Absolute tolerance of dopri5 (default 1e-9)
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
+    pub atol: Option<String>,
+    /// Form of the output (default csv, or what the extension of --out says)
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+    /// Writes to a file instead of stdout
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Draws the trajectory and the errors of the invariants
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
+    /// Says nothing on stderr unless something fails
+    #[arg(long)]
+    pub quiet: bool,
+    /// Compiles for this machine's processor (same results, bit for bit)
+    #[arg(long, value_enum)]
+    pub cpu: Option<Cpu>,
+}
+
+/// `--format`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// A header line, then one line per row
+    Csv,
+    /// One object with columns and rows
+    Json,
+    /// A numpy array of float64, one row per time
+    Npy,
+}
+
+/// `--cpu`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Cpu {
+    /// This machine's instruction set
+    Native,
+}

@@ -1,0 +1,195 @@
+//! Mistakes of the command line itself, as clap finds them, in the form of every other message.
+
+use clap::Parser as _;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use lie_codegen::diagnostic::Kind;
+
+use super::args::Cli;
+use crate::message::Message;
+
+/// What the command line amounts to.
+pub enum Parsed {
+    /// A command.
+    Command(Box<Cli>),
+    /// Help or version, for stdout.
+    Text(String),
+}
+
+/// Reads the command line.
+///
+/// # Errors
+/// One `option` error that names the flag.
+pub fn parse(
+    arguments: impl IntoIterator<Item = std::ffi::OsString>,
+) -> Result<Parsed, Box<Message>> {
+    match Cli::try_parse_from(arguments) {
+        Ok(cli) => Ok(Parsed::Command(Box::new(cli))),
+        Err(error) => match error.kind() {
+            ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+                Ok(Parsed::Text(error.to_string()))
+            }
+            _ => Err(Box::new(message(&error))),
+        },
+    }
+}
+
+fn text(error: &clap::Error, kind: ContextKind) -> Option<String> {
+    match error.get(kind)? {
+        ContextValue::String(text) => Some(text.clone()),
+        ContextValue::Strings(texts) => Some(texts.join(", ")),
+        ContextValue::StyledStr(text) => Some(text.to_string()),
+        _ => None,
+    }
+}
+
+/// `--step <H>` -> `--step`; `<SPEC>...` -> `SPEC`.
+fn flag(argument: &str) -> String {
+    let name = argument.split([' ', '=']).next().unwrap_or(argument);
+    name.trim_end_matches('.')
+        .trim_matches(['<', '>', '[', ']'])
+        .to_owned()
+}
+
+fn message(error: &clap::Error) -> Message {
+    let usage = text(error, ContextKind::Usage)
+        .map(|usage| usage.replace("Usage:", "").trim().to_owned())
+        .filter(|usage| !usage.is_empty());
+    let argument = text(error, ContextKind::InvalidArg);
+    let place = argument
+        .as_deref()
+        .map(flag)
+        .unwrap_or_else(|| "lie".to_owned());
+    let value = text(error, ContextKind::InvalidValue).unwrap_or_default();
+    let (what, help) = match error.kind() {
+        ErrorKind::InvalidValue if value.is_empty() => (format!("`{place}` needs a value"), None),
+        ErrorKind::InvalidValue => {
+            let possible = text(error, ContextKind::ValidValue);
+            (
+                format!("`{value}` is not a value of `{place}`"),
+                possible.map(|possible| format!("possible values: {possible}")),
+            )
+        }
+        ErrorKind::UnknownArgument => {
+            let help = text(error, ContextKind::SuggestedArg)
+                .map(|suggested| format!("did you mean `{}`?", flag(&suggested)));
+            let what = if place.starts_with('-') {
+                format!("unknown option `{place}`")
+            } else {
+                format!("`{place}` is one argument too many")
+            };
+            (what, help)
+        }
+        ErrorKind::InvalidSubcommand => {
+            let command = text(error, ContextKind::InvalidSubcommand).unwrap_or_default();
+            let suggested = text(error, ContextKind::SuggestedSubcommand).unwrap_or_default();
+            let built = ["check", "expand", "run", "methods", "schema"];
+            let help = suggested
+                .split(", ")
+                .find(|name| built.contains(name))
+                .map(|name| format!("did you mean `{name}`?"))
+                .unwrap_or_else(|| format!("the commands are {}", built.join(", ")));
+            let what = format!("unknown command `{command}`");
+            return Message::new(Kind::Option, what)
+                .at_option(&command)
+                .help(help);
+        }
+        ErrorKind::MissingSubcommand | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            let help = "the commands are check, expand, run, methods, schema; see `lie --help`";
+            return Message::option("lie", "no command given").help(help);
+        }
+        ErrorKind::MissingRequiredArgument => (format!("`{place}` is missing"), None),
+        ErrorKind::ArgumentConflict => match text(error, ContextKind::PriorArg) {
+            Some(prior) if flag(&prior) != place => (
+                format!("`{place}` cannot stand beside `{}`", flag(&prior)),
+                None,
+            ),
+            _ => (
+                format!("`{place}` is given twice"),
+                Some("give it once".to_owned()),
+            ),
+        },
+        ErrorKind::TooFewValues | ErrorKind::WrongNumberOfValues => {
+            (format!("`{place}` needs a value"), None)
+        }
+        ErrorKind::TooManyValues => (format!("`{place}` takes no value like `{value}`"), None),
+        _ => {
+            let rendered = error.to_string();
+            let first = rendered.lines().next().unwrap_or_default();
+            (first.trim_start_matches("error: ").to_owned(), None)
+        }
+    };
+    let help = help
+        .or(usage.map(|usage| format!("usage: {usage}")))
+        .unwrap_or_else(|| "see `lie --help`".to_owned());
+    Message::option(&place, what).help(help)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(arguments: &str) -> Message {
+        let arguments = std::iter::once("lie").chain(arguments.split_whitespace());
+        match parse(arguments.map(Into::into)) {
+            Err(message) => *message,
+            Ok(_) => panic!("accepted"),
+        }
+    }
+
+    #[test]
+    fn every_mistake_names_its_flag_and_has_help() {
+        for (arguments, place, what) in [
+            ("", "lie", "no command"),
+            ("rum x", "rum", "unknown command `rum`"),
+            ("run", "SPEC", "`SPEC` is missing"),
+            ("run x --stepp 1", "--stepp", "unknown option"),
+            ("run x --step", "--step", "needs a value"),
+            ("run x --step 1 --step 2", "--step", "twice"),
+            ("run x --format xml", "--format", "`xml` is not a value"),
+            ("run x --cpu=", "--cpu", "needs a value"),
+            ("run x --quiet=1", "--quiet", "takes no value"),
+            ("schema more", "more", "too many"),
+            ("expand", "SPEC", "missing"),
+            ("check --json", "SPEC", "missing"),
+        ] {
+            let message = of(arguments);
+            let crate::message::Place::CommandLine { option, .. } = &message.place else {
+                panic!("{arguments}: no place")
+            };
+            assert_eq!(option, place, "{arguments}: {message:?}");
+            assert!(message.text.contains(what), "{arguments}: {message:?}");
+            assert!(
+                message.help.as_deref().is_some_and(|help| !help.is_empty()),
+                "{arguments}"
+            );
+            assert_eq!(message.kind, Kind::Option);
+        }
+        assert_eq!(of("rum x").help.as_deref(), Some("did you mean `run`?"));
+        assert_eq!(
+            of("run x --stepp 1").help.as_deref(),
+            Some("did you mean `--step`?")
+        );
+    }
+
+    #[test]
+    fn values_may_be_negative() {
+        let line =
+            "lie run a --step -0.01 --until -1/2 --initial -1/2,0.3 --at -cos(1) --param k=-1";
+        let parsed = parse(line.split(' ').map(Into::into));
+        let Ok(Parsed::Command(cli)) = parsed else {
+            panic!("refused")
+        };
+        let super::super::args::Command::Run(run) = cli.command else {
+            panic!("not run")
+        };
+        assert_eq!(run.step.as_deref(), Some("-0.01"));
+        assert_eq!(run.initial.as_deref(), Some("-1/2,0.3"));
+        assert_eq!(run.param, ["k=-1"]);
+    }
+
+    #[test]
+    fn definition_is_sound() {
+        use clap::CommandFactory as _;
+        Cli::command().debug_assert();
+    }
+}

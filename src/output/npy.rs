@@ -1,0 +1,47 @@
+//! NumPy's array file, version 1.0: float64, little-endian, rows one behind the other.
+
+use super::form::{Form, Header};
+
+/// Length of the header. The row count has room for 20 digits, so that it can be patched.
+const LENGTH: usize = 128;
+
+/// A two-dimensional array that grows row by row.
+pub struct Npy {
+    width: usize,
+}
+
+impl Npy {
+    /// An array with so many columns.
+    pub fn new(width: usize) -> Self {
+        Self { width }
+    }
+
+    fn header(&self, rows: u64) -> Vec<u8> {
+        let mut header = b"\x93NUMPY\x01\x00".to_vec();
+        header.extend_from_slice(&((LENGTH - 10) as u16).to_le_bytes());
+        let shape = format!("({rows}, {})", self.width);
+        let text = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
+        header.extend_from_slice(text.as_bytes());
+        header.resize(LENGTH - 1, b' ');
+        header.push(b'\n');
+        header
+    }
+}
+
+impl Form for Npy {
+    fn begin(&mut self, _header: &Header, out: &mut Vec<u8>) {
+        out.extend_from_slice(&self.header(0));
+    }
+
+    fn row(&mut self, row: &[f64], out: &mut Vec<u8>) {
+        row.iter().for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
+    }
+
+    fn start(&self, rows: u64) -> Option<Vec<u8>> {
+        Some(self.header(rows))
+    }
+
+    fn patches_its_start(&self) -> bool {
+        true
+    }
+}

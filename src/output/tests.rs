@@ -1,0 +1,106 @@
+//! Forms of the output, on files.
+
+use super::*;
+
+fn header() -> Header {
+    Header {
+        system: "Rigid\"Body".to_owned(),
+        method: "midpoint".to_owned(),
+        step: 0.1,
+        columns: ["t", "x", "energy"].map(str::to_owned).to_vec(),
+    }
+}
+
+const NUMBERS: [f64; 9] =
+    [0.0, 0.1 + 0.2, -1e-300, 0.1, f64::NAN, f64::INFINITY, 1e22, -0.0, 5e-324];
+
+fn written(format: Format, finish: bool) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out");
+    std::fs::write(&path, "an older and longer file ".repeat(100)).unwrap();
+    let mut rows = Rows::start(Destination::file(&path).unwrap(), format, &header()).unwrap();
+    rows.push(&NUMBERS[..6]).unwrap();
+    rows.push(&NUMBERS[6..]).unwrap();
+    if finish {
+        rows.finish("done").unwrap();
+    }
+    std::fs::read(&path).unwrap()
+}
+
+fn text(format: Format) -> String {
+    String::from_utf8(written(format, true)).unwrap()
+}
+
+#[test]
+fn csv_numbers_round_trip() {
+    let text = text(Format::Csv);
+    assert!(text.starts_with("t,x,energy\n0.0,0.30000000000000004,-1e-300\n"), "{text}");
+    let read: Vec<f64> =
+        text.lines().skip(1).flat_map(|line| line.split(',')).map(|n| n.parse().unwrap()).collect();
+    assert!(read.iter().zip(NUMBERS).all(|(a, b)| a.to_bits() == b.to_bits() || b.is_nan()));
+    assert_eq!(read.len(), 9);
+}
+
+#[test]
+fn json_is_json() {
+    let value: serde_json::Value = serde_json::from_str(&text(Format::Json)).unwrap();
+    assert_eq!(value["system"], "Rigid\"Body");
+    assert_eq!(value["columns"][2], "energy");
+    assert_eq!(value["rows"][0][1], 0.1 + 0.2);
+    assert!(value["rows"][1][1].is_null());
+    assert_eq!(value["rows"].as_array().map(Vec::len), Some(3));
+    assert_eq!(value["status"], "done");
+}
+
+#[test]
+fn npy_counts_its_rows_also_when_it_is_not_finished() {
+    for finish in [true, false] {
+        let bytes = written(Format::Npy, finish);
+        assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00");
+        let length = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+        assert_eq!(length % 64, 0, "numpy aligns the data");
+        let head = String::from_utf8_lossy(&bytes[10..length]);
+        // The first batch is counted at once; the second comes too soon after it.
+        let shape = if finish { "'shape': (3, 3)" } else { "'shape': (2, 3)" };
+        assert!(head.contains(shape) && head.ends_with('\n'), "{head}");
+        assert_eq!(bytes.len() - length, 72);
+        assert_eq!(bytes[length + 8..length + 16], (0.1f64 + 0.2).to_le_bytes());
+    }
+}
+
+#[test]
+fn numpy_reads_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.npy");
+    std::fs::write(&path, written(Format::Npy, true)).unwrap();
+    let script = "import sys\ntry:\n    import numpy\nexcept ImportError:\n    sys.exit(77)\n\
+                  a = numpy.load(sys.argv[1])\n\
+                  assert a.shape == (3, 3) and a.dtype == numpy.float64\n\
+                  assert a.flags.c_contiguous and a[0, 1] == 0.1 + 0.2 and a[2, 2] == 5e-324\n";
+    let python = std::process::Command::new("python3").args(["-c", script]).arg(&path).status();
+    match python.ok().and_then(|status| status.code()) {
+        Some(0) => {}
+        Some(77) | None => eprintln!("skipped: no numpy"),
+        Some(code) => panic!("numpy does not read the file: exit code {code}"),
+    }
+}
+
+#[test]
+fn an_old_file_survives_until_rows_come_and_a_new_one_does_not_stay() {
+    let folder = tempfile::tempdir().unwrap();
+    let (old, new) = (folder.path().join("old"), folder.path().join("new"));
+    std::fs::write(&old, "precious").unwrap();
+    Destination::file(&old).unwrap().discard();
+    Destination::file(&new).unwrap().discard();
+    assert_eq!(std::fs::read_to_string(&old).unwrap(), "precious");
+    assert!(!new.exists());
+    assert!(Destination::file(&folder.path().join("no/such/folder")).is_err());
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_an_error() {
+    let destination = Destination::file(std::path::Path::new("/dev/full")).unwrap();
+    let error = Rows::start(destination, Format::Csv, &header()).err().unwrap();
+    assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+}

@@ -1,0 +1,135 @@
+//! Draws a trajectory and the errors of its invariants as an SVG that a person can read.
+//!
+//! Rows are taken one by one and thinned out on the way, so that a run of a billion steps needs
+//! no more memory, and gives no larger a file, than one of a thousand. Per pixel column the
+//! first, the smallest, the largest and the last value are kept, which draws the same picture
+//! (Jugel, Jerzak, Hackenbroich and Markl, *M4: a visualization-oriented time series data
+//! aggregation*, VLDB 2014, <https://doi.org/10.14778/2732951.2732953>).
+//!
+//! ```
+//! use lie_poisson::plot::Plot;
+//!
+//! let mut plot = Plot::new("Circle, exact", &["t", "x", "y", "energy"], 2, (0.0, 10.0));
+//! for k in 0..=1000 {
+//!     let t = 0.01 * f64::from(k);
+//!     plot.push(&[t, t.cos(), t.sin(), 0.5 + 1e-15 * t.sin()]);
+//! }
+//! assert!(plot.to_svg().starts_with("<svg"));
+//! ```
+
+mod bins;
+mod draw;
+mod ticks;
+
+use std::io;
+use std::path::Path;
+
+use bins::Bins;
+
+/// Points of all curves of a panel together, about; each takes ten bytes of the file.
+const POINTS: usize = 20_000;
+/// Columns of a curve at most: about as many as the panel has pixels.
+const COLUMNS: usize = 640;
+
+/// A picture in the making.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    title: String,
+    subtitle: String,
+    states: Vec<Curve>,
+    invariants: Vec<Curve>,
+    range: (f64, f64),
+    rows: u64,
+    /// Largest absolute value of a state component.
+    scale: f64,
+}
+
+/// One column of the rows.
+#[derive(Clone, Debug)]
+struct Curve {
+    name: String,
+    bins: Bins,
+    /// The value in the first row.
+    first: f64,
+}
+
+impl Plot {
+    /// A picture of rows with these `columns`: `t`, then `states` components, then invariants
+    /// (the energy, Casimirs). `range` is the time of the first and of the last row.
+    pub fn new(
+        title: impl Into<String>,
+        columns: &[impl AsRef<str>],
+        states: usize,
+        range: (f64, f64),
+    ) -> Self {
+        let names: Vec<&str> = columns.iter().skip(1).map(AsRef::as_ref).collect();
+        let (states, invariants) = names.split_at(states.min(names.len()));
+        let curves = |names: &[&str], per_column: usize| -> Vec<Curve> {
+            let columns = (POINTS / (per_column * names.len().max(1))).clamp(50, COLUMNS);
+            let curve = |name: &&str| Curve {
+                name: (*name).to_owned(),
+                bins: Bins::new(range, columns),
+                first: f64::NAN,
+            };
+            names.iter().map(curve).collect()
+        };
+        Self {
+            title: title.into(),
+            subtitle: String::new(),
+            states: curves(states, 4),
+            invariants: curves(invariants, 1),
+            range,
+            rows: 0,
+            scale: 0.0,
+        }
+    }
+
+    /// A second line under the title, such as the method and the step.
+    #[must_use]
+    pub fn subtitle(mut self, subtitle: impl Into<String>) -> Self {
+        self.subtitle = subtitle.into();
+        self
+    }
+
+    /// Takes one row; columns that are missing are skipped, values that are not finite leave a
+    /// gap. The errors of the invariants are taken against the first row.
+    pub fn push(&mut self, row: &[f64]) {
+        let Some((&t, values)) = row.split_first() else {
+            return;
+        };
+        let (states, invariants) = values.split_at(self.states.len().min(values.len()));
+        for (curve, &value) in self.states.iter_mut().zip(states) {
+            if self.rows == 0 {
+                curve.first = value;
+            }
+            if value.is_finite() {
+                self.scale = self.scale.max(value.abs());
+            }
+            curve.bins.push(t, value);
+        }
+        for (curve, &value) in self.invariants.iter_mut().zip(invariants) {
+            if self.rows == 0 {
+                curve.first = value;
+            }
+            curve.bins.push(t, (value - curve.first).abs());
+        }
+        self.rows += 1;
+    }
+
+    /// The picture.
+    pub fn to_svg(&self) -> String {
+        // Drawing to memory fails at nothing; a picture without curves is still a picture.
+        draw::svg(self).unwrap_or_else(|_| "<svg xmlns=\"http://www.w3.org/2000/svg\"/>\n".into())
+    }
+
+    /// Writes the picture to a file.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_svg(&self, path: impl AsRef<Path>) -> io::Result<()> {
+        std::fs::write(path, self.to_svg())
+    }
+}
+
+#[cfg(test)]
+mod tests;
