@@ -154,6 +154,7 @@ class System:
             self.constants = commutators(self.matrices)
         if document.get("invariance", "left") == "right":
             self.constants = {key: -value for key, value in self.constants.items()}
+            self.matrices = self.matrices and [-m for m in self.matrices]
         names = dict(self.parameters)
         names.update({str(x): x for x in self.coordinates})
         for text in document.get("let", []):
