@@ -21,13 +21,22 @@ pub struct Destination {
 
 enum To {
     Stdout,
-    File { file: File, path: PathBuf, created: bool },
+    File {
+        file: File,
+        path: PathBuf,
+        created: bool,
+    },
 }
 
 impl Destination {
     /// stdout.
     pub fn stdout() -> Self {
-        Self { to: To::Stdout, spool: None, good: 0, patched: None }
+        Self {
+            to: To::Stdout,
+            spool: None,
+            good: 0,
+            patched: None,
+        }
     }
 
     /// A file; what it holds stays until the first bytes are sent.
@@ -36,14 +45,32 @@ impl Destination {
     /// The file cannot be written.
     pub fn file(path: &Path) -> io::Result<Self> {
         let created = !path.exists();
-        let file = File::options().write(true).create(true).truncate(false).open(path)?;
-        let to = To::File { file, path: path.to_owned(), created };
-        Ok(Self { to, spool: None, good: 0, patched: None })
+        let file = File::options()
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(path)?;
+        let to = To::File {
+            file,
+            path: path.to_owned(),
+            created,
+        };
+        Ok(Self {
+            to,
+            spool: None,
+            good: 0,
+            patched: None,
+        })
     }
 
     /// Takes an empty file away again, if nothing was sent and it was not there before.
     pub fn discard(self) {
-        if let To::File { file, path, created: true } = self.to {
+        if let To::File {
+            file,
+            path,
+            created: true,
+        } = self.to
+        {
             drop(file);
             let _ = std::fs::remove_file(path);
         }
@@ -87,7 +114,8 @@ impl Destination {
             return Ok(());
         }
         self.patched = Some(Instant::now());
-        let (Some(file), _) | (None, To::File { file, .. }) = (&mut self.spool, &mut self.to) else {
+        let ((Some(file), _) | (None, To::File { file, .. })) = (&mut self.spool, &mut self.to)
+        else {
             return Ok(());
         };
         file.seek(SeekFrom::Start(0))?;
@@ -97,7 +125,9 @@ impl Destination {
     }
 
     pub(super) fn finish(mut self) -> io::Result<()> {
-        let Some(mut spool) = self.spool.take() else { return Ok(()) };
+        let Some(mut spool) = self.spool.take() else {
+            return Ok(());
+        };
         spool.seek(SeekFrom::Start(0))?;
         let mut chunk = vec![0; 1 << 16];
         loop {

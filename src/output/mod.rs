@@ -37,7 +37,13 @@ impl Rows {
             Format::Json => Box::new(Json::default()),
             Format::Npy => Box::new(Npy::new(width)),
         };
-        let mut rows = Self { destination, form, width, buffer: Vec::new(), count: 0 };
+        let mut rows = Self {
+            destination,
+            form,
+            width,
+            buffer: Vec::new(),
+            count: 0,
+        };
         rows.destination.begin(rows.form.patches_its_start())?;
         rows.form.begin(header, &mut rows.buffer);
         rows.send()?;

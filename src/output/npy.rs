@@ -34,7 +34,8 @@ impl Form for Npy {
     }
 
     fn row(&mut self, row: &[f64], out: &mut Vec<u8>) {
-        row.iter().for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
+        row.iter()
+            .for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
     }
 
     fn start(&self, rows: u64) -> Option<Vec<u8>> {

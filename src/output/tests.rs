@@ -11,8 +11,17 @@ fn header() -> Header {
     }
 }
 
-const NUMBERS: [f64; 9] =
-    [0.0, 0.1 + 0.2, -1e-300, 0.1, f64::NAN, f64::INFINITY, 1e22, -0.0, 5e-324];
+const NUMBERS: [f64; 9] = [
+    0.0,
+    0.1 + 0.2,
+    -1e-300,
+    0.1,
+    f64::NAN,
+    f64::INFINITY,
+    1e22,
+    -0.0,
+    5e-324,
+];
 
 fn written(format: Format, finish: bool) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
@@ -34,10 +43,21 @@ fn text(format: Format) -> String {
 #[test]
 fn csv_numbers_round_trip() {
     let text = text(Format::Csv);
-    assert!(text.starts_with("t,x,energy\n0.0,0.30000000000000004,-1e-300\n"), "{text}");
-    let read: Vec<f64> =
-        text.lines().skip(1).flat_map(|line| line.split(',')).map(|n| n.parse().unwrap()).collect();
-    assert!(read.iter().zip(NUMBERS).all(|(a, b)| a.to_bits() == b.to_bits() || b.is_nan()));
+    assert!(
+        text.starts_with("t,x,energy\n0.0,0.30000000000000004,-1e-300\n"),
+        "{text}"
+    );
+    let read: Vec<f64> = text
+        .lines()
+        .skip(1)
+        .flat_map(|line| line.split(','))
+        .map(|n| n.parse().unwrap())
+        .collect();
+    assert!(
+        read.iter()
+            .zip(NUMBERS)
+            .all(|(a, b)| a.to_bits() == b.to_bits() || b.is_nan())
+    );
     assert_eq!(read.len(), 9);
 }
 
@@ -61,7 +81,11 @@ fn npy_counts_its_rows_also_when_it_is_not_finished() {
         assert_eq!(length % 64, 0, "numpy aligns the data");
         let head = String::from_utf8_lossy(&bytes[10..length]);
         // The first batch is counted at once; the second comes too soon after it.
-        let shape = if finish { "'shape': (3, 3)" } else { "'shape': (2, 3)" };
+        let shape = if finish {
+            "'shape': (3, 3)"
+        } else {
+            "'shape': (2, 3)"
+        };
         assert!(head.contains(shape) && head.ends_with('\n'), "{head}");
         assert_eq!(bytes.len() - length, 72);
         assert_eq!(bytes[length + 8..length + 16], (0.1f64 + 0.2).to_le_bytes());
@@ -77,7 +101,10 @@ fn numpy_reads_it() {
                   a = numpy.load(sys.argv[1])\n\
                   assert a.shape == (3, 3) and a.dtype == numpy.float64\n\
                   assert a.flags.c_contiguous and a[0, 1] == 0.1 + 0.2 and a[2, 2] == 5e-324\n";
-    let python = std::process::Command::new("python3").args(["-c", script]).arg(&path).status();
+    let python = std::process::Command::new("python3")
+        .args(["-c", script])
+        .arg(&path)
+        .status();
     match python.ok().and_then(|status| status.code()) {
         Some(0) => {}
         Some(77) | None => eprintln!("skipped: no numpy"),
@@ -101,6 +128,8 @@ fn an_old_file_survives_until_rows_come_and_a_new_one_does_not_stay() {
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_an_error() {
     let destination = Destination::file(std::path::Path::new("/dev/full")).unwrap();
-    let error = Rows::start(destination, Format::Csv, &header()).err().unwrap();
+    let error = Rows::start(destination, Format::Csv, &header())
+        .err()
+        .unwrap();
     assert_eq!(error.kind(), io::ErrorKind::StorageFull);
 }

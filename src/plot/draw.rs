@@ -10,8 +10,8 @@ use super::{Curve, Plot};
 /// The backend rounds to whole pixels: everything is drawn this much larger and scaled down.
 const ZOOM: i32 = 4;
 const WIDTH: i32 = 960;
-const HEIGHT: i32 = 720;
-const HEAD: i32 = 58;
+const HEIGHT: i32 = 740;
+const HEAD: i32 = 72;
 /// Height of the panel of the trajectory.
 const UPPER: i32 = 350;
 
@@ -47,13 +47,15 @@ struct Line {
 }
 
 struct Panel {
-    title: &'static str,
+    title: String,
     x: Axis,
     y: Axis,
     x_title: &'static str,
     y_title: &'static str,
     logarithmic: bool,
     lines: Vec<Line>,
+    /// The colour of each line.
+    colour: fn(usize) -> RGBAColor,
     markers: bool,
 }
 
@@ -108,13 +110,14 @@ fn trajectory(plot: &Plot) -> Panel {
         pieces: curve.bins.pieces(),
     };
     Panel {
-        title: "Trajectory",
+        title: "Trajectory".to_owned(),
         x: time_axis(plot),
         y: Axis::linear(low, high, 6.0, 0.05),
         x_title: "t",
         y_title: "components of μ",
         logarithmic: false,
         lines: plot.states.iter().map(line).collect(),
+        colour,
         markers: plot.rows <= 60,
     }
 }
@@ -151,12 +154,21 @@ fn errors(plot: &Plot) -> Panel {
     };
     let lines: Vec<Line> = plot.invariants.iter().map(line).collect();
     let points = lines.iter().flat_map(|line| line.pieces.iter().flatten());
+    let is_zero = |curve: &Curve| {
+        let bounds = curve.bins.bounds();
+        bounds.is_some_and(|bounds| bounds.1 == 0.0)
+    };
+    let note = if plot.invariants.iter().any(is_zero) {
+        ", exact zeros drawn at round-off"
+    } else {
+        ""
+    };
     let top = points
         .map(|point| point.1)
         .fold(floor, f64::max)
         .clamp(floor, 300.0);
     Panel {
-        title: "Errors of the invariants",
+        title: format!("Errors of the invariants{note}"),
         x: time_axis(plot),
         y: Axis::decades(floor - 0.4, (top + 0.4).max(floor + 3.0), 7),
         x_title: "t",
@@ -167,13 +179,15 @@ fn errors(plot: &Plot) -> Panel {
         },
         logarithmic: true,
         lines,
+        // The energy in ink, so that no invariant looks like the first component.
+        colour: |index| colour(if index == 0 { 9 } else { index }),
         markers: plot.rows <= 60,
     }
 }
 
 fn draw(area: &Area<'_>, panel: &Panel) -> Drawn {
     let Panel { x, y, .. } = panel;
-    write(area, panel.title, (66, 0), 16, INK)?;
+    write(area, &panel.title, (78, 0), 16, INK)?;
     let mut chart = ChartBuilder::on(area)
         .margin_top(26 * ZOOM)
         .margin_right(14 * ZOOM)
@@ -205,7 +219,7 @@ fn draw(area: &Area<'_>, panel: &Panel) -> Drawn {
         .y_desc(panel.y_title)
         .draw()?;
     for (index, line) in panel.lines.iter().enumerate() {
-        let colour = colour(index);
+        let colour = (panel.colour)(index);
         for piece in &line.pieces {
             let stroke = colour.stroke_width(6);
             let dot = |&point: &(f64, f64)| Circle::new(point, 2 * ZOOM + 2, colour.filled());
@@ -224,7 +238,10 @@ fn draw_legend(area: &Area<'_>, panel: &Panel) -> Drawn {
     for (index, line) in panel.lines.iter().enumerate() {
         let y = 36 + height * index as i32;
         let ends = vec![(0, y * ZOOM), (22 * ZOOM, y * ZOOM)];
-        area.draw(&PathElement::new(ends, colour(index).stroke_width(10)))?;
+        area.draw(&PathElement::new(
+            ends,
+            (panel.colour)(index).stroke_width(10),
+        ))?;
         let style = ("sans-serif", (height - 3).min(15) * ZOOM, &INK).into_text_style(area);
         let style = style.pos(Pos::new(HPos::Left, VPos::Center));
         area.draw_text(&line.label, &style, (29 * ZOOM, y * ZOOM))?;
