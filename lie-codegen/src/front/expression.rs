@@ -1,0 +1,398 @@
+//! The precedence parser of the mathematics, one for both front ends.
+//!
+//! ```text
+//! sum      = product (("+" | "-") product)*
+//! product  = unary (("*" | "/") unary)*
+//! unary    = "-" unary | power
+//! power    = primary ("^" exponent)?
+//! exponent = "-" exponent | power
+//! primary  = number | name | name "[" index "]" | function "(" sum ("," sum)* ")" | "(" sum ")"
+//!          | "sum" "(" name "in" sum ".." sum ":" sum ")"
+//! ```
+//!
+//! Rust's own expression parser gives `x^2/I1 + y` another meaning (`^` binds weaker than `+`
+//! there), hence this one. A mistake that leaves the rest readable (a missing `*`, an unknown
+//! function, a malformed number) is reported and parsing goes on.
+
+use super::names::{FUNCTIONS, Names, arity};
+use super::number;
+use super::token::{Cursor, Delimiter, Token, TokenKind, render};
+use super::{families, mistakes};
+use crate::ast::{Expr, ExprKind, Name};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::exact::Rational;
+
+/// How deep parentheses, calls, powers and signs may nest.
+const MAX_DEPTH: usize = 100;
+
+const OPEN: TokenKind = TokenKind::Open(Delimiter::Parenthesis);
+const CLOSE: TokenKind = TokenKind::Close(Delimiter::Parenthesis);
+
+/// Parses tokens, all of them, as one expression; `None` if anything was reported.
+///
+/// `names` are those that may stand in the expression. `tokens` is not empty: only the caller
+/// knows what is missing where nothing stands.
+pub fn parse(tokens: &[Token], names: &Names, report: &mut Report) -> Option<Expr> {
+    let mut parser = Parser {
+        cursor: Cursor::new(tokens),
+        names,
+        report,
+        depth: 0,
+        bounds: false,
+        failed: false,
+    };
+    let expression = parser.sum();
+    if expression.is_some()
+        && let Some(token) = parser.cursor.peek()
+    {
+        let before = parser.cursor.previous();
+        parser.fail(mistakes::unexpected(token, before));
+    }
+    let expression = expression.filter(|_| !parser.failed)?;
+    families::refuse(&expression, report).then_some(expression)
+}
+
+/// The parser's state. Methods return `None` after a mistake that they reported and behind which
+/// the text cannot be read.
+pub(super) struct Parser<'a> {
+    pub(super) cursor: Cursor<'a>,
+    names: &'a Names,
+    report: &'a mut Report,
+    depth: usize,
+    /// Whether `..` may follow a number, as in the bounds of an indexed sum.
+    pub(super) bounds: bool,
+    failed: bool,
+}
+
+impl<'a> Parser<'a> {
+    /// Reports a mistake.
+    pub(super) fn fail(&mut self, diagnostic: Diagnostic) {
+        self.failed = true;
+        self.report.push(diagnostic);
+    }
+
+    /// Runs a rule one level deeper.
+    fn nested<T>(&mut self, rule: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        if self.depth == MAX_DEPTH {
+            let place = self.cursor.previous().or(self.cursor.peek())?.origin;
+            self.fail(
+                Diagnostic::new(
+                    Kind::Limit,
+                    place,
+                    format!("the expression nests deeper than {MAX_DEPTH} levels"),
+                )
+                .help("give parts of it names with `let`"),
+            );
+            return None;
+        }
+        self.depth += 1;
+        let result = rule(self);
+        self.depth -= 1;
+        result
+    }
+
+    pub(super) fn sum(&mut self) -> Option<Expr> {
+        if let Some(plus) = self.cursor.peek().filter(|t| t.is('+')) {
+            self.fail(mistakes::unary_plus(plus));
+            self.cursor.advance();
+        }
+        let first = self.product()?;
+        let mut terms = vec![(false, first)];
+        while let Some(sign) = self.cursor.peek().filter(|t| t.is('+') || t.is('-')) {
+            self.cursor.advance();
+            terms.push((sign.is('-'), self.product()?));
+        }
+        Some(n_ary(terms, ExprKind::Sum))
+    }
+
+    fn product(&mut self) -> Option<Expr> {
+        let mut factors = Vec::new();
+        let mut divides = false;
+        loop {
+            let start = self.cursor.position();
+            factors.push((divides, self.unary()?));
+            match self.cursor.peek() {
+                Some(token) if token.is('*') || token.is('/') => {
+                    divides = token.is('/');
+                    self.cursor.advance();
+                }
+                // `x in` and `x[` never begin a factor.
+                Some(token) if begins_factor(token) => {
+                    let left = last_operand(self.cursor.since(start));
+                    self.fail(mistakes::missing_times(left, self.cursor.rest()));
+                    divides = false;
+                }
+                _ => return Some(n_ary(factors, ExprKind::Product)),
+            }
+        }
+    }
+
+    fn unary(&mut self) -> Option<Expr> {
+        let Some(minus) = self.cursor.eat('-') else {
+            return self.power();
+        };
+        let operand = self.nested(Self::unary)?;
+        Some(negative(minus.origin, operand))
+    }
+
+    fn power(&mut self) -> Option<Expr> {
+        let base = self.primary()?;
+        if self.cursor.eat('^').is_none() {
+            return Some(base);
+        }
+        let exponent = self.nested(Self::exponent)?;
+        let origin = base.origin.to(exponent.origin);
+        Some(Expr {
+            kind: ExprKind::Power(Box::new(base), Box::new(exponent)),
+            origin,
+        })
+    }
+
+    fn exponent(&mut self) -> Option<Expr> {
+        let Some(minus) = self.cursor.eat('-') else {
+            return self.power();
+        };
+        let operand = self.nested(Self::exponent)?;
+        Some(negative(minus.origin, operand))
+    }
+
+    fn primary(&mut self) -> Option<Expr> {
+        let before = self.cursor.previous();
+        let Some(token) = self.cursor.advance() else {
+            // Only an empty slice has no token before its end; its place is the caller's.
+            let before = before?;
+            self.fail(mistakes::missing_operand(before));
+            return None;
+        };
+        match &token.kind {
+            TokenKind::Number(literal) => Some(self.number(literal, token)),
+            TokenKind::Identifier(name) if name.contains(mistakes::MIDDLE_DOTS) => {
+                self.fail(mistakes::middle_dot(name, token.origin));
+                Some(zero(token.origin))
+            }
+            TokenKind::Identifier(name) if name.starts_with("r#") => {
+                self.fail(mistakes::raw_identifier(token));
+                Some(zero(token.origin))
+            }
+            TokenKind::Identifier(name) => self.name(name, token),
+            TokenKind::Open(delimiter @ (Delimiter::Parenthesis | Delimiter::Invisible)) => {
+                let mut inner = self.nested(Self::sum)?;
+                inner.origin = token.origin.to(self.close(token, *delimiter)?);
+                Some(inner)
+            }
+            TokenKind::Punctuation('+') => {
+                self.fail(mistakes::unary_plus(token));
+                self.nested(Self::unary)
+            }
+            _ => {
+                self.fail(mistakes::unexpected(token, before));
+                None
+            }
+        }
+    }
+
+    /// Takes the closing delimiter of `open` and returns its place.
+    pub(super) fn close(&mut self, open: &Token, delimiter: Delimiter) -> Option<Origin> {
+        if let Some(close) = self.cursor.eat_kind(&TokenKind::Close(delimiter)) {
+            return Some(close.origin);
+        }
+        let diagnostic = match self.cursor.peek() {
+            Some(token) => mistakes::unexpected(token, self.cursor.previous()),
+            None => mistakes::unclosed(open),
+        };
+        self.fail(diagnostic);
+        None
+    }
+
+    fn number(&mut self, literal: &str, token: &'a Token) -> Expr {
+        let start = self.cursor.position() - 1;
+        let point = |c: &Cursor<'_>| c.peek().is_some_and(|t| t.is('.'));
+        let range =
+            self.bounds && point(&self.cursor) && self.cursor.ahead(1).is_some_and(|t| t.is('.'));
+        let value = if point(&self.cursor) && !range {
+            // `1..5`, `1.2.3`, `1.x`: Rust's lexer ends the number before the point.
+            while self.cursor.eat('.').is_some() {
+                if self
+                    .cursor
+                    .peek()
+                    .is_some_and(|t| matches!(t.kind, TokenKind::Number(_)))
+                {
+                    self.cursor.advance();
+                }
+            }
+            self.fail(mistakes::malformed_number(self.cursor.since(start)));
+            None
+        } else {
+            match number::read(literal, self.names) {
+                Ok(value) => Some(value),
+                Err(mistake) => {
+                    let diagnostic = Diagnostic::new(mistake.kind, token.origin, mistake.message);
+                    self.fail(diagnostic.help(mistake.help));
+                    // `2sin(x)`: the parentheses belong to the function, not to a product.
+                    if arity_of_suffix(literal).is_some()
+                        && self.cursor.peek().is_some_and(|t| t.kind == OPEN)
+                    {
+                        self.cursor.advance();
+                        self.cursor.take_until(|_| false);
+                        self.cursor.advance();
+                    }
+                    None
+                }
+            }
+        };
+        Expr {
+            kind: ExprKind::Number(value.unwrap_or(Rational::ZERO)),
+            origin: token.origin,
+        }
+    }
+
+    fn name(&mut self, name: &str, token: &'a Token) -> Option<Expr> {
+        let called = self.cursor.peek().is_some_and(|t| t.kind == OPEN);
+        if name == "sum" && called {
+            return self.nested(|parser| families::indexed_sum(parser, token));
+        }
+        if called && (arity(name).is_some() || !self.names.knows(name)) {
+            return self.nested(|parser| parser.call(name, token));
+        }
+        if (arity(name).is_some() || name == "sum") && !self.names.declares(name) {
+            self.fail(mistakes::function_without_call(name, token.origin));
+            return Some(zero(token.origin));
+        }
+        let (index, origin) = families::index(self, token)?;
+        Some(Expr {
+            kind: ExprKind::Name {
+                name: name.to_owned(),
+                index,
+            },
+            origin,
+        })
+    }
+
+    fn call(&mut self, function: &str, token: &'a Token) -> Option<Expr> {
+        let open = self.cursor.advance()?;
+        let mut arguments = Vec::new();
+        if self.cursor.peek().is_none_or(|t| t.kind != CLOSE) {
+            arguments.push(self.sum()?);
+            while self.cursor.eat(',').is_some() {
+                arguments.push(self.sum()?);
+            }
+        }
+        let origin = token.origin.to(self.close(open, Delimiter::Parenthesis)?);
+        match arity(function) {
+            None => self.fail(mistakes::unknown_function(
+                function,
+                token.origin,
+                self.names,
+            )),
+            Some(expected) if expected != arguments.len() => {
+                self.fail(mistakes::wrong_arity(
+                    function,
+                    expected,
+                    arguments.len(),
+                    origin,
+                ));
+            }
+            Some(_) => {}
+        }
+        let function = Name {
+            text: function.to_owned(),
+            origin: token.origin,
+        };
+        Some(Expr {
+            kind: ExprKind::Call {
+                function,
+                arguments,
+            },
+            origin,
+        })
+    }
+}
+
+/// A single operand stands for itself.
+fn n_ary(mut operands: Vec<(bool, Expr)>, kind: fn(Vec<(bool, Expr)>) -> ExprKind) -> Expr {
+    if operands.len() == 1
+        && let Some((_, operand)) = operands.pop()
+    {
+        return operand;
+    }
+    let origin = operands[0]
+        .1
+        .origin
+        .to(operands[operands.len() - 1].1.origin);
+    Expr {
+        kind: kind(operands),
+        origin,
+    }
+}
+
+fn negative(minus: Origin, operand: Expr) -> Expr {
+    let origin = minus.to(operand.origin);
+    Expr {
+        kind: ExprKind::Negative(Box::new(operand)),
+        origin,
+    }
+}
+
+/// What stands in the tree for something that was reported; the tree is not returned then.
+fn zero(origin: Origin) -> Expr {
+    Expr {
+        kind: ExprKind::Number(Rational::ZERO),
+        origin,
+    }
+}
+
+fn begins_factor(token: &Token) -> bool {
+    match &token.kind {
+        TokenKind::Number(_) | TokenKind::Open(Delimiter::Parenthesis | Delimiter::Invisible) => {
+            true
+        }
+        TokenKind::Identifier(name) => name != "in",
+        _ => false,
+    }
+}
+
+/// The tokens of the last operand: `2` of `x^2`, `(a)` of `-(a)`, `sin(x)` of `sin(x)`.
+fn last_operand(tokens: &[Token]) -> &[Token] {
+    let mut depth = 0usize;
+    let mut start = tokens.len();
+    for (at, token) in tokens.iter().enumerate().rev() {
+        start = at;
+        match token.kind {
+            TokenKind::Close(_) => depth += 1,
+            TokenKind::Open(_) => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth == 0 {
+            break;
+        }
+    }
+    let grouped = matches!(tokens.get(start).map(|t| &t.kind), Some(TokenKind::Open(_)));
+    let named = start > 0 && tokens[start - 1].identifier().is_some();
+    &tokens[start - usize::from(grouped && named)..]
+}
+
+/// The function name at the end of a literal such as `2sin`.
+fn arity_of_suffix(literal: &str) -> Option<usize> {
+    let letters = literal.find(|c: char| !c.is_ascii_digit() && c != '.')?;
+    FUNCTIONS
+        .iter()
+        .find(|(name, _)| literal[letters..].ends_with(name))
+        .map(|(_, arity)| *arity)
+}
+
+/// The operands of a missing `*` as text, for messages.
+pub(super) fn operand_text(tokens: &[Token]) -> String {
+    let mut cursor = Cursor::new(tokens);
+    let Some(first) = cursor.advance() else {
+        return String::new();
+    };
+    let next_opens = cursor.peek().is_some_and(|t| t.kind == OPEN);
+    if matches!(first.kind, TokenKind::Open(_)) || (first.identifier().is_some() && next_opens) {
+        if first.identifier().is_some() {
+            cursor.advance();
+        }
+        cursor.take_until(|_| false);
+        cursor.advance();
+    }
+    render(cursor.since(0))
+}

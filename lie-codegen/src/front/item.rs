@@ -1,0 +1,229 @@
+//! The small forms that both front ends share: names, brackets, definitions, constants.
+
+use super::families;
+use super::mistakes;
+use super::names::Names;
+use super::token::{Cursor, Delimiter, Token, TokenKind, render, span};
+use super::{expression, token};
+use crate::ast::{Bracket, Casimir, Expr, ExprKind, Invariance, Name};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+
+/// A name and nothing else. `whole` is the place of an empty text.
+pub fn name(tokens: &[Token], whole: Origin, report: &mut Report) -> Option<Name> {
+    let place = span(tokens).unwrap_or(whole);
+    if let [token] = tokens
+        && let Some(text) = token.identifier()
+    {
+        if text.contains(mistakes::MIDDLE_DOTS) {
+            report.push(
+                Diagnostic::new(
+                    Kind::Syntax,
+                    place,
+                    format!("`{text}` contains `·`, which is taken for a product"),
+                )
+                .help("use `_` in names; a product is written with `*`"),
+            );
+        } else if text.starts_with("r#") {
+            report.push(mistakes::raw_identifier(token));
+        } else {
+            return Some(Name {
+                text: text.to_owned(),
+                origin: token.origin,
+            });
+        }
+        return None;
+    }
+    report.push(match tokens {
+        [first, second, ..]
+            if first.identifier().is_some()
+                && second.kind == TokenKind::Open(Delimiter::Bracket) =>
+        {
+            families::not_built(place)
+        }
+        [] => Diagnostic::new(Kind::Syntax, place, "a name is missing")
+            .help("names are like x, Pi1 or ω"),
+        _ => Diagnostic::new(
+            Kind::Syntax,
+            place,
+            format!("`{}` is not a name", render(tokens)),
+        )
+        .help("a name is a letter (of any script) or `_`, followed by letters, digits and `_`"),
+    });
+    None
+}
+
+/// An expression that may use `names`; `what` and `whole` describe it where nothing stands.
+pub fn formula(
+    tokens: &[Token],
+    what: &str,
+    whole: Origin,
+    names: &Names,
+    report: &mut Report,
+) -> Option<Expr> {
+    if tokens.is_empty() {
+        report.push(
+            Diagnostic::new(Kind::Syntax, whole, format!("{what} is missing"))
+                .help("write an expression, such as x^2/2"),
+        );
+        return None;
+    }
+    expression::parse(tokens, names, report)
+}
+
+/// `NAME = expression`: the name and what stands behind the `=`.
+pub fn definition<'a>(
+    tokens: &'a [Token],
+    what: &str,
+    whole: Origin,
+    report: &mut Report,
+) -> Option<(Name, &'a [Token])> {
+    let mut cursor = Cursor::new(tokens);
+    let left = cursor.take_until(|c| c.peek().is_some_and(|t| t.is('=')));
+    let Some(equals) = cursor.eat('=') else {
+        let place = span(tokens).unwrap_or(whole);
+        report.push(
+            Diagnostic::new(
+                Kind::Syntax,
+                place,
+                format!("{what} needs a name and a value"),
+            )
+            .help("write `NAME = expression`"),
+        );
+        return None;
+    };
+    Some((name(left, equals.origin, report)?, cursor.rest()))
+}
+
+/// `NAME = expression` or `expression` alone.
+pub fn casimir(
+    tokens: &[Token],
+    whole: Origin,
+    names: &Names,
+    report: &mut Report,
+) -> Option<Casimir> {
+    let named = tokens.first().is_some_and(|t| t.identifier().is_some())
+        && tokens.get(1).is_some_and(|t| t.is('='));
+    if !named {
+        let value = formula(tokens, "the Casimir", whole, names, report)?;
+        return Some(Casimir { name: None, value });
+    }
+    let name = name(&tokens[..1], whole, report);
+    let value = formula(&tokens[2..], "the Casimir", tokens[1].origin, names, report);
+    Some(Casimir {
+        name: Some(name?),
+        value: value?,
+    })
+}
+
+/// `[a, b] = value`.
+pub fn bracket(
+    tokens: &[Token],
+    whole: Origin,
+    names: &Names,
+    report: &mut Report,
+) -> Option<Bracket> {
+    let origin = span(tokens).unwrap_or(whole);
+    let mut cursor = Cursor::new(tokens);
+    let open = cursor.eat_kind(&TokenKind::Open(Delimiter::Bracket));
+    let inside = cursor.take_until(|_| false);
+    let close = cursor.eat_kind(&TokenKind::Close(Delimiter::Bracket));
+    let equals = cursor.eat('=');
+    let parts = token::split_commas(inside);
+    let (Some(_), Some(_), Some(equals), [left, right]) = (open, close, equals, parts.as_slice())
+    else {
+        report.push(
+            Diagnostic::new(
+                Kind::Syntax,
+                origin,
+                format!("`{}` is not a bracket", render(tokens)),
+            )
+            .help("write `[a, b] = value` with two basis names and a value linear in basis names"),
+        );
+        return None;
+    };
+    let left = name(left, origin, report);
+    let right = name(right, origin, report);
+    let value = formula(
+        cursor.rest(),
+        "the value of the bracket",
+        equals.origin,
+        names,
+        report,
+    );
+    Some(Bracket {
+        left: left?,
+        right: right?,
+        value: value?,
+        origin,
+    })
+}
+
+/// An expression in numbers, `pi` and functions.
+pub fn constant(tokens: &[Token], report: &mut Report) -> Option<Expr> {
+    let expression = expression::parse(tokens, &Names::default(), report)?;
+    constant_expression(expression, report)
+}
+
+/// A Hamiltonian of blanks.
+pub fn empty_hamiltonian(place: Origin) -> Diagnostic {
+    Diagnostic::new(Kind::EmptyHamiltonian, place, "the Hamiltonian is empty")
+        .help("write an expression in the state names; a constant is allowed")
+}
+
+/// `left` or `right`.
+pub fn invariance(
+    text: &str,
+    place: Origin,
+    kind: Kind,
+    report: &mut Report,
+) -> Option<Invariance> {
+    match text {
+        "left" => Some(Invariance::Left),
+        "right" => Some(Invariance::Right),
+        _ => {
+            report.push(
+                Diagnostic::new(
+                    kind,
+                    place,
+                    format!("`{}` is no invariance", text.escape_debug()),
+                )
+                .help("write `left` or `right`"),
+            );
+            None
+        }
+    }
+}
+
+/// The answer where a constant is missing.
+pub fn missing_constant(place: Origin) -> Diagnostic {
+    Diagnostic::new(Kind::Number, place, "a number is missing")
+        .help("write a number or an exact constant, such as 1/7")
+}
+
+/// The expression if it contains no name but `pi`.
+fn constant_expression(expression: Expr, report: &mut Report) -> Option<Expr> {
+    let mut pending = vec![&expression];
+    let mut clean = true;
+    while let Some(part) = pending.pop() {
+        match &part.kind {
+            ExprKind::Name { name, .. } if name != "pi" => {
+                report.push(
+                    Diagnostic::new(Kind::Number, part.origin, format!("`{name}` is not a number"))
+                        .help("a constant consists of numbers, `pi` and functions of them, such as 1/7 or cos(11/10)"),
+                );
+                clean = false;
+            }
+            ExprKind::Number(_) | ExprKind::Name { .. } => {}
+            ExprKind::Negative(a) => pending.push(a),
+            ExprKind::Power(a, b) => pending.extend([&**b, &**a]),
+            ExprKind::Sum(operands) | ExprKind::Product(operands) => {
+                pending.extend(operands.iter().rev().map(|(_, operand)| operand));
+            }
+            ExprKind::Call { arguments, .. } => pending.extend(arguments.iter().rev()),
+            ExprKind::IndexedSum { from, to, body, .. } => {
+                pending.extend([&**body, &**to, &**from])
+            }
+        }
+    }
+    clean.then_some(expression)
+}

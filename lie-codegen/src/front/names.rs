@@ -1,0 +1,59 @@
+//! What a parser must know about names: which are declared, which are functions.
+
+use std::collections::BTreeSet;
+
+/// The functions of the grammar with their numbers of arguments.
+pub const FUNCTIONS: &[(&str, usize)] = &[
+    ("sqrt", 1),
+    ("exp", 1),
+    ("log", 1),
+    ("sin", 1),
+    ("cos", 1),
+    ("tan", 1),
+    ("asin", 1),
+    ("acos", 1),
+    ("atan", 1),
+    ("sinh", 1),
+    ("cosh", 1),
+    ("tanh", 1),
+    ("atan2", 2),
+];
+
+/// Names of the language itself that stand for a value.
+const BUILT_IN: &[&str] = &["pi", "t"];
+
+/// Number of arguments of a function of the grammar.
+pub fn arity(function: &str) -> Option<usize> {
+    FUNCTIONS
+        .iter()
+        .find(|(name, _)| *name == function)
+        .map(|(_, arity)| *arity)
+}
+
+/// The names that an expression may use; the parser needs them to tell a product without its
+/// `*` (`2x`, `2e3`, `x(y)`) from a number or a call.
+#[derive(Clone, Debug, Default)]
+pub struct Names(BTreeSet<String>);
+
+impl Names {
+    /// Whether the name is declared or built in.
+    pub fn knows(&self, name: &str) -> bool {
+        self.declares(name) || BUILT_IN.contains(&name)
+    }
+
+    /// Whether the user declared the name.
+    pub fn declares(&self, name: &str) -> bool {
+        self.0.contains(name)
+    }
+
+    /// The declared names.
+    pub fn iter(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(String::as_str)
+    }
+}
+
+impl<S: Into<String>> FromIterator<S> for Names {
+    fn from_iter<I: IntoIterator<Item = S>>(names: I) -> Self {
+        Self(names.into_iter().map(Into::into).collect())
+    }
+}

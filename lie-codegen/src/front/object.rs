@@ -1,0 +1,138 @@
+//! Objects of the spec: unknown, repeated and missing keys, wrong types.
+
+use super::json::{Member, Type, Value};
+use super::text::Source;
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::suggest::did_you_mean;
+
+/// An object whose keys were checked; every key stands for its first value.
+#[derive(Debug)]
+pub struct Object<'a> {
+    members: Vec<Member<'a>>,
+    head: Origin,
+}
+
+/// Keys that the format keeps for what is not built yet, and the keys that they would replace.
+pub const NOT_BUILT: &[(&str, &[&str])] = &[
+    ("lagrangian", &["hamiltonian"]),
+    ("discrete_lagrangian", &["hamiltonian"]),
+    ("velocity", &[]),
+    ("poisson", &["algebra"]),
+    ("cocycle", &[]),
+    ("group", &[]),
+    ("realization", &[]),
+];
+
+impl<'a> Object<'a> {
+    /// Takes an object apart and reports every key that is not in `keys` or stands there twice.
+    pub fn read(value: Value<'a>, what: &str, keys: &[&str], report: &mut Report) -> Option<Self> {
+        if value.kind() != Type::Object {
+            report.push(wrong_type(&value, what, "an object"));
+            return None;
+        }
+        let mut members: Vec<Member<'a>> = Vec::new();
+        for member in value.members(report) {
+            let key = &*member.key.text;
+            let place = member.key.whole();
+            let error = |message: String| Diagnostic::new(Kind::Schema, place, message);
+            if NOT_BUILT.iter().any(|(reserved, _)| *reserved == key) && !keys.contains(&key) {
+                report.push(
+                    error(format!(
+                        "the key `{key}` is reserved: what it declares is not built yet"
+                    ))
+                    .help("remove it; systems are declared by `algebra` and `hamiltonian`"),
+                );
+                members.push(member);
+            } else if !keys.contains(&key) {
+                let help = match did_you_mean(key, keys.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("the keys of {what} are {}", keys.join(", ")),
+                };
+                report.push(
+                    error(format!("unknown key `{}` in {what}", key.escape_debug())).help(help),
+                );
+            } else if members.iter().any(|m| m.key.text == member.key.text) {
+                report.push(
+                    error(format!("the key `{key}` stands twice in {what}"))
+                        .help("remove one of the two"),
+                );
+            } else {
+                members.push(member);
+            }
+        }
+        Some(Self {
+            members,
+            head: value.head(),
+        })
+    }
+
+    /// The value of a key.
+    pub fn get(&self, key: &str) -> Option<Value<'a>> {
+        self.members
+            .iter()
+            .find(|m| m.key.text == key)
+            .map(|m| m.value)
+    }
+
+    /// The members, each key once.
+    pub fn members(&self) -> &[Member<'a>] {
+        &self.members
+    }
+
+    /// Reports the keys that must be there and are not.
+    pub fn require(&self, what: &str, keys: &[&str], report: &mut Report) {
+        for key in keys {
+            let replaced = NOT_BUILT
+                .iter()
+                .any(|(reserved, replaces)| replaces.contains(key) && self.get(reserved).is_some());
+            if self.get(key).is_none() && !replaced {
+                report.push(
+                    Diagnostic::new(Kind::Schema, self.head, format!("{what} has no `{key}`"))
+                        .help(format!("add the key `\"{key}\"`")),
+                );
+            }
+        }
+    }
+}
+
+/// A value of another type than the format has there.
+pub fn wrong_type(value: &Value<'_>, what: &str, expected: &str) -> Diagnostic {
+    let place = match value.kind() {
+        Type::Object | Type::Array => value.head(),
+        _ => value.origin(),
+    };
+    Diagnostic::new(
+        Kind::Schema,
+        place,
+        format!("{what} is {expected}, not {}", value.kind()),
+    )
+    .help(format!("write {expected}"))
+}
+
+/// The text of a value that must be a string.
+pub fn string<'a>(value: Value<'a>, what: &str, report: &mut Report) -> Option<Source<'a>> {
+    if value.kind() != Type::String {
+        report.push(wrong_type(&value, what, "a string"));
+        return None;
+    }
+    value.string(report)
+}
+
+/// The elements of a value that must be a list.
+pub fn list<'a>(value: Value<'a>, what: &str, report: &mut Report) -> Option<Vec<Value<'a>>> {
+    if value.kind() != Type::Array {
+        report.push(wrong_type(&value, what, "a list"));
+        return None;
+    }
+    Some(value.elements())
+}
+
+/// The strings of a value that must be a list of strings; those that are, where some are not.
+pub fn strings<'a>(value: Value<'a>, what: &str, report: &mut Report) -> Vec<Source<'a>> {
+    let element = format!("an element of {what}");
+    let elements = list(value, what, report).unwrap_or_default();
+    elements
+        .into_iter()
+        .filter_map(|v| string(v, &element, report))
+        .collect()
+}

@@ -1,0 +1,266 @@
+//! The keys of the spec file: one table for the reader and for the JSON Schema.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde_json::Value;
+
+/// Declares an object of the spec once: the struct that `schemars` turns into the schema and the
+/// list of keys that the reader accepts. Keys in `required` must be there.
+macro_rules! objects {
+    ($($(#[$meta:meta])* struct $name:ident requires [$($required:literal),*] {
+        $($(#[$attribute:meta])+ $key:literal $field:ident: $type:ty,)+
+    })+) => { $(
+        $(#[$meta])*
+        #[derive(JsonSchema)]
+        #[schemars(deny_unknown_fields)]
+        #[expect(dead_code, reason = "the fields describe the schema")]
+        pub struct $name {
+            $($(#[$attribute])+ #[schemars(rename = $key)] $field: $type,)+
+        }
+
+        impl $name {
+            /// Every key.
+            pub const KEYS: &'static [&'static str] = &[$($key),+];
+            /// The keys that must be there.
+            pub const REQUIRED: &'static [&'static str] = &[$($required),*];
+        }
+    )+ };
+}
+
+objects! {
+    /// A Lie–Poisson system: a Lie algebra by its structure constants and a Hamiltonian on its dual.
+    struct Spec requires ["name", "algebra", "state", "hamiltonian"] {
+        /// Path of this schema, for editors.
+        "$schema" schema: Option<String>,
+        /// Version of the format.
+        #[schemars(extend("const" = 1))]
+        "format" format: Option<u32>,
+        /// Name of the system, an identifier: the name of the generated type.
+        "name" name: String,
+        /// What the system is, for people.
+        "description" description: Option<String>,
+        /// Where the system comes from, for people.
+        "references" references: Option<Vec<String>>,
+        /// The Lie algebra.
+        "algebra" algebra: Algebra,
+        /// Names of the coordinates of mu, one for each basis element.
+        "state" state: Vec<String>,
+        /// Parameters and their defaults.
+        "parameters" parameters: Option<BTreeMap<String, Parameter>>,
+        /// Abbreviations `NAME = expression`, each may use the earlier ones.
+        "let" lets: Option<Vec<String>>,
+        /// The Hamiltonian, an expression in state, parameters and abbreviations.
+        "hamiltonian" hamiltonian: String,
+        /// Casimirs, `NAME = expression` or an expression; each is verified exactly.
+        "casimirs" casimirs: Option<Vec<String>>,
+        /// Ids of the methods that get fused code.
+        "methods" methods: Option<Vec<String>>,
+        /// `left` (the default): mu' = ad*_(grad H) mu; `right`: the opposite sign.
+        "invariance" invariance: Option<Invariance>,
+        /// Initial state: numbers or exact expressions in parameters.
+        "initial" initial: Option<Vec<Constant>>,
+        /// Defaults of `lie run`.
+        "run" run: Option<Run>,
+    }
+
+    /// A Lie algebra. Antisymmetry is implied and absent brackets are zero.
+    struct Algebra requires ["basis"] {
+        /// Names of the basis.
+        "basis" basis: Vec<String>,
+        /// Brackets `[a, b] = value`, the value linear in basis names.
+        "brackets" brackets: Option<Vec<String>>,
+        /// The matrix of each basis element in a representation, as rows. Without `brackets` the
+        /// brackets are computed from it.
+        "matrices" matrices: Option<BTreeMap<String, Vec<Vec<Constant>>>>,
+    }
+
+    /// A parameter with what people want to know about it.
+    struct DescribedParameter requires ["default"] {
+        /// The default: a number or an exact constant.
+        "default" default: Constant,
+        /// Whether brackets may use the parameter, as an exact number.
+        "exact" exact: Option<bool>,
+        /// Its unit.
+        "unit" unit: Option<String>,
+        /// Its meaning.
+        "description" description: Option<String>,
+    }
+
+    /// Defaults of `lie run`; keys and values are those of its flags.
+    struct Run requires [] {
+        /// Id of the method.
+        "method" method: Option<String>,
+        /// Step size.
+        "step" step: Option<Constant>,
+        /// End time.
+        "until" until: Option<Constant>,
+        /// Every how many steps a row is written.
+        "every" every: Option<Constant>,
+        /// Times of the rows, a list or text with commas.
+        "at" at: Option<Times>,
+        /// Retraction of the method.
+        "retraction" retraction: Option<String>,
+        /// Composition of the method.
+        "composition" composition: Option<String>,
+        /// Pieces of a splitting.
+        "pieces" pieces: Option<String>,
+        /// Lift of a collective method.
+        "lift" lift: Option<String>,
+        /// Discrete gradient.
+        "gradient" gradient: Option<String>,
+        /// Relative tolerance.
+        "rtol" rtol: Option<Constant>,
+        /// Absolute tolerance.
+        "atol" atol: Option<Constant>,
+    }
+}
+
+/// A number, or an exact constant as text, such as "1/3".
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum Constant {
+    /// A decimal number, taken exactly: 0.1 is 1/10.
+    Number(f64),
+    /// An exact constant.
+    Text(String),
+}
+
+/// The default of a parameter, or an object that also describes it.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum Parameter {
+    /// A decimal number, taken exactly: 0.1 is 1/10.
+    Number(f64),
+    /// An exact constant.
+    Text(String),
+    /// Default and description.
+    Described(DescribedParameter),
+}
+
+/// Times of rows.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum Times {
+    /// One time.
+    Number(f64),
+    /// Times with commas between them.
+    Text(String),
+    /// A list of times.
+    List(Vec<Constant>),
+}
+
+/// Left or right invariance.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "lowercase")]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum Invariance {
+    /// mu' = ad*_(grad H) mu
+    Left,
+    /// mu' = -ad*_(grad H) mu
+    Right,
+}
+
+/// The JSON Schema (draft 2020-12) of a spec file, the same on every call.
+pub fn schema() -> Value {
+    let mut schema = schemars::schema_for!(Spec).to_value();
+    forbid_null(&mut schema);
+    schema
+}
+
+/// An optional key may be absent, but `null` is no value of it. The schema has no depth to fear.
+fn forbid_null(value: &mut Value) {
+    let is_null = |v: &Value| v == "null" || v.get("type").is_some_and(|t| t == "null");
+    match value {
+        Value::Object(object) => {
+            for key in ["type", "anyOf"] {
+                let Some(Value::Array(options)) = object.get_mut(key) else {
+                    continue;
+                };
+                options.retain(|option| !is_null(option));
+                if let [only] = options.as_mut_slice() {
+                    let only = only.take();
+                    object.remove(key);
+                    match only {
+                        Value::Object(inner) => object.extend(inner),
+                        other => drop(object.insert(key.to_owned(), other)),
+                    }
+                }
+            }
+            object.values_mut().for_each(forbid_null);
+        }
+        Value::Array(list) => list.iter_mut().for_each(forbid_null),
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keys(object: &Value) -> Vec<&str> {
+        let mut keys: Vec<&str> = object["properties"]
+            .as_object()
+            .unwrap()
+            .keys()
+            .map(String::as_str)
+            .collect();
+        keys.sort_unstable();
+        keys
+    }
+
+    fn sorted(keys: &[&'static str]) -> Vec<&'static str> {
+        let mut keys = keys.to_vec();
+        keys.sort_unstable();
+        keys
+    }
+
+    #[test]
+    fn the_reader_and_the_schema_have_the_same_keys() {
+        let schema = schema();
+        let tables = [
+            (&schema, Spec::KEYS, Spec::REQUIRED),
+            (
+                &schema["$defs"]["Algebra"],
+                Algebra::KEYS,
+                Algebra::REQUIRED,
+            ),
+            (
+                &schema["$defs"]["DescribedParameter"],
+                DescribedParameter::KEYS,
+                DescribedParameter::REQUIRED,
+            ),
+            (&schema["$defs"]["Run"], Run::KEYS, Run::REQUIRED),
+        ];
+        for (object, all, required) in tables {
+            assert_eq!(keys(object), sorted(all));
+            assert_eq!(object["additionalProperties"], false, "{all:?}");
+            let listed: Vec<&str> = object["required"]
+                .as_array()
+                .into_iter()
+                .flatten()
+                .filter_map(Value::as_str)
+                .collect();
+            assert_eq!(sorted(required), {
+                let mut l = listed;
+                l.sort_unstable();
+                l
+            });
+        }
+    }
+
+    #[test]
+    fn the_schema_is_deterministic_and_has_no_null() {
+        let text = schema().to_string();
+        assert_eq!(text, schema().to_string());
+        assert!(!text.contains("null"), "{text}");
+        assert_eq!(schema()["properties"]["format"]["const"], 1);
+        assert_eq!(
+            schema()["$schema"],
+            "https://json-schema.org/draft/2020-12/schema"
+        );
+    }
+}

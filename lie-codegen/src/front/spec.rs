@@ -1,0 +1,372 @@
+//! The spec file: JSON to the syntax tree.
+
+mod algebra;
+mod run;
+
+use quote::quote;
+
+use super::json::{self, Type, Value};
+use super::object::{Object, list, string, strings, wrong_type};
+use super::schema::{DescribedParameter, Spec};
+use super::token::Token;
+use super::{Body, Names, Parsed, expression, item, number};
+use crate::ast::{Declaration, Expr, ExprKind, Invariance, Name, Parameter};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+
+/// The only version of the format.
+const FORMAT: &str = "1";
+
+/// Reads the text of a spec file. Every mistake is reported at its bytes in `text`, in the order
+/// of the file; the declaration is there only if there is none.
+pub fn read(text: &str, report: &mut Report) -> Parsed {
+    let mut found = Report::new();
+    let parsed = document(text, &mut found);
+    // The keys may stand in any order, but are read in that of their meaning.
+    let mut diagnostics = found.into_diagnostics();
+    diagnostics.sort_by_key(|d| match d.origin {
+        Some(Origin::Text { start, .. }) => start,
+        _ => 0,
+    });
+    diagnostics.into_iter().for_each(|d| report.push(d));
+    parsed
+}
+
+fn document(text: &str, report: &mut Report) -> Parsed {
+    let mut parsed = Parsed {
+        visibility: quote!(pub),
+        ..Parsed::default()
+    };
+    let spec = match json::document(text) {
+        Ok(value) => Object::read(value, "a spec", Spec::KEYS, report),
+        Err(diagnostic) => {
+            report.push(diagnostic);
+            None
+        }
+    };
+    let Some(spec) = spec else { return parsed };
+    spec.require("a spec", Spec::REQUIRED, report);
+    headers(&spec, report);
+    parsed.name = spec.get("name").and_then(|v| name_of(v, "`name`", report));
+    parsed.state = spec
+        .get("state")
+        .map(|v| name_list(v, "`state`", report))
+        .unwrap_or_default();
+    let parameters = spec
+        .get("parameters")
+        .map(|v| parameters(v, report))
+        .unwrap_or_default();
+    parsed.parameters = parameters.names;
+    let declaration = Remainder {
+        spec: &spec,
+        parsed: &parsed,
+        parameters: parameters.whole,
+    }
+    .read(report);
+    if !report.has_errors() {
+        parsed.body = declaration.map(|d| Body::Declaration(Box::new(d)));
+    }
+    parsed
+}
+
+/// `$schema` and `format`.
+fn headers(spec: &Object<'_>, report: &mut Report) {
+    if let Some(value) = spec.get("$schema") {
+        string(value, "`$schema`", report);
+    }
+    if let Some(value) = spec.get("format")
+        && value.raw() != FORMAT
+    {
+        report.push(
+            Diagnostic::new(
+                Kind::Schema,
+                value.origin(),
+                "the format is not one that this version reads",
+            )
+            .help(format!("write `\"format\": {FORMAT}`")),
+        );
+    }
+}
+
+/// What is read when all names are known.
+struct Remainder<'s, 'a> {
+    spec: &'s Object<'a>,
+    parsed: &'s Parsed,
+    parameters: Vec<Parameter>,
+}
+
+impl Remainder<'_, '_> {
+    fn read(self, report: &mut Report) -> Option<Declaration> {
+        let spec = self.spec;
+        let texts = |names: &[Name]| names.iter().map(|n| n.text.clone()).collect::<Vec<_>>();
+        let parameters = texts(&self.parsed.parameters);
+        let lets: Vec<Line> = lines(spec, "let", report);
+        let defined = lets
+            .iter()
+            .filter_map(|line| line.tokens.first()?.identifier());
+        let names: Names = texts(&self.parsed.state)
+            .into_iter()
+            .chain(parameters.iter().cloned())
+            .chain(defined.map(str::to_owned))
+            .collect();
+        let constants: Names = parameters.iter().cloned().collect();
+
+        let algebra = spec
+            .get("algebra")
+            .and_then(|v| algebra::read(v, &parameters, report));
+        let lets = lets.iter().filter_map(|line| {
+            let (name, value) =
+                item::definition(&line.tokens, "an abbreviation", line.place, report)?;
+            Some((
+                name,
+                item::formula(value, "its value", line.place, &names, report)?,
+            ))
+        });
+        let lets = lets.collect();
+        let hamiltonian = spec
+            .get("hamiltonian")
+            .and_then(|v| hamiltonian(v, &names, report));
+        let casimirs = lines(spec, "casimirs", report)
+            .iter()
+            .filter_map(|line| item::casimir(&line.tokens, line.place, &names, report))
+            .collect();
+        let methods = spec
+            .get("methods")
+            .map(|v| strings(v, "`methods`", report))
+            .unwrap_or_default();
+        let invariance = spec
+            .get("invariance")
+            .map_or(Some(Invariance::Left), |v| invariance(v, report));
+        let initial = spec
+            .get("initial")
+            .map(|v| (initial(v, &constants, report), v.origin()));
+        let description = spec
+            .get("description")
+            .and_then(|v| string(v, "`description`", report));
+        let references = spec
+            .get("references")
+            .map(|v| strings(v, "`references`", report))
+            .unwrap_or_default();
+        let run = spec
+            .get("run")
+            .map(|v| run::read(v, report))
+            .unwrap_or_default();
+        Some(Declaration {
+            visibility: self.parsed.visibility.clone(),
+            name: self.parsed.name.clone()?,
+            description: description
+                .map_or(Vec::new(), |d| d.text.lines().map(str::to_owned).collect()),
+            references: references
+                .into_iter()
+                .map(|r| r.text.into_owned())
+                .collect(),
+            algebra: algebra?,
+            state: self.parsed.state.clone(),
+            parameters: self.parameters,
+            lets,
+            hamiltonian: hamiltonian?,
+            casimirs,
+            methods: methods
+                .into_iter()
+                .map(|m| Name {
+                    origin: m.whole(),
+                    text: m.text.into_owned(),
+                })
+                .collect(),
+            invariance: invariance?,
+            initial_origin: initial.as_ref().map(|(_, origin)| *origin),
+            initial: initial.map(|(values, _)| values),
+            run,
+        })
+    }
+}
+
+/// A string of the file as tokens.
+struct Line {
+    tokens: Vec<Token>,
+    /// The string with its quotes: a place even where it is empty.
+    place: Origin,
+}
+
+fn line(value: Value<'_>, what: &str, report: &mut Report) -> Option<Line> {
+    let source = string(value, what, report)?;
+    Some(Line {
+        tokens: source.tokens(),
+        place: value.origin(),
+    })
+}
+
+fn lines(spec: &Object<'_>, key: &str, report: &mut Report) -> Vec<Line> {
+    let Some(value) = spec.get(key) else {
+        return Vec::new();
+    };
+    let (whole, element) = (format!("`{key}`"), format!("an element of `{key}`"));
+    let elements = list(value, &whole, report).unwrap_or_default();
+    elements
+        .into_iter()
+        .filter_map(|v| line(v, &element, report))
+        .collect()
+}
+
+fn name_of(value: Value<'_>, what: &str, report: &mut Report) -> Option<Name> {
+    let line = line(value, what, report)?;
+    item::name(&line.tokens, line.place, report)
+}
+
+fn name_list(value: Value<'_>, what: &str, report: &mut Report) -> Vec<Name> {
+    let element = format!("an element of {what}");
+    let elements = list(value, what, report).unwrap_or_default();
+    elements
+        .into_iter()
+        .filter_map(|v| name_of(v, &element, report))
+        .collect()
+}
+
+fn hamiltonian(value: Value<'_>, names: &Names, report: &mut Report) -> Option<Expr> {
+    let line = line(value, "`hamiltonian`", report)?;
+    if line.tokens.is_empty() {
+        report.push(item::empty_hamiltonian(line.place));
+        return None;
+    }
+    expression::parse(&line.tokens, names, report)
+}
+
+fn invariance(value: Value<'_>, report: &mut Report) -> Option<Invariance> {
+    let source = string(value, "`invariance`", report)?;
+    item::invariance(&source.text, source.whole(), Kind::Schema, report)
+}
+
+/// Numbers or exact expressions in parameters.
+fn initial(value: Value<'_>, names: &Names, report: &mut Report) -> Vec<Expr> {
+    if matches!(value.kind(), Type::Object | Type::String) {
+        report.push(
+            Diagnostic::new(
+                Kind::Schema,
+                value.head(),
+                "random initial states and those from files are not built yet",
+            )
+            .help("write a list with one number for each state name"),
+        );
+        return Vec::new();
+    }
+    let elements = list(value, "`initial`", report).unwrap_or_default();
+    elements
+        .into_iter()
+        .filter_map(|v| quantity(v, "an initial value", Some(names), report))
+        .collect()
+}
+
+/// A number, or an expression as text in the given names; a constant where there are none.
+fn quantity(
+    value: Value<'_>,
+    what: &str,
+    names: Option<&Names>,
+    report: &mut Report,
+) -> Option<Expr> {
+    match value.kind() {
+        Type::Number => match number::decimal(value.raw()) {
+            Ok(exact) => Some(Expr {
+                kind: ExprKind::Number(exact),
+                origin: value.origin(),
+            }),
+            Err(mistake) => {
+                report.push(
+                    Diagnostic::new(mistake.kind, value.origin(), mistake.message)
+                        .help(mistake.help),
+                );
+                None
+            }
+        },
+        Type::String => {
+            let line = line(value, what, report)?;
+            if line.tokens.is_empty() {
+                report.push(item::missing_constant(line.place));
+                return None;
+            }
+            match names {
+                Some(names) => expression::parse(&line.tokens, names, report),
+                None => item::constant(&line.tokens, report),
+            }
+        }
+        _ => {
+            report.push(wrong_type(
+                &value,
+                what,
+                "a number or an exact constant such as \"1/3\"",
+            ));
+            None
+        }
+    }
+}
+
+#[derive(Default)]
+struct Parameters {
+    /// The names that could be read.
+    names: Vec<Name>,
+    /// The parameters without mistakes.
+    whole: Vec<Parameter>,
+}
+
+/// Keys are the user's names here, so a repeated one is a repeated name, which later checks know.
+fn parameters(value: Value<'_>, report: &mut Report) -> Parameters {
+    let mut parameters = Parameters::default();
+    if value.kind() != Type::Object {
+        report.push(wrong_type(&value, "`parameters`", "an object"));
+        return parameters;
+    }
+    for member in value.members(report) {
+        let name = item::name(&member.key.tokens(), member.key.whole(), report);
+        let what = format!("the parameter `{}`", member.key.text.escape_debug());
+        parameters.names.extend(name.clone());
+        let parameter = if member.value.kind() == Type::Object {
+            described(member.value, &what, name, report)
+        } else {
+            let default = quantity(member.value, &what, None, report);
+            name.zip(default).map(|(name, default)| Parameter {
+                name,
+                default,
+                exact: false,
+                unit: None,
+                description: None,
+            })
+        };
+        parameters.whole.extend(parameter);
+    }
+    parameters
+}
+
+fn described(
+    value: Value<'_>,
+    what: &str,
+    name: Option<Name>,
+    report: &mut Report,
+) -> Option<Parameter> {
+    let object = Object::read(value, what, DescribedParameter::KEYS, report)?;
+    object.require(what, DescribedParameter::REQUIRED, report);
+    let mut text = |key: &str| {
+        Some(
+            string(object.get(key)?, &format!("`{key}`"), report)?
+                .text
+                .into_owned(),
+        )
+    };
+    let (unit, description) = (text("unit"), text("description"));
+    let exact = object.get("exact").map(|v| {
+        if v.boolean().is_none() {
+            report.push(wrong_type(&v, "`exact`", "a boolean"));
+        }
+        v.boolean() == Some(true)
+    });
+    let default = quantity(
+        object.get("default")?,
+        &format!("the default of {what}"),
+        None,
+        report,
+    )?;
+    Some(Parameter {
+        name: name?,
+        default,
+        exact: exact == Some(true),
+        unit,
+        description,
+    })
+}
