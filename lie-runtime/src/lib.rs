@@ -1,2 +1,51 @@
-//! Runtime of lie-poisson.
+//! Runtime of lie-poisson: Newton's method, Lie–Poisson integrators, drivers and diagnostics.
 #![cfg_attr(not(feature = "std"), no_std)]
+
+pub mod equation;
+pub mod generic;
+pub mod matrix;
+pub mod newton;
+pub mod parameter;
+pub mod poisson;
+pub mod scalar;
+pub mod state;
+#[cfg(test)]
+mod test_systems;
+
+pub use equation::{
+    CayleyEquations, Equation, GaussEquations, LieMidpointEquations, MidpointEquations,
+};
+pub use matrix::{SquareMatrix, StageMatrix};
+pub use parameter::ParameterError;
+pub use poisson::{CayleyPoisson, LiePoisson, Poisson};
+pub use scalar::{Dual, Mask, Scalar};
+pub use state::{Stages, State, Unknown};
+
+/// What a program usually needs.
+pub mod prelude {
+    #[cfg(feature = "lanes")]
+    pub use crate::scalar::{F32x8, F64x4, F64x8};
+    pub use crate::{
+        CayleyPoisson, Dual, LiePoisson, Mask, ParameterError, Poisson, Scalar, SquareMatrix, State,
+    };
+    #[cfg(feature = "macros")]
+    pub use lie_macros::*;
+}
+
+/// What generated code refers to. Not for other use: it follows the generator, not semantic
+/// versions.
+#[doc(hidden)]
+pub mod __private {
+    pub use crate::equation::{
+        CayleyEquations, Equation, GaussEquations, LieMidpointEquations, MidpointEquations,
+    };
+    pub use crate::generic;
+    pub use crate::matrix::{SquareMatrix, StageMatrix};
+    pub use crate::newton::{dense, pivot_is_safe};
+    pub use crate::parameter::ParameterError;
+    pub use crate::poisson::{CayleyPoisson, LiePoisson, Poisson};
+    pub use crate::scalar::{Mask, Scalar};
+    pub use crate::state::{Stages, State, Unknown};
+    pub use core::marker::PhantomData;
+    pub use nalgebra::{SMatrix, SVector};
+}

@@ -1,0 +1,154 @@
+//! The equation of the Lie–Poisson midpoint method with the exponential map.
+
+use super::series::{Scratch, coadjoint_action_in, dexp_dual_in};
+use crate::equation::Equation;
+use crate::matrix::SquareMatrix;
+use crate::newton::dense;
+use crate::poisson::LiePoisson;
+use crate::scalar::Scalar;
+use crate::state::State;
+
+/// Terms of the series whose derivative enters the Jacobian. Beyond them Newton's matrix is only
+/// approximate, the residual is not.
+const TERMS: usize = 24;
+
+/// The retraction method `mu1 = Ad*_(exp x) mu` for any Lie algebra.
+///
+/// Unknown: the momentum m at the midpoint. Equation: `(dexp_x^-1)* m = mu` with `x = h grad H(m)`,
+/// in the equivalent entire form `r(m) = m - phi1(ad*_x) mu`, `phi1(z) = (e^z - 1)/z`.
+/// New state: `exp(ad*_x) mu`, on the coadjoint orbit of mu to round-off whatever the error of m.
+/// Jacobian: `1 - d/dx[phi1(ad*_x) mu] h H''(m)`; with `t_k = (ad*_x)^k mu/(k + 1)!` the derivative
+/// along v is the sum of `e_k = (ad*_x e_(k-1) + ad*_v t_(k-1))/(k + 1)`, `e_0 = 0`.
+/// Start: `m = mu + (h/2) f(mu)`.
+#[derive(Debug)]
+pub struct ExpMidpoint<'a, S: Scalar, P: LiePoisson<S>> {
+    system: &'a P,
+    step: S,
+    base: P::State,
+    direction: P::State,
+    sum: P::State,
+    scratch: Scratch<P::State>,
+    terms: [P::State; TERMS],
+    hessian: P::Jacobian,
+    columns: [P::State; 5],
+}
+
+impl<'a, S: Scalar, P: LiePoisson<S>> ExpMidpoint<'a, S, P> {
+    /// The equation of a step of size h.
+    pub fn new(system: &'a P, h: S) -> Self {
+        let zero = system.zero_state();
+        Self {
+            system,
+            step: h,
+            base: zero.clone(),
+            direction: zero.clone(),
+            sum: zero.clone(),
+            scratch: Scratch::new(&zero),
+            terms: core::array::from_fn(|_| zero.clone()),
+            hessian: system.zero_jacobian(),
+            columns: core::array::from_fn(|_| zero.clone()),
+        }
+    }
+
+    /// Sets the direction to `x = h grad H(m)`.
+    fn set_direction(&mut self, unknown: &P::State) {
+        self.system.gradient(unknown, &mut self.direction);
+        for entry in self.direction.as_mut_slice() {
+            *entry *= self.step;
+        }
+    }
+
+    /// Computes the residual; returns the index of the last term in each lane.
+    fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) -> S {
+        self.set_direction(unknown);
+        let terms = &mut self.terms;
+        let keep = |index: usize, term: &P::State| {
+            if let Some(kept) = terms.get_mut(index) {
+                kept.copy_from(term);
+            }
+        };
+        let (sum, scratch) = (&mut self.sum, &mut self.scratch);
+        let last = dexp_dual_in(self.system, &self.direction, &self.base, sum, scratch, keep);
+        for (index, out) in residual.as_mut_slice().iter_mut().enumerate() {
+            *out = unknown.as_slice()[index] - self.sum.as_slice()[index];
+        }
+        last
+    }
+}
+
+impl<S: Scalar, P: LiePoisson<S>> Equation<S> for ExpMidpoint<'_, S, P> {
+    type State = P::State;
+    type Unknown = P::State;
+    type Matrix = P::Jacobian;
+
+    fn zero_unknown(&self) -> P::State {
+        self.system.zero_state()
+    }
+
+    fn zero_matrix(&self) -> P::Jacobian {
+        self.system.zero_jacobian()
+    }
+
+    fn set_base(&mut self, mu: &P::State) {
+        self.base.copy_from(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut P::State) {
+        self.system.vector_field(&self.base, &mut self.sum);
+        unknown.copy_from(&self.base);
+        unknown.axpy(self.step * S::ratio(1.0, 2.0), &self.sum);
+    }
+
+    fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
+        self.evaluate(unknown, residual);
+    }
+
+    fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
+        let last = self.evaluate(unknown, residual);
+        self.system.hessian(unknown, &mut self.hessian);
+        let [along, derivative, first, second, total] = &mut self.columns;
+        for column in 0..P::DIM {
+            for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {
+                *entry = self.step * self.hessian.get(row, column);
+            }
+            derivative.fill(S::zero());
+            total.fill(S::zero());
+            if along.as_slice().iter().any(|&entry| entry != S::zero()) {
+                for index in 1..TERMS {
+                    let weight = S::from_f64(index as f64);
+                    let counted = weight.less_equal(last);
+                    if !crate::scalar::Mask::any(counted) {
+                        break;
+                    }
+                    self.system.ad_star(&self.direction, derivative, first);
+                    self.system.ad_star(along, &self.terms[index - 1], second);
+                    let weight = S::ratio(1.0, (index + 1) as f64);
+                    for row in 0..P::DIM {
+                        let term = (first.as_slice()[row] + second.as_slice()[row]) * weight;
+                        derivative.as_mut_slice()[row] = term;
+                        let sum = total.as_slice()[row];
+                        total.as_mut_slice()[row] = S::select(counted, sum + term, sum);
+                    }
+                }
+            }
+            for (row, &entry) in total.as_slice().iter().enumerate() {
+                let identity = if row == column { S::one() } else { S::zero() };
+                matrix.set(row, column, identity - entry);
+            }
+        }
+    }
+
+    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
+        dense::factor(matrix)
+    }
+
+    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
+        dense::solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
+        self.set_direction(unknown);
+        let scratch = &mut self.scratch;
+        coadjoint_action_in(self.system, &self.direction, &self.base, mu, scratch);
+    }
+}

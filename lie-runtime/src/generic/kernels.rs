@@ -1,0 +1,87 @@
+//! Vector field, Jacobian and coadjoint action from the Poisson matrix, gradient and Hessian.
+
+use crate::matrix::SquareMatrix;
+use crate::poisson::{LiePoisson, Poisson};
+use crate::scalar::Scalar;
+use crate::state::State;
+
+/// Matrix times vector: `out_i = sum_j matrix_ij vector_j`, summed in order of j.
+pub fn multiply<S: Scalar, M: SquareMatrix<S>, V: State<S>>(matrix: &M, vector: &V, out: &mut V) {
+    let vector = vector.as_slice();
+    for (row, out) in out.as_mut_slice().iter_mut().enumerate() {
+        let mut sum = S::zero();
+        for (column, &entry) in vector.iter().enumerate() {
+            sum += matrix.get(row, column) * entry;
+        }
+        *out = sum;
+    }
+}
+
+/// The vector field `f = Pi(mu) grad H(mu)`.
+pub fn vector_field<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State, out: &mut P::State) {
+    let mut gradient = system.zero_state();
+    system.gradient(mu, &mut gradient);
+    let mut poisson_matrix = system.zero_jacobian();
+    system.poisson_matrix(mu, &mut poisson_matrix);
+    multiply(&poisson_matrix, &gradient, out);
+}
+
+/// The Jacobian of the vector field, `Df = ad*_(grad H) + Pi(mu) H''(mu)`.
+pub fn jacobian<S: Scalar, P: LiePoisson<S>>(system: &P, mu: &P::State, out: &mut P::Jacobian) {
+    let mut gradient = system.zero_state();
+    system.gradient(mu, &mut gradient);
+    system.ad_star_matrix(&gradient, out);
+    let mut poisson_matrix = system.zero_jacobian();
+    system.poisson_matrix(mu, &mut poisson_matrix);
+    let mut hessian = system.zero_jacobian();
+    system.hessian(mu, &mut hessian);
+    for row in 0..P::DIM {
+        for column in 0..P::DIM {
+            let mut sum = out.get(row, column);
+            for middle in 0..P::DIM {
+                sum += poisson_matrix.get(row, middle) * hessian.get(middle, column);
+            }
+            out.set(row, column, sum);
+        }
+    }
+}
+
+/// The vector field and its Jacobian together.
+pub fn linearize<S: Scalar, P: LiePoisson<S>>(
+    system: &P,
+    mu: &P::State,
+    field: &mut P::State,
+    out: &mut P::Jacobian,
+) {
+    vector_field(system, mu, field);
+    jacobian(system, mu, out);
+}
+
+/// The coadjoint action by the Poisson matrix: `ad*_xi mu = Pi(mu) xi`.
+pub fn ad_star<S: Scalar, P: Poisson<S>>(
+    system: &P,
+    xi: &P::State,
+    mu: &P::State,
+    out: &mut P::State,
+) {
+    let mut poisson_matrix = system.zero_jacobian();
+    system.poisson_matrix(mu, &mut poisson_matrix);
+    multiply(&poisson_matrix, xi, out);
+}
+
+/// The matrix of `ad*_xi` from its columns `ad*_xi e_k`.
+pub fn ad_star_matrix<S: Scalar, P: LiePoisson<S>>(
+    system: &P,
+    xi: &P::State,
+    out: &mut P::Jacobian,
+) {
+    let mut column = system.zero_state();
+    for k in 0..P::DIM {
+        let mut unit = system.zero_state();
+        unit.as_mut_slice()[k] = S::one();
+        system.ad_star(xi, &unit, &mut column);
+        for (row, &entry) in column.as_slice().iter().enumerate() {
+            out.set(row, k, entry);
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! When an iteration has converged, lane by lane.
+
+use super::options::{Iteration, NewtonOptions};
+use crate::scalar::{Mask, Scalar};
+
+/// Updates up to this many units of round-off that no longer shrink are round-off themselves.
+const STAGNATION: f64 = 256.0;
+
+/// Follows the size of the updates of one solution.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Convergence<S> {
+    quadratic: bool,
+    tolerance: S,
+    first: S,
+    previous: S,
+    count: u32,
+}
+
+impl<S: Scalar> Convergence<S> {
+    pub(super) fn new(options: &NewtonOptions) -> Self {
+        Self {
+            quadratic: options.iteration == Iteration::Newton,
+            tolerance: S::from_f64(options.tolerance),
+            first: S::zero(),
+            previous: S::zero(),
+            count: 0,
+        }
+    }
+
+    /// Takes the size of an update and of the unknown, and returns the lanes that have converged:
+    /// those whose error after this update is predicted to be below the tolerance, and those whose
+    /// updates have shrunk to round-off.
+    ///
+    /// With `rate` the ratio of the last two updates d, the error left is about `d rate^2` for
+    /// Newton's method and `d rate/(1 - rate)` for linear convergence.
+    pub(super) fn observe(&mut self, update: S, size: S) -> S::Mask {
+        let round_off = S::epsilon() * size;
+        let goal = self.tolerance * round_off;
+        let converged = if self.count == 0 {
+            self.first = update;
+            update.less_equal(if self.quadratic { round_off } else { goal })
+        } else {
+            let rate = update / self.previous;
+            let left = if self.quadratic {
+                update * rate * rate
+            } else {
+                update * rate / (S::one() - rate)
+            };
+            let shrinking = rate.less(S::ratio(1.0, 2.0));
+            let at_round_off = update.less_equal(S::from_f64(STAGNATION) * round_off);
+            let quadratic = S::Mask::splat(self.quadratic);
+            (shrinking & left.less_equal(goal))
+                | (!shrinking & at_round_off)
+                | (quadratic & update.less_equal(round_off))
+                | update.less_equal(S::zero())
+        };
+        self.previous = update;
+        self.count += 1;
+        converged
+    }
+
+    /// The lanes whose last update is larger than the first.
+    pub(super) fn growing(&self) -> S::Mask {
+        self.first.less(self.previous)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn iterations(options: &NewtonOptions, updates: &[f64]) -> Option<usize> {
+        let mut convergence = Convergence::<f64>::new(options);
+        updates
+            .iter()
+            .position(|&update| convergence.observe(update, 1.0))
+            .map(|k| k + 1)
+    }
+
+    #[test]
+    fn quadratic_convergence_is_foreseen() {
+        let options = NewtonOptions::default();
+        assert_eq!(iterations(&options, &[1e-3, 1e-6, 1e-12, 1e-24]), Some(3));
+        assert_eq!(iterations(&options, &[1e-4, 1e-9, 1e-18]), Some(2));
+        assert_eq!(iterations(&options, &[1e-17]), Some(1));
+        assert_eq!(iterations(&options, &[0.0]), Some(1));
+    }
+
+    #[test]
+    fn linear_convergence_is_not_taken_for_quadratic() {
+        let updates: [f64; 40] = core::array::from_fn(|k| 0.1_f64.powi(k as i32));
+        let iterations = iterations(&NewtonOptions::fixed_point(), &updates).unwrap();
+        assert!((18..=21).contains(&iterations), "{iterations}");
+    }
+
+    #[test]
+    fn stagnation_counts_only_at_round_off() {
+        let options = NewtonOptions::fixed_point();
+        assert_eq!(iterations(&options, &[1e-12, 2e-14, 1.9e-14]), Some(3));
+        assert_eq!(iterations(&options, &[1e-3, 1e-10, 1e-10, 1e-10]), None);
+        assert_eq!(iterations(&options, &[1.0, 2.0, f64::NAN, 4.0]), None);
+    }
+
+    #[test]
+    fn growth_is_seen() {
+        let mut convergence = Convergence::<f64>::new(&NewtonOptions::default());
+        convergence.observe(1.0, 1.0);
+        convergence.observe(0.5, 1.0);
+        assert!(!convergence.growing());
+        convergence.observe(2.0, 1.0);
+        assert!(convergence.growing());
+    }
+}

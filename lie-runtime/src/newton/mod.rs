@@ -1,0 +1,16 @@
+//! Newton's iteration for implicit steps: the equation is [`crate::equation::Equation`], the loop
+//! [`Newton`], its stopping rule `convergence`, the update of each variant `update`, elimination
+//! [`dense`] and, for lanes with a small pivot, [`pivoted`].
+
+mod convergence;
+pub mod dense;
+mod options;
+pub mod pivoted;
+mod report;
+mod solver;
+mod update;
+
+pub use dense::pivot_is_safe;
+pub use options::{Iteration, NewtonOptions};
+pub use report::{Failure, FailureReason, NewtonReport};
+pub use solver::Newton;

@@ -1,0 +1,73 @@
+//! What an iteration reports.
+
+use thiserror::Error;
+
+/// How a converged iteration went.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NewtonReport {
+    /// Iterations, of the lane that took most.
+    pub iterations: u32,
+    /// Jacobians computed and factored.
+    pub factorizations: u32,
+    /// Largest entry of the residual when it was last evaluated (before the last update).
+    pub residual: f64,
+    /// Bit k is set if lane k had a small pivot and was solved with row exchanges.
+    pub pivoted: u64,
+}
+
+/// Why a step has failed.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FailureReason {
+    /// A number became infinite or not a number.
+    #[error("a number is not finite")]
+    NotFinite,
+    /// The Jacobian of the step's equation has no inverse.
+    #[error("the Jacobian of the step is singular")]
+    Singular,
+    /// The updates of the iteration grew.
+    #[error("the iteration diverges")]
+    Diverged,
+    /// The updates of the iteration neither grew nor reached round-off.
+    #[error("the iteration does not converge")]
+    NotConverged,
+    /// An adaptive method would need a step below round-off of the interval.
+    #[error("the adaptive step size fell below round-off")]
+    StepTooSmall,
+    /// An adaptive method needs too many steps for one interval.
+    #[error("too many adaptive steps in one interval")]
+    TooManySteps,
+}
+
+impl FailureReason {
+    /// What to do about it, in one clause.
+    pub fn remedy(self) -> &'static str {
+        match self {
+            Self::NotFinite => {
+                "the state leaves the domain of the Hamiltonian or grows without bound: take a smaller step or end earlier"
+            }
+            Self::Singular | Self::Diverged => "take a smaller step",
+            Self::NotConverged => {
+                "take a smaller step, or Newton's method if another iteration was chosen"
+            }
+            Self::StepTooSmall => {
+                "the solution has a singularity or the tolerances are below round-off: loosen rtol and atol or end earlier"
+            }
+            Self::TooManySteps => {
+                "loosen rtol and atol, take a smaller grid step, or an implicit method"
+            }
+        }
+    }
+}
+
+/// An iteration that has failed in some lanes; the others have converged.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("{reason} after {} iterations, residual {:e}", report.iterations, report.residual)]
+pub struct Failure {
+    /// The reason in the first lane that failed.
+    pub reason: FailureReason,
+    /// Bit k is set if lane k has failed.
+    pub lanes: u64,
+    /// The iteration up to then.
+    pub report: NewtonReport,
+}

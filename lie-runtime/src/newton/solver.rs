@@ -1,0 +1,110 @@
+//! The loop.
+
+use super::convergence::Convergence;
+use super::options::NewtonOptions;
+use super::report::{Failure, FailureReason, NewtonReport};
+use super::update::{self, Workspace};
+use crate::equation::Equation;
+use crate::scalar::{Mask, Scalar, largest};
+use crate::state::Unknown;
+
+/// Newton's iteration `u <- u - (dr/du)^-1 r(u)`, or a cheaper variant, for all lanes together.
+///
+/// A lane that has converged is frozen, so that it keeps the digits of a run of its own; the loop
+/// ends when every lane has converged or failed. Pivots are taken in the order fixed by the
+/// equation; a lane in which one is too small is solved alone with row exchanges. Steps allocate
+/// nothing (a heap matrix is allocated where row exchanges are needed).
+#[derive(Clone, Debug)]
+pub struct Newton<S: Scalar, U, M> {
+    options: NewtonOptions,
+    workspace: Workspace<S, U, M>,
+}
+
+impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
+    /// A solver for equations of the shape of this one.
+    pub fn new<E>(equation: &E, options: &NewtonOptions) -> Self
+    where
+        E: Equation<S, Unknown = U, Matrix = M>,
+    {
+        let workspace = Workspace::new(equation.zero_unknown(), equation.zero_matrix());
+        Self {
+            options: *options,
+            workspace,
+        }
+    }
+
+    /// Solves `r(u) = 0` from the unknown given.
+    ///
+    /// `scale` is the size of the state; errors are measured relative to it and to the unknown.
+    ///
+    /// # Errors
+    /// A [`Failure`] if some lane did not converge; the unknown then is the solution in the others.
+    pub fn solve<E>(
+        &mut self,
+        equation: &mut E,
+        unknown: &mut U,
+        scale: S,
+    ) -> Result<NewtonReport, Failure>
+    where
+        E: Equation<S, Unknown = U, Matrix = M>,
+    {
+        let mut report = NewtonReport::default();
+        let mut convergence = Convergence::new(&self.options);
+        let mut active = S::Mask::splat(true);
+        let mut failed = None;
+        while active.any() && report.iterations < self.options.max_iterations {
+            let outcome = update::compute(
+                equation,
+                unknown,
+                self.options.iteration,
+                report.iterations == 0,
+                active,
+                &mut self.workspace,
+            );
+            report.iterations += 1;
+            report.factorizations += outcome.factorizations;
+            report.residual = largest(S::select(active, outcome.residual, S::zero()));
+            report.pivoted |= outcome.pivoted.bits();
+
+            let step = self.workspace.update.max_norm();
+            let infinite = active & !outcome.singular & !step.finite();
+            record(
+                &mut failed,
+                active & outcome.singular,
+                FailureReason::Singular,
+            );
+            record(&mut failed, infinite, FailureReason::NotFinite);
+            active = active & !outcome.singular & !infinite;
+
+            unknown.subtract_where(active, &self.workspace.update);
+            let size = scale.max(unknown.max_norm());
+            active = active & !convergence.observe(step, size);
+        }
+        let growing = convergence.growing();
+        record(&mut failed, active & growing, FailureReason::Diverged);
+        record(&mut failed, active & !growing, FailureReason::NotConverged);
+        match failed {
+            None => Ok(report),
+            Some((reason, lanes)) => Err(Failure {
+                reason,
+                lanes,
+                report,
+            }),
+        }
+    }
+}
+
+/// Adds lanes to the failed ones; the reason is that of the lowest lane.
+fn record<M: Mask>(failed: &mut Option<(FailureReason, u64)>, lanes: M, reason: FailureReason) {
+    let bits = lanes.bits();
+    if bits == 0 {
+        return;
+    }
+    let (known, before) = failed.unwrap_or((reason, 0));
+    let reason = if bits.trailing_zeros() < before.trailing_zeros() {
+        reason
+    } else {
+        known
+    };
+    *failed = Some((reason, before | bits));
+}

@@ -1,0 +1,99 @@
+//! The update of one iteration, for each kind of iteration.
+
+use super::options::Iteration;
+use super::pivoted;
+use crate::equation::Equation;
+use crate::scalar::{Mask, Scalar};
+use crate::state::Unknown;
+
+/// Residual, factors, and what a lane with a small pivot needs.
+#[derive(Clone, Debug)]
+pub(super) struct Workspace<S: Scalar, U, M> {
+    /// The residual, then the update.
+    pub(super) update: U,
+    spare: U,
+    factors: M,
+    /// The lanes whose factors may be used.
+    safe: S::Mask,
+}
+
+/// What the computation of an update has found, per lane.
+pub(super) struct Outcome<S: Scalar> {
+    /// Size of the residual.
+    pub(super) residual: S,
+    /// Lanes solved with row exchanges.
+    pub(super) pivoted: S::Mask,
+    /// Lanes whose Jacobian has no inverse.
+    pub(super) singular: S::Mask,
+    /// How many Jacobians were computed.
+    pub(super) factorizations: u32,
+}
+
+/// Computes the update of an iteration at an unknown into `workspace.update`; it is to be
+/// subtracted from the unknown.
+pub(super) fn compute<S: Scalar, E: Equation<S>>(
+    equation: &mut E,
+    unknown: &E::Unknown,
+    iteration: Iteration,
+    first: bool,
+    active: S::Mask,
+    workspace: &mut Workspace<S, E::Unknown, E::Matrix>,
+) -> Outcome<S> {
+    let mut outcome = Outcome {
+        residual: S::zero(),
+        pivoted: S::Mask::splat(false),
+        singular: S::Mask::splat(false),
+        factorizations: 0,
+    };
+    if iteration == Iteration::FixedPoint {
+        equation.residual(unknown, &mut workspace.update);
+        outcome.residual = workspace.update.max_norm();
+        return outcome;
+    }
+    if iteration == Iteration::Newton || first {
+        equation.linearize(unknown, &mut workspace.update, &mut workspace.factors);
+        workspace.safe = equation.factor(&mut workspace.factors);
+        outcome.factorizations += 1;
+    } else {
+        equation.residual(unknown, &mut workspace.update);
+    }
+    outcome.residual = workspace.update.max_norm();
+    equation.solve(&workspace.factors, &mut workspace.update);
+    outcome.pivoted = !workspace.safe & active & outcome.residual.finite();
+    if outcome.pivoted.any() {
+        outcome.singular = redo(equation, unknown, outcome.pivoted, workspace);
+        outcome.factorizations += 1;
+    }
+    outcome
+}
+
+/// Solves the lanes of a mask one by one with row exchanges; returns those that are singular.
+fn redo<S: Scalar, E: Equation<S>>(
+    equation: &mut E,
+    unknown: &E::Unknown,
+    lanes: S::Mask,
+    workspace: &mut Workspace<S, E::Unknown, E::Matrix>,
+) -> S::Mask {
+    // row exchanges fill entries that a linearization does not write: start from a clean matrix
+    let mut matrix = equation.zero_matrix();
+    equation.linearize(unknown, &mut workspace.spare, &mut matrix);
+    let mut singular = 0;
+    for lane in (0..S::LANES).filter(|&lane| lanes.lane(lane)) {
+        if !pivoted::solve_lane(&mut matrix, &mut workspace.spare, lane) {
+            singular |= 1 << lane;
+        }
+    }
+    workspace.update.assign_where(lanes, &workspace.spare);
+    S::Mask::from_bits(singular)
+}
+
+impl<S: Scalar, U: Clone, M> Workspace<S, U, M> {
+    pub(super) fn new(unknown: U, matrix: M) -> Self {
+        Self {
+            update: unknown.clone(),
+            spare: unknown,
+            factors: matrix,
+            safe: S::Mask::splat(false),
+        }
+    }
+}

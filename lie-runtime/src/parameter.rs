@@ -1,0 +1,14 @@
+//! Errors of parameter values.
+
+use thiserror::Error;
+
+/// A parameter value for which a constant of the system is not finite, such as a moment of
+/// inertia of zero.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error("`{expression}` is not finite for this value of the parameter `{name}`")]
+pub struct ParameterError {
+    /// The parameter; where several enter the expression, the first of them.
+    pub name: &'static str,
+    /// The constant that is not finite, in the user's names.
+    pub expression: &'static str,
+}

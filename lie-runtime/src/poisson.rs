@@ -1,0 +1,93 @@
+//! Poisson systems, Lie–Poisson systems, and those with a Cayley map.
+//!
+//! Left-invariant convention throughout: `[e_i, e_j] = sum_k C_ij^k e_k`,
+//! `<ad*_xi mu, eta> = <mu, [xi, eta]>`, `Pi(mu) xi = ad*_xi mu`, and the equation of motion is
+//! `mu' = Pi(mu) grad H(mu)`, for so(3) `mu' = mu x grad H`.
+
+use crate::generic;
+use crate::matrix::SquareMatrix;
+use crate::scalar::Scalar;
+use crate::state::State;
+
+/// A Hamiltonian system `mu' = f(mu) = Pi(mu) grad H(mu)` on a Poisson manifold with n coordinates.
+///
+/// All functions write their result into `out` (every entry) and allocate nothing.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a Poisson system over the scalar `{S}`",
+    note = "declare it with `lie_poisson!` and pass the result of `.system()?`, or implement `Poisson<{S}>`"
+)]
+pub trait Poisson<S: Scalar>: Sized {
+    /// The state mu: n coordinates.
+    type State: State<S>;
+    /// An n x n matrix.
+    type Jacobian: SquareMatrix<S>;
+
+    /// The number of coordinates n.
+    const DIM: usize;
+    /// The number of Casimirs that [`Poisson::casimirs`] writes.
+    const CASIMIRS: usize;
+    /// The name of the system.
+    const NAME: &'static str;
+    /// The names of the coordinates, n of them.
+    const COORDINATES: &'static [&'static str];
+    /// The names of the Casimirs.
+    const CASIMIR_NAMES: &'static [&'static str];
+
+    /// A state of the right size, all coordinates 0.
+    fn zero_state(&self) -> Self::State;
+    /// A matrix of the right size, all entries 0.
+    fn zero_jacobian(&self) -> Self::Jacobian;
+
+    /// The energy H(mu).
+    fn hamiltonian(&self, mu: &Self::State) -> S;
+    /// The gradient of H: `out_i = dH/dmu_i`.
+    fn gradient(&self, mu: &Self::State, out: &mut Self::State);
+    /// The Hessian of H: `out_ij = d^2H/dmu_i dmu_j`.
+    fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian);
+    /// The Poisson matrix: `out_ij = {mu_i, mu_j} = -C_ij^k mu_k`.
+    fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian);
+
+    /// The vector field `f(mu) = Pi(mu) grad H(mu)`.
+    fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
+        generic::vector_field(self, mu, out);
+    }
+    /// The Jacobian of the vector field: `out_ij = df_i/dmu_j`.
+    fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian);
+    /// The vector field and its Jacobian together.
+    fn linearize(&self, mu: &Self::State, field: &mut Self::State, jacobian: &mut Self::Jacobian) {
+        self.vector_field(mu, field);
+        self.jacobian(mu, jacobian);
+    }
+
+    /// The Casimirs at mu; `out` has [`Poisson::CASIMIRS`] entries.
+    fn casimirs(&self, mu: &Self::State, out: &mut [S]);
+    /// The gradient of one Casimir; `index` must be below [`Poisson::CASIMIRS`].
+    fn casimir_gradient(&self, index: usize, mu: &Self::State, out: &mut Self::State);
+}
+
+/// A Lie–Poisson system: the state lives in the dual g* of a Lie algebra g.
+///
+/// Elements of g are passed as states too: their coordinates in the basis `e_i`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a Lie–Poisson system over the scalar `{S}`",
+    note = "methods of coadjoint form need the bracket of a Lie algebra: implement `LiePoisson<{S}>`, or choose `ImplicitMidpoint` or a Gauss method, which ask only for `Poisson`"
+)]
+pub trait LiePoisson<S: Scalar>: Poisson<S> {
+    /// The bracket `out = [xi, eta]`: `out^k = C_ij^k xi^i eta^j`.
+    fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State);
+    /// The coadjoint action `out = ad*_xi mu = Pi(mu) xi`: `out_j = C_ij^k xi^i mu_k`.
+    fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State);
+    /// The matrix of `mu -> ad*_xi mu`: `out_jk = C_ij^k xi^i`.
+    fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian);
+}
+
+/// A Lie–Poisson system whose algebra has a representation closed under the Jordan triple product
+/// `(abc + cba)/2 = T_abc^d`, and with it a Cayley map in coordinates.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no Cayley map over the scalar `{S}`",
+    note = "the Cayley map needs a matrix representation that is closed under (abc + cba)/2: declare `matrices`, or use `LieMidpoint::exp()`"
+)]
+pub trait CayleyPoisson<S: Scalar>: LiePoisson<S> {
+    /// The triple product paired with mu: `out_b = T_abc^d x^a z^c mu_d`, symmetric in x and z.
+    fn triple(&self, x: &Self::State, z: &Self::State, mu: &Self::State, out: &mut Self::State);
+}

@@ -1,0 +1,141 @@
+//! The scalar of all numeric code: `f64`, `f32`, SIMD lanes and dual numbers behind one trait.
+//!
+//! Elementary functions come from the `libm` crate in every scalar, lane by lane, and nothing is
+//! contracted to a fused multiply-add: the same input gives the same bits on every machine, and a
+//! lane gives the bits of the scalar run.
+
+mod dual;
+mod float;
+#[cfg(feature = "lanes")]
+mod lanes;
+mod mask;
+
+pub use dual::Dual;
+#[cfg(feature = "lanes")]
+pub use lanes::{F32x8, F64x4, F64x8, Mask32x8, Mask64x4, Mask64x8};
+pub use mask::Mask;
+
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// A real number, or several independent ones in lanes.
+///
+/// Comparisons return a [`Mask`] with one truth value per lane and [`Scalar::select`] chooses by
+/// it, so that code without branches serves one lane and eight.
+///
+/// ```
+/// use lie_runtime::prelude::*;
+/// fn relu<S: Scalar>(x: S) -> S {
+///     S::select(x.less(S::zero()), S::zero(), x)
+/// }
+/// assert_eq!(relu(-2.0_f64), 0.0);
+/// assert_eq!(relu(2.0_f32), 2.0);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a scalar of lie-runtime",
+    note = "scalars are f64, f32, the lanes F64x4, F64x8, F32x8, and Dual of any of these"
+)]
+pub trait Scalar:
+    Copy
+    + Debug
+    + Default
+    + PartialEq
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+{
+    /// One lane; the type itself where there is only one.
+    type Lane: Scalar<Lane = Self::Lane, Mask = bool>;
+    /// One truth value per lane.
+    type Mask: Mask;
+    /// The number of lanes.
+    const LANES: usize;
+
+    /// 0 in every lane.
+    fn zero() -> Self;
+    /// 1 in every lane.
+    fn one() -> Self;
+    /// The number nearest to `numerator / denominator`, both of which must be integers that f64
+    /// holds exactly.
+    fn ratio(numerator: f64, denominator: f64) -> Self;
+    /// The number nearest to `high + low`, for constants beyond 53 bits; `high` must be the f64
+    /// nearest to the sum.
+    fn constant(high: f64, low: f64) -> Self;
+    /// The number nearest to an f64.
+    fn from_f64(value: f64) -> Self;
+    /// The distance from 1 to the next larger number.
+    fn epsilon() -> Self;
+
+    /// The same number in every lane.
+    fn splat(lane: Self::Lane) -> Self;
+    /// The number in one lane; `index` must be below [`Scalar::LANES`].
+    fn lane(self, index: usize) -> Self::Lane;
+    /// A copy with another number in one lane; `index` must be below [`Scalar::LANES`].
+    #[must_use]
+    fn with_lane(self, index: usize, lane: Self::Lane) -> Self;
+    /// The number in lane 0 (of a dual number its value).
+    fn to_f64(self) -> f64;
+
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// The size that counts in a norm: [`Scalar::abs`], and of a dual number the larger of value
+    /// and derivative, so that an iteration over dual numbers ends only when both have converged.
+    fn magnitude(self) -> Self {
+        self.abs()
+    }
+    /// Square root, correctly rounded.
+    fn sqrt(self) -> Self;
+    /// Exponential.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn log(self) -> Self;
+    /// Sine of an angle in radians.
+    fn sin(self) -> Self;
+    /// Cosine of an angle in radians.
+    fn cos(self) -> Self;
+    /// Tangent of an angle in radians.
+    fn tan(self) -> Self;
+    /// Inverse sine in radians.
+    fn asin(self) -> Self;
+    /// Inverse cosine in radians.
+    fn acos(self) -> Self;
+    /// Inverse tangent in radians.
+    fn atan(self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// The angle of the point (`x`, `self`) in radians.
+    fn atan2(self, x: Self) -> Self;
+    /// `self` to a real power.
+    fn powf(self, exponent: Self) -> Self;
+
+    /// The larger of two numbers; not a number if either is not.
+    fn max(self, other: Self) -> Self;
+    /// `self < other`, false where either is not a number.
+    fn less(self, other: Self) -> Self::Mask;
+    /// `self <= other`, false where either is not a number.
+    fn less_equal(self, other: Self) -> Self::Mask;
+    /// Neither infinite nor not a number (of a dual number: value and derivative).
+    fn finite(self) -> Self::Mask;
+    /// `yes` in the lanes where the mask is true, `no` in the others.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+}
+
+/// The largest lane as f64, for reports; not a number if any lane is.
+pub fn largest<S: Scalar>(value: S) -> f64 {
+    (1..S::LANES).fold(value.lane(0).to_f64(), |largest, index| {
+        Scalar::max(largest, value.lane(index).to_f64())
+    })
+}
