@@ -37,8 +37,10 @@ pub(super) fn is_known(
     }
     for node in graph.dependencies(&[id]) {
         let answer = match graph.node(node) {
+            Node::Number(_) | Node::Pi => true,
             Node::Symbol(symbol) => known.covers(*symbol),
-            _ => graph.children(node).iter().all(|child| cache[child]),
+            // What is prepared itself is computed from numbers.
+            _ => known != Known::Nothing && graph.children(node).iter().all(|child| cache[child]),
         };
         cache.insert(node, answer);
     }

@@ -1,0 +1,315 @@
+//! Fused equations of implicit steps.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::Writer;
+use super::elimination::Elimination;
+use super::prepared::{Owner, Prepared, step_name};
+use crate::derive::{Kernel, Shape};
+use crate::schedule::{Program, Value};
+
+/// What distinguishes one fused equation from another.
+struct Form {
+    /// Suffix of its type.
+    suffix: &'static str,
+    /// Label in the table of operation counts.
+    label: &'static str,
+    /// Its doc lines.
+    docs: &'static [&'static str],
+    /// The factor of `h f(mu)` in the initial guess.
+    guess: TokenStream,
+}
+
+impl Writer<'_> {
+    /// The hook impls with their equations: fused where asked for, generic elsewhere.
+    pub fn equations(&mut self) -> TokenStream {
+        let fused = self.blueprint.fused.clone();
+        let mut tokens = if fused.midpoint { self.fused_midpoint() } else { self.generic_midpoint() };
+        tokens.extend(self.gauss(&fused.gauss));
+        tokens.extend(self.exp(fused.exp));
+        if self.source.triple.is_some() {
+            tokens.extend(if fused.cayley { self.fused_cayley() } else { self.generic_cayley() });
+        }
+        tokens
+    }
+
+    fn system_name(&self) -> Ident {
+        format_ident!("{}System", self.blueprint.name)
+    }
+
+    fn generic_midpoint(&self) -> TokenStream {
+        let system = self.system_name();
+        quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S> for #system<S> {
+                type Equation<'a> = ::lie_runtime::generic::Midpoint<'a, S, Self> where Self: 'a;
+                fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
+                    ::lie_runtime::generic::Midpoint::new(self, h)
+                }
+            }
+        }
+    }
+
+    fn generic_cayley(&self) -> TokenStream {
+        let system = self.system_name();
+        quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S> for #system<S> {
+                type Cayley<'a> = ::lie_runtime::generic::CayleyMidpoint<'a, S, Self> where Self: 'a;
+                fn cayley_equation(&self, h: S) -> Self::Cayley<'_> {
+                    ::lie_runtime::generic::CayleyMidpoint::new(self, h)
+                }
+            }
+        }
+    }
+
+    fn fused_midpoint(&mut self) -> TokenStream {
+        let kernels = self.source.midpoint_kernels();
+        let form = Form {
+            suffix: "Midpoint",
+            label: "midpoint",
+            docs: &["The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`."],
+            guess: quote! { self.h },
+        };
+        let equation = self.fused(&form, &kernels);
+        let (system, name) = (self.system_name(), format_ident!("{}Midpoint", self.blueprint.name));
+        quote! {
+            #equation
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S> for #system<S> {
+                type Equation<'a> = #name<'a, S> where Self: 'a;
+                fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
+                    #name::new(self, h)
+                }
+            }
+        }
+    }
+
+    fn fused_cayley(&mut self) -> TokenStream {
+        let Some(kernels) = self.source.cayley_kernels() else { return TokenStream::new() };
+        let form = Form {
+            suffix: "CayleyMidpoint",
+            label: "lie-midpoint cayley",
+            docs: &[
+                "The retraction method with the Cayley map, unknown the momentum `m` at the midpoint:",
+                "`m - ad*_x m/2 - Q_x m/4 - mu = 0` with `x = h grad H(m)`, then `mu1 = mu + ad*_x m`.",
+            ],
+            guess: quote! { self.h * S::ratio(1.0, 2.0) },
+        };
+        let equation = self.fused(&form, &kernels);
+        let (system, name) = (self.system_name(), format_ident!("{}CayleyMidpoint", self.blueprint.name));
+        quote! {
+            #equation
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S> for #system<S> {
+                type Cayley<'a> = #name<'a, S> where Self: 'a;
+                fn cayley_equation(&self, h: S) -> Self::Cayley<'_> {
+                    #name::new(self, h)
+                }
+            }
+        }
+    }
+
+    /// The struct of a fused equation and its impl.
+    fn fused(&mut self, form: &Form, kernels: &[Kernel]) -> TokenStream {
+        let mut step = Prepared::default();
+        let n = self.source.dimension;
+        let place = |name: &str| if name == "mu" { quote! { self.base } } else { quote! { unknown } };
+        let mut methods = TokenStream::new();
+        let mut elimination = Elimination::default();
+        let mut has_result = false;
+        for kernel in kernels {
+            let program = kernel.program(&mut self.source.graph);
+            let docs = self.kernel_docs(&format!("{} {}", form.label, kernel.name), kernel, &program);
+            let name = super::names::ident(kernel.name);
+            let method = match &kernel.shape {
+                Shape::VectorAndMatrix(_, places) => {
+                    elimination = eliminate(n, places, &program);
+                    let body = self.linearize_body(kernel, &program, &mut step, &place, &elimination);
+                    quote! {
+                        #docs
+                        #[inline]
+                        fn linearize(&mut self, unknown: &Self::State, residual: &mut Self::State, matrix: &mut Self::Matrix) {
+                            #body
+                        }
+                    }
+                }
+                _ => {
+                    let target = if kernel.name == "result" { "mu" } else { "residual" };
+                    has_result |= kernel.name == "result";
+                    let body = self.kernel_body(kernel, &program, Owner::Equation, &mut step, &place, &[target]);
+                    let target = super::names::ident(target);
+                    let target = self.argument(&target.to_string());
+                    quote! {
+                        #docs
+                        #[inline]
+                        fn #name(&mut self, unknown: &Self::State, #target: &mut Self::State) {
+                            #body
+                        }
+                    }
+                }
+            };
+            methods.extend(method);
+        }
+        if !has_result {
+            methods.extend(quote! {
+                #[inline]
+                fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+                    *mu = *unknown;
+                }
+            });
+        }
+        methods.extend(self.elimination_methods(&elimination));
+        self.equation_struct(form, &step, methods)
+    }
+
+    /// Residual and Jacobian; entries that only fill in during elimination are cleared.
+    fn linearize_body(
+        &mut self,
+        kernel: &Kernel,
+        program: &Program,
+        step: &mut Prepared,
+        place: &dyn Fn(&str) -> TokenStream,
+        elimination: &Elimination,
+    ) -> TokenStream {
+        let unpacked: TokenStream =
+            kernel.arguments.iter().map(|a| self.unpack(a, program, &place(a.name))).collect();
+        let (statements, outputs) =
+            self.program(program, |writer, value| writer.value(value, Owner::Equation, step));
+        let Shape::VectorAndMatrix(indices, places) = &kernel.shape else { return TokenStream::new() };
+        let (residual, matrix) = (self.argument("residual"), self.argument("matrix"));
+        let entries = indices.iter().zip(&outputs).map(|(i, value)| quote! { #residual[#i] = #value; });
+        let slopes = places
+            .iter()
+            .zip(&outputs[indices.len()..])
+            .map(|((i, j), value)| quote! { #matrix[(#i, #j)] = #value; });
+        let fill = elimination.fill.iter().map(|(i, j)| quote! { #matrix[(#i, #j)] = S::zero(); });
+        quote! { #unpacked #statements #(#entries)* #(#slopes)* #(#fill)* }
+    }
+
+    /// `factor` and `solve` of a sparse matrix of n rows.
+    fn elimination_methods(&self, elimination: &Elimination) -> TokenStream {
+        let factor = elimination.factor_tokens(
+            &|i, j| quote! { matrix[(#i, #j)] },
+            &|i, j, value| quote! { matrix[(#i, #j)] = #value; },
+        );
+        let solve =
+            elimination.solve_tokens(&|i, j| quote! { factors[(#i, #j)] }, &|i| quote! { residual[#i] });
+        let count = format!(
+            " Sparse elimination in the order {:?}, {} entries of fill-in: {} multiplications with the solution.",
+            elimination.order,
+            elimination.fill.len(),
+            elimination.multiplications()
+        );
+        quote! {
+            #[doc = #count]
+            #[inline]
+            fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+                #factor
+            }
+
+            #[inline]
+            fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+                #solve
+            }
+        }
+    }
+
+    fn equation_struct(&mut self, form: &Form, step: &Prepared, methods: TokenStream) -> TokenStream {
+        let n = self.source.dimension;
+        let visibility = &self.blueprint.visibility;
+        let (system, name) = (self.system_name(), format_ident!("{}{}", self.blueprint.name, form.suffix));
+        let constants = step.all().to_vec();
+        let names: Vec<Ident> = (0..constants.len()).map(step_name).collect();
+        let texts: Vec<String> = constants.iter().map(|id| format!(" `{}`", self.constant_text(*id))).collect();
+        let (statements, values) = self.preparation(&constants, &|name| quote! { system._parameters.#name });
+        let docs = form.docs.iter().map(|line| format!(" {line}"));
+        let guess = &form.guess;
+        quote! {
+            #(#[doc = #docs])*
+            #[derive(Clone, Debug)]
+            #visibility struct #name<'a, S: ::lie_runtime::Scalar> {
+                system: &'a #system<S>,
+                base: ::lie_runtime::__private::SVector<S, #n>,
+                h: S,
+                #(#[doc = #texts] #names: S,)*
+            }
+
+            impl<'a, S: ::lie_runtime::Scalar> #name<'a, S> {
+                #[doc = " The equation of a step of size h; what depends on h alone is computed here, once."]
+                #[must_use]
+                pub fn new(system: &'a #system<S>, h: S) -> Self {
+                    #statements
+                    Self { system, base: ::lie_runtime::Poisson::zero_state(system), h, #(#names: #values),* }
+                }
+            }
+
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for #name<'_, S> {
+                type State = ::lie_runtime::__private::SVector<S, #n>;
+                type Unknown = Self::State;
+                type Matrix = ::lie_runtime::__private::SMatrix<S, #n, #n>;
+
+                fn zero_unknown(&self) -> Self::Unknown {
+                    Self::State::repeat(S::zero())
+                }
+
+                fn zero_matrix(&self) -> Self::Matrix {
+                    Self::Matrix::repeat(S::zero())
+                }
+
+                #[inline]
+                fn set_base(&mut self, mu: &Self::State) {
+                    self.base = *mu;
+                }
+
+                #[inline]
+                fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+                    let mut field = self.base;
+                    ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+                    *unknown = self.base;
+                    ::lie_runtime::State::axpy(unknown, #guess, &field);
+                }
+
+                #methods
+            }
+        }
+    }
+
+    fn gauss(&mut self, fused: &[usize]) -> TokenStream {
+        let _ = fused;
+        let system = self.system_name();
+        quote! {
+            impl<S: ::lie_runtime::Scalar, const STAGES: usize> ::lie_runtime::GaussEquations<S, STAGES> for #system<S> {
+                type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, STAGES> where Self: 'a;
+                fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+                    ::lie_runtime::generic::Gauss::new(self, h)
+                }
+            }
+        }
+    }
+
+    fn exp(&mut self, fused: bool) -> TokenStream {
+        let _ = fused;
+        let system = self.system_name();
+        quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S> for #system<S> {
+                type Exp<'a> = ::lie_runtime::generic::ExpMidpoint<'a, S, Self> where Self: 'a;
+                fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+                    ::lie_runtime::generic::ExpMidpoint::new(self, h)
+                }
+            }
+        }
+    }
+}
+
+/// The elimination of a Jacobian; diagonal entries that are the number one are known to be it.
+fn eliminate(n: usize, places: &[(usize, usize)], program: &Program) -> Elimination {
+    let matrix = &program.outputs[program.outputs.len() - places.len()..];
+    let unit: BTreeSet<usize> = places
+        .iter()
+        .zip(matrix)
+        .filter(|((i, j), value)| i == j && matches!(value, Value::Number(number) if number.is_one()))
+        .map(|((i, _), _)| *i)
+        .collect();
+    Elimination::new(n, places, &unit)
+}

@@ -1,0 +1,166 @@
+//! Straight-line programs as Rust: quantities used once stand where they are used, the others are
+//! bound to a local. The order of operations is that of the program.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::Writer;
+use super::names::ident;
+use super::prepared::{Owner, Prepared};
+use crate::exact::Rational;
+use crate::schedule::{Operation, Program, Value};
+
+/// An expression with more operations than this is bound to a local even if it is used once.
+const LONGEST: usize = 12;
+
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Binding {
+    Sum,
+    Product,
+    Unary,
+    Atom,
+}
+
+#[derive(Clone)]
+struct Text {
+    tokens: TokenStream,
+    binding: Binding,
+    length: usize,
+}
+
+impl Writer<'_> {
+    /// The statements of a program and the tokens of its results.
+    pub fn program(
+        &mut self,
+        program: &Program,
+        mut leaf: impl FnMut(&mut Self, &Value) -> TokenStream,
+    ) -> (TokenStream, Vec<TokenStream>) {
+        let mut uses = vec![0usize; program.operations.len()];
+        let operands = program.operations.iter().flat_map(Operation::operands);
+        for value in operands.chain(&program.outputs) {
+            if let Value::Temporary(i) = value {
+                uses[*i] += 1;
+            }
+        }
+        let mut texts: Vec<Text> = Vec::with_capacity(program.operations.len());
+        let mut statements = TokenStream::new();
+        let mut locals = 0;
+        for (position, operation) in program.operations.iter().enumerate() {
+            let mut text = {
+                let mut get = |value: &Value| match value {
+                    Value::Temporary(i) => texts[*i].clone(),
+                    other => Text { tokens: leaf(self, other), binding: Binding::Atom, length: 0 },
+                };
+                write(operation, &mut get)
+            };
+            if uses[position] > 1 || text.length > LONGEST {
+                let name: Ident = format_ident!("_t{locals}");
+                locals += 1;
+                let tokens = &text.tokens;
+                statements.extend(quote! { let #name = #tokens; });
+                text = Text { tokens: quote! { #name }, binding: Binding::Atom, length: 0 };
+            }
+            texts.push(text);
+        }
+        let outputs = program
+            .outputs
+            .iter()
+            .map(|value| match value {
+                Value::Temporary(i) => texts[*i].tokens.clone(),
+                other => leaf(self, other),
+            })
+            .collect();
+        (statements, outputs)
+    }
+
+    /// The tokens of a value that is not a temporary.
+    pub fn value(&mut self, value: &Value, owner: Owner, step: &mut Prepared) -> TokenStream {
+        match value {
+            Value::Symbol(symbol) => {
+                let name = self.local(*symbol);
+                quote! { #name }
+            }
+            Value::Number(number) => self::number(number),
+            Value::Prepared(id) => self.constant(*id, owner, step),
+            Value::Temporary(i) => {
+                let name = format_ident!("_t{i}");
+                quote! { #name }
+            }
+        }
+    }
+}
+
+fn write(operation: &Operation, get: &mut dyn FnMut(&Value) -> Text) -> Text {
+    let mut infix = |a: &Value, b: &Value, sign: TokenStream, binding: Binding, right: Binding| {
+        let (a, b) = (get(a), get(b));
+        let length = a.length + b.length + 1;
+        let (left, right) = (enclose(&a, binding), enclose(&b, right));
+        Text { tokens: quote! { #left #sign #right }, binding, length }
+    };
+    match operation {
+        Operation::Add(a, b) => infix(a, b, quote!(+), Binding::Sum, Binding::Product),
+        Operation::Sub(a, b) => infix(a, b, quote!(-), Binding::Sum, Binding::Product),
+        Operation::Mul(a, b) => infix(a, b, quote!(*), Binding::Product, Binding::Unary),
+        Operation::Div(a, b) => infix(a, b, quote!(/), Binding::Product, Binding::Unary),
+        Operation::Neg(a) => {
+            let a = get(a);
+            let inner = enclose(&a, Binding::Atom);
+            Text { tokens: quote! { -#inner }, binding: Binding::Unary, length: a.length + 1 }
+        }
+        Operation::Sqrt(a) => {
+            let a = get(a);
+            let inner = enclose(&a, Binding::Atom);
+            Text { tokens: quote! { #inner.sqrt() }, binding: Binding::Atom, length: a.length + 1 }
+        }
+        Operation::Power(a, exponent) => {
+            let (a, exponent) = (get(a), number(exponent));
+            let inner = enclose(&a, Binding::Atom);
+            Text { tokens: quote! { #inner.powf(#exponent) }, binding: Binding::Atom, length: a.length + 1 }
+        }
+        Operation::Call(function, arguments) => {
+            let name = ident(function.name());
+            let mut arguments = arguments.iter().map(get);
+            let Some(first) = arguments.next() else { unreachable!("every function has an argument") };
+            let inner = enclose(&first, Binding::Atom);
+            let rest: Vec<Text> = arguments.collect();
+            let length = rest.iter().fold(first.length + 1, |sum, text| sum + text.length);
+            let rest = rest.iter().map(|text| &text.tokens);
+            Text { tokens: quote! { #inner.#name(#(#rest),*) }, binding: Binding::Atom, length }
+        }
+    }
+}
+
+fn enclose(text: &Text, least: Binding) -> TokenStream {
+    let tokens = &text.tokens;
+    if text.binding < least { quote! { (#tokens) } } else { tokens.clone() }
+}
+
+/// An exact number as a scalar.
+pub fn number(value: &Rational) -> TokenStream {
+    if value.is_zero() {
+        return quote! { S::zero() };
+    }
+    if value.is_one() {
+        return quote! { S::one() };
+    }
+    const EXACT: u64 = 1 << 53;
+    if let Some((n, d)) = value.to_words()
+        && n.unsigned_abs() <= EXACT
+        && d.unsigned_abs() <= EXACT
+    {
+        let (n, d) = (float(n as f64), float(d as f64));
+        return quote! { S::ratio(#n, #d) };
+    }
+    let high = value.to_f64();
+    let low = Rational::from_f64(high).map_or(0.0, |high| (value - &high).to_f64());
+    let (high, low) = (float(high), float(low));
+    quote! { S::constant(#high, #low) }
+}
+
+fn float(value: f64) -> TokenStream {
+    if !value.is_finite() {
+        return if value > 0.0 { quote! { f64::INFINITY } } else { quote! { f64::NEG_INFINITY } };
+    }
+    let literal = Literal::f64_unsuffixed(value.abs());
+    if value < 0.0 { quote! { -#literal } } else { quote! { #literal } }
+}

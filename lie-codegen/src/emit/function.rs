@@ -1,0 +1,83 @@
+//! Kernels as functions.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::Writer;
+use super::prepared::{Owner, Prepared};
+use crate::derive::{Argument, Kernel, Shape};
+use crate::schedule::{Operation, Program, Value};
+
+impl Writer<'_> {
+    /// The doc lines of a kernel: its formula and its count of operations. The count is recorded.
+    pub fn kernel_docs(&mut self, label: &str, kernel: &Kernel, program: &Program) -> TokenStream {
+        self.counts.push((label.to_string(), program.counts));
+        let formula = format!(" {}", kernel.formula);
+        let count = format!(" {}.", program.counts);
+        quote! { #[doc = #formula] #[doc = ""] #[doc = #count] }
+    }
+
+    /// The statements that take the arguments apart; `_` stands for what the kernel ignores.
+    pub fn unpack(&self, argument: &Argument, program: &Program, from: &TokenStream) -> TokenStream {
+        let used = |symbol| {
+            let is = |value: &Value| *value == Value::Symbol(symbol);
+            program.operations.iter().flat_map(Operation::operands).any(is) || program.outputs.iter().any(is)
+        };
+        if !argument.symbols.iter().any(|symbol| used(*symbol)) {
+            return quote! { let _ = #from; };
+        }
+        let entries = argument.symbols.iter().map(|symbol| {
+            if used(*symbol) {
+                let name = self.local(*symbol);
+                quote! { #name }
+            } else {
+                quote! { _ }
+            }
+        });
+        quote! { let [[#(#entries),*]] = #from.data.0; }
+    }
+
+    /// The body of a kernel: arguments taken apart, locals, results written to `targets`.
+    ///
+    /// `argument` gives the place of each vector argument: a parameter of the function or a field.
+    pub fn kernel_body(
+        &mut self,
+        kernel: &Kernel,
+        program: &Program,
+        owner: Owner,
+        step: &mut Prepared,
+        argument: &dyn Fn(&str) -> TokenStream,
+        targets: &[&str],
+    ) -> TokenStream {
+        let unpacked: TokenStream =
+            kernel.arguments.iter().map(|a| self.unpack(a, program, &argument(a.name))).collect();
+        let (statements, outputs) =
+            self.program(program, |writer, value| writer.value(value, owner, step));
+        let n = self.source.dimension;
+        let writes = match &kernel.shape {
+            Shape::Scalar => outputs.into_iter().collect(),
+            Shape::Vector(indices) => vector_writes(&self.argument(targets[0]), indices, &outputs, n),
+            Shape::Matrix(places) => matrix_writes(&self.argument(targets[0]), places, &outputs, n),
+            Shape::VectorAndMatrix(indices, places) => {
+                let (vector, matrix) = outputs.split_at(indices.len());
+                let vector = vector_writes(&self.argument(targets[0]), indices, vector, n);
+                let matrix = matrix_writes(&self.argument(targets[1]), places, matrix, n);
+                quote! { #vector #matrix }
+            }
+        };
+        quote! { #unpacked #statements #writes }
+    }
+}
+
+/// Writes of a vector; entries that vanish identically are filled with zero first.
+fn vector_writes(target: &Ident, indices: &[usize], outputs: &[TokenStream], n: usize) -> TokenStream {
+    let fill = (indices.len() < n).then(|| quote! { #target.fill(S::zero()); });
+    let writes = indices.iter().zip(outputs).map(|(i, value)| quote! { #target[#i] = #value; });
+    quote! { #fill #(#writes)* }
+}
+
+fn matrix_writes(target: &Ident, places: &[(usize, usize)], outputs: &[TokenStream], n: usize) -> TokenStream {
+    let fill = (places.len() < n * n).then(|| quote! { #target.fill(S::zero()); });
+    let writes = places.iter().zip(outputs).map(|((i, j), value)| quote! { #target[(#i, #j)] = #value; });
+    quote! { #fill #(#writes)* }
+}

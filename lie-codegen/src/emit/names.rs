@@ -1,0 +1,50 @@
+//! Identifiers of the generated code. A name of the user never begins with an underscore, hence
+//! the names of ours that share a scope with them do.
+
+use proc_macro2::{Ident, Span};
+use quote::format_ident;
+
+use super::Writer;
+use crate::symbolic::Symbol;
+
+/// An identifier of ours.
+pub fn ident(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}
+
+impl Writer<'_> {
+    /// The local variable that holds a symbol.
+    pub fn local(&self, symbol: Symbol) -> Ident {
+        let n = self.source.dimension;
+        match symbol {
+            Symbol::Coordinate(i) => self.blueprint.coordinates[i].clone(),
+            Symbol::Parameter(i) => self.blueprint.parameters[i].name.clone(),
+            Symbol::Step => ident("_h"),
+            Symbol::Time => ident("_time"),
+            Symbol::Input(index) => {
+                let coordinate = &self.blueprint.coordinates[index % n];
+                match index / n {
+                    0 => format_ident!("_xi_{}", self.blueprint.basis[index % n]),
+                    1 => format_ident!("_eta_{}", self.blueprint.basis[index % n]),
+                    2 => format_ident!("_u_{}", coordinate.to_string()),
+                    _ => format_ident!("_m_{}", coordinate.to_string()),
+                }
+            }
+        }
+    }
+
+    /// An argument of ours, set apart from a coordinate of that name.
+    pub fn argument(&self, name: &str) -> Ident {
+        let taken = self.blueprint.coordinates.iter().any(|coordinate| coordinate == name);
+        if taken { format_ident!("_{name}") } else { ident(name) }
+    }
+
+    /// The name of a symbol in messages and doc comments.
+    pub fn shown(&self, symbol: Symbol) -> String {
+        match symbol {
+            Symbol::Step => "h".into(),
+            Symbol::Time => "t".into(),
+            other => self.local(other).to_string(),
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! The parameter struct: what the user constructs.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::Writer;
+use crate::symbolic::{ExprId, Symbol};
+
+impl Writer<'_> {
+    /// The parameter struct with its defaults.
+    pub fn parameters(&mut self) -> TokenStream {
+        let (visibility, name) = (&self.blueprint.visibility, &self.blueprint.name);
+        let system = format_ident!("{}System", name);
+        let docs = self.blueprint.docs.iter().map(|line| format!(" {line}"));
+        let fields = self.blueprint.parameters.iter().map(|p| {
+            let (name, doc) = (&p.name, format!(" {}", p.doc));
+            quote! { #[doc = #doc] pub #name: S }
+        });
+        let names: Vec<_> = self.blueprint.parameters.iter().map(|p| p.name.clone()).collect();
+        let defaults: Vec<ExprId> = self.blueprint.parameters.iter().map(|p| p.default).collect();
+        let (statements, values) = self.preparation(&defaults, &|_| quote! { S::zero() });
+        let marker = names.is_empty().then(|| {
+            quote! { #[doc(hidden)] pub _scalar: ::core::marker::PhantomData<S> }
+        });
+        let marker_value = names.is_empty().then(|| quote! { _scalar: ::core::marker::PhantomData });
+        let build = self.build();
+        let initial = self.initial_state();
+        quote! {
+            #(#[doc = #docs])*
+            #[derive(Clone, Debug, PartialEq)]
+            #[allow(non_snake_case)]
+            #visibility struct #name<S = f64> {
+                #(#fields,)*
+                #marker
+            }
+
+            impl<S: ::lie_runtime::Scalar> ::core::default::Default for #name<S> {
+                fn default() -> Self {
+                    #statements
+                    Self { #(#names: #values,)* #marker_value }
+                }
+            }
+
+            impl #name<f64> {
+                #[doc = " The default parameters in double precision."]
+                #[must_use]
+                pub fn new() -> Self {
+                    ::core::default::Default::default()
+                }
+            }
+
+            impl<S: ::lie_runtime::Scalar> #name<S> {
+                #[doc = " The system for these parameters; what depends on them alone is computed here, once."]
+                #[doc = ""]
+                #[doc = " # Errors"]
+                #[doc = " If a constant that the system needs is not finite, such as the inverse of a zero."]
+                pub fn system(&self) -> ::core::result::Result<#system<S>, ::lie_runtime::ParameterError> {
+                    #build
+                }
+                #initial
+            }
+        }
+    }
+
+    /// The declared initial state, for the parameters at hand.
+    fn initial_state(&mut self) -> TokenStream {
+        let Some(initial) = self.blueprint.initial.clone() else { return TokenStream::new() };
+        let n = self.source.dimension;
+        let (statements, values) = self.preparation(&initial, &|name| quote! { self.#name });
+        quote! {
+            #[doc = " The initial state of the declaration."]
+            #[must_use]
+            pub fn initial_state(&self) -> ::lie_runtime::__private::SVector<S, #n> {
+                #statements
+                ::lie_runtime::__private::SVector::from([#(#values),*])
+            }
+        }
+    }
+
+    /// The body of `system()`: every prepared constant, each tested.
+    fn build(&mut self) -> TokenStream {
+        let system = format_ident!("{}System", self.blueprint.name);
+        let constants = self.prepared.all().to_vec();
+        let (statements, values) = self.preparation(&constants, &|name| quote! { self.#name });
+        let mut lets = TokenStream::new();
+        let mut names = Vec::new();
+        for (position, (id, value)) in constants.iter().zip(&values).enumerate() {
+            let name = self.prepared_name(*id, position);
+            let text = self.constant_text(*id);
+            let parameter = self
+                .source
+                .graph
+                .symbols(*id)
+                .into_iter()
+                .find(|s| matches!(s, Symbol::Parameter(_)))
+                .map_or_else(String::new, |s| self.shown(s));
+            lets.extend(quote! {
+                let #name = ::lie_runtime::__private::finite_constant(#value, #parameter, #text)?;
+            });
+            names.push(name);
+        }
+        quote! {
+            #statements
+            #lets
+            ::core::result::Result::Ok(#system { _parameters: ::core::clone::Clone::clone(self), #(#names),* })
+        }
+    }
+
+    /// The struct that holds the prepared constants.
+    pub fn system_struct(&mut self) -> TokenStream {
+        let (visibility, name) = (&self.blueprint.visibility, &self.blueprint.name);
+        let system = format_ident!("{}System", name);
+        let constants = self.prepared.all().to_vec();
+        let fields = constants.iter().enumerate().map(|(position, id)| {
+            let (field, doc) = (self.prepared_name(*id, position), format!(" `{}`", self.constant_text(*id)));
+            quote! { #[doc = #doc] #field: S }
+        });
+        let doc = format!(" The system [`{name}`] with its derived constants.");
+        let names: Vec<_> = self.blueprint.parameters.iter().map(|p| p.name.clone()).collect();
+        let count = names.len();
+        let marker = names.is_empty().then(|| quote! { _scalar: ::core::marker::PhantomData });
+        quote! {
+            #[doc = #doc]
+            #[derive(Clone, Debug, PartialEq)]
+            #[allow(non_snake_case)]
+            #visibility struct #system<S = f64> {
+                _parameters: #name<S>,
+                #(#fields,)*
+            }
+
+            impl<S> #system<S> {
+                #[doc = " The parameters from which the system was made."]
+                #[must_use]
+                pub fn parameters(&self) -> &#name<S> {
+                    &self._parameters
+                }
+            }
+
+            impl<S: ::lie_runtime::Scalar> #name<S> {
+                #[doc = " The parameters from their values, in the order of the declaration."]
+                #[must_use]
+                pub fn from_values(_values: &[S; #count]) -> Self {
+                    let [#(#names),*] = *_values;
+                    Self { #(#names,)* #marker }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! The trait impls of a system.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::Writer;
+use super::prepared::{Owner, Prepared};
+use crate::derive::{Kernel, Shape};
+
+impl Writer<'_> {
+    /// The impls of `Poisson`, `LiePoisson` and, where it applies, `CayleyPoisson`.
+    pub fn system_impls(&mut self) -> TokenStream {
+        let kernels = self.source.basic_kernels();
+        let (mut poisson, mut coadjoint, mut cayley, mut gradients) =
+            (TokenStream::new(), TokenStream::new(), None, Vec::new());
+        for kernel in &kernels {
+            match kernel.name {
+                "casimir_gradient" => gradients.push(kernel),
+                "casimirs" => poisson.extend(self.casimirs(kernel)),
+                "ad" | "ad_star" | "ad_star_matrix" => coadjoint.extend(self.method(kernel)),
+                "triple" => cayley = Some(self.method(kernel)),
+                _ => poisson.extend(self.method(kernel)),
+            }
+        }
+        poisson.extend(self.casimir_gradients(&gradients));
+        let system = format_ident!("{}System", self.blueprint.name);
+        let n = self.source.dimension;
+        let casimirs = self.source.casimirs.len();
+        let name = self.blueprint.name.to_string();
+        let coordinates = self.blueprint.coordinates.iter().map(Ident::to_string);
+        let casimir_names = &self.blueprint.casimir_names;
+        let cayley = cayley.map(|triple| {
+            quote! {
+                #[allow(non_snake_case, clippy::many_single_char_names)]
+                impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for #system<S> {
+                    #triple
+                }
+            }
+        });
+        quote! {
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for #system<S> {
+                type State = ::lie_runtime::__private::SVector<S, #n>;
+                type Jacobian = ::lie_runtime::__private::SMatrix<S, #n, #n>;
+
+                const DIM: usize = #n;
+                const CASIMIRS: usize = #casimirs;
+                const NAME: &'static str = #name;
+                const COORDINATES: &'static [&'static str] = &[#(#coordinates),*];
+                const CASIMIR_NAMES: &'static [&'static str] = &[#(#casimir_names),*];
+
+                fn zero_state(&self) -> Self::State {
+                    Self::State::repeat(S::zero())
+                }
+
+                fn zero_jacobian(&self) -> Self::Jacobian {
+                    Self::Jacobian::repeat(S::zero())
+                }
+
+                #poisson
+            }
+
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for #system<S> {
+                #coadjoint
+            }
+
+            #cayley
+        }
+    }
+
+    /// A kernel as a method of a trait.
+    fn method(&mut self, kernel: &Kernel) -> TokenStream {
+        let targets: &[&str] = match kernel.shape {
+            Shape::VectorAndMatrix(..) => &["field", "jacobian"],
+            _ => &["out"],
+        };
+        let program = kernel.program(&mut self.source.graph);
+        let docs = self.kernel_docs(kernel.name, kernel, &program);
+        let name = super::names::ident(kernel.name);
+        let body = self.system_body(kernel, &program, targets);
+        let arguments = kernel.arguments.iter().map(|a| {
+            let name = self.argument(a.name);
+            quote! { #name: &Self::State }
+        });
+        let vector = |target: &Ident| quote! { #target: &mut Self::State };
+        let matrix = |target: &Ident| quote! { #target: &mut Self::Jacobian };
+        let names: Vec<Ident> = targets.iter().map(|target| self.argument(target)).collect();
+        let (results, output) = match kernel.shape {
+            Shape::Scalar => (Vec::new(), Some(quote! { -> S })),
+            Shape::Vector(_) => (vec![vector(&names[0])], None),
+            Shape::Matrix(_) => (vec![matrix(&names[0])], None),
+            Shape::VectorAndMatrix(..) => (vec![vector(&names[0]), matrix(&names[1])], None),
+        };
+        quote! {
+            #docs
+            #[inline]
+            fn #name(&self #(, #arguments)* #(, #results)*) #output {
+                #body
+            }
+        }
+    }
+
+    fn system_body(&mut self, kernel: &Kernel, program: &crate::schedule::Program, targets: &[&str]) -> TokenStream {
+        let names: Vec<(String, Ident)> =
+            kernel.arguments.iter().map(|a| (a.name.to_string(), self.argument(a.name))).collect();
+        let place = move |name: &str| {
+            let ident = names.iter().find(|(n, _)| n == name).map(|(_, ident)| ident);
+            quote! { #ident }
+        };
+        self.kernel_body(kernel, program, Owner::System, &mut Prepared::default(), &place, targets)
+    }
+
+    /// All Casimirs into a slice.
+    fn casimirs(&mut self, kernel: &Kernel) -> TokenStream {
+        let mut kernel = kernel.clone();
+        let count = self.source.casimirs.len();
+        // A slice has no entries that would have to be cleared.
+        let all: Vec<usize> = (0..self.source.dimension.max(count)).collect();
+        if let Shape::Vector(indices) = &kernel.shape
+            && indices.len() == count
+        {
+            kernel.shape = Shape::Vector(all);
+        }
+        let program = kernel.program(&mut self.source.graph);
+        let docs = self.kernel_docs("casimirs", &kernel, &program);
+        let body = self.system_body(&kernel, &program, &["out"]);
+        let (mu, out) = (self.argument("mu"), self.argument("out"));
+        let unused = (count == 0).then(|| quote! { let _ = #out; });
+        quote! {
+            #docs
+            #[inline]
+            fn casimirs(&self, #mu: &Self::State, #out: &mut [S]) {
+                #unused
+                #body
+            }
+        }
+    }
+
+    fn casimir_gradients(&mut self, kernels: &[&Kernel]) -> TokenStream {
+        let (mu, out) = (self.argument("mu"), self.argument("out"));
+        let mut arms = Vec::new();
+        let mut docs = TokenStream::new();
+        for (index, kernel) in kernels.iter().enumerate() {
+            let program = kernel.program(&mut self.source.graph);
+            let name = &self.blueprint.casimir_names[index];
+            self.counts.push((format!("casimir_gradient {name}"), program.counts));
+            let line = format!(" Gradient of `{name}`: {}.", program.counts);
+            docs.extend(quote! { #[doc = #line] });
+            let body = self.system_body(kernel, &program, &["out"]);
+            arms.push(quote! { #index => { #body } });
+        }
+        let count = kernels.len();
+        let message = format!("the system has {count} Casimir{}", if count == 1 { "" } else { "s" });
+        let unused = (count == 0).then(|| quote! { let _ = (#mu, #out); });
+        quote! {
+            #[doc = " `out_i = dC/dmu_i` of one Casimir."]
+            #docs
+            fn casimir_gradient(&self, _index: usize, #mu: &Self::State, #out: &mut Self::State) {
+                #unused
+                match _index {
+                    #(#arms)*
+                    _ => panic!(#message),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! The table itself.
+
+use super::{Availability, Method, Preserves};
+
+const ANY: &str = "any Poisson system";
+const ALGEBRA: &str = "any Lie algebra";
+const CLOSED: &str = "a matrix representation closed under (abc + cba)/2";
+
+const fn built(
+    id: &'static str,
+    title: &'static str,
+    order: u32,
+    [symmetric, explicit]: [bool; 2],
+    preserves: Preserves,
+    needs: &'static str,
+    options: &'static [(&'static str, &'static str)],
+    reference: &'static str,
+) -> Method {
+    Method {
+        id,
+        title,
+        order,
+        symmetric,
+        explicit,
+        preserves,
+        needs,
+        options,
+        reference,
+        availability: Availability::Built,
+    }
+}
+
+const fn planned(
+    id: &'static str,
+    title: &'static str,
+    order: u32,
+    [symmetric, explicit]: [bool; 2],
+    preserves: Preserves,
+    needs: &'static str,
+    reference: &'static str,
+) -> Method {
+    Method {
+        id,
+        title,
+        order,
+        symmetric,
+        explicit,
+        preserves,
+        needs,
+        options: &[],
+        reference,
+        availability: Availability::Planned,
+    }
+}
+
+const AKW: &str = "Austin, Krishnaprasad, Wang (1993), 10.1006/jcph.1993.1128";
+const HLW: &str = "Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), 10.1007/3-540-30666-8";
+const MARTIN: &str = "Martín de Diego, Lie–Poisson integrators (2018), arXiv:1803.01427";
+const MK: &str = "Munthe-Kaas (1999), 10.1016/S0168-9274(98)00030-0";
+const CROUCH: &str = "Crouch, Grossman (1993), 10.1007/BF02429858";
+const CMO: &str = "Celledoni, Marthinsen, Owren (2003), 10.1016/S0167-739X(02)00161-9";
+const MV: &str = "Moser, Veselov (1991), 10.1007/BF02352494";
+const GM: &str = "Ge, Marsden (1988), 10.1016/0375-9601(88)90773-6; Channell, Scovel (1991), 10.1016/0167-2789(91)90081-J";
+const MODIN: &str = "Modin, Viviani (2020), 10.1007/s10208-019-09428-w";
+const MMV: &str = "McLachlan, Modin, Verdier (2014), 10.1103/PhysRevE.89.061301";
+const MCL: &str = "McLachlan (1993), 10.1103/PhysRevLett.71.3043";
+const DG: &str = "Gonzalez (1996), 10.1007/BF02440162; McLachlan, Quispel, Robidoux (1999), 10.1098/rsta.1999.0363";
+const EF: &str = "Engø, Faltinsen (2001), 10.1137/S0036142999364212";
+const CH: &str = "Cohen, Hairer (2011), 10.1007/s10543-011-0310-z";
+const KL: &str = "Suzuki (1990), 10.1016/0375-9601(90)90962-N; Kahan, Li (1997), 10.1090/S0025-5718-97-00873-9";
+
+/// Every method, built or planned.
+pub const CATALOGUE: &[Method] = &[
+    built("midpoint", "Poisson midpoint rule", 2, [true, false], Preserves::QUADRATIC, ANY, &[], AKW),
+    built("gauss4", "Gauss collocation, 2 stages", 4, [true, false], Preserves::QUADRATIC, ANY, &[], HLW),
+    built("gauss6", "Gauss collocation, 3 stages", 6, [true, false], Preserves::QUADRATIC, ANY, &[], HLW),
+    built(
+        "lie-midpoint",
+        "retraction Lie–Poisson integrator",
+        2,
+        [true, false],
+        Preserves::POISSON,
+        "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)",
+        &[("retraction", "exp")],
+        MARTIN,
+    ),
+    built(
+        "rk4",
+        "classical Runge–Kutta method (control)",
+        4,
+        [false, true],
+        Preserves::NOTHING,
+        ANY,
+        &[],
+        "Kutta (1901)",
+    ),
+    built(
+        "dopri5",
+        "Dormand–Prince pair with step control (control)",
+        5,
+        [false, true],
+        Preserves::NOTHING,
+        ANY,
+        &[("rtol", "1e-6"), ("atol", "1e-9")],
+        "Dormand, Prince (1980), 10.1016/0771-050X(80)90013-3",
+    ),
+    planned("lie-euler", "Lie–Euler", 1, [false, true], Preserves::ORBIT, ALGEBRA, MK),
+    planned("rkmk2", "Runge–Kutta–Munthe-Kaas", 2, [false, true], Preserves::ORBIT, ALGEBRA, MK),
+    planned("rkmk3", "Runge–Kutta–Munthe-Kaas", 3, [false, true], Preserves::ORBIT, ALGEBRA, MK),
+    planned("rkmk4", "Runge–Kutta–Munthe-Kaas", 4, [false, true], Preserves::ORBIT, ALGEBRA, MK),
+    planned("rkmk6", "Runge–Kutta–Munthe-Kaas", 6, [false, true], Preserves::ORBIT, ALGEBRA, MK),
+    planned("cg3", "Crouch–Grossman", 3, [false, true], Preserves::ORBIT, ALGEBRA, CROUCH),
+    planned("cf4", "commutator-free", 4, [false, true], Preserves::ORBIT, ALGEBRA, CMO),
+    planned(
+        "moser-veselov",
+        "discrete rigid body",
+        2,
+        [true, false],
+        Preserves { energy: true, ..Preserves::POISSON },
+        "so(n) with H = sum M_ij^2/(2(J_i + J_j))",
+        MV,
+    ),
+    planned("compose4", "composition of a symmetric method", 4, [true, false], Preserves::NOTHING, "a symmetric method of order 2", KL),
+    planned("compose6", "composition of a symmetric method", 6, [true, false], Preserves::NOTHING, "a symmetric method of order 2", KL),
+    planned("compose8", "composition of a symmetric method", 8, [true, false], Preserves::NOTHING, "a symmetric method of order 2", KL),
+    planned("generating2", "generating function", 2, [true, false], Preserves::POISSON, ALGEBRA, GM),
+    planned("generating4", "generating function", 4, [true, false], Preserves::POISSON, ALGEBRA, GM),
+    planned("generating6", "generating function", 6, [true, false], Preserves::POISSON, ALGEBRA, GM),
+    planned(
+        "generating-second-kind2",
+        "generating function, coordinates of the second kind",
+        2,
+        [false, false],
+        Preserves::POISSON,
+        ALGEBRA,
+        GM,
+    ),
+    planned("collective2", "collective symplectic", 2, [true, false], Preserves::POISSON, CLOSED, MMV),
+    planned("collective4", "collective symplectic", 4, [true, false], Preserves::POISSON, CLOSED, MMV),
+    planned("collective6", "collective symplectic", 6, [true, false], Preserves::POISSON, CLOSED, MMV),
+    planned("isospectral2", "isospectral symplectic Runge–Kutta", 2, [true, false], Preserves::POISSON, CLOSED, MODIN),
+    planned("isospectral4", "isospectral symplectic Runge–Kutta", 4, [true, false], Preserves::POISSON, CLOSED, MODIN),
+    planned("isospectral6", "isospectral symplectic Runge–Kutta", 6, [true, false], Preserves::POISSON, CLOSED, MODIN),
+    planned("spherical-midpoint", "spherical midpoint", 2, [true, false], Preserves::POISSON, "so(3) factors", MMV),
+    planned("splitting1", "Lie–Trotter splitting", 1, [false, true], Preserves::POISSON, "a splitting of H", MCL),
+    planned("splitting2", "Strang splitting", 2, [true, true], Preserves::POISSON, "a splitting of H", MCL),
+    planned("splitting4", "Blanes–Moan splitting", 4, [true, true], Preserves::POISSON, "a splitting of H", MCL),
+    planned("splitting6", "Blanes–Moan splitting", 6, [true, true], Preserves::POISSON, "a splitting of H", MCL),
+    planned("splitting8", "composed splitting", 8, [true, true], Preserves::POISSON, "a splitting of H", MCL),
+    planned("gonzalez", "midpoint discrete gradient", 2, [true, false], Preserves::ENERGY, ANY, DG),
+    planned("mean-value", "mean-value discrete gradient", 2, [true, false], Preserves::ENERGY, ANY, DG),
+    planned("itoh-abe", "coordinate-increment discrete gradient", 2, [true, false], Preserves::ENERGY, ANY, DG),
+    planned("orbit-energy", "orbit- and energy-preserving", 2, [true, false], Preserves::ORBIT_ENERGY, ALGEBRA, EF),
+    planned("cohen-hairer2", "energy-preserving collocation", 2, [true, false], Preserves::ENERGY, ANY, CH),
+    planned("cohen-hairer4", "energy-preserving collocation", 4, [true, false], Preserves::ENERGY, ANY, CH),
+    planned("cohen-hairer6", "energy-preserving collocation", 6, [true, false], Preserves::ENERGY, ANY, CH),
+];
+
+/// Ids that are kept for later and have no row in the table yet.
+pub const RESERVED: &[&str] = &[
+    "variational2",
+    "variational4",
+    "variational6",
+    "euler-arnold2",
+    "taylor",
+    "exact",
+    "gauss8",
+    "gauss10",
+    "gauss12",
+    "gauss14",
+    "gauss16",
+    "collective8",
+    "collective16",
+    "isospectral8",
+    "isospectral16",
+    "cohen-hairer8",
+    "cohen-hairer16",
+];
