@@ -212,11 +212,9 @@ impl<'a> Parser<'a> {
         let value = if point(&self.cursor) && !range {
             // `1..5`, `1.2.3`, `1.x`: Rust's lexer ends the number before the point.
             while self.cursor.eat('.').is_some() {
-                if self
-                    .cursor
-                    .peek()
-                    .is_some_and(|t| matches!(t.kind, TokenKind::Number(_)))
-                {
+                let goes_on =
+                    |t: &Token| matches!(t.kind, TokenKind::Number(_) | TokenKind::Identifier(_));
+                if self.cursor.peek().is_some_and(goes_on) {
                     self.cursor.advance();
                 }
             }

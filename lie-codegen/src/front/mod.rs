@@ -4,6 +4,7 @@
 //! Both turn expressions into the same tokens and give them to the same parser, so that an
 //! expression means the same in both.
 
+pub mod declaration;
 pub mod names;
 pub mod spec;
 
@@ -16,6 +17,7 @@ mod json;
 mod mistakes;
 mod number;
 mod object;
+mod rust;
 mod schema;
 mod text;
 mod token;

@@ -25,39 +25,56 @@ pub const NOT_BUILT: &[(&str, &[&str])] = &[
 
 impl<'a> Object<'a> {
     /// Takes an object apart and reports every key that is not in `keys` or stands there twice.
-    pub fn read(value: Value<'a>, what: &str, keys: &[&str], report: &mut Report) -> Option<Self> {
+    /// Of the keys in `reserved` it says that they are not built yet.
+    pub fn read(
+        value: Value<'a>,
+        what: &str,
+        keys: &[&str],
+        reserved: &[(&str, &[&str])],
+        report: &mut Report,
+    ) -> Option<Self> {
         if value.kind() != Type::Object {
             report.push(wrong_type(&value, what, "an object"));
             return None;
         }
-        let mut members: Vec<Member<'a>> = Vec::new();
+        let (mut members, mut misspelt) = (Vec::<Member<'a>>::new(), Vec::new());
         for member in value.members(report) {
             let key = &*member.key.text;
             let place = member.key.whole();
-            let error = |message: String| Diagnostic::new(Kind::Schema, place, message);
-            if NOT_BUILT.iter().any(|(reserved, _)| *reserved == key) && !keys.contains(&key) {
-                report.push(
-                    error(format!(
-                        "the key `{key}` is reserved: what it declares is not built yet"
-                    ))
-                    .help("remove it; systems are declared by `algebra` and `hamiltonian`"),
+            let mut error = |message: String, help: String| {
+                report.push(Diagnostic::new(Kind::Schema, place, message).help(help));
+            };
+            if members.iter().any(|m| m.key.text == member.key.text) {
+                error(
+                    format!("the key `{key}` stands twice in {what}"),
+                    "remove one of the two".into(),
+                );
+            } else if keys.contains(&key) {
+                members.push(member);
+            } else if reserved.iter().any(|(word, _)| *word == key) {
+                error(
+                    format!("the key `{key}` is reserved: what it declares is not built yet"),
+                    "remove it; systems are declared by `algebra` and `hamiltonian`".into(),
                 );
                 members.push(member);
-            } else if !keys.contains(&key) {
-                let help = match did_you_mean(key, keys.iter().copied()) {
+            } else {
+                let near = did_you_mean(key, keys.iter().copied());
+                let help = match near {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => format!("the keys of {what} are {}", keys.join(", ")),
                 };
-                report.push(
-                    error(format!("unknown key `{}` in {what}", key.escape_debug())).help(help),
+                error(
+                    format!("unknown key `{}` in {what}", key.escape_debug()),
+                    help,
                 );
-            } else if members.iter().any(|m| m.key.text == member.key.text) {
-                report.push(
-                    error(format!("the key `{key}` stands twice in {what}"))
-                        .help("remove one of the two"),
-                );
-            } else {
-                members.push(member);
+                misspelt.extend(near.map(|near| (near.to_owned(), member.value)));
+            }
+        }
+        // A misspelt key stands for the one that was meant, so that nothing else seems missing.
+        for (near, value) in misspelt {
+            if members.iter().all(|m| m.key.text != near) {
+                let key = Source::owned(near);
+                members.push(Member { key, value });
             }
         }
         Some(Self {

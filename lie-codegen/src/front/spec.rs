@@ -6,7 +6,7 @@ mod run;
 use quote::quote;
 
 use super::json::{self, Type, Value};
-use super::object::{Object, list, string, strings, wrong_type};
+use super::object::{NOT_BUILT, Object, list, string, strings, wrong_type};
 use super::schema::{DescribedParameter, Spec};
 use super::token::Token;
 use super::{Body, Names, Parsed, expression, item, number};
@@ -37,7 +37,7 @@ fn document(text: &str, report: &mut Report) -> Parsed {
         ..Parsed::default()
     };
     let spec = match json::document(text) {
-        Ok(value) => Object::read(value, "a spec", Spec::KEYS, report),
+        Ok(value) => Object::read(value, "a spec", Spec::KEYS, NOT_BUILT, report),
         Err(diagnostic) => {
             report.push(diagnostic);
             None
@@ -340,7 +340,7 @@ fn described(
     name: Option<Name>,
     report: &mut Report,
 ) -> Option<Parameter> {
-    let object = Object::read(value, what, DescribedParameter::KEYS, report)?;
+    let object = Object::read(value, what, DescribedParameter::KEYS, &[], report)?;
     object.require(what, DescribedParameter::REQUIRED, report);
     let mut text = |key: &str| {
         Some(

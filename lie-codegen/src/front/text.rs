@@ -24,6 +24,14 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// Text that stands nowhere.
+    pub fn owned(text: String) -> Self {
+        Self {
+            text: Cow::Owned(text),
+            segments: vec![(0, 0)],
+        }
+    }
+
     /// The value of a JSON string; `raw` includes the quotes and begins at byte `offset`.
     ///
     /// # Errors

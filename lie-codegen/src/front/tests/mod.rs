@@ -4,6 +4,7 @@ use super::{Names, parse_expression_text};
 use crate::ast::{Expr, ExprKind, Index};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
+mod declaration;
 mod expression;
 mod robustness;
 mod spec;

@@ -1,9 +1,10 @@
 //! Whatever comes in, no front end panics.
 
+use proc_macro2::TokenStream;
 use proptest::prelude::*;
 
 use super::*;
-use crate::front::{line_column, parse_constant_text, spec};
+use crate::front::{declaration, line_column, parse_constant_text, spec};
 
 /// Text that often gets past the first token.
 fn formula_like() -> impl Strategy<Value = String> {
@@ -46,6 +47,62 @@ fn formula_like() -> impl Strategy<Value = String> {
         "sum(i in 0..N:",
     ]);
     prop::collection::vec(piece, 0..30).prop_map(|pieces| pieces.concat())
+}
+
+/// A macro body in which statements contain and are followed by anything.
+fn body_like() -> impl Strategy<Value = String> {
+    let piece = prop::sample::select(vec![
+        "system",
+        "A",
+        "pub",
+        "pub(crate)",
+        "algebra",
+        "{",
+        "}",
+        "basis",
+        "e1",
+        "e2",
+        "[e1, e2] = e1",
+        ";",
+        ";",
+        ",",
+        "state",
+        "x",
+        "parameters",
+        "exact",
+        "k",
+        "=",
+        "1/3",
+        "let",
+        "hamiltonian",
+        "casimir",
+        "methods",
+        "[",
+        "]",
+        "lie-midpoint",
+        "invariance",
+        "left",
+        "initial",
+        "spec",
+        "\"a\"",
+        "#[doc = \"d\"]",
+        "#",
+        "///d\n",
+        "(",
+        ")",
+        "!",
+        "r#fn",
+        "'a",
+        "'x'",
+        "b\"x\"",
+        "1.5",
+        "2x",
+        "..",
+        "poisson",
+        "so(3)",
+        "_",
+    ]);
+    prop::collection::vec(piece, 0..40).prop_map(|pieces| pieces.join(" "))
 }
 
 /// A spec with one part replaced.
@@ -103,6 +160,17 @@ proptest! {
         let parsed = spec::read(&text, &mut report);
         prop_assert_eq!(parsed.body.is_none(), report.has_errors());
         in_range(&text, report)?;
+    }
+
+    #[test]
+    fn bodies(text in prop_oneof![body_like(), formula_like(), "\\PC*"]) {
+        let Ok(tokens) = text.parse::<TokenStream>() else { return Ok(()) };
+        let mut report = Report::new();
+        let parsed = declaration::parse(tokens, &mut report);
+        prop_assert_eq!(parsed.body.is_none(), report.has_errors());
+        for diagnostic in report.into_diagnostics() {
+            prop_assert!(diagnostic.help.is_some() && matches!(diagnostic.origin, Some(Origin::Span(_))), "{diagnostic:?}");
+        }
     }
 
     #[test]
