@@ -105,11 +105,14 @@ pub fn check(
                 complete = false;
             }
             Err(Exhausted) => {
-                report.push(Diagnostic::new(
-                    Kind::Limit,
-                    bracket.origin,
-                    "the brackets are too large to be compared exactly",
-                ));
+                report.push(
+                    Diagnostic::new(
+                        Kind::Limit,
+                        bracket.origin,
+                        "the brackets are too large to be compared exactly",
+                    )
+                    .help("simplify their coefficients"),
+                );
                 return None;
             }
         }

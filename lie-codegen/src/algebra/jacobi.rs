@@ -39,7 +39,7 @@ pub fn check(
                 Kind::Limit,
                 algebra.origin,
                 "the algebra is too large for the exact check of the Jacobi identity",
-            ));
+            ).help("choose a basis with fewer nonzero structure constants, or simpler coefficients"));
             false
         }
     }
@@ -120,18 +120,11 @@ fn diagnostic(algebra: &Algebra, scope: &Scope<'_>, failure: &Failure) -> Diagno
         2 => message.push_str("; it fails for one other triple too"),
         count => message.push_str(&format!("; it fails for {} other triples too", count - 1)),
     }
-    // The place is a bracket of the triple; one of them is wrong, or one is missing.
-    let brackets = algebra.brackets.as_deref().unwrap_or_default();
-    let inside = |name: &str| [a, b, c].contains(&name);
-    let origin = brackets
-        .iter()
-        .find(|bracket| inside(&bracket.left.text) && inside(&bracket.right.text))
-        .map_or(algebra.origin, |bracket| bracket.origin);
     let parametric = failure
         .residual
         .iter()
         .any(|(_, value)| value.as_constant().is_none());
-    Diagnostic::new(Kind::Jacobi, origin, message).help(if parametric {
+    Diagnostic::new(Kind::Jacobi, algebra.origin, message).help(if parametric {
         "the residual must vanish identically in the exact parameters; check the brackets of these three elements and those that they lead to"
     } else {
         "check the sign and the coefficient of the brackets of these three elements and those that they lead to; a bracket that is left out is zero"

@@ -59,7 +59,7 @@ pub(super) fn bracket_value(
         report.push(
             Diagnostic::new(
                 Kind::Syntax,
-                value.origin,
+                constant_term(value, scope, budget).unwrap_or(value.origin),
                 format!("the right side of a bracket is linear in the basis, but it has the constant term {constant}"),
             )
             .help("write a linear combination of basis names, or 0"),
@@ -72,6 +72,27 @@ pub(super) fn bracket_value(
             .filter(|(_, c)| !c.is_zero())
             .collect(),
     )
+}
+
+/// The place of the first term that has a constant part.
+fn constant_term(value: &Expr, scope: &Scope<'_>, budget: &Budget) -> Option<Origin> {
+    let ExprKind::Sum(terms) = &value.kind else {
+        return None;
+    };
+    let report = &mut Report::new();
+    let mut lower = |term| {
+        Lowering {
+            scope: Some(scope),
+            report,
+            budget,
+            depth: 0,
+        }
+        .lower(term)
+    };
+    let found = terms
+        .iter()
+        .find(|(_, term)| lower(term).is_some_and(|form| !form.constant.is_zero()));
+    found.map(|(_, term)| term.origin)
 }
 
 /// The value of an exact rational constant; anything else is reported.
@@ -88,8 +109,15 @@ pub fn rational(value: &Expr, budget: &Budget, report: &mut Report) -> Option<Ra
 }
 
 impl Lowering<'_, '_> {
-    fn fail<T>(&mut self, kind: Kind, origin: Origin, message: impl Into<String>) -> Option<T> {
-        self.report.push(Diagnostic::new(kind, origin, message));
+    fn fail<T>(
+        &mut self,
+        kind: Kind,
+        origin: Origin,
+        message: impl Into<String>,
+        help: &str,
+    ) -> Option<T> {
+        self.report
+            .push(Diagnostic::new(kind, origin, message).help(help));
         None
     }
 
@@ -100,6 +128,7 @@ impl Lowering<'_, '_> {
                     Kind::Limit,
                     origin,
                     "this expression is too large to be expanded exactly",
+                    "simplify it; powers of sums grow fast",
                 )
                 .ok_or(())
             })
@@ -115,8 +144,12 @@ impl Lowering<'_, '_> {
             ),
             None => (Kind::Number, "an exact rational constant is expected here"),
         };
+        let help = match self.scope {
+            Some(_) => "write a linear combination of basis names, such as 2*e1 - k^2*e2",
+            None => "write an integer, a fraction such as 1/2, or a decimal number",
+        };
         self.report
-            .push(Diagnostic::new(kind, origin, format!("{what}: {rule}")));
+            .push(Diagnostic::new(kind, origin, format!("{what}: {rule}")).help(help));
         None
     }
 
@@ -126,6 +159,7 @@ impl Lowering<'_, '_> {
                 Kind::Limit,
                 expr.origin,
                 "the expression is nested too deeply",
+                "give parts of it names with `let`",
             );
         }
         self.depth += 1;
@@ -141,6 +175,7 @@ impl Lowering<'_, '_> {
                 Kind::Syntax,
                 expr.origin,
                 "indexed names belong to families of systems, which are not available here",
+                "write the copies out, as in x1, x2, x3",
             ),
             ExprKind::Name { name, index: None } => self.name(name, expr.origin),
             ExprKind::Negative(inner) => {
@@ -192,11 +227,13 @@ impl Lowering<'_, '_> {
                     function.origin,
                     format!("unknown function `{}`", function.text),
                 );
-                if let Some(near) =
-                    did_you_mean(&function.text, Function::ALL.iter().map(|f| f.name()))
-                {
-                    diagnostic = diagnostic.help(format!("did you mean `{near}`?"));
-                }
+                diagnostic =
+                    match did_you_mean(&function.text, Function::ALL.iter().map(|f| f.name())) {
+                        Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+                        None => {
+                            diagnostic.help("coefficients are rational: they have no functions")
+                        }
+                    };
                 self.report.push(diagnostic);
                 None
             }
@@ -209,12 +246,8 @@ impl Lowering<'_, '_> {
         }
         let Some(scope) = self.scope else {
             self.report.push(
-                Diagnostic::new(
-                    Kind::UnknownSymbol,
-                    origin,
-                    format!("`{name}`: no name is known here"),
-                )
-                .help("write an exact rational constant, such as 1/2"),
+                Diagnostic::new(Kind::Number, origin, format!("`{name}` is not a number"))
+                    .help("write an exact rational constant, such as 1/2"),
             );
             return None;
         };
@@ -279,11 +312,16 @@ impl Lowering<'_, '_> {
             let scalar = form.linear.values().all(Fraction::is_zero);
             if divides {
                 if !scalar {
-                    return self.irrational(place, "a basis name stands in a denominator");
+                    return self.irrational(origin, "a basis name stands in a denominator");
                 }
                 let inverse = form.constant.recip(self.budget);
                 let Some(inverse) = self.limited(inverse, place)? else {
-                    return self.fail(Kind::Number, place, "division by zero");
+                    return self.fail(
+                        Kind::Number,
+                        place,
+                        "division by zero",
+                        "the divisor is exactly zero; correct it",
+                    );
                 };
                 product = self.scale(&product, &inverse, origin)?;
             } else if scalar {
@@ -314,6 +352,7 @@ impl Lowering<'_, '_> {
                 Kind::Limit,
                 exponent.origin,
                 format!("an exponent above {MAX_EXPONENT}"),
+                "rescale the variables, or use `exp` and `log`",
             );
         };
         if integer == 1 {
@@ -325,7 +364,12 @@ impl Lowering<'_, '_> {
         let power = form.constant.pow(integer as i32, self.budget);
         match self.limited(power, origin)? {
             Some(power) => Some(power.into()),
-            None => self.fail(Kind::Number, base.origin, "a negative power of zero"),
+            None => self.fail(
+                Kind::Number,
+                base.origin,
+                "a negative power of zero",
+                "the base is exactly zero; correct it",
+            ),
         }
     }
 }

@@ -18,6 +18,7 @@ pub(crate) mod known;
 mod tests;
 
 pub use constants::StructureConstants;
+pub(crate) use linear::MAX_DEPTH;
 pub use linear::rational;
 pub use representation::Representation;
 pub use scope::Scope;

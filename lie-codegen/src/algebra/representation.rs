@@ -136,11 +136,10 @@ impl Matrices<'_> {
 
     fn limit(&self, report: &mut Report) {
         let message = "the matrices are too large for the exact check";
-        report.push(Diagnostic::new(
-            Kind::Limit,
-            self.declared[0].origin,
-            message,
-        ));
+        report.push(
+            Diagnostic::new(Kind::Limit, self.declared[0].origin, message)
+                .help("choose a smaller representation"),
+        );
     }
 
     /// The structure constants of the matrices themselves: they must be independent, and their
@@ -211,7 +210,6 @@ impl Matrices<'_> {
     /// A representation that is none would make every method that uses it leave the orbit.
     pub fn check(
         &self,
-        algebra: &Algebra,
         constants: &StructureConstants<Fraction>,
         scope: &Scope<'_>,
         budget: &Budget,
@@ -228,16 +226,12 @@ impl Matrices<'_> {
                             .iter()
                             .map(|(_, _, k, v)| (*k, v.clone()))
                             .collect();
-                        let names = |n: &str| n == a || n == b;
-                        let bracket = algebra
-                            .brackets
-                            .iter()
-                            .flatten()
-                            .find(|x| names(&x.left.text) && names(&x.right.text));
+                        // The matrix on the right side is the likeliest to be wrong.
+                        let place = form.last().map_or(j, |(k, _)| *k);
                         report.push(
                             Diagnostic::new(
                                 Kind::Representation,
-                                bracket.map_or(self.declared[j].origin, |x| x.origin),
+                                self.declared[place].origin,
                                 format!(
                                     "the matrices do not represent [{a}, {b}] = {}: entry ({}, {}) of the commutator minus the right side is {}",
                                     scope.display(&form),
@@ -262,7 +256,7 @@ impl Matrices<'_> {
             Ok(span) => triple::closure(&self.sparse, &span, budget).unwrap_or_else(|Exhausted| {
                 let message = "the matrices are too large to decide whether their span is closed under triple products; \
                                the Cayley retraction is not available";
-                report.push(Diagnostic::new(Kind::Limit, self.declared[0].origin, message).warning());
+                report.push(Diagnostic::new(Kind::Limit, self.declared[0].origin, message).help("choose a smaller representation").warning());
                 None
             }),
         };

@@ -1,0 +1,52 @@
+//! The algebra: brackets, Jacobi identity, representation.
+
+use crate::algebra::{
+    Representation, Scope, StructureConstants, WORK, brackets, jacobi, representation,
+};
+use crate::ast::Declaration;
+use crate::diagnostic::Report;
+use crate::exact::{Budget, Fraction};
+
+/// A Lie algebra in which nothing is wrong.
+pub struct Algebra {
+    /// Structure constants, rational functions of the exact parameters.
+    pub constants: StructureConstants<Fraction>,
+    /// The declared matrices.
+    pub representation: Option<Representation>,
+}
+
+/// Checks everything that does not depend on the functions, so that a slip in the Hamiltonian
+/// does not hide one in a bracket.
+pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Algebra> {
+    let algebra = &declaration.algebra;
+    let scope = Scope::new(declaration);
+    let budget = Budget::new(WORK);
+    let with_matrices = !algebra.matrices.is_empty();
+    let matrices = if with_matrices {
+        representation::read(algebra, &scope, &budget, report)
+    } else {
+        None
+    };
+    let constants = match (&algebra.brackets, &matrices) {
+        (Some(declared), _) => {
+            let constants = brackets::check(declared, &scope, &budget, report)?;
+            if !jacobi::check(algebra, &constants, &scope, &budget, report) {
+                return None;
+            }
+            constants
+        }
+        // Commutators of matrices satisfy the Jacobi identity.
+        (None, Some(matrices)) => matrices.constants(&scope, &budget, report)?,
+        (None, None) if with_matrices => return None,
+        (None, None) => StructureConstants::new(algebra.basis.len(), Vec::new()),
+    };
+    let representation = match matrices {
+        Some(matrices) => Some(matrices.check(&constants, &scope, &budget, report)?),
+        None if with_matrices => return None,
+        None => None,
+    };
+    Some(Algebra {
+        constants,
+        representation,
+    })
+}

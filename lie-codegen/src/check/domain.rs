@@ -1,0 +1,100 @@
+//! The domain: the Hamiltonian, its gradient and the Casimirs must be finite where a run begins.
+
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::model::Model;
+use crate::symbolic::{ExprId, Symbol};
+
+/// Something that is not finite at a state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// The coordinate that is involved, the first if there are several.
+    pub coordinate: Option<usize>,
+    /// What is not finite.
+    pub message: String,
+}
+
+/// Reports what is not finite at the initial state, at the entry that is involved.
+pub fn check(model: &Model, origin: Option<Origin>, report: &mut Report) {
+    let parameters = model.defaults();
+    let Some(mu) = model.initial_values(&parameters) else {
+        return;
+    };
+    if let Some(fault) = fault(model, &mu, &parameters) {
+        let entry = fault
+            .coordinate
+            .and_then(|i| model.initial_origins.get(i).copied());
+        let mut diagnostic = Diagnostic::placeless(
+            Kind::Domain,
+            format!("{} at the initial state", fault.message),
+        );
+        diagnostic.origin = entry.or(origin).or(model.initial_origins.first().copied());
+        report.push(
+            diagnostic.help("begin inside the domain of the Hamiltonian and of the Casimirs"),
+        );
+    }
+}
+
+/// The first thing that is not finite at a state: a coordinate, the Hamiltonian, a component of
+/// its gradient, a Casimir.
+pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
+    if let Some(i) = mu.iter().position(|value| !value.is_finite()) {
+        let message = format!("`{}` is not finite", model.coordinates[i].text);
+        return Some(Fault {
+            coordinate: Some(i),
+            message,
+        });
+    }
+    let mut scratch = model.graph.clone();
+    let mut functions: Vec<(ExprId, String)> = vec![(model.hamiltonian, "the Hamiltonian".into())];
+    for symbol in model.graph.symbols(model.hamiltonian) {
+        if let Symbol::Coordinate(i) = symbol {
+            let component = scratch.derivative(model.hamiltonian, symbol);
+            functions.push((
+                component,
+                format!(
+                    "the derivative of the Hamiltonian by `{}`",
+                    model.coordinates[i].text
+                ),
+            ));
+        }
+    }
+    functions.extend(
+        model
+            .casimirs
+            .iter()
+            .map(|c| (c.expr, format!("the Casimir `{}`", c.name))),
+    );
+    let value = |symbol| match symbol {
+        Symbol::Coordinate(i) => mu[i],
+        Symbol::Parameter(p) => parameters[p],
+        _ => f64::NAN,
+    };
+    let roots: Vec<ExprId> = functions.iter().map(|(id, _)| *id).collect();
+    let values = scratch.evaluate_all(&roots, &value);
+    let bad = values.iter().position(|v| !v.is_finite())?;
+    let (root, what) = &functions[bad];
+    // Children come before parents: the first part that is not finite is where it begins.
+    let parts = scratch.dependencies(&[*root]);
+    let part_values = scratch.evaluate_all(&parts, &value);
+    let origin = part_values
+        .iter()
+        .position(|v| !v.is_finite())
+        .map_or(*root, |i| parts[i]);
+    let coordinate = scratch
+        .symbols(origin)
+        .into_iter()
+        .find_map(|symbol| match symbol {
+            Symbol::Coordinate(i) => Some(i),
+            _ => None,
+        });
+    let shown = scratch.display(origin, &|symbol| model.symbol_name(symbol));
+    let because = if shown.chars().count() <= 80 {
+        format!(" because of `{shown}`")
+    } else {
+        String::new()
+    };
+    Some(Fault {
+        coordinate,
+        message: format!("{what} is not finite{because}"),
+    })
+}

@@ -1,0 +1,137 @@
+//! What the names in an expression stand for.
+
+use std::collections::HashMap;
+
+use crate::ast::Declaration;
+use crate::diagnostic::{Diagnostic, Kind, Origin};
+use crate::suggest::did_you_mean;
+use crate::symbolic::{ExprId, Function, Symbol};
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binding {
+    /// A coordinate or a parameter.
+    Symbol(Symbol),
+    /// An abbreviation; `None` where its own expression is wrong (which was reported there).
+    Let(Option<ExprId>),
+    /// An abbreviation that is declared further down.
+    Later,
+    /// A basis element.
+    Basis,
+}
+
+/// Which names may stand in an expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Allowed {
+    /// None: a constant.
+    Constants,
+    /// Parameters.
+    Parameters,
+    /// Coordinates too.
+    Everything,
+}
+
+/// The names of a declaration as its expressions see them.
+#[derive(Debug)]
+pub struct Environment<'a> {
+    bindings: HashMap<&'a str, Binding>,
+}
+
+impl<'a> Environment<'a> {
+    /// All names, abbreviations still unbound. Of a repeated name the first one counts; the
+    /// repetition is reported elsewhere.
+    pub fn new(declaration: &'a Declaration) -> Self {
+        let mut bindings = HashMap::new();
+        for (i, name) in declaration.state.iter().enumerate() {
+            bindings
+                .entry(name.text.as_str())
+                .or_insert(Binding::Symbol(Symbol::Coordinate(i)));
+        }
+        for (i, parameter) in declaration.parameters.iter().enumerate() {
+            bindings
+                .entry(parameter.name.text.as_str())
+                .or_insert(Binding::Symbol(Symbol::Parameter(i)));
+        }
+        for (name, _) in &declaration.lets {
+            bindings.entry(name.text.as_str()).or_insert(Binding::Later);
+        }
+        for name in &declaration.algebra.basis {
+            bindings.entry(name.text.as_str()).or_insert(Binding::Basis);
+        }
+        Self { bindings }
+    }
+
+    /// Gives an abbreviation its meaning.
+    pub fn bind(&mut self, name: &'a str, value: Option<ExprId>) {
+        if let Some(binding @ Binding::Later) = self.bindings.get_mut(name) {
+            *binding = Binding::Let(value);
+        }
+    }
+
+    /// What a name stands for.
+    pub fn get(&self, name: &str) -> Option<Binding> {
+        self.bindings.get(name).copied()
+    }
+
+    /// The error for a name that may not stand here.
+    pub fn unknown(&self, name: &str, origin: Origin, allowed: Allowed) -> Diagnostic {
+        if name == "t" && allowed == Allowed::Everything {
+            return Diagnostic::new(
+                Kind::ReservedName,
+                origin,
+                "`t` is the time, which the Hamiltonian cannot depend on yet",
+            )
+            .help("a constant takes the place of a frozen time; declare a parameter");
+        }
+        let diagnostic = |message: String| Diagnostic::new(Kind::UnknownSymbol, origin, message);
+        let usable = |binding: &Binding| match binding {
+            Binding::Symbol(Symbol::Coordinate(_)) => allowed == Allowed::Everything,
+            Binding::Symbol(_) | Binding::Let(_) => allowed != Allowed::Constants,
+            Binding::Later | Binding::Basis => false,
+        };
+        match self.get(name) {
+            Some(Binding::Later) => {
+                return diagnostic(format!(
+                    "`{name}` is not known yet: an abbreviation may use only earlier ones"
+                ))
+                .help("change the order of the abbreviations; none may use itself");
+            }
+            Some(Binding::Basis) if allowed == Allowed::Everything => {
+                return diagnostic(format!("`{name}` is a basis element; functions are written in the coordinates of the state"))
+                    .help("use the state name of the same position");
+            }
+            Some(Binding::Symbol(_) | Binding::Let(_)) => {
+                let rule = if allowed == Allowed::Constants {
+                    "only constants may"
+                } else {
+                    "only constants and parameters may"
+                };
+                return diagnostic(format!("`{name}` cannot stand here: {rule}"))
+                    .help("write its value");
+            }
+            _ => {}
+        }
+        if Function::from_name(name).is_some() || name == "sqrt" {
+            return diagnostic(format!("`{name}` is a function"))
+                .help(format!("write its argument: `{name}(…)`"));
+        }
+        let diagnostic = diagnostic(format!("unknown symbol `{name}`"));
+        let mut candidates: Vec<&str> = self
+            .bindings
+            .iter()
+            .filter(|(_, b)| usable(b))
+            .map(|(n, _)| *n)
+            .collect();
+        candidates.sort_unstable();
+        candidates.push("pi");
+        match did_you_mean(name, candidates) {
+            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+            None if allowed == Allowed::Constants => {
+                diagnostic.help("only numbers and `pi` may stand here")
+            }
+            None => diagnostic.help(format!(
+                "declare `{name}` as a parameter or as an abbreviation"
+            )),
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! The initial state: one expression in constants and parameters for every coordinate.
+
+use super::environment::{Allowed, Environment};
+use super::lower::Lowering;
+use super::size::plural;
+use crate::ast::Declaration;
+use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::symbolic::{ExprId, Graph};
+
+/// Lowers the initial state; `Some(None)` where none is declared.
+pub fn check(
+    declaration: &Declaration,
+    graph: &mut Graph,
+    environment: &Environment<'_>,
+    report: &mut Report,
+) -> Option<Option<Vec<ExprId>>> {
+    let Some(entries) = &declaration.initial else {
+        return Some(None);
+    };
+    let lowered: Vec<Option<ExprId>> = entries
+        .iter()
+        .map(|entry| Lowering::new(graph, environment, report, Allowed::Parameters).lower(entry))
+        .collect();
+    let (count, dimension) = (entries.len(), declaration.algebra.basis.len());
+    if count != dimension {
+        let place = declaration
+            .initial_origin
+            .or(entries.last().map(|e| e.origin))
+            .unwrap_or(declaration.algebra.origin);
+        report.push(
+            Diagnostic::new(
+                Kind::StateLength,
+                place,
+                format!(
+                    "the initial state has {count} {}, but the dimension is {dimension}",
+                    plural(count, "value")
+                ),
+            )
+            .help("write one value for every coordinate, in their order"),
+        );
+        return None;
+    }
+    lowered.into_iter().collect::<Option<Vec<_>>>().map(Some)
+}

@@ -1,0 +1,20 @@
+//! Abbreviations: each may use the earlier ones, none a later one or itself.
+
+use super::environment::{Allowed, Environment};
+use super::lower::Lowering;
+use crate::ast::Declaration;
+use crate::diagnostic::Report;
+use crate::symbolic::Graph;
+
+/// Lowers the abbreviations in their order and binds their names.
+pub fn check<'a>(
+    declaration: &'a Declaration,
+    graph: &mut Graph,
+    environment: &mut Environment<'a>,
+    report: &mut Report,
+) {
+    for (name, value) in &declaration.lets {
+        let value = Lowering::new(graph, environment, report, Allowed::Everything).lower(value);
+        environment.bind(&name.text, value);
+    }
+}

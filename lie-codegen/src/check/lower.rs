@@ -1,0 +1,337 @@
+//! Lowering of the syntax tree to the symbolic arena.
+
+use super::environment::{Allowed, Binding, Environment};
+use crate::algebra::MAX_DEPTH;
+use crate::ast::{Expr, ExprKind, Name};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::exact::Rational;
+use crate::suggest::did_you_mean;
+use crate::symbolic::{ExprId, Function, Graph, Node};
+
+/// The largest exponent, in absolute value.
+const MAX_EXPONENT: i64 = 1000;
+/// The longest exact constant, numerator and denominator together.
+const MAX_BITS: u64 = 1 << 14;
+/// The longest constants that one sum or product may put together.
+const MAX_BITS_TOGETHER: u64 = 1 << 20;
+/// The largest arena that expressions may fill, nodes and operands together.
+const MAX_SIZE: usize = 200_000;
+
+/// Lowers expressions to one arena, reporting every mistake in them.
+pub struct Lowering<'a, 'b> {
+    /// The arena.
+    pub graph: &'b mut Graph,
+    /// The names.
+    pub environment: &'b Environment<'a>,
+    /// Where mistakes go.
+    pub report: &'b mut Report,
+    /// Which names may stand.
+    pub allowed: Allowed,
+    depth: usize,
+}
+
+impl<'a, 'b> Lowering<'a, 'b> {
+    /// A lowering in an environment.
+    pub fn new(
+        graph: &'b mut Graph,
+        environment: &'b Environment<'a>,
+        report: &'b mut Report,
+        allowed: Allowed,
+    ) -> Self {
+        Self {
+            graph,
+            environment,
+            report,
+            allowed,
+            depth: 0,
+        }
+    }
+
+    /// The expression in the arena; `None` if anything was reported.
+    pub fn lower(&mut self, expr: &Expr) -> Option<ExprId> {
+        if self.depth > MAX_DEPTH {
+            return self.fail(
+                Kind::Limit,
+                expr.origin,
+                "the expression is nested too deeply",
+                "give parts of it names with `let`",
+            );
+        }
+        self.depth += 1;
+        let id = self.lower_kind(expr);
+        self.depth -= 1;
+        self.bounded(id?, expr.origin)
+    }
+
+    fn fail<T>(
+        &mut self,
+        kind: Kind,
+        origin: Origin,
+        message: impl Into<String>,
+        help: &str,
+    ) -> Option<T> {
+        self.report
+            .push(Diagnostic::new(kind, origin, message).help(help));
+        None
+    }
+
+    /// Refuses what would eat memory: the limits hold for every intermediate result.
+    fn bounded(&mut self, id: ExprId, origin: Origin) -> Option<ExprId> {
+        if self.graph.size() > MAX_SIZE {
+            return self.fail(
+                Kind::Limit,
+                origin,
+                "the expressions are too large",
+                "shorten them; powers of sums need not be multiplied out",
+            );
+        }
+        if bits(self.graph, id) > MAX_BITS {
+            return self.fail(
+                Kind::Limit,
+                origin,
+                format!("an exact constant here has more than {MAX_BITS} bits"),
+                "such a number is beyond double precision anyway; round it or rescale",
+            );
+        }
+        if let Node::Product(factors) = self.graph.node(id)
+            && factors
+                .iter()
+                .any(|(_, exponent)| exponent.abs() > Rational::from(MAX_EXPONENT))
+        {
+            return self.fail(
+                Kind::Limit,
+                origin,
+                format!("an exponent above {MAX_EXPONENT}"),
+                "rescale the variables, or use `exp` and `log`",
+            );
+        }
+        Some(id)
+    }
+
+    fn lower_kind(&mut self, expr: &Expr) -> Option<ExprId> {
+        match &expr.kind {
+            ExprKind::Number(value) => Some(self.graph.number(value.clone())),
+            ExprKind::Name { index: Some(_), .. } | ExprKind::IndexedSum { .. } => self.fail(
+                Kind::Syntax,
+                expr.origin,
+                "indexed names and sums belong to families of systems, which are not available here", "write the copies out, as in x1, x2, x3"),
+            ExprKind::Name { name, index: None } => self.name(name, expr.origin),
+            ExprKind::Negative(inner) => {
+                let inner = self.lower(inner)?;
+                Some(self.graph.neg(inner))
+            }
+            ExprKind::Sum(terms) => {
+                // Every term is visited, so that all their mistakes are reported together.
+                let lowered: Vec<_> = terms.iter().map(|(minus, term)| (*minus, self.lower(term))).collect();
+                let mut signed = Vec::with_capacity(lowered.len());
+                for (minus, id) in lowered {
+                    signed.push((id?, if minus { Rational::MINUS_ONE } else { Rational::ONE }));
+                }
+                self.fits(signed.iter().map(|(id, _)| *id), expr.origin)?;
+                Some(self.graph.linear(&signed))
+            }
+            ExprKind::Product(factors) => {
+                let lowered: Vec<_> = factors.iter().map(|(divides, factor)| (*divides, self.lower(factor))).collect();
+                let mut powers = Vec::with_capacity(lowered.len());
+                for ((divides, id), (_, factor)) in lowered.into_iter().zip(factors) {
+                    let id = id?;
+                    if divides && self.graph.is_zero(id) {
+                        return self.fail(Kind::Number, factor.origin, "division by zero", "the divisor is exactly zero; correct it");
+                    }
+                    powers.push((id, if divides { Rational::MINUS_ONE } else { Rational::ONE }));
+                }
+                self.fits(powers.iter().map(|(id, _)| *id), expr.origin)?;
+                Some(self.graph.power_product(&powers))
+            }
+            ExprKind::Power(base, exponent) => {
+                let (base_id, exponent_id) = (self.lower(base), self.lower(exponent));
+                self.power(base_id?, exponent_id?, base.origin, exponent.origin)
+            }
+            ExprKind::Call { function, arguments } => self.call(function, arguments, expr.origin),
+        }
+    }
+
+    fn name(&mut self, name: &str, origin: Origin) -> Option<ExprId> {
+        if name == "pi" {
+            return Some(self.graph.pi());
+        }
+        let known = match self.environment.get(name) {
+            Some(Binding::Symbol(symbol)) => Some(self.graph.symbol(symbol)),
+            Some(Binding::Let(value)) => Some(value?),
+            _ => None,
+        };
+        match known {
+            Some(id) if self.permitted(id) => Some(id),
+            _ => {
+                let diagnostic = self.environment.unknown(name, origin, self.allowed);
+                self.report.push(diagnostic);
+                None
+            }
+        }
+    }
+
+    fn permitted(&self, id: ExprId) -> bool {
+        use crate::symbolic::Symbol;
+        match self.allowed {
+            Allowed::Everything => true,
+            Allowed::Parameters => self
+                .graph
+                .symbols(id)
+                .iter()
+                .all(|s| matches!(s, Symbol::Parameter(_))),
+            Allowed::Constants => false,
+        }
+    }
+
+    /// Whether the constants of the operands together are of reasonable length.
+    fn fits(&mut self, operands: impl Iterator<Item = ExprId>, origin: Origin) -> Option<()> {
+        let together: u64 = operands.map(|id| bits(self.graph, id)).sum();
+        if together > MAX_BITS_TOGETHER {
+            return self.fail(
+                Kind::Limit,
+                origin,
+                "the exact constants here are too long",
+                "round or rescale them",
+            );
+        }
+        Some(())
+    }
+
+    fn power(
+        &mut self,
+        base: ExprId,
+        exponent: ExprId,
+        base_origin: Origin,
+        origin: Origin,
+    ) -> Option<ExprId> {
+        let number = self.graph.as_number(base).cloned();
+        let Some(exponent) = self.graph.as_number(exponent).cloned() else {
+            // a^b = exp(b log a)
+            if number.is_some_and(|n| n.is_zero() || n.is_negative()) {
+                return self.fail(
+                    Kind::Number,
+                    base_origin,
+                    "a power with a variable exponent needs a positive base",
+                    "`a^b` with a variable `b` is `exp(b*log(a))`",
+                );
+            }
+            let logarithm = self.graph.call(Function::Log, &[base]);
+            let product = self.graph.mul(exponent, logarithm);
+            return Some(self.graph.call(Function::Exp, &[product]));
+        };
+        if exponent.abs() > Rational::from(MAX_EXPONENT) {
+            return self.fail(
+                Kind::Limit,
+                origin,
+                format!("an exponent above {MAX_EXPONENT}"),
+                "rescale the variables, or use `exp` and `log`",
+            );
+        }
+        if let Some(number) = &number {
+            if number.is_zero() && exponent.is_negative() {
+                return self.fail(
+                    Kind::Number,
+                    base_origin,
+                    "a negative power of zero",
+                    "the base is exactly zero; correct it",
+                );
+            }
+            if number.is_negative() && !exponent.is_integer() {
+                return self.fail(
+                    Kind::Number,
+                    base_origin,
+                    "a fractional power of a negative number is not real",
+                    "correct the base, or use an integer exponent",
+                );
+            }
+        }
+        Some(self.graph.pow(base, &exponent))
+    }
+
+    fn call(&mut self, function: &Name, arguments: &[Expr], origin: Origin) -> Option<ExprId> {
+        let lowered: Vec<_> = arguments
+            .iter()
+            .map(|argument| self.lower(argument))
+            .collect();
+        let known = Function::from_name(&function.text);
+        let arity = match known {
+            Some(known) => known.arity(),
+            None if function.text == "sqrt" => 1,
+            None => {
+                let names = Function::ALL.iter().map(|f| f.name()).chain(["sqrt"]);
+                let diagnostic = Diagnostic::new(
+                    Kind::UnknownFunction,
+                    function.origin,
+                    format!("unknown function `{}`", function.text),
+                );
+                self.report.push(match did_you_mean(&function.text, names) {
+                    Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+                    None => diagnostic.help("the functions are sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, atan2"),
+                });
+                return None;
+            }
+        };
+        if lowered.len() != arity {
+            let expected = super::size::plural(arity, "argument");
+            let message = format!(
+                "`{}` takes {arity} {expected}, but here are {}",
+                function.text,
+                lowered.len()
+            );
+            return self.fail(
+                Kind::Arity,
+                origin,
+                message,
+                "correct the number of arguments",
+            );
+        }
+        let lowered: Vec<ExprId> = lowered.into_iter().collect::<Option<_>>()?;
+        let Some(known) = known else {
+            let half = &Rational::ONE / &Rational::from(2);
+            if self
+                .graph
+                .as_number(lowered[0])
+                .is_some_and(Rational::is_negative)
+            {
+                return self.fail(
+                    Kind::Number,
+                    origin,
+                    "the square root of a negative number is not real",
+                    "correct its argument",
+                );
+            }
+            return Some(self.graph.pow(lowered[0], &half));
+        };
+        let id = self.graph.call(known, &lowered);
+        if lowered
+            .iter()
+            .all(|argument| self.graph.symbols(*argument).is_empty())
+        {
+            let value = self.graph.evaluate(id, &|_| f64::NAN);
+            if !value.is_finite() {
+                return self.fail(
+                    Kind::Number,
+                    origin,
+                    format!("`{}` is not finite here", function.text),
+                    "correct its argument",
+                );
+            }
+        }
+        Some(id)
+    }
+}
+
+/// The length of the longest exact constant of a node.
+fn bits(graph: &Graph, id: ExprId) -> u64 {
+    match graph.node(id) {
+        Node::Number(value) => value.bits(),
+        Node::Sum { constant, terms } => terms
+            .iter()
+            .map(|(_, c)| c.bits())
+            .max()
+            .unwrap_or(0)
+            .max(constant.bits()),
+        Node::Product(factors) => factors.iter().map(|(_, e)| e.bits()).max().unwrap_or(0),
+        _ => 0,
+    }
+}

@@ -1,0 +1,306 @@
+//! The checks: from the syntax tree to a model in which nothing is wrong.
+//!
+//! One module per check. The stages are: names, sizes, the algebra and the lowering of all
+//! expressions (their mistakes are reported together), then what needs a sound model: Casimirs
+//! and the domain.
+
+mod algebra;
+mod casimirs;
+pub mod domain;
+mod environment;
+mod independence;
+mod initial;
+mod lets;
+mod lower;
+mod names;
+mod normal;
+mod parameters;
+mod sample;
+mod size;
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::HashSet;
+
+use crate::algebra::{StructureConstants, rank};
+use crate::ast::{Declaration, Invariance};
+use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::exact::{Fraction, Rational};
+use crate::model::{Casimir, Model};
+use crate::symbolic::{ExprId, Graph, Symbol};
+use casimirs::Candidate;
+use environment::{Allowed, Environment};
+use independence::Standing;
+use lower::Lowering;
+
+pub use names::is_reserved;
+pub use size::MAX_DIMENSION;
+
+/// Checks a declaration; `None` if any error was reported. Warnings go to the report and to the
+/// model.
+pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Model> {
+    let mut own = Report::new();
+    let model = stages(declaration, &mut own);
+    let failed = own.has_errors();
+    let diagnostics = own.into_diagnostics();
+    let warnings: Vec<Diagnostic> = diagnostics.iter().filter(|d| d.warning).cloned().collect();
+    for diagnostic in diagnostics {
+        report.push(diagnostic);
+    }
+    model
+        .filter(|_| !failed)
+        .map(|model| Model { warnings, ..model })
+}
+
+fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
+    names::check(declaration, report);
+    if !size::check(declaration, report)
+        && declaration.algebra.basis.is_empty() | (declaration.algebra.basis.len() > MAX_DIMENSION)
+    {
+        return None;
+    }
+    let algebra = algebra::check(declaration, report);
+    let mut graph = Graph::new();
+    let mut environment = Environment::new(declaration);
+    let parameters = parameters::check(declaration, &mut graph, &environment, report);
+    lets::check(declaration, &mut graph, &mut environment, report);
+    let mut lower =
+        |expr| Lowering::new(&mut graph, &environment, report, Allowed::Everything).lower(expr);
+    let hamiltonian = lower(&declaration.hamiltonian);
+    let lowered: Vec<Option<ExprId>> = declaration
+        .casimirs
+        .iter()
+        .map(|c| lower(&c.value))
+        .collect();
+    let initial = initial::check(declaration, &mut graph, &environment, report);
+    if report.has_errors() {
+        return None;
+    }
+    let (algebra, parameters, initial) = (algebra?, parameters?, initial?);
+    let constants = algebra.constants;
+    let defaults: Vec<Rational> = parameters
+        .iter()
+        .map(|p| p.exact.clone().unwrap_or(Rational::ZERO))
+        .collect();
+    if let Some(pole) = constants
+        .entries()
+        .iter()
+        .find(|(.., c)| c.evaluate(&|p| defaults[p].clone()).is_none())
+    {
+        let used = |p: &&crate::model::Parameter| p.exact.is_some();
+        let place = parameters
+            .iter()
+            .find(used)
+            .map_or(declaration.algebra.origin, |p| p.origin);
+        let (a, b) = (
+            &declaration.algebra.basis[pole.0].text,
+            &declaration.algebra.basis[pole.1].text,
+        );
+        report.push(
+            Diagnostic::new(
+                Kind::Number,
+                place,
+                format!("[{a}, {b}] is divided by zero for the default parameters"),
+            )
+            .help("choose another default"),
+        );
+        return None;
+    }
+    // The right-invariant system is the left-invariant one of the opposite algebra.
+    let (exact_constants, representation) = match declaration.invariance {
+        Invariance::Left => (constants, algebra.representation),
+        Invariance::Right => (
+            constants.map(Fraction::neg),
+            algebra.representation.map(|mut representation| {
+                // The triple product of three matrices changes its sign with them.
+                for entry in representation.matrices.iter_mut().flatten().flatten() {
+                    *entry = -&*entry;
+                }
+                representation
+            }),
+        ),
+    };
+    let constants = exact_constants.map(|value| expression(&mut graph, value));
+    let symbol_name = |symbol| match symbol {
+        Symbol::Coordinate(i) => declaration.state[i].text.clone(),
+        Symbol::Parameter(p) => declaration.parameters[p].name.text.clone(),
+        _ => String::new(),
+    };
+    let candidates: Vec<Candidate> = named(
+        declaration,
+        &lowered.into_iter().collect::<Option<Vec<_>>>()?,
+    );
+    let mut degrees = Vec::new();
+    for candidate in &candidates {
+        degrees.push(casimirs::check(
+            candidate,
+            &graph,
+            &constants,
+            &symbol_name,
+            report,
+        ));
+    }
+    let degrees: Vec<Option<u32>> = degrees.into_iter().collect::<Option<_>>()?;
+    let casimirs = independent(declaration, &graph, candidates, &degrees, report);
+    let dimension = declaration.algebra.basis.len();
+    let generic_rank = rank::generic(&exact_constants, dimension - casimirs.len().min(dimension));
+    let mut model = Model {
+        name: declaration.name.text.clone(),
+        name_origin: declaration.name.origin,
+        visibility: declaration.visibility.clone(),
+        description: declaration.description.clone(),
+        references: declaration.references.clone(),
+        graph,
+        basis: declaration.algebra.basis.clone(),
+        coordinates: declaration.state.clone(),
+        parameters,
+        constants,
+        exact_constants,
+        invariance: declaration.invariance,
+        hamiltonian: hamiltonian?,
+        casimirs,
+        representation,
+        methods: declaration.methods.clone(),
+        initial,
+        initial_origins: declaration
+            .initial
+            .iter()
+            .flatten()
+            .map(|e| e.origin)
+            .collect(),
+        run: declaration.run.clone(),
+        warnings: Vec::new(),
+        generic_rank,
+        initial_rank: None,
+    };
+    domain::check(&model, declaration.initial_origin, report);
+    if report.has_errors() {
+        return None;
+    }
+    model.initial_rank = model.initial_values(&model.defaults()).and_then(|mu| {
+        let mu: Option<Vec<Rational>> = mu.into_iter().map(Rational::from_f64).collect();
+        rank::at(&model.exact_constants, &mu?, &defaults, generic_rank)
+    });
+    Some(model)
+}
+
+/// The Casimirs with names: unnamed ones are C1, C2, …, skipping what is taken.
+fn named(declaration: &Declaration, lowered: &[ExprId]) -> Vec<Candidate> {
+    let mut free = free_names(declaration);
+    let casimirs = declaration.casimirs.iter().zip(lowered);
+    casimirs
+        .map(|(casimir, expr)| {
+            let name = casimir
+                .name
+                .as_ref()
+                .map(|n| n.text.clone())
+                .or_else(|| free.next())
+                .unwrap_or_default();
+            Candidate {
+                name,
+                origin: casimir.value.origin,
+                expr: *expr,
+            }
+        })
+        .collect()
+}
+
+/// C1, C2, … without the names that are taken.
+fn free_names(declaration: &Declaration) -> impl Iterator<Item = String> + use<> {
+    let names = declaration
+        .state
+        .iter()
+        .chain(&declaration.algebra.basis)
+        .chain(declaration.lets.iter().map(|(n, _)| n));
+    let names = names.chain(declaration.parameters.iter().map(|p| &p.name));
+    let names = names.chain(declaration.casimirs.iter().filter_map(|c| c.name.as_ref()));
+    let taken: HashSet<String> = names.map(|n| n.text.clone()).collect();
+    (1..)
+        .map(|i| format!("C{i}"))
+        .filter(move |name| !taken.contains(name))
+}
+
+/// Leaves out, with a warning, what depends on earlier Casimirs; the unnamed rest is numbered anew.
+fn independent(
+    declaration: &Declaration,
+    graph: &Graph,
+    candidates: Vec<Candidate>,
+    degrees: &[Option<u32>],
+    report: &mut Report,
+) -> Vec<Casimir> {
+    let functions: Vec<ExprId> = candidates.iter().map(|c| c.expr).collect();
+    let standings = independence::check(graph, &functions, declaration.algebra.basis.len());
+    let mut free = free_names(declaration);
+    let mut kept = Vec::new();
+    for (((candidate, standing), degree), declared) in candidates
+        .into_iter()
+        .zip(standings)
+        .zip(degrees)
+        .zip(&declaration.casimirs)
+    {
+        let why = match standing {
+            Standing::Independent => {
+                let name = declared
+                    .name
+                    .as_ref()
+                    .map(|n| n.text.clone())
+                    .or_else(|| free.next())
+                    .unwrap_or(candidate.name);
+                kept.push(Casimir {
+                    name,
+                    origin: candidate.origin,
+                    expr: candidate.expr,
+                    degree: *degree,
+                });
+                continue;
+            }
+            Standing::Dependent => "depends on the Casimirs before it",
+            Standing::Constant => "does not depend on the state",
+        };
+        report.push(
+            Diagnostic::new(
+                Kind::Casimir,
+                candidate.origin,
+                format!("the Casimir `{}` {why} and is left out", candidate.name),
+            )
+            .help("remove it")
+            .warning(),
+        );
+    }
+    kept
+}
+
+/// A rational function of the parameters in the arena.
+fn expression(graph: &mut Graph, value: &Fraction) -> ExprId {
+    let polynomial = |graph: &mut Graph, p: &crate::exact::Polynomial| {
+        let mut terms = Vec::new();
+        for (monomial, coefficient) in p.terms() {
+            let mut powers = Vec::new();
+            for (v, e) in monomial.powers() {
+                powers.push((
+                    graph.symbol(Symbol::Parameter(v)),
+                    Rational::from(i64::from(e)),
+                ));
+            }
+            terms.push((graph.power_product(&powers), coefficient.clone()));
+        }
+        graph.linear(&terms)
+    };
+    let mut factors = vec![(polynomial(graph, value.numerator()), Rational::ONE)];
+    for (factor, exponent) in value.denominator() {
+        factors.push((
+            polynomial(graph, factor),
+            Rational::from(-i64::from(exponent)),
+        ));
+    }
+    graph.power_product(&factors)
+}
+
+/// The structure constants as numbers at the default parameters, for tests and tables.
+pub fn default_constants(model: &Model) -> Option<StructureConstants<Rational>> {
+    let value = |p: usize| model.parameters[p].exact.clone().unwrap_or(Rational::ZERO);
+    model
+        .exact_constants
+        .try_map(|constant| constant.evaluate(&value))
+}

@@ -1,0 +1,132 @@
+//! Names: identifiers, none reserved, none twice in one name space.
+
+use std::collections::HashMap;
+
+use crate::ast::{Declaration, Name};
+use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::symbolic::Function;
+
+/// The keywords of Rust, strict and reserved, of every edition up to 2024: generated code uses the
+/// user's names as they are.
+const KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
+    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
+    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
+    "return", "self", "Self", "static", "struct", "super", "trait", "true", "try", "type",
+    "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+/// Words of the language; `energy` is a column of every output.
+const WORDS: &[&str] = &["pi", "t", "energy", "sum", "sqrt"];
+
+/// Reports every bad name.
+///
+/// Basis and state are separate name spaces, because elements of the algebra and coordinates of
+/// its dual never stand in one expression. Parameters and abbreviations can stand beside both.
+pub fn check(declaration: &Declaration, report: &mut Report) {
+    let basis = &declaration.algebra.basis;
+    let state = &declaration.state;
+    let parameters = declaration.parameters.iter().map(|p| &p.name);
+    let lets = declaration.lets.iter().map(|(name, _)| name);
+    let casimirs = declaration.casimirs.iter().filter_map(|c| c.name.as_ref());
+    for name in [&declaration.name]
+        .into_iter()
+        .chain(basis)
+        .chain(state)
+        .chain(parameters.clone())
+        .chain(lets.clone())
+        .chain(casimirs.clone())
+    {
+        permitted(name, report);
+    }
+    let mut algebra: HashMap<&str, &str> = HashMap::new();
+    let mut dual: HashMap<&str, &str> = HashMap::new();
+    for name in basis {
+        declare(&mut [&mut algebra], name, "basis element", report);
+    }
+    for name in state {
+        declare(&mut [&mut dual], name, "coordinate", report);
+    }
+    // A Casimir is a column beside the coordinates, but no expression refers to it.
+    let mut columns = dual.clone();
+    for name in parameters {
+        declare(&mut [&mut algebra, &mut dual], name, "parameter", report);
+    }
+    for name in lets {
+        declare(&mut [&mut algebra, &mut dual], name, "abbreviation", report);
+    }
+    for name in casimirs {
+        declare(&mut [&mut columns], name, "Casimir", report);
+    }
+}
+
+fn declare<'a>(
+    spaces: &mut [&mut HashMap<&'a str, &'static str>],
+    name: &'a Name,
+    what: &'static str,
+    report: &mut Report,
+) {
+    if let Some(other) = spaces
+        .iter()
+        .find_map(|space| space.get(name.text.as_str()))
+    {
+        let message = if *other == what {
+            format!("`{}` is declared twice", name.text)
+        } else {
+            format!("the {what} `{}` has the name of a {other}", name.text)
+        };
+        report.push(
+            Diagnostic::new(Kind::DuplicateName, name.origin, message).help("choose another name"),
+        );
+        return;
+    }
+    for space in spaces {
+        space.insert(&name.text, what);
+    }
+}
+
+/// Whether the language keeps a name for itself.
+pub fn is_reserved(name: &str) -> bool {
+    KEYWORDS.contains(&name)
+        || WORDS.contains(&name)
+        || name.starts_with('_')
+        || Function::from_name(name).is_some()
+}
+
+fn permitted(name: &Name, report: &mut Report) {
+    let text = name.text.as_str();
+    let mut letters = text.chars();
+    let first = letters
+        .next()
+        .is_some_and(|c| c == '_' || unicode_ident::is_xid_start(c));
+    if !first || !letters.all(unicode_ident::is_xid_continue) {
+        report.push(
+            Diagnostic::new(
+                Kind::Syntax,
+                name.origin,
+                format!("`{}` is not an identifier", text.escape_debug()),
+            )
+            .help("a name begins with a letter and consists of letters, digits and `_`"),
+        );
+        return;
+    }
+    if !is_reserved(text) {
+        return;
+    }
+    let why = if KEYWORDS.contains(&text) {
+        "a keyword of Rust"
+    } else if text.starts_with('_') {
+        "kept for generated code, as is every name that begins with `_`"
+    } else if text == "energy" {
+        "the column of the Hamiltonian in every output"
+    } else {
+        "a word of the language"
+    };
+    report.push(
+        Diagnostic::new(
+            Kind::ReservedName,
+            name.origin,
+            format!("`{text}` is {why}"),
+        )
+        .help("choose another name"),
+    );
+}

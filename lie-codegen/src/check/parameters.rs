@@ -1,0 +1,49 @@
+//! Defaults of parameters: constants, finite in double precision, rational where they are exact.
+
+use super::environment::{Allowed, Environment};
+use super::lower::Lowering;
+use crate::ast::Declaration;
+use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::model::Parameter;
+use crate::symbolic::Graph;
+
+/// Lowers the defaults.
+pub fn check(
+    declaration: &Declaration,
+    graph: &mut Graph,
+    environment: &Environment<'_>,
+    report: &mut Report,
+) -> Option<Vec<Parameter>> {
+    let lowered: Vec<Option<Parameter>> = declaration
+        .parameters
+        .iter()
+        .map(|parameter| {
+            let place = parameter.default.origin;
+            let default = Lowering::new(graph, environment, report, Allowed::Constants).lower(&parameter.default)?;
+            let default_value = graph.evaluate(default, &|_| f64::NAN);
+            let name = &parameter.name.text;
+            if !default_value.is_finite() {
+                report.push(Diagnostic::new(Kind::Number, place, format!("the default of `{name}` is not finite in double precision")).help("choose another default or other units"));
+                return None;
+            }
+            let rational = graph.as_number(default).cloned();
+            if parameter.exact && rational.is_none() {
+                report.push(
+                    Diagnostic::new(Kind::Number, place, format!("the default of the exact parameter `{name}` is not rational"))
+                        .help("brackets are checked over the rationals; write a rational default, such as 1/3"),
+                );
+                return None;
+            }
+            Some(Parameter {
+                name: name.clone(),
+                origin: parameter.name.origin,
+                default,
+                default_value,
+                exact: rational.filter(|_| parameter.exact),
+                unit: parameter.unit.clone(),
+                description: parameter.description.clone(),
+            })
+        })
+        .collect();
+    lowered.into_iter().collect()
+}

@@ -1,0 +1,130 @@
+//! The checked model: everything that derivation and emission need, with no mistake left in it.
+
+use proc_macro2::TokenStream;
+
+use crate::algebra::{Representation, StructureConstants};
+use crate::ast::{Invariance, Name, RunOption};
+use crate::diagnostic::{Diagnostic, Origin};
+use crate::exact::{Fraction, Rational};
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// A parameter of the system.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Where it is declared.
+    pub origin: Origin,
+    /// Its default, a constant expression.
+    pub default: ExprId,
+    /// The default in double precision.
+    pub default_value: f64,
+    /// The default of an exact parameter, which structure constants may use.
+    pub exact: Option<Rational>,
+    /// Unit, for people.
+    pub unit: Option<String>,
+    /// Description, for people.
+    pub description: Option<String>,
+}
+
+/// A declared Casimir that was verified; those of a model are functionally independent.
+#[derive(Clone, Debug)]
+pub struct Casimir {
+    /// Its name, declared or given.
+    pub name: String,
+    /// Where it is declared.
+    pub origin: Origin,
+    /// The function.
+    pub expr: ExprId,
+    /// Its total degree in the coordinates, where it is a polynomial in them.
+    pub degree: Option<u32>,
+}
+
+/// A checked system.
+///
+/// The right-invariant sign is already in `constants` and `representation` (both negated), so that
+/// `mu' = ad*_{grad H} mu` holds for every model.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// Name of the system.
+    pub name: String,
+    /// Where the name stands.
+    pub name_origin: Origin,
+    /// Visibility of the generated type.
+    pub visibility: TokenStream,
+    /// Description, by lines.
+    pub description: Vec<String>,
+    /// References, for people.
+    pub references: Vec<String>,
+    /// The arena of all expressions.
+    pub graph: Graph,
+    /// Names of the basis.
+    pub basis: Vec<Name>,
+    /// Names of the coordinates.
+    pub coordinates: Vec<Name>,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// Structure constants in the arena.
+    pub constants: StructureConstants<ExprId>,
+    /// The same as rational functions of the parameters (variable `p` is parameter `p`).
+    pub exact_constants: StructureConstants<Fraction>,
+    /// How it was declared.
+    pub invariance: Invariance,
+    /// The Hamiltonian.
+    pub hamiltonian: ExprId,
+    /// The independent declared Casimirs.
+    pub casimirs: Vec<Casimir>,
+    /// The matrix representation.
+    pub representation: Option<Representation>,
+    /// Methods that get fused code.
+    pub methods: Vec<Name>,
+    /// The initial state, expressions in constants and parameters.
+    pub initial: Option<Vec<ExprId>>,
+    /// Where its entries stand.
+    pub initial_origins: Vec<Origin>,
+    /// Defaults of the run.
+    pub run: Vec<RunOption>,
+    /// Warnings.
+    pub warnings: Vec<Diagnostic>,
+    /// Rank of the Poisson matrix at a generic point and for generic values of the parameters.
+    pub generic_rank: usize,
+    /// Its rank at the initial state, rounded to double precision, with default parameters.
+    pub initial_rank: Option<usize>,
+}
+
+impl Model {
+    /// Dimension of the algebra.
+    pub fn dimension(&self) -> usize {
+        self.basis.len()
+    }
+
+    /// The name of a symbol.
+    pub fn symbol_name(&self, symbol: Symbol) -> String {
+        match symbol {
+            Symbol::Coordinate(i) => self.coordinates[i].text.clone(),
+            Symbol::Parameter(i) => self.parameters[i].name.clone(),
+            Symbol::Step => "h".into(),
+            Symbol::Time => "t".into(),
+            Symbol::Input(i) => format!("input{i}"),
+        }
+    }
+
+    /// An expression of the model as text.
+    pub fn display(&self, expr: ExprId) -> String {
+        self.graph.display(expr, &|symbol| self.symbol_name(symbol))
+    }
+
+    /// The default values of the parameters.
+    pub fn defaults(&self) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.default_value).collect()
+    }
+
+    /// The initial state for given values of the parameters.
+    pub fn initial_values(&self, parameters: &[f64]) -> Option<Vec<f64>> {
+        let value = |symbol| match symbol {
+            Symbol::Parameter(p) => parameters[p],
+            _ => f64::NAN,
+        };
+        Some(self.graph.evaluate_all(self.initial.as_ref()?, &value))
+    }
+}
