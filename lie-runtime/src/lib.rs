@@ -1,9 +1,14 @@
 //! Runtime of lie-poisson: Newton's method, Lie–Poisson integrators, drivers and diagnostics.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+#[cfg(feature = "std")]
+pub mod diagnostics;
+#[cfg(feature = "std")]
+pub mod driver;
 pub mod equation;
 pub mod generic;
 pub mod matrix;
+pub mod methods;
 pub mod newton;
 pub mod parameter;
 pub mod poisson;
@@ -23,6 +28,15 @@ pub use state::{Stages, State, Unknown};
 
 /// What a program usually needs.
 pub mod prelude {
+    #[cfg(feature = "std")]
+    pub use crate::driver::{
+        EveryStep, Observer, Options, Problem, Progress, Save, Solution, SolveError, Stats, Status,
+        solve, solve_observed,
+    };
+    pub use crate::methods::{
+        Dopri5, Gauss4, Gauss6, ImplicitMidpoint, LieMidpoint, Method, Rk4, Stepper,
+    };
+    pub use crate::newton::{Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]
     pub use crate::scalar::{F32x8, F64x4, F64x8};
     pub use crate::{
@@ -41,8 +55,9 @@ pub mod __private {
     };
     pub use crate::generic;
     pub use crate::matrix::{SquareMatrix, StageMatrix};
+    pub use crate::newton::dense::inverse_pivots_are_safe;
     pub use crate::newton::{dense, pivot_is_safe};
-    pub use crate::parameter::ParameterError;
+    pub use crate::parameter::{ParameterError, all_finite};
     pub use crate::poisson::{CayleyPoisson, LiePoisson, Poisson};
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};

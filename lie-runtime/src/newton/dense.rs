@@ -17,6 +17,15 @@ pub fn pivot_is_safe<S: Scalar>(pivot: S, largest_below: S) -> S::Mask {
     S::zero().less(size) & threshold.less_equal(size) & size.finite()
 }
 
+/// The lanes in which no inverse pivot exceeds 2^10, given the largest of their absolute values.
+///
+/// The Jacobian of a step is the identity plus terms of the step size, hence its pivots are
+/// dimensionless and near 1; one that is not finite or large asks for row exchanges.
+#[inline]
+pub fn inverse_pivots_are_safe<S: Scalar>(largest: S) -> S::Mask {
+    largest.less_equal(S::from_f64(1.0 / PIVOT_THRESHOLD))
+}
+
 /// Replaces a matrix A by `1 - factor A`.
 pub fn identity_minus<S: Scalar, M: SquareMatrix<S>>(factor: S, matrix: &mut M) {
     for row in 0..matrix.dimension() {
