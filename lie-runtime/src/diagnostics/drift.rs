@@ -1,0 +1,146 @@
+//! How far invariants move, as maxima over windows of a run.
+
+use crate::driver::{Observer, Progress};
+use crate::poisson::Poisson;
+use crate::scalar::{Scalar, largest};
+use core::ops::ControlFlow;
+
+const WINDOWS: usize = 10;
+
+/// How far one invariant has moved from its first value: the maximum over the whole run and over
+/// each tenth of it. Of several lanes, the largest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InvariantDrift {
+    /// The invariant.
+    pub name: &'static str,
+    /// Its value at the start (of the first lane).
+    pub initial: f64,
+    /// The largest distance from the start, in the invariant's own units.
+    pub max: f64,
+    /// The same over each tenth of the run.
+    pub windows: [f64; WINDOWS],
+}
+
+impl InvariantDrift {
+    pub(crate) fn new<S: Scalar>(name: &'static str, initial: Option<S>) -> Self {
+        let initial = initial.map_or(f64::NAN, |initial| initial.to_f64());
+        Self { name, initial, max: 0.0, windows: [0.0; WINDOWS] }
+    }
+
+    /// Takes a distance from the start at a step of a run of so many.
+    pub(crate) fn record(&mut self, distance: f64, step: u64, steps: u64) {
+        let window = (step.saturating_sub(1) as f64 / steps.max(1) as f64 * WINDOWS as f64) as usize;
+        let window = &mut self.windows[window.min(WINDOWS - 1)];
+        *window = Scalar::max(*window, distance);
+        self.max = Scalar::max(self.max, distance);
+    }
+
+    /// The maximum of the last tenth over that of the first: about 1 for an error that stays
+    /// bounded, about 10 for one that grows linearly. None if the first is 0.
+    pub fn growth(&self) -> Option<f64> {
+        (self.windows[0] > 0.0).then(|| self.windows[WINDOWS - 1] / self.windows[0])
+    }
+
+    /// The largest distance relative to the first value. None for an invariant that is zero, or as
+    /// good as zero: smaller than its own change.
+    pub fn relative(&self) -> Option<f64> {
+        (self.initial.abs() > self.max).then(|| self.max / self.initial.abs())
+    }
+}
+
+/// The drift of energy and Casimirs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drift {
+    /// Of the energy.
+    pub energy: InvariantDrift,
+    /// Of the Casimirs.
+    pub casimirs: Vec<InvariantDrift>,
+}
+
+/// An observer that follows the drift over every step, saved or not.
+#[derive(Clone, Debug)]
+pub struct DriftMonitor<S> {
+    energy: S,
+    casimirs: Vec<S>,
+    values: Vec<S>,
+    drift: Drift,
+}
+
+impl<S: Scalar> DriftMonitor<S> {
+    /// A monitor for a system.
+    pub fn new<P: Poisson<S>>() -> Self {
+        let casimirs = P::CASIMIR_NAMES.iter();
+        Self {
+            energy: S::zero(),
+            casimirs: vec![S::zero(); P::CASIMIRS],
+            values: vec![S::zero(); P::CASIMIRS],
+            drift: Drift {
+                energy: InvariantDrift::new::<S>("energy", None),
+                casimirs: casimirs.map(|&name| InvariantDrift::new::<S>(name, None)).collect(),
+            },
+        }
+    }
+
+    /// What was measured.
+    pub fn drift(&self) -> &Drift {
+        &self.drift
+    }
+}
+
+impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
+    fn start(&mut self, system: &P, _progress: Progress, mu: &P::State) {
+        *self = Self::new::<P>();
+        self.energy = system.hamiltonian(mu);
+        self.drift.energy.initial = self.energy.to_f64();
+        system.casimirs(mu, &mut self.casimirs);
+        for (drift, value) in self.drift.casimirs.iter_mut().zip(&self.casimirs) {
+            drift.initial = value.to_f64();
+        }
+    }
+
+    fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
+        let Progress { step, steps, .. } = progress;
+        let change = (system.hamiltonian(mu) - self.energy).abs();
+        self.drift.energy.record(largest(change), step, steps);
+        system.casimirs(mu, &mut self.values);
+        let pairs = self.values.iter().zip(&self.casimirs);
+        for (drift, (&value, &initial)) in self.drift.casimirs.iter_mut().zip(pairs) {
+            drift.record(largest((value - initial).abs()), step, steps);
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn growth_tells_bounded_from_linear() {
+        let mut bounded = InvariantDrift::new("C", Some(1.0));
+        let mut linear = bounded.clone();
+        for step in 1..=1000 {
+            bounded.record(1e-3, step, 1000);
+            linear.record(1e-6 * step as f64, step, 1000);
+        }
+        assert_eq!(bounded.growth(), Some(1.0));
+        assert!((linear.growth().unwrap() - 10.0).abs() < 1e-9);
+        assert_eq!(bounded.relative(), Some(1e-3));
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_kept() {
+        let mut drift = InvariantDrift::new("C", Some(1.0));
+        drift.record(f64::NAN, 1, 2);
+        drift.record(1.0, 2, 2);
+        assert!(drift.max.is_nan());
+    }
+
+    #[test]
+    fn nothing_relative_of_zero() {
+        let mut drift = InvariantDrift::new("C", Some(1e-17));
+        drift.record(1e-16, 1, 1);
+        assert_eq!(drift.relative(), None);
+        assert_eq!(InvariantDrift::new("C", Some(1.0)).growth(), None);
+    }
+}

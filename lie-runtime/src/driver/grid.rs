@@ -1,0 +1,262 @@
+//! The grid of times, and where on it a saved time lies.
+
+use super::options::{OptionError, Save};
+
+/// `T/h` within this distance of an integer is that integer.
+const TOLERANCE: f64 = 1e-9;
+/// Beyond this, counts are no longer exact in f64.
+const MAX_STEPS: f64 = 9_007_199_254_740_992.0;
+
+/// Times `t_k = t0 + k h`, k from 0 to a last one; the end may lie off the grid beyond it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    start: f64,
+    end: f64,
+    step: f64,
+    steps: u64,
+    end_place: Place,
+}
+
+/// Where a time lies relative to the grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// At a grid point.
+    On(u64),
+    /// After a grid point by a step shorter than h, which is given with its sign.
+    After(u64, f64),
+}
+
+impl Place {
+    /// The grid point itself or the one before.
+    pub fn index(self) -> u64 {
+        match self {
+            Self::On(index) | Self::After(index, _) => index,
+        }
+    }
+}
+
+/// A state to be saved: where and under which time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Row {
+    pub(super) place: Place,
+    pub(super) time: f64,
+}
+
+impl Grid {
+    /// A grid from t0 to t1 with steps of h.
+    ///
+    /// # Errors
+    /// An [`OptionError`] if a number is not finite, h is zero or has the wrong sign, or there are
+    /// too many steps.
+    pub fn new((start, end): (f64, f64), step: f64) -> Result<Self, OptionError> {
+        if !step.is_finite() || step == 0.0 {
+            return Err(OptionError::Step(step));
+        }
+        if !(start.is_finite() && end.is_finite() && (end - start).is_finite()) {
+            return Err(OptionError::Span(start, end));
+        }
+        let mut grid = Self { start, end, step, steps: 0, end_place: Place::On(0) };
+        let count = (end - start) / step;
+        if count < -TOLERANCE {
+            return Err(OptionError::Direction { step, start, end });
+        }
+        if count > MAX_STEPS {
+            return Err(OptionError::TooManySteps(count));
+        }
+        grid.end_place = grid.locate(end);
+        grid.steps = grid.end_place.index();
+        Ok(grid)
+    }
+
+    /// The number of whole steps.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The time of a grid point, `t0 + k h` by multiplication.
+    pub fn time(&self, index: u64) -> f64 {
+        self.start + index as f64 * self.step
+    }
+
+    /// Where a time between start and end lies. Outside, the nearest grid point.
+    pub fn locate(&self, time: f64) -> Place {
+        let count = (time - self.start) / self.step;
+        let nearest = count.round();
+        if (count - nearest).abs() <= TOLERANCE || count < 0.0 {
+            return Place::On(nearest.max(0.0) as u64);
+        }
+        let before = count.floor() as u64;
+        Place::After(before, time - self.time(before))
+    }
+
+    /// The states that a choice saves, in order of the run.
+    pub(super) fn rows(&self, save: &Save) -> Result<Rows<'_>, OptionError> {
+        let kind = match save {
+            Save::Every(0) => return Err(OptionError::Interval),
+            Save::Every(every) => Kind::Every(*every),
+            Save::Ends => Kind::Every(u64::MAX),
+            Save::Interval(interval) => {
+                let ratio = interval / self.step;
+                if !(ratio.is_finite() && ratio > 0.0) {
+                    return Err(OptionError::Interval);
+                }
+                Kind::Interval(*interval)
+            }
+            Save::At(times) => Kind::At(self.sorted(times)?.into_iter()),
+        };
+        Ok(Rows { grid: self, kind, next: Some(0) })
+    }
+
+    fn sorted(&self, times: &[f64]) -> Result<Vec<f64>, OptionError> {
+        let slack = TOLERANCE * self.step.abs();
+        let (low, high) = (self.start.min(self.end) - slack, self.start.max(self.end) + slack);
+        for &time in times {
+            if !(low <= time && time <= high) {
+                return Err(OptionError::SavedTime { time, start: self.start, end: self.end });
+            }
+        }
+        let mut times = times.to_vec();
+        times.sort_by(f64::total_cmp);
+        if self.step < 0.0 {
+            times.reverse();
+        }
+        Ok(times)
+    }
+
+    fn end_row(&self) -> Row {
+        match self.end_place {
+            Place::On(index) => Row { place: self.end_place, time: self.time(index) },
+            Place::After(..) => Row { place: self.end_place, time: self.end },
+        }
+    }
+}
+
+/// Iterator over the rows of a run.
+#[derive(Clone, Debug)]
+pub(super) struct Rows<'a> {
+    grid: &'a Grid,
+    kind: Kind,
+    /// Number of the next row; none after the end.
+    next: Option<u64>,
+}
+
+#[derive(Clone, Debug)]
+enum Kind {
+    Every(u64),
+    Interval(f64),
+    At(std::vec::IntoIter<f64>),
+}
+
+impl Iterator for Rows<'_> {
+    type Item = Row;
+
+    fn next(&mut self) -> Option<Row> {
+        let grid = self.grid;
+        let number = self.next?;
+        let row = match &mut self.kind {
+            Kind::At(times) => {
+                return times.next().map(|time| Row { place: grid.locate(time), time });
+            }
+            Kind::Every(every) => {
+                let index = number.saturating_mul(*every);
+                let row = Row { place: Place::On(index), time: grid.time(index) };
+                (index < grid.steps || (index == grid.steps && grid.end_place == row.place))
+                    .then_some(row)
+            }
+            Kind::Interval(interval) => {
+                let time = grid.start + number as f64 * *interval;
+                let place = grid.locate(time);
+                let before_end = match (place, grid.end_place) {
+                    (Place::On(index), Place::After(end, _)) => index <= end,
+                    (Place::On(index), Place::On(end)) => index < end,
+                    (Place::After(index, _), Place::On(end)) => index < end,
+                    (Place::After(index, here), Place::After(end, there)) => {
+                        index < end || (index == end && here.abs() < there.abs())
+                    }
+                };
+                before_end.then_some(Row { place, time })
+            }
+        };
+        // the end closes every list, once
+        let end = grid.end_row();
+        let row = row.unwrap_or(end);
+        self.next = (row.place != end.place).then_some(number + 1);
+        Some(row)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn times(span: (f64, f64), step: f64, save: &Save) -> Vec<f64> {
+        Grid::new(span, step).unwrap().rows(save).unwrap().map(|row| row.time).collect()
+    }
+
+    #[test]
+    fn times_are_multiples() {
+        let grid = Grid::new((0.0, 100.0), 0.1).unwrap();
+        assert_eq!(grid.steps(), 1000);
+        assert_eq!(grid.time(3), 3.0 * 0.1);
+        assert_ne!(grid.time(3), 0.3, "not the sum nor the decimal");
+    }
+
+    #[test]
+    fn ends_near_the_grid_are_on_it() {
+        assert_eq!(Grid::new((0.0, 0.3), 0.1).unwrap().end_place, Place::On(3));
+        assert_eq!(Grid::new((0.0, 1.0 + 0.9e-10), 0.1).unwrap().end_place, Place::On(10));
+        let grid = Grid::new((0.0, 1.0 + 1.1e-10), 0.1).unwrap();
+        assert!(matches!(grid.end_place, Place::After(10, rest) if (rest - 1.1e-10).abs() < 1e-15));
+        assert_eq!(Grid::new((0.0, 0.0), 0.1).unwrap().steps(), 0);
+    }
+
+    #[test]
+    fn every_kth_and_the_end() {
+        assert_eq!(times((0.0, 5.0), 1.0, &Save::Every(2)), [0.0, 2.0, 4.0, 5.0]);
+        assert_eq!(times((0.0, 4.0), 1.0, &Save::Every(2)), [0.0, 2.0, 4.0]);
+        assert_eq!(times((0.0, 4.5), 1.0, &Save::Every(2)), [0.0, 2.0, 4.0, 4.5]);
+        assert_eq!(times((0.0, 4.5), 1.0, &Save::Every(9)), [0.0, 4.5]);
+        assert_eq!(times((0.0, 4.0), 1.0, &Save::Ends), [0.0, 4.0]);
+        assert_eq!(times((0.0, 0.0), 1.0, &Save::Every(1)), [0.0]);
+        assert_eq!(times((0.0, 0.5), 1.0, &Save::Every(1)), [0.0, 0.5]);
+        assert_eq!(times((1.0, -1.5), -1.0, &Save::Every(1)), [1.0, 0.0, -1.0, -1.5]);
+    }
+
+    #[test]
+    fn asked_times_keep_their_value_and_come_in_order() {
+        let rows: Vec<Row> = Grid::new((0.0, 1.0), 0.1)
+            .unwrap()
+            .rows(&Save::At(vec![0.3, 0.0, 0.25, 0.25]))
+            .unwrap()
+            .collect();
+        assert_eq!(rows.iter().map(|row| row.time).collect::<Vec<_>>(), [0.0, 0.25, 0.25, 0.3]);
+        assert_eq!(rows[3].place, Place::On(3));
+        assert_eq!(rows[1].place, Place::After(2, 0.25 - 0.2));
+        let grid = Grid::new((0.0, -1.0), -0.1).unwrap();
+        let rows: Vec<Row> = grid.rows(&Save::At(vec![-0.95, 0.0, -0.2])).unwrap().collect();
+        assert_eq!(rows.iter().map(|row| row.time).collect::<Vec<_>>(), [0.0, -0.2, -0.95]);
+        assert_eq!(rows[2].place.index(), 9);
+        assert!(grid.rows(&Save::At(vec![0.1])).is_err());
+        assert!(grid.rows(&Save::At(vec![f64::NAN])).is_err());
+    }
+
+    #[test]
+    fn intervals_need_not_divide_the_step() {
+        let saved = times((0.0, 1.0), 0.4, &Save::Interval(0.3));
+        assert_eq!(saved, [0.0, 0.3, 0.6, 3.0 * 0.3, 1.0]);
+        assert_eq!(times((0.0, 0.6), 0.1, &Save::Interval(0.3)), [0.0, 0.3, 6.0 * 0.1]);
+        assert_eq!(times((0.0, 0.65), 0.1, &Save::Interval(0.325)), [0.0, 0.325, 0.65]);
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        assert!(matches!(Grid::new((0.0, 1.0), 0.0), Err(OptionError::Step(_))));
+        assert!(matches!(Grid::new((0.0, 1.0), f64::NAN), Err(OptionError::Step(_))));
+        assert!(matches!(Grid::new((0.0, f64::INFINITY), 0.1), Err(OptionError::Span(..))));
+        assert!(matches!(Grid::new((0.0, 1.0), -0.1), Err(OptionError::Direction { .. })));
+        assert!(matches!(Grid::new((0.0, 1e300), 1e-300), Err(OptionError::TooManySteps(_))));
+        let grid = Grid::new((0.0, 1.0), 0.1).unwrap();
+        assert_eq!(grid.rows(&Save::Every(0)).unwrap_err(), OptionError::Interval);
+        assert_eq!(grid.rows(&Save::Interval(-0.1)).unwrap_err(), OptionError::Interval);
+    }
+}

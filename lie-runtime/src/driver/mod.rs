@@ -1,0 +1,19 @@
+//! From a problem to a solution: the loop over the time grid, what is saved, who looks on.
+
+mod error;
+mod grid;
+mod observer;
+mod options;
+mod problem;
+mod solution;
+mod solve;
+mod stats;
+
+pub use error::{SolveError, StepError};
+pub use grid::{Grid, Place};
+pub use observer::{EveryStep, Observer, Progress, Recorder};
+pub use options::{OptionError, Options, Save};
+pub use problem::Problem;
+pub use solution::Solution;
+pub use solve::{IntegrateError, integrate, solve, solve_observed};
+pub use stats::{Stats, Status};

@@ -1,0 +1,86 @@
+//! Step size, what is saved, and the solver.
+
+use crate::newton::NewtonOptions;
+use thiserror::Error;
+
+/// Which states of a run are saved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Save {
+    /// The start, every k-th step, and the end.
+    Every(u64),
+    /// The given times, in order of the run; each row carries the time as given.
+    At(Vec<f64>),
+    /// The start, multiples of an interval of time after it, and the end.
+    Interval(f64),
+    /// The start and the end.
+    Ends,
+}
+
+/// Options of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// The step size; negative for a run backwards in time.
+    pub step: f64,
+    /// Which states are saved; every step by default.
+    pub save: Save,
+    /// The solver of implicit methods.
+    pub newton: NewtonOptions,
+}
+
+impl Options {
+    /// Options with a step size, every step saved.
+    pub fn new(step: f64) -> Self {
+        Self { step, save: Save::Every(1), newton: NewtonOptions::default() }
+    }
+
+    /// The same with another choice of saved states.
+    #[must_use]
+    pub fn save(self, save: Save) -> Self {
+        Self { save, ..self }
+    }
+
+    /// The same with another solver.
+    #[must_use]
+    pub fn newton(self, newton: NewtonOptions) -> Self {
+        Self { newton, ..self }
+    }
+}
+
+/// Options that make no run; nothing was computed.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum OptionError {
+    /// The step size is zero, infinite or not a number.
+    #[error("the step must be a finite number other than zero, not {0}")]
+    Step(f64),
+    /// Start or end is infinite or not a number.
+    #[error("start and end must be finite, not {0} and {1}")]
+    Span(f64, f64),
+    /// The step leads away from the end.
+    #[error("the step {step} leads from {start} away from {end}")]
+    Direction {
+        /// The step size.
+        step: f64,
+        /// The start.
+        start: f64,
+        /// The end, or a saved time.
+        end: f64,
+    },
+    /// More steps than can be counted.
+    #[error("{0:e} steps are more than can be counted (2^53)")]
+    TooManySteps(f64),
+    /// A saved time beyond the span or not a number.
+    #[error("the time {time} to be saved is not between {start} and {end}")]
+    SavedTime {
+        /// The time to be saved.
+        time: f64,
+        /// The start.
+        start: f64,
+        /// The end.
+        end: f64,
+    },
+    /// `Save::Every(0)`, or an interval that is not a finite number other than zero of the step's
+    /// sign.
+    #[error("states can be saved every 1, 2, 3, … steps or at a positive interval of time")]
+    Interval,
+}

@@ -1,0 +1,115 @@
+//! What a run has saved.
+
+use super::stats::{Stats, Status};
+use crate::diagnostics::{Drift, InvariantDrift};
+use crate::scalar::{Scalar, largest};
+use crate::state::State;
+use std::io;
+
+/// The saved states of a run with energy and Casimirs, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution<S, V> {
+    /// Times.
+    pub t: Vec<f64>,
+    /// States.
+    pub mu: Vec<V>,
+    /// Energies H(mu).
+    pub energy: Vec<S>,
+    /// Casimirs, all of a row together.
+    pub casimirs: Vec<Vec<S>>,
+    /// The work of the run.
+    pub stats: Stats,
+    /// How the run ended.
+    pub status: Status,
+    /// The names of the coordinates.
+    pub coordinates: &'static [&'static str],
+    /// The names of the Casimirs.
+    pub casimir_names: &'static [&'static str],
+}
+
+impl<S, V> Solution<S, V> {
+    /// Nothing saved yet.
+    pub(super) fn empty(
+        coordinates: &'static [&'static str],
+        casimir_names: &'static [&'static str],
+    ) -> Self {
+        Self {
+            t: Vec::new(),
+            mu: Vec::new(),
+            energy: Vec::new(),
+            casimirs: Vec::new(),
+            stats: Stats::default(),
+            status: Status::Finished,
+            coordinates,
+            casimir_names,
+        }
+    }
+
+    /// The number of rows.
+    pub fn len(&self) -> usize {
+        self.t.len()
+    }
+
+    /// No rows: the run failed before the first.
+    pub fn is_empty(&self) -> bool {
+        self.t.is_empty()
+    }
+
+    /// The state saved at a time, to the last digits of the time; none if that time was not saved.
+    pub fn at(&self, time: f64) -> Option<&V> {
+        let scale = time.abs().max(self.t.first()?.abs()).max(self.t.last()?.abs());
+        let close = |&saved: &f64| (saved - time).abs() <= 1e-14 * scale;
+        self.t.iter().position(close).map(|index| &self.mu[index])
+    }
+
+    /// The last row: its time and state.
+    pub fn last(&self) -> Option<(f64, &V)> {
+        Some((*self.t.last()?, self.mu.last()?))
+    }
+}
+
+impl<S: Scalar, V> Solution<S, V> {
+    /// How far energy and Casimirs have moved from their first value, over the saved states.
+    /// For the maximum over every step let a [`crate::diagnostics::DriftMonitor`] look on.
+    pub fn drift(&self) -> Drift {
+        let rows = self.t.len();
+        let follow = |name: &'static str, value: &dyn Fn(usize) -> S| {
+            let mut drift = InvariantDrift::new(name, (rows > 0).then(|| value(0)));
+            for row in 1..rows {
+                let change = (value(row) - value(0)).abs();
+                drift.record(largest(change), row as u64, rows as u64 - 1);
+            }
+            drift
+        };
+        Drift {
+            energy: follow("energy", &|row| self.energy[row]),
+            casimirs: (self.casimir_names.iter().enumerate())
+                .map(|(index, &name)| follow(name, &|row| self.casimirs[row][index]))
+                .collect(),
+        }
+    }
+}
+
+impl<S: Scalar<Mask = bool>, V: State<S>> Solution<S, V> {
+    /// Writes the rows as CSV: a header `t,<coordinates>,energy,<Casimirs>`, then numbers with as
+    /// many digits as reading them back needs.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_csv(&self, mut writer: impl io::Write) -> io::Result<()> {
+        write!(writer, "t")?;
+        for name in self.coordinates.iter().chain(&["energy"]).chain(self.casimir_names) {
+            write!(writer, ",{name}")?;
+        }
+        writeln!(writer)?;
+        for (row, &time) in self.t.iter().enumerate() {
+            write!(writer, "{time:?}")?;
+            let invariants = core::iter::once(&self.energy[row]).chain(&self.casimirs[row]);
+            for value in self.mu[row].as_slice().iter().chain(invariants) {
+                write!(writer, ",{:?}", value.to_f64())?;
+            }
+            writeln!(writer)?;
+        }
+        writer.flush()
+    }
+}

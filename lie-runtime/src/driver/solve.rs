@@ -1,0 +1,163 @@
+//! The loop over the grid.
+
+use super::error::{SolveError, StepError};
+use super::grid::{Grid, Place};
+use super::observer::{Observer, Progress, Recorder};
+use super::options::{OptionError, Options};
+use super::problem::Problem;
+use super::solution::Solution;
+use super::stats::{Stats, Status};
+use crate::methods::{Method, StepFailure, StepReport, Stepper};
+use crate::newton::FailureReason;
+use crate::poisson::Poisson;
+use crate::scalar::{Mask, Scalar};
+use crate::state::{State, Unknown};
+use thiserror::Error;
+
+/// A run without a recorder that could not start or failed.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum IntegrateError {
+    /// The options make no run.
+    #[error(transparent)]
+    Option(#[from] OptionError),
+    /// A step failed.
+    #[error(transparent)]
+    Step(#[from] StepError),
+}
+
+/// Integrates a problem and returns what was saved.
+///
+/// # Errors
+/// [`SolveError::Option`] for options that make no run; [`SolveError::Step`], which carries what
+/// was saved before, if a step fails.
+///
+/// ```
+/// use lie_runtime::prelude::*;
+/// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/systems/rigid_body.rs"));
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let problem = Problem::new(RigidBody::<f64>::default(), [0.8, 0.1, 0.6], (0.0, 10.0));
+/// let options = Options::new(0.1).save(Save::Ends);
+/// let solution = solve(&problem, LieMidpoint::exp(), &options)?;
+/// assert_eq!(solution.t, [0.0, 10.0]);
+/// assert!(solution.drift().casimirs[0].max < 1e-14);
+/// # Ok(())
+/// # }
+/// ```
+pub fn solve<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    problem: &Problem<S, P>,
+    method: M,
+    options: &Options,
+) -> Result<Solution<S, P::State>, SolveError<S, P::State>> {
+    solve_observed(problem, method, options, ())
+}
+
+/// [`solve`] with an observer.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_observed<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    problem: &Problem<S, P>,
+    method: M,
+    options: &Options,
+    observer: impl Observer<S, P>,
+) -> Result<Solution<S, P::State>, SolveError<S, P::State>> {
+    let mut observers = (Recorder::<S, P::State>::new::<P>(), observer);
+    let outcome = integrate(problem, method, options, &mut observers);
+    let mut solution = observers.0.solution;
+    match outcome {
+        Ok((stats, status)) => {
+            solution.stats = stats;
+            solution.status = status;
+            Ok(solution)
+        }
+        Err(IntegrateError::Option(error)) => Err(SolveError::Option(error)),
+        Err(IntegrateError::Step(error)) => {
+            solution.stats = error.stats;
+            solution.status = Status::Failed;
+            Err(SolveError::Step { error, solution: Box::new(solution) })
+        }
+    }
+}
+
+/// Integrates a problem and shows every step and every saved state to an observer.
+///
+/// The trajectory goes along the grid `t0 + k h`. A saved time between two grid points is reached
+/// by one shorter step from the grid point before it, which is not continued from.
+///
+/// # Errors
+/// [`IntegrateError::Option`] for options that make no run, [`IntegrateError::Step`] if a step
+/// fails or the system is not finite at the start.
+pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    problem: &Problem<S, P>,
+    method: M,
+    options: &Options,
+    observer: &mut impl Observer<S, P>,
+) -> Result<(Stats, Status), IntegrateError> {
+    let grid = Grid::new(problem.span, options.step)?;
+    let mut rows = grid.rows(&options.save)?.peekable();
+    let system = &problem.system;
+    let mut stats = Stats::default();
+    let fail = |stats: Stats, index: u64, failure: StepFailure| {
+        let mut stats = stats;
+        stats.add_failure(&failure.report);
+        StepError { step: index + 1, time: grid.time(index), failure, stats }
+    };
+
+    let mut mu = problem.mu0.clone();
+    let mut between = mu.clone();
+    check_start(system, &mu).map_err(|failure| fail(stats, 0, failure))?;
+    let mut stepper = method.stepper(system, S::from_f64(options.step), &options.newton);
+    let progress = |index: u64| Progress {
+        step: index,
+        steps: grid.steps(),
+        time: grid.time(index),
+    };
+    observer.start(system, progress(0), &mu);
+    let mut index = 0;
+    loop {
+        while let Some(row) = rows.next_if(|row| row.place.index() == index) {
+            let saved = match row.place {
+                Place::On(_) => &mu,
+                Place::After(_, rest) => {
+                    between.copy_from(&mu);
+                    let mut shorter =
+                        method.stepper(system, S::from_f64(rest), &options.newton);
+                    match shorter.step(&mut between, &mut ()) {
+                        Ok(report) => stats.add(&report),
+                        Err(failure) => return Err(fail(stats, index, failure).into()),
+                    }
+                    &between
+                }
+            };
+            if observer.row(system, row.time, saved).is_break() {
+                return Ok((stats, Status::Stopped));
+            }
+        }
+        if index == grid.steps() {
+            return Ok((stats, Status::Finished));
+        }
+        match stepper.step(&mut mu, &mut ()) {
+            Ok(report) => stats.add(&report),
+            Err(failure) => return Err(fail(stats, index, failure).into()),
+        }
+        index += 1;
+        if observer.step(system, progress(index), &mu).is_break() {
+            return Ok((stats, Status::Stopped));
+        }
+    }
+}
+
+/// The state, its energy and its velocity must be finite before the first step.
+fn check_start<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State) -> Result<(), StepFailure> {
+    let mut field = system.zero_state();
+    system.vector_field(mu, &mut field);
+    let finite = mu.finite() & field.finite() & system.hamiltonian(mu).finite();
+    if finite.all() {
+        return Ok(());
+    }
+    Err(StepFailure {
+        reason: FailureReason::NotFinite,
+        lanes: (!finite).bits(),
+        report: StepReport::default(),
+    })
+}

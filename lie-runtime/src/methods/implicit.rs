@@ -1,0 +1,65 @@
+//! The stepper of every method whose step is one nonlinear equation.
+
+use super::stepper::{FactorSink, StepFailure, StepReport, Stepper, not_finite};
+use crate::equation::Equation;
+use crate::newton::{Newton, NewtonOptions};
+use crate::scalar::{Mask, Scalar};
+use crate::state::Unknown;
+
+/// Solves the equation of a step and takes over its result.
+pub struct ImplicitStepper<S: Scalar, E: Equation<S>> {
+    equation: E,
+    newton: Newton<S, E::Unknown, E::Matrix>,
+    unknown: E::Unknown,
+    next: E::State,
+}
+
+impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
+    /// A stepper for an equation; `zero` is any state of the right size.
+    pub fn new(equation: E, zero: E::State, options: &NewtonOptions) -> Self {
+        let newton = Newton::new(&equation, options);
+        let unknown = equation.zero_unknown();
+        Self { equation, newton, unknown, next: zero }
+    }
+
+    /// The solution of the last step's equation.
+    pub fn unknown(&self) -> &E::Unknown {
+        &self.unknown
+    }
+
+    /// Advances one step without a sink.
+    pub(super) fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
+        self.equation.set_base(mu);
+        self.equation.initial_guess(&mut self.unknown);
+        let solved = self.newton.solve(&mut self.equation, &mut self.unknown, mu.max_norm());
+        let (report, mut failure) = match solved {
+            Ok(report) => (StepReport::implicit(&report), None),
+            Err(failure) => {
+                let failure = StepFailure::of_solver(&failure);
+                (failure.report, Some(failure))
+            }
+        };
+        let good = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
+        self.equation.result(&self.unknown, &mut self.next);
+        let finite = self.next.finite();
+        mu.assign_where(good & finite, &self.next);
+        let infinite = (good & !finite).bits();
+        if infinite != 0 {
+            let known = failure.get_or_insert(not_finite(0, report));
+            known.lanes |= infinite;
+        }
+        failure.map_or(Ok(report), Err)
+    }
+}
+
+impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
+    type State = E::State;
+
+    fn step<K: FactorSink<E::State>>(
+        &mut self,
+        mu: &mut E::State,
+        _sink: &mut K,
+    ) -> Result<StepReport, StepFailure> {
+        self.advance(mu)
+    }
+}

@@ -1,0 +1,51 @@
+//! The implicit midpoint rule on a Poisson manifold.
+//!
+//! `mu1 = mu + h f((mu + mu1)/2)` with `f = Pi grad H`. Order 2, symmetric. Keeps every quadratic
+//! invariant of the equation, among them quadratic Casimirs and a quadratic energy; Casimirs of
+//! higher degree and the Poisson structure are kept only to O(h^2) per unit of time (the Poisson
+//! defect of a step is O(h^3)), unless Pi is constant.
+//!
+//! Needs: the vector field and its Jacobian; any [`Poisson`] system.
+//!
+//! Reference: M. A. Austin, P. S. Krishnaprasad, L.-S. Wang, "Almost Poisson integration of rigid
+//! body systems", Journal of Computational Physics 107 (1993) 105–117,
+//! [doi:10.1006/jcph.1993.1128](https://doi.org/10.1006/jcph.1993.1128).
+//!
+//! [`Poisson`]: crate::Poisson
+
+use super::facts::{Facts, Preserves};
+use super::implicit::ImplicitStepper;
+use super::stepper::Method;
+use crate::equation::MidpointEquations;
+use crate::newton::NewtonOptions;
+use crate::scalar::Scalar;
+
+/// The implicit (Poisson) midpoint rule, order 2; see the module's text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ImplicitMidpoint;
+
+impl Facts for ImplicitMidpoint {
+    const ID: &'static str = "midpoint";
+    const ORDER: u32 = 2;
+    const SYMMETRIC: bool = true;
+    const EXPLICIT: bool = false;
+    const PRESERVES: Preserves = Preserves {
+        energy: false,
+        casimirs: false,
+        orbit: false,
+        poisson: false,
+        quadratic_invariants: true,
+        linear_invariants: true,
+    };
+}
+
+impl<S: Scalar, P: MidpointEquations<S>> Method<S, P> for ImplicitMidpoint {
+    type Stepper<'a>
+        = ImplicitStepper<S, P::Equation<'a>>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+        ImplicitStepper::new(system.midpoint_equation(h), system.zero_state(), newton)
+    }
+}

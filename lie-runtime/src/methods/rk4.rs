@@ -1,0 +1,89 @@
+//! The classical explicit Runge–Kutta method, as a control that keeps no structure.
+//!
+//! `mu1 = mu + (h/6)(k1 + 2 k2 + 2 k3 + k4)` with `k1 = f(mu)`, `k2 = f(mu + h k1/2)`,
+//! `k3 = f(mu + h k2/2)`, `k4 = f(mu + h k3)`. Order 4.
+//!
+//! Needs: the vector field.
+//!
+//! Reference: E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations I",
+//! 2nd edition, Springer 1993, section II.1,
+//! [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
+
+use super::facts::{Facts, Preserves};
+use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper, not_finite};
+use crate::newton::NewtonOptions;
+use crate::poisson::Poisson;
+use crate::scalar::{Mask, Scalar};
+use crate::state::{State, Unknown};
+
+/// The classical explicit Runge–Kutta method, order 4; see the module's text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rk4;
+
+impl Facts for Rk4 {
+    const ID: &'static str = "rk4";
+    const ORDER: u32 = 4;
+    const SYMMETRIC: bool = false;
+    const EXPLICIT: bool = true;
+    const PRESERVES: Preserves = Preserves {
+        energy: false,
+        casimirs: false,
+        orbit: false,
+        poisson: false,
+        quadratic_invariants: false,
+        linear_invariants: true,
+    };
+}
+
+impl<S: Scalar, P: Poisson<S>> Method<S, P> for Rk4 {
+    type Stepper<'a>
+        = Rk4Stepper<'a, S, P>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, _newton: &NewtonOptions) -> Self::Stepper<'a> {
+        let zero = system.zero_state();
+        Rk4Stepper {
+            system,
+            step: h,
+            slope: zero.clone(),
+            sum: zero.clone(),
+            point: zero,
+        }
+    }
+}
+
+/// The stepper of [`Rk4`].
+pub struct Rk4Stepper<'a, S: Scalar, P: Poisson<S>> {
+    system: &'a P,
+    step: S,
+    slope: P::State,
+    sum: P::State,
+    point: P::State,
+}
+
+impl<S: Scalar, P: Poisson<S>> Stepper<S> for Rk4Stepper<'_, S, P> {
+    type State = P::State;
+
+    fn step<K: FactorSink<P::State>>(
+        &mut self,
+        mu: &mut P::State,
+        _sink: &mut K,
+    ) -> Result<StepReport, StepFailure> {
+        let half = self.step * S::ratio(1.0, 2.0);
+        self.system.vector_field(mu, &mut self.slope);
+        self.sum.copy_from(&self.slope);
+        for (weight, advance) in [(2.0, half), (2.0, half), (1.0, self.step)] {
+            self.point.copy_from(mu);
+            self.point.axpy(advance, &self.slope);
+            self.system.vector_field(&self.point, &mut self.slope);
+            self.sum.axpy(S::from_f64(weight), &self.slope);
+        }
+        self.point.copy_from(mu);
+        self.point.axpy(self.step * S::ratio(1.0, 6.0), &self.sum);
+        let finite = self.point.finite();
+        mu.assign_where(finite, &self.point);
+        let report = StepReport { evaluations: 4, substeps: 1, ..StepReport::default() };
+        if finite.all() { Ok(report) } else { Err(not_finite((!finite).bits(), report)) }
+    }
+}

@@ -1,0 +1,126 @@
+//! What a method is to the driver: it makes steppers, which advance one step.
+
+use super::facts::Facts;
+use crate::newton::{Failure, FailureReason, NewtonOptions, NewtonReport};
+use crate::poisson::Poisson;
+use crate::scalar::Scalar;
+use crate::state::State;
+use thiserror::Error;
+
+/// How a step went.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepReport {
+    /// Evaluations of the vector field, or of the residual of an implicit step (one per iteration,
+    /// whatever its number of stages).
+    pub evaluations: u32,
+    /// Iterations of the solver.
+    pub iterations: u32,
+    /// Jacobians factored.
+    pub factorizations: u32,
+    /// Largest entry of the residual when it was last evaluated; 0 of an explicit method.
+    pub residual: f64,
+    /// Steps of an adaptive method that were accepted within this one; 1 of every other method.
+    pub substeps: u32,
+    /// Steps of an adaptive method that were rejected within this one.
+    pub rejected: u32,
+    /// Bit k is set if lane k had a small pivot and was solved with row exchanges.
+    pub pivoted: u64,
+}
+
+impl StepReport {
+    /// The report of an implicit step: a residual per iteration and one field for the start.
+    pub(super) fn implicit(report: &NewtonReport) -> Self {
+        Self {
+            evaluations: report.iterations + 1,
+            iterations: report.iterations,
+            factorizations: report.factorizations,
+            residual: report.residual,
+            substeps: 1,
+            rejected: 0,
+            pivoted: report.pivoted,
+        }
+    }
+}
+
+/// A step that was refused in some lanes: their state is the one before the step. The other lanes
+/// have advanced.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("{reason}")]
+pub struct StepFailure {
+    /// The reason in the first lane that failed.
+    pub reason: FailureReason,
+    /// Bit k is set if lane k has failed.
+    pub lanes: u64,
+    /// The work done.
+    pub report: StepReport,
+}
+
+impl StepFailure {
+    pub(super) fn of_solver(failure: &Failure) -> Self {
+        Self {
+            reason: failure.reason,
+            lanes: failure.lanes,
+            report: StepReport::implicit(&failure.report),
+        }
+    }
+}
+
+/// A map from the algebra to the group near the identity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Retraction {
+    /// The exponential map.
+    Exp,
+    /// The Cayley map of the declared representation.
+    Cayley,
+}
+
+/// Takes the group factors of a step, in order: a method of coadjoint form advances
+/// `mu1 = Ad*_(tau(xi)) mu`, and `g1 = g tau(xi)` reconstructs the motion on the group.
+pub trait FactorSink<V> {
+    /// Whether anything is listening; steppers skip the work otherwise.
+    const ACTIVE: bool = true;
+    /// Takes one factor `tau(xi)`. In lanes whose step failed, xi is 0.
+    fn push(&mut self, retraction: Retraction, xi: &V);
+}
+
+/// Nothing is listening.
+impl<V> FactorSink<V> for () {
+    const ACTIVE: bool = false;
+    fn push(&mut self, _retraction: Retraction, _xi: &V) {}
+}
+
+/// Advances one step of a fixed size.
+pub trait Stepper<S: Scalar> {
+    /// The state of the system.
+    type State: State<S>;
+
+    /// Advances `mu` by one step. Allocates nothing.
+    ///
+    /// # Errors
+    /// A [`StepFailure`] naming the lanes in which the step was refused; `mu` is untouched there.
+    fn step<K: FactorSink<Self::State>>(
+        &mut self,
+        mu: &mut Self::State,
+        sink: &mut K,
+    ) -> Result<StepReport, StepFailure>;
+}
+
+/// A method of integration, as a value with its options.
+#[diagnostic::on_unimplemented(
+    message = "the method `{Self}` does not apply to the system `{P}` over the scalar `{S}`",
+    note = "implicit methods need the equations trait of their family (`MidpointEquations`, `GaussEquations`, `LieMidpointEquations`, `CayleyEquations`): for a system written by hand see `lie_runtime::generic_equations!`",
+    note = "the Cayley map exists where the declared `matrices` are closed under (abc + cba)/2"
+)]
+pub trait Method<S: Scalar, P: Poisson<S>>: Facts {
+    /// The stepper; it borrows the system.
+    type Stepper<'a>: Stepper<S, State = P::State>
+    where
+        P: 'a;
+    /// A stepper of step size h, which may be negative and may differ per lane.
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a>;
+}
+
+/// The failure of an explicit method.
+pub(super) fn not_finite(lanes: u64, report: StepReport) -> StepFailure {
+    StepFailure { reason: FailureReason::NotFinite, lanes, report }
+}
