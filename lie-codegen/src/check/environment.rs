@@ -32,7 +32,7 @@ pub enum Allowed {
 }
 
 /// The names of a declaration as its expressions see them.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Environment<'a> {
     bindings: HashMap<&'a str, Binding>,
 }

@@ -6,6 +6,7 @@
 
 mod algebra;
 mod casimirs;
+mod constant;
 pub mod domain;
 mod environment;
 mod independence;
@@ -34,6 +35,7 @@ use environment::{Allowed, Environment};
 use independence::Standing;
 use lower::Lowering;
 
+pub use constant::constant;
 pub use names::is_reserved;
 pub use size::MAX_DIMENSION;
 
