@@ -12,6 +12,8 @@ pub mod methods;
 pub mod newton;
 pub mod parameter;
 pub mod poisson;
+#[cfg(feature = "std")]
+pub mod program;
 pub mod scalar;
 pub mod state;
 #[cfg(test)]

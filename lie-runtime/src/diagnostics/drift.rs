@@ -24,12 +24,18 @@ pub struct InvariantDrift {
 impl InvariantDrift {
     pub(crate) fn new<S: Scalar>(name: &'static str, initial: Option<S>) -> Self {
         let initial = initial.map_or(f64::NAN, |initial| initial.to_f64());
-        Self { name, initial, max: 0.0, windows: [0.0; WINDOWS] }
+        Self {
+            name,
+            initial,
+            max: 0.0,
+            windows: [0.0; WINDOWS],
+        }
     }
 
     /// Takes a distance from the start at a step of a run of so many.
     pub(crate) fn record(&mut self, distance: f64, step: u64, steps: u64) {
-        let window = (step.saturating_sub(1) as f64 / steps.max(1) as f64 * WINDOWS as f64) as usize;
+        let window =
+            (step.saturating_sub(1) as f64 / steps.max(1) as f64 * WINDOWS as f64) as usize;
         let window = &mut self.windows[window.min(WINDOWS - 1)];
         *window = Scalar::max(*window, distance);
         self.max = Scalar::max(self.max, distance);
@@ -76,7 +82,9 @@ impl<S: Scalar> DriftMonitor<S> {
             values: vec![S::zero(); P::CASIMIRS],
             drift: Drift {
                 energy: InvariantDrift::new::<S>("energy", None),
-                casimirs: casimirs.map(|&name| InvariantDrift::new::<S>(name, None)).collect(),
+                casimirs: casimirs
+                    .map(|&name| InvariantDrift::new::<S>(name, None))
+                    .collect(),
             },
         }
     }

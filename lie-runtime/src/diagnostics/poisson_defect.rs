@@ -33,7 +33,11 @@ where
     let mut tangent = vec![vec![S::zero(); P::DIM]; P::DIM];
     for direction in 0..P::DIM {
         for (index, (entry, &value)) in start.as_mut_slice().iter_mut().zip(mu).enumerate() {
-            let seed = if index == direction { S::one() } else { S::zero() };
+            let seed = if index == direction {
+                S::one()
+            } else {
+                S::zero()
+            };
             *entry = Dual::new(value, seed);
         }
         end.copy_from(&start);

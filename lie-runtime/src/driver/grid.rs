@@ -55,7 +55,13 @@ impl Grid {
         if !(start.is_finite() && end.is_finite() && (end - start).is_finite()) {
             return Err(OptionError::Span(start, end));
         }
-        let mut grid = Self { start, end, step, steps: 0, end_place: Place::On(0) };
+        let mut grid = Self {
+            start,
+            end,
+            step,
+            steps: 0,
+            end_place: Place::On(0),
+        };
         let count = (end - start) / step;
         if count < -TOLERANCE {
             return Err(OptionError::Direction { step, start, end });
@@ -104,15 +110,26 @@ impl Grid {
             }
             Save::At(times) => Kind::At(self.sorted(times)?.into_iter()),
         };
-        Ok(Rows { grid: self, kind, next: Some(0) })
+        Ok(Rows {
+            grid: self,
+            kind,
+            next: Some(0),
+        })
     }
 
     fn sorted(&self, times: &[f64]) -> Result<Vec<f64>, OptionError> {
         let slack = TOLERANCE * self.step.abs();
-        let (low, high) = (self.start.min(self.end) - slack, self.start.max(self.end) + slack);
+        let (low, high) = (
+            self.start.min(self.end) - slack,
+            self.start.max(self.end) + slack,
+        );
         for &time in times {
             if !(low <= time && time <= high) {
-                return Err(OptionError::SavedTime { time, start: self.start, end: self.end });
+                return Err(OptionError::SavedTime {
+                    time,
+                    start: self.start,
+                    end: self.end,
+                });
             }
         }
         let mut times = times.to_vec();
@@ -125,8 +142,14 @@ impl Grid {
 
     fn end_row(&self) -> Row {
         match self.end_place {
-            Place::On(index) => Row { place: self.end_place, time: self.time(index) },
-            Place::After(..) => Row { place: self.end_place, time: self.end },
+            Place::On(index) => Row {
+                place: self.end_place,
+                time: self.time(index),
+            },
+            Place::After(..) => Row {
+                place: self.end_place,
+                time: self.end,
+            },
         }
     }
 }
@@ -155,13 +178,18 @@ impl Iterator for Rows<'_> {
         let number = self.next?;
         let row = match &mut self.kind {
             Kind::At(times) => {
-                return times.next().map(|time| Row { place: grid.locate(time), time });
+                return times.next().map(|time| Row {
+                    place: grid.locate(time),
+                    time,
+                });
             }
             Kind::Every(every) => {
                 let index = number.saturating_mul(*every);
-                let row = Row { place: Place::On(index), time: grid.time(index) };
-                (index < grid.steps || (index == grid.steps && grid.end_place == row.place))
-                    .then_some(row)
+                let row = Row {
+                    place: Place::On(index),
+                    time: grid.time(index),
+                };
+                (index <= grid.steps).then_some(row)
             }
             Kind::Interval(interval) => {
                 let time = grid.start + number as f64 * *interval;
@@ -190,7 +218,12 @@ mod tests {
     use super::*;
 
     fn times(span: (f64, f64), step: f64, save: &Save) -> Vec<f64> {
-        Grid::new(span, step).unwrap().rows(save).unwrap().map(|row| row.time).collect()
+        Grid::new(span, step)
+            .unwrap()
+            .rows(save)
+            .unwrap()
+            .map(|row| row.time)
+            .collect()
     }
 
     #[test]
@@ -204,7 +237,10 @@ mod tests {
     #[test]
     fn ends_near_the_grid_are_on_it() {
         assert_eq!(Grid::new((0.0, 0.3), 0.1).unwrap().end_place, Place::On(3));
-        assert_eq!(Grid::new((0.0, 1.0 + 0.9e-10), 0.1).unwrap().end_place, Place::On(10));
+        assert_eq!(
+            Grid::new((0.0, 1.0 + 0.9e-10), 0.1).unwrap().end_place,
+            Place::On(10)
+        );
         let grid = Grid::new((0.0, 1.0 + 1.1e-10), 0.1).unwrap();
         assert!(matches!(grid.end_place, Place::After(10, rest) if (rest - 1.1e-10).abs() < 1e-15));
         assert_eq!(Grid::new((0.0, 0.0), 0.1).unwrap().steps(), 0);
@@ -212,14 +248,23 @@ mod tests {
 
     #[test]
     fn every_kth_and_the_end() {
-        assert_eq!(times((0.0, 5.0), 1.0, &Save::Every(2)), [0.0, 2.0, 4.0, 5.0]);
+        assert_eq!(
+            times((0.0, 5.0), 1.0, &Save::Every(2)),
+            [0.0, 2.0, 4.0, 5.0]
+        );
         assert_eq!(times((0.0, 4.0), 1.0, &Save::Every(2)), [0.0, 2.0, 4.0]);
-        assert_eq!(times((0.0, 4.5), 1.0, &Save::Every(2)), [0.0, 2.0, 4.0, 4.5]);
+        assert_eq!(
+            times((0.0, 4.5), 1.0, &Save::Every(2)),
+            [0.0, 2.0, 4.0, 4.5]
+        );
         assert_eq!(times((0.0, 4.5), 1.0, &Save::Every(9)), [0.0, 4.5]);
         assert_eq!(times((0.0, 4.0), 1.0, &Save::Ends), [0.0, 4.0]);
         assert_eq!(times((0.0, 0.0), 1.0, &Save::Every(1)), [0.0]);
         assert_eq!(times((0.0, 0.5), 1.0, &Save::Every(1)), [0.0, 0.5]);
-        assert_eq!(times((1.0, -1.5), -1.0, &Save::Every(1)), [1.0, 0.0, -1.0, -1.5]);
+        assert_eq!(
+            times((1.0, -1.5), -1.0, &Save::Every(1)),
+            [1.0, 0.0, -1.0, -1.5]
+        );
     }
 
     #[test]
@@ -229,12 +274,21 @@ mod tests {
             .rows(&Save::At(vec![0.3, 0.0, 0.25, 0.25]))
             .unwrap()
             .collect();
-        assert_eq!(rows.iter().map(|row| row.time).collect::<Vec<_>>(), [0.0, 0.25, 0.25, 0.3]);
+        assert_eq!(
+            rows.iter().map(|row| row.time).collect::<Vec<_>>(),
+            [0.0, 0.25, 0.25, 0.3]
+        );
         assert_eq!(rows[3].place, Place::On(3));
         assert_eq!(rows[1].place, Place::After(2, 0.25 - 0.2));
         let grid = Grid::new((0.0, -1.0), -0.1).unwrap();
-        let rows: Vec<Row> = grid.rows(&Save::At(vec![-0.95, 0.0, -0.2])).unwrap().collect();
-        assert_eq!(rows.iter().map(|row| row.time).collect::<Vec<_>>(), [0.0, -0.2, -0.95]);
+        let rows: Vec<Row> = grid
+            .rows(&Save::At(vec![-0.95, 0.0, -0.2]))
+            .unwrap()
+            .collect();
+        assert_eq!(
+            rows.iter().map(|row| row.time).collect::<Vec<_>>(),
+            [0.0, -0.2, -0.95]
+        );
         assert_eq!(rows[2].place.index(), 9);
         assert!(grid.rows(&Save::At(vec![0.1])).is_err());
         assert!(grid.rows(&Save::At(vec![f64::NAN])).is_err());
@@ -244,19 +298,46 @@ mod tests {
     fn intervals_need_not_divide_the_step() {
         let saved = times((0.0, 1.0), 0.4, &Save::Interval(0.3));
         assert_eq!(saved, [0.0, 0.3, 0.6, 3.0 * 0.3, 1.0]);
-        assert_eq!(times((0.0, 0.6), 0.1, &Save::Interval(0.3)), [0.0, 0.3, 6.0 * 0.1]);
-        assert_eq!(times((0.0, 0.65), 0.1, &Save::Interval(0.325)), [0.0, 0.325, 0.65]);
+        assert_eq!(
+            times((0.0, 0.6), 0.1, &Save::Interval(0.3)),
+            [0.0, 0.3, 6.0 * 0.1]
+        );
+        assert_eq!(
+            times((0.0, 0.65), 0.1, &Save::Interval(0.325)),
+            [0.0, 0.325, 0.65]
+        );
     }
 
     #[test]
     fn nonsense_is_refused() {
-        assert!(matches!(Grid::new((0.0, 1.0), 0.0), Err(OptionError::Step(_))));
-        assert!(matches!(Grid::new((0.0, 1.0), f64::NAN), Err(OptionError::Step(_))));
-        assert!(matches!(Grid::new((0.0, f64::INFINITY), 0.1), Err(OptionError::Span(..))));
-        assert!(matches!(Grid::new((0.0, 1.0), -0.1), Err(OptionError::Direction { .. })));
-        assert!(matches!(Grid::new((0.0, 1e300), 1e-300), Err(OptionError::TooManySteps(_))));
+        assert!(matches!(
+            Grid::new((0.0, 1.0), 0.0),
+            Err(OptionError::Step(_))
+        ));
+        assert!(matches!(
+            Grid::new((0.0, 1.0), f64::NAN),
+            Err(OptionError::Step(_))
+        ));
+        assert!(matches!(
+            Grid::new((0.0, f64::INFINITY), 0.1),
+            Err(OptionError::Span(..))
+        ));
+        assert!(matches!(
+            Grid::new((0.0, 1.0), -0.1),
+            Err(OptionError::Direction { .. })
+        ));
+        assert!(matches!(
+            Grid::new((0.0, 1e300), 1e-300),
+            Err(OptionError::TooManySteps(_))
+        ));
         let grid = Grid::new((0.0, 1.0), 0.1).unwrap();
-        assert_eq!(grid.rows(&Save::Every(0)).unwrap_err(), OptionError::Interval);
-        assert_eq!(grid.rows(&Save::Interval(-0.1)).unwrap_err(), OptionError::Interval);
+        assert_eq!(
+            grid.rows(&Save::Every(0)).unwrap_err(),
+            OptionError::Interval
+        );
+        assert_eq!(
+            grid.rows(&Save::Interval(-0.1)).unwrap_err(),
+            OptionError::Interval
+        );
     }
 }

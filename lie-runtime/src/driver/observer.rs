@@ -92,7 +92,9 @@ pub struct Recorder<S, V> {
 impl<S: Scalar, V> Recorder<S, V> {
     /// An empty record for a system.
     pub fn new<P: Poisson<S, State = V>>() -> Self {
-        Self { solution: Solution::empty(P::COORDINATES, P::CASIMIR_NAMES) }
+        Self {
+            solution: Solution::empty(P::COORDINATES, P::CASIMIR_NAMES),
+        }
     }
 }
 

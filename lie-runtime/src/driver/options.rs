@@ -30,7 +30,11 @@ pub struct Options {
 impl Options {
     /// Options with a step size, every step saved.
     pub fn new(step: f64) -> Self {
-        Self { step, save: Save::Every(1), newton: NewtonOptions::default() }
+        Self {
+            step,
+            save: Save::Every(1),
+            newton: NewtonOptions::default(),
+        }
     }
 
     /// The same with another choice of saved states.

@@ -17,6 +17,10 @@ pub struct Problem<S: Scalar, P: Poisson<S>> {
 impl<S: Scalar, P: Poisson<S>> Problem<S, P> {
     /// A problem from system, initial state and span `(t0, t1)`.
     pub fn new(system: P, mu0: impl Into<P::State>, span: (f64, f64)) -> Self {
-        Self { system, mu0: mu0.into(), span }
+        Self {
+            system,
+            mu0: mu0.into(),
+            span,
+        }
     }
 }

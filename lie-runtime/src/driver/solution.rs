@@ -57,7 +57,10 @@ impl<S, V> Solution<S, V> {
 
     /// The state saved at a time, to the last digits of the time; none if that time was not saved.
     pub fn at(&self, time: f64) -> Option<&V> {
-        let scale = time.abs().max(self.t.first()?.abs()).max(self.t.last()?.abs());
+        let scale = time
+            .abs()
+            .max(self.t.first()?.abs())
+            .max(self.t.last()?.abs());
         let close = |&saved: &f64| (saved - time).abs() <= 1e-14 * scale;
         self.t.iter().position(close).map(|index| &self.mu[index])
     }
@@ -98,7 +101,12 @@ impl<S: Scalar<Mask = bool>, V: State<S>> Solution<S, V> {
     /// Those of the writer.
     pub fn write_csv(&self, mut writer: impl io::Write) -> io::Result<()> {
         write!(writer, "t")?;
-        for name in self.coordinates.iter().chain(&["energy"]).chain(self.casimir_names) {
+        for name in self
+            .coordinates
+            .iter()
+            .chain(&["energy"])
+            .chain(self.casimir_names)
+        {
             write!(writer, ",{name}")?;
         }
         writeln!(writer)?;

@@ -74,7 +74,10 @@ pub fn solve_observed<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         Err(IntegrateError::Step(error)) => {
             solution.stats = error.stats;
             solution.status = Status::Failed;
-            Err(SolveError::Step { error, solution: Box::new(solution) })
+            Err(SolveError::Step {
+                error,
+                solution: Box::new(solution),
+            })
         }
     }
 }
@@ -100,7 +103,12 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let fail = |stats: Stats, index: u64, failure: StepFailure| {
         let mut stats = stats;
         stats.add_failure(&failure.report);
-        StepError { step: index + 1, time: grid.time(index), failure, stats }
+        StepError {
+            step: index + 1,
+            time: grid.time(index),
+            failure,
+            stats,
+        }
     };
 
     let mut mu = problem.mu0.clone();
@@ -120,8 +128,7 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
                 Place::On(_) => &mu,
                 Place::After(_, rest) => {
                     between.copy_from(&mu);
-                    let mut shorter =
-                        method.stepper(system, S::from_f64(rest), &options.newton);
+                    let mut shorter = method.stepper(system, S::from_f64(rest), &options.newton);
                     match shorter.step(&mut between, &mut ()) {
                         Ok(report) => stats.add(&report),
                         Err(failure) => return Err(fail(stats, index, failure).into()),

@@ -32,9 +32,27 @@ const A: [&[(f64, f64)]; 6] = [
     &[(1.0, 5.0)],
     &[(3.0, 40.0), (9.0, 40.0)],
     &[(44.0, 45.0), (-56.0, 15.0), (32.0, 9.0)],
-    &[(19372.0, 6561.0), (-25360.0, 2187.0), (64448.0, 6561.0), (-212.0, 729.0)],
-    &[(9017.0, 3168.0), (-355.0, 33.0), (46732.0, 5247.0), (49.0, 176.0), (-5103.0, 18656.0)],
-    &[(35.0, 384.0), (0.0, 1.0), (500.0, 1113.0), (125.0, 192.0), (-2187.0, 6784.0), (11.0, 84.0)],
+    &[
+        (19372.0, 6561.0),
+        (-25360.0, 2187.0),
+        (64448.0, 6561.0),
+        (-212.0, 729.0),
+    ],
+    &[
+        (9017.0, 3168.0),
+        (-355.0, 33.0),
+        (46732.0, 5247.0),
+        (49.0, 176.0),
+        (-5103.0, 18656.0),
+    ],
+    &[
+        (35.0, 384.0),
+        (0.0, 1.0),
+        (500.0, 1113.0),
+        (125.0, 192.0),
+        (-2187.0, 6784.0),
+        (11.0, 84.0),
+    ],
 ];
 
 /// Weights of order 5 minus those of order 4.
@@ -59,7 +77,10 @@ pub struct Dopri5 {
 
 impl Default for Dopri5 {
     fn default() -> Self {
-        Self { rtol: 1e-6, atol: 1e-9 }
+        Self {
+            rtol: 1e-6,
+            atol: 1e-9,
+        }
     }
 }
 
@@ -122,7 +143,9 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
     fn measure(&self, vector: impl Fn(usize) -> S, other: Option<&P::State>) -> S {
         let mut sum = S::zero();
         for (index, &entry) in self.current.as_slice().iter().enumerate() {
-            let size = other.map_or(entry.abs(), |other| entry.abs().max(other.as_slice()[index].abs()));
+            let size = other.map_or(entry.abs(), |other| {
+                entry.abs().max(other.as_slice()[index].abs())
+            });
             let ratio = vector(index) / (self.atol + self.rtol * size);
             sum += ratio * ratio;
         }
@@ -145,7 +168,8 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
         let change = |index| self.slopes[1].as_slice()[index] - self.slopes[0].as_slice()[index];
         let curvature = self.measure(change, None) / trial;
         let rate = slope.max(curvature * self.length) / self.length;
-        let step = (S::from_f64(0.01) / (rate * self.length)).powf(S::ratio(1.0, 5.0)) * self.length;
+        let step =
+            (S::from_f64(0.01) / (rate * self.length)).powf(S::ratio(1.0, 5.0)) * self.length;
         let step = S::select(step.finite(), step, self.length);
         minimum(minimum(trial * S::from_f64(100.0), step), self.length)
     }
@@ -158,7 +182,8 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
             for (slope, &(numerator, denominator)) in self.slopes.iter().zip(*row) {
                 self.point.axpy(h * S::ratio(numerator, denominator), slope);
             }
-            self.system.vector_field(&self.point, &mut self.slopes[stage + 1]);
+            self.system
+                .vector_field(&self.point, &mut self.slopes[stage + 1]);
         }
         let error = |index: usize| {
             let mut sum = S::zero();
@@ -176,7 +201,11 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
         let controlled = plain / self.error_before.powf(S::from_f64(0.04));
         let divisor = S::select(accepted, controlled, plain) / S::from_f64(0.9);
         let divisor = divisor.max(S::select(accepted, S::ratio(1.0, 10.0), S::one()));
-        S::select(divisor.finite(), minimum(divisor, S::from_f64(5.0)), S::from_f64(10.0))
+        S::select(
+            divisor.finite(),
+            minimum(divisor, S::from_f64(5.0)),
+            S::from_f64(10.0),
+        )
     }
 }
 
@@ -193,7 +222,10 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
         mu: &mut P::State,
         _sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let mut report = StepReport { evaluations: 1, ..StepReport::default() };
+        let mut report = StepReport {
+            evaluations: 1,
+            ..StepReport::default()
+        };
         self.current.copy_from(mu);
         self.system.vector_field(mu, &mut self.slopes[0]);
         let mut proposal = match self.proposal {
@@ -218,7 +250,11 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
             let size = S::select(active, size, S::zero());
             let too_small = active & !last & size.less_equal(S::epsilon() * self.length);
             if too_small.any() {
-                let failed = StepFailure { reason: FailureReason::StepTooSmall, lanes: 0, report };
+                let failed = StepFailure {
+                    reason: FailureReason::StepTooSmall,
+                    lanes: 0,
+                    report,
+                };
                 failure.get_or_insert(failed).lanes |= too_small.bits();
                 active = active & !too_small;
             }
@@ -245,7 +281,11 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
             active = active & !(accepted & last);
         }
         if active.any() {
-            let failed = StepFailure { reason: FailureReason::TooManySteps, lanes: 0, report };
+            let failed = StepFailure {
+                reason: FailureReason::TooManySteps,
+                lanes: 0,
+                report,
+            };
             failure.get_or_insert(failed).lanes |= active.bits();
         }
         self.proposal = Some(proposal);

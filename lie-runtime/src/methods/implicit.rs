@@ -19,7 +19,12 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
     pub fn new(equation: E, zero: E::State, options: &NewtonOptions) -> Self {
         let newton = Newton::new(&equation, options);
         let unknown = equation.zero_unknown();
-        Self { equation, newton, unknown, next: zero }
+        Self {
+            equation,
+            newton,
+            unknown,
+            next: zero,
+        }
     }
 
     /// The solution of the last step's equation.
@@ -31,7 +36,9 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
     pub(super) fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
         self.equation.set_base(mu);
         self.equation.initial_guess(&mut self.unknown);
-        let solved = self.newton.solve(&mut self.equation, &mut self.unknown, mu.max_norm());
+        let solved = self
+            .newton
+            .solve(&mut self.equation, &mut self.unknown, mu.max_norm());
         let (report, mut failure) = match solved {
             Ok(report) => (StepReport::implicit(&report), None),
             Err(failure) => {

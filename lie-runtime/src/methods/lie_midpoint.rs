@@ -90,7 +90,13 @@ impl<S: Scalar, P: CayleyEquations<S>> Method<S, P> for LieMidpoint<Cayley> {
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        CoadjointStepper::new(system, system.cayley_equation(h), h, Retraction::Cayley, newton)
+        CoadjointStepper::new(
+            system,
+            system.cayley_equation(h),
+            h,
+            Retraction::Cayley,
+            newton,
+        )
     }
 }
 
@@ -118,7 +124,13 @@ where
         newton: &NewtonOptions,
     ) -> Self {
         let implicit = ImplicitStepper::new(equation, system.zero_state(), newton);
-        Self { system, implicit, step: h, retraction, direction: system.zero_state() }
+        Self {
+            system,
+            implicit,
+            step: h,
+            retraction,
+            direction: system.zero_state(),
+        }
     }
 }
 
@@ -139,7 +151,8 @@ where
         if K::ACTIVE {
             let failed = S::Mask::from_bits(outcome.map_or_else(|failure| failure.lanes, |_| 0));
             if !failed.all() {
-                self.system.gradient(self.implicit.unknown(), &mut self.direction);
+                self.system
+                    .gradient(self.implicit.unknown(), &mut self.direction);
                 for entry in self.direction.as_mut_slice() {
                     *entry = S::select(failed, S::zero(), self.step * *entry);
                 }

@@ -83,7 +83,15 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Rk4Stepper<'_, S, P> {
         self.point.axpy(self.step * S::ratio(1.0, 6.0), &self.sum);
         let finite = self.point.finite();
         mu.assign_where(finite, &self.point);
-        let report = StepReport { evaluations: 4, substeps: 1, ..StepReport::default() };
-        if finite.all() { Ok(report) } else { Err(not_finite((!finite).bits(), report)) }
+        let report = StepReport {
+            evaluations: 4,
+            substeps: 1,
+            ..StepReport::default()
+        };
+        if finite.all() {
+            Ok(report)
+        } else {
+            Err(not_finite((!finite).bits(), report))
+        }
     }
 }

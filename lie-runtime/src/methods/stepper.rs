@@ -122,5 +122,9 @@ pub trait Method<S: Scalar, P: Poisson<S>>: Facts {
 
 /// The failure of an explicit method.
 pub(super) fn not_finite(lanes: u64, report: StepReport) -> StepFailure {
-    StepFailure { reason: FailureReason::NotFinite, lanes, report }
+    StepFailure {
+        reason: FailureReason::NotFinite,
+        lanes,
+        report,
+    }
 }
