@@ -3,12 +3,13 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
+use crate::ast::Declaration;
 use crate::check::check;
-use crate::diagnostic::{Diagnostic, Origin, Report};
 use crate::derive::Source;
+use crate::diagnostic::{Diagnostic, Origin, Report};
 use crate::emit::{Blueprint, Emitted, Fused, Parameter, emit};
 use crate::front::{Body, spec};
-use crate::methods::{Choice, Retraction, refusal};
+use crate::methods::{self, Choice, Retraction, refusal};
 use crate::model::Model;
 
 /// Reads and checks a spec file.
@@ -20,7 +21,20 @@ pub fn compile_spec(text: &str) -> Result<Model, Vec<Diagnostic>> {
     let parsed = spec::read(text, &mut report);
     report.gate()?;
     let Some(Body::Declaration(declaration)) = parsed.body else { return Err(report.into_diagnostics()) };
-    let model = check(&declaration, &mut report);
+    compile_declaration(&declaration)
+}
+
+/// Checks a declaration.
+///
+/// # Errors
+/// Every mistake of the first stage that has one.
+pub fn compile_declaration(declaration: &Declaration) -> Result<Model, Vec<Diagnostic>> {
+    let mut report = Report::new();
+    let model = check(declaration, &mut report);
+    report.gate()?;
+    if let Some(model) = &model {
+        methods::check(model, &mut report);
+    }
     report.gate()?;
     model.ok_or_else(|| report.into_diagnostics())
 }
@@ -79,10 +93,26 @@ pub fn program(model: &Model, choices: &[Choice]) -> String {
 
 fn format_tokens(tokens: TokenStream) -> String {
     match syn::parse2(tokens.clone()) {
-        Ok(file) => prettyplease::unparse(&file),
+        Ok(file) => air(&prettyplease::unparse(&file)),
         // The emitter writes valid Rust; should it not, the text as it is shows where.
         Err(_) => tokens.to_string(),
     }
+}
+
+/// A blank line between items and between methods, which the printer leaves out.
+fn air(text: &str) -> String {
+    let mut aired = String::with_capacity(text.len() + text.len() / 32);
+    let mut ended = false;
+    for line in text.lines() {
+        let start = line.trim_start();
+        if ended && !start.starts_with('}') && !start.starts_with("else") && !start.starts_with(')') {
+            aired.push('\n');
+        }
+        ended = start == "}";
+        aired.push_str(line);
+        aired.push('\n');
+    }
+    aired
 }
 
 fn identifier(text: &str, origin: Option<Origin>) -> Ident {

@@ -7,6 +7,7 @@ pub mod derive;
 pub mod diagnostic;
 pub mod emit;
 pub mod exact;
+pub mod expand;
 pub mod front;
 pub mod methods;
 pub mod model;

@@ -1,1 +1,32 @@
-//! The `lie_poisson!` macro: a shell over `lie-codegen`.
+//! The `lie_poisson!` macro: a shell over [`lie_codegen`], re-exported by `lie-runtime`.
+
+use std::path::PathBuf;
+
+use proc_macro::TokenStream;
+
+/// Declares a Lie–Poisson system and generates its specialized code.
+///
+/// The structure constants are checked exactly at compile time, the equations of motion
+/// `mu' = ad*_{grad H(mu)} mu` are derived symbolically. Every mistake is an error at its token.
+///
+/// ```ignore
+/// use lie_runtime::prelude::*;
+///
+/// lie_poisson! {
+///     /// Free rigid body in the body frame.
+///     pub system RigidBody;
+///     algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+///     state x, y, z;
+///     parameters { I1 = 2.0; I2 = 1.0; I3 = 2/3; }
+///     hamiltonian = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3);
+///     casimir C = x^2 + y^2 + z^2;
+///     methods = [lie-midpoint];
+/// }
+///
+/// lie_poisson! { pub spec = "specs/se3_heavy_top.json"; }
+/// ```
+#[proc_macro]
+pub fn lie_poisson(input: TokenStream) -> TokenStream {
+    let manifest = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
+    lie_codegen::expand::expand_macro(input.into(), &manifest).into()
+}

@@ -7,6 +7,7 @@ use quote::{format_ident, quote};
 
 use super::Writer;
 use super::elimination::Elimination;
+use super::names::{ident, index};
 use super::prepared::{Owner, Prepared, step_name};
 use crate::derive::{Kernel, Shape};
 use crate::schedule::{Program, Value};
@@ -120,7 +121,7 @@ impl Writer<'_> {
         for kernel in kernels {
             let program = kernel.program(&mut self.source.graph);
             let docs = self.kernel_docs(&format!("{} {}", form.label, kernel.name), kernel, &program);
-            let name = super::names::ident(kernel.name);
+            let name = ident(kernel.name);
             let method = match &kernel.shape {
                 Shape::VectorAndMatrix(_, places) => {
                     elimination = eliminate(n, places, &program);
@@ -137,7 +138,7 @@ impl Writer<'_> {
                     let target = if kernel.name == "result" { "mu" } else { "residual" };
                     has_result |= kernel.name == "result";
                     let body = self.kernel_body(kernel, &program, Owner::Equation, &mut step, &place, &[target]);
-                    let target = super::names::ident(target);
+                    let target = ident(target);
                     let target = self.argument(&target.to_string());
                     quote! {
                         #docs
@@ -177,23 +178,37 @@ impl Writer<'_> {
             self.program(program, |writer, value| writer.value(value, Owner::Equation, step));
         let Shape::VectorAndMatrix(indices, places) = &kernel.shape else { return TokenStream::new() };
         let (residual, matrix) = (self.argument("residual"), self.argument("matrix"));
-        let entries = indices.iter().zip(&outputs).map(|(i, value)| quote! { #residual[#i] = #value; });
+        let entries = indices.iter().zip(&outputs).map(|(i, value)| {
+            let i = index(*i);
+            quote! { #residual[#i] = #value; }
+        });
         let slopes = places
             .iter()
             .zip(&outputs[indices.len()..])
-            .map(|((i, j), value)| quote! { #matrix[(#i, #j)] = #value; });
-        let fill = elimination.fill.iter().map(|(i, j)| quote! { #matrix[(#i, #j)] = S::zero(); });
+            .map(|((i, j), value)| {
+                let (i, j) = (index(*i), index(*j));
+                quote! { #matrix[(#i, #j)] = #value; }
+            });
+        let fill = elimination.fill.iter().map(|(i, j)| {
+            let (i, j) = (index(*i), index(*j));
+            quote! { #matrix[(#i, #j)] = S::zero(); }
+        });
         quote! { #unpacked #statements #(#entries)* #(#slopes)* #(#fill)* }
     }
 
     /// `factor` and `solve` of a sparse matrix of n rows.
     fn elimination_methods(&self, elimination: &Elimination) -> TokenStream {
         let factor = elimination.factor_tokens(
-            &|i, j| quote! { matrix[(#i, #j)] },
-            &|i, j, value| quote! { matrix[(#i, #j)] = #value; },
+            &|i, j| place("matrix", i, j),
+            &|i, j, value| {
+                let place = place("matrix", i, j);
+                quote! { #place = #value; }
+            },
         );
-        let solve =
-            elimination.solve_tokens(&|i, j| quote! { factors[(#i, #j)] }, &|i| quote! { residual[#i] });
+        let solve = elimination.solve_tokens(&|i, j| place("factors", i, j), &|i| {
+            let i = index(i);
+            quote! { residual[#i] }
+        });
         let count = format!(
             " Sparse elimination in the order {:?}, {} entries of fill-in: {} multiplications with the solution.",
             elimination.order,
@@ -215,7 +230,7 @@ impl Writer<'_> {
     }
 
     fn equation_struct(&mut self, form: &Form, step: &Prepared, methods: TokenStream) -> TokenStream {
-        let n = self.source.dimension;
+        let n = index(self.source.dimension);
         let visibility = &self.blueprint.visibility;
         let (system, name) = (self.system_name(), format_ident!("{}{}", self.blueprint.name, form.suffix));
         let constants = step.all().to_vec();
@@ -300,6 +315,11 @@ impl Writer<'_> {
             }
         }
     }
+}
+
+fn place(matrix: &str, i: usize, j: usize) -> TokenStream {
+    let (matrix, i, j) = (ident(matrix), index(i), index(j));
+    quote! { #matrix[(#i, #j)] }
 }
 
 /// The elimination of a Jacobian; diagonal entries that are the number one are known to be it.

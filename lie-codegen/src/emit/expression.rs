@@ -11,7 +11,7 @@ use crate::exact::Rational;
 use crate::schedule::{Operation, Program, Value};
 
 /// An expression with more operations than this is bound to a local even if it is used once.
-const LONGEST: usize = 12;
+const LONGEST: usize = 16;
 
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Binding {
@@ -36,8 +36,14 @@ impl Writer<'_> {
         mut leaf: impl FnMut(&mut Self, &Value) -> TokenStream,
     ) -> (TokenStream, Vec<TokenStream>) {
         let mut uses = vec![0usize; program.operations.len()];
-        let operands = program.operations.iter().flat_map(Operation::operands);
-        for value in operands.chain(&program.outputs) {
+        let mut inner = vec![false; program.operations.len()];
+        for value in program.operations.iter().flat_map(Operation::operands) {
+            if let Value::Temporary(i) = value {
+                uses[*i] += 1;
+                inner[*i] = true;
+            }
+        }
+        for value in &program.outputs {
             if let Value::Temporary(i) = value {
                 uses[*i] += 1;
             }
@@ -53,7 +59,7 @@ impl Writer<'_> {
                 };
                 write(operation, &mut get)
             };
-            if uses[position] > 1 || text.length > LONGEST {
+            if uses[position] > 1 || (inner[position] && text.length > LONGEST) {
                 let name: Ident = format_ident!("_t{locals}");
                 locals += 1;
                 let tokens = &text.tokens;

@@ -4,6 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::Writer;
+use super::names::index;
 use super::prepared::{Owner, Prepared};
 use crate::derive::{Argument, Kernel, Shape};
 use crate::schedule::{Operation, Program, Value};
@@ -17,14 +18,20 @@ impl Writer<'_> {
         quote! { #[doc = #formula] #[doc = ""] #[doc = #count] }
     }
 
+    /// Whether a program reads a vector argument.
+    pub fn reads(argument: &Argument, program: &Program) -> bool {
+        let is = |value: &Value| matches!(value, Value::Symbol(symbol) if argument.symbols.contains(symbol));
+        program.operations.iter().flat_map(Operation::operands).any(is) || program.outputs.iter().any(is)
+    }
+
     /// The statements that take the arguments apart; `_` stands for what the kernel ignores.
     pub fn unpack(&self, argument: &Argument, program: &Program, from: &TokenStream) -> TokenStream {
         let used = |symbol| {
             let is = |value: &Value| *value == Value::Symbol(symbol);
             program.operations.iter().flat_map(Operation::operands).any(is) || program.outputs.iter().any(is)
         };
-        if !argument.symbols.iter().any(|symbol| used(*symbol)) {
-            return quote! { let _ = #from; };
+        if !Self::reads(argument, program) {
+            return TokenStream::new();
         }
         let entries = argument.symbols.iter().map(|symbol| {
             if used(*symbol) {
@@ -72,12 +79,18 @@ impl Writer<'_> {
 /// Writes of a vector; entries that vanish identically are filled with zero first.
 fn vector_writes(target: &Ident, indices: &[usize], outputs: &[TokenStream], n: usize) -> TokenStream {
     let fill = (indices.len() < n).then(|| quote! { #target.fill(S::zero()); });
-    let writes = indices.iter().zip(outputs).map(|(i, value)| quote! { #target[#i] = #value; });
+    let writes = indices.iter().zip(outputs).map(|(i, value)| {
+        let i = index(*i);
+        quote! { #target[#i] = #value; }
+    });
     quote! { #fill #(#writes)* }
 }
 
 fn matrix_writes(target: &Ident, places: &[(usize, usize)], outputs: &[TokenStream], n: usize) -> TokenStream {
     let fill = (places.len() < n * n).then(|| quote! { #target.fill(S::zero()); });
-    let writes = places.iter().zip(outputs).map(|((i, j), value)| quote! { #target[(#i, #j)] = #value; });
+    let writes = places.iter().zip(outputs).map(|((i, j), value)| {
+        let (i, j) = (index(*i), index(*j));
+        quote! { #target[(#i, #j)] = #value; }
+    });
     quote! { #fill #(#writes)* }
 }

@@ -1,7 +1,7 @@
 //! Identifiers of the generated code. A name of the user never begins with an underscore, hence
 //! the names of ours that share a scope with them do.
 
-use proc_macro2::{Ident, Span};
+use proc_macro2::{Ident, Literal, Span};
 use quote::format_ident;
 
 use super::Writer;
@@ -10,6 +10,11 @@ use crate::symbolic::Symbol;
 /// An identifier of ours.
 pub fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
+}
+
+/// An index or a size, without a suffix.
+pub fn index(value: usize) -> Literal {
+    Literal::usize_unsuffixed(value)
 }
 
 impl Writer<'_> {

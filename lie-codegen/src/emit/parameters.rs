@@ -65,7 +65,7 @@ impl Writer<'_> {
     /// The declared initial state, for the parameters at hand.
     fn initial_state(&mut self) -> TokenStream {
         let Some(initial) = self.blueprint.initial.clone() else { return TokenStream::new() };
-        let n = self.source.dimension;
+        let n = super::names::index(self.source.dimension);
         let (statements, values) = self.preparation(&initial, &|name| quote! { self.#name });
         quote! {
             #[doc = " The initial state of the declaration."]
@@ -83,6 +83,7 @@ impl Writer<'_> {
         let constants = self.prepared.all().to_vec();
         let (statements, values) = self.preparation(&constants, &|name| quote! { self.#name });
         let mut lets = TokenStream::new();
+        let mut checks = TokenStream::new();
         let mut names = Vec::new();
         for (position, (id, value)) in constants.iter().zip(&values).enumerate() {
             let name = self.prepared_name(*id, position);
@@ -94,14 +95,14 @@ impl Writer<'_> {
                 .into_iter()
                 .find(|s| matches!(s, Symbol::Parameter(_)))
                 .map_or_else(String::new, |s| self.shown(s));
-            lets.extend(quote! {
-                let #name = ::lie_runtime::__private::finite_constant(#value, #parameter, #text)?;
-            });
+            lets.extend(quote! { let #name = #value; });
+            checks.extend(quote! { (#name, #parameter, #text), });
             names.push(name);
         }
         quote! {
             #statements
             #lets
+            ::lie_runtime::__private::all_finite(&[#checks])?;
             ::core::result::Result::Ok(#system { _parameters: ::core::clone::Clone::clone(self), #(#names),* })
         }
     }
@@ -117,7 +118,7 @@ impl Writer<'_> {
         });
         let doc = format!(" The system [`{name}`] with its derived constants.");
         let names: Vec<_> = self.blueprint.parameters.iter().map(|p| p.name.clone()).collect();
-        let count = names.len();
+        let count = super::names::index(names.len());
         let marker = names.is_empty().then(|| quote! { _scalar: ::core::marker::PhantomData });
         quote! {
             #[doc = #doc]

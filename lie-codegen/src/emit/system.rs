@@ -4,6 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Writer;
+use super::names::{ident, index};
 use super::prepared::{Owner, Prepared};
 use crate::derive::{Kernel, Shape};
 
@@ -24,8 +25,8 @@ impl Writer<'_> {
         }
         poisson.extend(self.casimir_gradients(&gradients));
         let system = format_ident!("{}System", self.blueprint.name);
-        let n = self.source.dimension;
-        let casimirs = self.source.casimirs.len();
+        let n = index(self.source.dimension);
+        let casimirs = index(self.source.casimirs.len());
         let name = self.blueprint.name.to_string();
         let coordinates = self.blueprint.coordinates.iter().map(Ident::to_string);
         let casimir_names = &self.blueprint.casimir_names;
@@ -77,10 +78,10 @@ impl Writer<'_> {
         };
         let program = kernel.program(&mut self.source.graph);
         let docs = self.kernel_docs(kernel.name, kernel, &program);
-        let name = super::names::ident(kernel.name);
+        let name = ident(kernel.name);
         let body = self.system_body(kernel, &program, targets);
         let arguments = kernel.arguments.iter().map(|a| {
-            let name = self.argument(a.name);
+            let name = if Self::reads(a, &program) { self.argument(a.name) } else { ident(&format!("_{}", a.name)) };
             quote! { #name: &Self::State }
         });
         let vector = |target: &Ident| quote! { #target: &mut Self::State };
@@ -125,13 +126,15 @@ impl Writer<'_> {
         let program = kernel.program(&mut self.source.graph);
         let docs = self.kernel_docs("casimirs", &kernel, &program);
         let body = self.system_body(&kernel, &program, &["out"]);
-        let (mu, out) = (self.argument("mu"), self.argument("out"));
-        let unused = (count == 0).then(|| quote! { let _ = #out; });
+        let unread = |writer: &Self, name: &str, read: bool| {
+            if read { writer.argument(name) } else { ident(&format!("_{name}")) }
+        };
+        let mu = unread(self, "mu", Self::reads(&kernel.arguments[0], &program));
+        let out = unread(self, "out", count > 0);
         quote! {
             #docs
             #[inline]
             fn casimirs(&self, #mu: &Self::State, #out: &mut [S]) {
-                #unused
                 #body
             }
         }
@@ -148,16 +151,23 @@ impl Writer<'_> {
             let line = format!(" Gradient of `{name}`: {}.", program.counts);
             docs.extend(quote! { #[doc = #line] });
             let body = self.system_body(kernel, &program, &["out"]);
+            let index = super::names::index(index);
             arms.push(quote! { #index => { #body } });
         }
         let count = kernels.len();
         let message = format!("the system has {count} Casimir{}", if count == 1 { "" } else { "s" });
-        let unused = (count == 0).then(|| quote! { let _ = (#mu, #out); });
+        if count == 0 {
+            return quote! {
+                #[doc = " The system has no Casimir to differentiate."]
+                fn casimir_gradient(&self, _index: usize, _mu: &Self::State, _out: &mut Self::State) {
+                    panic!("the system has no Casimir");
+                }
+            };
+        }
         quote! {
             #[doc = " `out_i = dC/dmu_i` of one Casimir."]
             #docs
             fn casimir_gradient(&self, _index: usize, #mu: &Self::State, #out: &mut Self::State) {
-                #unused
                 match _index {
                     #(#arms)*
                     _ => panic!(#message),

@@ -23,7 +23,7 @@ pub fn factor(graph: &mut Graph, roots: &[ExprId], known: Known) -> Option<Vec<E
                 Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
                 Node::Sum { constant, terms } => {
                     let terms: Vec<_> = terms.iter().map(|(t, c)| (image[t], c.clone())).collect();
-                    let (sum, factored) = factor_sum(graph, constant, terms, DEEPEST);
+                    let (sum, factored) = factor_sum(graph, constant, terms, DEEPEST, &mut |graph, base| is_known(graph, base, known, &mut cache));
                     changed |= factored;
                     sum
                 }
@@ -50,19 +50,20 @@ fn factor_sum(
     constant: Rational,
     terms: Vec<(ExprId, Rational)>,
     depth: usize,
+    known: &mut dyn FnMut(&Graph, ExprId) -> bool,
 ) -> (ExprId, bool) {
     let mut pieces = vec![(graph.number(constant), Rational::ONE)];
     let mut rest = terms;
     let mut factored = false;
     while depth > 0 && rest.len() <= LONGEST {
-        let Some(base) = most_shared(graph, &rest) else { break };
+        let Some(base) = most_shared(graph, &rest, known) else { break };
         let (with, without): (Vec<_>, Vec<_>) =
             rest.into_iter().partition(|(term, _)| bases(graph, *term).contains(&base));
         let quotients = with
             .into_iter()
             .map(|(term, c)| (graph.power_product(&[(term, Rational::ONE), (base, Rational::MINUS_ONE)]), c))
             .collect();
-        let (inner, _) = factor_sum(graph, Rational::ZERO, quotients, depth - 1);
+        let (inner, _) = factor_sum(graph, Rational::ZERO, quotients, depth - 1, known);
         pieces.push((graph.mul(base, inner), Rational::ONE));
         rest = without;
         factored = true;
@@ -71,15 +72,20 @@ fn factor_sum(
     (graph.linear(&pieces), factored)
 }
 
-/// The base that occurs with a positive integer power in the most terms, in at least two.
-fn most_shared(graph: &Graph, terms: &[(ExprId, Rational)]) -> Option<ExprId> {
+/// The base that occurs with a positive integer power in the most terms, in at least two; what is
+/// known beforehand stays in the prepared coefficients.
+fn most_shared(
+    graph: &Graph,
+    terms: &[(ExprId, Rational)],
+    known: &mut dyn FnMut(&Graph, ExprId) -> bool,
+) -> Option<ExprId> {
     let mut counts: BTreeMap<ExprId, usize> = BTreeMap::new();
     for (term, _) in terms {
         for base in bases(graph, *term) {
             *counts.entry(base).or_insert(0) += 1;
         }
     }
-    let best = counts.into_iter().filter(|(_, n)| *n >= 2).max_by_key(|(base, n)| (*n, std::cmp::Reverse(*base)))?;
+    let best = counts.into_iter().filter(|(base, n)| *n >= 2 && !known(graph, *base)).max_by_key(|(base, n)| (*n, std::cmp::Reverse(*base)))?;
     Some(best.0)
 }
 

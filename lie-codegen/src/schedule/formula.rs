@@ -27,6 +27,20 @@ pub enum Atom {
     Call(Function, Vec<AtomId>),
 }
 
+impl Atom {
+    /// What it is made of.
+    pub fn operands(&self) -> Vec<AtomId> {
+        match self {
+            Atom::Leaf(_) => Vec::new(),
+            Atom::Sum(terms) => terms.iter().map(|(_, id)| *id).collect(),
+            Atom::Product(factors) => factors.clone(),
+            Atom::Quotient(a, b) => vec![*a, *b],
+            Atom::Root(a) | Atom::Power(a, _) => vec![*a],
+            Atom::Call(_, arguments) => arguments.clone(),
+        }
+    }
+}
+
 /// All quantities of a kernel.
 pub struct Formula {
     pub atoms: Vec<Atom>,
@@ -89,6 +103,24 @@ impl Formula {
             }
         }
         builder.formula
+    }
+
+    /// Empties the atoms that no result needs, so that they are not shared with.
+    pub fn forget_unused(&mut self) {
+        let mut used = vec![false; self.atoms.len()];
+        let mut stack: Vec<AtomId> =
+            self.outputs.iter().chain(self.definitions.iter().map(|(_, signed)| signed)).map(|(_, id)| *id).collect();
+        while let Some(id) = stack.pop() {
+            if !std::mem::replace(&mut used[id], true) {
+                stack.extend(self.atoms[id].operands());
+            }
+        }
+        for (atom, used) in self.atoms.iter_mut().zip(used) {
+            if !used {
+                *atom = Atom::Sum(Vec::new());
+            }
+        }
+        self.index.retain(|atom, id| self.atoms[*id] == *atom);
     }
 
     pub fn intern(&mut self, atom: Atom) -> AtomId {

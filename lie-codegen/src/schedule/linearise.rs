@@ -64,11 +64,7 @@ impl Writer<'_> {
     fn children(&self, atom: AtomId) -> Vec<AtomId> {
         match &self.formula.atoms[atom] {
             Atom::Leaf(value) => self.definition(value).map(|(_, atom)| atom).into_iter().collect(),
-            Atom::Sum(terms) => terms.iter().map(|(_, id)| *id).collect(),
-            Atom::Product(factors) => factors.clone(),
-            Atom::Quotient(a, b) => vec![*a, *b],
-            Atom::Root(a) | Atom::Power(a, _) => vec![*a],
-            Atom::Call(_, arguments) => arguments.clone(),
+            other => other.operands(),
         }
     }
 

@@ -105,7 +105,7 @@ impl std::fmt::Display for Counts {
             .filter(|(n, _)| *n > 0)
             .map(|(n, name)| format!("{n} {name}{}", if *n == 1 { "" } else { "s" }))
             .collect();
-        f.write_str(if text.is_empty() { "no operation" } else { "" })?;
+        f.write_str(if text.is_empty() { "No operation" } else { "" })?;
         f.write_str(&text.join(", "))
     }
 }

@@ -9,6 +9,7 @@ const LONGEST_SUM: usize = 48;
 
 /// Replaces repeated pairs, the most frequent first.
 pub fn share(formula: &mut Formula) {
+    formula.forget_unused();
     share_pairs(formula, product_pairs, replace_product_pair);
     share_pairs(formula, sum_pairs, replace_sum_pair);
 }

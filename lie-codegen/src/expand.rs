@@ -1,0 +1,151 @@
+//! The macro: a declaration as tokens becomes items; a broken one becomes its errors and a stub.
+
+use std::path::{Path, PathBuf};
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::ast::Name;
+use crate::compile::{compile_declaration, compile_spec, declared_choices, generate};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::{Body, Parsed, declaration, line_column};
+
+/// What `lie_poisson! { input }` expands to; `manifest` is the folder that spec paths start from.
+pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
+    let mut report = Report::new();
+    let parsed = declaration::parse(input, &mut report);
+    if let Err(diagnostics) = report.gate() {
+        return failure(&parsed, &diagnostics);
+    }
+    match &parsed.body {
+        Some(Body::Declaration(declaration)) => match compile_declaration(declaration) {
+            Ok(model) => generate(&model, &declared_choices(&model)).tokens,
+            Err(diagnostics) => failure(&parsed, &diagnostics),
+        },
+        Some(Body::Spec { path }) => expand_spec(&parsed, path, manifest),
+        None => failure(&parsed, &report.into_diagnostics()),
+    }
+}
+
+/// A spec by path. The file is included as a constant, so that editing it rebuilds the crate.
+fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
+    let file: PathBuf = manifest.join(&path.text);
+    let text = match std::fs::read_to_string(&file) {
+        Ok(text) => text,
+        Err(error) => {
+            let message = format!("cannot read the spec `{}`: {error}", path.text);
+            let diagnostic = Diagnostic::new(Kind::Io, path.origin, message)
+                .help("the path starts at the folder of the crate's Cargo.toml");
+            return failure(parsed, &[diagnostic]);
+        }
+    };
+    let written = &path.text;
+    let track = quote! {
+        const _: &::core::primitive::str =
+            ::core::include_str!(::core::concat!(::core::env!("CARGO_MANIFEST_DIR"), "/", #written));
+    };
+    match compile_spec(&text) {
+        Ok(mut model) => {
+            model.visibility = parsed.visibility.clone();
+            let items = generate(&model, &declared_choices(&model)).tokens;
+            quote! { #items #track }
+        }
+        Err(diagnostics) => {
+            let placed: Vec<Diagnostic> = diagnostics
+                .into_iter()
+                .map(|mut diagnostic| {
+                    if let Some(Origin::Text { start, .. }) = diagnostic.origin {
+                        let (line, column) = line_column(&text, start);
+                        diagnostic.message = format!("{written}:{line}:{column}: {}", diagnostic.message);
+                    }
+                    diagnostic.origin = Some(path.origin);
+                    diagnostic
+                })
+                .collect();
+            // What the file names is not known here; the errors themselves do not cascade.
+            let name = crate::front::spec::read(&text, &mut Report::new()).name.map(|name| Name { origin: path.origin, ..name });
+            let errors = failure(&Parsed { name, ..parsed.clone() }, &placed);
+            quote! { #errors #track }
+        }
+    }
+}
+
+/// The errors, each at its token, and a stub of the type so that nothing that uses it cascades.
+fn failure(parsed: &Parsed, diagnostics: &[Diagnostic]) -> TokenStream {
+    let errors = diagnostics.iter().filter(|d| !d.warning).map(|diagnostic| {
+        let mut message = format!("[{}] {}", diagnostic.kind, diagnostic.message);
+        if let Some(help) = &diagnostic.help {
+            message.push_str(&format!("\nhelp: {help}"));
+        }
+        let span = match diagnostic.origin {
+            Some(Origin::Span(span)) => span,
+            _ => Span::call_site(),
+        };
+        syn::Error::new(span, message).into_compile_error()
+    });
+    let stub = parsed.name.as_ref().map(|name| stub(parsed, name));
+    quote! { #(#errors)* #stub }
+}
+
+/// The types of a declaration without its content; none of it runs, since the crate fails to build.
+fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
+    let identifier = |name: &Name| match name.origin {
+        Origin::Span(span) => syn::parse_str::<Ident>(&name.text).ok().map(|mut ident| {
+            ident.set_span(span);
+            ident
+        }),
+        Origin::Text { .. } => syn::parse_str::<Ident>(&name.text).ok(),
+    };
+    let Some(ident) = identifier(name) else { return TokenStream::new() };
+    let visibility = &parsed.visibility;
+    let system = format_ident!("{ident}System");
+    let mut seen = std::collections::BTreeSet::new();
+    let parameters: Vec<Ident> =
+        parsed.parameters.iter().filter(|p| seen.insert(p.text.clone())).filter_map(identifier).collect();
+    let n = proc_macro2::Literal::usize_unsuffixed(parsed.state.len());
+    let vector = quote! { ::lie_runtime::__private::SVector<S, #n> };
+    quote! {
+        #[allow(non_snake_case)]
+        #[derive(Clone, Debug, PartialEq)]
+        #visibility struct #ident<S = f64> { #(pub #parameters: S,)* #[doc(hidden)] pub _scalar: ::core::marker::PhantomData<S> }
+        impl<S: ::lie_runtime::Scalar> ::core::default::Default for #ident<S> {
+            fn default() -> Self { Self { #(#parameters: S::zero(),)* _scalar: ::core::marker::PhantomData } }
+        }
+        impl #ident<f64> { pub fn new() -> Self { ::core::default::Default::default() } }
+        impl<S: ::lie_runtime::Scalar> #ident<S> {
+            pub fn system(&self) -> ::core::result::Result<#system<S>, ::lie_runtime::ParameterError> {
+                ::core::result::Result::Ok(#system { _scalar: ::core::marker::PhantomData })
+            }
+            pub fn initial_state(&self) -> #vector { <#vector>::repeat(S::zero()) }
+        }
+        #[derive(Clone, Debug, PartialEq)]
+        #visibility struct #system<S = f64> { _scalar: ::core::marker::PhantomData<S> }
+        impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for #system<S> {
+            type State = #vector;
+            type Jacobian = ::lie_runtime::__private::SMatrix<S, #n, #n>;
+            const DIM: usize = #n;
+            const CASIMIRS: usize = 0;
+            const NAME: &'static str = "";
+            const COORDINATES: &'static [&'static str] = &[];
+            const CASIMIR_NAMES: &'static [&'static str] = &[];
+            fn zero_state(&self) -> Self::State { Self::State::repeat(S::zero()) }
+            fn zero_jacobian(&self) -> Self::Jacobian { Self::Jacobian::repeat(S::zero()) }
+            fn hamiltonian(&self, _mu: &Self::State) -> S { S::zero() }
+            fn gradient(&self, _mu: &Self::State, _out: &mut Self::State) {}
+            fn hessian(&self, _mu: &Self::State, _out: &mut Self::Jacobian) {}
+            fn poisson_matrix(&self, _mu: &Self::State, _out: &mut Self::Jacobian) {}
+            fn jacobian(&self, _mu: &Self::State, _out: &mut Self::Jacobian) {}
+            fn casimirs(&self, _mu: &Self::State, _out: &mut [S]) {}
+            fn casimir_gradient(&self, _index: usize, _mu: &Self::State, _out: &mut Self::State) {}
+        }
+        impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for #system<S> {
+            fn ad(&self, _xi: &Self::State, _eta: &Self::State, _out: &mut Self::State) {}
+            fn ad_star(&self, _xi: &Self::State, _mu: &Self::State, _out: &mut Self::State) {}
+            fn ad_star_matrix(&self, _xi: &Self::State, _out: &mut Self::Jacobian) {}
+        }
+        impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for #system<S> {
+            fn triple(&self, _x: &Self::State, _z: &Self::State, _mu: &Self::State, _out: &mut Self::State) {}
+        }
+        ::lie_runtime::generic_equations!([S: ::lie_runtime::Scalar] #system<S>, S: midpoint, gauss, exp, cayley);
+    }
+}
