@@ -39,7 +39,7 @@ pub trait Equation<S: Scalar> {
         matrix: &mut Self::Matrix,
     );
     /// Replaces a Jacobian by its triangular factors, pivots in a fixed order; false in the lanes
-    /// where a pivot is too small ([`crate::newton::pivot_is_safe`]).
+    /// where a pivot is too small ([`crate::newton::inverse_pivots_are_safe`]).
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask;
     /// Solves `(dr/du) x = r` by the factors, in place of r.
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown);

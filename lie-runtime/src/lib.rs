@@ -57,8 +57,7 @@ pub mod __private {
     };
     pub use crate::generic;
     pub use crate::matrix::{SquareMatrix, StageMatrix};
-    pub use crate::newton::dense::inverse_pivots_are_safe;
-    pub use crate::newton::{dense, pivot_is_safe};
+    pub use crate::newton::{dense, inverse_pivots_are_safe};
     pub use crate::parameter::{ParameterError, all_finite};
     pub use crate::poisson::{CayleyPoisson, LiePoisson, Poisson};
     pub use crate::scalar::{Mask, Scalar};

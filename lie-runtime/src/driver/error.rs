@@ -33,7 +33,7 @@ pub enum SolveError<S, V> {
     #[error("{error}")]
     Step {
         /// The step, its time, and why.
-        error: StepError,
+        error: Box<StepError>,
         /// What was saved before it; the last row is the last good saved state.
         solution: Box<Solution<S, V>>,
     },

@@ -22,7 +22,7 @@ pub enum IntegrateError {
     Option(#[from] OptionError),
     /// A step failed.
     #[error(transparent)]
-    Step(#[from] StepError),
+    Step(#[from] Box<StepError>),
 }
 
 /// Integrates a problem and returns what was saved.
@@ -103,12 +103,12 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let fail = |stats: Stats, index: u64, failure: StepFailure| {
         let mut stats = stats;
         stats.add_failure(&failure.report);
-        StepError {
+        Box::new(StepError {
             step: index + 1,
             time: grid.time(index),
             failure,
             stats,
-        }
+        })
     };
 
     let mut mu = problem.mu0.clone();

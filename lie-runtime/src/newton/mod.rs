@@ -10,7 +10,7 @@ mod report;
 mod solver;
 mod update;
 
-pub use dense::pivot_is_safe;
+pub use dense::inverse_pivots_are_safe;
 pub use options::{Iteration, NewtonOptions};
 pub use report::{Failure, FailureReason, NewtonReport};
 pub use solver::Newton;

@@ -33,6 +33,8 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+type Build<P> = dyn Fn(&[f64]) -> Result<P, ParameterError>;
+
 type Run<P> = dyn Fn(
     &Tolerances,
     &Problem<f64, P>,
@@ -43,7 +45,7 @@ type Run<P> = dyn Fn(
 /// A program for one system and some methods.
 pub struct Program<P: Poisson<f64>> {
     defaults: Vec<f64>,
-    build: Box<dyn Fn(&[f64]) -> Result<P, ParameterError>>,
+    build: Box<Build<P>>,
     methods: Vec<(&'static str, Box<Run<P>>)>,
 }
 
