@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::model::Model;
-use crate::symbolic::{ExprId, Symbol};
+use crate::symbolic::{ExprId, Graph, Node, Symbol};
 
 /// Something that is not finite at a state.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,6 +80,7 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
         .iter()
         .position(|v| !v.is_finite())
         .map_or(*root, |i| parts[i]);
+    let origin = culprit(&mut scratch, origin, &value);
     let coordinate = scratch
         .symbols(origin)
         .into_iter()
@@ -97,4 +98,18 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
         coordinate,
         message: format!("{what} is not finite{because}"),
     })
+}
+
+/// Of a product the factor that is not finite, where there is one: in `x/(y - z)` it is the divisor.
+fn culprit(graph: &mut Graph, id: ExprId, value: &dyn Fn(Symbol) -> f64) -> ExprId {
+    let Node::Product(factors) = graph.node(id).clone() else {
+        return id;
+    };
+    for (base, exponent) in factors {
+        let power = graph.pow(base, &exponent);
+        if !graph.evaluate(power, value).is_finite() {
+            return power;
+        }
+    }
+    id
 }

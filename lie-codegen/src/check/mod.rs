@@ -13,6 +13,7 @@ mod independence;
 mod initial;
 mod lets;
 mod lower;
+mod methods;
 mod names;
 mod normal;
 mod parameters;
@@ -177,6 +178,7 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         initial_rank: None,
     };
     domain::check(&model, declaration.initial_origin, report);
+    methods::check(&model, report);
     if report.has_errors() {
         return None;
     }

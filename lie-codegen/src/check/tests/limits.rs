@@ -1,0 +1,147 @@
+use super::*;
+use crate::ast::{Expr, ExprKind};
+use std::time::{Duration, Instant};
+
+fn hamiltonian(text: &str) -> String {
+    so3(&[("hamiltonian", &format!("{text:?}"))])
+}
+
+#[test]
+fn constants() {
+    expect(&hamiltonian("x + 1/0"), &["number at 0"]);
+    expect(&hamiltonian("x/(1 - 1)"), &["number at (1 - 1)"]);
+    expect(&hamiltonian("x/(y - y)"), &["number at (y - y)"]);
+    expect(&hamiltonian("0^-1 + x"), &["number at 0"]);
+    expect(&hamiltonian("(-2)^(1/2) + x"), &["number at (-2)"]);
+    expect(&hamiltonian("sqrt(-4)*x"), &["number"]);
+    expect(
+        &hamiltonian("log(0)*x + asin(2)"),
+        &["number at log(0)", "number at asin(2)"],
+    );
+    expect(
+        &so3(&[(
+            "parameters",
+            r#"{"k": "1e400", "m": "exp(-1)", "n": "log(0)"}"#,
+        )]),
+        &["number at 1e400", "number at log(0)"],
+    );
+    let good = model(&hamiltonian("(-8)^2*x^2 + 2^0.5*y + x^-3 + y^(1/3) + 0*z"));
+    assert!(good.graph.symbols(good.hamiltonian).len() == 2);
+}
+
+#[test]
+fn powers() {
+    for text in [
+        "9^9^9",
+        "x^1001",
+        "x^-2000",
+        "(x^500)^3",
+        "(x^999)*x^2",
+        "2^(10^9)*x",
+    ] {
+        let found = errors(&hamiltonian(text));
+        assert!(
+            found.len() == 1 && found[0].starts_with("limit"),
+            "{text}: {found:#?}"
+        );
+    }
+    model(&hamiltonian("x^1000 + y^-1000 + 2^1000*z"));
+    // a^b with a variable exponent
+    let general = model(&hamiltonian("x^y + 2^z"));
+    assert!(general.display(general.hamiltonian).contains("exp("));
+    expect(&hamiltonian("(-2)^x"), &["number at (-2)"]);
+}
+
+#[test]
+fn hostile_input_ends_soon() {
+    let start = Instant::now();
+    let chain = |first: &str, step: &str| {
+        let mut lets = vec![format!("a0 = {first}")];
+        lets.extend(
+            (1..400).map(|i| format!("a{i} = {}", step.replace('#', &format!("a{}", i - 1)))),
+        );
+        so3(&[("let", &format!("{lets:?}")), ("hamiltonian", r#""a399""#)])
+    };
+    for (first, step) in [
+        ("3^900", "#*#"),
+        ("x", "#^7"),
+        ("x + 1/3", "#*3^900"),
+        ("2*x", "#^30"),
+    ] {
+        let found = errors(&chain(first, step));
+        assert!(
+            !found.is_empty() && found[0].starts_with("limit"),
+            "{first} {step}: {found:#?}"
+        );
+    }
+    // These stay small in the arena, whatever they would be written out.
+    model(&chain("x", "#*# + y"));
+    model(&chain("x + y", "exp(-#)"));
+    let wide = vec!["x"; 20_000].join(" + ");
+    model(&hamiltonian(&wide));
+    let product = (0..3000)
+        .map(|i| format!("(x + {i})"))
+        .collect::<Vec<_>>()
+        .join("*");
+    model(&hamiltonian(&product));
+    // A Casimir whose normal form would be huge is refused, not expanded.
+    let huge = r#"["C = (x + y + z + x*y*z)^300*(x - y)^200"]"#;
+    assert!(errors(&so3(&[("casimirs", huge)]))[0].starts_with("casimir"));
+    assert!(
+        start.elapsed() < Duration::from_secs(60),
+        "{:?}",
+        start.elapsed()
+    );
+}
+
+#[test]
+fn large_dimensions() {
+    let names = |count: usize| {
+        format!(
+            "{:?}",
+            (0..count).map(|i| format!("e{i}")).collect::<Vec<_>>()
+        )
+    };
+    let abelian = |count: usize| {
+        let algebra = format!(r#"{{"basis": {}, "brackets": []}}"#, names(count));
+        system(
+            &[
+                ("algebra", &algebra),
+                ("state", &names(count)),
+                ("hamiltonian", r#""e0^2""#),
+            ],
+            &[],
+        )
+    };
+    model(&abelian(MAX_DIMENSION));
+    assert!(errors(&abelian(MAX_DIMENSION + 1))[0].starts_with("limit"));
+}
+
+#[test]
+fn deep_trees_do_not_exhaust_the_stack() {
+    let origin = Origin::Text { start: 0, end: 0 };
+    let leaf = Expr {
+        kind: ExprKind::Name {
+            name: "x".into(),
+            index: None,
+        },
+        origin,
+    };
+    let deep = (0..5000).fold(leaf, |inner, _| Expr {
+        kind: ExprKind::Negative(Box::new(inner)),
+        origin,
+    });
+    let mut graph = Graph::new();
+    let mut report = Report::new();
+    let text = so3(&[]);
+    let Some(Body::Declaration(declaration)) = spec::read(&text, &mut report).body else {
+        panic!()
+    };
+    let environment = Environment::new(&declaration);
+    assert!(
+        Lowering::new(&mut graph, &environment, &mut report, Allowed::Everything)
+            .lower(&deep)
+            .is_none()
+    );
+    assert_eq!(report.into_diagnostics()[0].kind, Kind::Limit);
+}
