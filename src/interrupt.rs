@@ -53,6 +53,9 @@ impl Interrupt {
     }
 
     fn lifeline(&self) -> std::sync::MutexGuard<'_, Option<ChildStdin>> {
-        self.0.lifeline.lock().unwrap_or_else(PoisonError::into_inner)
+        self.0
+            .lifeline
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
     }
 }

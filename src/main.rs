@@ -1,7 +1,11 @@
 //! The `lie` command: checks, expands and runs Lie–Poisson systems from spec files.
 
+mod build;
 mod command;
+mod compiler;
+mod interrupt;
 mod message;
+mod output;
 mod render;
 
 use std::io::Write as _;
@@ -14,6 +18,20 @@ use message::INVALID;
 const STACK: usize = 256 << 20;
 
 fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(|panic| {
+        let place = panic
+            .location()
+            .map(ToString::to_string)
+            .unwrap_or_default();
+        let _ = writeln!(
+            std::io::stderr(),
+            "error: a bug of lie, at {place}: {panic}"
+        );
+        let _ = writeln!(
+            std::io::stderr(),
+            "help: please report it with the spec and the command line"
+        );
+    }));
     let thread = std::thread::Builder::new()
         .stack_size(STACK)
         .spawn(real_main);
@@ -37,7 +55,7 @@ fn real_main() -> u8 {
             return INVALID;
         }
     };
-    match command::run(cli.command) {
+    match command::run(&cli.command) {
         Ok(code) => code,
         Err(failure) => {
             render::print(&failure.messages);

@@ -93,22 +93,6 @@ impl Message {
         }
     }
 
-    /// A diagnostic of the compiler about the value of an option.
-    pub fn from_value(option: &str, value: &str, diagnostic: Diagnostic) -> Self {
-        let range = match diagnostic.origin {
-            Some(Origin::Text { start, end }) => start..end,
-            _ => 0..value.len(),
-        };
-        let place = Place::CommandLine {
-            option: option.to_owned(),
-            value: Some((value.to_owned(), range)),
-        };
-        Self {
-            place,
-            ..Self::plain(diagnostic)
-        }
-    }
-
     fn plain(diagnostic: Diagnostic) -> Self {
         Self {
             kind: diagnostic.kind,

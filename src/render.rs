@@ -27,7 +27,30 @@ pub fn print(messages: &[Message]) {
         text.push('\n');
     }
     // Nobody is left to hear that stderr is closed.
-    let _ = stderr.lock().write_all(text.as_bytes());
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}
+
+fn renderer() -> Renderer {
+    let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    if colour {
+        Renderer::styled()
+    } else {
+        Renderer::plain()
+    }
+}
+
+/// Prints why an integration stopped, and the remedy.
+pub fn stopped(text: &str, remedy: &str) {
+    let renderer = renderer();
+    let title = Group::with_title(Level::ERROR.primary_title(text));
+    let mut text = renderer.render(&[title]);
+    if !remedy.is_empty() {
+        text.push('\n');
+        let help = Level::HELP.secondary_title(remedy);
+        text.push_str(&renderer.render(&[Group::with_title(help)]));
+    }
+    text.push('\n');
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }
 
 /// One message as text that ends with a newline.

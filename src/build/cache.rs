@@ -12,7 +12,7 @@ use crate::message::{Failure, Message};
 /// # Errors
 /// `io` if no such folder is known or can be created.
 pub fn root() -> Result<PathBuf, Failure> {
-    let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty());
+    let variable = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
     let root = chosen(&variable).ok_or_else(|| {
         let text = "no folder for the cache: none of LIE_CACHE_DIR, XDG_CACHE_HOME, HOME is set";
         let help = "set LIE_CACHE_DIR to a folder that can be written";
@@ -28,7 +28,9 @@ fn chosen(variable: &dyn Fn(&str) -> Option<std::ffi::OsString>) -> Option<PathB
         return Some(folder.into());
     }
     // The XDG specification wants relative values ignored.
-    let xdg = variable("XDG_CACHE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
+    let xdg = variable("XDG_CACHE_HOME")
+        .map(PathBuf::from)
+        .filter(|path| path.is_absolute());
     let folder = if let Some(xdg) = xdg {
         xdg
     } else if cfg!(windows) {
@@ -64,10 +66,16 @@ mod tests {
     fn order_of_the_variables() {
         let with = |set: &'static [(&str, &str)]| {
             chosen(&move |name| {
-                set.iter().find(|(known, _)| *known == name).map(|(_, value)| value.into())
+                set.iter()
+                    .find(|(known, _)| *known == name)
+                    .map(|(_, value)| value.into())
             })
         };
-        let all = &[("LIE_CACHE_DIR", "a"), ("XDG_CACHE_HOME", "/x"), ("HOME", "/h")];
+        let all = &[
+            ("LIE_CACHE_DIR", "a"),
+            ("XDG_CACHE_HOME", "/x"),
+            ("HOME", "/h"),
+        ];
         assert_eq!(with(all), Some("a".into()));
         assert_eq!(with(&all[1..]), Some("/x/lie-poisson".into()));
         if cfg!(target_os = "linux") {

@@ -18,7 +18,8 @@ impl Key {
     /// Adds one ingredient; its length is hashed too, so that ingredients cannot run together.
     #[must_use]
     pub fn with(self, ingredient: &str) -> Self {
-        self.bytes(ingredient.as_bytes()).bytes(&(ingredient.len() as u64).to_le_bytes())
+        self.bytes(ingredient.as_bytes())
+            .bytes(&(ingredient.len() as u64).to_le_bytes())
     }
 
     fn bytes(mut self, bytes: &[u8]) -> Self {
@@ -41,8 +42,14 @@ mod tests {
     #[test]
     fn published_values() {
         assert_eq!(Key::new().hex(), "6c62272e07bb014262b821756295c58d");
-        assert_eq!(Key::new().bytes(b"a").hex(), "d228cb696f1a8caf78912b704e4a8964");
-        assert_eq!(Key::new().bytes(b"foobar").hex(), "343e1662793c64bf6f0d3597ba446f18");
+        assert_eq!(
+            Key::new().bytes(b"a").hex(),
+            "d228cb696f1a8caf78912b704e4a8964"
+        );
+        assert_eq!(
+            Key::new().bytes(b"foobar").hex(),
+            "343e1662793c64bf6f0d3597ba446f18"
+        );
     }
 
     #[test]

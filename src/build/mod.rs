@@ -80,7 +80,11 @@ fn is_built(folder: &Path, program: &Path, source: &str) -> bool {
 fn lock(cache: &Path, quiet: bool) -> Result<File, Failure> {
     let path = cache.join("lock");
     let failure = |error| cache::failure(&path, &error);
-    let file = File::options().create(true).append(true).open(&path).map_err(failure)?;
+    let file = File::options()
+        .create(true)
+        .append(true)
+        .open(&path)
+        .map_err(failure)?;
     match file.try_lock() {
         Ok(()) => Ok(file),
         Err(TryLockError::WouldBlock) => {
@@ -106,7 +110,9 @@ fn build(
     let name = format!("lie-{key}");
     // Relative, so that no character of the cache's path can break the manifest.
     let runtime = format!("../../runtime/{}", runtime::identity());
-    let manifest = MANIFEST.replace("PROGRAM", &name).replace("RUNTIME", &runtime);
+    let manifest = MANIFEST
+        .replace("PROGRAM", &name)
+        .replace("RUNTIME", &runtime);
     let write = |file: &str, content: &str| {
         let path = folder.join(file);
         cache::write(&path, content.as_bytes()).map_err(|error| cache::failure(&path, &error))
@@ -122,7 +128,10 @@ fn build(
         }
     };
     let start = Instant::now();
-    say(&format!("Building the program of {} (once, then it is kept)…", request.name));
+    say(&format!(
+        "Building the program of {} (once, then it is kept)…",
+        request.name
+    ));
     let target = cache.join("target");
     let cargo = |offline| {
         toolchain.build(folder, &target, offline).map_err(|error| {
@@ -149,16 +158,31 @@ fn build(
 /// Whether cargo failed before it compiled anything.
 fn is_for_want_of_packages(output: &Output) -> bool {
     let text = String::from_utf8_lossy(&output.stderr);
-    !["could not compile", "linker `", "failed to run custom build command"]
-        .iter()
-        .any(|sign| text.contains(sign))
+    ![
+        "could not compile",
+        "linker `",
+        "failed to run custom build command",
+    ]
+    .iter()
+    .any(|sign| text.contains(sign))
 }
 
 fn failed(output: &Output, folder: &Path) -> Failure {
     let text = String::from_utf8_lossy(&output.stderr);
-    let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
-    let first = lines.iter().position(|line| line.starts_with("error")).unwrap_or(0);
-    let shown = lines[first..].iter().take(12).copied().collect::<Vec<_>>().join("\n");
+    let lines: Vec<&str> = text
+        .lines()
+        .filter(|line| !line.trim().is_empty())
+        .collect();
+    let first = lines
+        .iter()
+        .position(|line| line.starts_with("error"))
+        .unwrap_or(0);
+    let shown = lines[first..]
+        .iter()
+        .take(12)
+        .copied()
+        .collect::<Vec<_>>()
+        .join("\n");
     let manifest = folder.join("Cargo.toml");
     let message = Message::new(Kind::Toolchain, format!("cargo failed:\n{shown}"));
     let help = if is_for_want_of_packages(output) {
@@ -167,18 +191,24 @@ fn failed(output: &Output, folder: &Path) -> Failure {
             manifest.display()
         )
     } else {
-        format!("the build can be repeated with `cargo build --release --manifest-path {}`", manifest.display())
+        format!(
+            "the build can be repeated with `cargo build --release --manifest-path {}`",
+            manifest.display()
+        )
     };
     Failure::surroundings(message.help(help))
 }
 
 /// The path of the program, from cargo's messages: its folder depends on the configuration.
 fn executable(messages: &[u8], name: &str) -> Option<PathBuf> {
-    String::from_utf8_lossy(messages).lines().rev().find_map(|line| {
-        let message: serde_json::Value = serde_json::from_str(line).ok()?;
-        (message["target"]["name"] == name)
-            .then(|| message["executable"].as_str().map(PathBuf::from))?
-    })
+    String::from_utf8_lossy(messages)
+        .lines()
+        .rev()
+        .find_map(|line| {
+            let message: serde_json::Value = serde_json::from_str(line).ok()?;
+            (message["target"]["name"] == name)
+                .then(|| message["executable"].as_str().map(PathBuf::from))?
+        })
 }
 
 /// Puts the program in its place: beside it first, then by a rename.

@@ -48,14 +48,18 @@ impl Job {
                 lines.push_str(&format!("until {end:?}\nevery {every}\n"));
             }
             Times::At(times) => {
-                times.iter().for_each(|time| lines.push_str(&format!("at {time:?}\n")));
+                times
+                    .iter()
+                    .for_each(|time| lines.push_str(&format!("at {time:?}\n")));
             }
         }
         for (index, value) in self.parameters.iter().enumerate() {
             lines.push_str(&format!("parameter {index} {value:?}\n"));
         }
         lines.push_str("initial");
-        self.initial.iter().for_each(|value| lines.push_str(&format!(" {value:?}")));
+        self.initial
+            .iter()
+            .for_each(|value| lines.push_str(&format!(" {value:?}")));
         for (name, value) in &self.tolerances {
             lines.push_str(&format!("\n{name} {value:?}"));
         }
@@ -124,12 +128,17 @@ pub fn run(
     rows: &mut dyn FnMut(&[f64]) -> io::Result<()>,
     progress: &mut (dyn FnMut(u64, u64) + Send),
 ) -> io::Result<End> {
-    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
     own_group(&mut command);
     let mut child = command.spawn()?;
     if let Some(mut stdin) = child.stdin.take() {
         // A program that has died already says why on its stderr.
-        let _ = stdin.write_all(job.lines().as_bytes()).and_then(|()| stdin.flush());
+        let _ = stdin
+            .write_all(job.lines().as_bytes())
+            .and_then(|()| stdin.flush());
         interrupt.watch(stdin);
     }
     let stderr = child.stderr.take();
@@ -152,8 +161,15 @@ pub fn run(
         (Some(3), Last::Failed(stop)) => End::Stopped(stop),
         (Some(130), _) if interrupt.seen() => End::Interrupted,
         (_, last) => {
-            let words = if let Last::Other(words) = last { words } else { String::new() };
-            End::Broken(format!("{status}{}{words}", if words.is_empty() { "" } else { ": " }))
+            let words = if let Last::Other(words) = last {
+                words
+            } else {
+                String::new()
+            };
+            End::Broken(format!(
+                "{status}{}{words}",
+                if words.is_empty() { "" } else { ": " }
+            ))
         }
     })
 }
@@ -174,7 +190,9 @@ fn take_rows(
     width: usize,
     rows: &mut dyn FnMut(&[f64]) -> io::Result<()>,
 ) -> io::Result<()> {
-    let Some(mut stdout) = child.stdout.take() else { return Ok(()) };
+    let Some(mut stdout) = child.stdout.take() else {
+        return Ok(());
+    };
     let row = width * 8;
     let mut bytes = vec![0; row.max(1 << 16)];
     let mut numbers = Vec::new();
@@ -190,7 +208,10 @@ fn take_rows(
         let whole = filled - filled % row;
         numbers.clear();
         numbers.extend(
-            bytes[..whole].chunks_exact(8).filter_map(|eight| eight.try_into().ok()).map(f64::from_le_bytes),
+            bytes[..whole]
+                .chunks_exact(8)
+                .filter_map(|eight| eight.try_into().ok())
+                .map(f64::from_le_bytes),
         );
         if !numbers.is_empty() {
             rows(&numbers)?;
@@ -249,7 +270,9 @@ fn listen(pipe: ChildStderr, progress: &mut (dyn FnMut(u64, u64) + Send)) -> Las
 
 fn counts(fields: &str) -> Counts {
     let value = |name| {
-        let found = fields.split(' ').find_map(|field| field.strip_prefix(name)?.strip_prefix('='));
+        let found = fields
+            .split(' ')
+            .find_map(|field| field.strip_prefix(name)?.strip_prefix('='));
         found.and_then(|value| value.parse().ok()).unwrap_or(0)
     };
     Counts {
@@ -265,7 +288,9 @@ fn stop(fields: &str) -> Stop {
     let (fields, sentences) = fields.split_once("reason=").unwrap_or((fields, ""));
     let (reason, remedy) = sentences.split_once(" remedy=").unwrap_or((sentences, ""));
     let value = |name| {
-        let found = fields.split(' ').find_map(|field| field.strip_prefix(name)?.strip_prefix('='));
+        let found = fields
+            .split(' ')
+            .find_map(|field| field.strip_prefix(name)?.strip_prefix('='));
         found.unwrap_or_default().to_owned()
     };
     Stop {

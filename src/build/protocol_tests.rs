@@ -37,7 +37,10 @@ fn the_job_reads_back_as_the_same_numbers() {
     let expected = "method midpoint\nstep 0.1\nuntil 1.0\nevery 2\nparameter 0 1.0\nparameter 1 1e-300\n\
                     initial -0.5 0.30000000000000004\nrtol 1e-6\nrun\n";
     assert_eq!(job().lines(), expected);
-    let at = Job { times: Times::At(vec![0.0, 0.5]), ..job() };
+    let at = Job {
+        times: Times::At(vec![0.0, 0.5]),
+        ..job()
+    };
     assert!(at.lines().contains("at 0.0\nat 0.5\n"));
 }
 
@@ -50,7 +53,12 @@ fn rows_progress_and_counts() {
         "while read line; do [ \"$line\" = run ] && break; done; {ROW}; {ROW}; \
          echo progress 3 10 >&2; echo done steps=10 evaluations=4 newton=21 rejected=1 >&2"
     ));
-    let counts = Counts { steps: 10, evaluations: 4, newton: 21, rejected: 1 };
+    let counts = Counts {
+        steps: 10,
+        evaluations: 4,
+        newton: 21,
+        rejected: 1,
+    };
     assert_eq!(end.ok(), Some(End::Done(counts)));
     assert_eq!(rows, [1.0, -2.0, 1.0, -2.0]);
     assert_eq!(steps, [(3, 10)]);
@@ -62,7 +70,9 @@ fn early_stop_keeps_rows_and_drops_half_a_row() {
         "{ROW}; printf abc; echo 'failed step=7 time=0.7 iterations=9 residual=1e-3 \
          reason=Newton does not converge remedy=take a smaller step' >&2; exit 3"
     ));
-    let Ok(End::Stopped(stop)) = end else { panic!("{end:?}") };
+    let Ok(End::Stopped(stop)) = end else {
+        panic!("{end:?}")
+    };
     assert_eq!((stop.step.as_str(), stop.time.as_str()), ("7", "0.7"));
     assert_eq!(stop.reason, "Newton does not converge");
     assert_eq!(stop.remedy, "take a smaller step");
@@ -72,11 +82,20 @@ fn early_stop_keeps_rows_and_drops_half_a_row() {
 #[test]
 fn other_ends() {
     let (end, ..) = script("echo parameter I1 1/I1 is not finite >&2; exit 2");
-    assert_eq!(end.ok(), Some(End::Parameter("I1".into(), "1/I1 is not finite".into())));
+    assert_eq!(
+        end.ok(),
+        Some(End::Parameter("I1".into(), "1/I1 is not finite".into()))
+    );
     let (end, ..) = script("echo first >&2; echo second >&2; echo third >&2; exit 101");
-    assert_eq!(end.ok(), Some(End::Broken("exit status: 101: second\nthird".into())));
+    assert_eq!(
+        end.ok(),
+        Some(End::Broken("exit status: 101: second\nthird".into()))
+    );
     let (end, ..) = script("exit 0");
-    assert!(matches!(end, Ok(End::Broken(_))), "a silent program has not finished");
+    assert!(
+        matches!(end, Ok(End::Broken(_))),
+        "a silent program has not finished"
+    );
     let missing = run(
         Command::new("/nonexistent/program"),
         &job(),
@@ -93,14 +112,27 @@ fn a_refused_row_ends_the_program() {
     let mut command = Command::new("sh");
     command.args(["-c", &format!("while :; do {ROW}; done")]);
     let mut refuse = |_: &[f64]| Err(io::Error::from(io::ErrorKind::BrokenPipe));
-    let end = run(command, &job(), 2, &Interrupt::default(), &mut refuse, &mut |_, _| ());
-    assert_eq!(end.err().map(|error| error.kind()), Some(io::ErrorKind::BrokenPipe));
+    let end = run(
+        command,
+        &job(),
+        2,
+        &Interrupt::default(),
+        &mut refuse,
+        &mut |_, _| (),
+    );
+    assert_eq!(
+        end.err().map(|error| error.kind()),
+        Some(io::ErrorKind::BrokenPipe)
+    );
 }
 
 #[test]
 fn the_end_of_stdin_ends_the_program() {
     let mut command = Command::new("sh");
-    command.args(["-c", &format!("{ROW}; while read line; do :; done; {ROW}; exit 130")]);
+    command.args([
+        "-c",
+        &format!("{ROW}; while read line; do :; done; {ROW}; exit 130"),
+    ]);
     let interrupt = Interrupt::default();
     let mut got = 0;
     let mut rows = |rows: &[f64]| {

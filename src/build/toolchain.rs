@@ -35,7 +35,9 @@ pub struct Toolchain {
 }
 
 fn program(variable: &str, default: &str) -> OsString {
-    std::env::var_os(variable).filter(|value| !value.is_empty()).unwrap_or_else(|| default.into())
+    std::env::var_os(variable)
+        .filter(|value| !value.is_empty())
+        .unwrap_or_else(|| default.into())
 }
 
 /// cargo's name or path as it is called: `$CARGO`, else `cargo`.
@@ -51,7 +53,10 @@ impl Toolchain {
     pub fn find(folder: &Path, native: bool) -> Result<Self, Failure> {
         let ask = |arguments: &[&str]| -> Result<String, Failure> {
             let mut command = Command::new(program("RUSTC", "rustc"));
-            command.args(arguments).current_dir(folder).stdin(Stdio::null());
+            command
+                .args(arguments)
+                .current_dir(folder)
+                .stdin(Stdio::null());
             match command.output() {
                 Ok(output) if output.status.success() => {
                     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
@@ -61,13 +66,19 @@ impl Toolchain {
             }
         };
         let mut identity = ask(&["-vV"])?;
-        let host = identity.lines().find_map(|line| line.strip_prefix("host: "));
+        let host = identity
+            .lines()
+            .find_map(|line| line.strip_prefix("host: "));
         let host = host.unwrap_or_default().trim().to_owned();
         if native {
             // A cache that several machines share must not serve one with another's instructions.
             identity.push_str(&ask(&["--print", "cfg", "-C", "target-cpu=native"])?);
         }
-        Ok(Self { identity, host, native })
+        Ok(Self {
+            identity,
+            host,
+            native,
+        })
     }
 
     /// `cargo build --release --locked` of the package in `folder`.
@@ -91,7 +102,11 @@ impl Toolchain {
         for name in FOREIGN.iter().map(OsString::from).chain(foreign_profile) {
             command.env_remove(name);
         }
-        let flags = if self.native { "-Ctarget-cpu=native" } else { "" };
+        let flags = if self.native {
+            "-Ctarget-cpu=native"
+        } else {
+            ""
+        };
         command.env("CARGO_ENCODED_RUSTFLAGS", flags);
         command.current_dir(folder).stdin(Stdio::null()).output()
     }

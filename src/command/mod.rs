@@ -1,9 +1,18 @@
 //! The commands, one module each.
 
 pub mod args;
+mod check;
+mod expand;
+pub mod method;
+mod methods;
+mod run;
+mod schema;
 pub mod usage;
 
+use std::io::{self, Write as _};
+
 use args::{Command, Later};
+use lie_codegen::diagnostic::Kind;
 
 use crate::message::{Failure, Message};
 
@@ -11,10 +20,14 @@ use crate::message::{Failure, Message};
 ///
 /// # Errors
 /// What to print on stderr, and the exit code.
-pub fn run(command: Command) -> Result<u8, Failure> {
+pub fn run(command: &Command) -> Result<u8, Failure> {
     match command {
-        Command::Later(later) => Err(not_built(&later)),
-        _ => Ok(0),
+        Command::Check(arguments) => check::run(arguments),
+        Command::Expand(arguments) => expand::run(arguments),
+        Command::Run(arguments) => run::run(arguments),
+        Command::Methods(arguments) => methods::run(arguments),
+        Command::Schema => schema::run(),
+        Command::Later(later) => Err(not_built(later)),
     }
 }
 
@@ -23,4 +36,22 @@ fn not_built(later: &Later) -> Failure {
     Message::option(name, format!("`lie {name}` is not built yet"))
         .help("the commands are check, expand, run, methods, schema; see `lie --help`")
         .into()
+}
+
+/// Prints to stdout; a reader that has gone away is no mistake.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    match stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush())
+    {
+        Ok(()) => Ok(()),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(Failure::quiet()),
+        Err(error) => {
+            let message = Message::new(Kind::Io, format!("writing to stdout failed: {error}"));
+            Err(Failure::surroundings(
+                message.help("make room, or send the output elsewhere"),
+            ))
+        }
+    }
 }

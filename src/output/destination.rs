@@ -124,6 +124,15 @@ impl Destination {
         Ok(())
     }
 
+    /// Writes all of a file at once.
+    ///
+    /// # Errors
+    /// The destination cannot be written.
+    pub fn replace(mut self, bytes: &[u8]) -> io::Result<()> {
+        self.begin(false)?;
+        self.send(bytes)
+    }
+
     pub(super) fn finish(mut self) -> io::Result<()> {
         let Some(mut spool) = self.spool.take() else {
             return Ok(());

@@ -1,0 +1,197 @@
+//! `lie check`: what a spec declares, and what can be done with it.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use lie_codegen::compile;
+use lie_codegen::methods::applicability;
+use lie_codegen::model::Model;
+use serde_json::{Value, json};
+
+use super::{args, print};
+use crate::compiler;
+use crate::message::{Failure, SURROUNDINGS};
+use crate::render;
+
+/// Checks specs and reports on those that are sound.
+///
+/// # Errors
+/// Mistakes of any of them, after the reports on the others.
+pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
+    let mut reports = Vec::new();
+    let mut failure = Failure {
+        messages: Vec::new(),
+        code: 0,
+    };
+    for path in &arguments.specs {
+        match compiler::load(path) {
+            Ok(spec) => {
+                render::print(&spec.warnings());
+                let report = Report::on(&spec.model);
+                if arguments.json {
+                    reports.push(report.json(&spec.model));
+                } else {
+                    print(&report.text(&spec.model, path))?;
+                }
+            }
+            Err(found) => {
+                // An invalid spec outweighs one that cannot be read.
+                let unread = found.code == SURROUNDINGS && failure.code != 0;
+                failure.code = if unread { failure.code } else { found.code };
+                failure.messages.extend(found.messages);
+            }
+        }
+    }
+    if arguments.json && !reports.is_empty() {
+        let single = arguments.specs.len() == 1;
+        let value = if single {
+            reports.swap_remove(0)
+        } else {
+            Value::from(reports)
+        };
+        print(&format!("{value:#}\n"))?;
+    }
+    if failure.messages.is_empty() {
+        Ok(0)
+    } else {
+        Err(failure)
+    }
+}
+
+/// What is asked of the compiler besides the model.
+struct Report {
+    /// Kernel, additions, multiplications, divisions, calls.
+    operations: Vec<(String, [usize; 4])>,
+    methods: Vec<(&'static str, Option<String>)>,
+}
+
+impl Report {
+    fn on(model: &Model) -> Self {
+        let emitted = compile::generate(model, &compile::declared_choices(model));
+        let operations = emitted
+            .counts
+            .into_iter()
+            .map(|(kernel, count)| (kernel, [count.add, count.mul, count.div, count.call]))
+            .collect();
+        Self {
+            operations,
+            methods: applicability(model),
+        }
+    }
+
+    fn json(&self, model: &Model) -> Value {
+        let casimirs: Vec<Value> = model
+            .casimirs
+            .iter()
+            .map(|casimir| {
+                json!({
+                    "name": casimir.name,
+                    "expression": model.display(casimir.expr),
+                    "kind": "declared",
+                    "degree": casimir.degree,
+                })
+            })
+            .collect();
+        let operations: serde_json::Map<String, Value> = self
+            .operations
+            .iter()
+            .map(|(kernel, [add, mul, div, call])| {
+                (
+                    kernel.clone(),
+                    json!({ "add": add, "mul": mul, "div": div, "call": call }),
+                )
+            })
+            .collect();
+        let methods: serde_json::Map<String, Value> = self
+            .methods
+            .iter()
+            .map(|(id, reason)| ((*id).to_owned(), reason.clone().into()))
+            .collect();
+        json!({
+            "name": model.name,
+            "dimension": model.dimension(),
+            "generic_rank": model.generic_rank,
+            "initial_rank": model.initial_rank,
+            "casimirs": casimirs,
+            "independent_casimirs": model.dimension() - model.generic_rank,
+            "class": null,
+            "splitting": null,
+            "operations": operations,
+            "methods": methods,
+        })
+    }
+
+    fn text(&self, model: &Model, path: &Path) -> String {
+        let mut text = format!("{} ({})\n", model.name, path.display());
+        // Writing to a string does not fail.
+        let _ = self.write(model, &mut text);
+        text.push('\n');
+        text
+    }
+
+    fn write(&self, model: &Model, text: &mut String) -> std::fmt::Result {
+        let dimension = model.dimension();
+        write!(
+            text,
+            "  dimension {dimension}, generic rank {}",
+            model.generic_rank
+        )?;
+        match model.initial_rank {
+            Some(rank) => writeln!(text, ", rank {rank} at the initial state")?,
+            None => writeln!(text, ", no initial state")?,
+        }
+        writeln!(text, "  H = {}", model.display(model.hamiltonian))?;
+        let independent = dimension - model.generic_rank;
+        writeln!(
+            text,
+            "  Casimirs: {} declared of {independent} independent",
+            model.casimirs.len()
+        )?;
+        for casimir in &model.casimirs {
+            writeln!(
+                text,
+                "    {} = {}",
+                casimir.name,
+                model.display(casimir.expr)
+            )?;
+        }
+        let widest = self
+            .operations
+            .iter()
+            .map(|(kernel, _)| kernel.chars().count())
+            .max();
+        let widest = widest.unwrap_or(0).max(10);
+        writeln!(
+            text,
+            "  operations {:widest$}   add   mul   div  call",
+            "",
+            widest = widest - 8
+        )?;
+        for (kernel, [add, mul, div, call]) in &self.operations {
+            writeln!(
+                text,
+                "    {kernel:widest$} {add:5} {mul:5} {div:5} {call:5}"
+            )?;
+        }
+        let apply = self.methods.iter().filter(|(_, reason)| reason.is_none());
+        let apply: Vec<&str> = apply.map(|(id, _)| *id).collect();
+        writeln!(text, "  methods that apply: {}", apply.join(", "))?;
+        for (id, reason) in &self.methods {
+            if let Some(reason) = reason
+                .as_deref()
+                .filter(|reason| *reason != "not built yet")
+            {
+                writeln!(text, "    not {id}: {reason}")?;
+            }
+        }
+        let planned = self
+            .methods
+            .iter()
+            .filter(|(_, r)| r.as_deref() == Some("not built yet"));
+        writeln!(
+            text,
+            "  {} methods are not built yet, see `lie methods`",
+            planned.count()
+        )
+    }
+}

@@ -1,0 +1,33 @@
+//! `lie expand`: prints the generated code of a spec.
+
+use lie_codegen::compile;
+
+use super::{args, method, print};
+use crate::compiler;
+use crate::message::{Failure, Message};
+use crate::render;
+
+/// Prints it, formatted.
+///
+/// # Errors
+/// Invalid input.
+pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
+    let spec = compiler::load(&arguments.spec)?;
+    let mut choices = Vec::new();
+    let mut mistakes: Vec<Message> = Vec::new();
+    for id in &arguments.method {
+        match method::find(id).and_then(|choice| method::applies(choice, &spec.model)) {
+            Ok(choice) => choices.push(choice),
+            Err(message) => mistakes.push(message.at_option("--method")),
+        }
+    }
+    if !mistakes.is_empty() {
+        return Err(Failure::invalid(mistakes));
+    }
+    render::print(&spec.warnings());
+    if arguments.method.is_empty() {
+        choices = compile::declared_choices(&spec.model);
+    }
+    print(&compile::expand(&spec.model, &choices))?;
+    Ok(0)
+}

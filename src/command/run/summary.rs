@@ -1,0 +1,127 @@
+//! What a run says at its end.
+
+use std::time::Duration;
+
+use crate::build::protocol::Counts;
+
+/// The largest errors of the invariants over the rows, against the first row.
+pub struct Drift {
+    names: Vec<String>,
+    first: Vec<f64>,
+    largest: Vec<f64>,
+    /// Largest absolute value of a component of the state.
+    scale: f64,
+    time: f64,
+}
+
+impl Drift {
+    /// Invariants by name; they are the last columns of a row.
+    pub fn new(names: &[String]) -> Self {
+        let largest = vec![0.0; names.len()];
+        Self {
+            names: names.to_vec(),
+            first: Vec::new(),
+            largest,
+            scale: 0.0,
+            time: 0.0,
+        }
+    }
+
+    /// Takes a row.
+    pub fn push(&mut self, row: &[f64]) {
+        let (state, invariants) = row.split_at(row.len() - self.names.len());
+        if self.first.is_empty() {
+            self.first = invariants.to_vec();
+        }
+        self.time = state[0];
+        self.scale = state[1..]
+            .iter()
+            .fold(self.scale, |scale, x| scale.max(x.abs()));
+        for ((largest, value), first) in self.largest.iter_mut().zip(invariants).zip(&self.first) {
+            let error = (value - first).abs();
+            // What is not a number is the largest error of all.
+            if error > *largest || error.is_nan() {
+                *largest = error;
+            }
+        }
+    }
+
+    /// Time of the last row.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// `energy 1.2e-6, C 3e-16 (absolute)`: relative wherever the invariant is not zero.
+    fn text(&self) -> String {
+        let negligible = 1e-12 * self.scale.min(self.scale * self.scale);
+        let one = |((name, first), largest): ((&String, &f64), &f64)| {
+            if first.abs() > negligible {
+                format!("{name} {:.1e}", largest / first.abs())
+            } else {
+                format!("{name} {largest:.1e} (absolute)")
+            }
+        };
+        let all = self
+            .names
+            .iter()
+            .zip(&self.first)
+            .zip(&self.largest)
+            .map(one);
+        all.collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Two lines: what was done, and how well the invariants were kept.
+pub fn text(title: &str, counts: &Counts, drift: &Drift, time: Duration) -> String {
+    let steps = counts.steps;
+    let mut text = format!(
+        "{title}: {steps} steps to t = {:?} in {:.3} s",
+        drift.time,
+        time.as_secs_f64()
+    );
+    if counts.newton > 0 && steps > 0 {
+        text.push_str(&format!(
+            ", {:.2} Newton iterations per step",
+            counts.newton as f64 / steps as f64
+        ));
+    }
+    if counts.rejected > 0 {
+        text.push_str(&format!(", {} steps refused", counts.rejected));
+    }
+    if !drift.first.is_empty() {
+        text.push_str(&format!(
+            "\nlargest relative error in the rows: {}",
+            drift.text()
+        ));
+    }
+    text.push('\n');
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_relative_unless_the_invariant_is_zero() {
+        let mut drift = Drift::new(&["energy".to_owned(), "C".to_owned()]);
+        drift.push(&[0.0, 1.0, -3.0, 2.0, 0.0]);
+        drift.push(&[0.5, 1.0, -3.0, 2.5, 1e-9]);
+        drift.push(&[1.0, 1.0, -3.0, 2.1, -2e-9]);
+        let counts = Counts {
+            steps: 2,
+            newton: 5,
+            ..Counts::default()
+        };
+        let text = text("T", &counts, &drift, Duration::from_millis(1500));
+        assert_eq!(
+            text,
+            "T: 2 steps to t = 1.0 in 1.500 s, 2.50 Newton iterations per step\n\
+             largest relative error in the rows: energy 2.5e-1, C 2.0e-9 (absolute)\n"
+        );
+        drift.push(&[1.5, 1.0, 1.0, f64::NAN, 0.0]);
+        assert!(drift.text().contains("energy NaN"));
+        drift.push(&[2.0, 1.0, 1.0, 2.0, 0.0]);
+        assert!(drift.text().contains("energy NaN"), "it stays");
+    }
+}

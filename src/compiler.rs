@@ -1,0 +1,85 @@
+//! The compiler as the commands use it: files in, checked models and generated text out.
+
+use std::path::Path;
+use std::rc::Rc;
+
+use lie_codegen::diagnostic::{Diagnostic, Kind};
+use lie_codegen::model::Model;
+
+use crate::message::{Failure, Message, Source};
+
+/// A spec that passed every check.
+pub struct Spec {
+    /// The file.
+    pub source: Rc<Source>,
+    /// What it declares.
+    pub model: Model,
+}
+
+impl Spec {
+    /// The warnings of the checks.
+    pub fn warnings(&self) -> Vec<Message> {
+        let warnings = self.model.warnings.iter().cloned();
+        warnings
+            .map(|warning| Message::from_spec(&self.source, warning))
+            .collect()
+    }
+}
+
+/// Reads and checks a spec.
+///
+/// # Errors
+/// `io` if the file cannot be read (exit 1), else every mistake in it (exit 2).
+pub fn load(path: &Path) -> Result<Spec, Failure> {
+    let source = Rc::new(read(path)?);
+    match lie_codegen::compile::compile_spec(&source.text) {
+        Ok(model) => Ok(Spec { source, model }),
+        Err(diagnostics) => {
+            let all = diagnostics.into_iter();
+            Err(Failure::invalid(
+                all.map(|one| Message::from_spec(&source, one)).collect(),
+            ))
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<Source, Failure> {
+    let name = path.display().to_string();
+    let bytes = std::fs::read(path).map_err(|error| {
+        let message = Message::io(path, format!("the spec cannot be read: {error}"));
+        Failure::surroundings(
+            message.help("give the path of a JSON file, such as specs/se3_heavy_top.json"),
+        )
+    })?;
+    // Editors of some systems put a mark in front, which is no part of the text.
+    let bytes = bytes
+        .strip_prefix(b"\xef\xbb\xbf")
+        .map_or(bytes.as_slice(), |rest| rest)
+        .to_vec();
+    String::from_utf8(bytes)
+        .map(|text| Source { path: name, text })
+        .map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            let before = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
+            let source = Rc::new(Source {
+                path: path.display().to_string(),
+                text: before,
+            });
+            let message = Message::new(Kind::Schema, "the file is not UTF-8 from here on");
+            message
+                .at(crate::message::Place::Text(source, at..at))
+                .help("save it as UTF-8")
+                .into()
+        })
+}
+
+/// The value of an exact constant such as `1/7` or `cos(11/10)`.
+///
+/// # Errors
+/// What is wrong with it; places count from the beginning of `text`.
+pub fn constant(text: &str) -> Result<f64, Diagnostic> {
+    lie_codegen::check::constant(text).map_err(|diagnostics| {
+        let first = diagnostics.into_iter().next();
+        first.unwrap_or_else(|| Diagnostic::placeless(Kind::Number, "not a constant"))
+    })
+}
