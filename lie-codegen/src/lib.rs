@@ -9,6 +9,7 @@ pub mod emit;
 pub mod exact;
 pub mod expand;
 pub mod front;
+pub mod golden;
 pub mod methods;
 pub mod model;
 pub mod schedule;

@@ -91,6 +91,11 @@ impl Source {
         self.ad_star_of(&gradient, &mu)
     }
 
+    /// `df_i/dmu_j`
+    pub(crate) fn jacobian_of(&mut self, field: &[ExprId]) -> Vec<Vec<ExprId>> {
+        field::jacobian(self, field)
+    }
+
     /// The Hessian of H, both halves, row by row.
     pub(crate) fn hessian_of_h(&mut self) -> Vec<Vec<ExprId>> {
         let gradient = self.gradient_of_h();

@@ -37,7 +37,7 @@ impl Writer<'_> {
         tokens
     }
 
-    fn system_name(&self) -> Ident {
+    pub(super) fn system_name(&self) -> Ident {
         format_ident!("{}System", self.blueprint.name)
     }
 
@@ -289,35 +289,10 @@ impl Writer<'_> {
             }
         }
     }
-
-    fn gauss(&mut self, fused: &[usize]) -> TokenStream {
-        let _ = fused;
-        let system = self.system_name();
-        quote! {
-            impl<S: ::lie_runtime::Scalar, const STAGES: usize> ::lie_runtime::GaussEquations<S, STAGES> for #system<S> {
-                type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, STAGES> where Self: 'a;
-                fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-                    ::lie_runtime::generic::Gauss::new(self, h)
-                }
-            }
-        }
-    }
-
-    fn exp(&mut self, fused: bool) -> TokenStream {
-        let _ = fused;
-        let system = self.system_name();
-        quote! {
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S> for #system<S> {
-                type Exp<'a> = ::lie_runtime::generic::ExpMidpoint<'a, S, Self> where Self: 'a;
-                fn exp_equation(&self, h: S) -> Self::Exp<'_> {
-                    ::lie_runtime::generic::ExpMidpoint::new(self, h)
-                }
-            }
-        }
-    }
 }
 
-fn place(matrix: &str, i: usize, j: usize) -> TokenStream {
+/// An entry of a matrix.
+pub fn place(matrix: &str, i: usize, j: usize) -> TokenStream {
     let (matrix, i, j) = (ident(matrix), index(i), index(j));
     quote! { #matrix[(#i, #j)] }
 }

@@ -5,6 +5,7 @@
 mod elimination;
 mod equation;
 mod expression;
+mod fixed_order;
 mod function;
 mod names;
 mod parameters;

@@ -34,6 +34,7 @@ impl Writer<'_> {
                 #marker
             }
 
+            #[allow(non_snake_case)]
             impl<S: ::lie_runtime::Scalar> ::core::default::Default for #name<S> {
                 fn default() -> Self {
                     #statements
@@ -49,6 +50,7 @@ impl Writer<'_> {
                 }
             }
 
+            #[allow(non_snake_case)]
             impl<S: ::lie_runtime::Scalar> #name<S> {
                 #[doc = " The system for these parameters; what depends on them alone is computed here, once."]
                 #[doc = ""]
@@ -137,6 +139,7 @@ impl Writer<'_> {
                 }
             }
 
+            #[allow(non_snake_case)]
             impl<S: ::lie_runtime::Scalar> #name<S> {
                 #[doc = " The parameters from their values, in the order of the declaration."]
                 #[must_use]

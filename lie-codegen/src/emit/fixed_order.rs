@@ -1,0 +1,234 @@
+//! Gauss collocation and the exponential retraction: the generic equation assembles the Jacobian
+//! from the kernels, its elimination is specialised to the pattern.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::Writer;
+use super::elimination::{Elimination, UNROLLED};
+use super::names::index;
+use crate::schedule::Counts;
+
+/// Stage numbers of the methods that are built.
+const STAGES: [usize; 3] = [1, 2, 3];
+
+impl Writer<'_> {
+    /// Gauss collocation: fused for the stage numbers asked for, generic for the others.
+    pub fn gauss(&mut self, fused: &[usize]) -> TokenStream {
+        let system = self.system_name();
+        let generic = |stages: usize| {
+            let stages = index(stages);
+            quote! {
+                impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, #stages> for #system<S> {
+                    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, #stages> where Self: 'a;
+                    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+                        ::lie_runtime::generic::Gauss::new(self, h)
+                    }
+                }
+            }
+        };
+        STAGES
+            .into_iter()
+            .map(|stages| if fused.contains(&stages) { self.fused_gauss(stages) } else { generic(stages) })
+            .collect()
+    }
+
+    fn fused_gauss(&mut self, stages: usize) -> TokenStream {
+        let n = self.source.dimension;
+        let field = self.source.field_of_h();
+        let slopes = self.source.jacobian_of(&field);
+        let mut pattern = Vec::new();
+        let mut unit = BTreeSet::new();
+        for row in 0..stages * n {
+            let depends: Vec<usize> = (0..n).filter(|&j| !self.source.graph.is_zero(slopes[row % n][j])).collect();
+            if depends.is_empty() {
+                unit.insert(row);
+            }
+            pattern.extend((0..stages).flat_map(|block| depends.iter().map(move |j| (row, block * n + j))));
+        }
+        let elimination = Elimination::new(stages * n, &pattern, &unit);
+        let system = self.system_name();
+        let name = format_ident!("{}Gauss{}", self.blueprint.name, 2 * stages);
+        let count = index(stages);
+        let doc = format!(
+            " Gauss collocation of order {} with elimination specialised to the pattern of the system.",
+            2 * stages
+        );
+        let inner = quote! { ::lie_runtime::generic::Gauss<'a, S, #system<S>, #count> };
+        let matrix = |name: &str, i: usize, j: usize| {
+            let (name, p, q, i, j) =
+                (super::names::ident(name), index(i / n), index(j / n), index(i % n), index(j % n));
+            quote! { #name.0[#p][#q][(#i, #j)] }
+        };
+        let entry = |i: usize| {
+            let (p, i) = (index(i / n), index(i % n));
+            quote! { residual.0[#p][#i] }
+        };
+        let methods = self.specialised(&format!("gauss{} elimination", 2 * stages), &elimination, &matrix, &entry);
+        let visibility = &self.blueprint.visibility;
+        quote! {
+            #[doc = #doc]
+            #[derive(Debug)]
+            #visibility struct #name<'a, S: ::lie_runtime::Scalar>(#inner);
+
+            impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for #name<'a, S> {
+                type State = <#inner as ::lie_runtime::Equation<S>>::State;
+                type Unknown = <#inner as ::lie_runtime::Equation<S>>::Unknown;
+                type Matrix = <#inner as ::lie_runtime::Equation<S>>::Matrix;
+                #methods
+            }
+
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, #count> for #system<S> {
+                type Equation<'a> = #name<'a, S> where Self: 'a;
+                fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+                    #name(::lie_runtime::generic::Gauss::new(self, h))
+                }
+            }
+        }
+    }
+
+    /// The retraction method with the exponential.
+    pub fn exp(&mut self, fused: bool) -> TokenStream {
+        let system = self.system_name();
+        if !fused {
+            return quote! {
+                impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S> for #system<S> {
+                    type Exp<'a> = ::lie_runtime::generic::ExpMidpoint<'a, S, Self> where Self: 'a;
+                    fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+                        ::lie_runtime::generic::ExpMidpoint::new(self, h)
+                    }
+                }
+            };
+        }
+        let n = self.source.dimension;
+        let pattern = self.exp_pattern();
+        let unit = (0..n).filter(|i| !pattern.iter().any(|(row, _)| row == i)).collect();
+        let elimination = Elimination::new(n, &pattern, &unit);
+        let name = format_ident!("{}ExpMidpoint", self.blueprint.name);
+        let inner = quote! { ::lie_runtime::generic::ExpMidpoint<'a, S, #system<S>> };
+        let matrix = |name: &str, i: usize, j: usize| super::equation::place(name, i, j);
+        let entry = |i: usize| {
+            let i = index(i);
+            quote! { residual[#i] }
+        };
+        let methods = self.specialised("lie-midpoint exp elimination", &elimination, &matrix, &entry);
+        let visibility = &self.blueprint.visibility;
+        quote! {
+            #[doc = " The retraction method with the exponential, elimination specialised to the pattern of the system."]
+            #[derive(Debug)]
+            #visibility struct #name<'a, S: ::lie_runtime::Scalar>(#inner);
+
+            impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for #name<'a, S> {
+                type State = <#inner as ::lie_runtime::Equation<S>>::State;
+                type Unknown = <#inner as ::lie_runtime::Equation<S>>::Unknown;
+                type Matrix = <#inner as ::lie_runtime::Equation<S>>::Matrix;
+                #methods
+            }
+
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S> for #system<S> {
+                type Exp<'a> = #name<'a, S> where Self: 'a;
+                fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+                    #name(::lie_runtime::generic::ExpMidpoint::new(self, h))
+                }
+            }
+        }
+    }
+
+    /// The pattern of `1 - h d/dx[phi1(ad*_x) mu] H''`: what `ad*` reaches from `Pi H''`.
+    fn exp_pattern(&mut self) -> Vec<(usize, usize)> {
+        let n = self.source.dimension;
+        let hessian = self.source.hessian_of_h();
+        let constants = self.source.all_constants();
+        let mut reach: Vec<BTreeSet<usize>> = (0..n).map(|i| BTreeSet::from([i])).collect();
+        loop {
+            let before: usize = reach.iter().map(BTreeSet::len).sum();
+            for &(_, j, k, _) in &constants {
+                let further = reach[k].clone();
+                reach[j].extend(further);
+            }
+            if reach.iter().map(BTreeSet::len).sum::<usize>() == before {
+                break;
+            }
+        }
+        let mut places = BTreeSet::new();
+        for &(a, b, _, _) in &constants {
+            for (i, reached) in reach.iter().enumerate() {
+                if reached.contains(&b) {
+                    let columns = (0..n).filter(|&j| !self.source.graph.is_zero(hessian[a][j]));
+                    places.extend(columns.map(|j| (i, j)));
+                }
+            }
+        }
+        places.into_iter().collect()
+    }
+
+    /// The methods of a wrapper around a generic equation with its own elimination.
+    fn specialised(
+        &mut self,
+        label: &str,
+        elimination: &Elimination,
+        matrix: &dyn Fn(&str, usize, usize) -> TokenStream,
+        entry: &dyn Fn(usize) -> TokenStream,
+    ) -> TokenStream {
+        self.counts.push((label.to_string(), Counts { mul: elimination.multiplications(), ..Counts::default() }));
+        let (factor, solve) = if elimination.multiplications() <= UNROLLED {
+            let read = |i: usize, j: usize| matrix("matrix", i, j);
+            let write = |i: usize, j: usize, value: TokenStream| {
+                let place = matrix("matrix", i, j);
+                quote! { #place = #value; }
+            };
+            let factors = |i: usize, j: usize| matrix("factors", i, j);
+            (elimination.factor_tokens(&read, &write), elimination.solve_tokens(&factors, entry))
+        } else {
+            (quote! { self.0.factor(matrix) }, quote! { self.0.solve(factors, residual); })
+        };
+        let doc = format!(
+            " Elimination in a fixed order, {} entries of fill-in: {} multiplications with the solution.",
+            elimination.fill.len(),
+            elimination.multiplications()
+        );
+        quote! {
+            fn zero_unknown(&self) -> Self::Unknown {
+                self.0.zero_unknown()
+            }
+
+            fn zero_matrix(&self) -> Self::Matrix {
+                self.0.zero_matrix()
+            }
+
+            fn set_base(&mut self, mu: &Self::State) {
+                self.0.set_base(mu);
+            }
+
+            fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+                self.0.initial_guess(unknown);
+            }
+
+            fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+                self.0.residual(unknown, residual);
+            }
+
+            #[inline]
+            fn linearize(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown, matrix: &mut Self::Matrix) {
+                self.0.linearize(unknown, residual, matrix);
+            }
+
+            #[doc = #doc]
+            #[inline]
+            fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+                #factor
+            }
+
+            #[inline]
+            fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+                #solve
+            }
+
+            fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
+                self.0.result(unknown, mu);
+            }
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Golden files: generated code kept in a repository, compared whenever the tests run.
+//!
+//! ```no_run
+//! # use lie_codegen::golden::Golden;
+//! // in tests/golden.rs of a crate that keeps its systems in specs/
+//! let mut golden = Golden::new("tests/golden");
+//! golden.spec("specs/heavy_top.json", &["lie-midpoint", "gauss4"]);
+//! golden.check().unwrap();
+//! ```
+//!
+//! With the environment variable `LIE_UPDATE_GOLDEN=1` the files are written instead; the change
+//! is then seen in the version control. A file of the folder that no system claims any more is an
+//! error, and so is a file that is missing.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::compile::{compile_spec, expand};
+use crate::methods::{Choice, Retraction, refusal};
+
+/// The environment variable that makes [`Golden::check`] write instead of compare.
+pub const UPDATE: &str = "LIE_UPDATE_GOLDEN";
+
+/// A folder of golden files and what should be in it.
+#[derive(Debug)]
+pub struct Golden {
+    folder: PathBuf,
+    files: BTreeMap<String, String>,
+    problems: Vec<String>,
+}
+
+/// What is wrong with a folder of golden files.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stale(pub Vec<String>);
+
+impl fmt::Display for Stale {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.0.join("\n"))?;
+        write!(f, "help: set {UPDATE}=1 to write the files anew, then read the change before you commit it")
+    }
+}
+
+impl std::error::Error for Stale {}
+
+impl Golden {
+    /// The golden files of a folder (relative to the working directory of the test).
+    pub fn new(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into(), files: BTreeMap::new(), problems: Vec::new() }
+    }
+
+    /// Adds the generated code of a spec file with fused code for the methods (every option of an
+    /// id that applies). The golden file bears the name of the spec.
+    pub fn spec(&mut self, path: impl AsRef<Path>, methods: &[&str]) -> &mut Self {
+        let path = path.as_ref();
+        match generate(path, methods) {
+            Ok(code) => {
+                let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+                self.text(&format!("{name}.rs"), code);
+            }
+            Err(problem) => self.problems.push(problem),
+        }
+        self
+    }
+
+    /// Adds any text under a file name.
+    pub fn text(&mut self, file: &str, text: String) -> &mut Self {
+        if self.files.insert(file.to_string(), text).is_some() {
+            self.problems.push(format!("{file}: two systems claim this file"));
+        }
+        self
+    }
+
+    /// Compares the folder with what was added, or writes it if the update switch is set.
+    ///
+    /// # Errors
+    /// Every file that differs (with its first differing line), is missing, or is left over.
+    pub fn check(&self) -> Result<(), Stale> {
+        self.run(std::env::var_os(UPDATE).is_some_and(|value| value == "1"))
+    }
+
+    fn run(&self, update: bool) -> Result<(), Stale> {
+        let mut problems = self.problems.clone();
+        if update && problems.is_empty() {
+            if let Err(error) = self.write() {
+                problems.push(format!("{}: {error}", self.folder.display()));
+            }
+        } else {
+            problems.extend(self.compare());
+        }
+        if problems.is_empty() { Ok(()) } else { Err(Stale(problems)) }
+    }
+
+    fn write(&self) -> std::io::Result<()> {
+        std::fs::create_dir_all(&self.folder)?;
+        for stale in self.left_over() {
+            std::fs::remove_file(self.folder.join(stale))?;
+        }
+        for (file, text) in &self.files {
+            std::fs::write(self.folder.join(file), text)?;
+        }
+        Ok(())
+    }
+
+    fn compare(&self) -> Vec<String> {
+        let mut problems = Vec::new();
+        for (file, text) in &self.files {
+            let path = self.folder.join(file);
+            match std::fs::read_to_string(&path) {
+                Err(error) => problems.push(format!("{}: {error}", path.display())),
+                Ok(golden) if golden != *text => problems.push(difference(&path, &golden, text)),
+                Ok(_) => {}
+            }
+        }
+        problems.extend(self.left_over().into_iter().map(|file| {
+            format!("{}: no system claims this file any more", self.folder.join(file).display())
+        }));
+        problems
+    }
+
+    fn left_over(&self) -> Vec<String> {
+        let Ok(entries) = std::fs::read_dir(&self.folder) else { return Vec::new() };
+        let mut names: Vec<String> = entries
+            .filter_map(Result::ok)
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
+            .filter(|name| name.ends_with(".rs") && name != "mod.rs" && !self.files.contains_key(name))
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+fn generate(path: &Path, methods: &[&str]) -> Result<String, String> {
+    let place = path.display();
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: {error}"))?;
+    let model = compile_spec(&text).map_err(|diagnostics| {
+        let messages: Vec<String> = diagnostics.iter().map(|d| format!("error[{}]: {}", d.kind, d.message)).collect();
+        format!("{place}: {}", messages.join("; "))
+    })?;
+    let mut choices = Vec::new();
+    for id in methods {
+        let choice = Choice::from_id(id).map_err(|unusable| format!("{place}: {}", unusable.message))?;
+        choices.push(choice);
+        let cayley = Choice::LieMidpoint(Retraction::Cayley);
+        if matches!(choice, Choice::LieMidpoint(_)) && refusal(&model, cayley).is_none() {
+            choices.push(cayley);
+        }
+    }
+    Ok(expand(&model, &choices))
+}
+
+fn difference(path: &Path, golden: &str, new: &str) -> String {
+    let mut lines = golden.lines().zip(new.lines()).enumerate();
+    let (number, was, is) = match lines.find(|(_, (a, b))| a != b) {
+        Some((number, (a, b))) => (number + 1, a, b),
+        None => {
+            let number = golden.lines().count().min(new.lines().count());
+            let at = |text: &'_ str| -> String { text.lines().nth(number).unwrap_or("(end of file)").to_string() };
+            return format!("{}:{}: was `{}`, is `{}`", path.display(), number + 1, at(golden), at(new));
+        }
+    };
+    format!("{}:{number}: was `{}`, is `{}`", path.display(), was.trim(), is.trim())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_missing_and_left_over_files_are_reported() {
+        let folder = std::env::temp_dir().join(format!("lie-golden-{}", std::process::id()));
+        let mut golden = Golden::new(&folder);
+        golden.text("a.rs", "one\ntwo\n".into()).text("b.rs", "three\n".into());
+        assert!(golden.run(false).is_err(), "nothing is there yet");
+        golden.run(true).unwrap();
+        golden.run(false).unwrap();
+        std::fs::write(folder.join("a.rs"), "one\nzwei\n").unwrap();
+        std::fs::write(folder.join("c.rs"), "").unwrap();
+        let Stale(problems) = golden.run(false).unwrap_err();
+        assert_eq!(problems.len(), 2, "{problems:?}");
+        assert!(problems[0].contains("a.rs:2: was `zwei`, is `two`"), "{problems:?}");
+        assert!(problems[1].contains("c.rs"), "{problems:?}");
+        golden.run(true).unwrap();
+        golden.run(false).unwrap();
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+}
