@@ -1,14 +1,18 @@
 //! The body of the macro: statements to the syntax tree.
 
+mod block;
+mod entry;
 mod statement;
 
 use proc_macro2::{Span, TokenStream};
 
-use self::statement::{Statement, entries, statements};
+use self::block::{algebra, names, parameters};
+use self::entry::{compact, inside};
+use self::statement::{Statement, statements};
 use super::object::NOT_BUILT;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::{Body, Names, Parsed, expression, item, rust};
-use crate::ast::{Algebra, Declaration, Expr, Invariance, Name, Parameter};
+use crate::ast::{Declaration, Expr, Invariance, Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// Parses the input of the macro. Every mistake is reported at its token; one in a statement does
@@ -174,8 +178,8 @@ fn system(parts: &Parts<'_>, report: &mut Report) -> Parsed {
         .first("parameters")
         .and_then(|s| s.block(report))
         .unwrap_or_default();
-    let (names, parameters) = self::parameters(entries, report);
-    parsed.parameters = names;
+    let (found, parameters) = parameters(entries, report);
+    parsed.parameters = found;
     let declaration = remainder(parts, &parsed, parameters, report);
     if !report.has_errors() {
         parsed.body = declaration.map(|d| Body::Declaration(Box::new(d)));
@@ -262,110 +266,6 @@ fn remainder(
     })
 }
 
-/// Names with commas between them.
-fn names(tokens: &[Token], place: Origin, report: &mut Report) -> Vec<Name> {
-    if tokens.is_empty() {
-        report.push(
-            Diagnostic::new(Kind::Syntax, place, "names are missing")
-                .help("write them with commas between, as in `x, y`"),
-        );
-    }
-    split_commas(tokens)
-        .into_iter()
-        .filter_map(|part| item::name(part, place, report))
-        .collect()
-}
-
-/// `{ basis …; [a, b] = …; }`
-fn algebra(
-    statement: &Statement<'_>,
-    parameters: &[String],
-    report: &mut Report,
-) -> Option<Algebra> {
-    if let Some(equals) = statement.rest.first().filter(|t| t.is('=')) {
-        let place = span(&statement.rest[1..]).unwrap_or(equals.origin);
-        report.push(
-            Diagnostic::new(Kind::Syntax, place, "named algebras are not built yet")
-                .help("write `algebra { basis e1, e2; [e1, e2] = e2; }`"),
-        );
-        return None;
-    }
-    let entries = statement.block(report)?;
-    let mut basis: Option<Vec<Name>> = None;
-    for entry in entries.iter().filter(|e| e.is_word("basis")) {
-        if basis.is_some() {
-            report.push(
-                Diagnostic::new(Kind::Syntax, entry.origin(), "`basis` stands twice")
-                    .help("remove one of the two"),
-            );
-        }
-        basis.get_or_insert(names(&entry.tokens[1..], entry.origin(), report));
-    }
-    if basis.is_none() {
-        report.push(
-            Diagnostic::new(Kind::Syntax, statement.origin, "the algebra has no `basis`")
-                .help("add `basis e1, e2, e3;`"),
-        );
-    }
-    let basis = basis.unwrap_or_default();
-    let known: Names = basis
-        .iter()
-        .map(|n| n.text.clone())
-        .chain(parameters.iter().cloned())
-        .collect();
-    let mut brackets = Vec::new();
-    for entry in entries.iter().filter(|e| !e.is_word("basis")) {
-        if entry.is_word("matrices") || entry.is_word("matrix") {
-            report.push(
-                Diagnostic::new(Kind::Syntax, entry.origin(), "the macro has no matrices")
-                    .help("declare the system in a spec file and write `spec = \"path\";`"),
-            );
-        } else {
-            brackets.extend(item::bracket(entry.tokens, entry.origin(), &known, report));
-        }
-    }
-    Some(Algebra {
-        basis,
-        brackets: Some(brackets),
-        matrices: Vec::new(),
-        origin: statement.origin,
-    })
-}
-
-/// `{ I1 = 2.0; exact k = 1/3; }`: the names that could be read, and the parameters without mistakes.
-fn parameters(
-    entries: Vec<statement::Entry<'_>>,
-    report: &mut Report,
-) -> (Vec<Name>, Vec<Parameter>) {
-    let (mut names, mut parameters) = (Vec::new(), Vec::new());
-    for entry in entries {
-        let exact = entry.is_word("exact")
-            && entry
-                .tokens
-                .get(1)
-                .is_some_and(|t| t.identifier().is_some());
-        let tokens = &entry.tokens[usize::from(exact)..];
-        let Some((name, value)) = item::definition(tokens, "a parameter", entry.origin(), report)
-        else {
-            continue;
-        };
-        names.push(name.clone());
-        if value.is_empty() {
-            report.push(item::missing_constant(name.origin));
-        } else if let Some(default) = item::constant(value, report) {
-            let description = entry.description();
-            parameters.push(Parameter {
-                name,
-                default,
-                exact,
-                unit: None,
-                description,
-            });
-        }
-    }
-    (names, parameters)
-}
-
 /// The parts of `= [a, b]`.
 fn bracketed<'a>(
     statement: &Statement<'a>,
@@ -375,14 +275,14 @@ fn bracketed<'a>(
     let Some(value) = statement.value(report) else {
         return Vec::new();
     };
-    let inside = entries::inside(value, Delimiter::Bracket);
-    if inside.is_none() {
+    let list = inside(value, Delimiter::Bracket);
+    if list.is_none() {
         let place = span(value).unwrap_or(statement.origin);
         let message = format!("`{}` is a list in brackets", statement.keyword);
         report
             .push(Diagnostic::new(Kind::Syntax, place, message).help(format!("write `{example}`")));
     }
-    split_commas(inside.unwrap_or_default())
+    split_commas(list.unwrap_or_default())
 }
 
 /// Ids such as `lie-midpoint` or `compose4(midpoint)`: words, dashes and parentheses.
@@ -411,7 +311,7 @@ fn methods(statement: &Statement<'_>, report: &mut Report) -> Vec<Name> {
             return None;
         }
         Some(Name {
-            text: entries::compact(part),
+            text: compact(part),
             origin: place,
         })
     };

@@ -14,9 +14,10 @@
 //! there), hence this one. A mistake that leaves the rest readable (a missing `*`, an unknown
 //! function, a malformed number) is reported and parsing goes on.
 
-use super::names::{FUNCTIONS, Names, arity};
+use super::names::{Names, arity};
 use super::number;
-use super::token::{Cursor, Delimiter, Token, TokenKind, render};
+use super::operand::{begins_factor, ends_in_function, last_operand};
+use super::token::{Cursor, Delimiter, Token, TokenKind};
 use super::{families, mistakes};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -227,7 +228,7 @@ impl<'a> Parser<'a> {
                     let diagnostic = Diagnostic::new(mistake.kind, token.origin, mistake.message);
                     self.fail(diagnostic.help(mistake.help));
                     // `2sin(x)`: the parentheses belong to the function, not to a product.
-                    if arity_of_suffix(literal).is_some()
+                    if ends_in_function(literal)
                         && self.cursor.peek().is_some_and(|t| t.kind == OPEN)
                     {
                         self.cursor.advance();
@@ -337,60 +338,4 @@ fn zero(origin: Origin) -> Expr {
         kind: ExprKind::Number(Rational::ZERO),
         origin,
     }
-}
-
-fn begins_factor(token: &Token) -> bool {
-    match &token.kind {
-        TokenKind::Number(_) | TokenKind::Open(Delimiter::Parenthesis | Delimiter::Invisible) => {
-            true
-        }
-        TokenKind::Identifier(name) => name != "in",
-        _ => false,
-    }
-}
-
-/// The tokens of the last operand: `2` of `x^2`, `(a)` of `-(a)`, `sin(x)` of `sin(x)`.
-fn last_operand(tokens: &[Token]) -> &[Token] {
-    let mut depth = 0usize;
-    let mut start = tokens.len();
-    for (at, token) in tokens.iter().enumerate().rev() {
-        start = at;
-        match token.kind {
-            TokenKind::Close(_) => depth += 1,
-            TokenKind::Open(_) => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        if depth == 0 {
-            break;
-        }
-    }
-    let grouped = matches!(tokens.get(start).map(|t| &t.kind), Some(TokenKind::Open(_)));
-    let named = start > 0 && tokens[start - 1].identifier().is_some();
-    &tokens[start - usize::from(grouped && named)..]
-}
-
-/// The function name at the end of a literal such as `2sin`.
-fn arity_of_suffix(literal: &str) -> Option<usize> {
-    let letters = literal.find(|c: char| !c.is_ascii_digit() && c != '.')?;
-    FUNCTIONS
-        .iter()
-        .find(|(name, _)| literal[letters..].ends_with(name))
-        .map(|(_, arity)| *arity)
-}
-
-/// The operands of a missing `*` as text, for messages.
-pub(super) fn operand_text(tokens: &[Token]) -> String {
-    let mut cursor = Cursor::new(tokens);
-    let Some(first) = cursor.advance() else {
-        return String::new();
-    };
-    let next_opens = cursor.peek().is_some_and(|t| t.kind == OPEN);
-    if matches!(first.kind, TokenKind::Open(_)) || (first.identifier().is_some() && next_opens) {
-        if first.identifier().is_some() {
-            cursor.advance();
-        }
-        cursor.take_until(|_| false);
-        cursor.advance();
-    }
-    render(cursor.since(0))
 }

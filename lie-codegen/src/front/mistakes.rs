@@ -1,7 +1,7 @@
 //! The mistakes that the expression parser reports, with their remedies.
 
-use super::expression::operand_text;
 use super::names::{FUNCTIONS, Names};
+use super::operand::operand_text;
 use super::token::{Token, TokenKind, render, span};
 use crate::diagnostic::{Diagnostic, Kind, Origin};
 use crate::suggest::did_you_mean;

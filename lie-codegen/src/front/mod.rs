@@ -17,6 +17,7 @@ mod json;
 mod mistakes;
 mod number;
 mod object;
+mod operand;
 mod rust;
 mod schema;
 mod text;

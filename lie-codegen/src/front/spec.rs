@@ -1,13 +1,14 @@
 //! The spec file: JSON to the syntax tree.
 
 mod algebra;
+mod parameters;
 mod run;
 
 use quote::quote;
 
 use super::json::{self, Type, Value};
 use super::object::{NOT_BUILT, Object, list, string, strings, wrong_type};
-use super::schema::{DescribedParameter, Spec};
+use super::schema::Spec;
 use super::token::Token;
 use super::{Body, Names, Parsed, expression, item, number};
 use crate::ast::{Declaration, Expr, ExprKind, Invariance, Name, Parameter};
@@ -53,7 +54,7 @@ fn document(text: &str, report: &mut Report) -> Parsed {
         .unwrap_or_default();
     let parameters = spec
         .get("parameters")
-        .map(|v| parameters(v, report))
+        .map(|v| parameters::read(v, report))
         .unwrap_or_default();
     parsed.parameters = parameters.names;
     let declaration = Remainder {
@@ -296,77 +297,4 @@ fn quantity(
             None
         }
     }
-}
-
-#[derive(Default)]
-struct Parameters {
-    /// The names that could be read.
-    names: Vec<Name>,
-    /// The parameters without mistakes.
-    whole: Vec<Parameter>,
-}
-
-/// Keys are the user's names here, so a repeated one is a repeated name, which later checks know.
-fn parameters(value: Value<'_>, report: &mut Report) -> Parameters {
-    let mut parameters = Parameters::default();
-    if value.kind() != Type::Object {
-        report.push(wrong_type(&value, "`parameters`", "an object"));
-        return parameters;
-    }
-    for member in value.members(report) {
-        let name = item::name(&member.key.tokens(), member.key.whole(), report);
-        let what = format!("the parameter `{}`", member.key.text.escape_debug());
-        parameters.names.extend(name.clone());
-        let parameter = if member.value.kind() == Type::Object {
-            described(member.value, &what, name, report)
-        } else {
-            let default = quantity(member.value, &what, None, report);
-            name.zip(default).map(|(name, default)| Parameter {
-                name,
-                default,
-                exact: false,
-                unit: None,
-                description: None,
-            })
-        };
-        parameters.whole.extend(parameter);
-    }
-    parameters
-}
-
-fn described(
-    value: Value<'_>,
-    what: &str,
-    name: Option<Name>,
-    report: &mut Report,
-) -> Option<Parameter> {
-    let object = Object::read(value, what, DescribedParameter::KEYS, &[], report)?;
-    object.require(what, DescribedParameter::REQUIRED, report);
-    let mut text = |key: &str| {
-        Some(
-            string(object.get(key)?, &format!("`{key}`"), report)?
-                .text
-                .into_owned(),
-        )
-    };
-    let (unit, description) = (text("unit"), text("description"));
-    let exact = object.get("exact").map(|v| {
-        if v.boolean().is_none() {
-            report.push(wrong_type(&v, "`exact`", "a boolean"));
-        }
-        v.boolean() == Some(true)
-    });
-    let default = quantity(
-        object.get("default")?,
-        &format!("the default of {what}"),
-        None,
-        report,
-    )?;
-    Some(Parameter {
-        name: name?,
-        default,
-        exact: exact == Some(true),
-        unit,
-        description,
-    })
 }

@@ -1,9 +1,9 @@
 //! Splitting the macro's tokens into statements, with recovery at `;`.
 
+use super::entry::{Entry, docs, inside, split};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::front::mistakes;
 use crate::front::object::NOT_BUILT;
-use crate::front::token::{Cursor, Delimiter, Token, TokenKind, render, render_whole, span};
+use crate::front::token::{Cursor, Delimiter, Token, TokenKind, render};
 use crate::suggest::did_you_mean;
 
 /// The words that begin a statement, and what follows each: enough to notice a missing `;`.
@@ -28,18 +28,11 @@ enum Follows {
     Block,
 }
 
-/// A line of a doc comment.
-#[derive(Clone, Debug)]
-pub struct Doc {
-    text: String,
-    origin: Origin,
-}
-
 /// One statement: `docs visibility keyword rest;` or `keyword { … }`.
 #[derive(Debug)]
 pub struct Statement<'a> {
-    /// Doc comment before it.
-    pub docs: Vec<Doc>,
+    /// Doc comment before it, line by line.
+    pub docs: Vec<String>,
     /// `pub`, `pub(crate)` or nothing.
     pub visibility: &'a [Token],
     /// The word that begins it.
@@ -48,14 +41,6 @@ pub struct Statement<'a> {
     pub origin: Origin,
     /// What stands between keyword and `;`, or the block with its braces.
     pub rest: &'a [Token],
-}
-
-/// One `…;` in a block.
-#[derive(Debug)]
-pub struct Entry<'a> {
-    docs: Vec<Doc>,
-    /// Its tokens, at least one.
-    pub tokens: &'a [Token],
 }
 
 impl<'a> Statement<'a> {
@@ -80,7 +65,7 @@ impl<'a> Statement<'a> {
 
     /// The entries of the block.
     pub fn block(&self, report: &mut Report) -> Option<Vec<Entry<'a>>> {
-        let Some(inside) = entries::inside(self.rest, Delimiter::Brace) else {
+        let Some(inside) = inside(self.rest, Delimiter::Brace) else {
             let keyword = self.keyword;
             report.push(
                 Diagnostic::new(
@@ -92,32 +77,12 @@ impl<'a> Statement<'a> {
             );
             return None;
         };
-        Some(entries::split(inside, report))
+        Some(split(inside, report))
     }
 
     /// The doc comment, line by line.
     pub fn description(&self) -> Vec<String> {
-        self.docs.iter().map(|doc| doc.text.clone()).collect()
-    }
-}
-
-impl Entry<'_> {
-    /// Whether the entry begins with this word.
-    pub fn is_word(&self, word: &str) -> bool {
-        self.tokens.first().is_some_and(|t| t.is_word(word))
-    }
-
-    /// Place of its first token.
-    pub fn origin(&self) -> Origin {
-        self.tokens
-            .first()
-            .map_or(Origin::Span(proc_macro2::Span::call_site()), |t| t.origin)
-    }
-
-    /// The doc comment as one text.
-    pub fn description(&self) -> Option<String> {
-        let lines: Vec<&str> = self.docs.iter().map(|doc| doc.text.as_str()).collect();
-        (!lines.is_empty()).then(|| lines.join("\n"))
+        self.docs.clone()
     }
 }
 
@@ -129,7 +94,7 @@ pub fn statements<'a>(tokens: &'a [Token], report: &mut Report) -> Vec<Statement
         let docs = docs(&mut cursor, report);
         let visibility = visibility(&mut cursor);
         let Some(token) = cursor.advance() else {
-            let place = docs.first().map(|d| d.origin).or(span(visibility));
+            let place = cursor.previous().map(|t| t.origin);
             report.push(Diagnostic {
                 kind: Kind::Syntax,
                 message: "a statement is missing".into(),
@@ -335,101 +300,4 @@ fn visibility<'a>(cursor: &mut Cursor<'a>) -> &'a [Token] {
         }
     }
     cursor.since(start)
-}
-
-/// `#[doc = "…"]`, which is what `/// …` becomes.
-fn docs(cursor: &mut Cursor<'_>, report: &mut Report) -> Vec<Doc> {
-    let mut docs = Vec::new();
-    while cursor.peek().is_some_and(|t| t.is('#')) {
-        let Some(hash) = cursor.advance() else { break };
-        cursor.eat('!');
-        let start = cursor.position();
-        if cursor
-            .eat_kind(&TokenKind::Open(Delimiter::Bracket))
-            .is_some()
-        {
-            cursor.take_until(|_| false);
-            cursor.advance();
-        }
-        match entries::inside(cursor.since(start), Delimiter::Bracket) {
-            Some(
-                [
-                    word,
-                    equals,
-                    Token {
-                        kind: TokenKind::Text(text),
-                        ..
-                    },
-                ],
-            ) if word.is_word("doc") && equals.is('=') => {
-                let lines = text
-                    .lines()
-                    .map(|line| line.strip_prefix(' ').unwrap_or(line).to_owned());
-                docs.extend(lines.map(|text| Doc {
-                    text,
-                    origin: hash.origin,
-                }));
-            }
-            _ => report.push(
-                Diagnostic::new(
-                    Kind::Syntax,
-                    hash.origin,
-                    "the declaration takes no attributes but doc comments",
-                )
-                .help("remove the attribute"),
-            ),
-        }
-    }
-    docs
-}
-
-/// Blocks and their entries.
-pub mod entries {
-    use super::*;
-
-    /// What stands between two delimiters that enclose all of the tokens.
-    pub fn inside(tokens: &[Token], delimiter: Delimiter) -> Option<&[Token]> {
-        let [open, inside @ .., close] = tokens else {
-            return None;
-        };
-        let encloses =
-            open.kind == TokenKind::Open(delimiter) && close.kind == TokenKind::Close(delimiter);
-        let mut cursor = Cursor::new(inside);
-        cursor.take_until(|_| false);
-        (encloses && cursor.peek().is_none()).then_some(inside)
-    }
-
-    /// Splits at `;`. Empty entries are dropped; the last one needs its `;` too.
-    pub fn split<'a>(tokens: &'a [Token], report: &mut Report) -> Vec<Entry<'a>> {
-        let mut cursor = Cursor::new(tokens);
-        let mut entries = Vec::new();
-        while cursor.peek().is_some() {
-            let docs = docs(&mut cursor, report);
-            let tokens = cursor.take_until(|c| c.peek().is_some_and(|t| t.is(';')));
-            if cursor.eat(';').is_none() {
-                // A stray closing delimiter would stop the cursor for good.
-                let stray = cursor.advance();
-                if let Some(last) = stray.or(cursor.previous()) {
-                    let diagnostic = match stray {
-                        Some(stray) => mistakes::unexpected(stray, tokens.last()),
-                        None => Diagnostic::new(Kind::Syntax, last.origin, "`;` is missing")
-                            .help("add it"),
-                    };
-                    report.push(diagnostic);
-                }
-            }
-            if !tokens.is_empty() {
-                entries.push(Entry { docs, tokens });
-            }
-        }
-        entries
-    }
-
-    /// The tokens as text without spaces.
-    pub fn compact(tokens: &[Token]) -> String {
-        tokens
-            .iter()
-            .map(|t| render_whole(std::slice::from_ref(t)))
-            .collect()
-    }
 }

@@ -15,6 +15,7 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Vec<RunOption> {
     let Some(object) = Object::read(value, "`run`", Run::KEYS, &[], report) else {
         return Vec::new();
     };
+    object.require("`run`", Run::REQUIRED, report);
     let mut options = Vec::new();
     for member in object.members() {
         let key = &*member.key.text;

@@ -248,6 +248,7 @@ fn missing_statements() {
         changed("hamiltonian =", "lagrangian ="),
         one(Syntax, "lagrangian")
     );
+    assert_eq!(mistakes("#").len(), 6);
     assert_eq!(mistakes("/// only words").len(), 5);
 }
 

@@ -1,0 +1,109 @@
+//! The blocks `algebra` and `parameters`, and lists of names.
+
+use super::entry::Entry;
+use super::statement::Statement;
+use crate::ast::{Algebra, Name, Parameter};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::token::{Token, span, split_commas};
+use crate::front::{Names, item};
+
+/// Names with commas between them.
+pub fn names(tokens: &[Token], place: Origin, report: &mut Report) -> Vec<Name> {
+    if tokens.is_empty() {
+        report.push(
+            Diagnostic::new(Kind::Syntax, place, "names are missing")
+                .help("write them with commas between, as in `x, y`"),
+        );
+    }
+    split_commas(tokens)
+        .into_iter()
+        .filter_map(|part| item::name(part, place, report))
+        .collect()
+}
+
+/// `{ basis …; [a, b] = …; }`
+pub fn algebra(
+    statement: &Statement<'_>,
+    parameters: &[String],
+    report: &mut Report,
+) -> Option<Algebra> {
+    if let Some(equals) = statement.rest.first().filter(|t| t.is('=')) {
+        let place = span(&statement.rest[1..]).unwrap_or(equals.origin);
+        report.push(
+            Diagnostic::new(Kind::Syntax, place, "named algebras are not built yet")
+                .help("write `algebra { basis e1, e2; [e1, e2] = e2; }`"),
+        );
+        return None;
+    }
+    let entries = statement.block(report)?;
+    let mut basis: Option<Vec<Name>> = None;
+    for entry in entries.iter().filter(|e| e.is_word("basis")) {
+        if basis.is_some() {
+            report.push(
+                Diagnostic::new(Kind::Syntax, entry.origin(), "`basis` stands twice")
+                    .help("remove one of the two"),
+            );
+        }
+        basis.get_or_insert(names(&entry.tokens[1..], entry.origin(), report));
+    }
+    if basis.is_none() {
+        report.push(
+            Diagnostic::new(Kind::Syntax, statement.origin, "the algebra has no `basis`")
+                .help("add `basis e1, e2, e3;`"),
+        );
+    }
+    let basis = basis.unwrap_or_default();
+    let known: Names = basis
+        .iter()
+        .map(|n| n.text.clone())
+        .chain(parameters.iter().cloned())
+        .collect();
+    let mut brackets = Vec::new();
+    for entry in entries.iter().filter(|e| !e.is_word("basis")) {
+        if entry.is_word("matrices") || entry.is_word("matrix") {
+            report.push(
+                Diagnostic::new(Kind::Syntax, entry.origin(), "the macro has no matrices")
+                    .help("declare the system in a spec file and write `spec = \"path\";`"),
+            );
+        } else {
+            brackets.extend(item::bracket(entry.tokens, entry.origin(), &known, report));
+        }
+    }
+    Some(Algebra {
+        basis,
+        brackets: Some(brackets),
+        matrices: Vec::new(),
+        origin: statement.origin,
+    })
+}
+
+/// `{ I1 = 2.0; exact k = 1/3; }`: the names that could be read, and the parameters without mistakes.
+pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> (Vec<Name>, Vec<Parameter>) {
+    let (mut names, mut parameters) = (Vec::new(), Vec::new());
+    for entry in entries {
+        let exact = entry.is_word("exact")
+            && entry
+                .tokens
+                .get(1)
+                .is_some_and(|t| t.identifier().is_some());
+        let tokens = &entry.tokens[usize::from(exact)..];
+        let Some((name, value)) = item::definition(tokens, "a parameter", entry.origin(), report)
+        else {
+            continue;
+        };
+        names.push(name.clone());
+        if value.is_empty() {
+            report.push(item::missing_constant(name.origin));
+        } else if let Some(default) = item::constant(value, report) {
+            let description = entry.description();
+            parameters.push(Parameter {
+                name,
+                default,
+                exact,
+                unit: None,
+                description,
+            });
+        }
+    }
+    (names, parameters)
+}

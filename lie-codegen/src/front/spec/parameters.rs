@@ -1,0 +1,83 @@
+//! The key `parameters`.
+
+use super::quantity;
+use crate::ast::{Name, Parameter};
+use crate::diagnostic::Report;
+use crate::front::item;
+use crate::front::json::{Type, Value};
+use crate::front::object::{Object, string, wrong_type};
+use crate::front::schema::DescribedParameter;
+
+/// What was found.
+#[derive(Default)]
+pub struct Parameters {
+    /// The names that could be read.
+    pub names: Vec<Name>,
+    /// The parameters without mistakes.
+    pub whole: Vec<Parameter>,
+}
+
+/// Reads the parameters. Keys are the user's names here, so a repeated one is a repeated name, which later checks know.
+pub fn read(value: Value<'_>, report: &mut Report) -> Parameters {
+    let mut parameters = Parameters::default();
+    if value.kind() != Type::Object {
+        report.push(wrong_type(&value, "`parameters`", "an object"));
+        return parameters;
+    }
+    for member in value.members(report) {
+        let name = item::name(&member.key.tokens(), member.key.whole(), report);
+        let what = format!("the parameter `{}`", member.key.text.escape_debug());
+        parameters.names.extend(name.clone());
+        let parameter = if member.value.kind() == Type::Object {
+            described(member.value, &what, name, report)
+        } else {
+            let default = quantity(member.value, &what, None, report);
+            name.zip(default).map(|(name, default)| Parameter {
+                name,
+                default,
+                exact: false,
+                unit: None,
+                description: None,
+            })
+        };
+        parameters.whole.extend(parameter);
+    }
+    parameters
+}
+
+fn described(
+    value: Value<'_>,
+    what: &str,
+    name: Option<Name>,
+    report: &mut Report,
+) -> Option<Parameter> {
+    let object = Object::read(value, what, DescribedParameter::KEYS, &[], report)?;
+    object.require(what, DescribedParameter::REQUIRED, report);
+    let mut text = |key: &str| {
+        Some(
+            string(object.get(key)?, &format!("`{key}`"), report)?
+                .text
+                .into_owned(),
+        )
+    };
+    let (unit, description) = (text("unit"), text("description"));
+    let exact = object.get("exact").map(|v| {
+        if v.boolean().is_none() {
+            report.push(wrong_type(&v, "`exact`", "a boolean"));
+        }
+        v.boolean() == Some(true)
+    });
+    let default = quantity(
+        object.get("default")?,
+        &format!("the default of {what}"),
+        None,
+        report,
+    )?;
+    Some(Parameter {
+        name: name?,
+        default,
+        exact: exact == Some(true),
+        unit,
+        description,
+    })
+}
