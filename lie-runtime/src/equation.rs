@@ -108,8 +108,8 @@ pub trait CayleyEquations<S: Scalar>: CayleyPoisson<S> {
 /// After the colon stand the families: `midpoint`, `gauss`, `exp`, `cayley`.
 #[macro_export]
 macro_rules! generic_equations {
-    ([$($generics:tt)*] $system:ty, $scalar:ty: $($family:ident),+ $(,)?) => {
-        $($crate::generic_equations!(@$family [$($generics)*] $system, $scalar);)+
+    ($generics:tt $system:ty, $scalar:ty: $($family:ident),+ $(,)?) => {
+        $($crate::generic_equations!(@$family $generics $system, $scalar);)+
     };
     (@midpoint [$($generics:tt)*] $system:ty, $scalar:ty) => {
         impl<$($generics)*> $crate::MidpointEquations<$scalar> for $system {

@@ -1,0 +1,135 @@
+// The heavy top on se(3)*: state (m, gamma), `m' = m x Omega + gamma x H_gamma`,
+// `gamma' = gamma x Omega`.
+
+use super::rigid_body::{cross, dot, hat, so3_triple};
+use lie_runtime::{CayleyPoisson, LiePoisson, Poisson, Scalar, generic};
+use nalgebra::{SMatrix, SVector};
+
+/// Moments of inertia and the gradient of the potential energy, `mgl chi`.
+#[derive(Clone, Copy, Debug)]
+pub struct HeavyTop<S = f64> {
+    /// I1, I2, I3.
+    pub inertia: [S; 3],
+    /// mgl times the axis to the centre of mass.
+    pub weight: [S; 3],
+}
+
+impl<S: Scalar> Default for HeavyTop<S> {
+    fn default() -> Self {
+        Self {
+            inertia: [S::from_f64(2.0), S::from_f64(1.5), S::one()],
+            weight: [S::ratio(1.0, 3.0), S::ratio(1.0, 7.0), S::one()],
+        }
+    }
+}
+
+/// The initial state of the reference data.
+pub const START: [f64; 6] = [0.4, 0.3, 0.9, 0.36, 0.48, 0.8];
+
+type Vector<S> = SVector<S, 6>;
+type Matrix<S> = SMatrix<S, 6, 6>;
+
+impl<S: Scalar> Poisson<S> for HeavyTop<S> {
+    type State = Vector<S>;
+    type Jacobian = Matrix<S>;
+    const DIM: usize = 6;
+    const CASIMIRS: usize = 2;
+    const NAME: &'static str = "HeavyTop";
+    const COORDINATES: &'static [&'static str] = &["m1", "m2", "m3", "g1", "g2", "g3"];
+    const CASIMIR_NAMES: &'static [&'static str] = &["length", "area"];
+
+    fn zero_state(&self) -> Vector<S> {
+        Vector::repeat(S::zero())
+    }
+    fn zero_jacobian(&self) -> Matrix<S> {
+        Matrix::repeat(S::zero())
+    }
+    fn hamiltonian(&self, mu: &Vector<S>) -> S {
+        let mut kinetic = S::zero();
+        for k in 0..3 {
+            kinetic += mu[k] * mu[k] / self.inertia[k];
+        }
+        kinetic * S::ratio(1.0, 2.0) + dot(&self.weight, &mu.as_slice()[3..])
+    }
+    fn gradient(&self, mu: &Vector<S>, out: &mut Vector<S>) {
+        for k in 0..3 {
+            out[k] = mu[k] / self.inertia[k];
+            out[k + 3] = self.weight[k];
+        }
+    }
+    fn hessian(&self, _mu: &Vector<S>, out: &mut Matrix<S>) {
+        *out = self.zero_jacobian();
+        for k in 0..3 {
+            out[(k, k)] = S::one() / self.inertia[k];
+        }
+    }
+    fn poisson_matrix(&self, mu: &Vector<S>, out: &mut Matrix<S>) {
+        let (m, gamma) = (hat(&mu.as_slice()[..3]), hat(&mu.as_slice()[3..]));
+        for row in 0..3 {
+            for column in 0..3 {
+                out[(row, column)] = m[(row, column)];
+                out[(row, column + 3)] = gamma[(row, column)];
+                out[(row + 3, column)] = gamma[(row, column)];
+                out[(row + 3, column + 3)] = S::zero();
+            }
+        }
+    }
+    fn jacobian(&self, mu: &Vector<S>, out: &mut Matrix<S>) {
+        generic::jacobian(self, mu, out);
+    }
+    fn casimirs(&self, mu: &Vector<S>, out: &mut [S]) {
+        let (m, gamma) = mu.as_slice().split_at(3);
+        out[0] = dot(gamma, gamma);
+        out[1] = dot(m, gamma);
+    }
+    fn casimir_gradient(&self, index: usize, mu: &Vector<S>, out: &mut Vector<S>) {
+        for k in 0..3 {
+            out[k] = if index == 0 { S::zero() } else { mu[k + 3] };
+            out[k + 3] = if index == 0 {
+                mu[k + 3] + mu[k + 3]
+            } else {
+                mu[k]
+            };
+        }
+    }
+}
+
+/// A vector of six from two of three.
+fn join<S: Scalar>(first: [S; 3], second: [S; 3]) -> Vector<S> {
+    Vector::from_fn(|row, _| if row < 3 { first[row] } else { second[row - 3] })
+}
+
+fn sum<S: Scalar>(a: [S; 3], b: [S; 3]) -> [S; 3] {
+    core::array::from_fn(|k| a[k] + b[k])
+}
+
+impl<S: Scalar> LiePoisson<S> for HeavyTop<S> {
+    fn ad(&self, xi: &Vector<S>, eta: &Vector<S>, out: &mut Vector<S>) {
+        let ((a, u), (b, v)) = (xi.as_slice().split_at(3), eta.as_slice().split_at(3));
+        *out = join(cross(a, b), sum(cross(a, v), cross(u, b)));
+    }
+    fn ad_star(&self, xi: &Vector<S>, mu: &Vector<S>, out: &mut Vector<S>) {
+        let ((a, u), (m, gamma)) = (xi.as_slice().split_at(3), mu.as_slice().split_at(3));
+        *out = join(sum(cross(m, a), cross(gamma, u)), cross(gamma, a));
+    }
+    fn ad_star_matrix(&self, xi: &Vector<S>, out: &mut Matrix<S>) {
+        generic::ad_star_matrix(self, xi, out);
+    }
+}
+
+impl<S: Scalar> CayleyPoisson<S> for HeavyTop<S> {
+    /// In the 4x4 representation (hat a, u; 0, 0), with x = (a, u), z = (c, w), mu = (m, gamma):
+    /// `-(a (c.m) + c (a.m))/2 + (w x (gamma x a) + u x (gamma x c))/2` and 0.
+    fn triple(&self, x: &Vector<S>, z: &Vector<S>, mu: &Vector<S>, out: &mut Vector<S>) {
+        let ((a, u), (c, w)) = (x.as_slice().split_at(3), z.as_slice().split_at(3));
+        let (m, gamma) = mu.as_slice().split_at(3);
+        let half = S::ratio(1.0, 2.0);
+        let moved = sum(cross(w, &cross(gamma, a)), cross(u, &cross(gamma, c)));
+        *out = join(
+            sum(so3_triple(a, c, m), moved.map(|entry| half * entry)),
+            [S::zero(); 3],
+        );
+    }
+}
+
+lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: midpoint, gauss, exp, cayley);

@@ -1,0 +1,87 @@
+// A system on so(3)* with the Hamiltonian `sin x + exp(y/2) + sqrt(1 + z^2) + x y^2 z`.
+
+use super::rigid_body::{cross, dot, hat, so3_triple};
+use lie_runtime::{CayleyPoisson, LiePoisson, Poisson, Scalar, generic};
+use nalgebra::{SMatrix, SVector};
+
+/// No parameters.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Nonpolynomial;
+
+impl<S: Scalar> Poisson<S> for Nonpolynomial {
+    type State = SVector<S, 3>;
+    type Jacobian = SMatrix<S, 3, 3>;
+    const DIM: usize = 3;
+    const CASIMIRS: usize = 1;
+    const NAME: &'static str = "Nonpolynomial";
+    const COORDINATES: &'static [&'static str] = &["x", "y", "z"];
+    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
+
+    fn zero_state(&self) -> Self::State {
+        SVector::<S, 3>::repeat(S::zero())
+    }
+    fn zero_jacobian(&self) -> Self::Jacobian {
+        SMatrix::<S, 3, 3>::repeat(S::zero())
+    }
+    fn hamiltonian(&self, mu: &Self::State) -> S {
+        let (x, y, z) = (mu[0], mu[1], mu[2]);
+        let root = (S::one() + z * z).sqrt();
+        x.sin() + (y * S::ratio(1.0, 2.0)).exp() + root + x * y * y * z
+    }
+    fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
+        let (x, y, z) = (mu[0], mu[1], mu[2]);
+        let half = S::ratio(1.0, 2.0);
+        out[0] = x.cos() + y * y * z;
+        out[1] = (y * half).exp() * half + (x + x) * y * z;
+        out[2] = z / (S::one() + z * z).sqrt() + x * y * y;
+    }
+    fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+        let (x, y, z) = (mu[0], mu[1], mu[2]);
+        let square = S::one() + z * z;
+        let xy = (y + y) * z;
+        let yz = (x + x) * y;
+        let yy = (y * S::ratio(1.0, 2.0)).exp() * S::ratio(1.0, 4.0) + (x + x) * z;
+        let zz = S::one() / (square * square.sqrt());
+        *out = SMatrix::<S, 3, 3>::new(-x.sin(), xy, y * y, xy, yy, yz, y * y, yz, zz);
+    }
+    fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+        *out = hat(mu.as_slice());
+    }
+    fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+        generic::jacobian(self, mu, out);
+    }
+    fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
+        out[0] = dot(mu.as_slice(), mu.as_slice());
+    }
+    fn casimir_gradient(&self, _index: usize, mu: &Self::State, out: &mut Self::State) {
+        for k in 0..3 {
+            out[k] = mu[k] + mu[k];
+        }
+    }
+}
+
+impl<S: Scalar> LiePoisson<S> for Nonpolynomial {
+    fn ad(&self, xi: &SVector<S, 3>, eta: &SVector<S, 3>, out: &mut SVector<S, 3>) {
+        *out = cross(xi.as_slice(), eta.as_slice()).into();
+    }
+    fn ad_star(&self, xi: &SVector<S, 3>, mu: &SVector<S, 3>, out: &mut SVector<S, 3>) {
+        *out = cross(mu.as_slice(), xi.as_slice()).into();
+    }
+    fn ad_star_matrix(&self, xi: &SVector<S, 3>, out: &mut SMatrix<S, 3, 3>) {
+        generic::ad_star_matrix(self, xi, out);
+    }
+}
+
+impl<S: Scalar> CayleyPoisson<S> for Nonpolynomial {
+    fn triple(
+        &self,
+        x: &SVector<S, 3>,
+        z: &SVector<S, 3>,
+        mu: &SVector<S, 3>,
+        out: &mut SVector<S, 3>,
+    ) {
+        *out = so3_triple(x.as_slice(), z.as_slice(), mu.as_slice()).into();
+    }
+}
+
+lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: midpoint, gauss, exp, cayley);

@@ -1,0 +1,129 @@
+// The free rigid body on so(3)*, written by hand: `mu' = mu x (mu/I)`.
+
+use lie_runtime::{CayleyPoisson, LiePoisson, Poisson, Scalar};
+use nalgebra::{SMatrix, SVector};
+
+/// Principal moments of inertia.
+#[derive(Clone, Copy, Debug)]
+pub struct RigidBody<S = f64> {
+    /// I1, I2, I3.
+    pub inertia: [S; 3],
+}
+
+impl<S: Scalar> Default for RigidBody<S> {
+    fn default() -> Self {
+        Self {
+            inertia: [S::from_f64(2.0), S::one(), S::ratio(2.0, 3.0)],
+        }
+    }
+}
+
+/// `out = a x b`.
+pub fn cross<S: Scalar>(a: &[S], b: &[S]) -> [S; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// `a . b`, summed in order.
+pub fn dot<S: Scalar>(a: &[S], b: &[S]) -> S {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The matrix of `b -> a x b`.
+pub fn hat<S: Scalar>(a: &[S]) -> SMatrix<S, 3, 3> {
+    let zero = S::zero();
+    SMatrix::<S, 3, 3>::new(zero, -a[2], a[1], a[2], zero, -a[0], -a[1], a[0], zero)
+}
+
+/// The triple product of so(3) in its vector representation: `-(x (z.m) + z (x.m))/2`.
+pub fn so3_triple<S: Scalar>(x: &[S], z: &[S], m: &[S]) -> [S; 3] {
+    let half = S::ratio(-1.0, 2.0);
+    core::array::from_fn(|k| half * (x[k] * dot(z, m) + z[k] * dot(x, m)))
+}
+
+impl<S: Scalar> Poisson<S> for RigidBody<S> {
+    type State = SVector<S, 3>;
+    type Jacobian = SMatrix<S, 3, 3>;
+    const DIM: usize = 3;
+    const CASIMIRS: usize = 1;
+    const NAME: &'static str = "RigidBody";
+    const COORDINATES: &'static [&'static str] = &["x", "y", "z"];
+    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
+
+    fn zero_state(&self) -> Self::State {
+        SVector::<S, 3>::repeat(S::zero())
+    }
+    fn zero_jacobian(&self) -> Self::Jacobian {
+        SMatrix::<S, 3, 3>::repeat(S::zero())
+    }
+    fn hamiltonian(&self, mu: &Self::State) -> S {
+        let mut sum = S::zero();
+        for k in 0..3 {
+            sum += mu[k] * mu[k] / self.inertia[k];
+        }
+        sum * S::ratio(1.0, 2.0)
+    }
+    fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
+        for k in 0..3 {
+            out[k] = mu[k] / self.inertia[k];
+        }
+    }
+    fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
+        *out = self.zero_jacobian();
+        for k in 0..3 {
+            out[(k, k)] = S::one() / self.inertia[k];
+        }
+    }
+    fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+        *out = hat(mu.as_slice());
+    }
+    fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
+        let mut omega = self.zero_state();
+        self.gradient(mu, &mut omega);
+        *out = cross(mu.as_slice(), omega.as_slice()).into();
+    }
+    fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+        // mu x (J mu) has the derivative hat(mu) J - hat(J mu)
+        let mut omega = self.zero_state();
+        self.gradient(mu, &mut omega);
+        let (left, right) = (hat(mu.as_slice()), hat(omega.as_slice()));
+        for row in 0..3 {
+            for column in 0..3 {
+                out[(row, column)] =
+                    left[(row, column)] / self.inertia[column] - right[(row, column)];
+            }
+        }
+    }
+    fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
+        out[0] = dot(mu.as_slice(), mu.as_slice());
+    }
+    fn casimir_gradient(&self, _index: usize, mu: &Self::State, out: &mut Self::State) {
+        for k in 0..3 {
+            out[k] = mu[k] + mu[k];
+        }
+    }
+}
+
+impl<S: Scalar> LiePoisson<S> for RigidBody<S> {
+    fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State) {
+        *out = cross(xi.as_slice(), eta.as_slice()).into();
+    }
+    fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
+        *out = cross(mu.as_slice(), xi.as_slice()).into();
+    }
+    fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
+        let minus: [S; 3] = core::array::from_fn(|k| -xi[k]);
+        *out = hat(&minus);
+    }
+}
+
+impl<S: Scalar> CayleyPoisson<S> for RigidBody<S> {
+    fn triple(&self, x: &Self::State, z: &Self::State, mu: &Self::State, out: &mut Self::State) {
+        *out = so3_triple(x.as_slice(), z.as_slice(), mu.as_slice()).into();
+    }
+}
+
+lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: midpoint, gauss, exp, cayley);
