@@ -5,6 +5,7 @@
 pub mod diagnostics;
 #[cfg(feature = "std")]
 pub mod driver;
+pub mod elimination;
 pub mod equation;
 pub mod generic;
 pub mod matrix;
@@ -52,6 +53,7 @@ pub mod prelude {
 /// versions.
 #[doc(hidden)]
 pub mod __private {
+    pub use crate::elimination::StaticElimination;
     pub use crate::equation::{
         CayleyEquations, Equation, GaussEquations, LieMidpointEquations, MidpointEquations,
     };
