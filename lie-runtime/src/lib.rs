@@ -1,5 +1,7 @@
 //! Runtime of lie-poisson: Newton's method, Lie–Poisson integrators, drivers and diagnostics.
 #![cfg_attr(not(feature = "std"), no_std)]
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
 
 #[cfg(feature = "std")]
 pub mod diagnostics;
@@ -16,6 +18,8 @@ pub mod poisson;
 #[cfg(feature = "std")]
 pub mod program;
 pub mod scalar;
+#[cfg(feature = "sources")]
+pub mod sources;
 pub mod state;
 #[cfg(test)]
 mod test_systems;
@@ -23,6 +27,8 @@ mod test_systems;
 pub use equation::{
     CayleyEquations, Equation, GaussEquations, LieMidpointEquations, MidpointEquations,
 };
+#[cfg(feature = "macros")]
+pub use lie_macros::lie_poisson;
 pub use matrix::{SquareMatrix, StageMatrix};
 pub use parameter::ParameterError;
 pub use poisson::{CayleyPoisson, LiePoisson, Poisson};
@@ -46,7 +52,7 @@ pub mod prelude {
         CayleyPoisson, Dual, LiePoisson, Mask, ParameterError, Poisson, Scalar, SquareMatrix, State,
     };
     #[cfg(feature = "macros")]
-    pub use lie_macros::*;
+    pub use lie_macros::lie_poisson;
 }
 
 /// What generated code refers to. Not for other use: it follows the generator, not semantic

@@ -1,0 +1,129 @@
+//! This crate's own files, for tools that build generated programs without a registry.
+//!
+//! Write every file of [`FILES`] below a folder `src` and [`MANIFEST`] beside it as `Cargo.toml`.
+
+/// The manifest: no workspace, no macros, no dependencies of tests.
+pub const MANIFEST: &str = include_str!("standalone.toml");
+
+macro_rules! files {
+    ($($path:literal),* $(,)?) => {
+        &[$(($path, include_str!($path))),*]
+    };
+}
+
+/// Paths relative to the folder `src`, and contents.
+pub const FILES: &[(&str, &str)] = files![
+    "diagnostics/drift.rs",
+    "diagnostics/mod.rs",
+    "diagnostics/order.rs",
+    "diagnostics/poisson_defect.rs",
+    "driver/error.rs",
+    "driver/grid.rs",
+    "driver/mod.rs",
+    "driver/observer.rs",
+    "driver/options.rs",
+    "driver/problem.rs",
+    "driver/solution.rs",
+    "driver/solve.rs",
+    "driver/stats.rs",
+    "elimination.rs",
+    "equation.rs",
+    "generic/cayley_midpoint.rs",
+    "generic/exp_midpoint.rs",
+    "generic/gauss.rs",
+    "generic/kernels.rs",
+    "generic/midpoint.rs",
+    "generic/mod.rs",
+    "generic/series.rs",
+    "generic/tableau.rs",
+    "lib.rs",
+    "matrix.rs",
+    "methods/dopri5.rs",
+    "methods/facts.rs",
+    "methods/gauss.rs",
+    "methods/implicit.rs",
+    "methods/lie_midpoint.rs",
+    "methods/midpoint.rs",
+    "methods/mod.rs",
+    "methods/rk4.rs",
+    "methods/stepper.rs",
+    "newton/convergence.rs",
+    "newton/dense.rs",
+    "newton/mod.rs",
+    "newton/options.rs",
+    "newton/pivoted.rs",
+    "newton/report.rs",
+    "newton/solver.rs",
+    "newton/update.rs",
+    "parameter.rs",
+    "poisson.rs",
+    "program/mod.rs",
+    "program/request.rs",
+    "program/rows.rs",
+    "program/tests.rs",
+    "scalar/dual.rs",
+    "scalar/float.rs",
+    "scalar/lanes.rs",
+    "scalar/mask.rs",
+    "scalar/mod.rs",
+    "sources.rs",
+    "standalone.toml",
+    "state.rs",
+    "test_systems.rs",
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use std::fs;
+    use std::path::Path;
+
+    fn collect(folder: &Path, root: &Path, found: &mut BTreeSet<String>) {
+        for entry in fs::read_dir(folder).expect("the sources are there") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                collect(&path, root, found);
+            } else {
+                let relative = path.strip_prefix(root).expect("below the root");
+                found.insert(relative.to_string_lossy().replace('\\', "/"));
+            }
+        }
+    }
+
+    #[test]
+    fn the_list_is_complete() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let mut found = BTreeSet::new();
+        collect(&root, &root, &mut found);
+        let listed: BTreeSet<String> = FILES.iter().map(|(path, _)| (*path).to_owned()).collect();
+        assert_eq!(listed, found);
+        assert_eq!(listed.len(), FILES.len(), "no file twice");
+    }
+
+    #[test]
+    fn the_manifest_agrees_with_this_crate() {
+        let version = format!("version = \"{}\"", env!("CARGO_PKG_VERSION"));
+        let msrv = format!("rust-version = \"{}\"", env!("CARGO_PKG_RUST_VERSION"));
+        for line in [version, msrv] {
+            assert!(MANIFEST.lines().any(|other| other == line), "{line}");
+        }
+        // within the repository: the same requirements as the workspace
+        let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.toml");
+        let Ok(workspace) = fs::read_to_string(workspace) else {
+            return;
+        };
+        let requirement = |text: &str, name: &str| {
+            let line = text
+                .lines()
+                .find(|line| line.starts_with(&format!("{name} = ")));
+            let line = line
+                .unwrap_or_else(|| panic!("{name} is required"))
+                .to_owned();
+            line.replace(", optional = true", "")
+        };
+        for name in ["libm", "nalgebra", "thiserror", "wide"] {
+            assert_eq!(requirement(MANIFEST, name), requirement(&workspace, name));
+        }
+    }
+}
