@@ -196,6 +196,9 @@ fn remainder(
 ) -> Option<Declaration> {
     let texts = |names: &[Name]| names.iter().map(|n| n.text.clone()).collect::<Vec<_>>();
     let constants = texts(&parsed.parameters);
+    let algebra = parts
+        .first("algebra")
+        .and_then(|s| algebra(s, &constants, report));
     let lets = parts
         .all("let")
         .filter_map(|s| s.rest.first()?.identifier())
@@ -205,9 +208,7 @@ fn remainder(
         .chain(constants.iter().cloned())
         .chain(lets)
         .collect();
-    let algebra = parts
-        .first("algebra")
-        .and_then(|s| algebra(s, &constants, report));
+    let names = names.with_elsewhere(algebra.iter().flat_map(|a| texts(&a.basis)));
     let lets = parts.all("let").filter_map(|s| {
         let (name, value) = item::definition(s.rest, "an abbreviation", s.origin, report)?;
         Some((

@@ -33,27 +33,46 @@ pub fn arity(function: &str) -> Option<usize> {
 /// The names that an expression may use; the parser needs them to tell a product without its
 /// `*` (`2x`, `2e3`, `x(y)`) from a number or a call.
 #[derive(Clone, Debug, Default)]
-pub struct Names(BTreeSet<String>);
+pub struct Names {
+    here: BTreeSet<String>,
+    elsewhere: BTreeSet<String>,
+}
 
 impl Names {
+    /// Adds names that are declared but cannot stand in the expression. A literal such as `2e3`
+    /// must not be read as a number where `e3` is one of them.
+    #[must_use]
+    pub fn with_elsewhere<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
+        self.elsewhere.extend(names.into_iter().map(Into::into));
+        self
+    }
+
     /// Whether the name is declared or built in.
     pub fn knows(&self, name: &str) -> bool {
         self.declares(name) || BUILT_IN.contains(&name)
     }
 
-    /// Whether the user declared the name.
+    /// Whether the user declared the name and it may stand in the expression.
     pub fn declares(&self, name: &str) -> bool {
-        self.0.contains(name)
+        self.here.contains(name)
     }
 
-    /// The declared names.
+    /// Whether the name is declared, but not for this expression.
+    pub fn declares_elsewhere(&self, name: &str) -> bool {
+        !self.declares(name) && self.elsewhere.contains(name)
+    }
+
+    /// The names that the user declared and that may stand in the expression.
     pub fn iter(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(String::as_str)
+        self.here.iter().map(String::as_str)
     }
 }
 
 impl<S: Into<String>> FromIterator<S> for Names {
     fn from_iter<I: IntoIterator<Item = S>>(names: I) -> Self {
-        Self(names.into_iter().map(Into::into).collect())
+        Self {
+            here: names.into_iter().map(Into::into).collect(),
+            elsewhere: BTreeSet::new(),
+        }
     }
 }

@@ -34,13 +34,15 @@ impl Mistake {
 
 /// The exact value of a literal token.
 ///
-/// `2e3` is 2000 unless `e3` is a declared name; then, as in `2x`, a `*` is missing.
+/// `2e3` is 2000 unless `e3` is a declared name; then, as in `2x`, a `*` is missing. Where `e3` is
+/// declared in another name space (a basis name, in the Hamiltonian), the literal is refused too:
+/// reading a misplaced name as a power of ten would go unnoticed.
 pub fn read(literal: &str, names: &Names) -> Result<Rational, Mistake> {
     let bytes = literal.as_bytes();
     let is_name = |name: &str| names.knows(name) || arity(name).is_some();
     if bytes[0] == b'0'
         && matches!(bytes.get(1), Some(b'x' | b'o' | b'b'))
-        && !is_name(&literal[1..])
+        && bytes.get(2).is_some_and(u8::is_ascii_hexdigit)
     {
         return Err(Mistake::new(
             Kind::Number,
@@ -65,6 +67,17 @@ pub fn read(literal: &str, names: &Names) -> Result<Rational, Mistake> {
     };
     if !tail.is_empty() && is_name(tail) {
         return Err(product(factor, tail));
+    }
+    if names.declares_elsewhere(tail)
+        && let Ok(value) = decimal(literal)
+    {
+        return Err(Mistake::new(
+            Kind::Syntax,
+            format!(
+                "`{literal}` can be read as a product with `{tail}`, a name that is declared but cannot stand here"
+            ),
+            format!("write `{}` if the number is meant", plain(&value, literal)),
+        ));
     }
     let exponent = exponent_length(tail);
     let suffix = &tail[exponent..];
@@ -229,7 +242,7 @@ mod tests {
 
     #[test]
     fn names_make_products() {
-        let names: Names = ["x", "e3", "f64", "Δ", "e3x"].into_iter().collect();
+        let names: Names = ["x", "x1", "e3", "f64", "Δ", "e3x"].into_iter().collect();
         let help = |literal: &str| {
             let mistake = read(literal, &names).unwrap_err();
             assert_eq!(mistake.kind, Kind::Syntax, "{literal}");
@@ -246,7 +259,15 @@ mod tests {
         assert_eq!(help("1f64"), "write `1*f64`");
         assert_eq!(help("2pi"), "write `2*pi`");
         assert_eq!(help("2sin"), "write `2*sin`");
+        assert_eq!(read("0x1", &names).unwrap_err().kind, Kind::Number);
         assert_eq!(help("0x"), "write `0*x`");
+        let basis = Names::default().with_elsewhere(["e3", "x"]);
+        let refused = read("2e3", &basis).unwrap_err();
+        assert_eq!(
+            (refused.kind, refused.help.as_str()),
+            (Kind::Syntax, "write `2000` if the number is meant")
+        );
+        assert_eq!(read("2x", &basis).unwrap_err().kind, Kind::Number);
         assert_eq!(read("2e4", &names).unwrap().to_string(), "20000");
     }
 

@@ -100,6 +100,9 @@ impl Remainder<'_, '_> {
         let spec = self.spec;
         let texts = |names: &[Name]| names.iter().map(|n| n.text.clone()).collect::<Vec<_>>();
         let parameters = texts(&self.parsed.parameters);
+        let algebra = spec
+            .get("algebra")
+            .and_then(|v| algebra::read(v, &parameters, report));
         let lets: Vec<Line> = lines(spec, "let", report);
         let defined = lets
             .iter()
@@ -109,11 +112,9 @@ impl Remainder<'_, '_> {
             .chain(parameters.iter().cloned())
             .chain(defined.map(str::to_owned))
             .collect();
+        let names = names.with_elsewhere(algebra.iter().flat_map(|a| texts(&a.basis)));
         let constants: Names = parameters.iter().cloned().collect();
 
-        let algebra = spec
-            .get("algebra")
-            .and_then(|v| algebra::read(v, &parameters, report));
         let lets = lets.iter().filter_map(|line| {
             let (name, value) =
                 item::definition(&line.tokens, "an abbreviation", line.place, report)?;

@@ -183,8 +183,10 @@ fn expressions_at_their_tokens() {
     ] {
         assert_eq!(changed(from, to), one(kind, place), "{to}");
     }
-    // `e1` is no name of the Hamiltonian's, hence a number; and `2.0` may be any.
-    assert_eq!(changed("z^2;", "2e1;"), []);
+    // `e1` cannot stand in the Hamiltonian, but is declared; a default has no names at all.
+    assert_eq!(changed("z^2;", "2e1;"), one(Syntax, "2e1"));
+    assert_eq!(changed("I2 = 2e0", "I2 = 2e1"), []);
+    assert_eq!(changed("z^2;", "2e4;"), []);
     assert_eq!(changed("z^2;", "1.*x - 0.5;"), []);
 }
 
