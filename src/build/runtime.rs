@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use sources::{FILES, MANIFEST};
+use lie_runtime::sources::{FILES, MANIFEST};
 
 use super::key::Key;
 
@@ -38,7 +38,7 @@ pub fn unpack(cache: &Path) -> io::Result<PathBuf> {
     let draft = tempfile::tempdir_in(&parent)?;
     std::fs::write(draft.path().join("Cargo.toml"), MANIFEST)?;
     for (path, text) in FILES {
-        let path = draft.path().join(path);
+        let path = draft.path().join("src").join(path);
         if let Some(parent) = path.parent() {
             std::fs::create_dir_all(parent)?;
         }
@@ -54,10 +54,4 @@ pub fn unpack(cache: &Path) -> io::Result<PathBuf> {
         Err(_) if folder.is_dir() => Ok(folder),
         Err(error) => Err(error),
     }
-}
-
-/// Nothing yet: the runtime does not embed itself so far.
-mod sources {
-    pub const FILES: &[(&str, &str)] = &[];
-    pub const MANIFEST: &str = "";
 }
