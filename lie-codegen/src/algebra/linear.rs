@@ -66,12 +66,26 @@ pub(super) fn bracket_value(
         );
         return None;
     }
+    if form.linear.values().any(|c| degree(c) > MAX_EXPONENT) {
+        let message = format!("a coefficient has a degree above {MAX_EXPONENT} in the parameters");
+        report
+            .push(Diagnostic::new(Kind::Limit, value.origin, message).help("simplify the bracket"));
+        return None;
+    }
     Some(
         form.linear
             .into_iter()
             .filter(|(_, c)| !c.is_zero())
             .collect(),
     )
+}
+
+/// The largest total degree in numerator and denominator.
+fn degree(value: &Fraction) -> i64 {
+    let below = value
+        .denominator()
+        .map(|(f, e)| i64::from(f.degree()).saturating_mul(e.into()));
+    below.fold(i64::from(value.numerator().degree()), i64::max)
 }
 
 /// The place of the first term that has a constant part.

@@ -8,7 +8,7 @@ use crate::exact::{Budget, Rational};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for one Casimir.
-const WORK: u64 = 5_000_000;
+const WORK: u64 = 2_000_000;
 /// Longer brackets are not printed in full.
 const LONGEST: usize = 300;
 
@@ -25,24 +25,24 @@ pub struct Candidate {
 /// Verifies one Casimir and returns its degree, if it is a polynomial.
 ///
 /// A function that is none would be reported as a drift of the method, hence no benefit of the
-/// doubt: what the normal form cannot decide is refused.
+/// doubt: what the normal form cannot decide is refused. `scratch` is an arena that may be littered.
 pub fn check(
     candidate: &Candidate,
-    graph: &Graph,
+    scratch: &mut Graph,
     constants: &StructureConstants<ExprId>,
     name: &dyn Fn(Symbol) -> String,
     report: &mut Report,
 ) -> Option<Option<u32>> {
-    let mut scratch = graph.clone();
-    let brackets = brackets(&mut scratch, candidate.expr, constants);
+    let brackets = brackets(scratch, candidate.expr, constants);
+    let scratch = &*scratch;
     let budget = Budget::new(WORK);
-    let mut normal = NormalForm::new(&scratch, &budget);
+    let mut normal = NormalForm::new(scratch, &budget);
     let mut undecided = None;
     for (i, terms, bracket) in &brackets {
         let shown = match normal.verdict(*bracket) {
             Verdict::Zero => continue,
             Verdict::Nonzero(value) => normal.display(&value, name),
-            Verdict::Undecided if is_nonzero(&scratch, terms) => scratch.display(*bracket, name),
+            Verdict::Undecided if is_nonzero(scratch, terms) => scratch.display(*bracket, name),
             Verdict::Undecided => {
                 undecided.get_or_insert((*i, *bracket));
                 continue;

@@ -36,6 +36,10 @@ pub fn check(graph: &Graph, functions: &[ExprId], dimension: usize) -> Vec<Stand
                 .collect()
         })
         .collect();
+    let all: Vec<&Vec<ExprId>> = gradients.iter().collect();
+    if rank(&scratch, &all) == Some(functions.len()) {
+        return vec![Standing::Independent; functions.len()];
+    }
     let mut kept: Vec<usize> = Vec::new();
     let mut standings = Vec::new();
     for (index, gradient) in gradients.iter().enumerate() {

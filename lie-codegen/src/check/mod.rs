@@ -7,6 +7,7 @@
 mod algebra;
 mod casimirs;
 mod constant;
+mod defaults;
 pub mod domain;
 mod environment;
 mod independence;
@@ -58,9 +59,7 @@ pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Model> {
 
 fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     names::check(declaration, report);
-    if !size::check(declaration, report)
-        && declaration.algebra.basis.is_empty() | (declaration.algebra.basis.len() > MAX_DIMENSION)
-    {
+    if !size::check(declaration, report) {
         return None;
     }
     let algebra = algebra::check(declaration, report);
@@ -82,34 +81,7 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     }
     let (algebra, parameters, initial) = (algebra?, parameters?, initial?);
     let constants = algebra.constants;
-    let defaults: Vec<Rational> = parameters
-        .iter()
-        .map(|p| p.exact.clone().unwrap_or(Rational::ZERO))
-        .collect();
-    if let Some(pole) = constants
-        .entries()
-        .iter()
-        .find(|(.., c)| c.evaluate(&|p| defaults[p].clone()).is_none())
-    {
-        let used = |p: &&crate::model::Parameter| p.exact.is_some();
-        let place = parameters
-            .iter()
-            .find(used)
-            .map_or(declaration.algebra.origin, |p| p.origin);
-        let (a, b) = (
-            &declaration.algebra.basis[pole.0].text,
-            &declaration.algebra.basis[pole.1].text,
-        );
-        report.push(
-            Diagnostic::new(
-                Kind::Number,
-                place,
-                format!("[{a}, {b}] is divided by zero for the default parameters"),
-            )
-            .help("choose another default"),
-        );
-        return None;
-    }
+    let defaults = defaults::check(declaration, &constants, &parameters, report)?;
     // The right-invariant system is the left-invariant one of the opposite algebra.
     let (exact_constants, representation) = match declaration.invariance {
         Invariance::Left => (constants, algebra.representation),
@@ -134,11 +106,12 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         declaration,
         &lowered.into_iter().collect::<Option<Vec<_>>>()?,
     );
+    let mut scratch = graph.clone();
     let mut degrees = Vec::new();
     for candidate in &candidates {
         degrees.push(casimirs::check(
             candidate,
-            &graph,
+            &mut scratch,
             &constants,
             &symbol_name,
             report,

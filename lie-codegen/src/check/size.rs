@@ -6,7 +6,8 @@ use crate::diagnostic::{Diagnostic, Kind, Report};
 /// Kernels are straight-line code; above this dimension no compiler gets through them.
 pub const MAX_DIMENSION: usize = 256;
 
-/// Checks that the basis is neither empty nor beyond every size, and that the state fits it.
+/// Checks that the basis is neither empty nor beyond every size, and that the state fits it;
+/// whether the other checks of the stage make sense.
 pub fn check(declaration: &Declaration, report: &mut Report) -> bool {
     let dimension = declaration.algebra.basis.len();
     let state = declaration.state.len();
@@ -49,7 +50,6 @@ pub fn check(declaration: &Declaration, report: &mut Report) -> bool {
             )
             .help("the state names the coordinates of mu in the dual basis: one for every basis element"),
         );
-        return false;
     }
     true
 }

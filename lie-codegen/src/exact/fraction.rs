@@ -236,6 +236,22 @@ impl Fraction {
         Some(value)
     }
 
+    /// An estimate of the work of [`Fraction::evaluate`] at numbers of so many bits.
+    pub fn evaluation_work(&self, bits: u64) -> u64 {
+        let work = |p: &Polynomial, exponent: u32| {
+            let words =
+                u64::from(p.degree().saturating_mul(exponent)).saturating_mul(bits) / 64 + 1;
+            (p.terms().len() as u64)
+                .saturating_mul(words)
+                .saturating_mul(words)
+        };
+        let below = self
+            .denominator
+            .iter()
+            .map(|(factor, exponent)| work(factor, *exponent));
+        below.fold(work(&self.numerator, 1), u64::saturating_add)
+    }
+
     /// The function as text.
     pub fn display(&self, name: &dyn Fn(usize) -> String) -> String {
         let bracketed = |p: &Polynomial| {

@@ -82,8 +82,9 @@ pub fn solve(rows: &[Vec<Rational>], right: &[Rational]) -> Option<Vec<Rational>
 /// modulo a prime, which is never above the rank, reaches it, nothing else needs to be computed.
 pub fn rank(rows: &[Vec<Rational>], bound: usize) -> usize {
     let integers: Vec<Vec<BigInt>> = rows.iter().map(|row| to_integers(row)).collect();
-    if rank_modulo(&integers) >= bound {
-        bound
+    let modular = rank_modulo(&integers);
+    if modular >= bound {
+        modular
     } else {
         bareiss(integers)
     }

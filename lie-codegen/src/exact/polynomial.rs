@@ -52,6 +52,11 @@ impl Polynomial {
         self.0.iter()
     }
 
+    /// The coefficient of a monomial.
+    pub fn coefficient(&self, monomial: &Monomial) -> Rational {
+        self.0.get(monomial).cloned().unwrap_or(Rational::ZERO)
+    }
+
     /// The total degree, 0 for zero.
     pub fn degree(&self) -> u32 {
         self.0.last_key_value().map_or(0, |(m, _)| m.degree())

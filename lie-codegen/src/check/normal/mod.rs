@@ -10,12 +10,15 @@
 //! are left: then nothing is decided.
 
 mod atoms;
-mod elementary;
+mod exponentials;
+mod logarithms;
+mod primes;
 mod reduce;
+mod roots;
 
 use std::collections::HashMap;
 
-use crate::exact::{Budget, Exhausted, Fraction, Rational};
+use crate::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
 use crate::symbolic::{ExprId, Function, Graph, Node};
 use atoms::Atom;
 
@@ -164,11 +167,21 @@ impl<'a> NormalForm<'a> {
             Node::Pi => Ok(self.atom(Atom::Pi)),
             Node::Symbol(symbol) => Ok(self.atom(Atom::Symbol(*symbol))),
             Node::Sum { constant, terms } => {
-                let mut sum = Fraction::from(constant.clone());
+                // Polynomial terms are collected in place, which matters for long sums.
+                let mut polynomial = Polynomial::constant(constant.clone());
+                let mut sum = Fraction::default();
                 for (term, coefficient) in terms {
-                    sum = sum.add(&self.values[term].scale(coefficient), self.budget)?;
+                    let value = &self.values[term];
+                    if value.denominator().next().is_some() {
+                        sum = sum.add(&value.scale(coefficient), self.budget)?;
+                        continue;
+                    }
+                    self.budget.spend(value.numerator().terms().len() as u64)?;
+                    for (monomial, factor) in value.numerator().terms() {
+                        polynomial.accumulate(monomial.clone(), &(factor * coefficient));
+                    }
                 }
-                Ok(sum)
+                Ok(sum.add(&polynomial.into(), self.budget)?)
             }
             Node::Product(factors) => {
                 let mut product = Fraction::from(Rational::ONE);

@@ -204,6 +204,7 @@ fn right_sides_are_linear() {
     expect(&with("c/0"), &["number at 0"]);
     expect(&with("c/(k - k)"), &["number at (k - k)"]);
     expect(&with("(k + 1)^1001*c"), &["limit at 1001"]);
+    expect(&with("(k^900)^2*c"), &["limit at (k^900)^2*c"]);
 }
 
 #[test]

@@ -88,7 +88,7 @@ fn hostile_input_ends_soon() {
     let huge = r#"["C = (x + y + z + x*y*z)^300*(x - y)^200"]"#;
     assert!(errors(&so3(&[("casimirs", huge)]))[0].starts_with("casimir"));
     assert!(
-        start.elapsed() < Duration::from_secs(60),
+        start.elapsed() < Duration::from_secs(120),
         "{:?}",
         start.elapsed()
     );

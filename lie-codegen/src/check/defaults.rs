@@ -1,0 +1,66 @@
+//! Structure constants at the default values of the exact parameters.
+
+use crate::algebra::StructureConstants;
+use crate::ast::Declaration;
+use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::exact::{Fraction, Rational};
+use crate::model::Parameter;
+
+/// Work that exact evaluation may cost, in products of words.
+const WORK: u64 = 300_000_000;
+
+/// The defaults by parameter (zero for those that are not exact). The constants must be finite
+/// there, because the exact rank at the initial state needs their values.
+pub fn check(
+    declaration: &Declaration,
+    constants: &StructureConstants<Fraction>,
+    parameters: &[Parameter],
+    report: &mut Report,
+) -> Option<Vec<Rational>> {
+    let defaults: Vec<Rational> = parameters
+        .iter()
+        .map(|p| p.exact.clone().unwrap_or(Rational::ZERO))
+        .collect();
+    let place = parameters
+        .iter()
+        .find(|p| p.exact.is_some())
+        .map_or(declaration.algebra.origin, |p| p.origin);
+    let bits = defaults
+        .iter()
+        .map(Rational::bits)
+        .max()
+        .unwrap_or(0)
+        .max(16);
+    let work = constants.entries().iter().fold(0, |sum: u64, e| {
+        sum.saturating_add(e.3.evaluation_work(bits))
+    });
+    if work > WORK {
+        report.push(
+            Diagnostic::new(
+                Kind::Limit,
+                place,
+                "the structure constants are too large to be evaluated exactly",
+            )
+            .help("simplify the brackets, or choose a default with fewer digits"),
+        );
+        return None;
+    }
+    let value = |p: usize| defaults[p].clone();
+    if let Some((i, j, ..)) = constants
+        .entries()
+        .iter()
+        .find(|e| e.3.evaluate(&value).is_none())
+    {
+        let [a, b] = [*i, *j].map(|index| &declaration.algebra.basis[index].text);
+        report.push(
+            Diagnostic::new(
+                Kind::Number,
+                place,
+                format!("[{a}, {b}] is divided by zero for the default parameters"),
+            )
+            .help("choose another default"),
+        );
+        return None;
+    }
+    Some(defaults)
+}
