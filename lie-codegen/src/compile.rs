@@ -71,16 +71,18 @@ pub fn program(model: &Model, choices: &[Choice]) -> String {
     let name = Ident::new(&model.name, Span::call_site());
     let entries = choices.iter().map(|choice| {
         let label = choice.label();
-        let constructor: TokenStream = choice.constructor().parse().unwrap_or_default();
-        quote! { .method(#label, #constructor) }
+        let constructor = choice.constructor();
+        let argument = if *choice == Choice::Dopri5 { quote! { tolerances } } else { quote! { _ } };
+        quote! { .method(#label, |#argument| #constructor) }
     });
     let count = model.parameters.len();
+    let defaults = model.parameters.iter().map(|p| p.default_value);
     let main = quote! {
         #[allow(dead_code)]
         mod system { #system }
 
         fn main() -> ::std::process::ExitCode {
-            ::lie_runtime::program::Program::new(|values: &[f64]| {
+            ::lie_runtime::program::Program::new(&[#(#defaults),*], |values: &[f64]| {
                 let values: &[f64; #count] = values.try_into().unwrap_or(&[f64::NAN; #count]);
                 system::#name::from_values(values).system()
             })

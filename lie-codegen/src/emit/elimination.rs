@@ -5,6 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::names::index;
+
 /// One step of the factorisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
@@ -137,6 +139,28 @@ impl Elimination {
         };
         let body = code.body;
         quote! { #body #(#writes)* #safe }
+    }
+
+    /// The elimination as a table for the runtime.
+    pub fn table_tokens(&self) -> TokenStream {
+        let place: BTreeMap<usize, usize> = self.order.iter().enumerate().map(|(p, k)| (*k, p)).collect();
+        let list = |mut entries: Vec<usize>| {
+            entries.sort_by_key(|k| place[k]);
+            let entries = entries.into_iter().map(index);
+            quote! { &[#(#entries),*] }
+        };
+        let order = self.order.iter().copied().map(index);
+        let below = self.order.iter().map(|&k| {
+            list(self.order.iter().copied().filter(|i| place[i] > place[&k] && self.rows[i].contains(&k)).collect())
+        });
+        let right = self.order.iter().map(|&k| list(self.split(k).1));
+        quote! {
+            ::lie_runtime::__private::StaticElimination {
+                order: &[#(#order),*],
+                below: &[#(#below),*],
+                right: &[#(#right),*],
+            }
+        }
     }
 
     /// The solution written out: the right-hand side is replaced by the solution.

@@ -6,7 +6,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Writer;
-use super::elimination::Elimination;
+use super::elimination::{Elimination, UNROLLED};
 use super::names::{ident, index};
 use super::prepared::{Owner, Prepared, step_name};
 use crate::derive::{Kernel, Shape};
@@ -160,7 +160,9 @@ impl Writer<'_> {
             });
         }
         methods.extend(self.elimination_methods(&elimination));
-        self.equation_struct(form, &step, methods)
+        let table = super::fixed_order::table(&format_ident!("{}{}", self.blueprint.name, form.suffix), &elimination);
+        let equation = self.equation_struct(form, &step, methods);
+        quote! { #equation #table }
     }
 
     /// Residual and Jacobian; entries that only fill in during elimination are cleared.
@@ -198,6 +200,9 @@ impl Writer<'_> {
 
     /// `factor` and `solve` of a sparse matrix of n rows.
     fn elimination_methods(&self, elimination: &Elimination) -> TokenStream {
+        if elimination.multiplications() > UNROLLED {
+            return self.table_methods(elimination);
+        }
         let factor = elimination.factor_tokens(
             &|i, j| place("matrix", i, j),
             &|i, j, value| {
@@ -225,6 +230,25 @@ impl Writer<'_> {
             #[inline]
             fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
                 #solve
+            }
+        }
+    }
+
+    /// The same from an index list, where written out it would be long.
+    fn table_methods(&self, elimination: &Elimination) -> TokenStream {
+        let count = format!(
+            " Sparse elimination from an index list, {} entries of fill-in: {} multiplications with the solution.",
+            elimination.fill.len(),
+            elimination.multiplications()
+        );
+        quote! {
+            #[doc = #count]
+            fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+                Self::ELIMINATION.factor(matrix)
+            }
+
+            fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+                Self::ELIMINATION.solve(factors, residual);
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Writer;
@@ -68,10 +68,13 @@ impl Writer<'_> {
         };
         let methods = self.specialised(&format!("gauss{} elimination", 2 * stages), &elimination, &matrix, &entry);
         let visibility = &self.blueprint.visibility;
+        let table = table(&name, &elimination);
         quote! {
             #[doc = #doc]
             #[derive(Debug)]
             #visibility struct #name<'a, S: ::lie_runtime::Scalar>(#inner);
+
+            #table
 
             impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for #name<'a, S> {
                 type State = <#inner as ::lie_runtime::Equation<S>>::State;
@@ -115,10 +118,13 @@ impl Writer<'_> {
         };
         let methods = self.specialised("lie-midpoint exp elimination", &elimination, &matrix, &entry);
         let visibility = &self.blueprint.visibility;
+        let table = table(&name, &elimination);
         quote! {
             #[doc = " The retraction method with the exponential, elimination specialised to the pattern of the system."]
             #[derive(Debug)]
             #visibility struct #name<'a, S: ::lie_runtime::Scalar>(#inner);
+
+            #table
 
             impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for #name<'a, S> {
                 type State = <#inner as ::lie_runtime::Equation<S>>::State;
@@ -173,7 +179,8 @@ impl Writer<'_> {
         entry: &dyn Fn(usize) -> TokenStream,
     ) -> TokenStream {
         self.counts.push((label.to_string(), Counts { mul: elimination.multiplications(), ..Counts::default() }));
-        let (factor, solve) = if elimination.multiplications() <= UNROLLED {
+        let unrolled = elimination.multiplications() <= UNROLLED;
+        let (factor, solve) = if unrolled {
             let read = |i: usize, j: usize| matrix("matrix", i, j);
             let write = |i: usize, j: usize, value: TokenStream| {
                 let place = matrix("matrix", i, j);
@@ -182,7 +189,7 @@ impl Writer<'_> {
             let factors = |i: usize, j: usize| matrix("factors", i, j);
             (elimination.factor_tokens(&read, &write), elimination.solve_tokens(&factors, entry))
         } else {
-            (quote! { self.0.factor(matrix) }, quote! { self.0.solve(factors, residual); })
+            (quote! { Self::ELIMINATION.factor(matrix) }, quote! { Self::ELIMINATION.solve(factors, residual); })
         };
         let doc = format!(
             " Elimination in a fixed order, {} entries of fill-in: {} multiplications with the solution.",
@@ -229,6 +236,19 @@ impl Writer<'_> {
             fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
                 self.0.result(unknown, mu);
             }
+        }
+    }
+}
+
+/// The index list of an elimination that is not written out.
+pub fn table(name: &Ident, elimination: &Elimination) -> TokenStream {
+    if elimination.multiplications() <= UNROLLED {
+        return TokenStream::new();
+    }
+    let list = elimination.table_tokens();
+    quote! {
+        impl<S: ::lie_runtime::Scalar> #name<'_, S> {
+            const ELIMINATION: ::lie_runtime::__private::StaticElimination = #list;
         }
     }
 }

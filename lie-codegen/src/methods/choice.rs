@@ -1,5 +1,8 @@
 //! A method with its options, as asked for.
 
+use proc_macro2::TokenStream;
+use quote::quote;
+
 use super::table::RESERVED;
 use super::{Availability, CATALOGUE, find};
 use crate::emit::Fused;
@@ -94,16 +97,18 @@ impl Choice {
         }
     }
 
-    /// The value of the method in the runtime, as Rust.
-    pub fn constructor(self) -> &'static str {
+    /// The value of the method in the runtime, as Rust; `tolerances` is in scope.
+    pub fn constructor(self) -> TokenStream {
         match self {
-            Self::Midpoint => "::lie_runtime::ImplicitMidpoint",
-            Self::Gauss(2) => "::lie_runtime::Gauss4",
-            Self::Gauss(_) => "::lie_runtime::Gauss6",
-            Self::LieMidpoint(Retraction::Exp) => "::lie_runtime::LieMidpoint::exp()",
-            Self::LieMidpoint(Retraction::Cayley) => "::lie_runtime::LieMidpoint::cayley()",
-            Self::Rk4 => "::lie_runtime::Rk4",
-            Self::Dopri5 => "::lie_runtime::Dopri5::default()",
+            Self::Midpoint => quote! { ::lie_runtime::methods::ImplicitMidpoint },
+            Self::Gauss(2) => quote! { ::lie_runtime::methods::Gauss4 },
+            Self::Gauss(_) => quote! { ::lie_runtime::methods::Gauss6 },
+            Self::LieMidpoint(Retraction::Exp) => quote! { ::lie_runtime::methods::LieMidpoint::exp() },
+            Self::LieMidpoint(Retraction::Cayley) => quote! { ::lie_runtime::methods::LieMidpoint::cayley() },
+            Self::Rk4 => quote! { ::lie_runtime::methods::Rk4 },
+            Self::Dopri5 => quote! {
+                ::lie_runtime::methods::Dopri5 { rtol: tolerances.rtol, atol: tolerances.atol }
+            },
         }
     }
 }
