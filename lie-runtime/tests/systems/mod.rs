@@ -4,6 +4,7 @@
 pub mod heavy_top;
 pub mod nonpolynomial;
 pub mod rigid_body;
+pub mod saddle;
 
 use lie_runtime::methods::{Method, StepFailure, Stepper};
 use lie_runtime::newton::NewtonOptions;

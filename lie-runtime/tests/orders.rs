@@ -1,0 +1,120 @@
+//! The order of each method, as a slope, and what its constants say.
+
+mod systems;
+
+use lie_runtime::diagnostics::order_of_convergence;
+use lie_runtime::methods::{Facts, Method};
+use lie_runtime::prelude::*;
+use systems::heavy_top::{HeavyTop, START};
+use systems::nonpolynomial::Nonpolynomial;
+use systems::{distance, state, steps};
+
+/// The state of the non-polynomial system at t = 1 from (0.6, -0.5, 0.7), to 34 digits elsewhere.
+const NONPOLYNOMIAL: [f64; 3] = [
+    0.1871418495365681736697,
+    0.0925859464914674306506,
+    1.027816019851953663939,
+];
+/// The state of the heavy top at t = 1.
+const TOP: [f64; 6] = [
+    0.7021242931026849403313,
+    -0.1939703493719286486655,
+    0.8493552060006306627051,
+    0.6478081064813675386447,
+    0.2690475836433315851079,
+    0.7127117614524890603492,
+];
+
+fn slope<P: Poisson<f64>, M: Method<f64, P>>(
+    system: &P,
+    method: &M,
+    start: &[f64],
+    end: &[f64],
+) -> f64 {
+    let end = state(system, end);
+    let points: Vec<(f64, f64)> = [8, 12, 16, 24, 32, 48, 64]
+        .into_iter()
+        .map(|count| {
+            let mut mu = state(system, start);
+            let h = 1.0 / f64::from(count);
+            steps(system, method, h, count, &mut mu).expect("the steps converge");
+            (h, distance(&mu, &end))
+        })
+        .collect();
+    order_of_convergence(&points, 3e-14)
+        .expect("enough points above round-off")
+        .slope
+}
+
+fn check<M>(method: M)
+where
+    M: Method<f64, Nonpolynomial> + Method<f64, HeavyTop> + Facts,
+{
+    let order = f64::from(M::ORDER);
+    let first = slope(&Nonpolynomial, &method, &[0.6, -0.5, 0.7], &NONPOLYNOMIAL);
+    let second = slope(&HeavyTop::default(), &method, &START, &TOP);
+    for slope in [first, second] {
+        assert!(
+            (slope - order).abs() < 0.1,
+            "{}: {first} and {second}",
+            M::ID
+        );
+    }
+}
+
+#[test]
+fn measured_orders_are_the_declared_ones() {
+    check(ImplicitMidpoint);
+    check(Gauss4);
+    check(Gauss6);
+    check(LieMidpoint::exp());
+    check(LieMidpoint::cayley());
+    check(Rk4);
+}
+
+#[test]
+fn the_adaptive_method_follows_its_tolerance() {
+    let error = |rtol: f64| {
+        let system = HeavyTop::<f64>::default();
+        let mut mu = state(&system, &START);
+        steps(
+            &system,
+            &Dopri5 {
+                rtol,
+                atol: rtol * 1e-3,
+            },
+            1.0,
+            1,
+            &mut mu,
+        )
+        .expect("it converges");
+        distance(&mu, &state(&system, &TOP))
+    };
+    for rtol in [1e-4, 1e-6, 1e-8, 1e-10] {
+        let error = error(rtol);
+        assert!(
+            error < 20.0 * rtol && error > 1e-4 * rtol,
+            "rtol {rtol:e}: {error:e}"
+        );
+    }
+}
+
+#[test]
+fn symmetric_methods_undo_themselves() {
+    fn there_and_back<M: Method<f64, HeavyTop>>(method: &M) -> f64 {
+        let system = HeavyTop::<f64>::default();
+        let start = state(&system, &START);
+        let mut mu = start;
+        steps(&system, method, 0.1, 1, &mut mu).expect("the step converges");
+        steps(&system, method, -0.1, 1, &mut mu).expect("the step converges");
+        let distance = distance(&mu, &start);
+        assert_eq!(distance < 1e-15, M::SYMMETRIC, "{}: {distance:e}", M::ID);
+        distance
+    }
+    there_and_back(&ImplicitMidpoint);
+    there_and_back(&Gauss4);
+    there_and_back(&Gauss6);
+    there_and_back(&LieMidpoint::exp());
+    there_and_back(&LieMidpoint::cayley());
+    assert!(there_and_back(&Rk4) > 1e-9);
+}
