@@ -2,11 +2,18 @@
 
 use std::collections::BTreeMap;
 
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::One;
+
 use super::ring::Ring;
 use super::{Scope, StructureConstants};
 use crate::ast::Algebra;
 use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::exact::{Budget, Exhausted, Fraction};
+use crate::exact::{Budget, Exhausted, Fraction, Rational};
+
+/// Longer common denominators cost more than they save.
+const MAX_DENOMINATOR_BITS: u64 = 1024;
 
 /// A triple for which the identity fails.
 #[derive(Clone, Debug)]
@@ -53,10 +60,25 @@ pub fn first_failure(
     constants: &StructureConstants<Fraction>,
     budget: &Budget,
 ) -> Result<Option<Failure>, Exhausted> {
-    match constants.try_map(Fraction::as_constant) {
-        Some(rationals) => search(&rationals, budget),
-        None => search(constants, budget),
+    let Some(rationals) = constants.try_map(Fraction::as_constant) else {
+        return search(constants, budget);
+    };
+    // The identity is homogeneous: with integers no sum needs a common denominator.
+    let mut common = BigInt::one();
+    for (.., value) in rationals.entries() {
+        common = common.lcm(value.to_big().denom());
+        if common.bits() > MAX_DENOMINATOR_BITS {
+            return search(&rationals, budget);
+        }
     }
+    let integers = rationals.map(|value| (value.to_big() * &common).to_integer());
+    let scale = Rational::from_big(BigInt::one(), &common * &common).unwrap_or(Rational::ONE);
+    Ok(search(&integers, budget)?.map(|mut failure| {
+        for (_, value) in &mut failure.residual {
+            *value = value.scale(&scale);
+        }
+        failure
+    }))
 }
 
 fn search<T: Ring>(

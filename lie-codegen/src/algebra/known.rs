@@ -158,6 +158,39 @@ pub(crate) fn su(m: usize) -> Vec<Integers> {
     basis
 }
 
+/// The same span in another basis: each matrix plus small multiples of the later and earlier ones.
+pub(crate) fn mixed(matrices: &[Integers], seed: u64) -> Vec<Integers> {
+    let mut state = seed;
+    let mut draw = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as i64 % 3 - 1
+    };
+    let add = |target: &mut Integers, factor: i64, source: &Integers| {
+        for (row, other) in target.iter_mut().zip(source) {
+            for (entry, value) in row.iter_mut().zip(other) {
+                *entry += factor * value;
+            }
+        }
+    };
+    // Two triangular matrices with ones on the diagonal: the determinant is one.
+    let mut result = matrices.to_vec();
+    for i in 0..result.len() {
+        for j in i + 1..result.len() {
+            let source = result[j].clone();
+            add(&mut result[i], draw(), &source);
+        }
+    }
+    for i in (0..result.len()).rev() {
+        for j in 0..i {
+            let source = result[j].clone();
+            add(&mut result[i], draw(), &source);
+        }
+    }
+    result
+}
+
 /// The adjoint representation: `ad(e_i)_kj = C_ij^k`.
 pub(crate) fn adjoint(
     n: usize,

@@ -1,8 +1,12 @@
 //! What the identities of a Lie algebra need of their coefficients.
 
+use num_bigint::BigInt;
+use num_traits::{One, Zero};
+
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
 
-/// Exact coefficients: rationals where no parameter occurs (fast), rational functions otherwise.
+/// Exact coefficients: integers or rationals where no parameter occurs (fast), rational
+/// functions otherwise.
 pub trait Ring: Clone {
     /// Zero.
     fn zero() -> Self;
@@ -37,6 +41,29 @@ impl Ring for Rational {
     }
     fn to_fraction(&self) -> Fraction {
         self.clone().into()
+    }
+}
+
+impl Ring for BigInt {
+    fn zero() -> Self {
+        Self::ZERO
+    }
+    fn is_zero(&self) -> bool {
+        Zero::is_zero(self)
+    }
+    fn negative(&self) -> Self {
+        -self
+    }
+    fn add_product(&mut self, a: &Self, b: &Self, budget: &Budget) -> Result<(), Exhausted> {
+        let product = a * b;
+        budget.spend(1 + product.bits() / 64)?;
+        *self += product;
+        Ok(())
+    }
+    fn to_fraction(&self) -> Fraction {
+        Rational::from_big(self.clone(), One::one())
+            .unwrap_or(Rational::ZERO)
+            .into()
     }
 }
 

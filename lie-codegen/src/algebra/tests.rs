@@ -227,3 +227,29 @@ fn triple_product_of_so3_is_known() {
     }
     assert_eq!(entries, expected);
 }
+
+#[test]
+fn a_change_of_basis_changes_nothing() {
+    let algebras = [
+        (known::so(4), 4),
+        (known::se3(), 4),
+        (known::gl(3), 6),
+        (known::sp(2), 8),
+        (known::su(3), 6),
+    ];
+    for (seed, (matrices, rank)) in algebras.into_iter().enumerate() {
+        let was_closed = closed(&matrices);
+        let mixed = known::mixed(&matrices, seed as u64 + 2018);
+        let constants = known::from_matrices(&mixed);
+        assert!(constants.entries().len() > 2 * known::from_matrices(&matrices).entries().len());
+        assert!(failure(&constants).is_none());
+        assert_eq!(rank::generic(&constants, mixed.len()), rank);
+        assert_eq!(closed(&mixed), was_closed);
+        // One wrong coefficient, however slightly wrong, violates the identity.
+        let tiny = Rational::from(10).pow(-18).unwrap();
+        for wrong in perturbations(&constants, &tiny).into_iter().step_by(7) {
+            let found = failure(&wrong).expect("the identity must fail");
+            assert!(found.count > 0 && !found.residual.is_empty());
+        }
+    }
+}

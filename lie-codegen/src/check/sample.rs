@@ -50,7 +50,7 @@ impl Sample {
         let bits = self.bits(symbol);
         let unit = (bits >> 11) as f64 / (1u64 << 53) as f64;
         let size = 0.1 * 30f64.powf(unit);
-        if self.seed % 2 == 0 && bits & 1 == 1 {
+        if self.seed.is_multiple_of(2) && bits & 1 == 1 {
             -size
         } else {
             size

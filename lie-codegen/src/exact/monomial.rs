@@ -69,7 +69,8 @@ impl Monomial {
         loop {
             let power = match (a.peek(), b.peek()) {
                 (Some(&&(v, e)), Some(&&(w, f))) if v == w => {
-                    (a.next(), b.next());
+                    a.next();
+                    b.next();
                     (v, e.saturating_add(f))
                 }
                 (Some(&&(v, e)), Some(&&(w, _))) if v < w => {
