@@ -212,7 +212,7 @@ class System:
                         for l, left in rows[a][b].items():
                             for m, right in rows[l][d].items():
                                 total[m] = total.get(m, 0) + left * right
-                    if any(sp.simplify(v) != 0 for v in total.values()):
+                    if not all(vanishes(v) for v in total.values()):
                         return False
         return True
 
@@ -243,7 +243,11 @@ class System:
     def is_casimir(self, function):
         """Whether {C, x_i} = 0 for every coordinate."""
         gradient = sp.Matrix([sp.diff(function, x) for x in self.coordinates])
-        return all(sp.simplify(v) == 0 for v in self.poisson() * gradient)
+        return all(vanishes(v) for v in self.poisson() * gradient)
+
+
+def vanishes(expression):
+    return sp.expand(expression) == 0 or sp.simplify(expression) == 0
 
 
 def commutators(matrices):

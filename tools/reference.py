@@ -200,10 +200,15 @@ class Doubles:
         def both(t, y):
             return np.concatenate([self.field(y[:n]), (self.jacobian(y[:n]) @ y[n:].reshape(n, n)).ravel()])
 
+        def escapes(t, y):
+            # A solution that goes to infinity in finite time would keep the integrator busy for ever.
+            return 1e4 - np.abs(y).max()
+
+        escapes.terminal = True
         start = np.concatenate([self.initial, np.eye(n).ravel()])
         result = solve_ivp(both, (0, end), start, method="DOP853", t_eval=np.linspace(0, end, samples + 1),
-                           rtol=1e-9, atol=1e-12)
-        if not result.success or not np.all(np.isfinite(result.y)):
+                           rtol=1e-9, atol=1e-12, events=escapes)
+        if result.status != 0 or not np.all(np.isfinite(result.y)):
             return math.inf, math.inf
         maps = [column[n:].reshape(n, n) for column in result.y.T]
         worst = 0.0
