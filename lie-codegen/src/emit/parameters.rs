@@ -101,10 +101,11 @@ impl Writer<'_> {
             checks.extend(quote! { (#name, #parameter, #text), });
             names.push(name);
         }
+        let check = (!checks.is_empty()).then(|| quote! { ::lie_runtime::__private::all_finite(&[#checks])?; });
         quote! {
             #statements
             #lets
-            ::lie_runtime::__private::all_finite(&[#checks])?;
+            #check
             ::core::result::Result::Ok(#system { _parameters: ::core::clone::Clone::clone(self), #(#names),* })
         }
     }
