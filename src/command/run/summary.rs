@@ -56,9 +56,9 @@ impl Drift {
         let negligible = 1e-12 * self.scale.min(self.scale * self.scale);
         let one = |((name, first), largest): ((&String, &f64), &f64)| {
             if first.abs() > negligible {
-                format!("{name} {:.1e}", largest / first.abs())
+                format!("{name} {}", short(largest / first.abs()))
             } else {
-                format!("{name} {largest:.1e} (absolute)")
+                format!("{name} {} (absolute)", short(*largest))
             }
         };
         let all = self
@@ -68,6 +68,14 @@ impl Drift {
             .zip(&self.largest)
             .map(one);
         all.collect::<Vec<_>>().join(", ")
+    }
+}
+
+fn short(error: f64) -> String {
+    if error == 0.0 {
+        "0".to_owned()
+    } else {
+        format!("{error:.1e}")
     }
 }
 

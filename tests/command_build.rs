@@ -1,0 +1,242 @@
+//! How `lie run` builds: once, offline first, safely beside others, and what it says if it cannot.
+#![cfg(unix)]
+
+mod common;
+
+use std::os::unix::fs::PermissionsExt as _;
+use std::path::{Path, PathBuf};
+
+use common::{Run, command, folder, lie, spec};
+
+const FLAGS: [&str; 6] = ["--method", "rk4", "--step", "0.1", "--until", "0.2"];
+
+fn run(path: &Path, environment: &[(&str, &Path)]) -> Run {
+    let mut command = command(["run".as_ref(), path.as_os_str()]);
+    command.args(FLAGS).envs(environment.iter().copied());
+    command.output().expect("lie starts").into()
+}
+
+/// A program that stands in for cargo.
+fn script(folder: &Path, text: &str) -> PathBuf {
+    let path = folder.join("cargo");
+    std::fs::write(&path, format!("#!/bin/sh\n{text}\n")).expect("the script is written");
+    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).expect("it may run");
+    path
+}
+
+#[test]
+fn the_second_run_needs_no_cargo() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["name"] = format!("Once{}", std::process::id()).into()
+    });
+    let first = run(&path, &[]).ok();
+    assert!(
+        first.stderr.contains("Building the program of Once"),
+        "{}",
+        first.stderr
+    );
+    let broken = script(folder.path(), "exit 1");
+    let second = run(&path, &[("CARGO", &broken)]).ok();
+    assert!(!second.stderr.contains("Building"), "{}", second.stderr);
+    assert_eq!(first.stdout, second.stdout);
+    // Another source is another program.
+    let other = spec(folder.path(), |spec| {
+        spec["name"] = format!("Twice{}", std::process::id()).into()
+    });
+    assert_eq!(run(&other, &[("CARGO", &broken)]).code, Some(1));
+}
+
+#[test]
+fn no_cargo_and_no_compiler() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| spec["name"] = "Nobody".into());
+    let out = folder.path().join("out.csv");
+    let nothing = Path::new("/nonexistent/tool");
+    for variable in ["CARGO", "RUSTC"] {
+        let mut call = command([
+            "run".as_ref(),
+            path.as_os_str(),
+            "--out".as_ref(),
+            out.as_os_str(),
+        ]);
+        call.env(variable, nothing)
+            .env("LIE_CACHE_DIR", folder.path().join("cache"));
+        let run: Run = call.output().expect("lie starts").into();
+        assert_eq!(run.code, Some(1), "{}", run.stderr);
+        assert!(run.stderr.contains("error[toolchain]: "), "{}", run.stderr);
+        assert!(
+            run.stderr.contains("\nhelp: ") && run.stderr.contains("rustup.rs"),
+            "{}",
+            run.stderr
+        );
+        assert!(!out.exists(), "nothing was run, nothing is left");
+    }
+}
+
+#[test]
+fn offline_first_then_the_network_then_advice() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| spec["name"] = "Remote".into());
+    let log = folder.path().join("log");
+    let text = format!(
+        "echo \"$@\" >> {0}\necho \"flags=$CARGO_ENCODED_RUSTFLAGS target=$CARGO_TARGET_DIR\" >> {0}\n\
+         echo 'error: no matching package named `nalgebra` found' >&2\nexit 101",
+        log.display()
+    );
+    let cargo = script(folder.path(), &text);
+    let cache = folder.path().join("cache with blanks");
+    let foreign = Path::new("/foreign");
+    let environment = [
+        ("CARGO", cargo.as_path()),
+        ("LIE_CACHE_DIR", cache.as_path()),
+        ("CARGO_TARGET_DIR", foreign),
+        ("RUSTFLAGS", Path::new("-Cforeign")),
+        ("CARGO_ENCODED_RUSTFLAGS", Path::new("-Cforeign")),
+    ];
+    let run = run(&path, &environment);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("once more with the network"),
+        "{}",
+        run.stderr
+    );
+    assert!(
+        run.stderr.contains("error[toolchain]: cargo failed"),
+        "{}",
+        run.stderr
+    );
+    assert!(
+        run.stderr.contains("no matching package named `nalgebra`"),
+        "{}",
+        run.stderr
+    );
+    assert!(
+        run.stderr
+            .contains("`cargo fetch --locked --manifest-path "),
+        "{}",
+        run.stderr
+    );
+    let log = std::fs::read_to_string(log).expect("cargo was called");
+    let calls: Vec<&str> = log
+        .lines()
+        .filter(|line| line.starts_with("build "))
+        .collect();
+    assert_eq!(calls.len(), 2, "{log}");
+    assert!(
+        calls.iter().all(|call| call.contains("--release --locked")),
+        "{log}"
+    );
+    assert!(
+        calls[0].contains("--offline") && !calls[1].contains("--offline"),
+        "{log}"
+    );
+    assert!(
+        !log.contains("foreign"),
+        "the caller's flags stay outside: {log}"
+    );
+}
+
+#[test]
+fn a_program_that_does_not_compile_is_not_tried_twice() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| spec["name"] = "Broken".into());
+    let log = folder.path().join("log");
+    let text = format!(
+        "echo called >> {}\necho 'error: could not compile `x`' >&2\nexit 101",
+        log.display()
+    );
+    let cargo = script(folder.path(), &text);
+    let run = run(
+        &path,
+        &[
+            ("CARGO", &cargo),
+            ("LIE_CACHE_DIR", &folder.path().join("cache")),
+        ],
+    );
+    assert_eq!(run.code, Some(1));
+    assert!(run.stderr.contains("error[toolchain]"), "{}", run.stderr);
+    assert_eq!(
+        std::fs::read_to_string(log)
+            .expect("cargo was called")
+            .lines()
+            .count(),
+        1
+    );
+}
+
+#[test]
+fn two_runs_at_once() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["name"] = format!("Pair{}", std::process::id()).into()
+    });
+    let runs: Vec<Run> = std::thread::scope(|scope| {
+        let both: Vec<_> = (0..2).map(|_| scope.spawn(|| run(&path, &[]))).collect();
+        both.into_iter()
+            .map(|one| one.join().expect("no panic").ok())
+            .collect()
+    });
+    assert_eq!(runs[0].stdout, runs[1].stdout);
+    let built = runs
+        .iter()
+        .filter(|run| run.stderr.contains("Built in"))
+        .count();
+    assert_eq!(built, 1, "one waits for the other: {runs:?}");
+}
+
+#[test]
+fn a_cache_that_cannot_be_used() {
+    let folder = folder();
+    let path = spec(folder.path(), |_| ());
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").expect("the file is written");
+    let run = run(&path, &[("LIE_CACHE_DIR", &file.join("cache"))]);
+    assert_eq!(run.code, Some(1));
+    assert!(run.says("io", "").stderr.contains("LIE_CACHE_DIR"));
+}
+
+#[test]
+fn the_lock_file_has_the_versions_of_the_workspace() {
+    let packages = |path: &str| -> Vec<(String, String)> {
+        let text = std::fs::read_to_string(path).expect("the lock file is there");
+        let value = |block: &str, key: &str| {
+            let line = block
+                .lines()
+                .find_map(|line| line.strip_prefix(key)?.strip_prefix(" = \""));
+            line.map(|value| value.trim_end_matches('"').to_owned())
+                .unwrap_or_default()
+        };
+        let blocks = text.split("[[package]]").skip(1);
+        blocks
+            .map(|block| (value(block, "name"), value(block, "version")))
+            .collect()
+    };
+    let workspace = packages("Cargo.lock");
+    let template = packages("src/build/template/Cargo.lock");
+    assert!(
+        template.iter().any(|(name, _)| name == "nalgebra"),
+        "it lists something"
+    );
+    for package in template.iter().filter(|(name, _)| name != "lie-program") {
+        assert!(
+            workspace.contains(package),
+            "{package:?}: run with LIE_UPDATE_LOCK=1"
+        );
+    }
+}
+
+#[test]
+fn ordinary_runs_leave_no_drafts_behind() {
+    lie("run specs/so3_free_rigid_body.json --quiet --method rk4 --step 0.1 --until 0.2").ok();
+    for folder in ["", "runtime"] {
+        for entry in std::fs::read_dir(common::cache().join(folder))
+            .into_iter()
+            .flatten()
+            .flatten()
+        {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            assert!(!name.starts_with(".tmp"), "{name}");
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! `lie check` and `lie expand` on sound and on broken specs.
+
+mod common;
+
+use common::{folder, lie, spec};
+
+#[test]
+fn the_specs_of_the_repository_are_sound() {
+    let run = lie("check specs/se3_heavy_top.json specs/so4_manakov.json").ok();
+    for text in [
+        "HeavyTop",
+        "dimension 6, generic rank 4",
+        "length2 = ",
+        "vector_field",
+        "gauss6",
+    ] {
+        assert!(run.stdout.contains(text), "{text}: {}", run.stdout);
+    }
+}
+
+#[test]
+fn json_has_the_agreed_fields() {
+    let one: serde_json::Value =
+        serde_json::from_str(&lie("check specs/se3_heavy_top.json --json").ok().stdout)
+            .expect("JSON");
+    assert_eq!(one["name"], "HeavyTop");
+    assert_eq!(
+        (
+            &one["dimension"],
+            &one["generic_rank"],
+            &one["initial_rank"],
+            &one["independent_casimirs"]
+        ),
+        (&6.into(), &4.into(), &4.into(), &2.into())
+    );
+    assert_eq!(one["casimirs"][0]["name"], "length2");
+    assert_eq!(one["casimirs"][0]["kind"], "declared");
+    assert_eq!(one["casimirs"][0]["degree"], 2);
+    assert!(one["class"].is_null() && one["splitting"].is_null());
+    assert!(one["methods"]["midpoint"].is_null());
+    assert!(one["methods"]["gonzalez"].is_string());
+    assert_eq!(one["operations"]["vector_field"]["mul"], 21);
+    assert_eq!(one["operations"]["vector_field"]["add"], 9);
+    let several = lie("check specs/se3_heavy_top.json specs/sl2_quadratic.json --json")
+        .ok()
+        .stdout;
+    let several: serde_json::Value = serde_json::from_str(&several).expect("JSON");
+    assert_eq!(several.as_array().map(Vec::len), Some(2));
+    assert_eq!(several[0], one);
+}
+
+#[test]
+fn mistakes_are_reported_at_their_place() {
+    let folder = folder();
+    let place = |path: &std::path::Path, what: &str| {
+        let text = std::fs::read_to_string(path).expect("the spec is there");
+        let line = text
+            .lines()
+            .position(|line| line.contains(what))
+            .expect("the text is there");
+        let column = text
+            .lines()
+            .nth(line)
+            .and_then(|line| line.find(what))
+            .unwrap_or(0);
+        format!("{}:{}:{}", path.display(), line + 1, column + 1)
+    };
+    let path = spec(folder.path(), |spec| {
+        spec["hamiltonian"] = "x^2 + qq*y".into()
+    });
+    lie(&format!("check {}", path.display())).error("unknown-symbol", &place(&path, "qq"));
+    let path = spec(folder.path(), |spec| {
+        spec["casimirs"] = serde_json::json!(["C = x^2 + y^2"])
+    });
+    let run = lie(&format!("check {}", path.display()));
+    run.error("casimir", &place(&path, "x^2 + y^2\""));
+    // Every spec is looked at, and what is sound is reported.
+    let run = lie(&format!(
+        "check {} specs/sl2_quadratic.json",
+        path.display()
+    ));
+    assert_eq!(run.code, Some(2));
+    assert!(run.stdout.contains("dimension 3"), "{}", run.stdout);
+}
+
+#[test]
+fn files_that_are_none() {
+    let folder = folder();
+    let run = lie("check specs/nowhere.json");
+    assert_eq!(run.code, Some(1));
+    run.says("io", "specs/nowhere.json");
+    assert_eq!(
+        lie(&format!("check {}", folder.path().display())).code,
+        Some(1)
+    );
+    for content in [
+        &b""[..],
+        b"{",
+        b"[]",
+        b"\xff\xfe{}",
+        b"{\"name\": \"\xff\"}",
+        b"\n\n\t",
+        b"\xef\xbb\xbf{",
+    ] {
+        let path = folder.path().join("broken.json");
+        std::fs::write(&path, content).expect("the file is written");
+        let run = lie(&format!("check {}", path.display()));
+        run.error("schema", &format!("{}:", path.display()));
+    }
+}
+
+#[test]
+fn expand_prints_rust_with_fused_code_on_demand() {
+    let plain = lie("expand specs/so3_free_rigid_body.json").ok().stdout;
+    assert!(plain.contains("pub struct FreeRigidBody"), "{plain}");
+    let fused = lie("expand specs/so3_free_rigid_body.json --method gauss4 --method midpoint")
+        .ok()
+        .stdout;
+    assert!(fused.len() > plain.len() || fused.contains("GaussEquations"));
+    assert_eq!(
+        fused,
+        lie("expand specs/so3_free_rigid_body.json --method gauss4 --method midpoint").stdout
+    );
+    lie("expand specs/so3_free_rigid_body.json --method gaus4")
+        .error("method", "command line: --method");
+    lie("expand specs/so3_free_rigid_body.json --method cf4")
+        .error("method", "command line: --method");
+}

@@ -1,0 +1,269 @@
+//! `lie run` from the spec to the rows: it generates, compiles and runs.
+
+mod common;
+
+use std::path::Path;
+
+use common::{csv, folder, lie, spec};
+
+const BODY: &str = "run specs/so3_free_rigid_body.json --quiet";
+
+#[test]
+fn rows_on_the_grid() {
+    let run = lie(&format!(
+        "{BODY} --method midpoint --step 0.1 --until 1 --every 3"
+    ))
+    .ok();
+    assert!(run.stderr.is_empty(), "{}", run.stderr);
+    let (header, rows) = run.csv();
+    assert_eq!(header, ["t", "x", "y", "z", "energy", "norm2"]);
+    let times: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    // By multiplication, not by addition; then the last one.
+    assert_eq!(times, [0.0, 3.0 * 0.1, 6.0 * 0.1, 9.0 * 0.1, 1.0]);
+    let first = &rows[0];
+    assert_eq!(first[1..4], [1.1f64.cos(), 0.0, 1.1f64.sin()].map(|x| x));
+    for row in &rows {
+        assert!(
+            (row[5] - first[5]).abs() < 1e-14,
+            "the midpoint rule keeps quadratic Casimirs"
+        );
+    }
+}
+
+#[test]
+fn times_off_the_grid_take_one_shorter_step() {
+    let all = lie(&format!("{BODY} --method gauss4 --step 1/10 --until 0.25"))
+        .ok()
+        .csv()
+        .1;
+    assert_eq!(
+        all.iter().map(|row| row[0]).collect::<Vec<_>>(),
+        [0.0, 0.1, 0.2, 0.25]
+    );
+    let run = lie(&format!(
+        "{BODY} --method gauss4 --step 1/10 --at 0.25,0,1/7,0.2,0.2"
+    ))
+    .ok();
+    let some = run.csv().1;
+    assert_eq!(
+        some.iter().map(|row| row[0]).collect::<Vec<_>>(),
+        [0.0, 1.0 / 7.0, 0.2, 0.2, 0.25]
+    );
+    assert_eq!((&some[0], &some[2], &some[4]), (&all[0], &all[2], &all[3]));
+    let only = lie(&format!("{BODY} --method gauss4 --step 1/10 --at 0.25"))
+        .ok()
+        .csv()
+        .1;
+    assert_eq!(
+        only,
+        [all[3].clone()],
+        "the row of t = 0 is not written unless it is asked for"
+    );
+}
+
+#[test]
+fn backwards_in_time() {
+    let there = lie(&format!("{BODY} --method lie-midpoint --step 0.1 --at 1"))
+        .ok()
+        .csv()
+        .1;
+    let state = there[0][1..4]
+        .iter()
+        .map(f64::to_string)
+        .collect::<Vec<_>>()
+        .join(",");
+    let back = lie(&format!(
+        "{BODY} --method lie-midpoint --step -0.1 --until -1 --initial {state}"
+    ));
+    let rows = back.ok().csv().1;
+    let start = [1.1f64.cos(), 0.0, 1.1f64.sin()];
+    let last = rows.last().map(|row| row[..4].to_vec()).unwrap_or_default();
+    assert_eq!(last[0], -1.0);
+    for (found, expected) in last[1..].iter().zip(start) {
+        assert!(
+            (found - expected).abs() < 1e-13,
+            "a symmetric method returns: {last:?}"
+        );
+    }
+    let folder = folder();
+    let path = spec(folder.path(), |_| ());
+    let call = format!("run {} --quiet --method rk4 --at -1,-0.5", path.display());
+    let free = lie(&call).ok().csv().1;
+    assert_eq!(
+        free.iter().map(|row| row[0]).collect::<Vec<_>>(),
+        [-0.5, -1.0],
+        "the default step follows the end"
+    );
+}
+
+#[test]
+fn parameters_and_initial_state() {
+    let run = lie(&format!(
+        "{BODY} --method rk4 --step 0.1 --until 0 --param I1=1/2 --initial 1,2,-1/3"
+    ));
+    let (_, rows) = run.ok().csv();
+    let energy = 1.0 / 1.0 + 4.0 / 2.0 + (1.0 / 9.0) / (2.0 * 2.0 / 3.0);
+    assert_eq!(rows.len(), 1);
+    assert_eq!(rows[0][1..4], [1.0, 2.0, -1.0 / 3.0]);
+    assert!((rows[0][4] - energy).abs() < 1e-15, "{rows:?}");
+}
+
+#[test]
+fn the_spec_has_the_defaults_and_flags_win() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["run"] = serde_json::json!({ "method": "dopri5", "step": "1/4", "until": 1, "rtol": 1e-11, "atol": 1e-12 });
+    });
+    let call = |flags: &str| lie(&format!("run {} {flags}", path.display())).ok();
+    let run = call("");
+    assert_eq!(run.csv().1.len(), 5);
+    assert!(
+        run.stderr.contains("Body, dopri5, step 1/4: "),
+        "{}",
+        run.stderr
+    );
+    let fine = run.csv().1[4][1];
+    let coarse = call("--rtol 1e-3 --atol 1e-3 --quiet").csv().1[4][1];
+    let exact = call("--method gauss6 --step 0.001 --every 1000 --quiet")
+        .csv()
+        .1[1][1];
+    assert!((fine - exact).abs() < 1e-10, "{fine} {exact}");
+    assert!(
+        (coarse - exact).abs() > 1e-10,
+        "tolerances arrive: {coarse} {exact}"
+    );
+    assert_eq!(call("--at 0.5 --quiet").csv().1.len(), 1);
+}
+
+#[test]
+fn the_form_of_the_output() {
+    let folder = folder();
+    let out = |name: &str| folder.path().join(name);
+    let base = format!("{BODY} --method midpoint --step 0.1 --until 1");
+    let rows = lie(&base).ok().csv();
+    let to = |name: &str, flags: &str| {
+        let run = lie(&format!("{base} --out {} {flags}", out(name).display())).ok();
+        assert!(run.stdout.is_empty() && run.stderr.is_empty());
+        std::fs::read(out(name)).expect("the file is there")
+    };
+    assert_eq!(csv(&String::from_utf8_lossy(&to("a.csv", ""))), rows);
+    let json: serde_json::Value = serde_json::from_slice(&to("a.json", "")).expect("JSON");
+    assert_eq!(json["columns"].as_array().map(Vec::len), Some(6));
+    let last = json["rows"][10][1].as_f64().unwrap_or(f64::NAN);
+    assert!((last - rows.1[10][1]).abs() < 1e-15);
+    assert_eq!(json["status"], "done");
+    let npy = to("a.npy", "");
+    assert!(npy.starts_with(b"\x93NUMPY") && String::from_utf8_lossy(&npy).contains("(11, 6)"));
+    assert_eq!(npy.len(), 128 + 11 * 6 * 8);
+    // The same through a pipe, where nothing can be rewound.
+    let piped = common::command(base.split(' ').chain(["--format", "npy"]))
+        .output()
+        .expect("lie starts");
+    assert_eq!(piped.stdout, npy);
+    assert_eq!(to("b.txt", "--format json"), to("a.json", ""));
+}
+
+#[test]
+fn a_picture() {
+    let folder = folder();
+    let path = folder.path().join("a.svg");
+    let flags = format!(
+        "--method lie-midpoint --step 0.01 --until 50 --out /dev/null --plot {}",
+        path.display()
+    );
+    lie(&format!("run specs/se3_heavy_top.json --quiet {flags}")).ok();
+    let svg = std::fs::read_to_string(path).expect("the picture is there");
+    for text in [
+        "HeavyTop",
+        "lie-midpoint, h = 0.01",
+        "m1",
+        "g3",
+        "vertical_momentum",
+        "energy",
+    ] {
+        assert!(svg.contains(text), "{text}");
+    }
+    assert!(svg.len() < 500_000);
+}
+
+#[test]
+fn an_integration_that_stops_keeps_its_rows() {
+    let folder = folder();
+    let out = folder.path().join("rows.csv");
+    // H = log(z) drives z to 0, where nothing is left to integrate.
+    let path = spec(folder.path(), |spec| {
+        spec["hamiltonian"] = "x^4*y^3*50 + exp(20*x*z)".into();
+        spec["initial"] = serde_json::json!([1, 1, 1]);
+    });
+    let run = lie(&format!(
+        "run {} --method midpoint --step 0.5 --until 500 --out {}",
+        path.display(),
+        out.display()
+    ));
+    assert_eq!(run.code, Some(3), "{}", run.stderr);
+    assert!(
+        run.stderr
+            .contains("error: the integration stopped in step "),
+        "{}",
+        run.stderr
+    );
+    assert!(
+        run.stderr.contains(" at t = ") && run.stderr.contains("help: "),
+        "{}",
+        run.stderr
+    );
+    let (header, rows) = csv(&std::fs::read_to_string(out).expect("the rows are there"));
+    assert!(!rows.is_empty() && rows.iter().all(|row| row.len() == header.len()));
+}
+
+#[test]
+fn the_processor_of_this_machine_gives_the_same_bits() {
+    let flags = "--method gauss4 --step 0.05 --until 2";
+    let portable = lie(&format!("{BODY} {flags}")).ok().stdout;
+    let native = lie(&format!("{BODY} {flags} --cpu native")).ok().stdout;
+    assert_eq!(portable, native);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn files_that_cannot_be_written() {
+    let base = format!("{BODY} --method midpoint --step 0.01 --until 100");
+    let run = lie(&format!("{base} --out /nowhere/a.csv"));
+    assert_eq!(run.code, Some(1));
+    run.says("io", "/nowhere/a.csv");
+    let run = lie(&format!("{base} --plot /nowhere/a.svg"));
+    assert_eq!(run.code, Some(1));
+    run.says("io", "/nowhere/a.svg");
+    let run = lie(&format!("{base} --out /dev/full"));
+    assert_eq!(run.code, Some(1));
+    assert!(run.says("io", "/dev/full").stderr.contains("No space left"));
+}
+
+#[test]
+fn the_first_row_of_every_spec_is_its_initial_state() {
+    for entry in std::fs::read_dir("specs")
+        .expect("the specs are there")
+        .flatten()
+    {
+        let path = entry.path();
+        let name = path.to_string_lossy().into_owned();
+        if name.ends_with("schema.json") || path.extension() != Some("json".as_ref()) {
+            continue;
+        }
+        let (header, rows) = lie(&format!(
+            "run {name} --quiet --method rk4 --step 0.01 --until 0.1"
+        ))
+        .ok()
+        .csv();
+        assert_eq!(rows.len(), 11, "{name}");
+        let energy = header
+            .iter()
+            .position(|column| column == "energy")
+            .unwrap_or(0);
+        assert!(
+            (rows[10][energy] - rows[0][energy]).abs() < 1e-7,
+            "{name}: {rows:?}"
+        );
+    }
+    assert!(Path::new("specs").is_dir());
+}
