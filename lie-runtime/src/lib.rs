@@ -1,4 +1,56 @@
 //! Runtime of lie-poisson: Newton's method, Lie–Poisson integrators, drivers and diagnostics.
+//!
+//! # Convention
+//!
+//! Left-invariant, the same in every crate of the project. On a Lie algebra with basis `$e_1, …, e_n$`
+//! and its dual, with the Hamiltonian `$H$`:
+//!
+//! ```math
+//! [e_i, e_j] = \sum_k C_{ij}^k\, e_k, \qquad
+//! \langle \mathrm{ad}^*_\xi \mu, \eta \rangle = \langle \mu, [\xi, \eta] \rangle, \qquad
+//! \Pi(\mu)_{ij} = \{\mu_i, \mu_j\} = -\sum_k C_{ij}^k\, \mu_k
+//! ```
+//!
+//! ```math
+//! \dot\mu = f(\mu) = \mathrm{ad}^*_{\nabla H(\mu)} \mu = \Pi(\mu)\, \nabla H(\mu), \qquad
+//! \dot\mu_j = \sum_{i,k} C_{ij}^k\, \frac{\partial H}{\partial \mu_i}\, \mu_k
+//! ```
+//!
+//! For so(3) this is `$\dot\mu = \mu \times \nabla H(\mu)$`; on the group, `$\dot g = g\, \nabla H(\mu)$`. A
+//! right-invariant system is declared as such and is the same with `$-C$` in the place of `$C$`.
+//!
+//! Functions `$C$` with `$\Pi\, \nabla C = 0$` are Casimirs: the flow keeps them whatever the Hamiltonian is.
+//!
+//! # From a declaration to a trajectory
+//!
+//! The macro `lie_poisson!` (feature `macros`) makes a type with the parameters; its `system()` implements
+//! [`Poisson`], [`LiePoisson`] and the hooks for [`methods`]. A [`driver::Problem`], a method and
+//! [`driver::Options`] go to [`driver::solve`] (feature `std`).
+#![cfg_attr(
+    feature = "macros",
+    doc = r#"
+```
+use lie_runtime::prelude::*;
+
+lie_poisson! {
+    pub system RigidBody;
+    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    state x, y, z;
+    parameters { I1 = 2.0; I2 = 1.0; I3 = 2/3; }
+    hamiltonian = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3);
+    casimir C = x^2 + y^2 + z^2;
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let problem = Problem::new(RigidBody::new().system()?, [0.9, 0.3, 0.4], (0.0, 10.0));
+    let solution = solve(&problem, LieMidpoint::exp(), &Options::new(0.1).save(Save::Ends))?;
+    println!("{:?}", solution.last());
+    Ok(())
+}
+```
+"#
+)]
+#![cfg_attr(doc, doc = include_str!("../docs/katex.html"))]
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

@@ -66,7 +66,7 @@ const ERROR: [(f64, f64); 7] = [
     (-1.0, 40.0),
 ];
 
-/// The adaptive method of Dormand and Prince, order 5; see the module's text.
+/// The adaptive method of Dormand and Prince, order 5; see the [module's text](self).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dopri5 {
     /// Relative tolerance per step.

@@ -60,10 +60,10 @@ macro_rules! gauss {
 }
 
 gauss!(
-    /// Gauss collocation with two stages, order 4; see the module's text.
+    /// Gauss collocation with two stages, order 4; see the [module's text](self).
     Gauss4, 2, "gauss4"
 );
 gauss!(
-    /// Gauss collocation with three stages, order 6; see the module's text.
+    /// Gauss collocation with three stages, order 6; see the [module's text](self).
     Gauss6, 3, "gauss6"
 );

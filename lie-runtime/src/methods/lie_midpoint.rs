@@ -35,7 +35,7 @@ pub struct Exp;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cayley;
 
-/// The Lie–Poisson midpoint method, order 2; see the module's text.
+/// The Lie–Poisson midpoint method, order 2; see the [module's text](self).
 ///
 /// Made by [`LieMidpoint::exp`] or [`LieMidpoint::cayley`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -20,7 +20,7 @@ use crate::equation::MidpointEquations;
 use crate::newton::NewtonOptions;
 use crate::scalar::Scalar;
 
-/// The implicit (Poisson) midpoint rule, order 2; see the module's text.
+/// The implicit (Poisson) midpoint rule, order 2; see the [module's text](self).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ImplicitMidpoint;
 

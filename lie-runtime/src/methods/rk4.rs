@@ -16,7 +16,7 @@ use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
 
-/// The classical explicit Runge–Kutta method, order 4; see the module's text.
+/// The classical explicit Runge–Kutta method, order 4; see the [module's text](self).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rk4;
 
