@@ -11,7 +11,7 @@ use systems::nonpolynomial::Nonpolynomial;
 
 /// A million steps where the build is optimized, fewer where it is not.
 const STEPS: u32 = if cfg!(debug_assertions) {
-    20_000
+    200_000
 } else {
     1_000_000
 };

@@ -2,7 +2,8 @@
 
 use super::options::{OptionError, Save};
 
-/// `T/h` within this distance of an integer is that integer.
+/// `T/h` within this distance of an integer is that integer. Where f64 does not resolve as much,
+/// beyond some millions of steps, two units of round-off count instead.
 const TOLERANCE: f64 = 1e-9;
 /// Beyond this, counts are no longer exact in f64.
 const MAX_STEPS: f64 = 9_007_199_254_740_992.0;
@@ -88,7 +89,8 @@ impl Grid {
     pub fn locate(&self, time: f64) -> Place {
         let count = (time - self.start) / self.step;
         let nearest = count.round();
-        if (count - nearest).abs() <= TOLERANCE || count < 0.0 {
+        let slack = TOLERANCE.max(2.0 * f64::EPSILON * nearest);
+        if (count - nearest).abs() <= slack || count < 0.0 {
             return Place::On(nearest.max(0.0) as u64);
         }
         let before = count.floor() as u64;
@@ -103,7 +105,8 @@ impl Grid {
             Save::Ends => Kind::Every(u64::MAX),
             Save::Interval(interval) => {
                 let ratio = interval / self.step;
-                if !(ratio.is_finite() && ratio > 0.0) {
+                let rows = (self.end - self.start) / interval;
+                if !(ratio.is_finite() && ratio > 0.0 && rows < MAX_STEPS) {
                     return Err(OptionError::Interval);
                 }
                 Kind::Interval(*interval)
@@ -244,6 +247,10 @@ mod tests {
         let grid = Grid::new((0.0, 1.0 + 1.1e-10), 0.1).unwrap();
         assert!(matches!(grid.end_place, Place::After(10, rest) if (rest - 1.1e-10).abs() < 1e-15));
         assert_eq!(Grid::new((0.0, 0.0), 0.1).unwrap().steps(), 0);
+        for end in [12_345_678.9, 98_765_432.1, 4_096_000.3] {
+            let place = Grid::new((0.0, end), 0.1).unwrap().end_place;
+            assert!(matches!(place, Place::On(_)), "{place:?}");
+        }
     }
 
     #[test]
@@ -337,6 +344,10 @@ mod tests {
         );
         assert_eq!(
             grid.rows(&Save::Interval(-0.1)).unwrap_err(),
+            OptionError::Interval
+        );
+        assert_eq!(
+            grid.rows(&Save::Interval(1e-300)).unwrap_err(),
             OptionError::Interval
         );
     }

@@ -62,10 +62,10 @@ fn sum<S: Scalar, P: LiePoisson<S>>(
     mut keep: impl FnMut(usize, &P::State),
 ) -> Outcome<S> {
     scratch.term.copy_from(mu);
-    scratch.sum.copy_from(mu);
+    scratch.sum.fill(S::zero());
     keep(0, &scratch.term);
-    let unchanging = S::epsilon() * S::ratio(1.0, 8.0);
     let mut peak = mu.max_norm();
+    let unchanging = S::epsilon() * S::ratio(1.0, 8.0) * peak;
     let mut last = S::zero();
     let mut active = S::Mask::splat(true);
     let mut small_before = S::Mask::splat(false);
@@ -85,12 +85,16 @@ fn sum<S: Scalar, P: LiePoisson<S>>(
         let size = scratch.term.max_norm();
         last = S::select(active, S::from_f64(index as f64), last);
         peak = S::select(active, peak.max(size), peak);
-        let small = size.less_equal(unchanging * scratch.sum.max_norm());
+        let small = size.less_equal(unchanging);
         active = active & size.finite() & !(small & small_before);
         small_before = small;
         if !active.any() {
             break;
         }
+    }
+    // mu comes last: its addition is the only one that rounds in units of mu
+    for (sum, &mu) in scratch.sum.as_mut_slice().iter_mut().zip(mu.as_slice()) {
+        *sum += mu;
     }
     let norm = scratch.sum.max_norm();
     let accurate = !active & peak.less_equal(S::from_f64(MAX_LOSS) * norm);
