@@ -8,6 +8,9 @@ use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::matrix::Span;
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
 
+/// Entries of all matrices together that are still looked at.
+const MAX_ENTRIES: usize = 4_000_000;
+
 /// An entry `(a, b, c, d, T_abc^d)` of the triple product.
 pub type TripleEntry = (usize, usize, usize, usize, Rational);
 
@@ -78,6 +81,17 @@ pub fn read<'a>(
         complete = false;
     }
     let dimension = algebra.matrices.first()?.rows.len();
+    if dimension * dimension * algebra.matrices.len() > MAX_ENTRIES {
+        report.push(
+            Diagnostic::new(
+                Kind::Limit,
+                algebra.matrices[0].origin,
+                "the matrices have too many entries",
+            )
+            .help("choose a smaller representation"),
+        );
+        return None;
+    }
     let mut entries = Vec::new();
     for matrix in &algebra.matrices {
         if matrix.rows.len() != dimension

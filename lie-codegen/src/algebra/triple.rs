@@ -28,7 +28,7 @@ pub(super) fn closure(
                     (&matrices[c], &right[a], true),
                 ];
                 let sum = SparseMatrix::combine(&both, budget)?.flat();
-                budget.spend(sum.len() as u64 / 8)?;
+                budget.spend(sum.len() as u64)?;
                 let Some(coordinates) = span.coordinates(&sum) else {
                     return Ok(None);
                 };

@@ -1,5 +1,7 @@
 //! Lowering of the syntax tree to the symbolic arena.
 
+use std::collections::HashMap;
+
 use super::environment::{Allowed, Binding, Environment};
 use crate::algebra::MAX_DEPTH;
 use crate::ast::{Expr, ExprKind, Name};
@@ -28,6 +30,8 @@ pub struct Lowering<'a, 'b> {
     /// Which names may stand.
     pub allowed: Allowed,
     depth: usize,
+    /// Values of irrational constants, `None` for what is no such constant.
+    constants: HashMap<ExprId, Option<f64>>,
 }
 
 impl<'a, 'b> Lowering<'a, 'b> {
@@ -44,6 +48,7 @@ impl<'a, 'b> Lowering<'a, 'b> {
             report,
             allowed,
             depth: 0,
+            constants: HashMap::new(),
         }
     }
 
@@ -135,7 +140,7 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 let mut powers = Vec::with_capacity(lowered.len());
                 for ((divides, id), (_, factor)) in lowered.into_iter().zip(factors) {
                     let id = id?;
-                    if divides && self.graph.is_zero(id) {
+                    if divides && (self.graph.is_zero(id) || self.constant(id) == Some(0.0)) {
                         return self.fail(Kind::Number, factor.origin, "division by zero", "the divisor is exactly zero; correct it");
                     }
                     powers.push((id, if divides { Rational::MINUS_ONE } else { Rational::ONE }));
@@ -245,7 +250,31 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 );
             }
         }
+        if let Some(value) = self.constant(base)
+            && (value == 0.0 && exponent.is_negative() || value < 0.0 && !exponent.is_integer())
+        {
+            return self.fail(
+                Kind::Number,
+                base_origin,
+                "this power of a constant is not finite or not real",
+                "correct the base, or use another exponent",
+            );
+        }
         Some(self.graph.pow(base, &exponent))
+    }
+
+    /// The value of a constant that is not rational, such as `sin(2)`.
+    fn constant(&mut self, id: ExprId) -> Option<f64> {
+        if self.graph.as_number(id).is_some() {
+            return None;
+        }
+        if let Some(known) = self.constants.get(&id) {
+            return *known;
+        }
+        let constant = self.graph.symbols(id).is_empty();
+        let value = constant.then(|| self.graph.evaluate(id, &|_| f64::NAN));
+        self.constants.insert(id, value);
+        value
     }
 
     fn call(&mut self, function: &Name, arguments: &[Expr], origin: Origin) -> Option<ExprId> {
@@ -288,11 +317,11 @@ impl<'a, 'b> Lowering<'a, 'b> {
         let lowered: Vec<ExprId> = lowered.into_iter().collect::<Option<_>>()?;
         let Some(known) = known else {
             let half = &Rational::ONE / &Rational::from(2);
-            if self
+            let negative = self
                 .graph
                 .as_number(lowered[0])
-                .is_some_and(Rational::is_negative)
-            {
+                .is_some_and(Rational::is_negative);
+            if negative || self.constant(lowered[0]).is_some_and(|value| value < 0.0) {
                 return self.fail(
                     Kind::Number,
                     origin,
@@ -303,19 +332,13 @@ impl<'a, 'b> Lowering<'a, 'b> {
             return Some(self.graph.pow(lowered[0], &half));
         };
         let id = self.graph.call(known, &lowered);
-        if lowered
-            .iter()
-            .all(|argument| self.graph.symbols(*argument).is_empty())
-        {
-            let value = self.graph.evaluate(id, &|_| f64::NAN);
-            if !value.is_finite() {
-                return self.fail(
-                    Kind::Number,
-                    origin,
-                    format!("`{}` is not finite here", function.text),
-                    "correct its argument",
-                );
-            }
+        if self.constant(id).is_some_and(|value| !value.is_finite()) {
+            return self.fail(
+                Kind::Number,
+                origin,
+                format!("`{}` is not finite here", function.text),
+                "correct its argument",
+            );
         }
         Some(id)
     }

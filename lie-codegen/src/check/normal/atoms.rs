@@ -133,4 +133,21 @@ impl NormalForm<'_> {
             _ => false,
         })
     }
+
+    /// Whether a polynomial does not depend on the coordinates.
+    pub(super) fn is_constant(&self, value: &Polynomial) -> bool {
+        let constant = |f: &Fraction| {
+            let mut below = f.denominator().map(|(factor, _)| factor);
+            self.is_constant(f.numerator()) && below.all(|factor| self.is_constant(factor))
+        };
+        let mut variables = value.terms().flat_map(|(m, _)| m.powers().map(|(v, _)| v));
+        variables.all(|v| match &self.atoms[v] {
+            Atom::Symbol(symbol) => !matches!(symbol, Symbol::Coordinate(_)),
+            Atom::Pi | Atom::Imaginary => true,
+            Atom::Exponential { exponent, .. } => constant(exponent),
+            Atom::Root { base, .. } => constant(base),
+            Atom::Logarithm(argument) => self.is_constant(argument),
+            Atom::Opaque(_, arguments) => arguments.iter().all(constant),
+        })
+    }
 }

@@ -19,7 +19,7 @@ mod roots;
 use std::collections::HashMap;
 
 use crate::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
-use crate::symbolic::{ExprId, Function, Graph, Node};
+use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
 use atoms::Atom;
 
 /// What the normal form says of an expression.
@@ -77,53 +77,59 @@ impl<'a> NormalForm<'a> {
 
     /// Whether an expression is identically zero.
     pub fn verdict(&mut self, id: ExprId) -> Verdict {
+        self.refined(|form| form.decide(id))
+            .unwrap_or(Verdict::Undecided)
+    }
+
+    /// Does something, again with finer roots as long as it asks for them.
+    fn refined<T>(&mut self, work: impl Fn(&mut Self) -> Result<T, Stop>) -> Option<T> {
         for _ in 0..REFINEMENTS {
-            match self.decide(id) {
-                Ok(verdict) => return verdict,
+            match work(self) {
+                Ok(value) => return Some(value),
                 Err(Stop::Refine) => {
                     self.atoms.clear();
                     self.values.clear();
                 }
-                Err(Stop::Exhausted | Stop::Undefined) => return Verdict::Undecided,
+                Err(Stop::Exhausted | Stop::Undefined) => return None,
             }
         }
-        Verdict::Undecided
+        None
     }
 
     /// The total degree in the coordinates, if the expression is a polynomial in them.
     pub fn degree(&mut self, id: ExprId) -> Option<u32> {
-        use crate::symbolic::Symbol;
-        let value = self.convert(id).ok()?;
-        let coordinate = |v: usize| matches!(self.atoms[v], Atom::Symbol(Symbol::Coordinate(_)));
-        let parameter =
-            |v: usize| matches!(self.atoms[v], Atom::Symbol(Symbol::Parameter(_)) | Atom::Pi);
-        let numbers = value.denominator().all(|(f, _)| {
-            f.terms()
-                .all(|(m, _)| m.powers().all(|(v, _)| parameter(v)))
-        });
-        let known = value
-            .numerator()
-            .terms()
-            .all(|(m, _)| m.powers().all(|(v, _)| parameter(v) || coordinate(v)));
-        let degrees = value.numerator().terms().map(|(m, _)| {
-            m.powers()
-                .filter(|(v, _)| coordinate(*v))
-                .map(|(_, e)| e)
-                .sum()
-        });
-        if numbers && known {
-            degrees.max()
-        } else {
-            None
+        let value = self.refined(|form| {
+            let value = form.convert(id)?;
+            form.reduce(&value)
+        })?;
+        if !value
+            .denominator()
+            .all(|(factor, _)| self.is_constant(factor))
+        {
+            return None;
         }
+        let coordinate = |v: usize| matches!(self.atoms[v], Atom::Symbol(Symbol::Coordinate(_)));
+        let mut degree = 0;
+        for (monomial, _) in value.numerator().terms() {
+            if !monomial
+                .powers()
+                .all(|(v, _)| coordinate(v) || self.is_constant(&Polynomial::variable(v)))
+            {
+                return None;
+            }
+            degree = degree.max(
+                monomial
+                    .powers()
+                    .filter(|(v, _)| coordinate(*v))
+                    .map(|(_, e)| e)
+                    .sum(),
+            );
+        }
+        Some(degree)
     }
 
     /// The rational function as text.
-    pub fn display(
-        &self,
-        value: &Fraction,
-        name: &dyn Fn(crate::symbolic::Symbol) -> String,
-    ) -> String {
+    pub fn display(&self, value: &Fraction, name: &dyn Fn(Symbol) -> String) -> String {
         value.display(&|v| match &self.atoms[v] {
             Atom::Symbol(symbol) => name(*symbol),
             Atom::Pi => "pi".into(),

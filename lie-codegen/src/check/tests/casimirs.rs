@@ -53,6 +53,20 @@ fn polynomials_and_functions_of_them() {
 }
 
 #[test]
+fn degrees() {
+    for (casimir, degree) in [
+        ("(x^2 + y^2 + z^2)^2/k", Some(4)),
+        ("sqrt(k)*exp(k)*(x^2 + y^2 + z^2)", Some(2)),
+        ("(x^2 + y^2 + z^2)*(sin(x)^2 + cos(x)^2)", Some(2)),
+        ("1/(x^2 + y^2 + z^2)", None),
+        ("sin(x^2 + y^2 + z^2)", None),
+    ] {
+        let model = model(&so3_with(&format!("[{casimir:?}]")));
+        assert_eq!(model.casimirs[0].degree, degree, "{casimir}");
+    }
+}
+
+#[test]
 fn what_is_none_is_refused_with_the_bracket() {
     let refused = |casimir: &str, bracket: &str| {
         let found = errors(&so3_with(&format!("[\"C = {casimir}\"]")));

@@ -25,6 +25,19 @@ fn constants() {
         )]),
         &["number at 1e400", "number at log(0)"],
     );
+    for text in [
+        "sqrt(-pi)*x",
+        "x/(sin(1) - sin(1))",
+        "x/(cos(pi) + 1)",
+        "(-exp(1))^(1/2)*x",
+        "(sin(0) + 0)^-1*x",
+    ] {
+        let found = errors(&hamiltonian(text));
+        assert!(
+            found.len() == 1 && found[0].starts_with("number"),
+            "{text}: {found:#?}"
+        );
+    }
     let good = model(&hamiltonian("(-8)^2*x^2 + 2^0.5*y + x^-3 + y^(1/3) + 0*z"));
     assert!(good.graph.symbols(good.hamiltonian).len() == 2);
 }
