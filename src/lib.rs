@@ -1,3 +1,8 @@
 //! The library part of the root package: what the `lie` command, the examples and the tests share.
 
 pub mod plot;
+
+/// The code of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -9,7 +9,10 @@
 //! ```
 //! let spec = r#"{
 //!     "format": 1, "name": "RigidBody",
-//!     "algebra": { "basis": ["a", "b", "c"], "brackets": ["[a, b] = c", "[b, c] = a", "[c, a] = b"] },
+//!     "algebra": {
+//!         "basis": ["a", "b", "c"],
+//!         "brackets": ["[a, b] = c", "[b, c] = a", "[c, a] = b"]
+//!     },
 //!     "state": ["x", "y", "z"],
 //!     "parameters": { "I1": 2, "I2": 1, "I3": "2/3" },
 //!     "hamiltonian": "x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)",

@@ -1,0 +1,272 @@
+//! What the documents say is so: excerpts are current, tables agree with the code, places exist.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use lie_codegen::compile::{compile_spec, declared_choices, expand};
+use lie_codegen::methods::{Availability, CATALOGUE, Method};
+
+const DOCUMENTS: [&str; 4] = [
+    "README.md",
+    "ARCHITECTURE.md",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+];
+
+fn read(path: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The code blocks of a document with their language.
+fn blocks(text: &str) -> Vec<(String, String)> {
+    let mut blocks: Vec<(String, String)> = Vec::new();
+    let mut inside = false;
+    for line in text.lines() {
+        if let Some(language) = line.strip_prefix("```") {
+            inside = !inside;
+            if inside {
+                blocks.push((language.to_owned(), String::new()));
+            }
+        } else if inside && let Some((_, block)) = blocks.last_mut() {
+            block.push_str(line);
+            block.push('\n');
+        }
+    }
+    assert!(!inside, "a code block is not closed");
+    blocks
+}
+
+fn blocks_in(text: &str, language: &str) -> Vec<String> {
+    let blocks = blocks(text).into_iter();
+    blocks
+        .filter(|(found, _)| found == language)
+        .map(|(_, block)| block)
+        .collect()
+}
+
+#[test]
+fn the_readme_begins_with_the_two_commands() {
+    let readme = read("README.md");
+    let first = readme.lines().skip(2).take(4).collect::<Vec<_>>();
+    assert_eq!(first[0], "```sh");
+    assert!(
+        first[1].starts_with("cargo run --release -- run specs/se3_heavy_top.json "),
+        "{}",
+        first[1]
+    );
+    assert!(first[2].starts_with("cargo test"), "{}", first[2]);
+    assert_eq!(first[3], "```");
+    let run = &blocks_in(&readme, "text")[0];
+    let arguments = first[1].trim_start_matches("cargo run --release -- ");
+    assert_eq!(
+        run.lines().next(),
+        Some(format!("$ lie {arguments}").as_str())
+    );
+}
+
+/// Rust blocks are doctests of the library; the excerpt of generated code is compared here.
+#[test]
+fn generated_code_in_the_readme_is_current() {
+    let excerpts = blocks_in(&read("README.md"), "rs");
+    assert_eq!(excerpts.len(), 1);
+    let spec = read("specs/so3_free_rigid_body.json");
+    let model = compile_spec(&spec).expect("a valid spec");
+    let code = expand(&model, &declared_choices(&model));
+    assert!(
+        code.contains(&excerpts[0]),
+        "the README's excerpt is stale; `lie expand` prints\n{code}"
+    );
+    assert!(
+        !code.contains(&excerpts[0].replace('6', "7")),
+        "any text would do"
+    );
+}
+
+#[test]
+fn the_declaration_of_the_readme_is_the_example() {
+    let readme = read("README.md");
+    let example = read("examples/01_rigid_body.rs");
+    let declaration = |text: &str| -> Vec<String> {
+        let lines = text
+            .lines()
+            .skip_while(|line| !line.contains("pub system RigidBody"));
+        lines
+            .take_while(|line| *line != "}")
+            .map(str::to_owned)
+            .collect()
+    };
+    assert!(declaration(&readme).len() > 5);
+    assert_eq!(declaration(&readme), declaration(&example));
+}
+
+#[test]
+fn the_mistake_in_the_readme_is_what_the_command_prints() {
+    let text = read("README.md");
+    let block = blocks_in(&text, "text")
+        .into_iter()
+        .find(|block| block.contains("$ lie check"));
+    let block = block.expect("an example of a mistake");
+    let (command, message) = block.split_once('\n').expect("two lines");
+    let output = Command::new(env!("CARGO_BIN_EXE_lie"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(command.trim_start_matches("$ lie ").split(' '))
+        .output()
+        .expect("the command starts");
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(
+        String::from_utf8_lossy(&output.stderr).trim(),
+        message.trim()
+    );
+}
+
+/// What a method of the catalogue preserves, in the words of the README.
+fn words(method: &Method) -> String {
+    let kept = method.preserves;
+    let words = [
+        (kept.energy, "energy"),
+        (kept.poisson, "Poisson structure"),
+        (kept.orbit, "coadjoint orbit"),
+        (kept.casimirs, "every Casimir"),
+        (
+            kept.quadratic_casimirs && !kept.casimirs,
+            "quadratic Casimirs, quadratic energy",
+        ),
+    ];
+    let words: Vec<&str> = words
+        .into_iter()
+        .filter(|(kept, _)| *kept)
+        .map(|(_, word)| word)
+        .collect();
+    if words.is_empty() {
+        "nothing (a control".to_owned()
+    } else {
+        words.join(", ")
+    }
+}
+
+#[test]
+fn the_methods_of_the_readme_are_those_of_the_catalogue() {
+    let readme = read("README.md");
+    let is_method = |line: &&str| {
+        line.starts_with("| `")
+            && CATALOGUE
+                .iter()
+                .any(|m| line.starts_with(&format!("| `{}` |", m.id)))
+    };
+    let mut rows = readme.lines().filter(is_method);
+    for method in CATALOGUE
+        .iter()
+        .filter(|method| method.availability == Availability::Built)
+    {
+        let answer = |yes: bool| if yes { "yes" } else { "no" };
+        let expected = format!(
+            "| `{}` | {} | {} | {} | {}",
+            method.id,
+            method.order,
+            answer(method.symmetric),
+            answer(method.explicit),
+            words(method)
+        );
+        let row = rows.next().unwrap_or_default();
+        assert!(
+            row.starts_with(&expected),
+            "{row}\nshould begin\n{expected}"
+        );
+    }
+    assert_eq!(rows.next(), None, "a method that is not built");
+}
+
+/// Links and paths of files in code marks lead somewhere.
+#[test]
+fn places_in_the_documents_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut count = 0;
+    for document in DOCUMENTS {
+        let text = read(document);
+        let links = text
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| rest.split(')').next());
+        let links = links.filter(|link| !link.starts_with("http"));
+        let prose: String = text.split("```").step_by(2).collect();
+        let marked: Vec<&str> = prose.split('`').skip(1).step_by(2).collect();
+        let paths = marked.into_iter().filter(|word| {
+            let folders = ["lie-", "src/", "specs/", "tests/", "docs/", "tools/"];
+            word.contains('/')
+                && !word.contains(' ')
+                && folders.iter().any(|folder| word.starts_with(folder))
+        });
+        for place in links.chain(paths).filter(|place| !place.contains("NAME")) {
+            assert!(
+                root.join(place).exists(),
+                "{document}: {place} does not exist"
+            );
+            count += 1;
+        }
+    }
+    assert!(count > 20, "only {count} places found");
+}
+
+/// The dependencies of a package by its manifest, those for tests left out.
+fn dependencies(manifest: &str) -> Vec<String> {
+    let text = read(manifest);
+    let section = text.split("\n[dependencies]\n").nth(1).unwrap_or_default();
+    let section = section.split("\n[").next().unwrap_or_default();
+    let name = |line: &str| {
+        line.split(['.', ' ', '='])
+            .next()
+            .unwrap_or_default()
+            .to_owned()
+    };
+    section
+        .lines()
+        .map(name)
+        .filter(|name| name.starts_with("lie-"))
+        .collect()
+}
+
+#[test]
+fn no_arrow_between_crates_points_back() {
+    assert_eq!(dependencies("lie-codegen/Cargo.toml"), [""; 0]);
+    assert_eq!(dependencies("lie-macros/Cargo.toml"), ["lie-codegen"]);
+    assert_eq!(dependencies("lie-runtime/Cargo.toml"), ["lie-macros"]);
+    assert_eq!(dependencies("Cargo.toml"), ["lie-codegen", "lie-runtime"]);
+}
+
+#[test]
+fn the_version_of_rust_is_the_same_everywhere() {
+    let manifest = read("Cargo.toml");
+    let version = manifest
+        .split("rust-version = \"")
+        .nth(1)
+        .and_then(|rest| rest.split('"').next());
+    let version = version.expect("a version");
+    assert!(read("README.md").contains(&format!("Rust {version} or later")));
+    assert!(read("CONTRIBUTING.md").contains(&format!("Rust {version} or later")));
+    assert!(read("CONTRIBUTING.md").contains(&format!("cargo +{version} check")));
+}
+
+#[test]
+fn headers_of_formulas_are_copies() {
+    let header = read("docs/katex/katex.html");
+    for package in ["lie-codegen", "lie-runtime"] {
+        assert_eq!(
+            read(&format!("{package}/docs/katex.html")),
+            header,
+            "copy docs/katex/katex.html there"
+        );
+    }
+}
+
+#[test]
+fn the_schema_is_the_one_that_the_command_prints() {
+    let output = Command::new(env!("CARGO_BIN_EXE_lie"))
+        .arg("schema")
+        .output()
+        .expect("the command starts");
+    let printed = String::from_utf8(output.stdout).expect("UTF-8");
+    let help = "write it anew with `lie schema > specs/lie-system.schema.json`";
+    assert_eq!(printed, read("specs/lie-system.schema.json"), "{help}");
+}
