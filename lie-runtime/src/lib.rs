@@ -90,6 +90,8 @@ pub use state::{Stages, State, Unknown};
 /// What a program usually needs.
 pub mod prelude {
     #[cfg(feature = "std")]
+    pub use crate::diagnostics::{Drift, DriftMonitor};
+    #[cfg(feature = "std")]
     pub use crate::driver::{
         EveryStep, Observer, Options, Problem, Progress, Save, Solution, SolveError, Stats, Status,
         solve, solve_observed,

@@ -8,6 +8,7 @@ use lie_runtime::methods::{Facts, Method};
 use lie_runtime::prelude::*;
 use systems::heavy_top::{HeavyTop, START};
 use systems::nonpolynomial::Nonpolynomial;
+use systems::rigid_body::RigidBody;
 
 /// A million steps where the build is optimized, fewer where it is not.
 const STEPS: u32 = if cfg!(debug_assertions) {
@@ -108,6 +109,17 @@ fn poisson_maps_by_their_tangent() {
             assert!(defect < 3e-15, "h = {h}: {defects:?}");
         }
     }
+    // whatever the units: momenta of 2^-40 and steps to match
+    let scale = 2.0_f64.powi(-40);
+    let start = [0.6, -0.5, 0.7].map(|entry| entry * scale);
+    let body = RigidBody::<Dual<f64>>::default();
+    let options = NewtonOptions::default();
+    let h = 0.5 / scale;
+    let kept = poisson_defect(&body, &LieMidpoint::exp(), h, &start, &options).expect("a step");
+    let lost = poisson_defect(&body, &ImplicitMidpoint, h, &start, &options).expect("a step");
+    let (kept, lost) = (kept / scale, lost / scale);
+    assert!(kept < 3e-15 && lost > 1e-6, "{kept:e} {lost:e}");
+
     let points: Vec<(f64, f64)> = [0.2, 0.1, 0.05, 0.025]
         .map(|h| (h, defect(ImplicitMidpoint, h)))
         .into();

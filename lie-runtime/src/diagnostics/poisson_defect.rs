@@ -31,19 +31,20 @@ where
     let mut start = system.zero_state();
     let mut end = system.zero_state();
     let mut tangent = vec![vec![S::zero(); P::DIM]; P::DIM];
+    // norms see derivatives too: seeds of the size of the state keep the two in proportion
+    let size = mu
+        .iter()
+        .fold(S::zero(), |size, entry| size.max(entry.abs()));
+    let size = S::select(size.less_equal(S::zero()), S::one(), size);
     for direction in 0..P::DIM {
         for (index, (entry, &value)) in start.as_mut_slice().iter_mut().zip(mu).enumerate() {
-            let seed = if index == direction {
-                S::one()
-            } else {
-                S::zero()
-            };
+            let seed = if index == direction { size } else { S::zero() };
             *entry = Dual::new(value, seed);
         }
         end.copy_from(&start);
         stepper.step(&mut end, &mut ())?;
         for (row, tangent) in tangent.iter_mut().enumerate() {
-            tangent[direction] = end.entry(row).derivative;
+            tangent[direction] = end.entry(row).derivative / size;
         }
     }
     let mut before = system.zero_jacobian();

@@ -7,7 +7,8 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 /// along one direction.
 ///
 /// Masks, comparisons and [`Scalar::select`] look at the value alone, so that a computation over
-/// dual numbers takes the same branches; only norms ([`Scalar::magnitude`]) see the derivative.
+/// dual numbers takes the same branches; only norms ([`Scalar::magnitude`]) see the derivative. Where an iteration measures its error by such
+/// a norm, choose derivatives of the size of the values.
 ///
 /// ```
 /// use lie_runtime::prelude::*;
