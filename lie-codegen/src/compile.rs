@@ -9,7 +9,7 @@ use crate::derive::Source;
 use crate::diagnostic::{Diagnostic, Origin, Report};
 use crate::emit::{Blueprint, Emitted, Fused, Parameter, emit};
 use crate::front::{Body, spec};
-use crate::methods::{self, Choice, Retraction, refusal};
+use crate::methods::{Choice, Retraction, refusal};
 use crate::model::Model;
 
 /// Reads and checks a spec file.
@@ -31,10 +31,6 @@ pub fn compile_spec(text: &str) -> Result<Model, Vec<Diagnostic>> {
 pub fn compile_declaration(declaration: &Declaration) -> Result<Model, Vec<Diagnostic>> {
     let mut report = Report::new();
     let model = check(declaration, &mut report);
-    report.gate()?;
-    if let Some(model) = &model {
-        methods::check(model, &mut report);
-    }
     report.gate()?;
     model.ok_or_else(|| report.into_diagnostics())
 }

@@ -1,19 +1,29 @@
-//! The methods that get fused code: each must be built, and apply to the system.
+//! The methods that a declaration names, in `methods` and in `run`: each must be built, and apply
+//! to the system.
 
-use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::methods::{Choice, refusal};
 use crate::model::Model;
 
 /// Reports the methods of the declaration that cannot be had, with the reason.
 pub fn check(model: &Model, report: &mut Report) {
     for name in &model.methods {
-        let (message, help) = match Choice::from_id(&name.text) {
-            Err(unusable) => (unusable.message, unusable.help),
-            Ok(choice) => match refusal(model, choice) {
-                Some(reason) => reason,
-                None => continue,
-            },
-        };
-        report.push(Diagnostic::new(Kind::Method, name.origin, message).help(help));
+        check_one(model, &name.text, name.origin, report);
     }
+    for option in model.run.iter().filter(|option| option.name.text == "method") {
+        if let Some((id, origin)) = option.values.first() {
+            check_one(model, id, *origin, report);
+        }
+    }
+}
+
+fn check_one(model: &Model, id: &str, origin: Origin, report: &mut Report) {
+    let (message, help) = match Choice::from_id(id) {
+        Err(unusable) => (unusable.message, unusable.help),
+        Ok(choice) => match refusal(model, choice) {
+            Some(reason) => reason,
+            None => return,
+        },
+    };
+    report.push(Diagnostic::new(Kind::Method, origin, message).help(help));
 }

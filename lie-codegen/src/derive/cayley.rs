@@ -1,5 +1,7 @@
 //! The retraction method with the Cayley map, unknown the momentum m at the midpoint:
 //! `r(m) = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, `(Q_x m)_b = T_abc^d x^a x^c m_d`.
+//!
+//! With `y = x/2` the factors vanish: `r = m - ad*_y m - Q_y m - mu`.
 
 use super::coadjoint::xi;
 use super::field::mu;
@@ -31,58 +33,68 @@ fn triple_of(source: &mut Source, x: &[ExprId], z: &[ExprId], m: &[ExprId]) -> V
     terms.into_iter().map(|terms| source.graph.linear(&terms)).collect()
 }
 
-pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
-    let n = source.dimension;
-    let start = source.coordinates();
-    let m = source.block(Block::Unknown);
+/// `factor * h grad H(m)`: entries that vary stay one quantity each and are defined, the others
+/// are prepared constants.
+fn direction(source: &mut Source, m: &[ExprId], factor: &Rational) -> (Vec<ExprId>, Vec<(Symbol, ExprId)>) {
     let h = source.graph.symbol(Symbol::Step);
     let gradient = source.gradient_of_h();
-    let gradient = source.at(&gradient, &m);
-    let hessian = source.hessian_of_h();
-    // Where h dH/dm_i does not vary it is a prepared constant, elsewhere it stays one quantity.
+    let gradient = source.at(&gradient, m);
     let mut x = source.block(Block::Xi);
     let mut definitions = Vec::new();
     for (i, symbol) in source.symbols(Block::Xi).into_iter().enumerate() {
         let value = source.graph.mul(h, gradient[i]);
+        let value = source.graph.scale(value, factor);
         if source.graph.symbols(value).iter().any(|s| matches!(s, Symbol::Input(_))) {
             definitions.push((symbol, value));
         } else {
             x[i] = value;
         }
     }
-    let action = source.ad_star_of(&x, &m);
-    let square = triple_of(source, &x, &x, &m);
-    let (half, quarter) = (-&rational(1, 2), -&rational(1, 4));
+    (x, definitions)
+}
+
+pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
+    let n = source.dimension;
+    let start = source.coordinates();
+    let m = source.block(Block::Unknown);
+    let h = source.graph.symbol(Symbol::Step);
+    let hessian = source.hessian_of_h();
+    let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
+    let (y, definitions) = direction(source, &m, &half);
+    let action = source.ad_star_of(&y, &m);
+    let square = triple_of(source, &y, &y, &m);
     let residual: Vec<ExprId> = (0..n)
         .map(|i| {
             source.graph.linear(&[
                 (m[i], Rational::ONE),
-                (action[i], half.clone()),
-                (square[i], quarter.clone()),
+                (action[i], Rational::MINUS_ONE),
+                (square[i], Rational::MINUS_ONE),
                 (start[i], Rational::MINUS_ONE),
             ])
         })
         .collect();
-    let result: Vec<ExprId> = (0..n).map(|i| source.graph.add(start[i], action[i])).collect();
-    let (m_symbols, x_symbols) = (source.symbols(Block::Unknown), source.symbols(Block::Xi));
+    let (m_symbols, y_symbols) = (source.symbols(Block::Unknown), source.symbols(Block::Xi));
     let mut rows = Vec::with_capacity(n);
     for r in &residual {
-        // dr/dm_j = (partial in m_j) + sum_a (dr/dx_a) h H''_aj
-        let through: Vec<ExprId> = x_symbols.iter().map(|s| source.graph.derivative(*r, *s)).collect();
+        // dr/dm_j = (partial in m_j) + sum_a (dr/dy_a) (h/2) H''_aj
+        let through: Vec<ExprId> = y_symbols.iter().map(|s| source.graph.derivative(*r, *s)).collect();
         let mut row = Vec::with_capacity(n);
         for (j, symbol) in m_symbols.iter().enumerate() {
-            let mut terms = vec![source.graph.derivative(*r, *symbol)];
+            let mut terms = vec![(source.graph.derivative(*r, *symbol), Rational::ONE)];
             for (a, slope) in through.iter().enumerate() {
                 if source.graph.is_zero(*slope) || source.graph.is_zero(hessian[a][j]) {
                     continue;
                 }
                 let curvature = source.at(&[hessian[a][j]], &m)[0];
-                terms.push(source.graph.product(&[*slope, h, curvature]));
+                terms.push((source.graph.product(&[*slope, h, curvature]), half.clone()));
             }
-            row.push(source.graph.sum(&terms));
+            row.push(source.graph.linear(&terms));
         }
         rows.push(row);
     }
+    let (x, whole) = direction(source, &m, &Rational::ONE);
+    let moved = source.ad_star_of(&x, &m);
+    let result: Vec<ExprId> = (0..n).map(|i| source.graph.add(start[i], moved[i])).collect();
     let arguments = vec![mu(source), Argument { name: "unknown", symbols: m_symbols }];
     let graph = &source.graph;
     vec![
@@ -102,12 +114,8 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
             &residual,
             &rows,
         )
-        .within_step(definitions.clone()),
+        .within_step(definitions),
         Kernel::vector(graph, "result", "`mu1 = mu + ad*_x m`, `x = h grad H(m)`", arguments, &result)
-            .within_step(definitions),
+            .within_step(whole),
     ]
-}
-
-fn rational(n: i64, d: i64) -> Rational {
-    Rational::new(n, d).unwrap_or(Rational::ONE)
 }

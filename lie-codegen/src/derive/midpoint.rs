@@ -1,4 +1,7 @@
 //! The Poisson midpoint rule: `r(u) = u - mu - h f((mu + u)/2)`, unknown `u = mu1`.
+//!
+//! The sums `s = mu + u` stay one quantity each, and the factor 1/2 goes into the coefficients: of
+//! a quadratic field, `h f(s/2) = (h/4) f(s)`, and its products are those of the Jacobian.
 
 use super::field::{jacobian, mu};
 use super::{Argument, Block, Kernel, Source};
@@ -9,16 +12,16 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
     let arguments = vec![mu(source), Argument { name: "unknown", symbols: source.symbols(Block::Unknown) }];
     let start = source.coordinates();
     let unknown = source.block(Block::Unknown);
-    let middle = source.block(Block::Middle);
+    let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
+    let middle: Vec<ExprId> =
+        source.block(Block::Middle).into_iter().map(|s| source.graph.scale(s, &half)).collect();
     let field = source.field_of_h();
     let slopes = jacobian(source, &field);
-    let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
-    // Directions in which nothing moves and nothing depends need no midpoint.
     let definitions: Vec<(Symbol, ExprId)> = source
         .symbols(Block::Middle)
         .into_iter()
         .enumerate()
-        .map(|(i, symbol)| (symbol, source.graph.linear(&[(start[i], half.clone()), (unknown[i], half.clone())])))
+        .map(|(i, symbol)| (symbol, source.graph.add(start[i], unknown[i])))
         .collect();
     let h = source.graph.symbol(Symbol::Step);
     let field = source.at(&field, &middle);

@@ -32,13 +32,13 @@ pub struct Source {
 /// Vector arguments of kernels besides the state; each has n symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Block {
-    /// An element of the algebra, or `x = h grad H`.
+    /// An element of the algebra, or a multiple of `h grad H`.
     Xi,
     /// A second element of the algebra.
     Eta,
     /// The unknown of an equation.
     Unknown,
-    /// The midpoint of a step.
+    /// The sum of the two ends of a step.
     Middle,
 }
 

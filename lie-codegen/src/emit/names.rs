@@ -32,7 +32,7 @@ impl Writer<'_> {
                     0 => format_ident!("_xi_{}", self.blueprint.basis[index % n]),
                     1 => format_ident!("_eta_{}", self.blueprint.basis[index % n]),
                     2 => format_ident!("_u_{}", coordinate.to_string()),
-                    _ => format_ident!("_m_{}", coordinate.to_string()),
+                    _ => format_ident!("_s_{}", coordinate.to_string()),
                 }
             }
         }

@@ -3,13 +3,11 @@
 
 mod applicability;
 mod choice;
-mod declared;
 mod table;
 
 pub use applicability::{applicability, refusal};
 pub use choice::{Choice, Retraction};
 pub use choice::Unusable;
-pub use declared::check;
 pub use table::CATALOGUE;
 
 /// What a method preserves up to round-off.

@@ -1,6 +1,6 @@
 //! Expressions as n-ary sums and products of atoms, signs and divisions made explicit.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::Known;
 use super::collect::is_known;
@@ -64,6 +64,8 @@ struct Builder<'a> {
     graph: &'a mut Graph,
     known: Known,
     group: bool,
+    /// Coefficients that are prepared with the opposite sign.
+    flipped: BTreeSet<ExprId>,
     cache: HashMap<ExprId, bool>,
     inverse: BTreeMap<ExprId, Inverse>,
     converted: HashMap<ExprId, Signed>,
@@ -74,12 +76,27 @@ impl Formula {
     /// The formula of the roots: first the definitions of `symbols`, then the outputs; `group`
     /// collects terms behind common coefficients.
     pub fn new(graph: &mut Graph, symbols: &[Symbol], roots: &[ExprId], known: Known, group: bool) -> Self {
+        let first = Self::build(graph, symbols, roots, known, group, BTreeSet::new());
+        // A coefficient that results need with a minus sign is prepared with it everywhere.
+        if first.1.is_empty() { first.0 } else { Self::build(graph, symbols, roots, known, group, first.1).0 }
+    }
+
+    /// A formula, and the coefficients that more results need negative than positive.
+    fn build(
+        graph: &mut Graph,
+        symbols: &[Symbol],
+        roots: &[ExprId],
+        known: Known,
+        group: bool,
+        flipped: BTreeSet<ExprId>,
+    ) -> (Self, BTreeSet<ExprId>) {
         let formula =
             Self { atoms: Vec::new(), index: HashMap::new(), definitions: Vec::new(), outputs: Vec::new() };
         let mut builder = Builder {
             graph,
             known,
             group,
+            flipped,
             cache: HashMap::new(),
             inverse: BTreeMap::new(),
             converted: HashMap::new(),
@@ -91,8 +108,12 @@ impl Formula {
             let signed = builder.convert(id, false);
             builder.converted.insert(id, signed);
         }
+        let mut wanted: BTreeMap<ExprId, i64> = BTreeMap::new();
         for (position, root) in roots.iter().enumerate() {
             let mut signed = builder.converted[root];
+            if let Some(coefficient) = builder.coefficient_of(signed.1) {
+                *wanted.entry(coefficient).or_insert(0) += if signed.0 { -1 } else { 1 };
+            }
             if signed.0 {
                 // A minus sign in front of a whole result goes into its coefficient.
                 signed = builder.convert(*root, true);
@@ -102,7 +123,8 @@ impl Formula {
                 None => builder.formula.outputs.push(signed),
             }
         }
-        builder.formula
+        let negative = wanted.into_iter().filter(|(_, balance)| *balance < 0).map(|(id, _)| id).collect();
+        (builder.formula, negative)
     }
 
     /// Empties the atoms that no result needs, so that they are not shared with.
@@ -315,11 +337,22 @@ impl Builder<'_> {
         let (known, varying): (Vec<_>, Vec<_>) = factors.iter().cloned().partition(|(b, _)| self.is_known(*b));
         let known = self.graph.power_product(&known);
         let coefficient = self.graph.scale(known, coefficient);
-        if self.leads_negative(coefficient) {
-            (true, self.graph.neg(coefficient), varying)
+        let negative = self.leads_negative(coefficient);
+        let canonical = if negative { self.graph.neg(coefficient) } else { coefficient };
+        if self.flipped.contains(&canonical) {
+            (!negative, self.graph.neg(canonical), varying)
         } else {
-            (false, coefficient, varying)
+            (negative, canonical, varying)
         }
+    }
+
+    /// The prepared coefficient of a product.
+    fn coefficient_of(&self, atom: AtomId) -> Option<ExprId> {
+        let Atom::Product(factors) = &self.formula.atoms[atom] else { return None };
+        factors.iter().find_map(|factor| match &self.formula.atoms[*factor] {
+            Atom::Leaf(Value::Prepared(id)) => Some(*id),
+            _ => None,
+        })
     }
 
     fn assemble(&mut self, coefficient: ExprId, varying: &[(ExprId, Rational)]) -> Signed {

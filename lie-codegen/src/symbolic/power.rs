@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_traits::Signed;
 
 use super::graph::{ExprId, Graph, Node};
@@ -75,11 +76,13 @@ impl Graph {
                     insert(*inner, &(power * exponent));
                 }
             }
-            Node::Sum { .. } if exponent.is_integer() => {
-                let (scale, rest) = self.coefficient(base);
-                match integer_power(&scale, exponent) {
-                    Some(power) if rest != base => {
+            Node::Sum { constant, terms } if exponent.is_integer() => {
+                // `(2*x + 4*y)^2` is `4*(x + 2*y)^2`: proportional sums are one base.
+                let scale = content(&constant, &terms);
+                match integer_power(&scale, exponent).zip(scale.recip()) {
+                    Some((power, inverse)) if !scale.is_one() => {
                         *coefficient = &*coefficient * &power;
+                        let rest = self.scale(base, &inverse);
                         self.collect_factor(rest, exponent, coefficient, bases);
                     }
                     _ => insert(base, exponent),
@@ -88,6 +91,22 @@ impl Graph {
             _ => insert(base, exponent),
         }
     }
+}
+
+/// The rational factor that all coefficients of a sum share, with the sign of the first.
+fn content(constant: &Rational, terms: &[(ExprId, Rational)]) -> Rational {
+    let mut content: Option<(i64, i64)> = None;
+    for coefficient in terms.iter().map(|(_, c)| c).chain((!constant.is_zero()).then_some(constant)) {
+        let Some((n, d)) = coefficient.to_words() else { return Rational::ONE };
+        let (p, q) = content.unwrap_or((0, 1));
+        let Some(lcm) = (q / q.gcd(&d)).checked_mul(d) else { return Rational::ONE };
+        content = Some((p.gcd(&n), lcm));
+    }
+    let sign = if terms.first().is_some_and(|(_, c)| c.is_negative()) { -1 } else { 1 };
+    content
+        .and_then(|(n, d)| Rational::new(n.checked_mul(sign)?, d))
+        .filter(|content| !content.is_zero())
+        .unwrap_or(Rational::ONE)
 }
 
 /// `value^exponent` for an integer exponent, while the result is of reasonable size.

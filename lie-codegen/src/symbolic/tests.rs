@@ -64,7 +64,7 @@ fn text_is_the_grammar() {
     let [x, y, z] = xyz(&mut g);
     let s = g.linear(&[(x, rational(-1, 2)), (y, Rational::ONE)]);
     let e = g.power_product(&[(s, rational(-2, 1)), (z, rational(1, 2))]);
-    assert_eq!(g.display(e, &name), "sqrt(z)/(-1/2*x + y)^2");
+    assert_eq!(g.display(e, &name), "4*sqrt(z)/(x - 2*y)^2");
     let sine = g.call(Function::Sin, &[x]);
     let e = g.linear(&[(sine, rational(-3, 1))]);
     assert_eq!(g.display(e, &name), "-3*sin(x)");
