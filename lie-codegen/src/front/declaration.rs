@@ -213,7 +213,7 @@ fn remainder(
         let (name, value) = item::definition(s.rest, "an abbreviation", s.origin, report)?;
         Some((
             name,
-            item::formula(value, "its value", s.origin, &names, report)?,
+            item::formula(value, ("its value", "x^2/2"), s.origin, &names, report)?,
         ))
     });
     let lets = lets.collect();
@@ -322,7 +322,14 @@ fn methods(statement: &Statement<'_>, report: &mut Report) -> Vec<Name> {
 /// Exact expressions in parameters.
 fn initial(statement: &Statement<'_>, names: &Names, report: &mut Report) -> Vec<Expr> {
     let parts = bracketed(statement, "initial = [0.3, -1/2];", report);
-    let value =
-        |part: &[Token]| item::formula(part, "an initial value", statement.origin, names, report);
+    let value = |part: &[Token]| {
+        item::formula(
+            part,
+            ("an initial value", "cos(11/10)"),
+            statement.origin,
+            names,
+            report,
+        )
+    };
     parts.into_iter().filter_map(value).collect()
 }

@@ -16,8 +16,8 @@
 
 use super::names::{Names, arity};
 use super::number;
-use super::operand::{begins_factor, ends_in_function, last_operand};
-use super::token::{Cursor, Delimiter, Token, TokenKind};
+use super::operand::{begins_factor, ends_in_function, last_operand, operand_text};
+use super::token::{Cursor, Delimiter, Token, TokenKind, render};
 use super::{families, mistakes};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -254,8 +254,7 @@ impl<'a> Parser<'a> {
             return self.nested(|parser| parser.call(name, token));
         }
         if (arity(name).is_some() || name == "sum") && !self.names.declares(name) {
-            self.fail(mistakes::function_without_call(name, token.origin));
-            return Some(zero(token.origin));
+            return self.uncalled(name, token);
         }
         let (index, origin) = families::index(self, token)?;
         Some(Expr {
@@ -265,6 +264,32 @@ impl<'a> Parser<'a> {
             },
             origin,
         })
+    }
+
+    /// `sin x`, `sin^2(x)`, `sin` alone: what follows is the argument, not a factor without `*`.
+    fn uncalled(&mut self, name: &str, token: &'a Token) -> Option<Expr> {
+        let start = self.cursor.position();
+        let number = |t: &Token| matches!(t.kind, TokenKind::Number(_));
+        if self.cursor.peek().is_some_and(|t| t.is('^'))
+            && self.cursor.ahead(1).is_some_and(number)
+            && self.cursor.ahead(2).is_some_and(begins_factor)
+        {
+            self.cursor.advance();
+            self.cursor.advance();
+        }
+        let power = render(self.cursor.since(start));
+        let follows = self.cursor.peek().is_some_and(begins_factor);
+        let argument = if follows {
+            operand_text(self.cursor.rest())
+        } else {
+            String::new()
+        };
+        let mistake = mistakes::function_without_call(name, &argument, &power, token.origin);
+        self.fail(mistake);
+        if follows {
+            self.nested(Self::power)?;
+        }
+        Some(zero(token.origin))
     }
 
     fn call(&mut self, function: &str, token: &'a Token) -> Option<Expr> {

@@ -52,10 +52,11 @@ pub fn name(tokens: &[Token], whole: Origin, report: &mut Report) -> Option<Name
     None
 }
 
-/// An expression that may use `names`; `what` and `whole` describe it where nothing stands.
+/// An expression that may use `names`; `what` (its name and an example) and `whole` describe it
+/// where nothing stands.
 pub fn formula(
     tokens: &[Token],
-    what: &str,
+    (what, example): (&str, &str),
     whole: Origin,
     names: &Names,
     report: &mut Report,
@@ -63,7 +64,7 @@ pub fn formula(
     if tokens.is_empty() {
         report.push(
             Diagnostic::new(Kind::Syntax, whole, format!("{what} is missing"))
-                .help("write an expression, such as x^2/2"),
+                .help(format!("write an expression, such as {example}")),
         );
         return None;
     }
@@ -94,6 +95,8 @@ pub fn definition<'a>(
     Some((name(left, equals.origin, report)?, cursor.rest()))
 }
 
+const CASIMIR: (&str, &str) = ("the Casimir", "x^2 + y^2");
+
 /// `NAME = expression` or `expression` alone.
 pub fn casimir(
     tokens: &[Token],
@@ -104,11 +107,11 @@ pub fn casimir(
     let named = tokens.first().is_some_and(|t| t.identifier().is_some())
         && tokens.get(1).is_some_and(|t| t.is('='));
     if !named {
-        let value = formula(tokens, "the Casimir", whole, names, report)?;
+        let value = formula(tokens, CASIMIR, whole, names, report)?;
         return Some(Casimir { name: None, value });
     }
     let name = name(&tokens[..1], whole, report);
-    let value = formula(&tokens[2..], "the Casimir", tokens[1].origin, names, report);
+    let value = formula(&tokens[2..], CASIMIR, tokens[1].origin, names, report);
     Some(Casimir {
         name: Some(name?),
         value: value?,
@@ -145,7 +148,7 @@ pub fn bracket(
     let right = name(right, origin, report);
     let value = formula(
         cursor.rest(),
-        "the value of the bracket",
+        ("the value of the bracket", "2*e1 - e2 (or 0)"),
         equals.origin,
         names,
         report,

@@ -57,6 +57,45 @@ impl fmt::Display for Type {
     }
 }
 
+/// What to do about the mistakes that the parser of JSON finds.
+const REMEDIES: &[(&str, &str)] = &[
+    ("EOF", "close what is still open, with `\"`, `]` or `}`"),
+    (
+        "key must be a string",
+        "keys stand in double quotes; there are no comments and no comma before `}`",
+    ),
+    (
+        "trailing comma",
+        "remove the comma before the closing bracket",
+    ),
+    (
+        "trailing characters",
+        "remove what stands behind the object",
+    ),
+    (
+        "expected `,`",
+        "put a comma between two of a kind; a constant such as \"1/3\" stands in quotes",
+    ),
+    ("expected `:`", "write `\"key\": value`"),
+    (
+        "expected value",
+        "a value is a number, a \"string\", a list, an object, true, false or null",
+    ),
+    (
+        "expected ident",
+        "the words of JSON are true, false and null; text stands in double quotes",
+    ),
+    (
+        "invalid number",
+        "numbers are like 2, 0.5 or -1e-3; a constant such as \"1/3\" stands in quotes",
+    ),
+    (
+        "control character",
+        "a string ends on its line; a line break in it is written `\\n`",
+    ),
+    ("escape", "a backslash is written twice, as `\\\\`"),
+];
+
 /// The value of a whole file.
 ///
 /// # Errors
@@ -74,12 +113,19 @@ pub fn document(file: &str) -> Result<Value<'_>, Diagnostic> {
             let end = file[at..].chars().next().map_or(at, |c| at + c.len_utf8());
             let message = error.to_string();
             let message = message.split(" at line ").next().unwrap_or(&message);
+            let remedy = REMEDIES
+                .iter()
+                .find(|(mistake, _)| message.contains(mistake));
             Err(Diagnostic::new(
                 Kind::Schema,
                 Origin::Text { start: at, end },
                 format!("malformed JSON: {message}"),
             )
-            .help("a spec is one JSON object"))
+            .help(match remedy {
+                _ if json.trim().is_empty() => "a spec is one JSON object; the file is empty",
+                Some((_, remedy)) => remedy,
+                None => "a spec is one JSON object",
+            }))
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::names::{FUNCTIONS, Names};
 use super::operand::operand_text;
-use super::token::{Token, TokenKind, render, span};
+use super::token::{Delimiter, Token, TokenKind, render, span};
 use crate::diagnostic::{Diagnostic, Kind, Origin};
 use crate::suggest::did_you_mean;
 
@@ -44,6 +44,9 @@ const OTHER_NAMES: &[(&str, &str)] = &[
     ("tg", "tan"),
 ];
 
+/// What the grammar has.
+const PARTS: &str = "expressions consist of numbers, names, + - * / ^, parentheses and functions";
+
 /// A token that cannot stand where it stands.
 pub fn unexpected(token: &Token, before: Option<&Token>) -> Diagnostic {
     let text = render(std::slice::from_ref(token));
@@ -55,6 +58,17 @@ pub fn unexpected(token: &Token, before: Option<&Token>) -> Diagnostic {
     match &token.kind {
         TokenKind::Punctuation('*') if before.is_some_and(|t| t.is('*')) => {
             syntax("`**` is not an operator".into()).help("a power is written `^`")
+        }
+        TokenKind::Punctuation('/') if before.is_some_and(|t| t.is('/')) => {
+            syntax("`//` is not an operator".into())
+                .help("a quotient is written `/`; an expression has no comments")
+        }
+        TokenKind::Punctuation(',') if before.is_some_and(ends_operand) => {
+            let help = match before.map(|t| &t.kind) {
+                Some(TokenKind::Number(_)) => "a decimal number has a point, as in `0.5`",
+                _ => "a comma stands between the two arguments of `atan2` only",
+            };
+            syntax(format!("unexpected `,`{after}")).help(help)
         }
         TokenKind::Punctuation('.') => {
             Diagnostic::new(Kind::Number, token.origin, "a number cannot begin with `.`")
@@ -70,11 +84,11 @@ pub fn unexpected(token: &Token, before: Option<&Token>) -> Diagnostic {
                     .help(format!(
                         "write a number, a name or parentheses between the operators{after}"
                     )),
-                '=' => syntax(format!("unexpected `=`{after}")).help("an expression has no `=`"),
+                '=' => syntax(format!("unexpected `=`{after}"))
+                    .help("write the expression alone, without `=`"),
                 ';' => syntax(format!("unexpected `;`{after}")).help("remove it"),
-                _ => syntax(format!("unexpected `{}`{after}", c.escape_debug())).help(
-                    "expressions consist of numbers, names, + - * / ^, parentheses and functions",
-                ),
+                '\'' | '"' | '\\' => syntax(format!("unexpected `{c}`{after}")).help(PARTS),
+                _ => syntax(format!("unexpected `{}`{after}", c.escape_debug())).help(PARTS),
             }
         }
         TokenKind::Close(_) if before.is_some_and(|t| matches!(t.kind, TokenKind::Open(_))) => {
@@ -88,8 +102,10 @@ pub fn unexpected(token: &Token, before: Option<&Token>) -> Diagnostic {
             .help(format!("write a number, a name or parentheses{after}")),
         TokenKind::Text(_) | TokenKind::Literal(_) => syntax(format!("unexpected {text}{after}"))
             .help("an expression is written without quotes"),
-        _ => syntax(format!("unexpected `{text}`{after}"))
-            .help("expressions consist of numbers, names, + - * / ^, parentheses and functions"),
+        TokenKind::Open(Delimiter::Bracket | Delimiter::Brace) => {
+            syntax(format!("unexpected `{text}`{after}")).help("group with `(` and `)`")
+        }
+        _ => syntax(format!("unexpected `{text}`{after}")).help(PARTS),
     }
 }
 
@@ -171,12 +187,22 @@ pub fn malformed_number(tokens: &[Token]) -> Diagnostic {
     }
 }
 
-/// `sin x`.
-pub fn function_without_call(name: &str, origin: Origin) -> Diagnostic {
+/// `sin x`, `sin^2(x)`, `sin` alone: `argument` and `power` are what stands behind it.
+pub fn function_without_call(
+    name: &str,
+    argument: &str,
+    power: &str,
+    origin: Origin,
+) -> Diagnostic {
+    let argument = match argument.strip_prefix('(') {
+        Some(inside) => inside.strip_suffix(')').unwrap_or(inside),
+        None if argument.is_empty() => "…",
+        None => argument,
+    };
     let (what, form) = if name == "sum" {
         ("the indexed sum", "sum(i in 0..N: …)".to_owned())
     } else {
-        ("a function", format!("{name}(…)"))
+        ("a function", format!("{name}({argument}){power}"))
     };
     Diagnostic::new(
         Kind::Syntax,

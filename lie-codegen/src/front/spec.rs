@@ -120,7 +120,7 @@ impl Remainder<'_, '_> {
                 item::definition(&line.tokens, "an abbreviation", line.place, report)?;
             Some((
                 name,
-                item::formula(value, "its value", line.place, &names, report)?,
+                item::formula(value, ("its value", "x^2/2"), line.place, &names, report)?,
             ))
         });
         let lets = lets.collect();

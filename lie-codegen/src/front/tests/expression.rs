@@ -182,7 +182,7 @@ fn signs_and_delimiters() {
         ),
         ("(x + y", "(", "add its closing partner"),
         ("x + y)", ")", "remove it, or open it before"),
-        ("x = y", "=", "an expression has no `=`"),
+        ("x = y", "=", "write the expression alone, without `=`"),
         ("x × y", "×", "write `*`"),
         ("x · y", "·", "write `*`"),
         ("ω·Π", "ω·Π", "write `ω*Π`"),
