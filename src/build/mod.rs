@@ -108,11 +108,7 @@ fn build(
 ) -> Result<PathBuf, Failure> {
     runtime::unpack(cache).map_err(|error| cache::failure(cache, &error))?;
     let name = format!("lie-{key}");
-    // Relative, so that no character of the cache's path can break the manifest.
-    let runtime = format!("../../runtime/{}", runtime::identity());
-    let manifest = MANIFEST
-        .replace("PROGRAM", &name)
-        .replace("RUNTIME", &runtime);
+    let manifest = manifest(&name);
     let write = |file: &str, content: &str| {
         let path = folder.join(file);
         cache::write(&path, content.as_bytes()).map_err(|error| cache::failure(&path, &error))
@@ -153,6 +149,15 @@ fn build(
     let executable = executable(&output.stdout, &name).ok_or_else(|| failed(&output, folder))?;
     say(&format!("Built in {:.1} s.", start.elapsed().as_secs_f64()));
     Ok(executable)
+}
+
+/// The manifest of a program.
+fn manifest(name: &str) -> String {
+    // Relative, so that no character of the cache's path can break it.
+    let runtime = format!("../../runtime/{}", runtime::identity());
+    MANIFEST
+        .replace("PROGRAM", name)
+        .replace("RUNTIME", &runtime)
 }
 
 /// Whether cargo failed before it compiled anything.
@@ -221,4 +226,49 @@ fn install(built: &Path, program: &Path) -> std::io::Result<()> {
         std::fs::copy(built, &draft)?;
     }
     std::fs::rename(&draft, program)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The lock file fits the manifests, and nothing in it is superfluous. After a change of the
+    /// dependencies, `LIE_UPDATE_LOCK=1 cargo test -p lie-poisson lock_file` writes it anew.
+    #[test]
+    fn the_lock_file_fits_the_manifests() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let update = std::env::var_os("LIE_UPDATE_LOCK").is_some();
+        let cache = tempfile::tempdir().unwrap();
+        runtime::unpack(cache.path()).unwrap();
+        let folder = cache.path().join("programs").join("key");
+        std::fs::create_dir_all(&folder).unwrap();
+        let write = |file: &str, text: &str| std::fs::write(folder.join(file), text).unwrap();
+        write("Cargo.toml", &manifest("lie-key"));
+        write("main.rs", "fn main() {}");
+        if update {
+            write(
+                "Cargo.lock",
+                &std::fs::read_to_string(root.join("Cargo.lock")).unwrap(),
+            );
+        } else {
+            write("Cargo.lock", LOCK);
+        }
+        let mut cargo = std::process::Command::new(toolchain::cargo_name());
+        cargo
+            .args(["metadata", "--format-version", "1", "--offline"])
+            .current_dir(&folder);
+        if !update {
+            cargo.arg("--locked");
+        }
+        let output = cargo.output().unwrap();
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        if update {
+            let target = root.join("src/build/template/Cargo.lock");
+            std::fs::copy(folder.join("Cargo.lock"), target).unwrap();
+        }
+    }
 }

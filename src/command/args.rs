@@ -27,7 +27,7 @@ pub enum Command {
     /// Prints the generated Rust code of a spec
     Expand(Expand),
     /// Integrates a spec with its generated, compiled code
-    Run(Run),
+    Run(Box<Run>),
     /// Lists the methods: order, what they preserve, what they need, reference
     Methods(Methods),
     /// Prints the JSON Schema of spec files

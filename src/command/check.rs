@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use lie_codegen::compile;
-use lie_codegen::methods::applicability;
+use lie_codegen::methods::{Choice, Retraction, applicability, refusal};
 use lie_codegen::model::Model;
 use serde_json::{Value, json};
 
@@ -183,6 +183,11 @@ impl Report {
             {
                 writeln!(text, "    not {id}: {reason}")?;
             }
+        }
+        let cayley = Choice::LieMidpoint(Retraction::Cayley);
+        match refusal(model, cayley) {
+            None => writeln!(text, "    also {}", cayley.label())?,
+            Some((reason, _)) => writeln!(text, "    not {}: {reason}", cayley.label())?,
         }
         let planned = self
             .methods

@@ -27,6 +27,8 @@ pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
     render::print(&spec.warnings());
     if arguments.method.is_empty() {
         choices = compile::declared_choices(&spec.model);
+    } else {
+        choices = compile::with_options(&spec.model, &choices);
     }
     print(&compile::expand(&spec.model, &choices))?;
     Ok(0)

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use lie_codegen::compile;
 use lie_codegen::diagnostic::Kind;
 use lie_poisson::plot::Plot;
@@ -177,7 +177,6 @@ fn integrate(
         tolerances: plan.tolerances.clone(),
     };
 
-    let stdout = flags.out.is_none();
     let lost = |error: io::Error| match (error.kind(), &flags.out) {
         (io::ErrorKind::BrokenPipe, None) => Failure::quiet(),
         (_, Some(path)) => writing_failed(path, &error),
@@ -189,7 +188,9 @@ fn integrate(
         Plot::new(&*model.name, &columns, model.dimension(), (0.0, plan.end())).subtitle(subtitle)
     });
     let mut drift = Drift::new(&columns[model.dimension() + 1..]);
-    let bar = Bar::new(!flags.quiet && !(stdout && io::stdout().is_terminal()));
+    // Rows that scroll by on the same terminal say enough.
+    let scrolls = flags.out.is_none() && io::stdout().is_terminal();
+    let bar = Bar::new(!flags.quiet && !scrolls);
     let start = Instant::now();
     let mut refused = None;
     let end = protocol::run(
@@ -315,10 +316,17 @@ impl Bar {
         } else {
             ProgressBar::hidden()
         };
-        let template = "{bar:40} {percent}% of {len} steps, {per_sec}, {eta} left";
-        bar.set_style(
-            ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()),
-        );
+        let template = "{bar:40} {percent}% of {len} steps, {rate} per second, {eta} left";
+        let style = ProgressStyle::with_template(template)
+            .unwrap_or_else(|_| ProgressStyle::default_bar())
+            .with_key(
+                "rate",
+                |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+                    // Nobody needs its last digits; a bar that cannot be written is not drawn.
+                    let _ = write!(out, "{}", HumanCount(state.per_sec() as u64));
+                },
+            );
+        bar.set_style(style);
         Self {
             bar,
             start: Instant::now(),
