@@ -1,8 +1,15 @@
 //! Poisson systems, Lie–Poisson systems, and those with a Cayley map.
 //!
-//! Left-invariant convention throughout: `[e_i, e_j] = sum_k C_ij^k e_k`,
-//! `<ad*_xi mu, eta> = <mu, [xi, eta]>`, `Pi(mu) xi = ad*_xi mu`, and the equation of motion is
-//! `mu' = Pi(mu) grad H(mu)`, for so(3) `mu' = mu x grad H`.
+//! Left-invariant convention throughout:
+//!
+//! ```math
+//! [e_i, e_j] = \sum_k C_{ij}^k\, e_k, \qquad
+//! \langle \mathrm{ad}^*_\xi \mu, \eta \rangle = \langle \mu, [\xi, \eta] \rangle, \qquad
+//! \Pi(\mu)\, \xi = \mathrm{ad}^*_\xi \mu, \qquad \dot\mu = \Pi(\mu)\, \nabla H(\mu)
+//! ```
+//!
+//! For so(3), `$\dot\mu = \mu \times \nabla H(\mu)$`.
+#![cfg_attr(doc, doc = include_str!("../docs/katex.html"))]
 
 use crate::generic;
 use crate::matrix::SquareMatrix;

@@ -1,7 +1,10 @@
 //! Gauss collocation on mu' = f(mu).
 //!
-//! Stages `Y_i = mu + h sum_j a_ij f(Y_j)`, `mu1 = mu + h sum_i b_i f(Y_i)` with the nodes of Gauss
-//! and Legendre: order 2s with s stages, symmetric, keeps every quadratic invariant of the equation.
+//! ```math
+//! Y_i = \mu + h \sum_{j=1}^s a_{ij}\, f(Y_j), \qquad \mu_1 = \mu + h \sum_{i=1}^s b_i\, f(Y_i)
+//! ```
+//!
+//! with the nodes of Gauss and Legendre: order 2s with s stages, symmetric, keeps every quadratic invariant of the equation.
 //! The unknowns are the increments `D_i = h f(Y_i)`, of which round-off is relative to h f and not
 //! to mu.
 //!
@@ -12,6 +15,7 @@
 //! [doi:10.1007/3-540-30666-8](https://doi.org/10.1007/3-540-30666-8).
 //!
 //! [`Poisson`]: crate::Poisson
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;

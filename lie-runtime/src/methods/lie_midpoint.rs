@@ -1,8 +1,14 @@
 //! The Lie–Poisson midpoint method: one step along a retraction of the group.
 //!
-//! With a retraction tau (exp or Cayley) the step is `mu1 = Ad*_(tau(x)) mu`, where
-//! `x = h grad H(m)` and the momentum m at the midpoint solves `(dtau_x^-1)* m = mu`; equivalently
-//! `mu1 = (dtau_(-x)^-1)* m`. It is the discrete Lie–Poisson flow of the discrete Lagrangian
+//! With a retraction `$\tau$` (exp or Cayley), its right-trivialised tangent `$\mathrm{d}\tau_x$` and the
+//! momentum m at the midpoint as the unknown:
+//!
+//! ```math
+//! (\mathrm{d}\tau_x^{-1})^* m = \mu, \qquad x = h\, \nabla H(m), \qquad
+//! \mu_1 = \mathrm{Ad}^*_{\tau(x)}\, \mu = (\mathrm{d}\tau_{-x}^{-1})^* m
+//! ```
+//!
+//! It is the discrete Lie–Poisson flow of the discrete Lagrangian
 //! `h l(tau^-1(g)/h)`. Order 2, symmetric, a Poisson map; keeps every Casimir and the coadjoint
 //! orbit, and the energy without drift though not exactly.
 //!
@@ -17,6 +23,7 @@
 //! N. Bou-Rabee, J. E. Marsden, "Hamilton–Pontryagin integrators on Lie groups", Foundations of
 //! Computational Mathematics 9 (2009) 197–219,
 //! [doi:10.1007/s10208-008-9030-4](https://doi.org/10.1007/s10208-008-9030-4).
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;

@@ -1,7 +1,10 @@
 //! The implicit midpoint rule on a Poisson manifold.
 //!
-//! `mu1 = mu + h f((mu + mu1)/2)` with `f = Pi grad H`. Order 2, symmetric. Keeps every quadratic
-//! invariant of the equation, among them quadratic Casimirs and a quadratic energy; Casimirs of
+//! ```math
+//! \mu_1 = \mu + h\, f\!\left(\tfrac12 (\mu + \mu_1)\right), \qquad f = \Pi\, \nabla H
+//! ```
+//!
+//! Order 2, symmetric. Keeps every quadratic invariant of the equation, among them quadratic Casimirs and a quadratic energy; Casimirs of
 //! higher degree and the Poisson structure are kept only to O(h^2) per unit of time (the Poisson
 //! defect of a step is O(h^3)), unless Pi is constant.
 //!
@@ -12,6 +15,7 @@
 //! [doi:10.1006/jcph.1993.1128](https://doi.org/10.1006/jcph.1993.1128).
 //!
 //! [`Poisson`]: crate::Poisson
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;

@@ -1,13 +1,18 @@
 //! The classical explicit Runge–Kutta method, as a control that keeps no structure.
 //!
-//! `mu1 = mu + (h/6)(k1 + 2 k2 + 2 k3 + k4)` with `k1 = f(mu)`, `k2 = f(mu + h k1/2)`,
-//! `k3 = f(mu + h k2/2)`, `k4 = f(mu + h k3)`. Order 4.
+//! ```math
+//! \mu_1 = \mu + \tfrac{h}{6}(k_1 + 2 k_2 + 2 k_3 + k_4), \qquad
+//! k_1 = f(\mu),\; k_2 = f(\mu + \tfrac{h}{2} k_1),\; k_3 = f(\mu + \tfrac{h}{2} k_2),\; k_4 = f(\mu + h k_3)
+//! ```
+//!
+//! Order 4.
 //!
 //! Needs: the vector field.
 //!
 //! Reference: E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations I",
 //! 2nd edition, Springer 1993, section II.1,
 //! [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
 use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper, not_finite};
