@@ -37,16 +37,22 @@ pub fn compile_declaration(declaration: &Declaration) -> Result<Model, Vec<Diagn
 
 /// The methods that a declaration asks for, each with every option that applies.
 pub fn declared_choices(model: &Model) -> Vec<Choice> {
-    let mut choices = Vec::new();
-    for name in &model.methods {
-        let Ok(choice) = Choice::from_id(&name.text) else { continue };
-        choices.push(choice);
+    let declared: Vec<Choice> =
+        model.methods.iter().filter_map(|name| Choice::from_id(&name.text).ok()).collect();
+    with_options(model, &declared)
+}
+
+/// Methods with every option that applies to the system.
+pub fn with_options(model: &Model, choices: &[Choice]) -> Vec<Choice> {
+    let mut all = Vec::new();
+    for choice in choices {
+        all.push(*choice);
         let cayley = Choice::LieMidpoint(Retraction::Cayley);
         if matches!(choice, Choice::LieMidpoint(_)) && refusal(model, cayley).is_none() {
-            choices.push(cayley);
+            all.push(cayley);
         }
     }
-    choices
+    all
 }
 
 /// The generated items of a system with fused code for these methods.

@@ -16,8 +16,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::compile::{compile_spec, expand};
-use crate::methods::{Choice, Retraction, refusal};
+use crate::compile::{compile_spec, expand, with_options};
+use crate::methods::Choice;
 
 /// The environment variable that makes [`Golden::check`] write instead of compare.
 pub const UPDATE: &str = "LIE_UPDATE_GOLDEN";
@@ -137,16 +137,11 @@ fn generate(path: &Path, methods: &[&str]) -> Result<String, String> {
         let messages: Vec<String> = diagnostics.iter().map(|d| format!("error[{}]: {}", d.kind, d.message)).collect();
         format!("{place}: {}", messages.join("; "))
     })?;
-    let mut choices = Vec::new();
-    for id in methods {
-        let choice = Choice::from_id(id).map_err(|unusable| format!("{place}: {}", unusable.message))?;
-        choices.push(choice);
-        let cayley = Choice::LieMidpoint(Retraction::Cayley);
-        if matches!(choice, Choice::LieMidpoint(_)) && refusal(&model, cayley).is_none() {
-            choices.push(cayley);
-        }
-    }
-    Ok(expand(&model, &choices))
+    let choices = methods.iter().map(|id| {
+        Choice::from_id(id).map_err(|unusable| format!("{place}: {}", unusable.message))
+    });
+    let choices: Vec<Choice> = choices.collect::<Result<_, _>>()?;
+    Ok(expand(&model, &with_options(&model, &choices)))
 }
 
 fn difference(path: &Path, golden: &str, new: &str) -> String {
