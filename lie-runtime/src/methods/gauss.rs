@@ -4,9 +4,9 @@
 //! Y_i = \mu + h \sum_{j=1}^s a_{ij}\, f(Y_j), \qquad \mu_1 = \mu + h \sum_{i=1}^s b_i\, f(Y_i)
 //! ```
 //!
-//! with the nodes of Gauss and Legendre: order 2s with s stages, symmetric, keeps every quadratic invariant of the equation.
-//! The unknowns are the increments `D_i = h f(Y_i)`, of which round-off is relative to h f and not
-//! to mu.
+//! with the nodes of Gauss and Legendre: order 2s with s stages, symmetric, keeps every quadratic
+//! invariant of the equation. The unknowns are the increments `D_i = h f(Y_i)`, of which round-off is
+//! relative to h f and not to mu.
 //!
 //! Needs: the vector field and its Jacobian; any [`Poisson`] system.
 //!

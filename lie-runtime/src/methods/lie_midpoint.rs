@@ -8,9 +8,9 @@
 //! \mu_1 = \mathrm{Ad}^*_{\tau(x)}\, \mu = (\mathrm{d}\tau_{-x}^{-1})^* m
 //! ```
 //!
-//! It is the discrete Lie–Poisson flow of the discrete Lagrangian
-//! `h l(tau^-1(g)/h)`. Order 2, symmetric, a Poisson map; keeps every Casimir and the coadjoint
-//! orbit, and the energy without drift though not exactly.
+//! It is the discrete Lie–Poisson flow of the discrete Lagrangian `h l(tau^-1(g)/h)`. Order 2,
+//! symmetric, a Poisson map; keeps every Casimir and the coadjoint orbit, and the energy without drift
+//! though not exactly.
 //!
 //! exp works for every algebra. Cayley needs a matrix representation whose span is closed under
 //! `(abc + cba)/2`, and then is polynomial: no series.

@@ -4,9 +4,9 @@
 //! \mu_1 = \mu + h\, f\!\left(\tfrac12 (\mu + \mu_1)\right), \qquad f = \Pi\, \nabla H
 //! ```
 //!
-//! Order 2, symmetric. Keeps every quadratic invariant of the equation, among them quadratic Casimirs and a quadratic energy; Casimirs of
-//! higher degree and the Poisson structure are kept only to O(h^2) per unit of time (the Poisson
-//! defect of a step is O(h^3)), unless Pi is constant.
+//! Order 2, symmetric. Keeps every quadratic invariant of the equation, among them quadratic
+//! Casimirs and a quadratic energy; Casimirs of higher degree and the Poisson structure are kept only
+//! to O(h^2) per unit of time (the Poisson defect of a step is O(h^3)), unless Pi is constant.
 //!
 //! Needs: the vector field and its Jacobian; any [`Poisson`] system.
 //!
