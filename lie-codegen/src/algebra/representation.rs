@@ -63,18 +63,19 @@ pub fn read<'a>(
             Some(index) => slots[index] = Some(matrix),
         }
     }
-    let missing: Vec<&str> = slots
+    let missing: Vec<_> = slots
         .iter()
-        .zip(scope.basis())
+        .zip(&algebra.basis)
         .filter(|(m, _)| m.is_none())
-        .map(|(_, name)| *name)
+        .map(|(_, name)| name)
         .collect();
-    if complete && !missing.is_empty() {
+    if let Some(first) = missing.first().filter(|_| complete) {
+        let names: Vec<&str> = missing.iter().map(|name| name.text.as_str()).collect();
         report.push(
             Diagnostic::new(
                 Kind::Representation,
-                algebra.matrices[0].origin,
-                format!("no matrix for {}", missing.join(", ")),
+                first.origin,
+                format!("no matrix for {}", names.join(", ")),
             )
             .help("a representation has one matrix for every basis element"),
         );

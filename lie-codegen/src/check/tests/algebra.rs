@@ -262,7 +262,7 @@ fn matrices_are_checked_against_brackets() {
         .replace(r#"["x0", "x1"]"#, r#"["x0", "x1", "x2"]"#);
     let found = errors(&text);
     assert!(
-        found[0].starts_with("representation") && found[0].ends_with("no matrix for E2"),
+        found[0] == "representation at E2: no matrix for E2",
         "{found:#?}"
     );
     expect(
