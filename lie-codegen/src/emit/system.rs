@@ -141,11 +141,13 @@ impl Writer<'_> {
     }
 
     fn casimir_gradients(&mut self, kernels: &[&Kernel]) -> TokenStream {
-        let (mu, out) = (self.argument("mu"), self.argument("out"));
+        let out = self.argument("out");
+        let mut read = false;
         let mut arms = Vec::new();
         let mut docs = TokenStream::new();
         for (index, kernel) in kernels.iter().enumerate() {
             let program = kernel.program(&mut self.source.graph);
+            read |= Self::reads(&kernel.arguments[0], &program);
             let name = &self.blueprint.casimir_names[index];
             self.counts.push((format!("casimir_gradient {name}"), program.counts));
             let line = format!(" Gradient of `{name}`: {}.", program.counts);
@@ -164,6 +166,7 @@ impl Writer<'_> {
                 }
             };
         }
+        let mu = if read { self.argument("mu") } else { ident("_mu") };
         quote! {
             #[doc = " `out_i = dC/dmu_i` of one Casimir."]
             #docs
