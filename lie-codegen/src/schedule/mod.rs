@@ -6,6 +6,7 @@
 
 mod collect;
 mod factor;
+mod fold;
 mod formula;
 mod linearise;
 mod program;
@@ -56,13 +57,18 @@ pub fn schedule(graph: &mut Graph, task: &Task) -> Program {
     if let Some(collected) = collect::collect(graph, &roots, task.known) {
         candidates.push(collected);
     }
+    let symbols: Vec<Symbol> = task.definitions.iter().map(|(s, _)| *s).collect();
+    for index in 0..candidates.len() {
+        if let Some(folded) = fold::fold(graph, &symbols, &candidates[index]) {
+            candidates.push(folded);
+        }
+    }
     for index in 0..candidates.len() {
         if let Some(factored) = factor::factor(graph, &candidates[index], task.known) {
             candidates.push(factored);
         }
     }
     candidates.dedup();
-    let symbols: Vec<Symbol> = task.definitions.iter().map(|(s, _)| *s).collect();
     candidates
         .into_iter()
         .flat_map(|roots| [(roots.clone(), false), (roots, true)])
