@@ -131,7 +131,6 @@ fn errors(plot: &Plot) -> Panel {
         if first > negligible { first } else { 1.0 }
     };
     let absolute = |curve: &Curve| divisor(curve) == 1.0 && curve.first.abs() != 1.0;
-    let some = plot.invariants.iter().any(absolute);
     let all = plot.invariants.iter().all(absolute);
     // Exact zeros are drawn where round-off would be.
     let floor = ROUND_OFF.log10();
@@ -172,10 +171,10 @@ fn errors(plot: &Plot) -> Panel {
         x: time_axis(plot),
         y: Axis::decades(floor - 0.4, (top + 0.4).max(floor + 3.0), 7),
         x_title: "t",
-        y_title: match (some, all) {
-            (_, true) => "|I − I₀|",
-            (true, false) => "error",
-            (false, false) => "|I − I₀| / |I₀|",
+        y_title: if all {
+            "|I − I₀|"
+        } else {
+            "|I − I₀| / |I₀|"
         },
         logarithmic: true,
         lines,

@@ -109,7 +109,9 @@ impl Plot {
         }
         for (curve, &value) in self.invariants.iter_mut().zip(invariants) {
             if self.rows == 0 {
+                // Its error is zero by definition and tells nothing.
                 curve.first = value;
+                continue;
             }
             curve.bins.push(t, (value - curve.first).abs());
         }
