@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::ticks::{Axis, power_of_ten};
-use super::{Curve, Plot};
+use super::{Curve, Plot, reference};
 
 /// The backend rounds to whole pixels: everything is drawn this much larger and scaled down.
 const ZOOM: i32 = 4;
@@ -125,17 +125,13 @@ fn trajectory(plot: &Plot) -> Panel {
 /// |I − I₀| / |I₀| of each invariant, or |I − I₀| where I₀ is nothing but round-off: relative to
 /// it would say nothing.
 fn errors(plot: &Plot) -> Panel {
-    let negligible = 1e-12 * plot.scale.min(plot.scale * plot.scale);
-    let divisor = |curve: &Curve| {
-        let first = curve.first.abs();
-        if first > negligible { first } else { 1.0 }
-    };
-    let absolute = |curve: &Curve| divisor(curve) == 1.0 && curve.first.abs() != 1.0;
+    let divisor = |curve: &Curve| reference(curve.first, plot.scale);
+    let absolute = |curve: &Curve| divisor(curve).is_none();
     let all = plot.invariants.iter().all(absolute);
     // Exact zeros are drawn where round-off would be.
     let floor = ROUND_OFF.log10();
     let line = |curve: &Curve| {
-        let scale = divisor(curve);
+        let scale = divisor(curve).unwrap_or(1.0);
         let place = |&(t, error): &(f64, f64)| (t, (error / scale).log10().max(floor));
         let pieces = curve.bins.upper_envelope();
         let mark = if absolute(curve) && !all {

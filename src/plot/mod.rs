@@ -133,5 +133,12 @@ impl Plot {
     }
 }
 
+/// What the error of an invariant is divided by: |I₀|, or nothing where I₀ is only round-off
+/// beside a state whose largest component is `scale`. Relative to that, an error would say nothing.
+pub fn reference(first: f64, scale: f64) -> Option<f64> {
+    let negligible = 1e-12 * scale.min(scale * scale);
+    (first.abs() > negligible).then_some(first.abs())
+}
+
 #[cfg(test)]
 mod tests;
