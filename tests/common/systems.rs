@@ -1,0 +1,160 @@
+//! The systems of `specs/` by their golden files, and how tests go through them.
+
+// Each test file uses its own part of this.
+#![allow(dead_code, unused_macros, unused_imports)]
+
+use lie_runtime::{
+    GaussEquations, LieMidpointEquations, LiePoisson, MidpointEquations, Poisson, Scalar, State,
+};
+
+#[path = "../golden/e2_pendulum.rs"]
+#[rustfmt::skip]
+pub mod e2_pendulum;
+#[path = "../golden/heisenberg_h3.rs"]
+#[rustfmt::skip]
+pub mod heisenberg_h3;
+#[path = "../golden/se3_heavy_top.rs"]
+#[rustfmt::skip]
+pub mod se3_heavy_top;
+#[path = "../golden/se3_kirchhoff.rs"]
+#[rustfmt::skip]
+pub mod se3_kirchhoff;
+#[path = "../golden/sl2_quadratic.rs"]
+#[rustfmt::skip]
+pub mod sl2_quadratic;
+#[path = "../golden/so3_cotangent_euler_arnold.rs"]
+#[rustfmt::skip]
+pub mod so3_cotangent_euler_arnold;
+#[path = "../golden/so3_free_rigid_body.rs"]
+#[rustfmt::skip]
+pub mod so3_free_rigid_body;
+#[path = "../golden/so3_nonpolynomial.rs"]
+#[rustfmt::skip]
+pub mod so3_nonpolynomial;
+#[path = "../golden/so4_manakov.rs"]
+#[rustfmt::skip]
+pub mod so4_manakov;
+#[path = "../golden/toda3_solvable.rs"]
+#[rustfmt::skip]
+pub mod toda3_solvable;
+
+pub use e2_pendulum::Pendulum;
+pub use heisenberg_h3::Heisenberg;
+pub use se3_heavy_top::HeavyTop;
+pub use se3_kirchhoff::KirchhoffBody;
+pub use sl2_quadratic::Sl2Quadratic;
+pub use so3_cotangent_euler_arnold::CotangentEulerArnold;
+pub use so3_free_rigid_body::FreeRigidBody;
+pub use so3_nonpolynomial::NonpolynomialSpin;
+pub use so4_manakov::ManakovTop;
+pub use toda3_solvable::TodaLattice;
+
+/// A system of `specs/` with its default parameters, over any scalar.
+pub trait Declared {
+    /// The name of its spec, golden file and reference values.
+    const FILE: &'static str;
+    type System<S: Scalar>: LiePoisson<S>
+        + MidpointEquations<S>
+        + GaussEquations<S, 1>
+        + GaussEquations<S, 2>
+        + GaussEquations<S, 3>
+        + LieMidpointEquations<S>;
+    fn declared<S: Scalar>() -> Self::System<S>;
+    /// The initial state of the declaration.
+    fn initial<S: Scalar>() -> <Self::System<S> as Poisson<S>>::State;
+}
+
+macro_rules! declared {
+    ($file:ident, $name:ident, $system:ident) => {
+        impl Declared for $name {
+            const FILE: &'static str = stringify!($file);
+            type System<S: Scalar> = $file::$system<S>;
+            fn declared<S: Scalar>() -> Self::System<S> {
+                $name::<S>::default()
+                    .system()
+                    .expect("the default parameters are valid")
+            }
+            fn initial<S: Scalar>() -> <Self::System<S> as Poisson<S>>::State {
+                $name::<S>::default().initial_state()
+            }
+        }
+    };
+}
+
+declared!(e2_pendulum, Pendulum, PendulumSystem);
+declared!(heisenberg_h3, Heisenberg, HeisenbergSystem);
+declared!(se3_heavy_top, HeavyTop, HeavyTopSystem);
+declared!(se3_kirchhoff, KirchhoffBody, KirchhoffBodySystem);
+declared!(sl2_quadratic, Sl2Quadratic, Sl2QuadraticSystem);
+declared!(
+    so3_cotangent_euler_arnold,
+    CotangentEulerArnold,
+    CotangentEulerArnoldSystem
+);
+declared!(so3_free_rigid_body, FreeRigidBody, FreeRigidBodySystem);
+declared!(
+    so3_nonpolynomial,
+    NonpolynomialSpin,
+    NonpolynomialSpinSystem
+);
+declared!(so4_manakov, ManakovTop, ManakovTopSystem);
+declared!(toda3_solvable, TodaLattice, TodaLatticeSystem);
+
+/// Calls a macro once per system: file, type, and `cayley` where that retraction exists, else `exp`.
+macro_rules! each_system {
+    ($check:ident) => {
+        $check!(e2_pendulum, Pendulum, cayley);
+        $check!(heisenberg_h3, Heisenberg, cayley);
+        $check!(se3_heavy_top, HeavyTop, cayley);
+        $check!(se3_kirchhoff, KirchhoffBody, cayley);
+        $check!(sl2_quadratic, Sl2Quadratic, cayley);
+        $check!(so3_cotangent_euler_arnold, CotangentEulerArnold, exp);
+        $check!(so3_free_rigid_body, FreeRigidBody, cayley);
+        $check!(so3_nonpolynomial, NonpolynomialSpin, cayley);
+        $check!(so4_manakov, ManakovTop, cayley);
+        $check!(toda3_solvable, TodaLattice, exp);
+    };
+}
+
+/// A state from f64 coordinates.
+pub fn state<S: Scalar, P: Poisson<S>>(system: &P, coordinates: &[f64]) -> P::State {
+    let mut state = system.zero_state();
+    assert_eq!(coordinates.len(), state.as_slice().len());
+    for (entry, &coordinate) in state.as_mut_slice().iter_mut().zip(coordinates) {
+        *entry = S::from_f64(coordinate);
+    }
+    state
+}
+
+/// The largest distance of two lists of numbers; not a number if one is not.
+pub fn distance(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter()
+        .zip(b)
+        .fold(0.0, |largest, (a, b)| Scalar::max(largest, (a - b).abs()))
+}
+
+/// The same in units of the second list's largest number, or of 1 if that is smaller.
+pub fn relative_distance(a: &[f64], b: &[f64]) -> f64 {
+    distance(a, b)
+        / b.iter()
+            .fold(1.0, |largest, b| Scalar::max(largest, b.abs()))
+}
+
+/// Numbers between -1 and 1 from a seed (splitmix64).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        bits ^= bits >> 31;
+        (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    pub fn numbers(&mut self, count: usize) -> Vec<f64> {
+        (0..count).map(|_| self.number()).collect()
+    }
+}
