@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use lie_poisson::plot::reference;
+
 use crate::build::protocol::Counts;
 
 /// The largest errors of the invariants over the rows, against the first row.
@@ -53,14 +55,12 @@ impl Drift {
 
     /// `energy 1.2e-6, C 3e-16 (absolute)`: relative wherever the invariant is not zero.
     fn text(&self) -> String {
-        let negligible = 1e-12 * self.scale.min(self.scale * self.scale);
-        let one = |((name, first), largest): ((&String, &f64), &f64)| {
-            if first.abs() > negligible {
-                format!("{name} {}", short(largest / first.abs()))
-            } else {
-                format!("{name} {} (absolute)", short(*largest))
-            }
-        };
+        let one =
+            |((name, first), largest): ((&String, &f64), &f64)| match reference(*first, self.scale)
+            {
+                Some(first) => format!("{name} {}", short(largest / first)),
+                None => format!("{name} {} (absolute)", short(*largest)),
+            };
         let all = self
             .names
             .iter()

@@ -1,0 +1,117 @@
+//! Parameters and the initial state.
+
+use lie_codegen::check::domain;
+use lie_codegen::diagnostic::Kind;
+use lie_codegen::suggest::did_you_mean;
+
+use super::super::values::Given;
+use super::Planner;
+use crate::message::Message;
+
+impl Planner<'_> {
+    pub(super) fn parameters(&mut self) -> Option<Vec<f64>> {
+        let declared = &self.spec.model.parameters;
+        let names: Vec<&str> = declared
+            .iter()
+            .map(|parameter| parameter.name.as_str())
+            .collect();
+        let mut values = self.spec.model.defaults();
+        let mut set = vec![false; names.len()];
+        let before = self.mistakes.len();
+        for text in &self.flags.param {
+            let given = Given::flag("--param", text);
+            let Some(equals) = text.find('=') else {
+                let message = given.wrong(format!("`{text}` is not NAME=VALUE"));
+                self.mistakes
+                    .push(message.help("write it like `--param I1=2`"));
+                continue;
+            };
+            let name = text[..equals].trim();
+            let Some(index) = names.iter().position(|known| *known == name) else {
+                let message = given
+                    .part(0..equals)
+                    .wrong(format!("unknown parameter `{name}`"));
+                let help = match did_you_mean(name, names.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None if names.is_empty() => "the system has no parameters".to_owned(),
+                    None => format!("the parameters are {}", names.join(", ")),
+                };
+                self.mistakes.push(message.help(help));
+                continue;
+            };
+            if std::mem::replace(&mut set[index], true) {
+                let message = given.wrong(format!("`{name}` is set twice"));
+                self.mistakes.push(message.help("set it once"));
+            }
+            if let Some(value) = self.keep(given.part(equals + 1..text.len()).number()) {
+                values[index] = value;
+            }
+        }
+        (self.mistakes.len() == before).then_some(values)
+    }
+
+    pub(super) fn initial(&mut self, parameters: &[f64]) -> Option<Vec<f64>> {
+        let model = &self.spec.model;
+        let dimension = model.dimension();
+        let values = if let Some(text) = &self.flags.initial {
+            let given = Given::flag("--initial", text);
+            let parts = given.split();
+            if parts.len() != dimension {
+                let text = format!("{} values for a state of {dimension}", parts.len());
+                let mut message = given.wrong(text);
+                message.kind = Kind::StateLength;
+                self.mistakes.push(message.help(self.example()));
+                return None;
+            }
+            let before = self.mistakes.len();
+            let values: Vec<f64> = parts
+                .iter()
+                .filter_map(|part| self.keep(part.number()))
+                .collect();
+            (self.mistakes.len() == before).then_some(values)?
+        } else if let Some(values) = model.initial_values(parameters) {
+            values
+        } else {
+            let text = format!("the spec of {} has no `initial`", model.name);
+            self.mistakes
+                .push(Message::option("--initial", text).help(self.example()));
+            return None;
+        };
+        self.in_domain(parameters, &values).then_some(values)
+    }
+
+    fn example(&self) -> String {
+        let names: Vec<&str> = self
+            .spec
+            .model
+            .coordinates
+            .iter()
+            .map(|c| c.text.as_str())
+            .collect();
+        let zeros: Vec<String> = (1..=names.len()).map(|k| format!("0.{k}")).collect();
+        let zeros = zeros.join(",");
+        format!(
+            "give the values of {} with `--initial`, such as `--initial {zeros}`",
+            names.join(", ")
+        )
+    }
+
+    /// Whether H, its gradient and the Casimirs have values there. The defaults were checked with
+    /// the spec; flags may have moved away from them.
+    fn in_domain(&mut self, parameters: &[f64], state: &[f64]) -> bool {
+        let model = &self.spec.model;
+        let Some(fault) = domain::fault(model, state, parameters) else {
+            return true;
+        };
+        let flag = if self.flags.initial.is_some() {
+            "--initial"
+        } else {
+            "--param"
+        };
+        let text = format!("{} at the initial state", fault.message);
+        let help = "start where it is finite, or change the parameters";
+        self.mistakes
+            .push(Message::new(Kind::Domain, text).at_option(flag).help(help));
+        false
+    }
+}
