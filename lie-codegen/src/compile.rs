@@ -148,15 +148,20 @@ fn blueprint(model: &Model, fused: Fused) -> Blueprint {
         parameters,
         casimir_names: model.casimirs.iter().map(|c| c.name.clone()).collect(),
         initial: model.initial.clone(),
-        source: Source {
-            graph: model.graph.clone(),
-            dimension: model.dimension(),
-            constants: model.constants.entries().to_vec(),
-            hamiltonian: model.hamiltonian,
-            casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
-            triple: model.representation.as_ref().and_then(|r| r.triple.clone()),
-        },
+        source: source(model),
         fused,
+    }
+}
+
+/// What the kernels of a model are derived from.
+pub fn source(model: &Model) -> Source {
+    Source {
+        graph: model.graph.clone(),
+        dimension: model.dimension(),
+        constants: model.constants.entries().to_vec(),
+        hamiltonian: model.hamiltonian,
+        casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
+        triple: model.representation.as_ref().and_then(|r| r.triple.clone()),
     }
 }
 

@@ -112,7 +112,7 @@ fn heavy_top() {
         &[
             ("triple", 27, 33),
             ("lie-midpoint cayley residual", 34, 33),
-            ("lie-midpoint cayley linearize", 76, 77),
+            ("lie-midpoint cayley linearize", 75, 77),
         ],
     );
 }

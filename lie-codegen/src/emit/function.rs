@@ -9,13 +9,37 @@ use super::prepared::{Owner, Prepared};
 use crate::derive::{Argument, Kernel, Shape};
 use crate::schedule::{Operation, Program, Value};
 
+/// Longer formulas are left out of the doc comments.
+const LONGEST_FORMULA: usize = 160;
+
 impl Writer<'_> {
     /// The doc lines of a kernel: its formula and its count of operations. The count is recorded.
     pub fn kernel_docs(&mut self, label: &str, kernel: &Kernel, program: &Program) -> TokenStream {
         self.counts.push((label.to_string(), program.counts));
         let formula = format!(" {}", kernel.formula);
         let count = format!(" {}.", program.counts);
-        quote! { #[doc = #formula] #[doc = ""] #[doc = #count] }
+        let explicit = self.explicit(kernel);
+        quote! { #[doc = #formula] #[doc = ""] #(#[doc = #explicit])* #[doc = #count] }
+    }
+
+    /// The energy and the equations of motion in the names of the user, where they are short.
+    fn explicit(&self, kernel: &Kernel) -> Vec<String> {
+        let left: Vec<String> = match kernel.name {
+            "hamiltonian" => vec!["H".into()],
+            "vector_field" => {
+                let Shape::Vector(indices) = &kernel.shape else { return Vec::new() };
+                indices.iter().map(|i| format!("{}'", self.blueprint.coordinates[*i])).collect()
+            }
+            _ => return Vec::new(),
+        };
+        let right = kernel.task.outputs.iter().map(|output| self.constant_text(*output));
+        let mut lines: Vec<String> = left.into_iter().zip(right).map(|(l, r)| format!(" {l} = {r}")).collect();
+        if lines.iter().any(|line| line.len() > LONGEST_FORMULA) {
+            return Vec::new();
+        }
+        lines.insert(0, " ```text".into());
+        lines.extend([" ```".into(), String::new()]);
+        lines
     }
 
     /// Whether a program reads a vector argument.

@@ -7,7 +7,7 @@ use super::program::{Operation, Program, Value};
 
 /// The straight-line program of a formula.
 pub fn linearise(formula: &Formula) -> Program {
-    let mut writer = Writer { formula, program: Program::default(), values: HashMap::new() };
+    let mut writer = Writer { formula, program: Program::default(), values: HashMap::new(), negatives: HashMap::new() };
     for signed in &formula.outputs {
         let value = writer.signed(*signed);
         writer.program.outputs.push(value);
@@ -23,6 +23,7 @@ struct Writer<'a> {
     formula: &'a Formula,
     program: Program,
     values: HashMap<AtomId, Value>,
+    negatives: HashMap<Value, Value>,
 }
 
 impl Writer<'_> {
@@ -33,7 +34,17 @@ impl Writer<'_> {
 
     fn signed(&mut self, (negative, atom): Signed) -> Value {
         let value = self.value(atom);
-        if negative { self.push(Operation::Neg(value)) } else { value }
+        if negative { self.negate(value) } else { value }
+    }
+
+    /// The negative of a value, computed once.
+    fn negate(&mut self, value: Value) -> Value {
+        if let Some(known) = self.negatives.get(&value) {
+            return known.clone();
+        }
+        let negative = self.push(Operation::Neg(value.clone()));
+        self.negatives.insert(value, negative.clone());
+        negative
     }
 
     /// The value of an atom; an explicit stack stands in for recursion.
@@ -73,7 +84,7 @@ impl Writer<'_> {
             Atom::Leaf(leaf) => match self.definition(&leaf) {
                 Some((negative, atom)) => {
                     let value = self.values[&atom].clone();
-                    if negative { self.push(Operation::Neg(value)) } else { value }
+                    if negative { self.negate(value) } else { value }
                 }
                 None => leaf,
             },
@@ -88,7 +99,7 @@ impl Writer<'_> {
                 };
                 let mut sum = self.values[&first].clone();
                 if negative {
-                    sum = self.push(Operation::Neg(sum));
+                    sum = self.negate(sum);
                 }
                 for (negative, term) in terms {
                     let term = self.values[&term].clone();
