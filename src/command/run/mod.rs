@@ -1,5 +1,7 @@
 //! `lie run`: integrates a spec with its generated, compiled code.
 
+mod bar;
+mod outputs;
 mod plan;
 mod summary;
 mod values;
@@ -7,9 +9,8 @@ mod values;
 use std::io::{self, IsTerminal as _};
 use std::path::Path;
 use std::process::Command;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use lie_codegen::compile;
 use lie_codegen::diagnostic::Kind;
 use lie_poisson::plot::Plot;
@@ -21,13 +22,12 @@ use crate::build::{self, Request};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, INTERRUPTED, Message, STOPPED, SURROUNDINGS};
-use crate::output::{Destination, Header, Rows};
+use crate::output::{Header, Rows};
 use crate::render;
+use bar::Bar;
+use outputs::Outputs;
 use plan::Plan;
 use summary::Drift;
-
-/// A run of this length shows how far it is.
-const LONG: Duration = Duration::from_millis(700);
 
 /// Runs a spec.
 ///
@@ -41,7 +41,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     };
     let spec = compiler::load(path)?;
     let plan = plan::plan(&spec, flags).map_err(Failure::invalid)?;
-    let format = format(flags, path)?;
+    let format = outputs::format(flags, path)?;
     if !flags.quiet {
         render::print(&spec.warnings());
     }
@@ -60,79 +60,6 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
             Err(failure)
         }
     }
-}
-
-/// The form of the output, and whether the files make sense.
-fn format(flags: &args::Run, spec: &Path) -> Result<Format, Failure> {
-    let same = |a: &Path, b: &Path| {
-        a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-    };
-    for (flag, path) in [("--out", &flags.out), ("--plot", &flags.plot)] {
-        if path.as_deref().is_some_and(|path| same(path, spec)) {
-            let message = Message::option(flag, "this is the spec, which would be overwritten");
-            return Err(message.help("give another file").into());
-        }
-    }
-    if let (Some(out), Some(plot)) = (&flags.out, &flags.plot)
-        && same(out, plot)
-    {
-        let message = Message::option("--plot", "rows and picture cannot go to the same file");
-        return Err(message.help("give another file").into());
-    }
-    let by_name = |path: &Path| match path.extension()?.to_str()? {
-        "json" => Some(Format::Json),
-        "npy" => Some(Format::Npy),
-        _ => None,
-    };
-    let format = flags
-        .format
-        .or_else(|| by_name(flags.out.as_deref()?))
-        .unwrap_or(Format::Csv);
-    if format == Format::Npy && flags.out.is_none() && io::stdout().is_terminal() {
-        let message = Message::option(
-            "--format",
-            "npy is binary and does not belong on a terminal",
-        );
-        return Err(message
-            .help("add `--out FILE.npy`, or redirect the output")
-            .into());
-    }
-    Ok(format)
-}
-
-/// Opened before anything runs, so that a long run does not end in front of a closed door.
-struct Outputs {
-    rows: Destination,
-    plot: Option<Destination>,
-}
-
-impl Outputs {
-    fn open(flags: &args::Run) -> Result<Self, Failure> {
-        let open = |path: &Path| Destination::file(path).map_err(|error| unwritable(path, &error));
-        let rows = match &flags.out {
-            Some(path) => open(path)?,
-            None => Destination::stdout(),
-        };
-        match flags.plot.as_deref().map(open).transpose() {
-            Ok(plot) => Ok(Self { rows, plot }),
-            Err(failure) => {
-                rows.discard();
-                Err(failure)
-            }
-        }
-    }
-
-    fn discard(self) {
-        self.rows.discard();
-        if let Some(plot) = self.plot {
-            plot.discard();
-        }
-    }
-}
-
-fn unwritable(path: &Path, error: &io::Error) -> Failure {
-    let message = Message::io(path, format!("cannot be written: {error}"));
-    Failure::surroundings(message.help("give a file in a folder that exists and can be written"))
 }
 
 fn integrate(
@@ -300,47 +227,5 @@ fn broken(how: &str) -> Failure {
             message.help("delete the cache folder and try again; if it stays, report it"),
         ],
         code: SURROUNDINGS,
-    }
-}
-
-/// Shows on a terminal how far a long run is.
-struct Bar {
-    bar: ProgressBar,
-    start: Instant,
-}
-
-impl Bar {
-    fn new(wanted: bool) -> Self {
-        let bar = if wanted && io::stderr().is_terminal() {
-            ProgressBar::new(0)
-        } else {
-            ProgressBar::hidden()
-        };
-        let template = "{bar:40} {percent}% of {len} steps, {rate} per second, {eta} left";
-        let style = ProgressStyle::with_template(template)
-            .unwrap_or_else(|_| ProgressStyle::default_bar())
-            .with_key(
-                "rate",
-                |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-                    // Nobody needs its last digits; a bar that cannot be written is not drawn.
-                    let _ = write!(out, "{}", HumanCount(state.per_sec() as u64));
-                },
-            );
-        bar.set_style(style);
-        Self {
-            bar,
-            start: Instant::now(),
-        }
-    }
-
-    fn show(&self, done: u64, all: u64) {
-        if self.start.elapsed() > LONG {
-            self.bar.set_length(all);
-            self.bar.set_position(done);
-        }
-    }
-
-    fn clear(&self) {
-        self.bar.finish_and_clear();
     }
 }
