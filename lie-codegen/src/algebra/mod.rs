@@ -20,7 +20,7 @@ mod tests;
 pub use constants::StructureConstants;
 pub(crate) use linear::MAX_DEPTH;
 pub use linear::rational;
-pub use representation::Representation;
+pub use representation::{Representation, TripleEntry};
 pub use scope::Scope;
 
 /// Work allowed for the exact checks of one algebra: seconds, not minutes.

@@ -8,7 +8,7 @@ mod midpoint;
 
 pub use kernel::{Argument, Kernel, Shape};
 
-use crate::exact::Rational;
+use crate::algebra::TripleEntry;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// What the kernels are derived from.
@@ -26,7 +26,7 @@ pub struct Source {
     pub casimirs: Vec<ExprId>,
     /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
     /// representation is closed under it.
-    pub triple: Option<Vec<(usize, usize, usize, usize, Rational)>>,
+    pub triple: Option<Vec<TripleEntry>>,
 }
 
 /// Vector arguments of kernels besides the state; each has n symbols.

@@ -267,16 +267,16 @@ mod tests {
             let mut matrix = vec![vec![0.0; n]; n];
             let mut pattern = Vec::new();
             let mut unit = BTreeSet::new();
-            for i in 0..n {
-                matrix[i][i] = 1.0;
+            for (i, row) in matrix.iter_mut().enumerate() {
+                row[i] = 1.0;
                 if next() < 0.4 {
                     unit.insert(i);
                 } else {
-                    matrix[i][i] += 0.2 * next();
+                    row[i] += 0.2 * next();
                 }
-                for j in 0..n {
+                for (j, entry) in row.iter_mut().enumerate() {
                     if i != j && next() < 0.3 {
-                        matrix[i][j] = 0.3 * next() - 0.1;
+                        *entry = 0.3 * next() - 0.1;
                         pattern.push((i, j));
                     }
                 }
@@ -284,9 +284,9 @@ mod tests {
             let right: Vec<f64> = (0..n).map(|_| next()).collect();
             let elimination = Elimination::new(n, &pattern, &unit);
             let x = solve(&elimination, &matrix, &right);
-            for i in 0..n {
-                let product: f64 = (0..n).map(|j| matrix[i][j] * x[j]).sum();
-                assert!((product - right[i]).abs() < 1e-12, "{product} {}", right[i]);
+            for (row, right) in matrix.iter().zip(&right) {
+                let product: f64 = row.iter().zip(&x).map(|(a, x)| a * x).sum();
+                assert!((product - right).abs() < 1e-12, "{product} {right}");
             }
             assert!(elimination.fill.iter().all(|place| !pattern.contains(place)));
         }

@@ -6,30 +6,7 @@ const ANY: &str = "any Poisson system";
 const ALGEBRA: &str = "any Lie algebra";
 const CLOSED: &str = "a matrix representation closed under (abc + cba)/2";
 
-const fn built(
-    id: &'static str,
-    title: &'static str,
-    order: u32,
-    [symmetric, explicit]: [bool; 2],
-    preserves: Preserves,
-    needs: &'static str,
-    options: &'static [(&'static str, &'static str)],
-    reference: &'static str,
-) -> Method {
-    Method {
-        id,
-        title,
-        order,
-        symmetric,
-        explicit,
-        preserves,
-        needs,
-        options,
-        reference,
-        availability: Availability::Built,
-    }
-}
-
+/// A row of the table; [`Method::built`] marks those that are built.
 const fn planned(
     id: &'static str,
     title: &'static str,
@@ -53,6 +30,14 @@ const fn planned(
     }
 }
 
+impl Method {
+    const fn built(mut self, options: &'static [(&'static str, &'static str)]) -> Self {
+        self.options = options;
+        self.availability = Availability::Built;
+        self
+    }
+}
+
 const AKW: &str = "Austin, Krishnaprasad, Wang (1993), 10.1006/jcph.1993.1128";
 const HLW: &str = "Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), 10.1007/3-540-30666-8";
 const MARTIN: &str = "Martín de Diego, Lie–Poisson integrators (2018), arXiv:1803.01427";
@@ -71,39 +56,39 @@ const KL: &str = "Suzuki (1990), 10.1016/0375-9601(90)90962-N; Kahan, Li (1997),
 
 /// Every method, built or planned.
 pub const CATALOGUE: &[Method] = &[
-    built("midpoint", "Poisson midpoint rule", 2, [true, false], Preserves::QUADRATIC, ANY, &[], AKW),
-    built("gauss4", "Gauss collocation, 2 stages", 4, [true, false], Preserves::QUADRATIC, ANY, &[], HLW),
-    built("gauss6", "Gauss collocation, 3 stages", 6, [true, false], Preserves::QUADRATIC, ANY, &[], HLW),
-    built(
+    planned("midpoint", "Poisson midpoint rule", 2, [true, false], Preserves::QUADRATIC, ANY, AKW).built(&[]),
+    planned("gauss4", "Gauss collocation, 2 stages", 4, [true, false], Preserves::QUADRATIC, ANY, HLW).built(&[]),
+    planned("gauss6", "Gauss collocation, 3 stages", 6, [true, false], Preserves::QUADRATIC, ANY, HLW).built(&[]),
+    planned(
         "lie-midpoint",
         "retraction Lie–Poisson integrator",
         2,
         [true, false],
         Preserves::POISSON,
         "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)",
-        &[("retraction", "exp")],
         MARTIN,
-    ),
-    built(
+    )
+    .built(&[("retraction", "exp")]),
+    planned(
         "rk4",
         "classical Runge–Kutta method (control)",
         4,
         [false, true],
         Preserves::NOTHING,
         ANY,
-        &[],
         "Kutta (1901)",
-    ),
-    built(
+    )
+    .built(&[]),
+    planned(
         "dopri5",
         "Dormand–Prince pair with step control (control)",
         5,
         [false, true],
         Preserves::NOTHING,
         ANY,
-        &[("rtol", "1e-6"), ("atol", "1e-9")],
         "Dormand, Prince (1980), 10.1016/0771-050X(80)90013-3",
-    ),
+    )
+    .built(&[("rtol", "1e-6"), ("atol", "1e-9")]),
     planned("lie-euler", "Lie–Euler", 1, [false, true], Preserves::ORBIT, ALGEBRA, MK),
     planned("rkmk2", "Runge–Kutta–Munthe-Kaas", 2, [false, true], Preserves::ORBIT, ALGEBRA, MK),
     planned("rkmk3", "Runge–Kutta–Munthe-Kaas", 3, [false, true], Preserves::ORBIT, ALGEBRA, MK),

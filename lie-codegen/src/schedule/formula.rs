@@ -11,6 +11,9 @@ use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
 /// Position of an [`Atom`] in its formula.
 pub type AtomId = usize;
 
+/// Bases with their exponents.
+type Powers = Vec<(ExprId, Rational)>;
+
 /// A term or factor: the flag is a minus sign.
 pub type Signed = (bool, AtomId);
 
@@ -235,7 +238,7 @@ impl Builder<'_> {
 
     /// The varying terms of a sum; those with one coefficient in common are grouped behind it.
     fn terms(&mut self, varying: &[(ExprId, Rational)]) -> Vec<Signed> {
-        let mut groups: BTreeMap<ExprId, Vec<(Vec<(ExprId, Rational)>, bool)>> = BTreeMap::new();
+        let mut groups: BTreeMap<ExprId, Vec<(Powers, bool)>> = BTreeMap::new();
         let mut order: Vec<ExprId> = Vec::new();
         for (term, coefficient) in varying {
             let factors = match self.graph.node(*term) {

@@ -95,8 +95,7 @@ fn product_pairs(atom: &Atom) -> HashMap<Pair, usize> {
 
 fn replace_product_pair(formula: &mut Formula, user: AtomId, (a, b, _): Pair, shared: AtomId) {
     let Atom::Product(factors) = &mut formula.atoms[user] else { return };
-    loop {
-        let Some(first) = factors.iter().position(|f| *f == a) else { break };
+    while let Some(first) = factors.iter().position(|f| *f == a) {
         let Some(second) = (0..factors.len()).find(|&i| i != first && factors[i] == b) else { break };
         factors.remove(first.max(second));
         factors.remove(first.min(second));

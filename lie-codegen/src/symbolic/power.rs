@@ -127,7 +127,7 @@ fn fold_power(value: &Rational, exponent: &Rational) -> (Rational, Option<(Ratio
         return (power, None);
     }
     if value.is_zero() {
-        let rest = exponent.is_negative().then(|| (Rational::ZERO, Rational::MINUS_ONE));
+        let rest = exponent.is_negative().then_some((Rational::ZERO, Rational::MINUS_ONE));
         return (if rest.is_some() { Rational::ONE } else { Rational::ZERO }, rest);
     }
     let Some((p, q)) = exponent.to_words() else { return (Rational::ONE, Some((value.clone(), exponent.clone()))) };
