@@ -40,7 +40,7 @@ impl Method {
 
 const AKW: &str = "Austin, Krishnaprasad, Wang (1993), 10.1006/jcph.1993.1128";
 const HLW: &str = "Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), 10.1007/3-540-30666-8";
-const MARTIN: &str = "Martín de Diego, Lie–Poisson integrators (2018), arXiv:1803.01427";
+const MPS: &str = "Marsden, Pekarsky, Shkoller (1999), 10.1088/0951-7715/12/6/314; Bou-Rabee, Marsden (2009), 10.1007/s10208-008-9030-4";
 const MK: &str = "Munthe-Kaas (1999), 10.1016/S0168-9274(98)00030-0";
 const CROUCH: &str = "Crouch, Grossman (1993), 10.1007/BF02429858";
 const CMO: &str = "Celledoni, Marthinsen, Owren (2003), 10.1016/S0167-739X(02)00161-9";
@@ -66,7 +66,7 @@ pub const CATALOGUE: &[Method] = &[
         [true, false],
         Preserves::POISSON,
         "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)",
-        MARTIN,
+        MPS,
     )
     .built(&[("retraction", "exp")]),
     planned(

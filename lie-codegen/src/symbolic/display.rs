@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use num_traits::One;
+
 use super::graph::{ExprId, Graph, Node, Symbol};
 use crate::exact::Rational;
 
@@ -49,60 +51,69 @@ impl Graph {
                 let arguments: Vec<_> = arguments.iter().map(|a| inside(a, Binding::Sum)).collect();
                 (format!("{}({})", function.name(), arguments.join(", ")), Binding::Atom)
             }
-            Node::Product(factors) => {
-                let power = |base: &ExprId, exponent: &Rational| {
-                    if exponent.is_one() {
-                        inside(base, Binding::Product)
-                    } else if exponent.to_words() == Some((1, 2)) {
-                        format!("sqrt({})", inside(base, Binding::Sum))
-                    } else if exponent.is_integer() {
-                        format!("{}^{exponent}", inside(base, Binding::Atom))
-                    } else {
-                        format!("{}^({exponent})", inside(base, Binding::Atom))
-                    }
-                };
-                let (above, below): (Vec<_>, Vec<_>) = factors.iter().partition(|(_, e)| !e.is_negative());
-                let mut text = above.iter().map(|(b, e)| power(b, e)).collect::<Vec<_>>().join("*");
-                if text.is_empty() {
-                    text.push('1');
-                }
-                for (base, exponent) in &below {
-                    let flipped = exponent.abs();
-                    let text_below =
-                        if flipped.is_one() { inside(base, Binding::Power) } else { power(base, &flipped) };
-                    text.push('/');
-                    text.push_str(&text_below);
-                }
-                let binding = if factors.len() == 1 && below.is_empty() { Binding::Power } else { Binding::Product };
-                (text, binding)
-            }
+            Node::Product(factors) => product(&Rational::ONE, factors, &inside),
             Node::Sum { constant, terms } => {
                 let mut text = String::new();
                 for (term, coefficient) in terms {
-                    let sign = if coefficient.is_negative() { "-" } else { "+" };
-                    if !text.is_empty() {
-                        text.push(' ');
-                        text.push_str(sign);
-                        text.push(' ');
-                    } else if coefficient.is_negative() {
-                        text.push('-');
+                    match (coefficient.is_negative(), text.is_empty()) {
+                        (true, true) => text.push('-'),
+                        (true, false) => text.push_str(" - "),
+                        (false, true) => {}
+                        (false, false) => text.push_str(" + "),
                     }
-                    let size = coefficient.abs();
-                    if !size.is_one() {
-                        text.push_str(&format!("{size}*"));
-                    }
-                    text.push_str(&inside(term, Binding::Product));
+                    let whole = [(*term, Rational::ONE)];
+                    let factors = match self.node(*term) {
+                        Node::Product(factors) => factors,
+                        _ => &whole[..],
+                    };
+                    text.push_str(&product(&coefficient.abs(), factors, &inside).0);
                 }
                 if !constant.is_zero() {
                     let sign = if constant.is_negative() { "-" } else { "+" };
                     text.push_str(&format!(" {sign} {}", constant.abs()));
                 }
-                let binding =
-                    if terms.len() == 1 && constant.is_zero() && !text.starts_with('-') { Binding::Product } else { Binding::Sum };
-                (text, binding)
+                let single = terms.len() == 1 && constant.is_zero() && !text.starts_with('-');
+                (text, if single { Binding::Product } else { Binding::Sum })
             }
         }
     }
+}
+
+/// `coefficient * product of base^exponent` over one fraction bar; the coefficient is positive.
+fn product(
+    coefficient: &Rational,
+    factors: &[(ExprId, Rational)],
+    inside: &dyn Fn(&ExprId, Binding) -> String,
+) -> (String, Binding) {
+    let power = |base: &ExprId, exponent: &Rational| {
+        if exponent.is_one() {
+            inside(base, Binding::Power)
+        } else if exponent.to_words() == Some((1, 2)) {
+            format!("sqrt({})", inside(base, Binding::Sum))
+        } else if exponent.is_integer() {
+            format!("{}^{exponent}", inside(base, Binding::Atom))
+        } else {
+            format!("{}^({exponent})", inside(base, Binding::Atom))
+        }
+    };
+    let (above, below): (Vec<_>, Vec<_>) = factors.iter().partition(|(_, e)| !e.is_negative());
+    let mut above: Vec<String> = above.iter().map(|(b, e)| power(b, e)).collect();
+    let mut below: Vec<String> = below.iter().map(|(b, e)| power(b, &e.abs())).collect();
+    let coefficient = coefficient.to_big();
+    if !coefficient.numer().is_one() || above.is_empty() {
+        above.insert(0, coefficient.numer().to_string());
+    }
+    if !coefficient.denom().is_one() {
+        below.insert(0, coefficient.denom().to_string());
+    }
+    let plain = above.len() == 1 && below.is_empty();
+    let mut text = above.join("*");
+    match below.as_slice() {
+        [] => {}
+        [only] => text.push_str(&format!("/{only}")),
+        _ => text.push_str(&format!("/({})", below.join("*"))),
+    }
+    (text, if plain { Binding::Power } else { Binding::Product })
 }
 
 fn number(value: &Rational) -> (String, Binding) {
