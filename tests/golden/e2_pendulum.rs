@@ -2,7 +2,7 @@
 
 /// Planar pendulum on e(2)*: angular momentum L and the position (x, y) on the unit circle; the pendulum hangs at x = 1.
 ///
-/// `H = 1/2*L^2 - g*x` on the dual of a Lie algebra of dimension 3,
+/// `H = L^2/2 - g*x` on the dual of a Lie algebra of dimension 3,
 /// coordinates `L, x, y`; the Poisson matrix has generic rank 2.
 /// Casimirs: `radius2 = x^2 + y^2`.
 ///
@@ -107,6 +107,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
 
     /// `H(mu)`
     ///
+    /// ```text
+    /// H = L^2/2 - g*x
+    /// ```
+    ///
     /// 1 addition, 3 multiplications.
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
@@ -148,6 +152,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
+    ///
+    /// ```text
+    /// L' = g*y
+    /// x' = L*y
+    /// y' = -L*x
+    /// ```
     ///
     /// 1 addition, 3 multiplications.
     #[inline]
@@ -287,13 +297,13 @@ pub struct PendulumMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a PendulumSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `1/2*g*h`
+    /// `g*h/2`
     _h0: S,
-    /// `1/4*h`
+    /// `h/4`
     _h1: S,
-    /// `-1/4*h`
+    /// `-h/4`
     _h2: S,
-    /// `-1/2*g*h`
+    /// `-g*h/2`
     _h3: S,
 }
 
@@ -1092,15 +1102,15 @@ pub struct PendulumCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a PendulumSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `1/2*h`
+    /// `h/2`
     _h0: S,
-    /// `1/2*g*h`
+    /// `g*h/2`
     _h1: S,
-    /// `-1/2*g*h`
+    /// `-g*h/2`
     _h2: S,
-    /// `1/4*g*h^2`
+    /// `g*h^2/4`
     _h3: S,
-    /// `-1/2*h`
+    /// `-h/2`
     _h4: S,
     /// `g*h`
     _h5: S,

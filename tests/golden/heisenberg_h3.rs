@@ -2,7 +2,7 @@
 
 /// An anharmonic oscillator on the dual of the Heisenberg algebra: canonical mechanics in (q, p), with the central element z as the value of the bracket.
 ///
-/// `H = 1/2*p^2 + 1/2*q^2 + 1/4*p^4 + 1/3*q*z` on the dual of a Lie algebra of dimension 3,
+/// `H = p^2/2 + q^2/2 + p^4/4 + q*z/3` on the dual of a Lie algebra of dimension 3,
 /// coordinates `q, p, z`; the Poisson matrix has generic rank 2.
 /// Casimirs: `centre = z`.
 ///
@@ -102,6 +102,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
 
     /// `H(mu)`
     ///
+    /// ```text
+    /// H = p^2/2 + q^2/2 + p^4/4 + q*z/3
+    /// ```
+    ///
     /// 3 additions, 7 multiplications.
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
@@ -147,6 +151,11 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
+    ///
+    /// ```text
+    /// q' = -z*(p + p^3)
+    /// p' = z*(3*q + z)/3
+    /// ```
     ///
     /// 3 additions, 6 multiplications.
     #[inline]
@@ -277,13 +286,13 @@ pub struct HeisenbergMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeisenbergSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `1/16*h`
+    /// `h/16`
     _h0: S,
-    /// `1/12*h`
+    /// `h/12`
     _h1: S,
-    /// `-1/12*h`
+    /// `-h/12`
     _h2: S,
-    /// `-1/4*h`
+    /// `-h/4`
     _h3: S,
 }
 
@@ -889,15 +898,15 @@ pub struct HeisenbergCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeisenbergSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `1/2*h`
+    /// `h/2`
     _h0: S,
-    /// `1/6*h`
+    /// `h/6`
     _h1: S,
-    /// `-1/2*h`
+    /// `-h/2`
     _h2: S,
-    /// `-1/6*h`
+    /// `-h/6`
     _h3: S,
-    /// `1/3*h`
+    /// `h/3`
     _h4: S,
 }
 

@@ -2,7 +2,7 @@
 
 /// Heavy top on se(3)*: body-frame angular momentum m and body-frame vertical g, with the centre of mass in the direction (c1, c2, c3) from the fixed point.
 ///
-/// `H = 1/2*m1^2/I1 + 1/2*m2^2/I2 + 1/2*m3^2/I3 + mgl*(c1*g1 + c2*g2 + c3*g3)` on the dual of a Lie algebra of dimension 6,
+/// `H = m1^2/(2*I1) + m2^2/(2*I2) + m3^2/(2*I3) + mgl*(c1*g1 + c2*g2 + c3*g3)` on the dual of a Lie algebra of dimension 6,
 /// coordinates `m1, m2, m3, g1, g2, g3`; the Poisson matrix has generic rank 4.
 /// Casimirs: `length2 = g1^2 + g2^2 + g3^2`, `vertical_momentum = m1*g1 + m2*g2 + m3*g3`.
 ///
@@ -93,9 +93,9 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
                 (_k0, "mgl", "mgl*c1"),
                 (_k1, "mgl", "mgl*c2"),
                 (_k2, "mgl", "mgl*c3"),
-                (_k3, "I1", "1/2*1/I1"),
-                (_k4, "I2", "1/2*1/I2"),
-                (_k5, "I3", "1/2*1/I3"),
+                (_k3, "I1", "1/(2*I1)"),
+                (_k4, "I2", "1/(2*I2)"),
+                (_k5, "I3", "1/(2*I3)"),
                 (_k6, "I1", "1/I1"),
                 (_k7, "I2", "1/I2"),
                 (_k8, "I3", "1/I3"),
@@ -162,11 +162,11 @@ pub struct HeavyTopSystem<S = f64> {
     _k1: S,
     /// `mgl*c3`
     _k2: S,
-    /// `1/2*1/I1`
+    /// `1/(2*I1)`
     _k3: S,
-    /// `1/2*1/I2`
+    /// `1/(2*I2)`
     _k4: S,
-    /// `1/2*1/I3`
+    /// `1/(2*I3)`
     _k5: S,
     /// `1/I1`
     _k6: S,
@@ -243,6 +243,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
 
     /// `H(mu)`
     ///
+    /// ```text
+    /// H = m1^2/(2*I1) + m2^2/(2*I2) + m3^2/(2*I3) + mgl*(c1*g1 + c2*g2 + c3*g3)
+    /// ```
+    ///
     /// 5 additions, 9 multiplications.
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
@@ -307,6 +311,15 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
+    ///
+    /// ```text
+    /// m1' = -m2*m3/I2 + m2*m3/I3 - mgl*c2*g3 + mgl*g2*c3
+    /// m2' = m1*m3/I1 - m1*m3/I3 + mgl*c1*g3 - mgl*g1*c3
+    /// m3' = -m1*m2/I1 + m1*m2/I2 - mgl*c1*g2 + mgl*g1*c2
+    /// g1' = -m2*g3/I2 + m3*g2/I3
+    /// g2' = m1*g3/I1 - m3*g1/I3
+    /// g3' = -m1*g2/I1 + m2*g1/I2
+    /// ```
     ///
     /// 9 additions, 21 multiplications.
     #[inline]
@@ -554,37 +567,37 @@ pub struct HeavyTopMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeavyTopSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 6>,
     h: S,
-    /// `1/4*(1/I2 - 1/I3)*h`
+    /// `(1/I2 - 1/I3)*h/4`
     _h0: S,
-    /// `1/2*mgl*c3*h`
+    /// `mgl*c3*h/2`
     _h1: S,
-    /// `1/2*mgl*c2*h`
+    /// `mgl*c2*h/2`
     _h2: S,
-    /// `1/4*(1/I1 - 1/I3)*h`
+    /// `(1/I1 - 1/I3)*h/4`
     _h3: S,
-    /// `1/2*mgl*c1*h`
+    /// `mgl*c1*h/2`
     _h4: S,
-    /// `1/4*(1/I1 - 1/I2)*h`
+    /// `(1/I1 - 1/I2)*h/4`
     _h5: S,
-    /// `1/4*h/I2`
+    /// `h/(4*I2)`
     _h6: S,
-    /// `1/4*h/I3`
+    /// `h/(4*I3)`
     _h7: S,
-    /// `1/4*h/I1`
+    /// `h/(4*I1)`
     _h8: S,
-    /// `-1/4*(1/I1 - 1/I3)*h`
+    /// `-(1/I1 - 1/I3)*h/4`
     _h9: S,
-    /// `-1/4*h/I3`
+    /// `-h/(4*I3)`
     _h10: S,
-    /// `-1/4*h/I1`
+    /// `-h/(4*I1)`
     _h11: S,
-    /// `-1/4*h/I2`
+    /// `-h/(4*I2)`
     _h12: S,
-    /// `-1/2*mgl*c3*h`
+    /// `-mgl*c3*h/2`
     _h13: S,
-    /// `-1/2*mgl*c1*h`
+    /// `-mgl*c1*h/2`
     _h14: S,
-    /// `-1/2*mgl*c2*h`
+    /// `-mgl*c2*h/2`
     _h15: S,
 }
 
@@ -1304,53 +1317,53 @@ pub struct HeavyTopCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeavyTopSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 6>,
     h: S,
-    /// `1/2*h/I1`
+    /// `h/(2*I1)`
     _h0: S,
-    /// `1/2*h/I2`
+    /// `h/(2*I2)`
     _h1: S,
-    /// `1/2*h/I3`
+    /// `h/(2*I3)`
     _h2: S,
-    /// `1/2*mgl*c2*h`
+    /// `mgl*c2*h/2`
     _h3: S,
-    /// `1/2*mgl*c3*h`
+    /// `mgl*c3*h/2`
     _h4: S,
-    /// `1/2*(1/I2 - 1/I3)*h`
+    /// `(1/I2 - 1/I3)*h/2`
     _h5: S,
-    /// `1/2*mgl*c1*h`
+    /// `mgl*c1*h/2`
     _h6: S,
-    /// `1/2*(1/I1 - 1/I3)*h`
+    /// `(1/I1 - 1/I3)*h/2`
     _h7: S,
-    /// `1/2*(1/I1 - 1/I2)*h`
+    /// `(1/I1 - 1/I2)*h/2`
     _h8: S,
-    /// `1/4*mgl*c2*h^2/I1`
+    /// `mgl*c2*h^2/(4*I1)`
     _h9: S,
-    /// `1/4*mgl*c3*h^2/I1`
+    /// `mgl*c3*h^2/(4*I1)`
     _h10: S,
-    /// `1/4*mgl*c2*h^2/I2`
+    /// `mgl*c2*h^2/(4*I2)`
     _h11: S,
-    /// `1/4*mgl*c3*h^2/I3`
+    /// `mgl*c3*h^2/(4*I3)`
     _h12: S,
-    /// `-1/2*mgl*c3*h`
+    /// `-mgl*c3*h/2`
     _h13: S,
-    /// `1/4*mgl*c1*h^2/I1`
+    /// `mgl*c1*h^2/(4*I1)`
     _h14: S,
-    /// `1/4*mgl*c1*h^2/I2`
+    /// `mgl*c1*h^2/(4*I2)`
     _h15: S,
-    /// `1/4*mgl*c3*h^2/I2`
+    /// `mgl*c3*h^2/(4*I2)`
     _h16: S,
-    /// `-1/2*mgl*c1*h`
+    /// `-mgl*c1*h/2`
     _h17: S,
-    /// `1/4*mgl*c1*h^2/I3`
+    /// `mgl*c1*h^2/(4*I3)`
     _h18: S,
-    /// `1/4*mgl*c2*h^2/I3`
+    /// `mgl*c2*h^2/(4*I3)`
     _h19: S,
-    /// `-1/2*mgl*c2*h`
+    /// `-mgl*c2*h/2`
     _h20: S,
-    /// `-1/2*h/I3`
+    /// `-h/(2*I3)`
     _h21: S,
-    /// `-1/2*h/I1`
+    /// `-h/(2*I1)`
     _h22: S,
-    /// `-1/2*h/I2`
+    /// `-h/(2*I2)`
     _h23: S,
     /// `mgl*c3*h`
     _h24: S,
@@ -1494,7 +1507,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
     ///
-    /// 76 additions, 77 multiplications.
+    /// 75 additions, 77 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1521,8 +1534,8 @@ for HeavyTopCayleyMidpoint<'_, S> {
         let _t14 = _t0 * S::ratio(2.0, 1.0);
         let _t15 = _t2 * _t14;
         let _t16 = _t4 * _t14;
-        let _t17 = _t2 * self._h3;
-        let _t18 = _t4 * self._h4;
+        let _t17 = _t4 * self._h4;
+        let _t18 = -(_t2 * self._h3);
         let _t19 = _t2 * _t4 * S::ratio(2.0, 1.0);
         let _t20 = _t0 * self._h6;
         residual[0] = _u_m1 - m1 + _t0 * _t1 + _t0 * _t3 + _t0 * _t5 + self._h3 * _t7
@@ -1538,7 +1551,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
             + self._h0 * (_t3 + _t5) + _u_g2 * self._h9 + _u_g3 * self._h10;
         matrix[(0, 1)] = _t15 + _u_m3 * self._h5 - _u_g1 * self._h11;
         matrix[(0, 2)] = _t16 + _t9 - _u_g1 * self._h12;
-        matrix[(0, 3)] = -_t17 - _t18;
+        matrix[(0, 3)] = _t18 - _t17;
         matrix[(0, 4)] = _t0 * self._h3 + self._h13;
         matrix[(0, 5)] = self._h3 + _t0 * self._h4;
         matrix[(1, 0)] = _t15 - _u_m3 * self._h7 - _u_g2 * self._h14;
@@ -1546,7 +1559,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
             + self._h1 * (_t5 + _t1) + _u_g1 * self._h15 + _u_g3 * self._h16;
         matrix[(1, 2)] = _t19 - _t12 - _u_g2 * self._h12;
         matrix[(1, 3)] = self._h4 + _t2 * self._h6;
-        matrix[(1, 4)] = -_t18 - _t20;
+        matrix[(1, 4)] = -_t17 - _t20;
         matrix[(1, 5)] = _t2 * self._h4 + self._h17;
         matrix[(2, 0)] = _t16 + _u_m2 * self._h8 - _u_g3 * self._h14;
         matrix[(2, 1)] = _t19 + _t13 - _u_g3 * self._h11;
@@ -1554,7 +1567,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
             + self._h2 * (_t3 + _t1) + _u_g1 * self._h18 + _u_g2 * self._h19;
         matrix[(2, 3)] = _t4 * self._h6 + self._h20;
         matrix[(2, 4)] = self._h6 + _t4 * self._h3;
-        matrix[(2, 5)] = -_t17 - _t20;
+        matrix[(2, 5)] = _t18 - _t20;
         matrix[(3, 1)] = _u_g3 * self._h1;
         matrix[(3, 2)] = _u_g2 * self._h21;
         matrix[(3, 3)] = S::one();

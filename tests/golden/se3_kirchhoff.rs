@@ -2,7 +2,7 @@
 
 /// Kirchhoff's equations: a rigid body without symmetry in an ideal fluid on se(3)*, with body-frame impulsive moment m and impulse p; the kinetic energy couples both.
 ///
-/// `H = 1/2*m1^2 + 1/3*m2^2 + 1/4*m3^2 + 1/5*p1^2 + 1/2*p2^2 + 2/3*p3^2 + 1/4*m1*p1 + 1/6*m2*p3 - 1/8*m3*p2` on the dual of a Lie algebra of dimension 6,
+/// `H = m1^2/2 + m2^2/3 + m3^2/4 + p1^2/5 + p2^2/2 + 2*p3^2/3 + m1*p1/4 + m2*p3/6 - m3*p2/8` on the dual of a Lie algebra of dimension 6,
 /// coordinates `m1, m2, m3, p1, p2, p3`; the Poisson matrix has generic rank 4.
 /// Casimirs: `impulse2 = p1^2 + p2^2 + p3^2`, `pitch = m1*p1 + m2*p2 + m3*p3`.
 ///
@@ -107,6 +107,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
 
     /// `H(mu)`
     ///
+    /// ```text
+    /// H = m1^2/2 + m2^2/3 + m3^2/4 + p1^2/5 + p2^2/2 + 2*p3^2/3 + m1*p1/4 + m2*p3/6 - m3*p2/8
+    /// ```
+    ///
     /// 8 additions, 15 multiplications.
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
@@ -183,6 +187,15 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
+    ///
+    /// ```text
+    /// m1' = -m3*(4*m2 + p3)/6 + m2*(4*m3 - p2)/8 + p3*(m3 - 8*p2)/8 + p2*(m2 + 8*p3)/6
+    /// m2' = m3*(4*m1 + p1)/4 - m1*(4*m3 - p2)/8 + p3*(5*m1 + 8*p1)/20 - p1*(m2 + 8*p3)/6
+    /// m3' = -m2*(4*m1 + p1)/4 + m1*(4*m2 + p3)/6 - p2*(5*m1 + 8*p1)/20 - p1*(m3 - 8*p2)/8
+    /// p1' = -p3*(4*m2 + p3)/6 + p2*(4*m3 - p2)/8
+    /// p2' = p3*(4*m1 + p1)/4 - p1*(4*m3 - p2)/8
+    /// p3' = -p2*(4*m1 + p1)/4 + p1*(4*m2 + p3)/6
+    /// ```
     ///
     /// 19 additions, 31 multiplications.
     #[inline]
@@ -497,31 +510,31 @@ pub struct KirchhoffBodyMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h7: S,
     /// `5*h`
     _h8: S,
-    /// `1/4*h`
+    /// `h/4`
     _h9: S,
-    /// `-1/24*h`
+    /// `-h/24`
     _h10: S,
-    /// `1/96*h`
+    /// `h/96`
     _h11: S,
-    /// `1/12*h`
+    /// `h/12`
     _h12: S,
-    /// `1/8*h`
+    /// `h/8`
     _h13: S,
-    /// `-1/32*h`
+    /// `-h/32`
     _h14: S,
-    /// `1/16*h`
+    /// `h/16`
     _h15: S,
-    /// `7/30*h`
+    /// `7*h/30`
     _h16: S,
-    /// `3/20*h`
+    /// `3*h/20`
     _h17: S,
-    /// `1/6*h`
+    /// `h/6`
     _h18: S,
-    /// `-1/8*h`
+    /// `-h/8`
     _h19: S,
-    /// `-1/4*h`
+    /// `-h/4`
     _h20: S,
-    /// `-1/6*h`
+    /// `-h/6`
     _h21: S,
 }
 
@@ -1380,45 +1393,45 @@ pub struct KirchhoffBodyCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a KirchhoffBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 6>,
     h: S,
-    /// `1/8*h`
+    /// `h/8`
     _h0: S,
-    /// `1/12*h`
+    /// `h/12`
     _h1: S,
-    /// `-1/16*h`
+    /// `-h/16`
     _h2: S,
-    /// `1/48*h`
+    /// `h/48`
     _h3: S,
-    /// `1/40*h`
+    /// `h/40`
     _h4: S,
-    /// `1/240*h`
+    /// `h/240`
     _h5: S,
-    /// `1/24*h`
+    /// `h/24`
     _h6: S,
-    /// `-1/24*h`
+    /// `-h/24`
     _h7: S,
-    /// `1/2*h`
+    /// `h/2`
     _h8: S,
-    /// `1/3*h`
+    /// `h/3`
     _h9: S,
-    /// `1/4*h`
+    /// `h/4`
     _h10: S,
-    /// `2/3*h`
+    /// `2*h/3`
     _h11: S,
-    /// `1/5*h`
+    /// `h/5`
     _h12: S,
-    /// `1/120*h`
+    /// `h/120`
     _h13: S,
-    /// `1/80*h`
+    /// `h/80`
     _h14: S,
-    /// `-1/4*h`
+    /// `-h/4`
     _h15: S,
-    /// `1/6*h`
+    /// `h/6`
     _h16: S,
-    /// `-1/2*h`
+    /// `-h/2`
     _h17: S,
-    /// `-1/8*h`
+    /// `-h/8`
     _h18: S,
-    /// `-1/3*h`
+    /// `-h/3`
     _h19: S,
     /// `4*h`
     _h20: S,

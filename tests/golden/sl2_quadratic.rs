@@ -2,7 +2,7 @@
 
 /// A quadratic Hamiltonian on sl(2, R)*: Euler's equations of a non-compact group, whose coadjoint orbits are hyperboloids and cones.
 ///
-/// `H = 1/8*h^2 + 1/2*e^2 + 1/2*f^2 + 1/4*e*f + 1/5*h*e` on the dual of a Lie algebra of dimension 3,
+/// `H = h^2/8 + e^2/2 + f^2/2 + e*f/4 + h*e/5` on the dual of a Lie algebra of dimension 3,
 /// coordinates `h, e, f`; the Poisson matrix has generic rank 2.
 /// Casimirs: `killing = h^2 + 4*e*f`.
 ///
@@ -104,6 +104,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for Sl2QuadraticSystem<
 
     /// `H(mu)`
     ///
+    /// ```text
+    /// H = h^2/8 + e^2/2 + f^2/2 + e*f/4 + h*e/5
+    /// ```
+    ///
     /// 4 additions, 9 multiplications.
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
@@ -154,6 +158,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for Sl2QuadraticSystem<
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
+    ///
+    /// ```text
+    /// h' = -e*(4*h + 20*e + 5*f)/10 + f*(e + 4*f)/2
+    /// e' = e*(5*h + 4*e)/10 - h*(e + 4*f)/4
+    /// f' = -f*(5*h + 4*e)/10 + h*(4*h + 20*e + 5*f)/20
+    /// ```
     ///
     /// 7 additions, 14 multiplications.
     #[inline]
@@ -324,19 +334,19 @@ pub struct Sl2QuadraticMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a Sl2QuadraticSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `1/10*h`
+    /// `h/10`
     _h0: S,
-    /// `1/2*h`
+    /// `h/2`
     _h1: S,
-    /// `1/16*h`
+    /// `h/16`
     _h2: S,
-    /// `1/4*h`
+    /// `h/4`
     _h3: S,
-    /// `1/20*h`
+    /// `h/20`
     _h4: S,
     /// `-h`
     _h5: S,
-    /// `1/5*h`
+    /// `h/5`
     _h6: S,
 }
 
@@ -998,23 +1008,23 @@ pub struct Sl2QuadraticCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a Sl2QuadraticSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `1/40*h`
+    /// `h/40`
     _h0: S,
-    /// `1/8*h`
+    /// `h/8`
     _h1: S,
-    /// `1/20*h`
+    /// `h/20`
     _h2: S,
-    /// `1/5*h`
+    /// `h/5`
     _h3: S,
-    /// `1/4*h`
+    /// `h/4`
     _h4: S,
-    /// `1/10*h`
+    /// `h/10`
     _h5: S,
-    /// `1/2*h`
+    /// `h/2`
     _h6: S,
     /// `2*h`
     _h7: S,
-    /// `2/5*h`
+    /// `2*h/5`
     _h8: S,
 }
 

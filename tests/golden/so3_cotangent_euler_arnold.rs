@@ -2,7 +2,7 @@
 
 /// Euler-Arnold equations on T*SO(3) with a Hamiltonian H(R, m) that is neither invariant nor separable, in left trivialisation (R' = R hat(dH/dm)): a Lie-Poisson system of so(3) semidirect (R^3)^3 whose last nine coordinates are the rows of the rotation matrix R.
 ///
-/// `H = 1/2*m1^2/I1 + 1/2*m2^2/I2 + 1/2*m3^2/I3 + 1/5*r33*(m1 + 5) + 1/2*r12*r21 + 1/6*m2^2*r11^2` on the dual of a Lie algebra of dimension 12,
+/// `H = m1^2/(2*I1) + m2^2/(2*I2) + m3^2/(2*I3) + r33*(m1 + 5)/5 + r12*r21/2 + m2^2*r11^2/6` on the dual of a Lie algebra of dimension 12,
 /// coordinates `m1, m2, m3, r11, r12, r13, r21, r22, r23, r31, r32, r33`; the Poisson matrix has generic rank 6.
 /// Casimirs: `row11 = r11^2 + r12^2 + r13^2`, `row12 = r21*r11 + r12*r22 + r13*r23`, `row13 = r11*r31 + r12*r32 + r33*r13`, `row22 = r21^2 + r22^2 + r23^2`, `row23 = r21*r31 + r22*r32 + r33*r23`, `row33 = r31^2 + r32^2 + r33^2`.
 ///
@@ -70,18 +70,18 @@ impl<S: ::lie_runtime::Scalar> CotangentEulerArnold<S> {
         let _k12 = _t3;
         ::lie_runtime::__private::all_finite(
             &[
-                (_k0, "I1", "1/2*1/I1"),
-                (_k1, "I3", "1/2*1/I3"),
-                (_k2, "I2", "3*1/I2"),
+                (_k0, "I1", "1/(2*I1)"),
+                (_k1, "I3", "1/(2*I3)"),
+                (_k2, "I2", "3/I2"),
                 (_k3, "I1", "1/I1"),
                 (_k4, "I2", "1/I2"),
                 (_k5, "I3", "1/I3"),
-                (_k6, "I1", "5*1/I1"),
+                (_k6, "I1", "5/I1"),
                 (_k7, "I3", "-1/I3"),
                 (_k8, "I1", "-1/I1"),
-                (_k9, "I2", "3*1/I2 - 3*1/I3"),
-                (_k10, "I1", "5*1/I1 - 5*1/I3"),
-                (_k11, "I1", "-3*1/I1 + 3*1/I2"),
+                (_k9, "I2", "3/I2 - 3/I3"),
+                (_k10, "I1", "5/I1 - 5/I3"),
+                (_k11, "I1", "-3/I1 + 3/I2"),
                 (_k12, "I1", "1/I1 - 1/I3"),
             ],
         )?;
@@ -128,11 +128,11 @@ impl<S: ::lie_runtime::Scalar> CotangentEulerArnold<S> {
 #[allow(non_snake_case)]
 pub struct CotangentEulerArnoldSystem<S = f64> {
     _parameters: CotangentEulerArnold<S>,
-    /// `1/2*1/I1`
+    /// `1/(2*I1)`
     _k0: S,
-    /// `1/2*1/I3`
+    /// `1/(2*I3)`
     _k1: S,
-    /// `3*1/I2`
+    /// `3/I2`
     _k2: S,
     /// `1/I1`
     _k3: S,
@@ -140,17 +140,17 @@ pub struct CotangentEulerArnoldSystem<S = f64> {
     _k4: S,
     /// `1/I3`
     _k5: S,
-    /// `5*1/I1`
+    /// `5/I1`
     _k6: S,
     /// `-1/I3`
     _k7: S,
     /// `-1/I1`
     _k8: S,
-    /// `3*1/I2 - 3*1/I3`
+    /// `3/I2 - 3/I3`
     _k9: S,
-    /// `5*1/I1 - 5*1/I3`
+    /// `5/I1 - 5/I3`
     _k10: S,
-    /// `-3*1/I1 + 3*1/I2`
+    /// `-3/I1 + 3/I2`
     _k11: S,
     /// `1/I1 - 1/I3`
     _k12: S,
@@ -213,6 +213,10 @@ for CotangentEulerArnoldSystem<S> {
     }
 
     /// `H(mu)`
+    ///
+    /// ```text
+    /// H = m1^2/(2*I1) + m2^2/(2*I2) + m3^2/(2*I3) + r33*(m1 + 5)/5 + r12*r21/2 + m2^2*r11^2/6
+    /// ```
     ///
     /// 6 additions, 12 multiplications.
     #[inline]
@@ -322,6 +326,21 @@ for CotangentEulerArnoldSystem<S> {
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
+    ///
+    /// ```text
+    /// m1' = -m3*(3*m2/I2 + m2*r11^2)/3 + m2*m3/I3 - r21*r13/2 + (m1 + 5)*r32/5
+    /// m2' = m3*(r33 + 5*m1/I1)/5 - m1*m3/I3 + m2^2*r11*r13/3 + r12*r23/2 - (m1 + 5)*r31/5
+    /// m3' = r21*r11/2 - r12*r22/2 - m2*(r33 + 5*m1/I1)/5 + m1*(3*m2/I2 + m2*r11^2)/3 - m2^2*r12*r11/3
+    /// r11' = -r13*(3*m2/I2 + m2*r11^2)/3 + m3*r12/I3
+    /// r12' = r13*(r33 + 5*m1/I1)/5 - m3*r11/I3
+    /// r13' = -r12*(r33 + 5*m1/I1)/5 + r11*(3*m2/I2 + m2*r11^2)/3
+    /// r21' = -r23*(3*m2/I2 + m2*r11^2)/3 + m3*r22/I3
+    /// r22' = r23*(r33 + 5*m1/I1)/5 - m3*r21/I3
+    /// r23' = -r22*(r33 + 5*m1/I1)/5 + r21*(3*m2/I2 + m2*r11^2)/3
+    /// r31' = -r33*(3*m2/I2 + m2*r11^2)/3 + m3*r32/I3
+    /// r32' = r33*(r33 + 5*m1/I1)/5 - m3*r31/I3
+    /// r33' = -r32*(r33 + 5*m1/I1)/5 + r31*(3*m2/I2 + m2*r11^2)/3
+    /// ```
     ///
     /// 23 additions, 44 multiplications.
     #[inline]
@@ -781,17 +800,17 @@ pub struct CotangentEulerArnoldMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a CotangentEulerArnoldSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 12>,
     h: S,
-    /// `1/8*h`
+    /// `h/8`
     _h0: S,
     /// `12*(1/I2 - 1/I3)*h`
     _h1: S,
     /// `10*h`
     _h2: S,
-    /// `1/48*h`
+    /// `h/48`
     _h3: S,
-    /// `1/20*h`
+    /// `h/20`
     _h4: S,
-    /// `1/2*h`
+    /// `h/2`
     _h5: S,
     /// `5*(1/I1 - 1/I3)*h`
     _h6: S,
@@ -801,37 +820,37 @@ pub struct CotangentEulerArnoldMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h8: S,
     /// `12*(1/I1 - 1/I2)*h`
     _h9: S,
-    /// `1/4*h/I3`
+    /// `h/(4*I3)`
     _h10: S,
     /// `12*h/I2`
     _h11: S,
     /// `5*h/I1`
     _h12: S,
-    /// `-1/48*h`
+    /// `-h/48`
     _h13: S,
-    /// `1/24*h`
+    /// `h/24`
     _h14: S,
-    /// `-1/2*h`
+    /// `-h/2`
     _h15: S,
-    /// `1/4*(1/I1 - 1/I3)*h`
+    /// `(1/I1 - 1/I3)*h/4`
     _h16: S,
-    /// `-1/8*h`
+    /// `-h/8`
     _h17: S,
-    /// `-1/20*h`
+    /// `-h/20`
     _h18: S,
     /// `2*h`
     _h19: S,
-    /// `-1/4*h/I3`
+    /// `-h/(4*I3)`
     _h20: S,
-    /// `-1/4*h/I1`
+    /// `-h/(4*I1)`
     _h21: S,
-    /// `1/4*h/I1`
+    /// `h/(4*I1)`
     _h22: S,
     /// `4*h/I2`
     _h23: S,
-    /// `-1/24*h`
+    /// `-h/24`
     _h24: S,
-    /// `1/10*h`
+    /// `h/10`
     _h25: S,
 }
 

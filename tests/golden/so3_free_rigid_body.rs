@@ -2,7 +2,7 @@
 
 /// Free rigid body: Euler's equations for the body-frame angular momentum (x, y, z) on so(3)*.
 ///
-/// `H = 1/2*x^2/I1 + 1/2*y^2/I2 + 1/2*z^2/I3` on the dual of a Lie algebra of dimension 3,
+/// `H = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)` on the dual of a Lie algebra of dimension 3,
 /// coordinates `x, y, z`; the Poisson matrix has generic rank 2.
 /// Casimirs: `norm2 = x^2 + y^2 + z^2`.
 ///
@@ -64,9 +64,9 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
         let _k8 = _t1 - _t0;
         ::lie_runtime::__private::all_finite(
             &[
-                (_k0, "I1", "1/2*1/I1"),
-                (_k1, "I2", "1/2*1/I2"),
-                (_k2, "I3", "1/2*1/I3"),
+                (_k0, "I1", "1/(2*I1)"),
+                (_k1, "I2", "1/(2*I2)"),
+                (_k2, "I3", "1/(2*I3)"),
                 (_k3, "I1", "1/I1"),
                 (_k4, "I2", "1/I2"),
                 (_k5, "I3", "1/I3"),
@@ -105,11 +105,11 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
 #[allow(non_snake_case)]
 pub struct FreeRigidBodySystem<S = f64> {
     _parameters: FreeRigidBody<S>,
-    /// `1/2*1/I1`
+    /// `1/(2*I1)`
     _k0: S,
-    /// `1/2*1/I2`
+    /// `1/(2*I2)`
     _k1: S,
-    /// `1/2*1/I3`
+    /// `1/(2*I3)`
     _k2: S,
     /// `1/I1`
     _k3: S,
@@ -162,6 +162,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
 
     /// `H(mu)`
     ///
+    /// ```text
+    /// H = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)
+    /// ```
+    ///
     /// 2 additions, 6 multiplications.
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
@@ -207,6 +211,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
+    ///
+    /// ```text
+    /// x' = -y*z/I2 + y*z/I3
+    /// y' = x*z/I1 - x*z/I3
+    /// z' = -x*y/I1 + x*y/I2
+    /// ```
     ///
     /// 6 multiplications.
     #[inline]
@@ -363,13 +373,13 @@ pub struct FreeRigidBodyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `1/4*(1/I2 - 1/I3)*h`
+    /// `(1/I2 - 1/I3)*h/4`
     _h0: S,
-    /// `1/4*(1/I1 - 1/I3)*h`
+    /// `(1/I1 - 1/I3)*h/4`
     _h1: S,
-    /// `1/4*(1/I1 - 1/I2)*h`
+    /// `(1/I1 - 1/I2)*h/4`
     _h2: S,
-    /// `-1/4*(1/I1 - 1/I3)*h`
+    /// `-(1/I1 - 1/I3)*h/4`
     _h3: S,
 }
 
@@ -1367,17 +1377,17 @@ pub struct FreeRigidBodyCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `1/2*h/I1`
+    /// `h/(2*I1)`
     _h0: S,
-    /// `1/2*h/I2`
+    /// `h/(2*I2)`
     _h1: S,
-    /// `1/2*h/I3`
+    /// `h/(2*I3)`
     _h2: S,
-    /// `1/2*(1/I2 - 1/I3)*h`
+    /// `(1/I2 - 1/I3)*h/2`
     _h3: S,
-    /// `1/2*(1/I1 - 1/I3)*h`
+    /// `(1/I1 - 1/I3)*h/2`
     _h4: S,
-    /// `1/2*(1/I1 - 1/I2)*h`
+    /// `(1/I1 - 1/I2)*h/2`
     _h5: S,
     /// `(1/I2 - 1/I3)*h`
     _h6: S,

@@ -2,7 +2,7 @@
 
 /// A non-polynomial Hamiltonian on so(3)*: a generic test system with sine, exponential, square root and a quartic term.
 ///
-/// `H = sin(x) + exp(1/2*y) + sqrt(z^2 + 1) + x*y^2*z` on the dual of a Lie algebra of dimension 3,
+/// `H = sin(x) + exp(y/2) + sqrt(z^2 + 1) + x*y^2*z` on the dual of a Lie algebra of dimension 3,
 /// coordinates `x, y, z`; the Poisson matrix has generic rank 2.
 /// Casimirs: `norm2 = z^2 + y^2 + x^2`.
 ///
@@ -105,6 +105,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
 
     /// `H(mu)`
     ///
+    /// ```text
+    /// H = sin(x) + exp(y/2) + sqrt(z^2 + 1) + x*y^2*z
+    /// ```
+    ///
     /// 4 additions, 5 multiplications, 3 function calls.
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
@@ -165,6 +169,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
+    ///
+    /// ```text
+    /// x' = -z*(exp(y/2) + 4*x*y*z)/2 + y*(z/sqrt(z^2 + 1) + x*y^2)
+    /// y' = z*(cos(x) + y^2*z) - x*(z/sqrt(z^2 + 1) + x*y^2)
+    /// z' = -y*(cos(x) + y^2*z) + x*(exp(y/2) + 4*x*y*z)/2
+    /// ```
     ///
     /// 7 additions, 15 multiplications, 1 division, 3 function calls.
     #[inline]
@@ -364,13 +374,13 @@ pub struct NonpolynomialSpinMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a NonpolynomialSpinSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `1/16*h`
+    /// `h/16`
     _h0: S,
-    /// `-1/16*h`
+    /// `-h/16`
     _h1: S,
-    /// `1/8*h`
+    /// `h/8`
     _h2: S,
-    /// `-1/4*h`
+    /// `-h/4`
     _h3: S,
 }
 
@@ -1050,13 +1060,13 @@ pub struct NonpolynomialSpinCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a NonpolynomialSpinSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `1/2*h`
+    /// `h/2`
     _h0: S,
-    /// `1/4*h`
+    /// `h/4`
     _h1: S,
     /// `3*h`
     _h2: S,
-    /// `1/8*h`
+    /// `h/8`
     _h3: S,
     /// `8*h`
     _h4: S,

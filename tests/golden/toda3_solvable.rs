@@ -2,7 +2,7 @@
 
 /// Open Toda lattice of three particles in Flaschka's variables, on the dual of the solvable algebra of traces and neighbour couplings. Its generic rank is 4; the total momentum is the only polynomial Casimir.
 ///
-/// `H = 1/2*b1^2 + 1/2*b2^2 + 1/2*b3^2 + a1^2 + a2^2` on the dual of a Lie algebra of dimension 5,
+/// `H = b1^2/2 + b2^2/2 + b3^2/2 + a1^2 + a2^2` on the dual of a Lie algebra of dimension 5,
 /// coordinates `b1, b2, b3, a1, a2`; the Poisson matrix has generic rank 4.
 /// Casimirs: `momentum = b1 + b2 + b3`.
 ///
@@ -106,6 +106,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
 
     /// `H(mu)`
     ///
+    /// ```text
+    /// H = b1^2/2 + b2^2/2 + b3^2/2 + a1^2 + a2^2
+    /// ```
+    ///
     /// 4 additions, 6 multiplications.
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
@@ -159,6 +163,14 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
+    ///
+    /// ```text
+    /// b1' = -2*a1^2
+    /// b2' = 2*a1^2 - 2*a2^2
+    /// b3' = 2*a2^2
+    /// a1' = b1*a1 - b2*a1
+    /// a2' = b2*a2 - b3*a2
+    /// ```
     ///
     /// 3 additions, 7 multiplications.
     #[inline]
@@ -302,13 +314,13 @@ pub struct TodaLatticeMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a TodaLatticeSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 5>,
     h: S,
-    /// `1/2*h`
+    /// `h/2`
     _h0: S,
-    /// `1/4*h`
+    /// `h/4`
     _h1: S,
     /// `-h`
     _h2: S,
-    /// `-1/4*h`
+    /// `-h/4`
     _h3: S,
 }
 
