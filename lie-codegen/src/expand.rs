@@ -62,9 +62,11 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
                     diagnostic
                 })
                 .collect();
-            // What the file names is not known here; the errors themselves do not cascade.
-            let name = crate::front::spec::read(&text, &mut Report::new()).name.map(|name| Name { origin: path.origin, ..name });
-            let errors = failure(&Parsed { name, ..parsed.clone() }, &placed);
+            // What the file names is read once more, so that its users hear of nothing else.
+            let read = crate::front::spec::read(&text, &mut Report::new());
+            let name = read.name.clone().map(|name| Name { origin: path.origin, ..name });
+            let visibility = parsed.visibility.clone();
+            let errors = failure(&Parsed { name, visibility, ..read }, &placed);
             quote! { #errors #track }
         }
     }
@@ -102,7 +104,7 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
     let mut seen = std::collections::BTreeSet::new();
     let parameters: Vec<Ident> =
         parsed.parameters.iter().filter(|p| seen.insert(p.text.clone())).filter_map(identifier).collect();
-    let n = proc_macro2::Literal::usize_unsuffixed(parsed.state.len());
+    let n = proc_macro2::Literal::usize_unsuffixed(parsed.dimension);
     let vector = quote! { ::lie_runtime::__private::SVector<S, #n> };
     quote! {
         #[allow(non_snake_case)]

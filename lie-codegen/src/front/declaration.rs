@@ -87,6 +87,17 @@ impl<'a> Parts<'a> {
         }
     }
 
+    /// Number of basis elements, however broken the algebra is.
+    fn size_of_basis(&self) -> usize {
+        let tokens = self.first("algebra").map_or(&[][..], |s| s.rest);
+        let Some(basis) = tokens.iter().position(|t| t.is_word("basis")) else {
+            return 0;
+        };
+        let names = &tokens[basis + 1..];
+        let end = names.iter().position(|t| t.is(';')).unwrap_or(names.len());
+        split_commas(&names[..end]).len()
+    }
+
     fn missing(&self, keyword: &str, example: &str, place: Origin, report: &mut Report) {
         let replaced = NOT_BUILT.iter().any(|(reserved, replaces)| {
             replaces.contains(&keyword) && self.first(reserved).is_some()
@@ -174,6 +185,10 @@ fn system(parts: &Parts<'_>, report: &mut Report) -> Parsed {
         .first("state")
         .map(|s| names(s.rest, s.origin, report))
         .unwrap_or_default();
+    parsed.dimension = match parts.first("state") {
+        Some(state) => split_commas(state.rest).len(),
+        None => parts.size_of_basis(),
+    };
     let entries = parts
         .first("parameters")
         .and_then(|s| s.block(report))

@@ -42,6 +42,8 @@ pub struct Parsed {
     pub name: Option<Name>,
     /// Names of the coordinates, as far as they could be read.
     pub state: Vec<Name>,
+    /// Number of coordinates, those with unreadable names included.
+    pub dimension: usize,
     /// Names of the parameters, as far as they could be read.
     pub parameters: Vec<Name>,
     /// The whole, if nothing was wrong.

@@ -52,6 +52,7 @@ fn document(text: &str, report: &mut Report) -> Parsed {
         .get("state")
         .map(|v| name_list(v, "`state`", report))
         .unwrap_or_default();
+    parsed.dimension = spec.get("state").map_or(0, |v| v.elements().len());
     let parameters = spec
         .get("parameters")
         .map(|v| parameters::read(v, report))

@@ -89,6 +89,14 @@ pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> (Vec<Name>, V
         let tokens = &entry.tokens[usize::from(exact)..];
         let Some((name, value)) = item::definition(tokens, "a parameter", entry.origin(), report)
         else {
+            // Code that uses the parameter is no mistake of its own.
+            names.extend(tokens.first().and_then(|token| {
+                let text = token.identifier()?.to_owned();
+                Some(Name {
+                    text,
+                    origin: token.origin,
+                })
+            }));
             continue;
         };
         names.push(name.clone());

@@ -1,0 +1,34 @@
+//! Broken macros: every error at the offending token, and none in the code that uses the type.
+//!
+//! After a change of a message, `TRYBUILD=overwrite cargo test --test compile_fail` writes the
+//! `.stderr` files anew; read the difference before you commit it.
+
+#[test]
+fn errors_stand_at_their_tokens() {
+    let cases = trybuild::TestCases::new();
+    cases.compile_fail("tests/compile_fail/*.rs");
+}
+
+/// What the cases have in common is sound: their `main` is no source of errors.
+#[test]
+fn no_other_code_is_blamed() {
+    for entry in std::fs::read_dir("tests/compile_fail").expect("the cases") {
+        let path = entry.expect("an entry").path();
+        if path
+            .extension()
+            .is_none_or(|extension| extension != "stderr")
+        {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("the errors");
+        let mut errors = text
+            .lines()
+            .filter(|line| line.starts_with("error"))
+            .peekable();
+        assert!(errors.peek().is_some(), "{}", path.display());
+        for error in errors {
+            assert!(error.starts_with("error: ["), "{}: {error}", path.display());
+        }
+        assert!(text.contains("help: "), "{}", path.display());
+    }
+}

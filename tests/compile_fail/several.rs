@@ -1,0 +1,39 @@
+//! Mistakes of one stage are reported together, each at its token.
+
+use lie_runtime::prelude::*;
+
+lie_poisson! {
+    /// Doc comments are part of the declaration.
+    pub(crate) system Body;
+    algebra {
+        basis e1, e2, e3;
+        [e1, e2] = e3;
+        [e2, e3] = q*e1;
+        [e3, e3] = e2;
+    }
+    state x, y, energy;
+    parameters {
+        /// A moment of inertia.
+        I1 = 2;
+        I2 = 1;
+        I1 = 3;
+    }
+    hamiltonian = x^2/(2*I1)
+        + y^2/(2*I4)
+        + sqrt(-1)
+        + x/(2 - 1 - 1);
+    casimir fn = x^2;
+}
+
+// Whoever uses the type hears of nothing else.
+fn main() {
+    let mut body = Body::new();
+    body.I1 = 3.0;
+    let system = body.system().expect("finite constants");
+    let problem = Problem::new(system, [1.0, 0.0, 0.5], (0.0, 1.0));
+    let solution = solve(&problem, LieMidpoint::exp(), &Options::new(0.1)).expect("a solution");
+    let single = Body::<f32>::default().system().expect("finite constants");
+    let mut velocity = single.zero_state();
+    single.vector_field(&single.zero_state(), &mut velocity);
+    println!("{} {:?} {:?}", body.I2, solution.last(), solution.drift());
+}
