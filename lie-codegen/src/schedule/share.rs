@@ -1,6 +1,7 @@
 //! Sharing: pairs of factors, then pairs of terms, that occur more than once become quantities.
 
-use std::collections::HashMap;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::formula::{Atom, AtomId, Formula, Signed};
 
@@ -17,25 +18,56 @@ pub fn share(formula: &mut Formula) {
 /// Two factors, or two terms with their relative sign.
 type Pair = (AtomId, AtomId, bool);
 
+/// Where each pair occurs, and the pairs by how often they do.
+#[derive(Default)]
+struct Index {
+    users: HashMap<Pair, BTreeMap<AtomId, usize>>,
+    frequency: BTreeSet<(usize, Reverse<Pair>)>,
+}
+
+impl Index {
+    /// The most frequent pair that occurs more than once; of equals the first.
+    fn best(&self) -> Option<Pair> {
+        self.frequency.last().filter(|(count, _)| *count > 1).map(|(_, Reverse(pair))| *pair)
+    }
+
+    /// Replaces what is known of the pairs of an atom.
+    fn update(&mut self, atom: AtomId, old: &HashMap<Pair, usize>, new: &HashMap<Pair, usize>) {
+        for pair in old.keys() {
+            self.set(*pair, atom, 0);
+        }
+        for (pair, count) in new {
+            self.set(*pair, atom, *count);
+        }
+    }
+
+    fn set(&mut self, pair: Pair, atom: AtomId, count: usize) {
+        let users = self.users.entry(pair).or_default();
+        let before: usize = users.values().sum();
+        let was = if count == 0 { users.remove(&atom) } else { users.insert(atom, count) };
+        let after = before + count - was.unwrap_or(0);
+        if users.is_empty() {
+            self.users.remove(&pair);
+        }
+        self.frequency.remove(&(before, Reverse(pair)));
+        if after > 0 {
+            self.frequency.insert((after, Reverse(pair)));
+        }
+    }
+}
+
 fn share_pairs(
     formula: &mut Formula,
     pairs_of: fn(&Atom) -> HashMap<Pair, usize>,
     replace: fn(&mut Formula, AtomId, Pair, AtomId),
 ) {
-    let mut counts: HashMap<Pair, usize> = HashMap::new();
     let mut pairs: Vec<HashMap<Pair, usize>> = formula.atoms.iter().map(pairs_of).collect();
-    for of_atom in &pairs {
-        for (pair, n) in of_atom {
-            *counts.entry(*pair).or_insert(0) += n;
-        }
+    let mut index = Index::default();
+    for (atom, new) in pairs.iter().enumerate() {
+        index.update(atom, &HashMap::new(), new);
     }
-    loop {
-        let best = counts.iter().map(|(pair, n)| (*n, std::cmp::Reverse(*pair))).max();
-        let Some((n, std::cmp::Reverse(pair))) = best else { return };
-        if n < 2 {
-            return;
-        }
-        let users: Vec<AtomId> = (0..pairs.len()).filter(|id| pairs[*id].contains_key(&pair)).collect();
+    while let Some(pair) = index.best() {
+        let users: Vec<AtomId> = index.users[&pair].keys().copied().collect();
         let (left, right, opposite) = pair;
         let shared = match &formula.atoms[users[0]] {
             Atom::Product(_) => formula.intern(Atom::Product(vec![left, right])),
@@ -43,31 +75,17 @@ fn share_pairs(
         };
         pairs.resize(formula.atoms.len(), HashMap::new());
         for user in users {
-            if user == shared {
-                // The pair itself stays as it is and takes part no more.
-                for (pair, n) in std::mem::take(&mut pairs[user]) {
-                    forget(&mut counts, pair, n);
-                }
-                continue;
-            }
-            replace(formula, user, pair, shared);
-            let new = pairs_of(&formula.atoms[user]);
-            for (pair, n) in std::mem::replace(&mut pairs[user], new.clone()) {
-                forget(&mut counts, pair, n);
-            }
-            for (pair, n) in new {
-                *counts.entry(pair).or_insert(0) += n;
-            }
-        }
-        counts.remove(&pair);
-    }
-}
-
-fn forget(counts: &mut HashMap<Pair, usize>, pair: Pair, n: usize) {
-    if let Some(count) = counts.get_mut(&pair) {
-        *count = count.saturating_sub(n);
-        if *count == 0 {
-            counts.remove(&pair);
+            // The pair itself stays as it is and takes part no more.
+            let new = if user == shared {
+                HashMap::new()
+            } else {
+                replace(formula, user, pair, shared);
+                let mut new = pairs_of(&formula.atoms[user]);
+                new.remove(&pair);
+                new
+            };
+            index.update(user, &pairs[user], &new);
+            pairs[user] = new;
         }
     }
 }
