@@ -99,12 +99,24 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// An error at a place.
     pub fn new(kind: Kind, origin: Origin, message: impl Into<String>) -> Self {
-        Self { kind, message: message.into(), origin: Some(origin), help: None, warning: false }
+        Self {
+            kind,
+            message: message.into(),
+            origin: Some(origin),
+            help: None,
+            warning: false,
+        }
     }
 
     /// An error without a place in the text.
     pub fn placeless(kind: Kind, message: impl Into<String>) -> Self {
-        Self { kind, message: message.into(), origin: None, help: None, warning: false }
+        Self {
+            kind,
+            message: message.into(),
+            origin: None,
+            help: None,
+            warning: false,
+        }
     }
 
     /// Adds the remedy.
@@ -149,7 +161,11 @@ impl Report {
     /// # Errors
     /// All diagnostics, in the order in which they were found.
     pub fn gate(&mut self) -> Result<(), Vec<Diagnostic>> {
-        if self.has_errors() { Err(std::mem::take(&mut self.diagnostics)) } else { Ok(()) }
+        if self.has_errors() {
+            Err(std::mem::take(&mut self.diagnostics))
+        } else {
+            Ok(())
+        }
     }
 
     /// All diagnostics.

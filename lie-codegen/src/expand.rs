@@ -56,7 +56,8 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
                 .map(|mut diagnostic| {
                     if let Some(Origin::Text { start, .. }) = diagnostic.origin {
                         let (line, column) = line_column(&text, start);
-                        diagnostic.message = format!("{written}:{line}:{column}: {}", diagnostic.message);
+                        diagnostic.message =
+                            format!("{written}:{line}:{column}: {}", diagnostic.message);
                     }
                     diagnostic.origin = Some(path.origin);
                     diagnostic
@@ -64,9 +65,19 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
                 .collect();
             // What the file names is read once more, so that its users hear of nothing else.
             let read = crate::front::spec::read(&text, &mut Report::new());
-            let name = read.name.clone().map(|name| Name { origin: path.origin, ..name });
+            let name = read.name.clone().map(|name| Name {
+                origin: path.origin,
+                ..name
+            });
             let visibility = parsed.visibility.clone();
-            let errors = failure(&Parsed { name, visibility, ..read }, &placed);
+            let errors = failure(
+                &Parsed {
+                    name,
+                    visibility,
+                    ..read
+                },
+                &placed,
+            );
             quote! { #errors #track }
         }
     }
@@ -98,12 +109,18 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
         }),
         Origin::Text { .. } => syn::parse_str::<Ident>(&name.text).ok(),
     };
-    let Some(ident) = identifier(name) else { return TokenStream::new() };
+    let Some(ident) = identifier(name) else {
+        return TokenStream::new();
+    };
     let visibility = &parsed.visibility;
     let system = format_ident!("{ident}System");
     let mut seen = std::collections::BTreeSet::new();
-    let parameters: Vec<Ident> =
-        parsed.parameters.iter().filter(|p| seen.insert(p.text.clone())).filter_map(identifier).collect();
+    let parameters: Vec<Ident> = parsed
+        .parameters
+        .iter()
+        .filter(|p| seen.insert(p.text.clone()))
+        .filter_map(identifier)
+        .collect();
     let n = proc_macro2::Literal::usize_unsuffixed(parsed.dimension);
     let vector = quote! { ::lie_runtime::__private::SVector<S, #n> };
     quote! {

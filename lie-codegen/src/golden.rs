@@ -37,7 +37,10 @@ pub struct Stale(pub Vec<String>);
 impl fmt::Display for Stale {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.0.join("\n"))?;
-        write!(f, "help: set {UPDATE}=1 to write the files anew, then read the change before you commit it")
+        write!(
+            f,
+            "help: set {UPDATE}=1 to write the files anew, then read the change before you commit it"
+        )
     }
 }
 
@@ -46,7 +49,11 @@ impl std::error::Error for Stale {}
 impl Golden {
     /// The golden files of a folder (relative to the working directory of the test).
     pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), files: BTreeMap::new(), problems: Vec::new() }
+        Self {
+            folder: folder.into(),
+            files: BTreeMap::new(),
+            problems: Vec::new(),
+        }
     }
 
     /// Adds the generated code of a spec file with fused code for the methods (every option of an
@@ -55,7 +62,10 @@ impl Golden {
         let path = path.as_ref();
         match generate(path, methods) {
             Ok(code) => {
-                let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+                let name = path
+                    .file_stem()
+                    .map(|stem| stem.to_string_lossy().into_owned())
+                    .unwrap_or_default();
                 self.text(&format!("{name}.rs"), code);
             }
             Err(problem) => self.problems.push(problem),
@@ -66,7 +76,8 @@ impl Golden {
     /// Adds any text under a file name.
     pub fn text(&mut self, file: &str, text: String) -> &mut Self {
         if self.files.insert(file.to_string(), text).is_some() {
-            self.problems.push(format!("{file}: two systems claim this file"));
+            self.problems
+                .push(format!("{file}: two systems claim this file"));
         }
         self
     }
@@ -88,7 +99,11 @@ impl Golden {
         } else {
             problems.extend(self.compare());
         }
-        if problems.is_empty() { Ok(()) } else { Err(Stale(problems)) }
+        if problems.is_empty() {
+            Ok(())
+        } else {
+            Err(Stale(problems))
+        }
     }
 
     fn write(&self) -> std::io::Result<()> {
@@ -113,17 +128,24 @@ impl Golden {
             }
         }
         problems.extend(self.left_over().into_iter().map(|file| {
-            format!("{}: no system claims this file any more", self.folder.join(file).display())
+            format!(
+                "{}: no system claims this file any more",
+                self.folder.join(file).display()
+            )
         }));
         problems
     }
 
     fn left_over(&self) -> Vec<String> {
-        let Ok(entries) = std::fs::read_dir(&self.folder) else { return Vec::new() };
+        let Ok(entries) = std::fs::read_dir(&self.folder) else {
+            return Vec::new();
+        };
         let mut names: Vec<String> = entries
             .filter_map(Result::ok)
             .map(|entry| entry.file_name().to_string_lossy().into_owned())
-            .filter(|name| name.ends_with(".rs") && name != "mod.rs" && !self.files.contains_key(name))
+            .filter(|name| {
+                name.ends_with(".rs") && name != "mod.rs" && !self.files.contains_key(name)
+            })
             .collect();
         names.sort();
         names
@@ -134,12 +156,15 @@ fn generate(path: &Path, methods: &[&str]) -> Result<String, String> {
     let place = path.display();
     let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: {error}"))?;
     let model = compile_spec(&text).map_err(|diagnostics| {
-        let messages: Vec<String> = diagnostics.iter().map(|d| format!("error[{}]: {}", d.kind, d.message)).collect();
+        let messages: Vec<String> = diagnostics
+            .iter()
+            .map(|d| format!("error[{}]: {}", d.kind, d.message))
+            .collect();
         format!("{place}: {}", messages.join("; "))
     })?;
-    let choices = methods.iter().map(|id| {
-        Choice::from_id(id).map_err(|unusable| format!("{place}: {}", unusable.message))
-    });
+    let choices = methods
+        .iter()
+        .map(|id| Choice::from_id(id).map_err(|unusable| format!("{place}: {}", unusable.message)));
     let choices: Vec<Choice> = choices.collect::<Result<_, _>>()?;
     Ok(expand(&model, &with_options(&model, &choices)))
 }
@@ -150,11 +175,27 @@ fn difference(path: &Path, golden: &str, new: &str) -> String {
         Some((number, (a, b))) => (number + 1, a, b),
         None => {
             let number = golden.lines().count().min(new.lines().count());
-            let at = |text: &'_ str| -> String { text.lines().nth(number).unwrap_or("(end of file)").to_string() };
-            return format!("{}:{}: was `{}`, is `{}`", path.display(), number + 1, at(golden), at(new));
+            let at = |text: &'_ str| -> String {
+                text.lines()
+                    .nth(number)
+                    .unwrap_or("(end of file)")
+                    .to_string()
+            };
+            return format!(
+                "{}:{}: was `{}`, is `{}`",
+                path.display(),
+                number + 1,
+                at(golden),
+                at(new)
+            );
         }
     };
-    format!("{}:{number}: was `{}`, is `{}`", path.display(), was.trim(), is.trim())
+    format!(
+        "{}:{number}: was `{}`, is `{}`",
+        path.display(),
+        was.trim(),
+        is.trim()
+    )
 }
 
 #[cfg(test)]
@@ -165,7 +206,9 @@ mod tests {
     fn differences_missing_and_left_over_files_are_reported() {
         let folder = std::env::temp_dir().join(format!("lie-golden-{}", std::process::id()));
         let mut golden = Golden::new(&folder);
-        golden.text("a.rs", "one\ntwo\n".into()).text("b.rs", "three\n".into());
+        golden
+            .text("a.rs", "one\ntwo\n".into())
+            .text("b.rs", "three\n".into());
         assert!(golden.run(false).is_err(), "nothing is there yet");
         golden.run(true).unwrap();
         golden.run(false).unwrap();
@@ -173,7 +216,10 @@ mod tests {
         std::fs::write(folder.join("c.rs"), "").unwrap();
         let Stale(problems) = golden.run(false).unwrap_err();
         assert_eq!(problems.len(), 2, "{problems:?}");
-        assert!(problems[0].contains("a.rs:2: was `zwei`, is `two`"), "{problems:?}");
+        assert!(
+            problems[0].contains("a.rs:2: was `zwei`, is `two`"),
+            "{problems:?}"
+        );
         assert!(problems[1].contains("c.rs"), "{problems:?}");
         golden.run(true).unwrap();
         golden.run(false).unwrap();

@@ -19,7 +19,8 @@ fn normal(operation: &Operation) -> Operation {
 fn waste(program: &Program) -> Vec<String> {
     let mut seen: HashMap<String, usize> = HashMap::new();
     let mut found = Vec::new();
-    let is = |value: &Value, n: &str| matches!(value, Value::Number(number) if number.to_string() == n);
+    let is =
+        |value: &Value, n: &str| matches!(value, Value::Number(number) if number.to_string() == n);
     for (position, operation) in program.operations.iter().enumerate() {
         let text = format!("{:?}", normal(operation));
         if let Some(earlier) = seen.insert(text.clone(), position) {
@@ -30,9 +31,10 @@ fn waste(program: &Program) -> Vec<String> {
             Operation::Mul(a, b) => [a, b].iter().any(|v| is(v, "0") || is(v, "1")),
             Operation::Div(a, b) => is(a, "0") || is(b, "1"),
             Operation::Power(_, exponent) => exponent.is_integer(),
-            Operation::Call(..) | Operation::Sqrt(_) | Operation::Neg(_) => {
-                operation.operands().iter().all(|v| matches!(v, Value::Number(_)))
-            }
+            Operation::Call(..) | Operation::Sqrt(_) | Operation::Neg(_) => operation
+                .operands()
+                .iter()
+                .all(|v| matches!(v, Value::Number(_))),
         };
         if useless {
             found.push(format!("{operation:?}"));
@@ -58,7 +60,12 @@ fn kernels_of_all_systems() {
         for kernel in kernels {
             let program = kernel.program(&mut source.graph);
             let found = waste(&program);
-            assert!(found.is_empty(), "{} {}: {found:#?}", path.display(), kernel.name);
+            assert!(
+                found.is_empty(),
+                "{} {}: {found:#?}",
+                path.display(),
+                kernel.name
+            );
         }
         systems += 1;
     }

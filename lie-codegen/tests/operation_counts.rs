@@ -15,11 +15,20 @@ fn check(spec: &str, table: &[(&str, usize, usize)], open: &[(&str, usize, usize
     let counts = generate(&model, &FUSED).counts;
     let mut wrong = Vec::new();
     for (kernel, add, mul) in table {
-        let expected = open.iter().find(|(name, ..)| name == kernel).copied().unwrap_or((kernel, *add, *mul));
-        let found = counts.iter().find(|(name, _)| name == kernel).map(|(_, counts)| *counts);
+        let expected = open
+            .iter()
+            .find(|(name, ..)| name == kernel)
+            .copied()
+            .unwrap_or((kernel, *add, *mul));
+        let found = counts
+            .iter()
+            .find(|(name, _)| name == kernel)
+            .map(|(_, counts)| *counts);
         match found {
             Some(c) if (c.add, c.mul, c.div, c.call) == (expected.1, expected.2, 0, 0) => {}
-            other => wrong.push(format!("{kernel}: by hand {add} and {mul}, generated {other:?}")),
+            other => wrong.push(format!(
+                "{kernel}: by hand {add} and {mul}, generated {other:?}"
+            )),
         }
     }
     for (name, _) in &counts {
@@ -68,7 +77,10 @@ fn free_rigid_body() {
             ("lie-midpoint cayley result", 3, 6),
         ],
         // Terms that both dot products share are one term of the normal form, which hides them.
-        &[("triple", 12, 18), ("lie-midpoint cayley linearize", 25, 32)],
+        &[
+            ("triple", 12, 18),
+            ("lie-midpoint cayley linearize", 25, 32),
+        ],
     );
 }
 

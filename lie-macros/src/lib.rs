@@ -27,6 +27,8 @@ use proc_macro::TokenStream;
 /// ```
 #[proc_macro]
 pub fn lie_poisson(input: TokenStream) -> TokenStream {
-    let manifest = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
+    let manifest = std::env::var_os("CARGO_MANIFEST_DIR")
+        .map(PathBuf::from)
+        .unwrap_or_default();
     lie_codegen::expand::expand_macro(input.into(), &manifest).into()
 }

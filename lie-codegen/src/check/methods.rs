@@ -10,7 +10,11 @@ pub fn check(model: &Model, report: &mut Report) {
     for name in &model.methods {
         check_one(model, &name.text, name.origin, report);
     }
-    for option in model.run.iter().filter(|option| option.name.text == "method") {
+    for option in model
+        .run
+        .iter()
+        .filter(|option| option.name.text == "method")
+    {
         if let Some((id, origin)) = option.values.first() {
             check_one(model, id, *origin, report);
         }

@@ -12,9 +12,16 @@ use crate::symbolic::{ExprId, Symbol};
 
 /// `out_b = T_abc^d x^a z^c mu_d`
 pub(super) fn triple(source: &mut Source) -> Kernel {
-    let (x, z, m) = (source.block(Block::Xi), source.block(Block::Eta), source.coordinates());
+    let (x, z, m) = (
+        source.block(Block::Xi),
+        source.block(Block::Eta),
+        source.coordinates(),
+    );
     let product = triple_of(source, &x, &z, &m);
-    let eta = Argument { name: "eta", symbols: source.symbols(Block::Eta) };
+    let eta = Argument {
+        name: "eta",
+        symbols: source.symbols(Block::Eta),
+    };
     let arguments = vec![xi(source), eta, mu(source)];
     Kernel::vector(
         &source.graph,
@@ -31,19 +38,31 @@ fn triple_of(source: &mut Source, x: &[ExprId], z: &[ExprId], m: &[ExprId]) -> V
         let term = source.graph.product(&[x[a], z[c], m[d]]);
         terms[b].push((term, value));
     }
-    terms.into_iter().map(|terms| source.graph.linear(&terms)).collect()
+    terms
+        .into_iter()
+        .map(|terms| source.graph.linear(&terms))
+        .collect()
 }
 
 /// `y = (h/2) grad H(m)`: entries that vary stay one quantity each and are defined, the others
 /// are prepared constants.
-fn direction(source: &mut Source, m: &[ExprId], half_step: ExprId) -> (Vec<ExprId>, Vec<(Symbol, ExprId)>) {
+fn direction(
+    source: &mut Source,
+    m: &[ExprId],
+    half_step: ExprId,
+) -> (Vec<ExprId>, Vec<(Symbol, ExprId)>) {
     let gradient = source.gradient_of_h();
     let gradient = source.at(&gradient, m);
     let mut y = source.block(Block::Xi);
     let mut definitions = Vec::new();
     for (i, symbol) in source.symbols(Block::Xi).into_iter().enumerate() {
         let value = source.graph.mul(half_step, gradient[i]);
-        if source.graph.symbols(value).iter().any(|s| matches!(s, Symbol::Input(_))) {
+        if source
+            .graph
+            .symbols(value)
+            .iter()
+            .any(|s| matches!(s, Symbol::Input(_)))
+        {
             definitions.push((symbol, value));
         } else {
             y[i] = value;
@@ -57,7 +76,9 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
     let start = source.coordinates();
     let m = source.block(Block::Unknown);
     let h = source.graph.symbol(Symbol::Step);
-    let half_step = source.graph.scale(h, &Rational::new(1, 2).unwrap_or(Rational::ONE));
+    let half_step = source
+        .graph
+        .scale(h, &Rational::new(1, 2).unwrap_or(Rational::ONE));
     let hessian = source.hessian_of_h();
     let field = source.field_of_h();
     let field = source.at(&field, &m);
@@ -74,7 +95,9 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
             ])
         })
         .collect();
-    let rows = (0..n).map(|i| jacobian_row(source, residual[i], &hessian, half_step)).collect::<Vec<_>>();
+    let rows = (0..n)
+        .map(|i| jacobian_row(source, residual[i], &hessian, half_step))
+        .collect::<Vec<_>>();
     let result: Vec<ExprId> = (0..n)
         .map(|i| {
             let moved = source.graph.mul(h, field[i]);
@@ -82,7 +105,13 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
         })
         .collect();
     let m_symbols = source.symbols(Block::Unknown);
-    let arguments = vec![mu(source), Argument { name: "unknown", symbols: m_symbols }];
+    let arguments = vec![
+        mu(source),
+        Argument {
+            name: "unknown",
+            symbols: m_symbols,
+        },
+    ];
     let graph = &source.graph;
     vec![
         Kernel::vector(
@@ -102,16 +131,30 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
             &rows,
         )
         .within_step(definitions),
-        Kernel::vector(graph, "result", "`mu1 = mu + ad*_x m = mu + h f(m)`", arguments, &result)
-            .within_step(Vec::new()),
+        Kernel::vector(
+            graph,
+            "result",
+            "`mu1 = mu + ad*_x m = mu + h f(m)`",
+            arguments,
+            &result,
+        )
+        .within_step(Vec::new()),
     ]
 }
 
 /// `dr/dm_j = (partial in m_j) + sum_a (dr/dy_a) (h/2) H''_aj`
-fn jacobian_row(source: &mut Source, r: ExprId, hessian: &[Vec<ExprId>], half_step: ExprId) -> Vec<ExprId> {
+fn jacobian_row(
+    source: &mut Source,
+    r: ExprId,
+    hessian: &[Vec<ExprId>],
+    half_step: ExprId,
+) -> Vec<ExprId> {
     let m = source.block(Block::Unknown);
     let (m_symbols, y_symbols) = (source.symbols(Block::Unknown), source.symbols(Block::Xi));
-    let through: Vec<ExprId> = y_symbols.iter().map(|s| source.graph.derivative(r, *s)).collect();
+    let through: Vec<ExprId> = y_symbols
+        .iter()
+        .map(|s| source.graph.derivative(r, *s))
+        .collect();
     let mut row = Vec::with_capacity(m.len());
     for (j, symbol) in m_symbols.iter().enumerate() {
         let mut terms = vec![source.graph.derivative(r, *symbol)];

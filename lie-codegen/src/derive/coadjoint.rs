@@ -5,12 +5,22 @@ use super::{Argument, Block, Kernel, Source};
 use crate::symbolic::ExprId;
 
 pub(super) fn xi(source: &Source) -> Argument {
-    Argument { name: "xi", symbols: source.symbols(Block::Xi) }
+    Argument {
+        name: "xi",
+        symbols: source.symbols(Block::Xi),
+    }
 }
 
 pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
-    let eta = Argument { name: "eta", symbols: source.symbols(Block::Eta) };
-    let (x, y, m) = (source.block(Block::Xi), source.block(Block::Eta), source.coordinates());
+    let eta = Argument {
+        name: "eta",
+        symbols: source.symbols(Block::Eta),
+    };
+    let (x, y, m) = (
+        source.block(Block::Xi),
+        source.block(Block::Eta),
+        source.coordinates(),
+    );
     let bracket = bracket(source, &x, &y);
     let action = source.ad_star_of(&x, &m);
     let matrix = matrix(source, &x);
@@ -46,7 +56,10 @@ fn bracket(source: &mut Source, x: &[ExprId], y: &[ExprId]) -> Vec<ExprId> {
         let term = source.graph.product(&[value, x[i], y[j]]);
         terms[k].push(term);
     }
-    terms.into_iter().map(|terms| source.graph.sum(&terms)).collect()
+    terms
+        .into_iter()
+        .map(|terms| source.graph.sum(&terms))
+        .collect()
 }
 
 fn matrix(source: &mut Source, x: &[ExprId]) -> Vec<Vec<ExprId>> {

@@ -4,7 +4,10 @@ use super::{Argument, Kernel, Source};
 use crate::symbolic::{ExprId, Symbol};
 
 pub(super) fn mu(source: &Source) -> Argument {
-    Argument { name: "mu", symbols: (0..source.dimension).map(Symbol::Coordinate).collect() }
+    Argument {
+        name: "mu",
+        symbols: (0..source.dimension).map(Symbol::Coordinate).collect(),
+    }
 }
 
 pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
@@ -17,11 +20,41 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
     let graph = &source.graph;
     let mut kernels = vec![
         Kernel::scalar("hamiltonian", "`H(mu)`", arguments(), source.hamiltonian),
-        Kernel::vector(graph, "gradient", "`out_i = dH/dmu_i`", arguments(), &gradient),
-        Kernel::matrix(graph, "hessian", "`out_ij = d^2H/dmu_i dmu_j`", arguments(), &hessian),
-        Kernel::matrix(graph, "poisson_matrix", "`out_ij = {mu_i, mu_j} = -C_ij^k mu_k`", arguments(), &matrix),
-        Kernel::vector(graph, "vector_field", "`f_j = C_ij^k (dH/dmu_i) mu_k`", arguments(), &field),
-        Kernel::matrix(graph, "jacobian", "`out_ij = df_i/dmu_j`", arguments(), &jacobian),
+        Kernel::vector(
+            graph,
+            "gradient",
+            "`out_i = dH/dmu_i`",
+            arguments(),
+            &gradient,
+        ),
+        Kernel::matrix(
+            graph,
+            "hessian",
+            "`out_ij = d^2H/dmu_i dmu_j`",
+            arguments(),
+            &hessian,
+        ),
+        Kernel::matrix(
+            graph,
+            "poisson_matrix",
+            "`out_ij = {mu_i, mu_j} = -C_ij^k mu_k`",
+            arguments(),
+            &matrix,
+        ),
+        Kernel::vector(
+            graph,
+            "vector_field",
+            "`f_j = C_ij^k (dH/dmu_i) mu_k`",
+            arguments(),
+            &field,
+        ),
+        Kernel::matrix(
+            graph,
+            "jacobian",
+            "`out_ij = df_i/dmu_j`",
+            arguments(),
+            &jacobian,
+        ),
         Kernel::fused(
             graph,
             "linearize",
@@ -32,10 +65,20 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
         ),
     ];
     let values = source.casimirs.clone();
-    kernels.push(Kernel::vector(graph, "casimirs", "`out_i = C_i(mu)`", arguments(), &values));
+    kernels.push(Kernel::vector(
+        graph,
+        "casimirs",
+        "`out_i = C_i(mu)`",
+        arguments(),
+        &values,
+    ));
     let gradients: Vec<Vec<ExprId>> = values
         .iter()
-        .map(|c| (0..source.dimension).map(|i| source.graph.derivative(*c, Symbol::Coordinate(i))).collect())
+        .map(|c| {
+            (0..source.dimension)
+                .map(|i| source.graph.derivative(*c, Symbol::Coordinate(i)))
+                .collect()
+        })
         .collect();
     for gradient in gradients {
         let arguments = vec![mu(source)];
@@ -54,7 +97,11 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
 pub(super) fn jacobian(source: &mut Source, field: &[ExprId]) -> Vec<Vec<ExprId>> {
     field
         .iter()
-        .map(|f| (0..source.dimension).map(|j| source.graph.derivative(*f, Symbol::Coordinate(j))).collect())
+        .map(|f| {
+            (0..source.dimension)
+                .map(|j| source.graph.derivative(*f, Symbol::Coordinate(j)))
+                .collect()
+        })
         .collect()
 }
 

@@ -42,9 +42,24 @@ pub struct Kernel {
 
 impl Kernel {
     /// A kernel that returns a scalar.
-    pub fn scalar(name: &'static str, formula: &'static str, arguments: Vec<Argument>, value: ExprId) -> Self {
-        let task = Task { definitions: Vec::new(), outputs: vec![value], known: Known::Parameters };
-        Self { name, formula, arguments, shape: Shape::Scalar, task }
+    pub fn scalar(
+        name: &'static str,
+        formula: &'static str,
+        arguments: Vec<Argument>,
+        value: ExprId,
+    ) -> Self {
+        let task = Task {
+            definitions: Vec::new(),
+            outputs: vec![value],
+            known: Known::Parameters,
+        };
+        Self {
+            name,
+            formula,
+            arguments,
+            shape: Shape::Scalar,
+            task,
+        }
     }
 
     /// A kernel that writes a vector.
@@ -56,8 +71,18 @@ impl Kernel {
         entries: &[ExprId],
     ) -> Self {
         let (indices, outputs) = sparse_vector(graph, entries);
-        let task = Task { definitions: Vec::new(), outputs, known: Known::Parameters };
-        Self { name, formula, arguments, shape: Shape::Vector(indices), task }
+        let task = Task {
+            definitions: Vec::new(),
+            outputs,
+            known: Known::Parameters,
+        };
+        Self {
+            name,
+            formula,
+            arguments,
+            shape: Shape::Vector(indices),
+            task,
+        }
     }
 
     /// A kernel that writes a matrix, given by rows.
@@ -69,8 +94,18 @@ impl Kernel {
         rows: &[Vec<ExprId>],
     ) -> Self {
         let (places, outputs) = sparse_matrix(graph, rows);
-        let task = Task { definitions: Vec::new(), outputs, known: Known::Parameters };
-        Self { name, formula, arguments, shape: Shape::Matrix(places), task }
+        let task = Task {
+            definitions: Vec::new(),
+            outputs,
+            known: Known::Parameters,
+        };
+        Self {
+            name,
+            formula,
+            arguments,
+            shape: Shape::Matrix(places),
+            task,
+        }
     }
 
     /// A kernel that writes a vector and a matrix.
@@ -85,8 +120,18 @@ impl Kernel {
         let (indices, mut outputs) = sparse_vector(graph, entries);
         let (places, matrix) = sparse_matrix(graph, rows);
         outputs.extend(matrix);
-        let task = Task { definitions: Vec::new(), outputs, known: Known::Parameters };
-        Self { name, formula, arguments, shape: Shape::VectorAndMatrix(indices, places), task }
+        let task = Task {
+            definitions: Vec::new(),
+            outputs,
+            known: Known::Parameters,
+        };
+        Self {
+            name,
+            formula,
+            arguments,
+            shape: Shape::VectorAndMatrix(indices, places),
+            task,
+        }
     }
 
     /// The same kernel with definitions, in which the step size is known too.
@@ -104,12 +149,20 @@ impl Kernel {
 }
 
 fn sparse_vector(graph: &Graph, entries: &[ExprId]) -> (Vec<usize>, Vec<ExprId>) {
-    entries.iter().copied().enumerate().filter(|(_, e)| !graph.is_zero(*e)).unzip()
+    entries
+        .iter()
+        .copied()
+        .enumerate()
+        .filter(|(_, e)| !graph.is_zero(*e))
+        .unzip()
 }
 
 fn sparse_matrix(graph: &Graph, rows: &[Vec<ExprId>]) -> (Vec<(usize, usize)>, Vec<ExprId>) {
     let entries = rows.iter().enumerate().flat_map(|(i, row)| {
-        row.iter().copied().enumerate().map(move |(j, entry)| ((i, j), entry))
+        row.iter()
+            .copied()
+            .enumerate()
+            .map(move |(j, entry)| ((i, j), entry))
     });
     entries.filter(|(_, e)| !graph.is_zero(*e)).unzip()
 }

@@ -9,12 +9,21 @@ use crate::exact::Rational;
 use crate::symbolic::{ExprId, Symbol};
 
 pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
-    let arguments = vec![mu(source), Argument { name: "unknown", symbols: source.symbols(Block::Unknown) }];
+    let arguments = vec![
+        mu(source),
+        Argument {
+            name: "unknown",
+            symbols: source.symbols(Block::Unknown),
+        },
+    ];
     let start = source.coordinates();
     let unknown = source.block(Block::Unknown);
     let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
-    let middle: Vec<ExprId> =
-        source.block(Block::Middle).into_iter().map(|s| source.graph.scale(s, &half)).collect();
+    let middle: Vec<ExprId> = source
+        .block(Block::Middle)
+        .into_iter()
+        .map(|s| source.graph.scale(s, &half))
+        .collect();
     let field = source.field_of_h();
     let slopes = jacobian(source, &field);
     let definitions: Vec<(Symbol, ExprId)> = source
@@ -47,15 +56,23 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
                 .map(|(j, slope)| {
                     let moved = source.graph.mul(h, slope);
                     let unit = source.graph.integer(i64::from(i == j));
-                    source.graph.linear(&[(unit, Rational::ONE), (moved, -&half)])
+                    source
+                        .graph
+                        .linear(&[(unit, Rational::ONE), (moved, -&half)])
                 })
                 .collect()
         })
         .collect();
     let graph = &source.graph;
     vec![
-        Kernel::vector(graph, "residual", "`r = u - mu - h f(m)`, `m = (mu + u)/2`", arguments.clone(), &residual)
-            .within_step(definitions.clone()),
+        Kernel::vector(
+            graph,
+            "residual",
+            "`r = u - mu - h f(m)`, `m = (mu + u)/2`",
+            arguments.clone(),
+            &residual,
+        )
+        .within_step(definitions.clone()),
         Kernel::fused(
             graph,
             "linearize",

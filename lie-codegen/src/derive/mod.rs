@@ -44,7 +44,9 @@ pub(crate) enum Block {
 
 impl Source {
     pub(crate) fn coordinates(&mut self) -> Vec<ExprId> {
-        (0..self.dimension).map(|i| self.graph.symbol(Symbol::Coordinate(i))).collect()
+        (0..self.dimension)
+            .map(|i| self.graph.symbol(Symbol::Coordinate(i)))
+            .collect()
     }
 
     pub(crate) fn symbols(&self, block: Block) -> Vec<Symbol> {
@@ -53,7 +55,10 @@ impl Source {
     }
 
     pub(crate) fn block(&mut self, block: Block) -> Vec<ExprId> {
-        self.symbols(block).into_iter().map(|s| self.graph.symbol(s)).collect()
+        self.symbols(block)
+            .into_iter()
+            .map(|s| self.graph.symbol(s))
+            .collect()
     }
 
     /// Both halves of the structure constants: `(i, j, k, C_ij^k)` for all i, j.
@@ -74,13 +79,19 @@ impl Source {
             let term = self.graph.product(&[value, xi[i], mu[k]]);
             terms[j].push(term);
         }
-        terms.into_iter().map(|terms| self.graph.sum(&terms)).collect()
+        terms
+            .into_iter()
+            .map(|terms| self.graph.sum(&terms))
+            .collect()
     }
 
     /// `dH/dmu_i`
     pub(crate) fn gradient_of_h(&mut self) -> Vec<ExprId> {
         (0..self.dimension)
-            .map(|i| self.graph.derivative(self.hamiltonian, Symbol::Coordinate(i)))
+            .map(|i| {
+                self.graph
+                    .derivative(self.hamiltonian, Symbol::Coordinate(i))
+            })
             .collect()
     }
 
@@ -101,7 +112,11 @@ impl Source {
         let gradient = self.gradient_of_h();
         gradient
             .into_iter()
-            .map(|g| (0..self.dimension).map(|j| self.graph.derivative(g, Symbol::Coordinate(j))).collect())
+            .map(|g| {
+                (0..self.dimension)
+                    .map(|j| self.graph.derivative(g, Symbol::Coordinate(j)))
+                    .collect()
+            })
             .collect()
     }
 

@@ -45,11 +45,15 @@ impl Elimination {
     /// The elimination of an n x n pattern whose diagonal is full; `unit` lists the rows whose
     /// diagonal entry is one. The pivot that makes the least fill-in comes first (Markowitz 1957).
     pub fn new(n: usize, pattern: &[(usize, usize)], unit: &BTreeSet<usize>) -> Self {
-        let mut rows: BTreeMap<usize, BTreeSet<usize>> = (0..n).map(|i| (i, BTreeSet::from([i]))).collect();
+        let mut rows: BTreeMap<usize, BTreeSet<usize>> =
+            (0..n).map(|i| (i, BTreeSet::from([i]))).collect();
         for &(i, j) in pattern {
             rows.entry(i).or_default().insert(j);
         }
-        let mut result = Self { unit: unit.clone(), ..Self::default() };
+        let mut result = Self {
+            unit: unit.clone(),
+            ..Self::default()
+        };
         let mut active: BTreeSet<usize> = (0..n).collect();
         while let Some(pivot) = cheapest(&rows, &active) {
             active.remove(&pivot);
@@ -57,7 +61,11 @@ impl Elimination {
             if !result.unit.contains(&pivot) {
                 result.steps.push(Step::Pivot(pivot));
             }
-            let across: Vec<usize> = rows[&pivot].iter().copied().filter(|j| active.contains(j)).collect();
+            let across: Vec<usize> = rows[&pivot]
+                .iter()
+                .copied()
+                .filter(|j| active.contains(j))
+                .collect();
             for &row in &active {
                 if !rows[&row].contains(&pivot) {
                     continue;
@@ -70,7 +78,10 @@ impl Elimination {
                     if column == row {
                         result.unit.remove(&row);
                     }
-                    if rows.get_mut(&row).is_some_and(|entries| entries.insert(column)) {
+                    if rows
+                        .get_mut(&row)
+                        .is_some_and(|entries| entries.insert(column))
+                    {
                         result.fill.push((row, column));
                     }
                 }
@@ -82,7 +93,12 @@ impl Elimination {
 
     /// Entries of row `i` left (multipliers) and right of the pivot, in elimination order.
     fn split(&self, i: usize) -> (Vec<usize>, Vec<usize>) {
-        let place: BTreeMap<usize, usize> = self.order.iter().enumerate().map(|(p, k)| (*k, p)).collect();
+        let place: BTreeMap<usize, usize> = self
+            .order
+            .iter()
+            .enumerate()
+            .map(|(p, k)| (*k, p))
+            .collect();
         let mut entries: Vec<usize> = self.rows[&i].iter().copied().filter(|j| *j != i).collect();
         entries.sort_by_key(|j| place[j]);
         entries.into_iter().partition(|j| place[j] < place[&i])
@@ -92,12 +108,21 @@ impl Elimination {
     pub fn multiplications(&self) -> usize {
         let solve: usize = self.rows.values().map(|row| row.len() - 1).sum();
         let scaling = self.order.len() - self.unit.len();
-        self.steps.iter().filter(|s| !matches!(s, Step::Pivot(_))).count() + solve + scaling
+        self.steps
+            .iter()
+            .filter(|s| !matches!(s, Step::Pivot(_)))
+            .count()
+            + solve
+            + scaling
     }
 
     /// The factorisation written out over a matrix; evaluates to the mask of safe lanes.
     pub fn factor_tokens(&self, read: &Read<'_>, write: &Write<'_>) -> TokenStream {
-        let mut code = Factorisation { read, known: BTreeSet::new(), body: TokenStream::new() };
+        let mut code = Factorisation {
+            read,
+            known: BTreeSet::new(),
+            body: TokenStream::new(),
+        };
         let mut changed: BTreeSet<(usize, usize)> = BTreeSet::new();
         let mut inverses = Vec::new();
         for step in &self.steps {
@@ -118,10 +143,12 @@ impl Elimination {
                     let name = local(i, j);
                     if self.fill.contains(&(i, j)) && changed.insert((i, j)) {
                         code.known.insert((i, j));
-                        code.body.extend(quote! { let #name = -(#factor * #right); });
+                        code.body
+                            .extend(quote! { let #name = -(#factor * #right); });
                     } else {
                         code.entry(i, j);
-                        code.body.extend(quote! { let #name = #name - #factor * #right; });
+                        code.body
+                            .extend(quote! { let #name = #name - #factor * #right; });
                         changed.insert((i, j));
                     }
                 }
@@ -143,7 +170,12 @@ impl Elimination {
 
     /// The elimination as a table for the runtime.
     pub fn table_tokens(&self) -> TokenStream {
-        let place: BTreeMap<usize, usize> = self.order.iter().enumerate().map(|(p, k)| (*k, p)).collect();
+        let place: BTreeMap<usize, usize> = self
+            .order
+            .iter()
+            .enumerate()
+            .map(|(p, k)| (*k, p))
+            .collect();
         let list = |mut entries: Vec<usize>| {
             entries.sort_by_key(|k| place[k]);
             let entries = entries.into_iter().map(index);
@@ -151,7 +183,13 @@ impl Elimination {
         };
         let order = self.order.iter().copied().map(index);
         let below = self.order.iter().map(|&k| {
-            list(self.order.iter().copied().filter(|i| place[i] > place[&k] && self.rows[i].contains(&k)).collect())
+            list(
+                self.order
+                    .iter()
+                    .copied()
+                    .filter(|i| place[i] > place[&k] && self.rows[i].contains(&k))
+                    .collect(),
+            )
         });
         let right = self.order.iter().map(|&k| list(self.split(k).1));
         quote! {
@@ -164,7 +202,11 @@ impl Elimination {
     }
 
     /// The solution written out: the right-hand side is replaced by the solution.
-    pub fn solve_tokens(&self, read: &Read<'_>, entry: &dyn Fn(usize) -> TokenStream) -> TokenStream {
+    pub fn solve_tokens(
+        &self,
+        read: &Read<'_>,
+        entry: &dyn Fn(usize) -> TokenStream,
+    ) -> TokenStream {
         let mut body = TokenStream::new();
         let name = |i: usize| format_ident!("_b{i}");
         for &i in &self.order {
@@ -225,7 +267,10 @@ fn local(i: usize, j: usize) -> Ident {
 fn cheapest(rows: &BTreeMap<usize, BTreeSet<usize>>, active: &BTreeSet<usize>) -> Option<usize> {
     active.iter().copied().min_by_key(|&k| {
         let across = rows[&k].iter().filter(|j| active.contains(j)).count() - 1;
-        let down = active.iter().filter(|i| **i != k && rows[i].contains(&k)).count();
+        let down = active
+            .iter()
+            .filter(|i| **i != k && rows[i].contains(&k))
+            .count();
         (across * down, down, k)
     })
 }
@@ -246,10 +291,20 @@ mod tests {
         }
         let mut b = right.to_vec();
         for &i in &elimination.order {
-            b[i] -= elimination.split(i).0.iter().map(|&k| a[i][k] * b[k]).sum::<f64>();
+            b[i] -= elimination
+                .split(i)
+                .0
+                .iter()
+                .map(|&k| a[i][k] * b[k])
+                .sum::<f64>();
         }
         for &i in elimination.order.iter().rev() {
-            b[i] -= elimination.split(i).1.iter().map(|&j| a[i][j] * b[j]).sum::<f64>();
+            b[i] -= elimination
+                .split(i)
+                .1
+                .iter()
+                .map(|&j| a[i][j] * b[j])
+                .sum::<f64>();
             b[i] *= a[i][i];
         }
         b
@@ -260,7 +315,9 @@ mod tests {
         let n = 6;
         let mut state = 7u64;
         let mut next = move || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
             (state >> 40) as f64 / (1 << 24) as f64
         };
         for _ in 0..50 {
@@ -288,8 +345,16 @@ mod tests {
                 let product: f64 = row.iter().zip(&x).map(|(a, x)| a * x).sum();
                 assert!((product - right).abs() < 1e-12, "{product} {right}");
             }
-            assert!(elimination.fill.iter().all(|place| !pattern.contains(place)));
+            assert!(
+                elimination
+                    .fill
+                    .iter()
+                    .all(|place| !pattern.contains(place))
+            );
         }
-        assert_eq!(Elimination::new(3, &[], &BTreeSet::from([0, 1, 2])).multiplications(), 0);
+        assert_eq!(
+            Elimination::new(3, &[], &BTreeSet::from([0, 1, 2])).multiplications(),
+            0
+        );
     }
 }

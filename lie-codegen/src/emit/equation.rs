@@ -28,11 +28,19 @@ impl Writer<'_> {
     /// The hook impls with their equations: fused where asked for, generic elsewhere.
     pub fn equations(&mut self) -> TokenStream {
         let fused = self.blueprint.fused.clone();
-        let mut tokens = if fused.midpoint { self.fused_midpoint() } else { self.generic_midpoint() };
+        let mut tokens = if fused.midpoint {
+            self.fused_midpoint()
+        } else {
+            self.generic_midpoint()
+        };
         tokens.extend(self.gauss(&fused.gauss));
         tokens.extend(self.exp(fused.exp));
         if self.source.triple.is_some() {
-            tokens.extend(if fused.cayley { self.fused_cayley() } else { self.generic_cayley() });
+            tokens.extend(if fused.cayley {
+                self.fused_cayley()
+            } else {
+                self.generic_cayley()
+            });
         }
         tokens
     }
@@ -70,11 +78,16 @@ impl Writer<'_> {
         let form = Form {
             suffix: "Midpoint",
             label: "midpoint",
-            docs: &["The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`."],
+            docs: &[
+                "The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.",
+            ],
             guess: quote! { self.h },
         };
         let equation = self.fused(&form, &kernels);
-        let (system, name) = (self.system_name(), format_ident!("{}Midpoint", self.blueprint.name));
+        let (system, name) = (
+            self.system_name(),
+            format_ident!("{}Midpoint", self.blueprint.name),
+        );
         quote! {
             #equation
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S> for #system<S> {
@@ -87,7 +100,9 @@ impl Writer<'_> {
     }
 
     fn fused_cayley(&mut self) -> TokenStream {
-        let Some(kernels) = self.source.cayley_kernels() else { return TokenStream::new() };
+        let Some(kernels) = self.source.cayley_kernels() else {
+            return TokenStream::new();
+        };
         let form = Form {
             suffix: "CayleyMidpoint",
             label: "lie-midpoint cayley",
@@ -98,7 +113,10 @@ impl Writer<'_> {
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
         };
         let equation = self.fused(&form, &kernels);
-        let (system, name) = (self.system_name(), format_ident!("{}CayleyMidpoint", self.blueprint.name));
+        let (system, name) = (
+            self.system_name(),
+            format_ident!("{}CayleyMidpoint", self.blueprint.name),
+        );
         quote! {
             #equation
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S> for #system<S> {
@@ -114,18 +132,26 @@ impl Writer<'_> {
     fn fused(&mut self, form: &Form, kernels: &[Kernel]) -> TokenStream {
         let mut step = Prepared::default();
         let n = self.source.dimension;
-        let place = |name: &str| if name == "mu" { quote! { self.base } } else { quote! { unknown } };
+        let place = |name: &str| {
+            if name == "mu" {
+                quote! { self.base }
+            } else {
+                quote! { unknown }
+            }
+        };
         let mut methods = TokenStream::new();
         let mut elimination = Elimination::default();
         let mut has_result = false;
         for kernel in kernels {
             let program = kernel.program(&mut self.source.graph);
-            let docs = self.kernel_docs(&format!("{} {}", form.label, kernel.name), kernel, &program);
+            let docs =
+                self.kernel_docs(&format!("{} {}", form.label, kernel.name), kernel, &program);
             let name = ident(kernel.name);
             let method = match &kernel.shape {
                 Shape::VectorAndMatrix(_, places) => {
                     elimination = eliminate(n, places, &program);
-                    let body = self.linearize_body(kernel, &program, &mut step, &place, &elimination);
+                    let body =
+                        self.linearize_body(kernel, &program, &mut step, &place, &elimination);
                     quote! {
                         #docs
                         #[inline]
@@ -135,9 +161,20 @@ impl Writer<'_> {
                     }
                 }
                 _ => {
-                    let target = if kernel.name == "result" { "mu" } else { "residual" };
+                    let target = if kernel.name == "result" {
+                        "mu"
+                    } else {
+                        "residual"
+                    };
                     has_result |= kernel.name == "result";
-                    let body = self.kernel_body(kernel, &program, Owner::Equation, &mut step, &place, &[target]);
+                    let body = self.kernel_body(
+                        kernel,
+                        &program,
+                        Owner::Equation,
+                        &mut step,
+                        &place,
+                        &[target],
+                    );
                     let target = ident(target);
                     let target = self.argument(&target.to_string());
                     quote! {
@@ -160,7 +197,10 @@ impl Writer<'_> {
             });
         }
         methods.extend(self.elimination_methods(&elimination));
-        let table = super::fixed_order::table(&format_ident!("{}{}", self.blueprint.name, form.suffix), &elimination);
+        let table = super::fixed_order::table(
+            &format_ident!("{}{}", self.blueprint.name, form.suffix),
+            &elimination,
+        );
         let equation = self.equation_struct(form, &step, methods);
         quote! { #equation #table }
     }
@@ -174,11 +214,17 @@ impl Writer<'_> {
         place: &dyn Fn(&str) -> TokenStream,
         elimination: &Elimination,
     ) -> TokenStream {
-        let unpacked: TokenStream =
-            kernel.arguments.iter().map(|a| self.unpack(a, program, &place(a.name))).collect();
-        let (statements, outputs) =
-            self.program(program, |writer, value| writer.value(value, Owner::Equation, step));
-        let Shape::VectorAndMatrix(indices, places) = &kernel.shape else { return TokenStream::new() };
+        let unpacked: TokenStream = kernel
+            .arguments
+            .iter()
+            .map(|a| self.unpack(a, program, &place(a.name)))
+            .collect();
+        let (statements, outputs) = self.program(program, |writer, value| {
+            writer.value(value, Owner::Equation, step)
+        });
+        let Shape::VectorAndMatrix(indices, places) = &kernel.shape else {
+            return TokenStream::new();
+        };
         let (residual, matrix) = (self.argument("residual"), self.argument("matrix"));
         let entries = indices.iter().zip(&outputs).map(|(i, value)| {
             let i = index(*i);
@@ -203,13 +249,10 @@ impl Writer<'_> {
         if elimination.multiplications() > UNROLLED {
             return self.table_methods(elimination);
         }
-        let factor = elimination.factor_tokens(
-            &|i, j| place("matrix", i, j),
-            &|i, j, value| {
-                let place = place("matrix", i, j);
-                quote! { #place = #value; }
-            },
-        );
+        let factor = elimination.factor_tokens(&|i, j| place("matrix", i, j), &|i, j, value| {
+            let place = place("matrix", i, j);
+            quote! { #place = #value; }
+        });
         let solve = elimination.solve_tokens(&|i, j| place("factors", i, j), &|i| {
             let i = index(i);
             quote! { residual[#i] }
@@ -253,14 +296,26 @@ impl Writer<'_> {
         }
     }
 
-    fn equation_struct(&mut self, form: &Form, step: &Prepared, methods: TokenStream) -> TokenStream {
+    fn equation_struct(
+        &mut self,
+        form: &Form,
+        step: &Prepared,
+        methods: TokenStream,
+    ) -> TokenStream {
         let n = index(self.source.dimension);
         let visibility = &self.blueprint.visibility;
-        let (system, name) = (self.system_name(), format_ident!("{}{}", self.blueprint.name, form.suffix));
+        let (system, name) = (
+            self.system_name(),
+            format_ident!("{}{}", self.blueprint.name, form.suffix),
+        );
         let constants = step.all().to_vec();
         let names: Vec<Ident> = (0..constants.len()).map(step_name).collect();
-        let texts: Vec<String> = constants.iter().map(|id| format!(" `{}`", self.constant_text(*id))).collect();
-        let (statements, values) = self.preparation(&constants, &|name| quote! { system._parameters.#name });
+        let texts: Vec<String> = constants
+            .iter()
+            .map(|id| format!(" `{}`", self.constant_text(*id)))
+            .collect();
+        let (statements, values) =
+            self.preparation(&constants, &|name| quote! { system._parameters.#name });
         let docs = form.docs.iter().map(|line| format!(" {line}"));
         let guess = &form.guess;
         quote! {
@@ -327,7 +382,9 @@ fn eliminate(n: usize, places: &[(usize, usize)], program: &Program) -> Eliminat
     let unit: BTreeSet<usize> = places
         .iter()
         .zip(matrix)
-        .filter(|((i, j), value)| i == j && matches!(value, Value::Number(number) if number.is_one()))
+        .filter(|((i, j), value)| {
+            i == j && matches!(value, Value::Number(number) if number.is_one())
+        })
         .map(|((i, _), _)| *i)
         .collect();
     Elimination::new(n, places, &unit)

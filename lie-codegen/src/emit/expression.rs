@@ -55,7 +55,11 @@ impl Writer<'_> {
             let mut text = {
                 let mut get = |value: &Value| match value {
                     Value::Temporary(i) => texts[*i].clone(),
-                    other => Text { tokens: leaf(self, other), binding: Binding::Atom, length: 0 },
+                    other => Text {
+                        tokens: leaf(self, other),
+                        binding: Binding::Atom,
+                        length: 0,
+                    },
                 };
                 write(operation, &mut get)
             };
@@ -64,7 +68,11 @@ impl Writer<'_> {
                 locals += 1;
                 let tokens = &text.tokens;
                 statements.extend(quote! { let #name = #tokens; });
-                text = Text { tokens: quote! { #name }, binding: Binding::Atom, length: 0 };
+                text = Text {
+                    tokens: quote! { #name },
+                    binding: Binding::Atom,
+                    length: 0,
+                };
             }
             texts.push(text);
         }
@@ -101,7 +109,11 @@ fn write(operation: &Operation, get: &mut dyn FnMut(&Value) -> Text) -> Text {
         let (a, b) = (get(a), get(b));
         let length = a.length + b.length + 1;
         let (left, right) = (enclose(&a, binding), enclose(&b, right));
-        Text { tokens: quote! { #left #sign #right }, binding, length }
+        Text {
+            tokens: quote! { #left #sign #right },
+            binding,
+            length,
+        }
     };
     match operation {
         Operation::Add(a, b) => infix(a, b, quote!(+), Binding::Sum, Binding::Product),
@@ -111,34 +123,58 @@ fn write(operation: &Operation, get: &mut dyn FnMut(&Value) -> Text) -> Text {
         Operation::Neg(a) => {
             let a = get(a);
             let inner = enclose(&a, Binding::Atom);
-            Text { tokens: quote! { -#inner }, binding: Binding::Unary, length: a.length + 1 }
+            Text {
+                tokens: quote! { -#inner },
+                binding: Binding::Unary,
+                length: a.length + 1,
+            }
         }
         Operation::Sqrt(a) => {
             let a = get(a);
             let inner = enclose(&a, Binding::Atom);
-            Text { tokens: quote! { #inner.sqrt() }, binding: Binding::Atom, length: a.length + 1 }
+            Text {
+                tokens: quote! { #inner.sqrt() },
+                binding: Binding::Atom,
+                length: a.length + 1,
+            }
         }
         Operation::Power(a, exponent) => {
             let (a, exponent) = (get(a), number(exponent));
             let inner = enclose(&a, Binding::Atom);
-            Text { tokens: quote! { #inner.powf(#exponent) }, binding: Binding::Atom, length: a.length + 1 }
+            Text {
+                tokens: quote! { #inner.powf(#exponent) },
+                binding: Binding::Atom,
+                length: a.length + 1,
+            }
         }
         Operation::Call(function, arguments) => {
             let name = ident(function.name());
             let mut arguments = arguments.iter().map(get);
-            let Some(first) = arguments.next() else { unreachable!("every function has an argument") };
+            let Some(first) = arguments.next() else {
+                unreachable!("every function has an argument")
+            };
             let inner = enclose(&first, Binding::Atom);
             let rest: Vec<Text> = arguments.collect();
-            let length = rest.iter().fold(first.length + 1, |sum, text| sum + text.length);
+            let length = rest
+                .iter()
+                .fold(first.length + 1, |sum, text| sum + text.length);
             let rest = rest.iter().map(|text| &text.tokens);
-            Text { tokens: quote! { #inner.#name(#(#rest),*) }, binding: Binding::Atom, length }
+            Text {
+                tokens: quote! { #inner.#name(#(#rest),*) },
+                binding: Binding::Atom,
+                length,
+            }
         }
     }
 }
 
 fn enclose(text: &Text, least: Binding) -> TokenStream {
     let tokens = &text.tokens;
-    if text.binding < least { quote! { (#tokens) } } else { tokens.clone() }
+    if text.binding < least {
+        quote! { (#tokens) }
+    } else {
+        tokens.clone()
+    }
 }
 
 /// An exact number as a scalar.
@@ -165,8 +201,16 @@ pub fn number(value: &Rational) -> TokenStream {
 
 fn float(value: f64) -> TokenStream {
     if !value.is_finite() {
-        return if value > 0.0 { quote! { f64::INFINITY } } else { quote! { f64::NEG_INFINITY } };
+        return if value > 0.0 {
+            quote! { f64::INFINITY }
+        } else {
+            quote! { f64::NEG_INFINITY }
+        };
     }
     let literal = Literal::f64_unsuffixed(value.abs());
-    if value < 0.0 { quote! { -#literal } } else { quote! { #literal } }
+    if value < 0.0 {
+        quote! { -#literal }
+    } else {
+        quote! { #literal }
+    }
 }

@@ -31,7 +31,13 @@ impl Writer<'_> {
         };
         STAGES
             .into_iter()
-            .map(|stages| if fused.contains(&stages) { self.fused_gauss(stages) } else { generic(stages) })
+            .map(|stages| {
+                if fused.contains(&stages) {
+                    self.fused_gauss(stages)
+                } else {
+                    generic(stages)
+                }
+            })
             .collect()
     }
 
@@ -42,11 +48,15 @@ impl Writer<'_> {
         let mut pattern = Vec::new();
         let mut unit = BTreeSet::new();
         for row in 0..stages * n {
-            let depends: Vec<usize> = (0..n).filter(|&j| !self.source.graph.is_zero(slopes[row % n][j])).collect();
+            let depends: Vec<usize> = (0..n)
+                .filter(|&j| !self.source.graph.is_zero(slopes[row % n][j]))
+                .collect();
             if depends.is_empty() {
                 unit.insert(row);
             }
-            pattern.extend((0..stages).flat_map(|block| depends.iter().map(move |j| (row, block * n + j))));
+            pattern.extend(
+                (0..stages).flat_map(|block| depends.iter().map(move |j| (row, block * n + j))),
+            );
         }
         let elimination = Elimination::new(stages * n, &pattern, &unit);
         let system = self.system_name();
@@ -58,15 +68,25 @@ impl Writer<'_> {
         );
         let inner = quote! { ::lie_runtime::generic::Gauss<'a, S, #system<S>, #count> };
         let matrix = |name: &str, i: usize, j: usize| {
-            let (name, p, q, i, j) =
-                (super::names::ident(name), index(i / n), index(j / n), index(i % n), index(j % n));
+            let (name, p, q, i, j) = (
+                super::names::ident(name),
+                index(i / n),
+                index(j / n),
+                index(i % n),
+                index(j % n),
+            );
             quote! { #name.0[#p][#q][(#i, #j)] }
         };
         let entry = |i: usize| {
             let (p, i) = (index(i / n), index(i % n));
             quote! { residual.0[#p][#i] }
         };
-        let methods = self.specialised(&format!("gauss{} elimination", 2 * stages), &elimination, &matrix, &entry);
+        let methods = self.specialised(
+            &format!("gauss{} elimination", 2 * stages),
+            &elimination,
+            &matrix,
+            &entry,
+        );
         let visibility = &self.blueprint.visibility;
         let table = table(&name, &elimination);
         quote! {
@@ -107,7 +127,9 @@ impl Writer<'_> {
         }
         let n = self.source.dimension;
         let pattern = self.exp_pattern();
-        let unit = (0..n).filter(|i| !pattern.iter().any(|(row, _)| row == i)).collect();
+        let unit = (0..n)
+            .filter(|i| !pattern.iter().any(|(row, _)| row == i))
+            .collect();
         let elimination = Elimination::new(n, &pattern, &unit);
         let name = format_ident!("{}ExpMidpoint", self.blueprint.name);
         let inner = quote! { ::lie_runtime::generic::ExpMidpoint<'a, S, #system<S>> };
@@ -116,7 +138,12 @@ impl Writer<'_> {
             let i = index(i);
             quote! { residual[#i] }
         };
-        let methods = self.specialised("lie-midpoint exp elimination", &elimination, &matrix, &entry);
+        let methods = self.specialised(
+            "lie-midpoint exp elimination",
+            &elimination,
+            &matrix,
+            &entry,
+        );
         let visibility = &self.blueprint.visibility;
         let table = table(&name, &elimination);
         quote! {
@@ -178,7 +205,13 @@ impl Writer<'_> {
         matrix: &dyn Fn(&str, usize, usize) -> TokenStream,
         entry: &dyn Fn(usize) -> TokenStream,
     ) -> TokenStream {
-        self.counts.push((label.to_string(), Counts { mul: elimination.multiplications(), ..Counts::default() }));
+        self.counts.push((
+            label.to_string(),
+            Counts {
+                mul: elimination.multiplications(),
+                ..Counts::default()
+            },
+        ));
         let unrolled = elimination.multiplications() <= UNROLLED;
         let (factor, solve) = if unrolled {
             let read = |i: usize, j: usize| matrix("matrix", i, j);
@@ -187,9 +220,15 @@ impl Writer<'_> {
                 quote! { #place = #value; }
             };
             let factors = |i: usize, j: usize| matrix("factors", i, j);
-            (elimination.factor_tokens(&read, &write), elimination.solve_tokens(&factors, entry))
+            (
+                elimination.factor_tokens(&read, &write),
+                elimination.solve_tokens(&factors, entry),
+            )
         } else {
-            (quote! { Self::ELIMINATION.factor(matrix) }, quote! { Self::ELIMINATION.solve(factors, residual); })
+            (
+                quote! { Self::ELIMINATION.factor(matrix) },
+                quote! { Self::ELIMINATION.solve(factors, residual); },
+            )
         };
         let doc = format!(
             " Elimination in a fixed order, {} entries of fill-in: {} multiplications with the solution.",

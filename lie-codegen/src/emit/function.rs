@@ -27,13 +27,26 @@ impl Writer<'_> {
         let left: Vec<String> = match kernel.name {
             "hamiltonian" => vec!["H".into()],
             "vector_field" => {
-                let Shape::Vector(indices) = &kernel.shape else { return Vec::new() };
-                indices.iter().map(|i| format!("{}'", self.blueprint.coordinates[*i])).collect()
+                let Shape::Vector(indices) = &kernel.shape else {
+                    return Vec::new();
+                };
+                indices
+                    .iter()
+                    .map(|i| format!("{}'", self.blueprint.coordinates[*i]))
+                    .collect()
             }
             _ => return Vec::new(),
         };
-        let right = kernel.task.outputs.iter().map(|output| self.constant_text(*output));
-        let mut lines: Vec<String> = left.into_iter().zip(right).map(|(l, r)| format!(" {l} = {r}")).collect();
+        let right = kernel
+            .task
+            .outputs
+            .iter()
+            .map(|output| self.constant_text(*output));
+        let mut lines: Vec<String> = left
+            .into_iter()
+            .zip(right)
+            .map(|(l, r)| format!(" {l} = {r}"))
+            .collect();
         if lines.iter().any(|line| line.len() > LONGEST_FORMULA) {
             return Vec::new();
         }
@@ -45,14 +58,29 @@ impl Writer<'_> {
     /// Whether a program reads a vector argument.
     pub fn reads(argument: &Argument, program: &Program) -> bool {
         let is = |value: &Value| matches!(value, Value::Symbol(symbol) if argument.symbols.contains(symbol));
-        program.operations.iter().flat_map(Operation::operands).any(is) || program.outputs.iter().any(is)
+        program
+            .operations
+            .iter()
+            .flat_map(Operation::operands)
+            .any(is)
+            || program.outputs.iter().any(is)
     }
 
     /// The statements that take the arguments apart; `_` stands for what the kernel ignores.
-    pub fn unpack(&self, argument: &Argument, program: &Program, from: &TokenStream) -> TokenStream {
+    pub fn unpack(
+        &self,
+        argument: &Argument,
+        program: &Program,
+        from: &TokenStream,
+    ) -> TokenStream {
         let used = |symbol| {
             let is = |value: &Value| *value == Value::Symbol(symbol);
-            program.operations.iter().flat_map(Operation::operands).any(is) || program.outputs.iter().any(is)
+            program
+                .operations
+                .iter()
+                .flat_map(Operation::operands)
+                .any(is)
+                || program.outputs.iter().any(is)
         };
         if !Self::reads(argument, program) {
             return TokenStream::new();
@@ -80,14 +108,19 @@ impl Writer<'_> {
         argument: &dyn Fn(&str) -> TokenStream,
         targets: &[&str],
     ) -> TokenStream {
-        let unpacked: TokenStream =
-            kernel.arguments.iter().map(|a| self.unpack(a, program, &argument(a.name))).collect();
+        let unpacked: TokenStream = kernel
+            .arguments
+            .iter()
+            .map(|a| self.unpack(a, program, &argument(a.name)))
+            .collect();
         let (statements, outputs) =
             self.program(program, |writer, value| writer.value(value, owner, step));
         let n = self.source.dimension;
         let writes = match &kernel.shape {
             Shape::Scalar => outputs.into_iter().collect(),
-            Shape::Vector(indices) => vector_writes(&self.argument(targets[0]), indices, &outputs, n),
+            Shape::Vector(indices) => {
+                vector_writes(&self.argument(targets[0]), indices, &outputs, n)
+            }
             Shape::Matrix(places) => matrix_writes(&self.argument(targets[0]), places, &outputs, n),
             Shape::VectorAndMatrix(indices, places) => {
                 let (vector, matrix) = outputs.split_at(indices.len());
@@ -101,7 +134,12 @@ impl Writer<'_> {
 }
 
 /// Writes of a vector; entries that vanish identically are filled with zero first.
-fn vector_writes(target: &Ident, indices: &[usize], outputs: &[TokenStream], n: usize) -> TokenStream {
+fn vector_writes(
+    target: &Ident,
+    indices: &[usize],
+    outputs: &[TokenStream],
+    n: usize,
+) -> TokenStream {
     let fill = (indices.len() < n).then(|| quote! { #target.fill(S::zero()); });
     let writes = indices.iter().zip(outputs).map(|(i, value)| {
         let i = index(*i);
@@ -110,7 +148,12 @@ fn vector_writes(target: &Ident, indices: &[usize], outputs: &[TokenStream], n: 
     quote! { #fill #(#writes)* }
 }
 
-fn matrix_writes(target: &Ident, places: &[(usize, usize)], outputs: &[TokenStream], n: usize) -> TokenStream {
+fn matrix_writes(
+    target: &Ident,
+    places: &[(usize, usize)],
+    outputs: &[TokenStream],
+    n: usize,
+) -> TokenStream {
     let fill = (places.len() < n * n).then(|| quote! { #target.fill(S::zero()); });
     let writes = places.iter().zip(outputs).map(|((i, j), value)| {
         let (i, j) = (index(*i), index(*j));

@@ -84,7 +84,10 @@ pub fn emit(blueprint: &Blueprint) -> Emitted {
     let equations = writer.equations();
     let parameters = writer.parameters();
     let system = writer.system_struct();
-    Emitted { tokens: quote! { #parameters #system #basic #equations }, counts: writer.counts }
+    Emitted {
+        tokens: quote! { #parameters #system #basic #equations },
+        counts: writer.counts,
+    }
 }
 
 /// The state of an emission.

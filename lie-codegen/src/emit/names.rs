@@ -40,8 +40,16 @@ impl Writer<'_> {
 
     /// An argument of ours, set apart from a coordinate of that name.
     pub fn argument(&self, name: &str) -> Ident {
-        let taken = self.blueprint.coordinates.iter().any(|coordinate| coordinate == name);
-        if taken { format_ident!("_{name}") } else { ident(name) }
+        let taken = self
+            .blueprint
+            .coordinates
+            .iter()
+            .any(|coordinate| coordinate == name);
+        if taken {
+            format_ident!("_{name}")
+        } else {
+            ident(name)
+        }
     }
 
     /// The name of a symbol in messages and doc comments.

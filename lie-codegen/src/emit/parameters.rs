@@ -16,13 +16,25 @@ impl Writer<'_> {
             let (name, doc) = (&p.name, format!(" {}", p.doc));
             quote! { #[doc = #doc] pub #name: S }
         });
-        let names: Vec<_> = self.blueprint.parameters.iter().map(|p| p.name.clone()).collect();
-        let defaults: Vec<ExprId> = self.blueprint.parameters.iter().map(|p| p.default).collect();
+        let names: Vec<_> = self
+            .blueprint
+            .parameters
+            .iter()
+            .map(|p| p.name.clone())
+            .collect();
+        let defaults: Vec<ExprId> = self
+            .blueprint
+            .parameters
+            .iter()
+            .map(|p| p.default)
+            .collect();
         let (statements, values) = self.preparation(&defaults, &|_| quote! { S::zero() });
         let marker = names.is_empty().then(|| {
             quote! { #[doc(hidden)] pub _scalar: ::core::marker::PhantomData<S> }
         });
-        let marker_value = names.is_empty().then(|| quote! { _scalar: ::core::marker::PhantomData });
+        let marker_value = names
+            .is_empty()
+            .then(|| quote! { _scalar: ::core::marker::PhantomData });
         let build = self.build();
         let initial = self.initial_state();
         quote! {
@@ -66,7 +78,9 @@ impl Writer<'_> {
 
     /// The declared initial state, for the parameters at hand.
     fn initial_state(&mut self) -> TokenStream {
-        let Some(initial) = self.blueprint.initial.clone() else { return TokenStream::new() };
+        let Some(initial) = self.blueprint.initial.clone() else {
+            return TokenStream::new();
+        };
         let n = super::names::index(self.source.dimension);
         let (statements, values) = self.preparation(&initial, &|name| quote! { self.#name });
         quote! {
@@ -101,7 +115,8 @@ impl Writer<'_> {
             checks.extend(quote! { (#name, #parameter, #text), });
             names.push(name);
         }
-        let check = (!checks.is_empty()).then(|| quote! { ::lie_runtime::__private::all_finite(&[#checks])?; });
+        let check = (!checks.is_empty())
+            .then(|| quote! { ::lie_runtime::__private::all_finite(&[#checks])?; });
         quote! {
             #statements
             #lets
@@ -116,13 +131,23 @@ impl Writer<'_> {
         let system = format_ident!("{}System", name);
         let constants = self.prepared.all().to_vec();
         let fields = constants.iter().enumerate().map(|(position, id)| {
-            let (field, doc) = (self.prepared_name(*id, position), format!(" `{}`", self.constant_text(*id)));
+            let (field, doc) = (
+                self.prepared_name(*id, position),
+                format!(" `{}`", self.constant_text(*id)),
+            );
             quote! { #[doc = #doc] #field: S }
         });
         let doc = format!(" The system [`{name}`] with its derived constants.");
-        let names: Vec<_> = self.blueprint.parameters.iter().map(|p| p.name.clone()).collect();
+        let names: Vec<_> = self
+            .blueprint
+            .parameters
+            .iter()
+            .map(|p| p.name.clone())
+            .collect();
         let count = super::names::index(names.len());
-        let marker = names.is_empty().then(|| quote! { _scalar: ::core::marker::PhantomData });
+        let marker = names
+            .is_empty()
+            .then(|| quote! { _scalar: ::core::marker::PhantomData });
         quote! {
             #[doc = #doc]
             #[derive(Clone, Debug, PartialEq)]

@@ -75,8 +75,16 @@ impl Writer<'_> {
     }
 
     /// Statements that compute constants from the parameters (and `h`), and their values.
-    pub fn preparation(&mut self, constants: &[ExprId], parameter: &dyn Fn(&Ident) -> TokenStream) -> (TokenStream, Vec<TokenStream>) {
-        let task = Task { definitions: Vec::new(), outputs: constants.to_vec(), known: Known::Nothing };
+    pub fn preparation(
+        &mut self,
+        constants: &[ExprId],
+        parameter: &dyn Fn(&Ident) -> TokenStream,
+    ) -> (TokenStream, Vec<TokenStream>) {
+        let task = Task {
+            definitions: Vec::new(),
+            outputs: constants.to_vec(),
+            known: Known::Nothing,
+        };
         let program: Program = schedule(&mut self.source.graph, &task);
         let mut none = Prepared::default();
         let tokens = |writer: &mut Self, value: &Value| match value {

@@ -81,7 +81,11 @@ impl Writer<'_> {
         let name = ident(kernel.name);
         let body = self.system_body(kernel, &program, targets);
         let arguments = kernel.arguments.iter().map(|a| {
-            let name = if Self::reads(a, &program) { self.argument(a.name) } else { ident(&format!("_{}", a.name)) };
+            let name = if Self::reads(a, &program) {
+                self.argument(a.name)
+            } else {
+                ident(&format!("_{}", a.name))
+            };
             quote! { #name: &Self::State }
         });
         let vector = |target: &Ident| quote! { #target: &mut Self::State };
@@ -102,14 +106,32 @@ impl Writer<'_> {
         }
     }
 
-    fn system_body(&mut self, kernel: &Kernel, program: &crate::schedule::Program, targets: &[&str]) -> TokenStream {
-        let names: Vec<(String, Ident)> =
-            kernel.arguments.iter().map(|a| (a.name.to_string(), self.argument(a.name))).collect();
+    fn system_body(
+        &mut self,
+        kernel: &Kernel,
+        program: &crate::schedule::Program,
+        targets: &[&str],
+    ) -> TokenStream {
+        let names: Vec<(String, Ident)> = kernel
+            .arguments
+            .iter()
+            .map(|a| (a.name.to_string(), self.argument(a.name)))
+            .collect();
         let place = move |name: &str| {
-            let ident = names.iter().find(|(n, _)| n == name).map(|(_, ident)| ident);
+            let ident = names
+                .iter()
+                .find(|(n, _)| n == name)
+                .map(|(_, ident)| ident);
             quote! { #ident }
         };
-        self.kernel_body(kernel, program, Owner::System, &mut Prepared::default(), &place, targets)
+        self.kernel_body(
+            kernel,
+            program,
+            Owner::System,
+            &mut Prepared::default(),
+            &place,
+            targets,
+        )
     }
 
     /// All Casimirs into a slice.
@@ -127,7 +149,11 @@ impl Writer<'_> {
         let docs = self.kernel_docs("casimirs", &kernel, &program);
         let body = self.system_body(&kernel, &program, &["out"]);
         let unread = |writer: &Self, name: &str, read: bool| {
-            if read { writer.argument(name) } else { ident(&format!("_{name}")) }
+            if read {
+                writer.argument(name)
+            } else {
+                ident(&format!("_{name}"))
+            }
         };
         let mu = unread(self, "mu", Self::reads(&kernel.arguments[0], &program));
         let out = unread(self, "out", count > 0);
@@ -149,7 +175,8 @@ impl Writer<'_> {
             let program = kernel.program(&mut self.source.graph);
             read |= Self::reads(&kernel.arguments[0], &program);
             let name = &self.blueprint.casimir_names[index];
-            self.counts.push((format!("casimir_gradient {name}"), program.counts));
+            self.counts
+                .push((format!("casimir_gradient {name}"), program.counts));
             let line = format!(" Gradient of `{name}`: {}.", program.counts);
             docs.extend(quote! { #[doc = #line] });
             let body = self.system_body(kernel, &program, &["out"]);
@@ -157,7 +184,10 @@ impl Writer<'_> {
             arms.push(quote! { #index => { #body } });
         }
         let count = kernels.len();
-        let message = format!("the system has {count} Casimir{}", if count == 1 { "" } else { "s" });
+        let message = format!(
+            "the system has {count} Casimir{}",
+            if count == 1 { "" } else { "s" }
+        );
         if count == 0 {
             return quote! {
                 #[doc = " The system has no Casimir to differentiate."]
@@ -166,7 +196,11 @@ impl Writer<'_> {
                 }
             };
         }
-        let mu = if read { self.argument("mu") } else { ident("_mu") };
+        let mu = if read {
+            self.argument("mu")
+        } else {
+            ident("_mu")
+        };
         quote! {
             #[doc = " `out_i = dC/dmu_i` of one Casimir."]
             #docs

@@ -51,7 +51,9 @@ impl Rational {
     /// The nearest `f64` (ties to even), infinite beyond the range.
     pub fn to_f64(&self) -> f64 {
         match &self.0 {
-            Repr::Word(n, d) if n.unsigned_abs() <= 1 << 53 && *d <= 1 << 53 => *n as f64 / *d as f64,
+            Repr::Word(n, d) if n.unsigned_abs() <= 1 << 53 && *d <= 1 << 53 => {
+                *n as f64 / *d as f64
+            }
             _ => nearest(&self.to_big()),
         }
     }
@@ -108,7 +110,11 @@ impl Rational {
 
     /// The absolute value.
     pub fn abs(&self) -> Self {
-        if self.is_negative() { -self } else { self.clone() }
+        if self.is_negative() {
+            -self
+        } else {
+            self.clone()
+        }
     }
 
     /// `1 / self`; `None` for zero.
@@ -127,7 +133,9 @@ impl Rational {
     /// Size in bits of numerator and denominator together, the measure for size limits.
     pub fn bits(&self) -> u64 {
         match &self.0 {
-            Repr::Word(n, d) => u64::from(128 - n.unsigned_abs().leading_zeros() - d.leading_zeros()),
+            Repr::Word(n, d) => {
+                u64::from(128 - n.unsigned_abs().leading_zeros() - d.leading_zeros())
+            }
             Repr::Big(value) => value.numer().bits() + value.denom().bits(),
         }
     }
@@ -140,7 +148,10 @@ impl Rational {
         }
         match (i64::try_from(n), i64::try_from(d)) {
             (Ok(n), Ok(d)) => Self(Repr::Word(n, d)),
-            _ => Self(Repr::Big(Box::new(BigRational::new_raw(n.into(), d.into())))),
+            _ => Self(Repr::Big(Box::new(BigRational::new_raw(
+                n.into(),
+                d.into(),
+            )))),
         }
     }
 
@@ -172,7 +183,11 @@ fn nearest(value: &BigRational) -> f64 {
     let quotient = (quotient.to_u128().unwrap_or(0) << 1) | sticky;
     let exponent = -(shift + 1);
     let magnitude = scale(quotient, exponent);
-    if value.is_negative() { -magnitude } else { magnitude }
+    if value.is_negative() {
+        -magnitude
+    } else {
+        magnitude
+    }
 }
 
 /// `mantissa * 2^exponent`, rounded once to nearest even.
@@ -218,8 +233,12 @@ macro_rules! operator {
             type Output = Rational;
             fn $method(self, other: &Rational) -> Rational {
                 if let (Repr::Word(a, b), Repr::Word(c, d)) = (&self.0, &other.0) {
-                    let ($a, $b, $c, $d) =
-                        (i128::from(*a), i128::from(*b), i128::from(*c), i128::from(*d));
+                    let ($a, $b, $c, $d) = (
+                        i128::from(*a),
+                        i128::from(*b),
+                        i128::from(*c),
+                        i128::from(*d),
+                    );
                     // Products of two words fit i128; a sum of two such products may not.
                     if let (Some(n), Some(m)) = ($n, $m) {
                         return Rational::from_wide(n, m);
@@ -236,8 +255,18 @@ macro_rules! operator {
         }
     };
 }
-operator!(Add, add, |a, b, c, d| (a * d).checked_add(c * b), Some(b * d));
-operator!(Sub, sub, |a, b, c, d| (a * d).checked_sub(c * b), Some(b * d));
+operator!(
+    Add,
+    add,
+    |a, b, c, d| (a * d).checked_add(c * b),
+    Some(b * d)
+);
+operator!(
+    Sub,
+    sub,
+    |a, b, c, d| (a * d).checked_sub(c * b),
+    Some(b * d)
+);
 operator!(Mul, mul, |a, b, c, d| Some(a * c), Some(b * d));
 
 impl Div for &Rational {
@@ -334,12 +363,22 @@ mod tests {
         assert_eq!(sum.to_words(), None);
         assert_eq!(&(&sum - &Rational::ONE) / &big, big);
         assert_eq!(Rational::new(6, -4).unwrap().to_string(), "-3/2");
-        assert_eq!(Rational::new(i64::MIN, -1).unwrap().to_string(), "9223372036854775808");
+        assert_eq!(
+            Rational::new(i64::MIN, -1).unwrap().to_string(),
+            "9223372036854775808"
+        );
     }
 
     #[test]
     fn floats_are_rounded_to_nearest() {
-        for text in ["0.1", "1e-3", "123456789012345678901234567890", "4.9e-324", "2.3e-308", "1.7976931348623157e308"] {
+        for text in [
+            "0.1",
+            "1e-3",
+            "123456789012345678901234567890",
+            "4.9e-324",
+            "2.3e-308",
+            "1.7976931348623157e308",
+        ] {
             let value: f64 = text.parse().unwrap();
             assert_eq!(Rational::from_f64(value).unwrap().to_f64(), value, "{text}");
         }

@@ -5,16 +5,23 @@ use crate::model::Model;
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
 pub fn refusal(model: &Model, choice: Choice) -> Option<(String, String)> {
-    let Choice::LieMidpoint(Retraction::Cayley) = choice else { return None };
+    let Choice::LieMidpoint(Retraction::Cayley) = choice else {
+        return None;
+    };
     let reason = match &model.representation {
-        None => "the Cayley map needs a matrix representation, and the algebra declares no `matrices`",
+        None => {
+            "the Cayley map needs a matrix representation, and the algebra declares no `matrices`"
+        }
         Some(representation) if representation.triple.is_none() => {
             "the Cayley map needs a representation whose span is closed under (abc + cba)/2, \
              and the declared `matrices` are not"
         }
         Some(_) => return None,
     };
-    Some((reason.into(), "use `lie-midpoint` with `--retraction exp`, which works for every Lie algebra".into()))
+    Some((
+        reason.into(),
+        "use `lie-midpoint` with `--retraction exp`, which works for every Lie algebra".into(),
+    ))
 }
 
 /// Every method of the catalogue with the reason why it cannot be used, if there is one.
@@ -24,7 +31,9 @@ pub fn applicability(model: &Model) -> Vec<(&'static str, Option<String>)> {
         .map(|method| {
             let reason = match (method.availability, Choice::from_id(method.id)) {
                 (Availability::Planned, _) | (_, Err(_)) => Some("not built yet".to_string()),
-                (Availability::Built, Ok(choice)) => refusal(model, choice).map(|(reason, _)| reason),
+                (Availability::Built, Ok(choice)) => {
+                    refusal(model, choice).map(|(reason, _)| reason)
+                }
             };
             (method.id, reason)
         })

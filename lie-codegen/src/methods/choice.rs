@@ -58,8 +58,11 @@ impl Choice {
             "dopri5" => return Ok(Self::Dopri5),
             _ => {}
         }
-        let built: Vec<&str> =
-            CATALOGUE.iter().filter(|m| m.availability == Availability::Built).map(|m| m.id).collect();
+        let built: Vec<&str> = CATALOGUE
+            .iter()
+            .filter(|m| m.availability == Availability::Built)
+            .map(|m| m.id)
+            .collect();
         let base = id.split('(').next().unwrap_or(id).trim();
         if find(base).is_some() || RESERVED.contains(&base) {
             return Err(Unusable {
@@ -103,8 +106,12 @@ impl Choice {
             Self::Midpoint => quote! { ::lie_runtime::methods::ImplicitMidpoint },
             Self::Gauss(2) => quote! { ::lie_runtime::methods::Gauss4 },
             Self::Gauss(_) => quote! { ::lie_runtime::methods::Gauss6 },
-            Self::LieMidpoint(Retraction::Exp) => quote! { ::lie_runtime::methods::LieMidpoint::exp() },
-            Self::LieMidpoint(Retraction::Cayley) => quote! { ::lie_runtime::methods::LieMidpoint::cayley() },
+            Self::LieMidpoint(Retraction::Exp) => {
+                quote! { ::lie_runtime::methods::LieMidpoint::exp() }
+            }
+            Self::LieMidpoint(Retraction::Cayley) => {
+                quote! { ::lie_runtime::methods::LieMidpoint::cayley() }
+            }
             Self::Rk4 => quote! { ::lie_runtime::methods::Rk4 },
             Self::Dopri5 => quote! {
                 ::lie_runtime::methods::Dopri5 { rtol: tolerances.rtol, atol: tolerances.atol }

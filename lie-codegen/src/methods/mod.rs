@@ -6,8 +6,8 @@ mod choice;
 mod table;
 
 pub use applicability::{applicability, refusal};
-pub use choice::{Choice, Retraction};
 pub use choice::Unusable;
+pub use choice::{Choice, Retraction};
 pub use table::CATALOGUE;
 
 /// What a method preserves up to round-off.
@@ -27,18 +27,41 @@ pub struct Preserves {
 
 impl Preserves {
     /// Nothing beyond linear first integrals.
-    pub const NOTHING: Self =
-        Self { energy: false, casimirs: false, quadratic_casimirs: false, orbit: false, poisson: false };
+    pub const NOTHING: Self = Self {
+        energy: false,
+        casimirs: false,
+        quadratic_casimirs: false,
+        orbit: false,
+        poisson: false,
+    };
     /// Casimirs of degree at most two.
-    pub const QUADRATIC: Self = Self { quadratic_casimirs: true, ..Self::NOTHING };
+    pub const QUADRATIC: Self = Self {
+        quadratic_casimirs: true,
+        ..Self::NOTHING
+    };
     /// The coadjoint orbit and with it every Casimir.
-    pub const ORBIT: Self = Self { casimirs: true, quadratic_casimirs: true, orbit: true, ..Self::NOTHING };
+    pub const ORBIT: Self = Self {
+        casimirs: true,
+        quadratic_casimirs: true,
+        orbit: true,
+        ..Self::NOTHING
+    };
     /// The orbit and the Poisson structure.
-    pub const POISSON: Self = Self { poisson: true, ..Self::ORBIT };
+    pub const POISSON: Self = Self {
+        poisson: true,
+        ..Self::ORBIT
+    };
     /// The orbit and the energy.
-    pub const ORBIT_ENERGY: Self = Self { energy: true, ..Self::ORBIT };
+    pub const ORBIT_ENERGY: Self = Self {
+        energy: true,
+        ..Self::ORBIT
+    };
     /// Energy and quadratic Casimirs.
-    pub const ENERGY: Self = Self { energy: true, quadratic_casimirs: true, ..Self::NOTHING };
+    pub const ENERGY: Self = Self {
+        energy: true,
+        quadratic_casimirs: true,
+        ..Self::NOTHING
+    };
 }
 
 /// Whether a method can be had.

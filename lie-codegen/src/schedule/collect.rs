@@ -16,13 +16,22 @@ type Polynomial = BTreeMap<Monomial, ExprId>;
 
 /// The collected roots; `None` where expansion swells.
 pub fn collect(graph: &mut Graph, roots: &[ExprId], known: Known) -> Option<Vec<ExprId>> {
-    let mut collector = Collector { known, prepared: HashMap::new(), rebuilt: HashMap::new() };
+    let mut collector = Collector {
+        known,
+        prepared: HashMap::new(),
+        rebuilt: HashMap::new(),
+    };
     let mut polynomials: HashMap<ExprId, Polynomial> = HashMap::new();
     for id in graph.dependencies(roots) {
         let polynomial = collector.expand(graph, id, &polynomials)?;
         polynomials.insert(id, polynomial);
     }
-    Some(roots.iter().map(|root| collector.rebuild(graph, *root, &polynomials)).collect())
+    Some(
+        roots
+            .iter()
+            .map(|root| collector.rebuild(graph, *root, &polynomials))
+            .collect(),
+    )
 }
 
 /// Whether an expression contains only what is known beforehand.
@@ -92,8 +101,10 @@ impl Collector {
                 Some(product)
             }
             Node::Call(function, arguments) => {
-                let arguments: Vec<ExprId> =
-                    arguments.iter().map(|a| self.rebuild(graph, *a, done)).collect();
+                let arguments: Vec<ExprId> = arguments
+                    .iter()
+                    .map(|a| self.rebuild(graph, *a, done))
+                    .collect();
                 let call = graph.call(function, &arguments);
                 Some(self.atom(graph, call, 1))
             }
@@ -139,15 +150,22 @@ impl Collector {
         Polynomial::from([(vec![(id, exponent)], one)])
     }
 
-    fn rebuild(&mut self, graph: &mut Graph, id: ExprId, done: &HashMap<ExprId, Polynomial>) -> ExprId {
+    fn rebuild(
+        &mut self,
+        graph: &mut Graph,
+        id: ExprId,
+        done: &HashMap<ExprId, Polynomial>,
+    ) -> ExprId {
         if let Some(&known) = self.rebuilt.get(&id) {
             return known;
         }
         let terms: Vec<ExprId> = done[&id]
             .iter()
             .map(|(monomial, coefficient)| {
-                let mut factors: Vec<_> =
-                    monomial.iter().map(|(b, e)| (*b, Rational::from(*e))).collect();
+                let mut factors: Vec<_> = monomial
+                    .iter()
+                    .map(|(b, e)| (*b, Rational::from(*e)))
+                    .collect();
                 factors.push((*coefficient, Rational::ONE));
                 graph.power_product(&factors)
             })
@@ -161,7 +179,10 @@ impl Collector {
 fn single(polynomial: &Polynomial) -> Option<(Monomial, ExprId)> {
     let mut terms = polynomial.iter();
     let (monomial, coefficient) = terms.next()?;
-    terms.next().is_none().then(|| (monomial.clone(), *coefficient))
+    terms
+        .next()
+        .is_none()
+        .then(|| (monomial.clone(), *coefficient))
 }
 
 fn add_to(graph: &mut Graph, polynomial: &mut Polynomial, monomial: Monomial, coefficient: ExprId) {

@@ -23,12 +23,16 @@ pub fn factor(graph: &mut Graph, roots: &[ExprId], known: Known) -> Option<Vec<E
                 Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
                 Node::Sum { constant, terms } => {
                     let terms: Vec<_> = terms.iter().map(|(t, c)| (image[t], c.clone())).collect();
-                    let (sum, factored) = factor_sum(graph, constant, terms, DEEPEST, &mut |graph, base| is_known(graph, base, known, &mut cache));
+                    let (sum, factored) =
+                        factor_sum(graph, constant, terms, DEEPEST, &mut |graph, base| {
+                            is_known(graph, base, known, &mut cache)
+                        });
                     changed |= factored;
                     sum
                 }
                 Node::Product(factors) => {
-                    let factors: Vec<_> = factors.iter().map(|(b, e)| (image[b], e.clone())).collect();
+                    let factors: Vec<_> =
+                        factors.iter().map(|(b, e)| (image[b], e.clone())).collect();
                     graph.power_product(&factors)
                 }
                 Node::Call(function, arguments) => {
@@ -56,12 +60,20 @@ fn factor_sum(
     let mut rest = terms;
     let mut factored = false;
     while depth > 0 && rest.len() <= LONGEST {
-        let Some(base) = most_shared(graph, &rest, known) else { break };
-        let (with, without): (Vec<_>, Vec<_>) =
-            rest.into_iter().partition(|(term, _)| bases(graph, *term).contains(&base));
+        let Some(base) = most_shared(graph, &rest, known) else {
+            break;
+        };
+        let (with, without): (Vec<_>, Vec<_>) = rest
+            .into_iter()
+            .partition(|(term, _)| bases(graph, *term).contains(&base));
         let quotients = with
             .into_iter()
-            .map(|(term, c)| (graph.power_product(&[(term, Rational::ONE), (base, Rational::MINUS_ONE)]), c))
+            .map(|(term, c)| {
+                (
+                    graph.power_product(&[(term, Rational::ONE), (base, Rational::MINUS_ONE)]),
+                    c,
+                )
+            })
             .collect();
         let (inner, _) = factor_sum(graph, Rational::ZERO, quotients, depth - 1, known);
         pieces.push((graph.mul(base, inner), Rational::ONE));
@@ -85,15 +97,20 @@ fn most_shared(
             *counts.entry(base).or_insert(0) += 1;
         }
     }
-    let best = counts.into_iter().filter(|(base, n)| *n >= 2 && !known(graph, *base)).max_by_key(|(base, n)| (*n, std::cmp::Reverse(*base)))?;
+    let best = counts
+        .into_iter()
+        .filter(|(base, n)| *n >= 2 && !known(graph, *base))
+        .max_by_key(|(base, n)| (*n, std::cmp::Reverse(*base)))?;
     Some(best.0)
 }
 
 fn bases(graph: &Graph, term: ExprId) -> Vec<ExprId> {
     match graph.node(term) {
-        Node::Product(factors) => {
-            factors.iter().filter(|(_, e)| e.to_integer().is_some_and(|e| e > 0)).map(|(b, _)| *b).collect()
-        }
+        Node::Product(factors) => factors
+            .iter()
+            .filter(|(_, e)| e.to_integer().is_some_and(|e| e > 0))
+            .map(|(b, _)| *b)
+            .collect(),
         Node::Number(_) => Vec::new(),
         _ => vec![term],
     }

@@ -16,8 +16,11 @@ struct Monomial {
 /// The roots with definitions folded in; the first roots are the definitions themselves and stay.
 /// `None` where nothing can be folded.
 pub fn fold(graph: &mut Graph, symbols: &[Symbol], roots: &[ExprId]) -> Option<Vec<ExprId>> {
-    let monomials: Vec<Monomial> =
-        symbols.iter().zip(roots).filter_map(|(symbol, root)| monomial(graph, *symbol, *root)).collect();
+    let monomials: Vec<Monomial> = symbols
+        .iter()
+        .zip(roots)
+        .filter_map(|(symbol, root)| monomial(graph, *symbol, *root))
+        .collect();
     if monomials.is_empty() {
         return None;
     }
@@ -50,18 +53,37 @@ pub fn fold(graph: &mut Graph, symbols: &[Symbol], roots: &[ExprId]) -> Option<V
 /// A definition of at least two factors.
 fn monomial(graph: &mut Graph, symbol: Symbol, root: ExprId) -> Option<Monomial> {
     let (coefficient, rest) = graph.coefficient(root);
-    let Node::Product(factors) = graph.node(rest) else { return None };
+    let Node::Product(factors) = graph.node(rest) else {
+        return None;
+    };
     let factors = factors.to_vec();
-    Some(Monomial { symbol: graph.symbol(symbol), coefficient, factors })
+    Some(Monomial {
+        symbol: graph.symbol(symbol),
+        coefficient,
+        factors,
+    })
 }
 
-fn fold_product(graph: &mut Graph, mut factors: Vec<(ExprId, Rational)>, monomials: &[Monomial]) -> ExprId {
+fn fold_product(
+    graph: &mut Graph,
+    mut factors: Vec<(ExprId, Rational)>,
+    monomials: &[Monomial],
+) -> ExprId {
     let mut scale = Rational::ONE;
     for monomial in monomials {
-        if !monomial.factors.iter().all(|(base, exponent)| covers(&factors, *base, exponent)) {
+        if !monomial
+            .factors
+            .iter()
+            .all(|(base, exponent)| covers(&factors, *base, exponent))
+        {
             continue;
         }
-        factors.extend(monomial.factors.iter().map(|(base, exponent)| (*base, -exponent)));
+        factors.extend(
+            monomial
+                .factors
+                .iter()
+                .map(|(base, exponent)| (*base, -exponent)),
+        );
         factors.push((monomial.symbol, Rational::ONE));
         scale = &scale / &monomial.coefficient;
     }

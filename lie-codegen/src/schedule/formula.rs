@@ -78,10 +78,20 @@ struct Builder<'a> {
 impl Formula {
     /// The formula of the roots: first the definitions of `symbols`, then the outputs; `group`
     /// collects terms behind common coefficients.
-    pub fn new(graph: &mut Graph, symbols: &[Symbol], roots: &[ExprId], known: Known, group: bool) -> Self {
+    pub fn new(
+        graph: &mut Graph,
+        symbols: &[Symbol],
+        roots: &[ExprId],
+        known: Known,
+        group: bool,
+    ) -> Self {
         let first = Self::build(graph, symbols, roots, known, group, BTreeSet::new());
         // A coefficient that results need with a minus sign is prepared with it everywhere.
-        if first.1.is_empty() { first.0 } else { Self::build(graph, symbols, roots, known, group, first.1).0 }
+        if first.1.is_empty() {
+            first.0
+        } else {
+            Self::build(graph, symbols, roots, known, group, first.1).0
+        }
     }
 
     /// A formula, and the coefficients that more results need negative than positive.
@@ -93,8 +103,12 @@ impl Formula {
         group: bool,
         flipped: BTreeSet<ExprId>,
     ) -> (Self, BTreeSet<ExprId>) {
-        let formula =
-            Self { atoms: Vec::new(), index: HashMap::new(), definitions: Vec::new(), outputs: Vec::new() };
+        let formula = Self {
+            atoms: Vec::new(),
+            index: HashMap::new(),
+            definitions: Vec::new(),
+            outputs: Vec::new(),
+        };
         let mut builder = Builder {
             graph,
             known,
@@ -126,15 +140,23 @@ impl Formula {
                 None => builder.formula.outputs.push(signed),
             }
         }
-        let negative = wanted.into_iter().filter(|(_, balance)| *balance < 0).map(|(id, _)| id).collect();
+        let negative = wanted
+            .into_iter()
+            .filter(|(_, balance)| *balance < 0)
+            .map(|(id, _)| id)
+            .collect();
         (builder.formula, negative)
     }
 
     /// Empties the atoms that no result needs, so that they are not shared with.
     pub fn forget_unused(&mut self) {
         let mut used = vec![false; self.atoms.len()];
-        let mut stack: Vec<AtomId> =
-            self.outputs.iter().chain(self.definitions.iter().map(|(_, signed)| signed)).map(|(_, id)| *id).collect();
+        let mut stack: Vec<AtomId> = self
+            .outputs
+            .iter()
+            .chain(self.definitions.iter().map(|(_, signed)| signed))
+            .map(|(_, id)| *id)
+            .collect();
         while let Some(id) = stack.pop() {
             if !std::mem::replace(&mut used[id], true) {
                 stack.extend(self.atoms[id].operands());
@@ -167,7 +189,9 @@ impl Builder<'_> {
     fn choose_inverses(&mut self, order: &[ExprId]) {
         let mut uses: BTreeMap<ExprId, (usize, bool)> = BTreeMap::new();
         for &id in order {
-            let Node::Product(factors) = self.graph.node(id).clone() else { continue };
+            let Node::Product(factors) = self.graph.node(id).clone() else {
+                continue;
+            };
             if self.is_known(id) {
                 continue;
             }
@@ -198,7 +222,10 @@ impl Builder<'_> {
         }
         match self.graph.node(id).clone() {
             Node::Number(_) | Node::Pi => (false, self.leaf(id)),
-            Node::Symbol(symbol) => (false, self.formula.intern(Atom::Leaf(Value::Symbol(symbol)))),
+            Node::Symbol(symbol) => (
+                false,
+                self.formula.intern(Atom::Leaf(Value::Symbol(symbol))),
+            ),
             Node::Call(function, arguments) => {
                 let arguments = arguments.iter().map(|a| self.unsigned(*a)).collect();
                 (false, self.formula.intern(Atom::Call(function, arguments)))
@@ -211,15 +238,28 @@ impl Builder<'_> {
         }
     }
 
-    fn convert_sum(&mut self, constant: &Rational, terms: &[(ExprId, Rational)], settle: bool) -> Signed {
-        let (known, varying): (Vec<_>, Vec<_>) = terms.iter().cloned().partition(|(t, _)| self.is_known(*t));
+    fn convert_sum(
+        &mut self,
+        constant: &Rational,
+        terms: &[(ExprId, Rational)],
+        settle: bool,
+    ) -> Signed {
+        let (known, varying): (Vec<_>, Vec<_>) =
+            terms.iter().cloned().partition(|(t, _)| self.is_known(*t));
         let mut known = known;
         known.push((self.graph.number(constant.clone()), Rational::ONE));
         let fixed = self.graph.linear(&known);
         let mut signed = self.terms(&varying);
         if !self.graph.is_zero(fixed) {
-            let negative = self.graph.as_number(fixed).is_some_and(Rational::is_negative);
-            let fixed = if negative { self.graph.neg(fixed) } else { fixed };
+            let negative = self
+                .graph
+                .as_number(fixed)
+                .is_some_and(Rational::is_negative);
+            let fixed = if negative {
+                self.graph.neg(fixed)
+            } else {
+                fixed
+            };
             signed.push((negative, self.leaf(fixed)));
         }
         if let [only] = signed[..] {
@@ -249,7 +289,10 @@ impl Builder<'_> {
             if !groups.contains_key(&coefficient) {
                 order.push(coefficient);
             }
-            groups.entry(coefficient).or_default().push((rest, negative));
+            groups
+                .entry(coefficient)
+                .or_default()
+                .push((rest, negative));
         }
         let one = self.graph.integer(1);
         let mut signed = Vec::new();
@@ -283,7 +326,11 @@ impl Builder<'_> {
 
     /// A sign that must not stay outside is applied.
     fn settle(&mut self, (negative, atom): Signed, settle: bool) -> Signed {
-        if negative && settle { (false, self.negative(atom)) } else { (negative, atom) }
+        if negative && settle {
+            (false, self.negative(atom))
+        } else {
+            (negative, atom)
+        }
     }
 
     fn negative(&mut self, atom: AtomId) -> AtomId {
@@ -337,11 +384,18 @@ impl Builder<'_> {
         factors: &[(ExprId, Rational)],
         coefficient: &Rational,
     ) -> (bool, ExprId, Vec<(ExprId, Rational)>) {
-        let (known, varying): (Vec<_>, Vec<_>) = factors.iter().cloned().partition(|(b, _)| self.is_known(*b));
+        let (known, varying): (Vec<_>, Vec<_>) = factors
+            .iter()
+            .cloned()
+            .partition(|(b, _)| self.is_known(*b));
         let known = self.graph.power_product(&known);
         let coefficient = self.graph.scale(known, coefficient);
         let negative = self.leads_negative(coefficient);
-        let canonical = if negative { self.graph.neg(coefficient) } else { coefficient };
+        let canonical = if negative {
+            self.graph.neg(coefficient)
+        } else {
+            coefficient
+        };
         if self.flipped.contains(&canonical) {
             (!negative, self.graph.neg(canonical), varying)
         } else {
@@ -351,18 +405,26 @@ impl Builder<'_> {
 
     /// The prepared coefficient of a product.
     fn coefficient_of(&self, atom: AtomId) -> Option<ExprId> {
-        let Atom::Product(factors) = &self.formula.atoms[atom] else { return None };
-        factors.iter().find_map(|factor| match &self.formula.atoms[*factor] {
-            Atom::Leaf(Value::Prepared(id)) => Some(*id),
-            _ => None,
-        })
+        let Atom::Product(factors) = &self.formula.atoms[atom] else {
+            return None;
+        };
+        factors
+            .iter()
+            .find_map(|factor| match &self.formula.atoms[*factor] {
+                Atom::Leaf(Value::Prepared(id)) => Some(*id),
+                _ => None,
+            })
     }
 
     fn assemble(&mut self, coefficient: ExprId, varying: &[(ExprId, Rational)]) -> Signed {
         let mut negative = false;
         let mut above = Vec::new();
         let mut below = Vec::new();
-        if !self.graph.as_number(coefficient).is_some_and(Rational::is_one) {
+        if !self
+            .graph
+            .as_number(coefficient)
+            .is_some_and(Rational::is_one)
+        {
             above.push(self.leaf(coefficient));
         }
         for (base, exponent) in varying {
@@ -373,7 +435,10 @@ impl Builder<'_> {
             return (negative, numerator);
         }
         let denominator = self.multiply(below);
-        (negative, self.formula.intern(Atom::Quotient(numerator, denominator)))
+        (
+            negative,
+            self.formula.intern(Atom::Quotient(numerator, denominator)),
+        )
     }
 
     /// Whether the first rational coefficient is negative: of `c` and `-c` one is chosen.
@@ -395,7 +460,9 @@ impl Builder<'_> {
         }
         flat.sort_unstable();
         match flat[..] {
-            [] => self.formula.intern(Atom::Leaf(Value::Number(Rational::ONE))),
+            [] => self
+                .formula
+                .intern(Atom::Leaf(Value::Number(Rational::ONE))),
             [only] => only,
             _ => self.formula.intern(Atom::Product(flat)),
         }
@@ -413,19 +480,28 @@ impl Builder<'_> {
         let Some(halves) = halves(exponent) else {
             let atom = self.unsigned(base);
             let power = self.formula.intern(Atom::Power(atom, exponent.abs()));
-            if exponent.is_negative() { below.push(power) } else { above.push(power) }
+            if exponent.is_negative() {
+                below.push(power)
+            } else {
+                above.push(power)
+            }
             return false;
         };
         let count = usize::try_from(halves.unsigned_abs() / 2).unwrap_or(0);
         let odd = halves % 2 != 0;
         let inverse = self.inverse.get(&base).copied().unwrap_or(Inverse::Direct);
-        let one = self.formula.intern(Atom::Leaf(Value::Number(Rational::ONE)));
+        let one = self
+            .formula
+            .intern(Atom::Leaf(Value::Number(Rational::ONE)));
         if odd || (halves < 0 && inverse == Inverse::ReciprocalRoot) {
             let atom = self.unsigned(base);
             let root = self.formula.intern(Atom::Root(atom));
             if halves < 0 && inverse == Inverse::ReciprocalRoot {
                 let reciprocal = self.formula.intern(Atom::Quotient(one, root));
-                above.extend(std::iter::repeat_n(reciprocal, halves.unsigned_abs() as usize));
+                above.extend(std::iter::repeat_n(
+                    reciprocal,
+                    halves.unsigned_abs() as usize,
+                ));
                 return false;
             }
             let side = if halves < 0 { below } else { above };

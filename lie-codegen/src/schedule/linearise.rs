@@ -7,7 +7,12 @@ use super::program::{Operation, Program, Value};
 
 /// The straight-line program of a formula.
 pub fn linearise(formula: &Formula) -> Program {
-    let mut writer = Writer { formula, program: Program::default(), values: HashMap::new(), negatives: HashMap::new() };
+    let mut writer = Writer {
+        formula,
+        program: Program::default(),
+        values: HashMap::new(),
+        negatives: HashMap::new(),
+    };
     for signed in &formula.outputs {
         let value = writer.signed(*signed);
         writer.program.outputs.push(value);
@@ -74,7 +79,11 @@ impl Writer<'_> {
 
     fn children(&self, atom: AtomId) -> Vec<AtomId> {
         match &self.formula.atoms[atom] {
-            Atom::Leaf(value) => self.definition(value).map(|(_, atom)| atom).into_iter().collect(),
+            Atom::Leaf(value) => self
+                .definition(value)
+                .map(|(_, atom)| atom)
+                .into_iter()
+                .collect(),
             other => other.operands(),
         }
     }
@@ -103,12 +112,20 @@ impl Writer<'_> {
                 }
                 for (negative, term) in terms {
                     let term = self.values[&term].clone();
-                    sum = self.push(if negative { Operation::Sub(sum, term) } else { Operation::Add(sum, term) });
+                    sum = self.push(if negative {
+                        Operation::Sub(sum, term)
+                    } else {
+                        Operation::Add(sum, term)
+                    });
                 }
                 sum
             }
             Atom::Product(factors) => {
-                let mut factors = factors.into_iter().map(|f| self.values[&f].clone()).collect::<Vec<_>>().into_iter();
+                let mut factors = factors
+                    .into_iter()
+                    .map(|f| self.values[&f].clone())
+                    .collect::<Vec<_>>()
+                    .into_iter();
                 let Some(mut product) = factors.next() else {
                     return Value::Number(crate::exact::Rational::ONE);
                 };
@@ -138,7 +155,13 @@ impl Writer<'_> {
 
     /// What a defined symbol stands for; a definition that nothing uses costs nothing.
     fn definition(&self, leaf: &Value) -> Option<Signed> {
-        let Value::Symbol(symbol) = leaf else { return None };
-        self.formula.definitions.iter().find(|(defined, _)| defined == symbol).map(|(_, signed)| *signed)
+        let Value::Symbol(symbol) = leaf else {
+            return None;
+        };
+        self.formula
+            .definitions
+            .iter()
+            .find(|(defined, _)| defined == symbol)
+            .map(|(_, signed)| *signed)
     }
 }

@@ -51,8 +51,12 @@ pub struct Task {
 
 /// The cheapest straight-line program found for a task.
 pub fn schedule(graph: &mut Graph, task: &Task) -> Program {
-    let roots: Vec<ExprId> =
-        task.definitions.iter().map(|(_, e)| *e).chain(task.outputs.iter().copied()).collect();
+    let roots: Vec<ExprId> = task
+        .definitions
+        .iter()
+        .map(|(_, e)| *e)
+        .chain(task.outputs.iter().copied())
+        .collect();
     let mut candidates = vec![roots.clone()];
     if let Some(collected) = collect::collect(graph, &roots, task.known) {
         candidates.push(collected);

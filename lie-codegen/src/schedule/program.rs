@@ -41,7 +41,10 @@ impl Operation {
     /// Its operands.
     pub fn operands(&self) -> Vec<&Value> {
         match self {
-            Operation::Add(a, b) | Operation::Sub(a, b) | Operation::Mul(a, b) | Operation::Div(a, b) => {
+            Operation::Add(a, b)
+            | Operation::Sub(a, b)
+            | Operation::Mul(a, b)
+            | Operation::Div(a, b) => {
                 vec![a, b]
             }
             Operation::Neg(a) | Operation::Sqrt(a) | Operation::Power(a, _) => vec![a],

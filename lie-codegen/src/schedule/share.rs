@@ -28,7 +28,10 @@ struct Index {
 impl Index {
     /// The most frequent pair that occurs more than once; of equals the first.
     fn best(&self) -> Option<Pair> {
-        self.frequency.last().filter(|(count, _)| *count > 1).map(|(_, Reverse(pair))| *pair)
+        self.frequency
+            .last()
+            .filter(|(count, _)| *count > 1)
+            .map(|(_, Reverse(pair))| *pair)
     }
 
     /// Replaces what is known of the pairs of an atom.
@@ -44,7 +47,11 @@ impl Index {
     fn set(&mut self, pair: Pair, atom: AtomId, count: usize) {
         let users = self.users.entry(pair).or_default();
         let before: usize = users.values().sum();
-        let was = if count == 0 { users.remove(&atom) } else { users.insert(atom, count) };
+        let was = if count == 0 {
+            users.remove(&atom)
+        } else {
+            users.insert(atom, count)
+        };
         let after = before + count - was.unwrap_or(0);
         if users.is_empty() {
             self.users.remove(&pair);
@@ -91,7 +98,9 @@ fn share_pairs(
 }
 
 fn product_pairs(atom: &Atom) -> HashMap<Pair, usize> {
-    let Atom::Product(factors) = atom else { return HashMap::new() };
+    let Atom::Product(factors) = atom else {
+        return HashMap::new();
+    };
     let mut powers: Vec<(AtomId, usize)> = Vec::new();
     for &factor in factors {
         match powers.last_mut() {
@@ -112,9 +121,13 @@ fn product_pairs(atom: &Atom) -> HashMap<Pair, usize> {
 }
 
 fn replace_product_pair(formula: &mut Formula, user: AtomId, (a, b, _): Pair, shared: AtomId) {
-    let Atom::Product(factors) = &mut formula.atoms[user] else { return };
+    let Atom::Product(factors) = &mut formula.atoms[user] else {
+        return;
+    };
     while let Some(first) = factors.iter().position(|f| *f == a) {
-        let Some(second) = (0..factors.len()).find(|&i| i != first && factors[i] == b) else { break };
+        let Some(second) = (0..factors.len()).find(|&i| i != first && factors[i] == b) else {
+            break;
+        };
         factors.remove(first.max(second));
         factors.remove(first.min(second));
         factors.push(shared);
@@ -123,7 +136,9 @@ fn replace_product_pair(formula: &mut Formula, user: AtomId, (a, b, _): Pair, sh
 }
 
 fn sum_pairs(atom: &Atom) -> HashMap<Pair, usize> {
-    let Atom::Sum(terms) = atom else { return HashMap::new() };
+    let Atom::Sum(terms) = atom else {
+        return HashMap::new();
+    };
     let mut pairs = HashMap::new();
     if terms.len() > LONGEST_SUM {
         return pairs;
@@ -139,9 +154,13 @@ fn sum_pairs(atom: &Atom) -> HashMap<Pair, usize> {
 }
 
 fn replace_sum_pair(formula: &mut Formula, user: AtomId, (a, b, opposite): Pair, shared: AtomId) {
-    let Atom::Sum(terms) = &mut formula.atoms[user] else { return };
+    let Atom::Sum(terms) = &mut formula.atoms[user] else {
+        return;
+    };
     let find = |terms: &[Signed], atom| terms.iter().position(|(_, id)| *id == atom);
-    let (Some(first), Some(second)) = (find(terms, a), find(terms, b)) else { return };
+    let (Some(first), Some(second)) = (find(terms, a), find(terms, b)) else {
+        return;
+    };
     let sign = terms[first].0;
     if (sign != terms[second].0) != opposite {
         return;

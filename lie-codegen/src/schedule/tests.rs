@@ -42,7 +42,11 @@ fn run(program: &Program, g: &Graph, value: &dyn Fn(Symbol) -> f64) -> Vec<f64> 
         };
         temporaries.push(result);
     }
-    program.outputs.iter().map(|v| get(v, &temporaries)).collect()
+    program
+        .outputs
+        .iter()
+        .map(|v| get(v, &temporaries))
+        .collect()
 }
 
 fn values(symbol: Symbol) -> f64 {
@@ -56,10 +60,20 @@ fn values(symbol: Symbol) -> f64 {
 }
 
 fn check(g: &mut Graph, outputs: Vec<ExprId>, known: Known) -> Program {
-    let program = schedule(g, &Task { definitions: vec![], outputs: outputs.clone(), known });
+    let program = schedule(
+        g,
+        &Task {
+            definitions: vec![],
+            outputs: outputs.clone(),
+            known,
+        },
+    );
     for (result, output) in run(&program, g, &values).into_iter().zip(outputs) {
         let exact = g.evaluate(output, &values);
-        assert!((result - exact).abs() <= 1e-13 * exact.abs().max(1.0), "{result} {exact}");
+        assert!(
+            (result - exact).abs() <= 1e-13 * exact.abs().max(1.0),
+            "{result} {exact}"
+        );
     }
     program
 }
@@ -74,7 +88,13 @@ fn field_of_the_free_rigid_body() {
     });
     let field = cross(&mut g, mu, omega);
     let counts = check(&mut g, field.to_vec(), Known::Parameters).counts;
-    assert_eq!(counts, Counts { mul: 6, ..Counts::default() });
+    assert_eq!(
+        counts,
+        Counts {
+            mul: 6,
+            ..Counts::default()
+        }
+    );
 }
 
 #[test]
@@ -95,7 +115,14 @@ fn field_of_the_heavy_top() {
     let mut field: Vec<_> = a.iter().zip(b).map(|(&a, b)| g.add(a, b)).collect();
     field.extend(cross(&mut g, gamma, omega));
     let counts = check(&mut g, field, Known::Parameters).counts;
-    assert_eq!(counts, Counts { add: 9, mul: 21, ..Counts::default() });
+    assert_eq!(
+        counts,
+        Counts {
+            add: 9,
+            mul: 21,
+            ..Counts::default()
+        }
+    );
 }
 
 #[test]
@@ -130,10 +157,21 @@ fn definitions_stay_opaque_and_signs_cost_nothing() {
     let square = g.pow(m, &rational(2, 1));
     let slope = g.product(&[h, k, square]);
     let residual = g.sub(x, slope);
-    let task = Task { definitions: vec![(Symbol::Input(0), middle)], outputs: vec![residual], known: Known::Step };
+    let task = Task {
+        definitions: vec![(Symbol::Input(0), middle)],
+        outputs: vec![residual],
+        known: Known::Step,
+    };
     let program = schedule(&mut g, &task);
     // (x + y)/2: 1 addition, 1 multiplication; x - (h k) m m: 2 multiplications, 1 subtraction.
-    assert_eq!(program.counts, Counts { add: 2, mul: 3, ..Counts::default() });
+    assert_eq!(
+        program.counts,
+        Counts {
+            add: 2,
+            mul: 3,
+            ..Counts::default()
+        }
+    );
     let (a, b) = (g.sub(x, y), g.sub(y, x));
     let (p, q) = (g.product(&[a, k, x]), g.product(&[b, k, y]));
     let counts = check(&mut g, vec![p, q], Known::Parameters).counts;
@@ -145,7 +183,9 @@ fn definitions_stay_opaque_and_signs_cost_nothing() {
 fn random_tasks_are_computed_rightly_and_reproducibly() {
     let mut state = 2018u64;
     let mut next = move |n: u64| {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
         (state >> 33) % n
     };
     for _ in 0..60 {
@@ -153,7 +193,10 @@ fn random_tasks_are_computed_rightly_and_reproducibly() {
         let mut pool: Vec<ExprId> = (0..3).map(|i| coordinate(&mut g, i)).collect();
         pool.extend((0..2).map(|i| parameter(&mut g, i)));
         for _ in 0..14 {
-            let (a, b) = (pool[next(pool.len() as u64) as usize], pool[next(pool.len() as u64) as usize]);
+            let (a, b) = (
+                pool[next(pool.len() as u64) as usize],
+                pool[next(pool.len() as u64) as usize],
+            );
             let new = match next(7) {
                 0 | 1 => g.add(a, b),
                 2 => g.sub(a, b),
@@ -167,7 +210,10 @@ fn random_tasks_are_computed_rightly_and_reproducibly() {
                 }
                 _ => {
                     let small = g.scale(a, &rational(1, 7));
-                    g.call([Function::Sin, Function::Tanh, Function::Cos][next(3) as usize], &[small])
+                    g.call(
+                        [Function::Sin, Function::Tanh, Function::Cos][next(3) as usize],
+                        &[small],
+                    )
                 }
             };
             pool.push(new);

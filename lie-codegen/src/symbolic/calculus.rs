@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::graph::{ExprId, Graph, Node, Symbol};
 use super::Function;
+use super::graph::{ExprId, Graph, Node, Symbol};
 use crate::exact::Rational;
 
 impl Graph {
@@ -24,8 +24,10 @@ impl Graph {
             Node::Number(_) | Node::Pi => self.number(Rational::ZERO),
             Node::Symbol(other) => self.integer(i64::from(other == symbol)),
             Node::Sum { terms, .. } => {
-                let terms: Vec<_> =
-                    terms.iter().map(|(t, c)| (self.derivatives[&(*t, symbol)], c.clone())).collect();
+                let terms: Vec<_> = terms
+                    .iter()
+                    .map(|(t, c)| (self.derivatives[&(*t, symbol)], c.clone()))
+                    .collect();
                 self.linear(&terms)
             }
             Node::Product(factors) => {
@@ -46,7 +48,8 @@ impl Graph {
                 let inner = self.derivatives[&(arguments[0], symbol)];
                 if function == Function::Atan2 {
                     let inner_x = self.derivatives[&(arguments[1], symbol)];
-                    return self.differentiate_atan2([arguments[0], arguments[1]], [inner, inner_x]);
+                    return self
+                        .differentiate_atan2([arguments[0], arguments[1]], [inner, inner_x]);
                 }
                 if self.is_zero(inner) {
                     return inner;
@@ -90,7 +93,11 @@ impl Graph {
             Function::Asin | Function::Acos => {
                 let inside = self.sub(one, square);
                 let power = self.pow(inside, &Rational::new(-1, 2).unwrap_or(Rational::MINUS_ONE));
-                if function == Function::Asin { power } else { self.neg(power) }
+                if function == Function::Asin {
+                    power
+                } else {
+                    self.neg(power)
+                }
             }
             Function::Atan => {
                 let inside = self.add(one, square);
@@ -107,19 +114,25 @@ impl Graph {
     }
 
     /// Replaces symbols by expressions.
-    pub fn substitute(&mut self, roots: &[ExprId], replace: &dyn Fn(Symbol) -> Option<ExprId>) -> Vec<ExprId> {
+    pub fn substitute(
+        &mut self,
+        roots: &[ExprId],
+        replace: &dyn Fn(Symbol) -> Option<ExprId>,
+    ) -> Vec<ExprId> {
         let mut image: HashMap<ExprId, ExprId> = HashMap::new();
         for id in self.dependencies(roots) {
             let new = match self.node(id).clone() {
                 Node::Number(_) | Node::Pi => id,
                 Node::Symbol(symbol) => replace(symbol).unwrap_or(id),
                 Node::Sum { constant, terms } => {
-                    let mut terms: Vec<_> = terms.iter().map(|(t, c)| (image[t], c.clone())).collect();
+                    let mut terms: Vec<_> =
+                        terms.iter().map(|(t, c)| (image[t], c.clone())).collect();
                     terms.push((self.number(constant), Rational::ONE));
                     self.linear(&terms)
                 }
                 Node::Product(factors) => {
-                    let factors: Vec<_> = factors.iter().map(|(b, e)| (image[b], e.clone())).collect();
+                    let factors: Vec<_> =
+                        factors.iter().map(|(b, e)| (image[b], e.clone())).collect();
                     self.power_product(&factors)
                 }
                 Node::Call(function, arguments) => {

@@ -41,7 +41,11 @@ impl Graph {
     ) -> (String, Binding) {
         let inside = |id: &ExprId, least: Binding| {
             let (text, binding) = &texts[id];
-            if *binding < least { format!("({text})") } else { text.clone() }
+            if *binding < least {
+                format!("({text})")
+            } else {
+                text.clone()
+            }
         };
         match self.node(id) {
             Node::Number(value) => number(value),
@@ -49,7 +53,10 @@ impl Graph {
             Node::Symbol(symbol) => (name(*symbol), Binding::Atom),
             Node::Call(function, arguments) => {
                 let arguments: Vec<_> = arguments.iter().map(|a| inside(a, Binding::Sum)).collect();
-                (format!("{}({})", function.name(), arguments.join(", ")), Binding::Atom)
+                (
+                    format!("{}({})", function.name(), arguments.join(", ")),
+                    Binding::Atom,
+                )
             }
             Node::Product(factors) => product(&Rational::ONE, factors, &inside),
             Node::Sum { constant, terms } => {
@@ -73,7 +80,14 @@ impl Graph {
                     text.push_str(&format!(" {sign} {}", constant.abs()));
                 }
                 let single = terms.len() == 1 && constant.is_zero() && !text.starts_with('-');
-                (text, if single { Binding::Product } else { Binding::Sum })
+                (
+                    text,
+                    if single {
+                        Binding::Product
+                    } else {
+                        Binding::Sum
+                    },
+                )
             }
         }
     }
@@ -113,7 +127,14 @@ fn product(
         [only] => text.push_str(&format!("/{only}")),
         _ => text.push_str(&format!("/({})", below.join("*"))),
     }
-    (text, if plain { Binding::Power } else { Binding::Product })
+    (
+        text,
+        if plain {
+            Binding::Power
+        } else {
+            Binding::Product
+        },
+    )
 }
 
 fn number(value: &Rational) -> (String, Binding) {

@@ -19,7 +19,9 @@ impl Graph {
                 Node::Pi => std::f64::consts::PI,
                 Node::Symbol(symbol) => value(*symbol),
                 Node::Sum { constant, terms } => {
-                    terms.iter().fold(constant.to_f64(), |sum, (t, c)| sum + c.to_f64() * values[t])
+                    terms.iter().fold(constant.to_f64(), |sum, (t, c)| {
+                        sum + c.to_f64() * values[t]
+                    })
                 }
                 Node::Product(factors) => factors.iter().fold(1.0, |product, (base, exponent)| {
                     let base = values[base];

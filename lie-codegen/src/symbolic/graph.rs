@@ -99,7 +99,9 @@ impl Graph {
             Node::Product(factors) => factors.len(),
             _ => 0,
         };
-        let id = ExprId(u32::try_from(self.nodes.len()).expect("fewer than 2^32 nodes by the size limit"));
+        let id = ExprId(
+            u32::try_from(self.nodes.len()).expect("fewer than 2^32 nodes by the size limit"),
+        );
         self.nodes.push(node.clone());
         self.index.insert(node, id);
         id
@@ -155,11 +157,18 @@ impl Graph {
             self.collect(&mut sum, *id, coefficient);
         }
         let constant = sum.constant.unwrap_or(Rational::ZERO);
-        let mut terms: Vec<_> = sum.terms.into_iter().filter(|(_, c)| !c.is_zero()).collect();
+        let mut terms: Vec<_> = sum
+            .terms
+            .into_iter()
+            .filter(|(_, c)| !c.is_zero())
+            .collect();
         match terms.as_slice() {
             [] => self.number(constant),
             [(_, c)] if constant.is_zero() && c.is_one() => terms.remove(0).0,
-            _ => self.intern(Node::Sum { constant, terms: terms.into() }),
+            _ => self.intern(Node::Sum {
+                constant,
+                terms: terms.into(),
+            }),
         }
     }
 
@@ -169,7 +178,10 @@ impl Graph {
         };
         match self.node(id) {
             Node::Number(value) => constant(value * scale),
-            Node::Sum { constant: value, terms } => {
+            Node::Sum {
+                constant: value,
+                terms,
+            } => {
                 constant(value * scale);
                 for (term, coefficient) in terms {
                     let entry = sum.terms.entry(*term).or_insert(Rational::ZERO);
@@ -226,8 +238,15 @@ impl Graph {
             && let Some(value) = self.as_number(*argument)
         {
             let folded = match function {
-                Function::Exp | Function::Cos | Function::Cosh if value.is_zero() => Some(Rational::ONE),
-                Function::Sin | Function::Tan | Function::Asin | Function::Atan | Function::Sinh | Function::Tanh
+                Function::Exp | Function::Cos | Function::Cosh if value.is_zero() => {
+                    Some(Rational::ONE)
+                }
+                Function::Sin
+                | Function::Tan
+                | Function::Asin
+                | Function::Atan
+                | Function::Sinh
+                | Function::Tanh
                     if value.is_zero() =>
                 {
                     Some(Rational::ZERO)

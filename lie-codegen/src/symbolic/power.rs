@@ -32,7 +32,11 @@ impl Graph {
             self.collect_factor(*base, exponent, &mut coefficient, &mut bases);
         }
         // Powers of numbers whose exponents have added up are folded once more.
-        let numbers: Vec<ExprId> = bases.keys().copied().filter(|&b| self.as_number(b).is_some()).collect();
+        let numbers: Vec<ExprId> = bases
+            .keys()
+            .copied()
+            .filter(|&b| self.as_number(b).is_some())
+            .collect();
         for base in numbers {
             let exponent = bases.remove(&base).unwrap_or(Rational::ZERO);
             let value = self.as_number(base).cloned().unwrap_or(Rational::ONE);
@@ -43,7 +47,11 @@ impl Graph {
                 bases.insert(id, rest_exponent);
             }
         }
-        if coefficient.is_zero() && !bases.iter().any(|(&b, e)| self.is_zero(b) && e.is_negative()) {
+        if coefficient.is_zero()
+            && !bases
+                .iter()
+                .any(|(&b, e)| self.is_zero(b) && e.is_negative())
+        {
             return self.number(Rational::ZERO);
         }
         let factors: Vec<_> = bases.into_iter().filter(|(_, e)| !e.is_zero()).collect();
@@ -96,13 +104,25 @@ impl Graph {
 /// The rational factor that all coefficients of a sum share, with the sign of the first.
 fn content(constant: &Rational, terms: &[(ExprId, Rational)]) -> Rational {
     let mut content: Option<(i64, i64)> = None;
-    for coefficient in terms.iter().map(|(_, c)| c).chain((!constant.is_zero()).then_some(constant)) {
-        let Some((n, d)) = coefficient.to_words() else { return Rational::ONE };
+    for coefficient in terms
+        .iter()
+        .map(|(_, c)| c)
+        .chain((!constant.is_zero()).then_some(constant))
+    {
+        let Some((n, d)) = coefficient.to_words() else {
+            return Rational::ONE;
+        };
         let (p, q) = content.unwrap_or((0, 1));
-        let Some(lcm) = (q / q.gcd(&d)).checked_mul(d) else { return Rational::ONE };
+        let Some(lcm) = (q / q.gcd(&d)).checked_mul(d) else {
+            return Rational::ONE;
+        };
         content = Some((p.gcd(&n), lcm));
     }
-    let sign = if terms.first().is_some_and(|(_, c)| c.is_negative()) { -1 } else { 1 };
+    let sign = if terms.first().is_some_and(|(_, c)| c.is_negative()) {
+        -1
+    } else {
+        1
+    };
     content
         .and_then(|(n, d)| Rational::new(n.checked_mul(sign)?, d))
         .filter(|content| !content.is_zero())
@@ -112,7 +132,9 @@ fn content(constant: &Rational, terms: &[(ExprId, Rational)]) -> Rational {
 /// `value^exponent` for an integer exponent, while the result is of reasonable size.
 fn integer_power(value: &Rational, exponent: &Rational) -> Option<Rational> {
     let power = i32::try_from(exponent.to_integer()?).ok()?;
-    if value.bits().saturating_mul(u64::from(power.unsigned_abs())) > FOLDED_BITS && !value.abs().is_one() {
+    if value.bits().saturating_mul(u64::from(power.unsigned_abs())) > FOLDED_BITS
+        && !value.abs().is_one()
+    {
         return None;
     }
     value.pow(power)
@@ -127,10 +149,21 @@ fn fold_power(value: &Rational, exponent: &Rational) -> (Rational, Option<(Ratio
         return (power, None);
     }
     if value.is_zero() {
-        let rest = exponent.is_negative().then_some((Rational::ZERO, Rational::MINUS_ONE));
-        return (if rest.is_some() { Rational::ONE } else { Rational::ZERO }, rest);
+        let rest = exponent
+            .is_negative()
+            .then_some((Rational::ZERO, Rational::MINUS_ONE));
+        return (
+            if rest.is_some() {
+                Rational::ONE
+            } else {
+                Rational::ZERO
+            },
+            rest,
+        );
     }
-    let Some((p, q)) = exponent.to_words() else { return (Rational::ONE, Some((value.clone(), exponent.clone()))) };
+    let Some((p, q)) = exponent.to_words() else {
+        return (Rational::ONE, Some((value.clone(), exponent.clone())));
+    };
     if let Some(root) = exact_root(value, q)
         && let Some(power) = integer_power(&root, &Rational::from(p))
     {
@@ -138,7 +171,10 @@ fn fold_power(value: &Rational, exponent: &Rational) -> (Rational, Option<(Ratio
     }
     // 2^(3/2) = 2 * 2^(1/2)
     let whole = Rational::from(p.div_euclid(q));
-    match (integer_power(value, &whole), Rational::new(p.rem_euclid(q), q)) {
+    match (
+        integer_power(value, &whole),
+        Rational::new(p.rem_euclid(q), q),
+    ) {
         (Some(power), Some(rest)) => (power, Some((value.clone(), rest))),
         _ => (Rational::ONE, Some((value.clone(), exponent.clone()))),
     }

@@ -79,14 +79,30 @@ fn derivatives_agree_with_differences() {
     for f in Function::ALL {
         let arguments = if f.arity() == 2 { vec![x, y] } else { vec![x] };
         let inner = g.mul(x, y);
-        let composed: Vec<_> = if f.arity() == 2 { vec![inner, z] } else { vec![inner] };
+        let composed: Vec<_> = if f.arity() == 2 {
+            vec![inner, z]
+        } else {
+            vec![inner]
+        };
         cases.push(g.call(*f, &arguments));
         cases.push(g.call(*f, &composed));
     }
     let sum = g.add(x, z);
-    cases.push(g.power_product(&[(sum, rational(-3, 2)), (y, rational(3, 1)), (x, rational(1, 2))]));
+    cases.push(g.power_product(&[
+        (sum, rational(-3, 2)),
+        (y, rational(3, 1)),
+        (x, rational(1, 2)),
+    ]));
     let at = [0.3, 0.7, 1.1];
-    let value = |point: [f64; 3]| move |s: Symbol| if let Symbol::Coordinate(i) = s { point[i] } else { f64::NAN };
+    let value = |point: [f64; 3]| {
+        move |s: Symbol| {
+            if let Symbol::Coordinate(i) = s {
+                point[i]
+            } else {
+                f64::NAN
+            }
+        }
+    };
     for e in cases {
         for i in 0..3 {
             let d = g.derivative(e, Symbol::Coordinate(i));
@@ -98,7 +114,11 @@ fn derivatives_agree_with_differences() {
             let difference = (g.evaluate(e, &value(up)) - g.evaluate(e, &value(down))) / (2.0 * h);
             // acos of x*y and the like stay inside their domain at this point.
             if difference.is_finite() {
-                assert!((exact - difference).abs() < 1e-8, "{}: {exact} {difference}", g.display(e, &name));
+                assert!(
+                    (exact - difference).abs() < 1e-8,
+                    "{}: {exact} {difference}",
+                    g.display(e, &name)
+                );
             }
         }
     }
