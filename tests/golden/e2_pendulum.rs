@@ -38,13 +38,13 @@ impl<S: ::lie_runtime::Scalar> Pendulum<S> {
     pub fn system(
         &self,
     ) -> ::core::result::Result<PendulumSystem<S>, ::lie_runtime::ParameterError> {
-        let g = self.g;
-        let _k1 = -self.g;
-        ::lie_runtime::__private::all_finite(&[(g, "g", "g"), (_k1, "g", "-g")])?;
+        let _c0 = self.g;
+        let _c1 = -self.g;
+        ::lie_runtime::__private::all_finite(&[(_c0, "g", "g"), (_c1, "g", "-g")])?;
         ::core::result::Result::Ok(PendulumSystem {
             _parameters: ::core::clone::Clone::clone(self),
-            g,
-            _k1,
+            g: _c0,
+            _k1: _c1,
         })
     }
 
@@ -83,8 +83,7 @@ impl<S: ::lie_runtime::Scalar> Pendulum<S> {
     /// The parameters from their values, in the order of the declaration.
     #[must_use]
     pub fn from_values(_values: &[S; 1]) -> Self {
-        let [g] = *_values;
-        Self { g }
+        Self { g: _values[0] }
     }
 }
 
@@ -114,8 +113,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     /// 1 addition, 3 multiplications.
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
-        let [[L, x, _]] = mu.data.0;
-        L * L * S::ratio(1.0, 2.0) - self.g * x
+        let [[_L, x, _]] = mu.data.0;
+        _L * _L * S::ratio(1.0, 2.0) - self.g * x
     }
 
     /// `out_i = dH/dmu_i`
@@ -123,9 +122,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     /// No operation.
     #[inline]
     fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
-        let [[L, _, _]] = mu.data.0;
+        let [[_L, _, _]] = mu.data.0;
         out.fill(S::zero());
-        out[0] = L;
+        out[0] = _L;
         out[1] = self._k1;
     }
 
@@ -162,10 +161,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     /// 1 addition, 3 multiplications.
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
-        let [[L, x, y]] = mu.data.0;
+        let [[_L, x, y]] = mu.data.0;
         out[0] = self.g * y;
-        out[1] = L * y;
-        out[2] = -(L * x);
+        out[1] = _L * y;
+        out[2] = -(_L * x);
     }
 
     /// `out_ij = df_i/dmu_j`
@@ -173,13 +172,13 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     /// 2 additions.
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
-        let [[L, x, y]] = mu.data.0;
+        let [[_L, x, y]] = mu.data.0;
         out.fill(S::zero());
         out[(0, 2)] = self.g;
         out[(1, 0)] = y;
-        out[(1, 2)] = L;
+        out[(1, 2)] = _L;
         out[(2, 0)] = -x;
-        out[(2, 1)] = -L;
+        out[(2, 1)] = -_L;
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
@@ -192,16 +191,16 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
         field: &mut Self::State,
         jacobian: &mut Self::Jacobian,
     ) {
-        let [[L, x, y]] = mu.data.0;
+        let [[_L, x, y]] = mu.data.0;
         field[0] = self.g * y;
-        field[1] = L * y;
-        field[2] = -(L * x);
+        field[1] = _L * y;
+        field[2] = -(_L * x);
         jacobian.fill(S::zero());
         jacobian[(0, 2)] = self.g;
         jacobian[(1, 0)] = y;
-        jacobian[(1, 2)] = L;
+        jacobian[(1, 2)] = _L;
         jacobian[(2, 0)] = -x;
-        jacobian[(2, 1)] = -L;
+        jacobian[(2, 1)] = -_L;
     }
 
     /// `out_i = C_i(mu)`
@@ -284,9 +283,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for PendulumSyste
     ) {
         let [[_xi_J, _xi_P1, _xi_P2]] = xi.data.0;
         let [[_eta_J, _eta_P1, _eta_P2]] = eta.data.0;
-        let [[L, x, y]] = mu.data.0;
+        let [[_L, x, y]] = mu.data.0;
         out.fill(S::zero());
-        out[0] = (_xi_J * (x * _eta_P1 + y * _eta_P2 + L * _eta_J * S::ratio(2.0, 1.0))
+        out[0] = (_xi_J * (x * _eta_P1 + y * _eta_P2 + _L * _eta_J * S::ratio(2.0, 1.0))
             + _eta_J * (x * _xi_P1 + y * _xi_P2)) * S::ratio(-1.0, 2.0);
     }
 }
@@ -355,11 +354,11 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for PendulumMidpoint<'
     /// 9 additions, 4 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
-        let [[L, x, y]] = self.base.data.0;
+        let [[_L, x, y]] = self.base.data.0;
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = y + _u_y;
-        let _t1 = (L + _u_L) * self._h1;
-        residual[0] = _u_L - L - _t0 * self._h0;
+        let _t1 = (_L + _u_L) * self._h1;
+        residual[0] = _u_L - _L - _t0 * self._h0;
         residual[1] = _u_x - x - _t0 * _t1;
         residual[2] = _u_y - y + (x + _u_x) * _t1;
     }
@@ -374,13 +373,13 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for PendulumMidpoint<'
         residual: &mut Self::State,
         matrix: &mut Self::Matrix,
     ) {
-        let [[L, x, y]] = self.base.data.0;
+        let [[_L, x, y]] = self.base.data.0;
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = y + _u_y;
-        let _t1 = L + _u_L;
+        let _t1 = _L + _u_L;
         let _t2 = _t1 * self._h1;
         let _t3 = x + _u_x;
-        residual[0] = _u_L - L - _t0 * self._h0;
+        residual[0] = _u_L - _L - _t0 * self._h0;
         residual[1] = _u_x - x - _t0 * _t2;
         residual[2] = _u_y - y + _t3 * _t2;
         matrix[(0, 0)] = S::one();
@@ -1167,11 +1166,11 @@ for PendulumCayleyMidpoint<'_, S> {
     /// 7 additions, 6 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
-        let [[L, x, y]] = self.base.data.0;
+        let [[_L, x, y]] = self.base.data.0;
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = _u_L * self._h0;
         let _t1 = _u_y + _t0 * _u_x;
-        residual[0] = _u_L - L + _t0 * _t0 * _u_L - _t1 * self._h1;
+        residual[0] = _u_L - _L + _t0 * _t0 * _u_L - _t1 * self._h1;
         residual[1] = _u_x - x - _t0 * _u_y;
         residual[2] = _t1 - y;
     }
@@ -1186,12 +1185,12 @@ for PendulumCayleyMidpoint<'_, S> {
         residual: &mut Self::State,
         matrix: &mut Self::Matrix,
     ) {
-        let [[L, x, y]] = self.base.data.0;
+        let [[_L, x, y]] = self.base.data.0;
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = _u_L * self._h0;
         let _t1 = _t0 * _t0;
         let _t2 = _u_y + _t0 * _u_x;
-        residual[0] = _u_L - L + _u_L * _t1 + self._h2 * _t2;
+        residual[0] = _u_L - _L + _u_L * _t1 + self._h2 * _t2;
         residual[1] = _u_x - x - _t0 * _u_y;
         residual[2] = _t2 - y;
         matrix[(0, 0)] = S::one() + S::ratio(3.0, 1.0) * _t1 - _u_x * self._h3;
@@ -1210,10 +1209,10 @@ for PendulumCayleyMidpoint<'_, S> {
     /// 3 additions, 4 multiplications.
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
-        let [[L, x, y]] = self.base.data.0;
+        let [[_L, x, y]] = self.base.data.0;
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = _u_L * self.h;
-        mu[0] = L + _u_y * self._h5;
+        mu[0] = _L + _u_y * self._h5;
         mu[1] = x + _u_y * _t0;
         mu[2] = y - _u_x * _t0;
     }

@@ -68,72 +68,72 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _t5 = S::one() / self.I3;
         let _t6 = _t4 - _t5;
         let _t7 = _t3 - _t4;
-        let _k0 = _t0;
-        let _k1 = _t1;
-        let _k2 = _t2;
-        let _k3 = S::ratio(1.0, 2.0) / self.I1;
-        let _k4 = S::ratio(1.0, 2.0) / self.I2;
-        let _k5 = S::ratio(1.0, 2.0) / self.I3;
-        let _k6 = _t3;
-        let _k7 = _t4;
-        let _k8 = _t5;
-        let _k9 = _t6;
-        let _k10 = _t3 - _t5;
-        let _k11 = _t7;
-        let _k12 = -_t6;
-        let _k13 = -_t7;
-        let _k14 = -_t4;
-        let _k15 = -_t5;
-        let _k16 = -_t3;
-        let _k17 = -_t1;
-        let _k18 = -_t2;
-        let _k19 = -_t0;
+        let _c0 = _t0;
+        let _c1 = _t1;
+        let _c2 = _t2;
+        let _c3 = S::ratio(1.0, 2.0) / self.I1;
+        let _c4 = S::ratio(1.0, 2.0) / self.I2;
+        let _c5 = S::ratio(1.0, 2.0) / self.I3;
+        let _c6 = _t3;
+        let _c7 = _t4;
+        let _c8 = _t5;
+        let _c9 = _t6;
+        let _c10 = _t3 - _t5;
+        let _c11 = _t7;
+        let _c12 = -_t6;
+        let _c13 = -_t7;
+        let _c14 = -_t4;
+        let _c15 = -_t5;
+        let _c16 = -_t3;
+        let _c17 = -_t1;
+        let _c18 = -_t2;
+        let _c19 = -_t0;
         ::lie_runtime::__private::all_finite(
             &[
-                (_k0, "mgl", "mgl*c1"),
-                (_k1, "mgl", "mgl*c2"),
-                (_k2, "mgl", "mgl*c3"),
-                (_k3, "I1", "1/(2*I1)"),
-                (_k4, "I2", "1/(2*I2)"),
-                (_k5, "I3", "1/(2*I3)"),
-                (_k6, "I1", "1/I1"),
-                (_k7, "I2", "1/I2"),
-                (_k8, "I3", "1/I3"),
-                (_k9, "I2", "1/I2 - 1/I3"),
-                (_k10, "I1", "1/I1 - 1/I3"),
-                (_k11, "I1", "1/I1 - 1/I2"),
-                (_k12, "I2", "-1/I2 + 1/I3"),
-                (_k13, "I1", "-1/I1 + 1/I2"),
-                (_k14, "I2", "-1/I2"),
-                (_k15, "I3", "-1/I3"),
-                (_k16, "I1", "-1/I1"),
-                (_k17, "mgl", "-mgl*c2"),
-                (_k18, "mgl", "-mgl*c3"),
-                (_k19, "mgl", "-mgl*c1"),
+                (_c0, "mgl", "mgl*c1"),
+                (_c1, "mgl", "mgl*c2"),
+                (_c2, "mgl", "mgl*c3"),
+                (_c3, "I1", "1/(2*I1)"),
+                (_c4, "I2", "1/(2*I2)"),
+                (_c5, "I3", "1/(2*I3)"),
+                (_c6, "I1", "1/I1"),
+                (_c7, "I2", "1/I2"),
+                (_c8, "I3", "1/I3"),
+                (_c9, "I2", "1/I2 - 1/I3"),
+                (_c10, "I1", "1/I1 - 1/I3"),
+                (_c11, "I1", "1/I1 - 1/I2"),
+                (_c12, "I2", "-1/I2 + 1/I3"),
+                (_c13, "I1", "-1/I1 + 1/I2"),
+                (_c14, "I2", "-1/I2"),
+                (_c15, "I3", "-1/I3"),
+                (_c16, "I1", "-1/I1"),
+                (_c17, "mgl", "-mgl*c2"),
+                (_c18, "mgl", "-mgl*c3"),
+                (_c19, "mgl", "-mgl*c1"),
             ],
         )?;
         ::core::result::Result::Ok(HeavyTopSystem {
             _parameters: ::core::clone::Clone::clone(self),
-            _k0,
-            _k1,
-            _k2,
-            _k3,
-            _k4,
-            _k5,
-            _k6,
-            _k7,
-            _k8,
-            _k9,
-            _k10,
-            _k11,
-            _k12,
-            _k13,
-            _k14,
-            _k15,
-            _k16,
-            _k17,
-            _k18,
-            _k19,
+            _k0: _c0,
+            _k1: _c1,
+            _k2: _c2,
+            _k3: _c3,
+            _k4: _c4,
+            _k5: _c5,
+            _k6: _c6,
+            _k7: _c7,
+            _k8: _c8,
+            _k9: _c9,
+            _k10: _c10,
+            _k11: _c11,
+            _k12: _c12,
+            _k13: _c13,
+            _k14: _c14,
+            _k15: _c15,
+            _k16: _c16,
+            _k17: _c17,
+            _k18: _c18,
+            _k19: _c19,
         })
     }
 
@@ -211,15 +211,14 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
     /// The parameters from their values, in the order of the declaration.
     #[must_use]
     pub fn from_values(_values: &[S; 7]) -> Self {
-        let [I1, I2, I3, mgl, c1, c2, c3] = *_values;
         Self {
-            I1,
-            I2,
-            I3,
-            mgl,
-            c1,
-            c2,
-            c3,
+            I1: _values[0],
+            I2: _values[1],
+            I3: _values[2],
+            mgl: _values[3],
+            c1: _values[4],
+            c2: _values[5],
+            c3: _values[6],
         }
     }
 }

@@ -78,7 +78,6 @@ impl<S: ::lie_runtime::Scalar> Sl2Quadratic<S> {
     /// The parameters from their values, in the order of the declaration.
     #[must_use]
     pub fn from_values(_values: &[S; 0]) -> Self {
-        let [] = *_values;
         Self {
             _scalar: ::core::marker::PhantomData,
         }

@@ -53,39 +53,39 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
         let _t0 = S::one() / self.I1;
         let _t1 = S::one() / self.I2;
         let _t2 = S::one() / self.I3;
-        let _k0 = S::ratio(1.0, 2.0) / self.I1;
-        let _k1 = S::ratio(1.0, 2.0) / self.I2;
-        let _k2 = S::ratio(1.0, 2.0) / self.I3;
-        let _k3 = _t0;
-        let _k4 = _t1;
-        let _k5 = _t2;
-        let _k6 = _t2 - _t1;
-        let _k7 = _t0 - _t2;
-        let _k8 = _t1 - _t0;
+        let _c0 = S::ratio(1.0, 2.0) / self.I1;
+        let _c1 = S::ratio(1.0, 2.0) / self.I2;
+        let _c2 = S::ratio(1.0, 2.0) / self.I3;
+        let _c3 = _t0;
+        let _c4 = _t1;
+        let _c5 = _t2;
+        let _c6 = _t2 - _t1;
+        let _c7 = _t0 - _t2;
+        let _c8 = _t1 - _t0;
         ::lie_runtime::__private::all_finite(
             &[
-                (_k0, "I1", "1/(2*I1)"),
-                (_k1, "I2", "1/(2*I2)"),
-                (_k2, "I3", "1/(2*I3)"),
-                (_k3, "I1", "1/I1"),
-                (_k4, "I2", "1/I2"),
-                (_k5, "I3", "1/I3"),
-                (_k6, "I2", "-1/I2 + 1/I3"),
-                (_k7, "I1", "1/I1 - 1/I3"),
-                (_k8, "I1", "-1/I1 + 1/I2"),
+                (_c0, "I1", "1/(2*I1)"),
+                (_c1, "I2", "1/(2*I2)"),
+                (_c2, "I3", "1/(2*I3)"),
+                (_c3, "I1", "1/I1"),
+                (_c4, "I2", "1/I2"),
+                (_c5, "I3", "1/I3"),
+                (_c6, "I2", "-1/I2 + 1/I3"),
+                (_c7, "I1", "1/I1 - 1/I3"),
+                (_c8, "I1", "-1/I1 + 1/I2"),
             ],
         )?;
         ::core::result::Result::Ok(FreeRigidBodySystem {
             _parameters: ::core::clone::Clone::clone(self),
-            _k0,
-            _k1,
-            _k2,
-            _k3,
-            _k4,
-            _k5,
-            _k6,
-            _k7,
-            _k8,
+            _k0: _c0,
+            _k1: _c1,
+            _k2: _c2,
+            _k3: _c3,
+            _k4: _c4,
+            _k5: _c5,
+            _k6: _c6,
+            _k7: _c7,
+            _k8: _c8,
         })
     }
 
@@ -138,8 +138,11 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
     /// The parameters from their values, in the order of the declaration.
     #[must_use]
     pub fn from_values(_values: &[S; 3]) -> Self {
-        let [I1, I2, I3] = *_values;
-        Self { I1, I2, I3 }
+        Self {
+            I1: _values[0],
+            I2: _values[1],
+            I3: _values[2],
+        }
     }
 }
 

@@ -79,7 +79,6 @@ impl<S: ::lie_runtime::Scalar> NonpolynomialSpin<S> {
     /// The parameters from their values, in the order of the declaration.
     #[must_use]
     pub fn from_values(_values: &[S; 0]) -> Self {
-        let [] = *_values;
         Self {
             _scalar: ::core::marker::PhantomData,
         }

@@ -80,7 +80,6 @@ impl<S: ::lie_runtime::Scalar> TodaLattice<S> {
     /// The parameters from their values, in the order of the declaration.
     #[must_use]
     pub fn from_values(_values: &[S; 0]) -> Self {
-        let [] = *_values;
         Self {
             _scalar: ::core::marker::PhantomData,
         }

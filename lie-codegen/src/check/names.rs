@@ -15,6 +15,11 @@ const KEYWORDS: &[&str] = &[
     "return", "self", "Self", "static", "struct", "super", "trait", "true", "try", "type",
     "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
+/// Types that generated code names without a path: a system of that name would hide them.
+const TYPES: &[&str] = &[
+    "S", "bool", "char", "f32", "f64", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8",
+    "u16", "u32", "u64", "u128", "usize",
+];
 /// Words of the language; `energy` is a column of every output.
 const WORDS: &[&str] = &["pi", "t", "energy", "sum", "sqrt"];
 
@@ -37,6 +42,16 @@ pub fn check(declaration: &Declaration, report: &mut Report) {
         .chain(casimirs.clone())
     {
         permitted(name, report);
+    }
+    if TYPES.contains(&declaration.name.text.as_str()) {
+        let message = format!(
+            "`{}` is the name of a type of the generated code",
+            declaration.name.text
+        );
+        report.push(
+            Diagnostic::new(Kind::ReservedName, declaration.name.origin, message)
+                .help("choose another name for the system, such as RigidBody"),
+        );
     }
     let mut algebra: HashMap<&str, &str> = HashMap::new();
     let mut dual: HashMap<&str, &str> = HashMap::new();

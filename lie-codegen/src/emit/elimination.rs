@@ -6,6 +6,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::names::index;
+use crate::schedule::Counts;
 
 /// One step of the factorisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,6 +103,27 @@ impl Elimination {
         let mut entries: Vec<usize> = self.rows[&i].iter().copied().filter(|j| *j != i).collect();
         entries.sort_by_key(|j| place[j]);
         entries.into_iter().partition(|j| place[j] < place[&i])
+    }
+
+    /// Operations of factorisation and solution together.
+    pub fn counts(&self) -> Counts {
+        let updates = self
+            .steps
+            .iter()
+            .filter(|s| matches!(s, Step::Update(..)))
+            .count();
+        let pivots = self
+            .steps
+            .iter()
+            .filter(|s| matches!(s, Step::Pivot(_)))
+            .count();
+        let solve: usize = self.rows.values().map(|row| row.len() - 1).sum();
+        Counts {
+            add: updates + solve,
+            mul: self.multiplications(),
+            div: pivots,
+            call: 0,
+        }
     }
 
     /// Multiplications of factorisation and solution together.

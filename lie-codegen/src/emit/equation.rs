@@ -132,11 +132,13 @@ impl Writer<'_> {
     fn fused(&mut self, form: &Form, kernels: &[Kernel]) -> TokenStream {
         let mut step = Prepared::default();
         let n = self.source.dimension;
-        let place = |name: &str| {
+        let unknown = self.argument("unknown");
+        let start = unknown.clone();
+        let place = move |name: &str| {
             if name == "mu" {
                 quote! { self.base }
             } else {
-                quote! { unknown }
+                quote! { #start }
             }
         };
         let mut methods = TokenStream::new();
@@ -152,10 +154,11 @@ impl Writer<'_> {
                     elimination = eliminate(n, places, &program);
                     let body =
                         self.linearize_body(kernel, &program, &mut step, &place, &elimination);
+                    let (residual, matrix) = (self.argument("residual"), self.argument("matrix"));
                     quote! {
                         #docs
                         #[inline]
-                        fn linearize(&mut self, unknown: &Self::State, residual: &mut Self::State, matrix: &mut Self::Matrix) {
+                        fn linearize(&mut self, #unknown: &Self::State, #residual: &mut Self::State, #matrix: &mut Self::Matrix) {
                             #body
                         }
                     }
@@ -175,12 +178,11 @@ impl Writer<'_> {
                         &place,
                         &[target],
                     );
-                    let target = ident(target);
-                    let target = self.argument(&target.to_string());
+                    let target = self.argument(target);
                     quote! {
                         #docs
                         #[inline]
-                        fn #name(&mut self, unknown: &Self::State, #target: &mut Self::State) {
+                        fn #name(&mut self, #unknown: &Self::State, #target: &mut Self::State) {
                             #body
                         }
                     }

@@ -9,7 +9,6 @@ use quote::{format_ident, quote};
 use super::Writer;
 use super::elimination::{Elimination, UNROLLED};
 use super::names::index;
-use crate::schedule::Counts;
 
 /// Stage numbers of the methods that are built.
 const STAGES: [usize; 3] = [1, 2, 3];
@@ -205,13 +204,7 @@ impl Writer<'_> {
         matrix: &dyn Fn(&str, usize, usize) -> TokenStream,
         entry: &dyn Fn(usize) -> TokenStream,
     ) -> TokenStream {
-        self.counts.push((
-            label.to_string(),
-            Counts {
-                mul: elimination.multiplications(),
-                ..Counts::default()
-            },
-        ));
+        self.counts.push((label.to_string(), elimination.counts()));
         let unrolled = elimination.multiplications() <= UNROLLED;
         let (factor, solve) = if unrolled {
             let read = |i: usize, j: usize| matrix("matrix", i, j);

@@ -17,12 +17,23 @@ pub fn index(value: usize) -> Literal {
     Literal::usize_unsuffixed(value)
 }
 
+/// The local of a coordinate: its name. One that begins with a capital could be read as a constant
+/// of the user or as `None`, and takes an underscore; ours that begin with one go on in lower case.
+fn coordinate_local(name: &Ident) -> Ident {
+    let text = name.to_string();
+    if text.starts_with(char::is_uppercase) {
+        Ident::new(&format!("_{text}"), name.span())
+    } else {
+        name.clone()
+    }
+}
+
 impl Writer<'_> {
     /// The local variable that holds a symbol.
     pub fn local(&self, symbol: Symbol) -> Ident {
         let n = self.source.dimension;
         match symbol {
-            Symbol::Coordinate(i) => self.blueprint.coordinates[i].clone(),
+            Symbol::Coordinate(i) => coordinate_local(&self.blueprint.coordinates[i]),
             Symbol::Parameter(i) => self.blueprint.parameters[i].name.clone(),
             Symbol::Step => ident("_h"),
             Symbol::Time => ident("_time"),
@@ -57,6 +68,7 @@ impl Writer<'_> {
         match symbol {
             Symbol::Step => "h".into(),
             Symbol::Time => "t".into(),
+            Symbol::Coordinate(i) => self.blueprint.coordinates[i].to_string(),
             other => self.local(other).to_string(),
         }
     }

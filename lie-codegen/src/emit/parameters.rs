@@ -100,7 +100,7 @@ impl Writer<'_> {
         let (statements, values) = self.preparation(&constants, &|name| quote! { self.#name });
         let mut lets = TokenStream::new();
         let mut checks = TokenStream::new();
-        let mut names = Vec::new();
+        let mut fields = Vec::new();
         for (position, (id, value)) in constants.iter().zip(&values).enumerate() {
             let name = self.prepared_name(*id, position);
             let text = self.constant_text(*id);
@@ -111,9 +111,11 @@ impl Writer<'_> {
                 .into_iter()
                 .find(|s| matches!(s, Symbol::Parameter(_)))
                 .map_or_else(String::new, |s| self.shown(s));
-            lets.extend(quote! { let #name = #value; });
-            checks.extend(quote! { (#name, #parameter, #text), });
-            names.push(name);
+            // A bare name of the user could be read as a constant of the user.
+            let local = format_ident!("_c{position}");
+            lets.extend(quote! { let #local = #value; });
+            checks.extend(quote! { (#local, #parameter, #text), });
+            fields.push(quote! { #name: #local });
         }
         let check = (!checks.is_empty())
             .then(|| quote! { ::lie_runtime::__private::all_finite(&[#checks])?; });
@@ -121,7 +123,7 @@ impl Writer<'_> {
             #statements
             #lets
             #check
-            ::core::result::Result::Ok(#system { _parameters: ::core::clone::Clone::clone(self), #(#names),* })
+            ::core::result::Result::Ok(#system { _parameters: ::core::clone::Clone::clone(self), #(#fields),* })
         }
     }
 
@@ -145,6 +147,7 @@ impl Writer<'_> {
             .map(|p| p.name.clone())
             .collect();
         let count = super::names::index(names.len());
+        let places: Vec<_> = (0..names.len()).map(super::names::index).collect();
         let marker = names
             .is_empty()
             .then(|| quote! { _scalar: ::core::marker::PhantomData });
@@ -170,8 +173,7 @@ impl Writer<'_> {
                 #[doc = " The parameters from their values, in the order of the declaration."]
                 #[must_use]
                 pub fn from_values(_values: &[S; #count]) -> Self {
-                    let [#(#names),*] = *_values;
-                    Self { #(#names,)* #marker }
+                    Self { #(#names: _values[#places],)* #marker }
                 }
             }
         }

@@ -90,7 +90,9 @@ impl Grid {
         let count = (time - self.start) / self.step;
         let nearest = count.round();
         let slack = TOLERANCE.max(2.0 * f64::EPSILON * nearest);
-        if (count - nearest).abs() <= slack || count < 0.0 {
+        // A time that is small beside the step is not the start, however near it lies.
+        let start = nearest == 0.0 && count > 0.0;
+        if !start && (count - nearest).abs() <= slack || count < 0.0 {
             return Place::On(nearest.max(0.0) as u64);
         }
         let before = count.floor() as u64;

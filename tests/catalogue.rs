@@ -1,0 +1,52 @@
+//! The catalogue of methods against the constants of the runtime: one of them cannot change alone.
+
+use lie_codegen::methods::{Availability, CATALOGUE, Method};
+use lie_runtime::methods::{Dopri5, Facts, Gauss4, Gauss6, ImplicitMidpoint, LieMidpoint, Rk4};
+
+fn agrees<F: Facts>(_: &F) -> &'static str {
+    let Method {
+        order,
+        symmetric,
+        explicit,
+        preserves,
+        ..
+    } = CATALOGUE
+        .iter()
+        .find(|method| method.id == F::ID)
+        .expect("an id of the catalogue");
+    assert_eq!(*order, F::ORDER, "{}", F::ID);
+    assert_eq!(
+        (*symmetric, *explicit),
+        (F::SYMMETRIC, F::EXPLICIT),
+        "{}",
+        F::ID
+    );
+    let facts = F::PRESERVES;
+    assert_eq!(preserves.energy, facts.energy, "{}", F::ID);
+    assert_eq!(preserves.casimirs, facts.casimirs, "{}", F::ID);
+    assert_eq!(preserves.orbit, facts.orbit, "{}", F::ID);
+    assert_eq!(preserves.poisson, facts.poisson, "{}", F::ID);
+    let quadratic = facts.quadratic_invariants || facts.casimirs;
+    assert_eq!(preserves.quadratic_casimirs, quadratic, "{}", F::ID);
+    F::ID
+}
+
+#[test]
+fn facts_are_those_of_the_runtime() {
+    let mut built = vec![
+        agrees(&ImplicitMidpoint),
+        agrees(&Gauss4),
+        agrees(&Gauss6),
+        agrees(&LieMidpoint::exp()),
+        agrees(&Rk4),
+        agrees(&Dopri5::default()),
+    ];
+    assert_eq!(agrees(&LieMidpoint::cayley()), "lie-midpoint");
+    built.sort_unstable();
+    let rows = CATALOGUE
+        .iter()
+        .filter(|method| method.availability == Availability::Built);
+    let mut ids: Vec<&str> = rows.map(|method| method.id).collect();
+    ids.sort_unstable();
+    assert_eq!(ids, built);
+}
