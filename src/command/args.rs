@@ -114,7 +114,7 @@ pub struct Methods {
 }
 
 /// `lie run`.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 #[command(after_help = "Numbers may be exact constants: 1/7, -1/2, cos(11/10).
 Flags override the `run` keys of the spec; without either: --method lie-midpoint --step 0.01 --until 10.
 Exit codes: 0 done, 1 surroundings failed, 2 invalid input, 3 integration stopped early, 130 Ctrl-C.")]

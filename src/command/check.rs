@@ -8,9 +8,10 @@ use lie_codegen::methods::{Choice, Retraction, applicability, refusal};
 use lie_codegen::model::Model;
 use serde_json::{Value, json};
 
+use super::run::plan::plan;
 use super::{args, print};
-use crate::compiler;
-use crate::message::{Failure, SURROUNDINGS};
+use crate::compiler::{self, Spec};
+use crate::message::{Failure, INVALID, Message, SURROUNDINGS};
 use crate::render;
 
 /// Checks specs and reports on those that are sound.
@@ -27,6 +28,11 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
         match compiler::load(path) {
             Ok(spec) => {
                 render::print(&spec.warnings());
+                if let Err(found) = defaults_of_run(&spec) {
+                    failure.code = INVALID;
+                    failure.messages.extend(found);
+                    continue;
+                }
                 let report = Report::on(&spec.model);
                 if arguments.json {
                     reports.push(report.json(&spec.model));
@@ -56,6 +62,15 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
     } else {
         Err(failure)
     }
+}
+
+/// The `run` of a spec as `lie run` would take it without flags. Without an initial state the flags
+/// have to bring one.
+fn defaults_of_run(spec: &Spec) -> Result<(), Vec<Message>> {
+    if spec.model.run.is_empty() || spec.model.initial.is_none() {
+        return Ok(());
+    }
+    plan(spec, &args::Run::default()).map(|_| ())
 }
 
 /// What is asked of the compiler besides the model.

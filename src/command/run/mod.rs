@@ -2,7 +2,7 @@
 
 mod bar;
 mod outputs;
-mod plan;
+pub mod plan;
 mod summary;
 mod values;
 
