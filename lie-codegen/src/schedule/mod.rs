@@ -4,10 +4,12 @@
 //! candidate is lowered to n-ary sums and products, pairs that occur twice are shared over all
 //! outputs of the kernel, and the cheapest candidate is kept. Everything is deterministic.
 
+mod builder;
 mod collect;
 mod factor;
 mod fold;
 mod formula;
+mod inverse;
 mod linearise;
 mod program;
 mod share;
@@ -73,12 +75,13 @@ pub fn schedule(graph: &mut Graph, task: &Task) -> Program {
         }
     }
     candidates.dedup();
+    let mut budget = share::BUDGET;
     candidates
         .into_iter()
         .flat_map(|roots| [(roots.clone(), false), (roots, true)])
         .map(|(roots, group)| {
             let mut formula = formula::Formula::new(graph, &symbols, &roots, task.known, group);
-            share::share(&mut formula);
+            share::share(&mut formula, &mut budget);
             linearise::linearise(&formula)
         })
         .min_by_key(|program| program.counts.weight())

@@ -1,0 +1,340 @@
+//! From expressions to the atoms of a formula: coefficients split off, signs pulled out, divisions
+//! chosen.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use super::Known;
+use super::collect::is_known;
+use super::formula::{Atom, AtomId, Formula, Signed};
+use super::inverse::Inverse;
+use super::program::Value;
+use crate::exact::Rational;
+use crate::symbolic::{ExprId, Graph, Node, Symbol};
+
+/// Bases with their exponents.
+type Powers = Vec<(ExprId, Rational)>;
+
+pub(super) struct Builder<'a> {
+    pub(super) graph: &'a mut Graph,
+    known: Known,
+    group: bool,
+    /// Coefficients that are prepared with the opposite sign.
+    flipped: BTreeSet<ExprId>,
+    cache: HashMap<ExprId, bool>,
+    pub(super) inverse: BTreeMap<ExprId, Inverse>,
+    pub(super) converted: HashMap<ExprId, Signed>,
+    pub(super) formula: Formula,
+}
+
+/// A formula, and the coefficients that more results need negative than positive.
+pub fn build(
+    graph: &mut Graph,
+    symbols: &[Symbol],
+    roots: &[ExprId],
+    known: Known,
+    group: bool,
+    flipped: BTreeSet<ExprId>,
+) -> (Formula, BTreeSet<ExprId>) {
+    let formula = Formula {
+        atoms: Vec::new(),
+        index: HashMap::new(),
+        definitions: Vec::new(),
+        outputs: Vec::new(),
+    };
+    let mut builder = Builder {
+        graph,
+        known,
+        group,
+        flipped,
+        cache: HashMap::new(),
+        inverse: BTreeMap::new(),
+        converted: HashMap::new(),
+        formula,
+    };
+    let order = builder.graph.dependencies(roots);
+    builder.choose_inverses(&order);
+    for id in order {
+        let signed = builder.convert(id, false);
+        builder.converted.insert(id, signed);
+    }
+    let mut wanted: BTreeMap<ExprId, i64> = BTreeMap::new();
+    for (position, root) in roots.iter().enumerate() {
+        let mut signed = builder.converted[root];
+        if let Some(coefficient) = builder.coefficient_of(signed.1) {
+            *wanted.entry(coefficient).or_insert(0) += if signed.0 { -1 } else { 1 };
+        }
+        if signed.0 {
+            // A minus sign in front of a whole result goes into its coefficient.
+            signed = builder.convert(*root, true);
+        }
+        match symbols.get(position) {
+            Some(symbol) => builder.formula.definitions.push((*symbol, signed)),
+            None => builder.formula.outputs.push(signed),
+        }
+    }
+    let negative = wanted
+        .into_iter()
+        .filter(|(_, balance)| *balance < 0)
+        .map(|(id, _)| id)
+        .collect();
+    (builder.formula, negative)
+}
+
+impl Builder<'_> {
+    pub(super) fn is_known(&mut self, id: ExprId) -> bool {
+        is_known(self.graph, id, self.known, &mut self.cache)
+    }
+
+    /// The atom of an expression and its sign; `settle` asks for the sign inside the atom.
+    fn convert(&mut self, id: ExprId, settle: bool) -> Signed {
+        if self.is_known(id) {
+            return (false, self.leaf(id));
+        }
+        match self.graph.node(id).clone() {
+            Node::Number(_) | Node::Pi => (false, self.leaf(id)),
+            Node::Symbol(symbol) => (
+                false,
+                self.formula.intern(Atom::Leaf(Value::Symbol(symbol))),
+            ),
+            Node::Call(function, arguments) => {
+                let arguments = arguments.iter().map(|a| self.unsigned(*a)).collect();
+                (false, self.formula.intern(Atom::Call(function, arguments)))
+            }
+            Node::Product(factors) => {
+                let signed = self.term(&factors, &Rational::ONE);
+                self.settle(signed, settle)
+            }
+            Node::Sum { constant, terms } => self.convert_sum(&constant, &terms, settle),
+        }
+    }
+
+    fn convert_sum(
+        &mut self,
+        constant: &Rational,
+        terms: &[(ExprId, Rational)],
+        settle: bool,
+    ) -> Signed {
+        let (known, varying): (Vec<_>, Vec<_>) =
+            terms.iter().cloned().partition(|(t, _)| self.is_known(*t));
+        let mut known = known;
+        known.push((self.graph.number(constant.clone()), Rational::ONE));
+        let fixed = self.graph.linear(&known);
+        let mut signed = self.terms(&varying);
+        if !self.graph.is_zero(fixed) {
+            let negative = self
+                .graph
+                .as_number(fixed)
+                .is_some_and(Rational::is_negative);
+            let fixed = if negative {
+                self.graph.neg(fixed)
+            } else {
+                fixed
+            };
+            signed.push((negative, self.leaf(fixed)));
+        }
+        if let [only] = signed[..] {
+            return self.settle(only, settle);
+        }
+        signed.sort_by_key(|(negative, atom)| (*atom, *negative));
+        // `b - a` and `a - b` are one quantity.
+        let flip = signed[0].0 && !settle;
+        if flip {
+            for term in &mut signed {
+                term.0 = !term.0;
+            }
+        }
+        (flip, self.formula.intern(Atom::Sum(signed)))
+    }
+
+    /// The varying terms of a sum; those with one coefficient in common are grouped behind it.
+    fn terms(&mut self, varying: &[(ExprId, Rational)]) -> Vec<Signed> {
+        let mut groups: BTreeMap<ExprId, Vec<(Powers, bool)>> = BTreeMap::new();
+        let mut order: Vec<ExprId> = Vec::new();
+        for (term, coefficient) in varying {
+            let factors = match self.graph.node(*term) {
+                Node::Product(factors) => factors.to_vec(),
+                _ => vec![(*term, Rational::ONE)],
+            };
+            let (negative, coefficient, rest) = self.split(&factors, coefficient);
+            if !groups.contains_key(&coefficient) {
+                order.push(coefficient);
+            }
+            groups
+                .entry(coefficient)
+                .or_default()
+                .push((rest, negative));
+        }
+        let one = self.graph.integer(1);
+        let mut signed = Vec::new();
+        for coefficient in order {
+            let group = groups.remove(&coefficient).unwrap_or_default();
+            if self.group && coefficient != one && group.len() > 1 {
+                let mut inner: Vec<Signed> = group
+                    .iter()
+                    .map(|(rest, negative)| {
+                        let (sign, atom) = self.assemble(one, rest);
+                        (sign != *negative, atom)
+                    })
+                    .collect();
+                inner.sort_by_key(|(negative, atom)| (*atom, *negative));
+                let flip = inner[0].0;
+                for term in &mut inner {
+                    term.0 ^= flip;
+                }
+                let sum = self.formula.intern(Atom::Sum(inner));
+                let leaf = self.leaf(coefficient);
+                signed.push((flip, self.multiply(vec![leaf, sum])));
+            } else {
+                for (rest, negative) in group {
+                    let (sign, atom) = self.assemble(coefficient, &rest);
+                    signed.push((sign != negative, atom));
+                }
+            }
+        }
+        signed
+    }
+
+    /// A sign that must not stay outside is applied.
+    fn settle(&mut self, (negative, atom): Signed, settle: bool) -> Signed {
+        if negative && settle {
+            (false, self.negative(atom))
+        } else {
+            (negative, atom)
+        }
+    }
+
+    fn negative(&mut self, atom: AtomId) -> AtomId {
+        if let Atom::Leaf(Value::Number(value)) = &self.formula.atoms[atom] {
+            let value = -value;
+            return self.formula.intern(Atom::Leaf(Value::Number(value)));
+        }
+        if let Atom::Product(factors) = self.formula.atoms[atom].clone() {
+            for (position, &factor) in factors.iter().enumerate() {
+                let coefficient = match &self.formula.atoms[factor] {
+                    Atom::Leaf(Value::Prepared(id)) => *id,
+                    Atom::Leaf(Value::Number(value)) => {
+                        let value = value.clone();
+                        self.graph.number(value)
+                    }
+                    _ => continue,
+                };
+                let negated = self.graph.neg(coefficient);
+                let mut factors = factors;
+                factors[position] = self.leaf(negated);
+                factors.sort_unstable();
+                return self.formula.intern(Atom::Product(factors));
+            }
+        }
+        self.formula.intern(Atom::Sum(vec![(true, atom)]))
+    }
+
+    pub(super) fn unsigned(&mut self, id: ExprId) -> AtomId {
+        let (negative, atom) = self.converted[&id];
+        if negative { self.negative(atom) } else { atom }
+    }
+
+    fn leaf(&mut self, id: ExprId) -> AtomId {
+        let value = match self.graph.as_number(id) {
+            Some(value) => Value::Number(value.clone()),
+            None => Value::Prepared(id),
+        };
+        self.formula.intern(Atom::Leaf(value))
+    }
+
+    /// `coefficient * product of base^exponent`.
+    fn term(&mut self, factors: &[(ExprId, Rational)], coefficient: &Rational) -> Signed {
+        let (negative, coefficient, rest) = self.split(factors, coefficient);
+        let (sign, atom) = self.assemble(coefficient, &rest);
+        (sign != negative, atom)
+    }
+
+    /// Sign, known coefficient and varying factors of a term.
+    fn split(
+        &mut self,
+        factors: &[(ExprId, Rational)],
+        coefficient: &Rational,
+    ) -> (bool, ExprId, Vec<(ExprId, Rational)>) {
+        let (known, varying): (Vec<_>, Vec<_>) = factors
+            .iter()
+            .cloned()
+            .partition(|(b, _)| self.is_known(*b));
+        let known = self.graph.power_product(&known);
+        let coefficient = self.graph.scale(known, coefficient);
+        let negative = self.leads_negative(coefficient);
+        let canonical = if negative {
+            self.graph.neg(coefficient)
+        } else {
+            coefficient
+        };
+        if self.flipped.contains(&canonical) {
+            (!negative, self.graph.neg(canonical), varying)
+        } else {
+            (negative, canonical, varying)
+        }
+    }
+
+    /// The prepared coefficient of a product.
+    fn coefficient_of(&self, atom: AtomId) -> Option<ExprId> {
+        let Atom::Product(factors) = &self.formula.atoms[atom] else {
+            return None;
+        };
+        factors
+            .iter()
+            .find_map(|factor| match &self.formula.atoms[*factor] {
+                Atom::Leaf(Value::Prepared(id)) => Some(*id),
+                _ => None,
+            })
+    }
+
+    fn assemble(&mut self, coefficient: ExprId, varying: &[(ExprId, Rational)]) -> Signed {
+        let mut negative = false;
+        let mut above = Vec::new();
+        let mut below = Vec::new();
+        if !self
+            .graph
+            .as_number(coefficient)
+            .is_some_and(Rational::is_one)
+        {
+            above.push(self.leaf(coefficient));
+        }
+        for (base, exponent) in varying {
+            negative ^= self.power(*base, exponent, &mut above, &mut below);
+        }
+        let numerator = self.multiply(above);
+        if below.is_empty() {
+            return (negative, numerator);
+        }
+        let denominator = self.multiply(below);
+        (
+            negative,
+            self.formula.intern(Atom::Quotient(numerator, denominator)),
+        )
+    }
+
+    /// Whether the first rational coefficient is negative: of `c` and `-c` one is chosen.
+    fn leads_negative(&self, id: ExprId) -> bool {
+        match self.graph.node(id) {
+            Node::Number(value) => value.is_negative(),
+            Node::Sum { terms, .. } => terms[0].1.is_negative(),
+            _ => false,
+        }
+    }
+
+    fn multiply(&mut self, mut factors: Vec<AtomId>) -> AtomId {
+        let mut flat = Vec::with_capacity(factors.len());
+        for factor in factors.drain(..) {
+            match &self.formula.atoms[factor] {
+                Atom::Product(inner) => flat.extend(inner.iter().copied()),
+                _ => flat.push(factor),
+            }
+        }
+        flat.sort_unstable();
+        match flat[..] {
+            [] => self
+                .formula
+                .intern(Atom::Leaf(Value::Number(Rational::ONE))),
+            [only] => only,
+            _ => self.formula.intern(Atom::Product(flat)),
+        }
+    }
+}
