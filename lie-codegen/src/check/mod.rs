@@ -106,6 +106,13 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         declaration,
         &lowered.into_iter().collect::<Option<Vec<_>>>()?,
     );
+    let hamiltonian = hamiltonian?;
+    let functions: Vec<_> = candidates.iter().map(|c| (c.expr, c.origin)).collect();
+    let energy = (hamiltonian, declaration.hamiltonian.origin);
+    size::derived(&graph, &constants, energy, &functions, report);
+    if report.has_errors() {
+        return None;
+    }
     let mut scratch = graph.clone();
     let mut degrees = Vec::new();
     for candidate in &candidates {
@@ -134,7 +141,7 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         constants,
         exact_constants,
         invariance: declaration.invariance,
-        hamiltonian: hamiltonian?,
+        hamiltonian,
         casimirs,
         representation,
         methods: declaration.methods.clone(),

@@ -1,10 +1,16 @@
-//! Dimension, and one coordinate for every basis element.
+//! Dimension, one coordinate for every basis element, and the size of what is derived.
 
+use crate::algebra::StructureConstants;
 use crate::ast::Declaration;
-use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Kernels are straight-line code; above this dimension no compiler gets through them.
 pub const MAX_DIMENSION: usize = 256;
+
+/// The largest arena that the derivatives of a system may fill, nodes and operands together. A
+/// dense quadratic H on so(7) with a parameter for every coefficient takes a tenth of it.
+const MOST_DERIVED: usize = 300_000;
 
 /// Checks that the basis is neither empty nor beyond every size, and that the state fits it;
 /// whether the other checks of the stage make sense.
@@ -52,6 +58,72 @@ pub fn check(declaration: &Declaration, report: &mut Report) -> bool {
         );
     }
     true
+}
+
+/// Checks that the kernels of a system stay of reasonable size: products of many factors and deep
+/// compositions are short to write, but their derivatives swell.
+pub fn derived(
+    graph: &Graph,
+    constants: &StructureConstants<ExprId>,
+    hamiltonian: (ExprId, Origin),
+    casimirs: &[(ExprId, Origin)],
+    report: &mut Report,
+) {
+    let mut scratch = graph.clone();
+    let mut fails = |what: &str, origin: Origin| {
+        report.push(
+            Diagnostic::new(
+                Kind::Limit,
+                origin,
+                format!("the derivatives of {what} have more than {MOST_DERIVED} terms and factors"),
+            )
+            .help("shorten its products and compositions: each factor and each level multiplies the size"),
+        );
+    };
+    if field(&mut scratch, constants, hamiltonian.0).is_none() {
+        fails("the Hamiltonian", hamiltonian.1);
+        return;
+    }
+    for (casimir, origin) in casimirs {
+        if gradient(&mut scratch, *casimir, constants.dimension()).is_none() {
+            fails("this Casimir", *origin);
+            return;
+        }
+    }
+}
+
+fn gradient(graph: &mut Graph, function: ExprId, dimension: usize) -> Option<Vec<ExprId>> {
+    (0..dimension)
+        .map(|i| graph.derivative_within(function, Symbol::Coordinate(i), MOST_DERIVED))
+        .collect()
+}
+
+/// Gradient, Hessian, field and Jacobian of the field: what all other kernels are made of.
+fn field(
+    graph: &mut Graph,
+    constants: &StructureConstants<ExprId>,
+    hamiltonian: ExprId,
+) -> Option<()> {
+    let dimension = constants.dimension();
+    let slopes = gradient(graph, hamiltonian, dimension)?;
+    for slope in &slopes {
+        gradient(graph, *slope, dimension)?;
+    }
+    let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); dimension];
+    for (i, j, k, value) in constants.entries() {
+        for (i, j) in [(*i, *j), (*j, *i)] {
+            let coordinate = graph.symbol(Symbol::Coordinate(*k));
+            terms[j].push(graph.product(&[*value, slopes[i], coordinate]));
+            if graph.size() > MOST_DERIVED {
+                return None;
+            }
+        }
+    }
+    for terms in terms {
+        let component = graph.sum(&terms);
+        gradient(graph, component, dimension)?;
+    }
+    Some(())
 }
 
 /// The word for so many things.

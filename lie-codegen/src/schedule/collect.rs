@@ -9,6 +9,8 @@ use crate::symbolic::{ExprId, Graph, Node};
 
 /// A polynomial with more terms is not worth collecting.
 const MOST_TERMS: usize = 3000;
+/// Factors of monomials after which the expansion of a kernel has gone too far.
+const MOST_WORK: usize = 2_000_000;
 
 /// Bases with positive integer exponents, sorted.
 type Monomial = Vec<(ExprId, i64)>;
@@ -20,6 +22,7 @@ pub fn collect(graph: &mut Graph, roots: &[ExprId], known: Known) -> Option<Vec<
         known,
         prepared: HashMap::new(),
         rebuilt: HashMap::new(),
+        work: 0,
     };
     let mut polynomials: HashMap<ExprId, Polynomial> = HashMap::new();
     for id in graph.dependencies(roots) {
@@ -41,15 +44,28 @@ pub(super) fn is_known(
     known: Known,
     cache: &mut HashMap<ExprId, bool>,
 ) -> bool {
-    if let Some(&answer) = cache.get(&id) {
-        return answer;
-    }
-    for node in graph.dependencies(&[id]) {
+    // What was answered before is not walked through again.
+    let mut stack = vec![id];
+    while let Some(node) = stack.pop() {
+        if cache.contains_key(&node) {
+            continue;
+        }
+        let children = graph.children(node);
+        let open: Vec<ExprId> = children
+            .iter()
+            .copied()
+            .filter(|child| !cache.contains_key(child))
+            .collect();
+        if !open.is_empty() {
+            stack.push(node);
+            stack.extend(open);
+            continue;
+        }
         let answer = match graph.node(node) {
             Node::Number(_) | Node::Pi => true,
             Node::Symbol(symbol) => known.covers(*symbol),
             // What is prepared itself is computed from numbers.
-            _ => known != Known::Nothing && graph.children(node).iter().all(|child| cache[child]),
+            _ => known != Known::Nothing && children.iter().all(|child| cache[child]),
         };
         cache.insert(node, answer);
     }
@@ -60,6 +76,7 @@ struct Collector {
     known: Known,
     prepared: HashMap<ExprId, bool>,
     rebuilt: HashMap<ExprId, ExprId>,
+    work: usize,
 }
 
 impl Collector {
@@ -84,6 +101,7 @@ impl Collector {
                 let constant = graph.number(constant);
                 add_to(graph, &mut sum, Monomial::new(), constant);
                 for (term, coefficient) in &terms {
+                    self.spend(done[term].keys().map(Vec::len).sum())?;
                     for (monomial, inner) in &done[term] {
                         let scaled = graph.scale(*inner, coefficient);
                         add_to(graph, &mut sum, monomial.clone(), scaled);
@@ -96,7 +114,7 @@ impl Collector {
                 let mut product = Polynomial::from([(Monomial::new(), one)]);
                 for (base, exponent) in &factors {
                     let factor = self.power(graph, *base, exponent, done)?;
-                    product = multiply(graph, &product, &factor)?;
+                    product = self.multiply(graph, &product, &factor)?;
                 }
                 Some(product)
             }
@@ -133,7 +151,7 @@ impl Collector {
                     return Some(Polynomial::from([(monomial, coefficient)]));
                 }
                 for _ in 0..power {
-                    product = multiply(graph, &product, &done[&base])?;
+                    product = self.multiply(graph, &product, &done[&base])?;
                 }
                 Some(product)
             }
@@ -143,6 +161,37 @@ impl Collector {
                 Some(self.atom(graph, power, 1))
             }
         }
+    }
+
+    /// Counts work; `None` when it is too much.
+    fn spend(&mut self, work: usize) -> Option<()> {
+        self.work += work;
+        (self.work <= MOST_WORK).then_some(())
+    }
+
+    fn multiply(
+        &mut self,
+        graph: &mut Graph,
+        a: &Polynomial,
+        b: &Polynomial,
+    ) -> Option<Polynomial> {
+        if a.len().saturating_mul(b.len()) > 4 * MOST_TERMS {
+            return None;
+        }
+        let mut product = Polynomial::new();
+        for (left, c) in a {
+            for (right, d) in b {
+                self.spend(1 + left.len() + right.len())?;
+                let mut exponents: BTreeMap<ExprId, i64> = left.iter().copied().collect();
+                for (base, exponent) in right {
+                    *exponents.entry(*base).or_insert(0) += exponent;
+                }
+                let coefficient = graph.mul(*c, *d);
+                let monomial = exponents.into_iter().filter(|(_, e)| *e != 0).collect();
+                add_to(graph, &mut product, monomial, coefficient);
+            }
+        }
+        (product.len() <= MOST_TERMS).then_some(product)
     }
 
     fn atom(&self, graph: &mut Graph, id: ExprId, exponent: i64) -> Polynomial {
@@ -195,23 +244,4 @@ fn add_to(graph: &mut Graph, polynomial: &mut Polynomial, monomial: Monomial, co
     } else {
         polynomial.insert(monomial, sum);
     }
-}
-
-fn multiply(graph: &mut Graph, a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
-    if a.len().saturating_mul(b.len()) > 4 * MOST_TERMS {
-        return None;
-    }
-    let mut product = Polynomial::new();
-    for (left, c) in a {
-        for (right, d) in b {
-            let mut exponents: BTreeMap<ExprId, i64> = left.iter().copied().collect();
-            for (base, exponent) in right {
-                *exponents.entry(*base).or_insert(0) += exponent;
-            }
-            let coefficient = graph.mul(*c, *d);
-            let monomial = exponents.into_iter().filter(|(_, e)| *e != 0).collect();
-            add_to(graph, &mut product, monomial, coefficient);
-        }
-    }
-    (product.len() <= MOST_TERMS).then_some(product)
 }

@@ -5,14 +5,18 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::formula::{Atom, AtomId, Formula, Signed};
 
-/// Sums with more terms take no part in the search for pairs (it is quadratic in them).
-const LONGEST_SUM: usize = 48;
+/// Sums and products with more operands take no part in the search for pairs (it is quadratic in
+/// them).
+const LONGEST: usize = 48;
 
-/// Replaces repeated pairs, the most frequent first.
-pub fn share(formula: &mut Formula) {
+/// Pairs that all candidates of a kernel may look at together: seconds, not minutes.
+pub const BUDGET: usize = 4_000_000;
+
+/// Replaces repeated pairs, the most frequent first, until none is left or the budget is spent.
+pub fn share(formula: &mut Formula, budget: &mut usize) {
     formula.forget_unused();
-    share_pairs(formula, product_pairs, replace_product_pair);
-    share_pairs(formula, sum_pairs, replace_sum_pair);
+    share_pairs(formula, budget, product_pairs, replace_product_pair);
+    share_pairs(formula, budget, sum_pairs, replace_sum_pair);
 }
 
 /// Two factors, or two terms with their relative sign.
@@ -21,8 +25,16 @@ type Pair = (AtomId, AtomId, bool);
 /// Where each pair occurs, and the pairs by how often they do.
 #[derive(Default)]
 struct Index {
-    users: HashMap<Pair, BTreeMap<AtomId, usize>>,
+    users: HashMap<Pair, Users>,
     frequency: BTreeSet<(usize, Reverse<Pair>)>,
+    budget: usize,
+}
+
+/// How often a pair occurs, in all and in each atom.
+#[derive(Default)]
+struct Users {
+    total: usize,
+    atoms: BTreeMap<AtomId, usize>,
 }
 
 impl Index {
@@ -36,24 +48,29 @@ impl Index {
 
     /// Replaces what is known of the pairs of an atom.
     fn update(&mut self, atom: AtomId, old: &HashMap<Pair, usize>, new: &HashMap<Pair, usize>) {
-        for pair in old.keys() {
+        self.budget = self.budget.saturating_sub(old.len() + new.len());
+        for pair in old.keys().filter(|pair| !new.contains_key(pair)) {
             self.set(*pair, atom, 0);
         }
-        for (pair, count) in new {
+        for (pair, count) in new
+            .iter()
+            .filter(|(pair, count)| old.get(pair) != Some(count))
+        {
             self.set(*pair, atom, *count);
         }
     }
 
     fn set(&mut self, pair: Pair, atom: AtomId, count: usize) {
         let users = self.users.entry(pair).or_default();
-        let before: usize = users.values().sum();
+        let before = users.total;
         let was = if count == 0 {
-            users.remove(&atom)
+            users.atoms.remove(&atom)
         } else {
-            users.insert(atom, count)
+            users.atoms.insert(atom, count)
         };
-        let after = before + count - was.unwrap_or(0);
-        if users.is_empty() {
+        users.total = before + count - was.unwrap_or(0);
+        let after = users.total;
+        if after == 0 {
             self.users.remove(&pair);
         }
         self.frequency.remove(&(before, Reverse(pair)));
@@ -65,16 +82,20 @@ impl Index {
 
 fn share_pairs(
     formula: &mut Formula,
+    budget: &mut usize,
     pairs_of: fn(&Atom) -> HashMap<Pair, usize>,
     replace: fn(&mut Formula, AtomId, Pair, AtomId),
 ) {
     let mut pairs: Vec<HashMap<Pair, usize>> = formula.atoms.iter().map(pairs_of).collect();
-    let mut index = Index::default();
+    let mut index = Index {
+        budget: *budget,
+        ..Index::default()
+    };
     for (atom, new) in pairs.iter().enumerate() {
         index.update(atom, &HashMap::new(), new);
     }
-    while let Some(pair) = index.best() {
-        let users: Vec<AtomId> = index.users[&pair].keys().copied().collect();
+    while let Some(pair) = index.best().filter(|_| index.budget > 0) {
+        let users: Vec<AtomId> = index.users[&pair].atoms.keys().copied().collect();
         let (left, right, opposite) = pair;
         let shared = match &formula.atoms[users[0]] {
             Atom::Product(_) => formula.intern(Atom::Product(vec![left, right])),
@@ -95,6 +116,7 @@ fn share_pairs(
             pairs[user] = new;
         }
     }
+    *budget = index.budget;
 }
 
 fn product_pairs(atom: &Atom) -> HashMap<Pair, usize> {
@@ -109,6 +131,9 @@ fn product_pairs(atom: &Atom) -> HashMap<Pair, usize> {
         }
     }
     let mut pairs = HashMap::new();
+    if powers.len() > LONGEST {
+        return pairs;
+    }
     for (position, &(a, n)) in powers.iter().enumerate() {
         if n >= 2 {
             pairs.insert((a, a, false), n / 2);
@@ -140,7 +165,7 @@ fn sum_pairs(atom: &Atom) -> HashMap<Pair, usize> {
         return HashMap::new();
     };
     let mut pairs = HashMap::new();
-    if terms.len() > LONGEST_SUM {
+    if terms.len() > LONGEST {
         return pairs;
     }
     for (position, (sign, a)) in terms.iter().enumerate() {

@@ -9,13 +9,41 @@ use crate::exact::Rational;
 impl Graph {
     /// The partial derivative of an expression with respect to a symbol.
     pub fn derivative(&mut self, id: ExprId, symbol: Symbol) -> ExprId {
+        self.derivative_within(id, symbol, usize::MAX).unwrap_or(id)
+    }
+
+    /// The partial derivative, or `None` if the arena would outgrow `most` (see [`Graph::size`]):
+    /// products of many factors and deep compositions swell.
+    pub fn derivative_within(&mut self, id: ExprId, symbol: Symbol, most: usize) -> Option<ExprId> {
         for node in self.dependencies(&[id]) {
             if !self.derivatives.contains_key(&(node, symbol)) {
+                if self.size().saturating_add(self.swell(node, symbol)) > most {
+                    return None;
+                }
                 let derivative = self.differentiate_node(node, symbol);
                 self.derivatives.insert((node, symbol), derivative);
             }
         }
-        self.derivatives[&(id, symbol)]
+        Some(self.derivatives[&(id, symbol)])
+    }
+
+    /// An upper bound of what the derivative of one node adds to the size.
+    fn swell(&self, id: ExprId, symbol: Symbol) -> usize {
+        let inner = |child: &ExprId| match self.node(self.derivatives[&(*child, symbol)]) {
+            Node::Sum { terms, .. } => terms.len(),
+            Node::Product(factors) => factors.len(),
+            Node::Number(zero) if zero.is_zero() => 0,
+            _ => 1,
+        };
+        match self.node(id) {
+            Node::Sum { terms, .. } => terms.iter().map(|(term, _)| inner(term)).sum(),
+            Node::Product(factors) => {
+                let all = factors.len();
+                let varying = factors.iter().map(|(base, _)| inner(base));
+                varying.filter(|n| *n > 0).map(|n| all + n).sum()
+            }
+            _ => 0,
+        }
     }
 
     /// One node, the derivatives of whose children are known.
