@@ -10,7 +10,7 @@ use super::formula::{Atom, AtomId, Formula, Signed};
 const LONGEST: usize = 48;
 
 /// Pairs that all candidates of a kernel may look at together: seconds, not minutes.
-pub const BUDGET: usize = 4_000_000;
+pub const BUDGET: usize = 20_000_000;
 
 /// Replaces repeated pairs, the most frequent first, until none is left or the budget is spent.
 pub fn share(formula: &mut Formula, budget: &mut usize) {
