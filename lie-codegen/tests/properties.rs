@@ -119,11 +119,14 @@ fn check(system: &random::System, offset: f64) -> Result<(), TestCaseError> {
     let lie_codegen::derive::Shape::Vector(places) = &field.shape else {
         panic!("a vector")
     };
-    for j in 0..n {
+    let component = |j: usize| -> f64 {
         let terms = (0..n).flat_map(|i| (0..n).map(move |k| (i, k)));
-        let exact: f64 = terms
+        terms
             .map(|(i, k)| constants[i][j][k] * slopes[i] * point(Symbol::Coordinate(k)))
-            .sum();
+            .sum()
+    };
+    for j in 0..n {
+        let exact = component(j);
         let entry = places
             .iter()
             .position(|p| *p == j)
