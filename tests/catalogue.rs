@@ -24,10 +24,26 @@ fn agrees<F: Facts>(_: &F) -> &'static str {
     let facts = F::PRESERVES;
     assert_eq!(preserves.energy, facts.energy, "{}", F::ID);
     assert_eq!(preserves.casimirs, facts.casimirs, "{}", F::ID);
+    assert_eq!(
+        preserves.quadratic_casimirs,
+        facts.quadratic_casimirs,
+        "{}",
+        F::ID
+    );
     assert_eq!(preserves.orbit, facts.orbit, "{}", F::ID);
     assert_eq!(preserves.poisson, facts.poisson, "{}", F::ID);
-    let quadratic = facts.quadratic_invariants || facts.casimirs;
-    assert_eq!(preserves.quadratic_casimirs, quadratic, "{}", F::ID);
+    assert_eq!(
+        preserves.quadratic_invariants,
+        facts.quadratic_invariants,
+        "{}",
+        F::ID
+    );
+    assert_eq!(
+        preserves.linear_invariants,
+        facts.linear_invariants,
+        "{}",
+        F::ID
+    );
     F::ID
 }
 

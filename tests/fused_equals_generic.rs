@@ -21,7 +21,8 @@ mod vectors;
 use equations::{cayley_equation, equations};
 use errors::{Errors, nudged};
 use kernels::kernels;
-use lie_runtime::{CayleyEquations, CayleyPoisson, Dual, Poisson, State};
+use lie_runtime::methods::{Cayley, LieMidpoint};
+use lie_runtime::{CayleyPoisson, Dual, Implicit, Poisson, State};
 use representation::Representation;
 use systems::{
     CotangentEulerArnold, Declared, FreeRigidBody, HeavyTop, Heisenberg, KirchhoffBody, ManakovTop,
@@ -59,7 +60,7 @@ fn all<D: Declared>(fused: &D::System<f64>, nudge: f64) -> Errors {
 /// The Cayley equation on random states.
 fn cayley<D: Declared>(fused: &D::System<f64>, nudge: f64) -> Errors
 where
-    D::System<f64>: CayleyEquations<f64>,
+    D::System<f64>: CayleyPoisson<f64> + Implicit<f64, LieMidpoint<Cayley>>,
 {
     let mut random = Random(2018);
     let mut errors = Errors::new(nudge);

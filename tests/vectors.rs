@@ -10,10 +10,10 @@ mod vectors;
 
 use lie_runtime::generic;
 use lie_runtime::methods::{
-    CoadjointStepper, ImplicitMidpoint, ImplicitStepper, LieMidpoint, Method, Retraction, Stepper,
+    Cayley, ImplicitMidpoint, ImplicitStepper, LieMidpoint, Method, Stepper,
 };
 use lie_runtime::newton::NewtonOptions;
-use lie_runtime::{CayleyEquations, Poisson, SquareMatrix, State};
+use lie_runtime::{CayleyPoisson, Implicit, Poisson, SquareMatrix, State};
 use systems::{
     CotangentEulerArnold, Declared, FreeRigidBody, HeavyTop, Heisenberg, KirchhoffBody, ManakovTop,
     NonpolynomialSpin, Pendulum, Sl2Quadratic, TodaLattice, distance, relative_distance, state,
@@ -162,13 +162,13 @@ fn exponential<D: Declared>() {
     });
     check_steps::<D, _>("retraction_exp", "generic", |h| {
         let equation = generic::ExpMidpoint::new(system, h);
-        CoadjointStepper::new(system, equation, h, Retraction::Exp, &newton)
+        ImplicitStepper::new(equation, system.zero_state(), &newton)
     });
 }
 
 fn cayley<D: Declared>()
 where
-    D::System<f64>: CayleyEquations<f64>,
+    D::System<f64>: CayleyPoisson<f64> + Implicit<f64, LieMidpoint<Cayley>>,
 {
     let (system, newton) = (&D::declared::<f64>(), NewtonOptions::default());
     check_steps::<D, _>("retraction_cayley", "fused", |h| {
@@ -176,7 +176,7 @@ where
     });
     check_steps::<D, _>("retraction_cayley", "generic", |h| {
         let equation = generic::CayleyMidpoint::new(system, h);
-        CoadjointStepper::new(system, equation, h, Retraction::Cayley, &newton)
+        ImplicitStepper::new(equation, system.zero_state(), &newton)
     });
 }
 

@@ -7,9 +7,9 @@ use crate::ast::Declaration;
 use crate::check::check;
 use crate::derive::Source;
 use crate::diagnostic::{Diagnostic, Origin, Report};
-use crate::emit::{Blueprint, Emitted, Fused, Parameter, emit};
+use crate::emit::{Blueprint, Emitted, Parameter, emit};
 use crate::front::{Body, spec};
-use crate::methods::{Choice, Retraction, refusal};
+use crate::methods::{Choice, refusal};
 use crate::model::Model;
 
 /// Reads and checks a spec file.
@@ -49,12 +49,10 @@ pub fn declared_choices(model: &Model) -> Vec<Choice> {
 
 /// Methods with every option that applies to the system.
 pub fn with_options(model: &Model, choices: &[Choice]) -> Vec<Choice> {
-    let mut all = Vec::new();
-    for choice in choices {
-        all.push(*choice);
-        let cayley = Choice::LieMidpoint(Retraction::Cayley);
-        if matches!(choice, Choice::LieMidpoint(_)) && refusal(model, cayley).is_none() {
-            all.push(cayley);
+    let mut all: Vec<Choice> = Vec::new();
+    for choice in choices.iter().flat_map(Choice::variants) {
+        if !all.contains(&choice) && refusal(model, &choice).is_none() {
+            all.push(choice);
         }
     }
     all
@@ -62,7 +60,7 @@ pub fn with_options(model: &Model, choices: &[Choice]) -> Vec<Choice> {
 
 /// The generated items of a system with fused code for these methods.
 pub fn generate(model: &Model, choices: &[Choice]) -> Emitted {
-    emit(&blueprint(model, Fused::of(choices)))
+    emit(&blueprint(model, choices))
 }
 
 /// The generated code as a formatted file.
@@ -82,7 +80,7 @@ pub fn program(model: &Model, choices: &[Choice]) -> String {
     let entries = choices.iter().map(|choice| {
         let label = choice.label();
         let constructor = choice.constructor();
-        let argument = if *choice == Choice::Dopri5 {
+        let argument = if choice.solved() == &Choice::Dopri5 {
             quote! { tolerances }
         } else {
             quote! { _ }
@@ -139,7 +137,7 @@ fn identifier(text: &str, origin: Option<Origin>) -> Ident {
     }
 }
 
-fn blueprint(model: &Model, fused: Fused) -> Blueprint {
+fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
     let parameters = model
         .parameters
         .iter()
@@ -173,7 +171,9 @@ fn blueprint(model: &Model, fused: Fused) -> Blueprint {
         casimir_names: model.casimirs.iter().map(|c| c.name.clone()).collect(),
         initial: model.initial.clone(),
         source: source(model),
-        fused,
+        methods: choices.iter().map(|c| c.solved().clone()).collect(),
+        hamiltonian_degree: model.hamiltonian_degree,
+        casimir_degrees: model.casimirs.iter().map(|c| c.degree).collect(),
     }
 }
 

@@ -72,6 +72,8 @@ pub struct Model {
     pub invariance: Invariance,
     /// The Hamiltonian.
     pub hamiltonian: ExprId,
+    /// Its total degree in the coordinates, where it is a polynomial in them.
+    pub hamiltonian_degree: Option<u32>,
     /// The independent declared Casimirs.
     pub casimirs: Vec<Casimir>,
     /// The matrix representation.

@@ -1,9 +1,10 @@
-//! Implicit steps as nonlinear equations, and the hooks by which a system supplies fused ones.
+//! Implicit steps as nonlinear equations, and the hook by which a system supplies fused ones.
 
 use crate::matrix::SquareMatrix;
-use crate::poisson::{CayleyPoisson, LiePoisson, Poisson};
+use crate::methods::Retraction;
+use crate::poisson::Poisson;
 use crate::scalar::Scalar;
-use crate::state::{Stages, State, Unknown};
+use crate::state::{State, Unknown};
 
 /// One implicit step of fixed size as an equation `r(u) = 0`.
 ///
@@ -45,103 +46,86 @@ pub trait Equation<S: Scalar> {
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown);
     /// The state at the end of the step for a solution u.
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State);
+    /// For a solution u of a method of coadjoint form, `mu1 = Ad*_(tau(xi)) mu`: writes xi and
+    /// returns the retraction tau. None of other methods.
+    fn group_factor(
+        &mut self,
+        _unknown: &Self::Unknown,
+        _xi: &mut Self::State,
+    ) -> Option<Retraction> {
+        None
+    }
 }
 
-/// The equation of the implicit (Poisson) midpoint rule for a system.
+/// The equation of one step of the implicit method M for a system.
 ///
-/// The generated implementation returns a fused equation; by hand, return
-/// [`crate::generic::Midpoint`].
-pub trait MidpointEquations<S: Scalar>: Poisson<S> {
+/// The generated code returns a fused equation for the methods that the declaration asks for, and
+/// the generic one of [`crate::generic`] for all others; by hand, [`crate::generic_equations!`]
+/// implements it with the generic ones.
+#[diagnostic::on_unimplemented(
+    message = "the system `{Self}` has no equation for a step of `{M}` over the scalar `{S}`",
+    note = "either it lacks what the method needs (`lie check` says which methods apply, and why others do not), or it is written by hand: then see `lie_runtime::generic_equations!`"
+)]
+pub trait Implicit<S: Scalar, M>: Poisson<S> {
     /// The equation; it may borrow the system.
-    type Equation<'a>: Equation<S, State = Self::State, Unknown = Self::State>
+    type Equation<'a>: Equation<S, State = Self::State>
     where
         Self: 'a;
     /// The equation of a step of size h.
-    fn midpoint_equation(&self, h: S) -> Self::Equation<'_>;
+    fn equation<'a>(&'a self, method: &M, h: S) -> Self::Equation<'a>;
 }
 
-/// The equation of Gauss collocation with a number of stages for a system.
-///
-/// The generated implementation returns a fused equation; by hand, return
-/// [`crate::generic::Gauss`].
-pub trait GaussEquations<S: Scalar, const STAGES: usize>: Poisson<S> {
-    /// The equation; it may borrow the system.
-    type Equation<'a>: Equation<S, State = Self::State, Unknown = Stages<Self::State, STAGES>>
-    where
-        Self: 'a;
-    /// The equation of a step of size h.
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_>;
-}
-
-/// The equation of the Lie–Poisson midpoint method with the exponential map for a system.
-///
-/// The generated implementation returns a fused equation; by hand, return
-/// [`crate::generic::ExpMidpoint`].
-pub trait LieMidpointEquations<S: Scalar>: LiePoisson<S> {
-    /// The equation; it may borrow the system. Its unknown is the momentum m at the midpoint.
-    type Exp<'a>: Equation<S, State = Self::State, Unknown = Self::State>
-    where
-        Self: 'a;
-    /// The equation of a step of size h.
-    fn exp_equation(&self, h: S) -> Self::Exp<'_>;
-}
-
-/// The equation of the Lie–Poisson midpoint method with the Cayley map for a system.
-///
-/// The generated implementation returns a fused equation; by hand, return
-/// [`crate::generic::CayleyMidpoint`].
-pub trait CayleyEquations<S: Scalar>: CayleyPoisson<S> {
-    /// The equation; it may borrow the system. Its unknown is the momentum m at the midpoint.
-    type Cayley<'a>: Equation<S, State = Self::State, Unknown = Self::State>
-    where
-        Self: 'a;
-    /// The equation of a step of size h.
-    fn cayley_equation(&self, h: S) -> Self::Cayley<'_>;
-}
-
-/// Implements hook traits of a system written by hand with the generic equations.
+/// Implements [`Implicit`] with the generic equations, for a system written by hand.
 ///
 /// ```text
-/// lie_runtime::generic_equations!([S: Scalar] Body<S>, S: midpoint, gauss, exp);
+/// lie_runtime::generic_equations!([S: Scalar] Body<S>, S: midpoint, gauss4, exp);
 /// ```
 ///
-/// After the colon stand the families: `midpoint`, `gauss`, `exp`, `cayley`.
+/// After the colon stand the equations: `midpoint`, `gauss4`, `gauss6`, `exp`, `cayley`.
 #[macro_export]
 macro_rules! generic_equations {
-    ($generics:tt $system:ty, $scalar:ty: $($family:ident),+ $(,)?) => {
-        $($crate::generic_equations!(@$family $generics $system, $scalar);)+
+    ($generics:tt $system:ty, $scalar:ty: $($equation:ident),* $(,)?) => {
+        $($crate::generic_equations!(@$equation $generics $system, $scalar);)*
     };
-    (@midpoint [$($generics:tt)*] $system:ty, $scalar:ty) => {
-        impl<$($generics)*> $crate::MidpointEquations<$scalar> for $system {
-            type Equation<'a> = $crate::generic::Midpoint<'a, $scalar, Self> where Self: 'a;
-            fn midpoint_equation(&self, h: $scalar) -> Self::Equation<'_> {
-                $crate::generic::Midpoint::new(self, h)
-            }
-        }
+    (@midpoint $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [ImplicitMidpoint],
+            $crate::generic::Midpoint<'a, $scalar, Self>
+        );
     };
-    (@gauss [$($generics:tt)*] $system:ty, $scalar:ty) => {
-        impl<const STAGES: usize, $($generics)*> $crate::GaussEquations<$scalar, STAGES>
-            for $system
-        {
-            type Equation<'a> = $crate::generic::Gauss<'a, $scalar, Self, STAGES> where Self: 'a;
-            fn gauss_equation(&self, h: $scalar) -> Self::Equation<'_> {
-                $crate::generic::Gauss::new(self, h)
-            }
-        }
+    (@gauss4 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [Gauss4],
+            $crate::generic::Gauss<'a, $scalar, Self, 2>
+        );
     };
-    (@exp [$($generics:tt)*] $system:ty, $scalar:ty) => {
-        impl<$($generics)*> $crate::LieMidpointEquations<$scalar> for $system {
-            type Exp<'a> = $crate::generic::ExpMidpoint<'a, $scalar, Self> where Self: 'a;
-            fn exp_equation(&self, h: $scalar) -> Self::Exp<'_> {
-                $crate::generic::ExpMidpoint::new(self, h)
-            }
-        }
+    (@gauss6 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [Gauss6],
+            $crate::generic::Gauss<'a, $scalar, Self, 3>
+        );
     };
-    (@cayley [$($generics:tt)*] $system:ty, $scalar:ty) => {
-        impl<$($generics)*> $crate::CayleyEquations<$scalar> for $system {
-            type Cayley<'a> = $crate::generic::CayleyMidpoint<'a, $scalar, Self> where Self: 'a;
-            fn cayley_equation(&self, h: $scalar) -> Self::Cayley<'_> {
-                $crate::generic::CayleyMidpoint::new(self, h)
+    (@exp $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [LieMidpoint<$crate::methods::Exp>],
+            $crate::generic::ExpMidpoint<'a, $scalar, Self>
+        );
+    };
+    (@cayley $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [LieMidpoint<$crate::methods::Cayley>],
+            $crate::generic::CayleyMidpoint<'a, $scalar, Self>
+        );
+    };
+    (@impl [$($generics:tt)*] $system:ty, $scalar:ty, [$($method:tt)*], $equation:ty) => {
+        impl<$($generics)*> $crate::Implicit<$scalar, $crate::methods::$($method)*> for $system {
+            type Equation<'a> = $equation where Self: 'a;
+            fn equation<'a>(
+                &'a self,
+                _method: &$crate::methods::$($method)*,
+                h: $scalar,
+            ) -> Self::Equation<'a> {
+                Self::Equation::<'a>::new(self, h)
             }
         }
     };

@@ -76,14 +76,12 @@ pub mod state;
 #[cfg(test)]
 mod test_systems;
 
-pub use equation::{
-    CayleyEquations, Equation, GaussEquations, LieMidpointEquations, MidpointEquations,
-};
+pub use equation::{Equation, Implicit};
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
 pub use matrix::{SquareMatrix, StageMatrix};
 pub use parameter::ParameterError;
-pub use poisson::{CayleyPoisson, LiePoisson, Poisson};
+pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 
@@ -103,7 +101,8 @@ pub mod prelude {
     #[cfg(feature = "lanes")]
     pub use crate::scalar::{F32x8, F64x4, F64x8};
     pub use crate::{
-        CayleyPoisson, Dual, LiePoisson, Mask, ParameterError, Poisson, Scalar, SquareMatrix, State,
+        CayleyPoisson, Dual, LiePoisson, Lift, Mask, ParameterError, Poisson, Scalar, SquareMatrix,
+        State,
     };
     #[cfg(feature = "macros")]
     pub use lie_macros::lie_poisson;
@@ -114,14 +113,12 @@ pub mod prelude {
 #[doc(hidden)]
 pub mod __private {
     pub use crate::elimination::StaticElimination;
-    pub use crate::equation::{
-        CayleyEquations, Equation, GaussEquations, LieMidpointEquations, MidpointEquations,
-    };
+    pub use crate::equation::{Equation, Implicit};
     pub use crate::generic;
     pub use crate::matrix::{SquareMatrix, StageMatrix};
     pub use crate::newton::{dense, inverse_pivots_are_safe};
     pub use crate::parameter::{ParameterError, all_finite};
-    pub use crate::poisson::{CayleyPoisson, LiePoisson, Poisson};
+    pub use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};
     pub use core::marker::PhantomData;

@@ -13,7 +13,7 @@
 
 use crate::generic;
 use crate::matrix::SquareMatrix;
-use crate::scalar::Scalar;
+use crate::scalar::{Dual, Scalar};
 use crate::state::State;
 
 /// A Hamiltonian system `mu' = f(mu) = Pi(mu) grad H(mu)` on a Poisson manifold with n coordinates.
@@ -39,6 +39,12 @@ pub trait Poisson<S: Scalar>: Sized {
     const COORDINATES: &'static [&'static str];
     /// The names of the Casimirs.
     const CASIMIR_NAMES: &'static [&'static str];
+    /// The total degree of H in the coordinates where H is a polynomial in them. Quadrature along
+    /// segments then has the nodes that make it exact.
+    const HAMILTONIAN_DEGREE: Option<u32> = None;
+    /// The total degrees of the Casimirs in the coordinates where they are polynomials; Casimirs beyond
+    /// the end of the list are of unknown degree.
+    const CASIMIR_DEGREES: &'static [Option<u32>] = &[];
 
     /// A state of the right size, all coordinates 0.
     fn zero_state(&self) -> Self::State;
@@ -86,6 +92,16 @@ pub trait LiePoisson<S: Scalar>: Poisson<S> {
     fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State);
     /// The matrix of `mu -> ad*_xi mu`: `out_jk = C_ij^k xi^i`.
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian);
+}
+
+/// A system that can be had over dual numbers too, and so be differentiated by running it.
+///
+/// Generated for every system; by hand, convert the constants with [`Dual::constant_of`].
+pub trait Lift<S: Scalar>: LiePoisson<S> {
+    /// The same system over dual numbers.
+    type Lifted: Lift<Dual<S>>;
+    /// The system with all its constants as dual numbers without derivative.
+    fn lift(&self) -> Self::Lifted;
 }
 
 /// A Lie–Poisson system whose algebra has a representation closed under the Jordan triple product

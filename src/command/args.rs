@@ -143,9 +143,8 @@ pub struct Run {
     /// Initial state, separated by commas
     #[arg(long, value_name = "V1,V2,…", allow_hyphen_values = true)]
     pub initial: Option<String>,
-    /// Retraction of lie-midpoint: exp or cayley
-    #[arg(long, value_name = "NAME")]
-    pub retraction: Option<String>,
+    #[command(flatten)]
+    pub method_options: MethodOptions,
     /// Relative tolerance of dopri5 (default 1e-6)
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     pub rtol: Option<String>,
@@ -167,6 +166,41 @@ pub struct Run {
     /// Compiles for this machine's processor (same results, bit for bit)
     #[arg(long, value_enum)]
     pub cpu: Option<Cpu>,
+}
+
+/// The options by which a method is chosen, see `lie methods`.
+#[derive(Args, Clone, Debug, Default)]
+pub struct MethodOptions {
+    /// Retraction of lie-midpoint and of generating methods: exp or cayley
+    #[arg(long, value_name = "NAME")]
+    pub retraction: Option<String>,
+    /// Coefficients of a composition or a splitting: suzuki, triple-jump, kahan-li, …
+    #[arg(long, value_name = "NAME")]
+    pub composition: Option<String>,
+    /// Pieces of a splitting: coordinate
+    #[arg(long, value_name = "NAME")]
+    pub pieces: Option<String>,
+    /// Space over g* of a collective method: representation or hopf
+    #[arg(long, value_name = "NAME")]
+    pub lift: Option<String>,
+    /// Discrete gradient of orbit-energy: gonzalez, mean-value or itoh-abe
+    #[arg(long, value_name = "NAME")]
+    pub gradient: Option<String>,
+}
+
+impl MethodOptions {
+    /// An option by its name, with its flag.
+    pub fn get(&self, name: &str) -> Option<(&'static str, &String)> {
+        let (flag, value) = match name {
+            "retraction" => ("--retraction", &self.retraction),
+            "composition" => ("--composition", &self.composition),
+            "pieces" => ("--pieces", &self.pieces),
+            "lift" => ("--lift", &self.lift),
+            "gradient" => ("--gradient", &self.gradient),
+            _ => return None,
+        };
+        value.as_ref().map(|value| (flag, value))
+    }
 }
 
 /// `--format`.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use lie_codegen::compile;
-use lie_codegen::methods::{Choice, Retraction, applicability, refusal};
+use lie_codegen::methods::{Choice, applicability, refusal};
 use lie_codegen::model::Model;
 use serde_json::{Value, json};
 
@@ -199,10 +199,15 @@ impl Report {
                 writeln!(text, "    not {id}: {reason}")?;
             }
         }
-        let cayley = Choice::LieMidpoint(Retraction::Cayley);
-        match refusal(model, cayley) {
-            None => writeln!(text, "    also {}", cayley.label())?,
-            Some((reason, _)) => writeln!(text, "    not {}: {reason}", cayley.label())?,
+        let built = self.methods.iter().filter(|(_, reason)| reason.is_none());
+        let variants = built
+            .filter_map(|(id, _)| Choice::from_id(id).ok())
+            .flat_map(|choice| choice.variants().into_iter().skip(1));
+        for choice in variants {
+            match refusal(model, &choice) {
+                None => writeln!(text, "    also {}", choice.label())?,
+                Some((reason, _)) => writeln!(text, "    not {}: {reason}", choice.label())?,
+            }
         }
         let planned = self
             .methods

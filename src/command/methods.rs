@@ -28,12 +28,15 @@ fn preserved(preserves: Preserves) -> Vec<&'static str> {
         quadratic_casimirs,
         orbit,
         poisson,
+        quadratic_invariants,
+        linear_invariants: _,
     } = preserves;
-    let quadratic = quadratic_casimirs && !casimirs;
+    let quadratic = quadratic_casimirs && !casimirs && !quadratic_invariants;
     let all = [
         (poisson, "Poisson structure"),
         (orbit, "coadjoint orbit"),
         (casimirs, "Casimirs"),
+        (quadratic_invariants, "quadratic invariants"),
         (quadratic, "quadratic Casimirs"),
         (energy, "energy"),
     ];
@@ -49,11 +52,13 @@ fn as_json(method: &Method) -> Value {
         quadratic_casimirs,
         orbit,
         poisson,
+        quadratic_invariants,
+        linear_invariants,
     } = method.preserves;
     let options: serde_json::Map<String, Value> = method
-        .options
-        .iter()
-        .map(|(name, default)| ((*name).to_owned(), (*default).into()))
+        .options()
+        .into_iter()
+        .map(|(name, default)| (name.to_owned(), default.into()))
         .collect();
     json!({
         "id": method.id,
@@ -67,6 +72,8 @@ fn as_json(method: &Method) -> Value {
             "quadratic_casimirs": quadratic_casimirs,
             "orbit": orbit,
             "poisson": poisson,
+            "quadratic_invariants": quadratic_invariants,
+            "linear_invariants": linear_invariants,
         },
         "needs": method.needs,
         "options": options,
@@ -101,7 +108,7 @@ fn table() -> String {
             "    preserves: {kept}\n    needs:     {}\n",
             method.needs
         ));
-        for (name, default) in method.options {
+        for (name, default) in method.options() {
             text.push_str(&format!("    option:    --{name} (default {default})\n"));
         }
         text.push_str(&format!("    reference: {}\n\n", method.reference));

@@ -1,10 +1,7 @@
 //! Equations of implicit methods, generated against generic ones.
 
-use lie_runtime::generic;
-use lie_runtime::{
-    CayleyEquations, Equation, GaussEquations, LieMidpointEquations, MidpointEquations, State,
-    Unknown,
-};
+use lie_runtime::methods::{Cayley, Exp, Gauss4, Gauss6, ImplicitMidpoint, LieMidpoint};
+use lie_runtime::{CayleyPoisson, Equation, Implicit, LiePoisson, Scalar, State, Unknown, generic};
 
 use crate::errors::{Errors, entries, unknown_entries};
 use crate::systems::Random;
@@ -19,7 +16,7 @@ pub fn equation<F, G>(
     errors: &mut Errors,
 ) where
     F: Equation<f64>,
-    G: Equation<f64, State = F::State, Unknown = F::Unknown>,
+    G: Equation<f64, State = F::State>,
 {
     fused.set_base(mu);
     let mut base = mu.clone();
@@ -27,35 +24,36 @@ pub fn equation<F, G>(
         .iter_mut()
         .for_each(|x| *x *= 1.0 + errors.nudge);
     reference.set_base(&base);
-    let (mut unknown, mut start) = (fused.zero_unknown(), fused.zero_unknown());
-    fused.initial_guess(&mut start);
-    reference.initial_guess(&mut unknown);
+    let (mut unknown, mut other) = (fused.zero_unknown(), reference.zero_unknown());
+    fused.initial_guess(&mut unknown);
+    reference.initial_guess(&mut other);
     errors.compare(
         &format!("{name}, initial_guess"),
-        &unknown_entries(&start),
         &unknown_entries(&unknown),
+        &unknown_entries(&other),
     );
     // off the solution, as in the first iterations
     for index in 0..unknown.len() {
-        unknown.set_entry(index, unknown.entry(index) + 0.05 * random.number());
+        let entry = other.entry(index) + 0.05 * random.number();
+        unknown.set_entry(index, entry);
+        other.set_entry(index, entry * (1.0 + errors.nudge));
     }
-    let mut other = unknown.clone();
-    for index in 0..unknown.len() {
-        other.set_entry(index, unknown.entry(index) * (1.0 + errors.nudge));
-    }
-    let mut residuals = [fused.zero_unknown(), fused.zero_unknown()];
-    fused.residual(&unknown, &mut residuals[0]);
-    reference.residual(&other, &mut residuals[1]);
-    let [left, right] = residuals.each_ref().map(unknown_entries);
-    errors.compare(&format!("{name}, residual"), &left, &right);
+    let (mut residual, mut expected) = (fused.zero_unknown(), reference.zero_unknown());
+    fused.residual(&unknown, &mut residual);
+    reference.residual(&other, &mut expected);
+    errors.compare(
+        &format!("{name}, residual"),
+        &unknown_entries(&residual),
+        &unknown_entries(&expected),
+    );
     let (mut left, mut right) = (fused.zero_matrix(), reference.zero_matrix());
-    fused.linearize(&unknown, &mut residuals[0], &mut left);
+    fused.linearize(&unknown, &mut residual, &mut left);
     errors.compare(
         &format!("{name}, residual of linearize"),
-        &unknown_entries(&residuals[0]),
-        &unknown_entries(&residuals[1]),
+        &unknown_entries(&residual),
+        &unknown_entries(&expected),
     );
-    reference.linearize(&other, &mut residuals[1], &mut right);
+    reference.linearize(&other, &mut expected, &mut right);
     errors.compare(
         &format!("{name}, Jacobian"),
         &entries(&left),
@@ -65,10 +63,13 @@ pub fn equation<F, G>(
         fused.factor(&mut left) && reference.factor(&mut right),
         "{name}: the pivots are near 1"
     );
-    fused.solve(&left, &mut residuals[0]);
-    reference.solve(&right, &mut residuals[1]);
-    let [left, right] = residuals.each_ref().map(unknown_entries);
-    errors.compare(&format!("{name}, correction"), &left, &right);
+    fused.solve(&left, &mut residual);
+    reference.solve(&right, &mut expected);
+    errors.compare(
+        &format!("{name}, correction"),
+        &unknown_entries(&residual),
+        &unknown_entries(&expected),
+    );
     let (mut end, mut expected) = (mu.clone(), mu.clone());
     fused.result(&unknown, &mut end);
     reference.result(&other, &mut expected);
@@ -77,52 +78,72 @@ pub fn equation<F, G>(
         end.as_slice(),
         expected.as_slice(),
     );
+    let factors = (
+        fused.group_factor(&unknown, &mut end),
+        reference.group_factor(&other, &mut expected),
+    );
+    assert_eq!(factors.0, factors.1, "{name}");
+    if factors.0.is_some() {
+        errors.compare(
+            &format!("{name}, group factor"),
+            end.as_slice(),
+            expected.as_slice(),
+        );
+    }
+}
+
+/// What every system has.
+pub trait Implicits<S: Scalar>:
+    Implicit<S, ImplicitMidpoint>
+    + Implicit<S, Gauss4>
+    + Implicit<S, Gauss6>
+    + Implicit<S, LieMidpoint<Exp>>
+    + LiePoisson<S>
+{
+}
+
+impl<S: Scalar, P> Implicits<S> for P where
+    P: Implicit<S, ImplicitMidpoint>
+        + Implicit<S, Gauss4>
+        + Implicit<S, Gauss6>
+        + Implicit<S, LieMidpoint<Exp>>
+        + LiePoisson<S>
+{
 }
 
 /// The equations that every Lie–Poisson system has.
-pub fn equations<P>(
+pub fn equations<P: Implicits<f64>>(
     fused: &P,
     reference: &P,
     mu: &P::State,
     h: f64,
     random: &mut Random,
     errors: &mut Errors,
-) where
-    P: MidpointEquations<f64>
-        + GaussEquations<f64, 1>
-        + GaussEquations<f64, 2>
-        + GaussEquations<f64, 3>
-        + LieMidpointEquations<f64>,
-{
-    let left = &mut fused.midpoint_equation(h);
-    equation(
+) {
+    let mut compare = Comparison { mu, random, errors };
+    compare.run(
         "midpoint",
-        left,
-        &mut generic::Midpoint::new(reference, h),
-        mu,
-        random,
-        errors,
+        fused.equation(&ImplicitMidpoint, h),
+        generic::Midpoint::new(reference, h),
     );
-    let left = &mut GaussEquations::<f64, 1>::gauss_equation(fused, h);
-    let right = &mut generic::Gauss::<_, _, 1>::new(reference, h);
-    equation("gauss2", left, right, mu, random, errors);
-    let left = &mut GaussEquations::<f64, 2>::gauss_equation(fused, h);
-    let right = &mut generic::Gauss::<_, _, 2>::new(reference, h);
-    equation("gauss4", left, right, mu, random, errors);
-    let left = &mut GaussEquations::<f64, 3>::gauss_equation(fused, h);
-    let right = &mut generic::Gauss::<_, _, 3>::new(reference, h);
-    equation("gauss6", left, right, mu, random, errors);
-    let left = &mut fused.exp_equation(h);
-    equation(
+    compare.run(
+        "gauss4",
+        fused.equation(&Gauss4, h),
+        generic::Gauss::<_, _, 2>::new(reference, h),
+    );
+    compare.run(
+        "gauss6",
+        fused.equation(&Gauss6, h),
+        generic::Gauss::<_, _, 3>::new(reference, h),
+    );
+    compare.run(
         "exp",
-        left,
-        &mut generic::ExpMidpoint::new(reference, h),
-        mu,
-        random,
-        errors,
+        fused.equation(&LieMidpoint::exp(), h),
+        generic::ExpMidpoint::new(reference, h),
     );
 }
 
+/// The equation of the Cayley map.
 pub fn cayley_equation<P>(
     fused: &P,
     reference: &P,
@@ -131,15 +152,37 @@ pub fn cayley_equation<P>(
     random: &mut Random,
     errors: &mut Errors,
 ) where
-    P: CayleyEquations<f64>,
+    P: Implicit<f64, LieMidpoint<Cayley>> + CayleyPoisson<f64>,
 {
-    let left = &mut fused.cayley_equation(h);
-    equation(
+    let mut compare = Comparison { mu, random, errors };
+    compare.run(
         "cayley",
-        left,
-        &mut generic::CayleyMidpoint::new(reference, h),
-        mu,
-        random,
-        errors,
+        fused.equation(&LieMidpoint::cayley(), h),
+        generic::CayleyMidpoint::new(reference, h),
     );
+}
+
+/// What all comparisons of one state share.
+pub struct Comparison<'a, V> {
+    pub mu: &'a V,
+    pub random: &'a mut Random,
+    pub errors: &'a mut Errors,
+}
+
+impl<V> Comparison<'_, V> {
+    /// A fused equation against its generic form.
+    pub fn run<F, G>(&mut self, name: &str, mut fused: F, mut reference: G)
+    where
+        F: Equation<f64, State = V>,
+        G: Equation<f64, State = V>,
+    {
+        equation(
+            name,
+            &mut fused,
+            &mut reference,
+            self.mu,
+            self.random,
+            self.errors,
+        );
+    }
 }

@@ -3,9 +3,8 @@
 // Each test file uses its own part of this.
 #![allow(dead_code, unused_macros, unused_imports)]
 
-use lie_runtime::{
-    GaussEquations, LieMidpointEquations, LiePoisson, MidpointEquations, Poisson, Scalar, State,
-};
+use lie_runtime::methods::{Exp, Gauss4, Gauss6, ImplicitMidpoint, LieMidpoint};
+use lie_runtime::{Implicit, LiePoisson, Lift, Poisson, Scalar, State};
 
 #[path = "../golden/e2_pendulum.rs"]
 #[rustfmt::skip]
@@ -54,11 +53,11 @@ pub trait Declared {
     /// The name of its spec, golden file and reference values.
     const FILE: &'static str;
     type System<S: Scalar>: LiePoisson<S>
-        + MidpointEquations<S>
-        + GaussEquations<S, 1>
-        + GaussEquations<S, 2>
-        + GaussEquations<S, 3>
-        + LieMidpointEquations<S>;
+        + Lift<S>
+        + Implicit<S, ImplicitMidpoint>
+        + Implicit<S, Gauss4>
+        + Implicit<S, Gauss6>
+        + Implicit<S, LieMidpoint<Exp>>;
     fn declared<S: Scalar>() -> Self::System<S>;
     /// The initial state of the declaration.
     fn initial<S: Scalar>() -> <Self::System<S> as Poisson<S>>::State;

@@ -96,6 +96,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     const NAME: &'static str = "Pendulum";
     const COORDINATES: &'static [&'static str] = &["L", "x", "y"];
     const CASIMIR_NAMES: &'static [&'static str] = &["radius2"];
+    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
+        2,
+    );
+    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
+        ::core::option::Option::Some(2),
+    ];
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -290,6 +296,20 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for PendulumSyste
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for PendulumSystem<S> {
+    type Lifted = PendulumSystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+        PendulumSystem {
+            _parameters: Pendulum {
+                g: _constant(self._parameters.g),
+            },
+            g: _constant(self.g),
+            _k1: _constant(self._k1),
+        }
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct PendulumMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -429,19 +449,17 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for PendulumMidpoint<'
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S>
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ImplicitMidpoint>
 for PendulumSystem<S> {
     type Equation<'a> = PendulumMidpoint<'a, S> where Self: 'a;
-    fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ImplicitMidpoint,
+        h: S,
+    ) -> PendulumMidpoint<'a, S> {
         PendulumMidpoint::new(self, h)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 1>
-for PendulumSystem<S> {
-    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, 1> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-        ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
 
@@ -634,12 +652,24 @@ impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for PendulumGauss4
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 2>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for PendulumSystem<S> {
     type Equation<'a> = PendulumGauss4<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> PendulumGauss4<'a, S> {
         PendulumGauss4(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -989,12 +1019,24 @@ impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for PendulumGauss6
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 3>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for PendulumSystem<S> {
     type Equation<'a> = PendulumGauss6<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> PendulumGauss6<'a, S> {
         PendulumGauss6(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -1084,12 +1126,28 @@ for PendulumExpMidpoint<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S>
-for PendulumSystem<S> {
-    type Exp<'a> = PendulumExpMidpoint<'a, S> where Self: 'a;
-    fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for PendulumSystem<S> {
+    type Equation<'a> = PendulumExpMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> PendulumExpMidpoint<'a, S> {
         PendulumExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
     }
 }
@@ -1265,11 +1323,30 @@ for PendulumCayleyMidpoint<'_, S> {
         residual[1] = _b1;
         residual[2] = _b2;
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::State,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
+        *xi *= self.h;
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S> for PendulumSystem<S> {
-    type Cayley<'a> = PendulumCayleyMidpoint<'a, S> where Self: 'a;
-    fn cayley_equation(&self, h: S) -> Self::Cayley<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+> for PendulumSystem<S> {
+    type Equation<'a> = PendulumCayleyMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+        h: S,
+    ) -> PendulumCayleyMidpoint<'a, S> {
         PendulumCayleyMidpoint::new(self, h)
     }
 }

@@ -232,6 +232,13 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     const NAME: &'static str = "HeavyTop";
     const COORDINATES: &'static [&'static str] = &["m1", "m2", "m3", "g1", "g2", "g3"];
     const CASIMIR_NAMES: &'static [&'static str] = &["length2", "vertical_momentum"];
+    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
+        2,
+    );
+    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
+        ::core::option::Option::Some(2),
+        ::core::option::Option::Some(2),
+    ];
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -557,6 +564,44 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSyste
             + _eta_J2 * (_t8 + _t11)) * S::ratio(-1.0, 2.0);
         out[2] = (_xi_J3 * (_t3 * S::ratio(2.0, 1.0) + _t9 + _t2) - g3 * (_t5 + _t10)
             + _eta_J3 * (_t7 + _t11)) * S::ratio(-1.0, 2.0);
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
+    type Lifted = HeavyTopSystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+        HeavyTopSystem {
+            _parameters: HeavyTop {
+                I1: _constant(self._parameters.I1),
+                I2: _constant(self._parameters.I2),
+                I3: _constant(self._parameters.I3),
+                mgl: _constant(self._parameters.mgl),
+                c1: _constant(self._parameters.c1),
+                c2: _constant(self._parameters.c2),
+                c3: _constant(self._parameters.c3),
+            },
+            _k0: _constant(self._k0),
+            _k1: _constant(self._k1),
+            _k2: _constant(self._k2),
+            _k3: _constant(self._k3),
+            _k4: _constant(self._k4),
+            _k5: _constant(self._k5),
+            _k6: _constant(self._k6),
+            _k7: _constant(self._k7),
+            _k8: _constant(self._k8),
+            _k9: _constant(self._k9),
+            _k10: _constant(self._k10),
+            _k11: _constant(self._k11),
+            _k12: _constant(self._k12),
+            _k13: _constant(self._k13),
+            _k14: _constant(self._k14),
+            _k15: _constant(self._k15),
+            _k16: _constant(self._k16),
+            _k17: _constant(self._k17),
+            _k18: _constant(self._k18),
+            _k19: _constant(self._k19),
+        }
     }
 }
 
@@ -916,19 +961,17 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopMidpoint<'
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S>
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ImplicitMidpoint>
 for HeavyTopSystem<S> {
     type Equation<'a> = HeavyTopMidpoint<'a, S> where Self: 'a;
-    fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ImplicitMidpoint,
+        h: S,
+    ) -> HeavyTopMidpoint<'a, S> {
         HeavyTopMidpoint::new(self, h)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 1>
-for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, 1> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-        ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
 
@@ -1034,12 +1077,24 @@ impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopGauss4
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 2>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for HeavyTopSystem<S> {
     type Equation<'a> = HeavyTopGauss4<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> HeavyTopGauss4<'a, S> {
         HeavyTopGauss4(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -1158,12 +1213,24 @@ impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopGauss6
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 3>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for HeavyTopSystem<S> {
     type Equation<'a> = HeavyTopGauss6<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> HeavyTopGauss6<'a, S> {
         HeavyTopGauss6(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -1299,12 +1366,28 @@ for HeavyTopExpMidpoint<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S>
-for HeavyTopSystem<S> {
-    type Exp<'a> = HeavyTopExpMidpoint<'a, S> where Self: 'a;
-    fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for HeavyTopSystem<S> {
+    type Equation<'a> = HeavyTopExpMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> HeavyTopExpMidpoint<'a, S> {
         HeavyTopExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
     }
 }
@@ -1779,11 +1862,30 @@ for HeavyTopCayleyMidpoint<'_, S> {
         residual[4] = _b4;
         residual[5] = _b5;
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::State,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
+        *xi *= self.h;
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S> for HeavyTopSystem<S> {
-    type Cayley<'a> = HeavyTopCayleyMidpoint<'a, S> where Self: 'a;
-    fn cayley_equation(&self, h: S) -> Self::Cayley<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+> for HeavyTopSystem<S> {
+    type Equation<'a> = HeavyTopCayleyMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+        h: S,
+    ) -> HeavyTopCayleyMidpoint<'a, S> {
         HeavyTopCayleyMidpoint::new(self, h)
     }
 }

@@ -96,6 +96,13 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
     const NAME: &'static str = "KirchhoffBody";
     const COORDINATES: &'static [&'static str] = &["m1", "m2", "m3", "p1", "p2", "p3"];
     const CASIMIR_NAMES: &'static [&'static str] = &["impulse2", "pitch"];
+    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
+        2,
+    );
+    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
+        ::core::option::Option::Some(2),
+        ::core::option::Option::Some(2),
+    ];
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -482,6 +489,18 @@ for KirchhoffBodySystem<S> {
             + _eta_J2 * (_t8 + _t11)) * S::ratio(-1.0, 2.0);
         out[2] = (_xi_J3 * (_t3 * S::ratio(2.0, 1.0) + _t9 + _t2) - p3 * (_t5 + _t10)
             + _eta_J3 * (_t7 + _t11)) * S::ratio(-1.0, 2.0);
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for KirchhoffBodySystem<S> {
+    type Lifted = KirchhoffBodySystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+        KirchhoffBodySystem {
+            _parameters: KirchhoffBody {
+                _scalar: ::core::marker::PhantomData,
+            },
+        }
     }
 }
 
@@ -879,19 +898,17 @@ for KirchhoffBodyMidpoint<'_, S> {
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S>
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ImplicitMidpoint>
 for KirchhoffBodySystem<S> {
     type Equation<'a> = KirchhoffBodyMidpoint<'a, S> where Self: 'a;
-    fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ImplicitMidpoint,
+        h: S,
+    ) -> KirchhoffBodyMidpoint<'a, S> {
         KirchhoffBodyMidpoint::new(self, h)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 1>
-for KirchhoffBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, 1> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-        ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
 
@@ -998,12 +1015,24 @@ for KirchhoffBodyGauss4<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 2>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for KirchhoffBodySystem<S> {
     type Equation<'a> = KirchhoffBodyGauss4<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> KirchhoffBodyGauss4<'a, S> {
         KirchhoffBodyGauss4(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -1123,12 +1152,24 @@ for KirchhoffBodyGauss6<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 3>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for KirchhoffBodySystem<S> {
     type Equation<'a> = KirchhoffBodyGauss6<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> KirchhoffBodyGauss6<'a, S> {
         KirchhoffBodyGauss6(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -1375,12 +1416,28 @@ for KirchhoffBodyExpMidpoint<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S>
-for KirchhoffBodySystem<S> {
-    type Exp<'a> = KirchhoffBodyExpMidpoint<'a, S> where Self: 'a;
-    fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for KirchhoffBodySystem<S> {
+    type Equation<'a> = KirchhoffBodyExpMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> KirchhoffBodyExpMidpoint<'a, S> {
         KirchhoffBodyExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
     }
 }
@@ -1901,12 +1958,30 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         residual[4] = _b4;
         residual[5] = _b5;
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::State,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
+        *xi *= self.h;
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S>
-for KirchhoffBodySystem<S> {
-    type Cayley<'a> = KirchhoffBodyCayleyMidpoint<'a, S> where Self: 'a;
-    fn cayley_equation(&self, h: S) -> Self::Cayley<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+> for KirchhoffBodySystem<S> {
+    type Equation<'a> = KirchhoffBodyCayleyMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+        h: S,
+    ) -> KirchhoffBodyCayleyMidpoint<'a, S> {
         KirchhoffBodyCayleyMidpoint::new(self, h)
     }
 }

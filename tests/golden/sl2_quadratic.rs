@@ -93,6 +93,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for Sl2QuadraticSystem<
     const NAME: &'static str = "Sl2Quadratic";
     const COORDINATES: &'static [&'static str] = &["h", "e", "f"];
     const CASIMIR_NAMES: &'static [&'static str] = &["killing"];
+    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
+        2,
+    );
+    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
+        ::core::option::Option::Some(2),
+    ];
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -327,6 +333,18 @@ for Sl2QuadraticSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for Sl2QuadraticSystem<S> {
+    type Lifted = Sl2QuadraticSystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+        Sl2QuadraticSystem {
+            _parameters: Sl2Quadratic {
+                _scalar: ::core::marker::PhantomData,
+            },
+        }
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct Sl2QuadraticMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -504,19 +522,17 @@ for Sl2QuadraticMidpoint<'_, S> {
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S>
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ImplicitMidpoint>
 for Sl2QuadraticSystem<S> {
     type Equation<'a> = Sl2QuadraticMidpoint<'a, S> where Self: 'a;
-    fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ImplicitMidpoint,
+        h: S,
+    ) -> Sl2QuadraticMidpoint<'a, S> {
         Sl2QuadraticMidpoint::new(self, h)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 1>
-for Sl2QuadraticSystem<S> {
-    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, 1> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-        ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
 
@@ -769,12 +785,24 @@ for Sl2QuadraticGauss4<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 2>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for Sl2QuadraticSystem<S> {
     type Equation<'a> = Sl2QuadraticGauss4<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> Sl2QuadraticGauss4<'a, S> {
         Sl2QuadraticGauss4(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -876,12 +904,24 @@ for Sl2QuadraticGauss6<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 3>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for Sl2QuadraticSystem<S> {
     type Equation<'a> = Sl2QuadraticGauss6<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> Sl2QuadraticGauss6<'a, S> {
         Sl2QuadraticGauss6(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -990,12 +1030,28 @@ for Sl2QuadraticExpMidpoint<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S>
-for Sl2QuadraticSystem<S> {
-    type Exp<'a> = Sl2QuadraticExpMidpoint<'a, S> where Self: 'a;
-    fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for Sl2QuadraticSystem<S> {
+    type Equation<'a> = Sl2QuadraticExpMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> Sl2QuadraticExpMidpoint<'a, S> {
         Sl2QuadraticExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
     }
 }
@@ -1230,12 +1286,30 @@ for Sl2QuadraticCayleyMidpoint<'_, S> {
         residual[1] = _b1;
         residual[2] = _b2;
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::State,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
+        *xi *= self.h;
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S>
-for Sl2QuadraticSystem<S> {
-    type Cayley<'a> = Sl2QuadraticCayleyMidpoint<'a, S> where Self: 'a;
-    fn cayley_equation(&self, h: S) -> Self::Cayley<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+> for Sl2QuadraticSystem<S> {
+    type Equation<'a> = Sl2QuadraticCayleyMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+        h: S,
+    ) -> Sl2QuadraticCayleyMidpoint<'a, S> {
         Sl2QuadraticCayleyMidpoint::new(self, h)
     }
 }

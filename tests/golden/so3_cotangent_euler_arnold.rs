@@ -207,6 +207,17 @@ for CotangentEulerArnoldSystem<S> {
         "row23",
         "row33",
     ];
+    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
+        4,
+    );
+    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
+        ::core::option::Option::Some(2),
+        ::core::option::Option::Some(2),
+        ::core::option::Option::Some(2),
+        ::core::option::Option::Some(2),
+        ::core::option::Option::Some(2),
+        ::core::option::Option::Some(2),
+    ];
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -794,6 +805,33 @@ for CotangentEulerArnoldSystem<S> {
         out[(10, 11)] = _xi_L1;
         out[(11, 9)] = _xi_L2;
         out[(11, 10)] = _t2;
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for CotangentEulerArnoldSystem<S> {
+    type Lifted = CotangentEulerArnoldSystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+        CotangentEulerArnoldSystem {
+            _parameters: CotangentEulerArnold {
+                I1: _constant(self._parameters.I1),
+                I2: _constant(self._parameters.I2),
+                I3: _constant(self._parameters.I3),
+            },
+            _k0: _constant(self._k0),
+            _k1: _constant(self._k1),
+            _k2: _constant(self._k2),
+            _k3: _constant(self._k3),
+            _k4: _constant(self._k4),
+            _k5: _constant(self._k5),
+            _k6: _constant(self._k6),
+            _k7: _constant(self._k7),
+            _k8: _constant(self._k8),
+            _k9: _constant(self._k9),
+            _k10: _constant(self._k10),
+            _k11: _constant(self._k11),
+            _k12: _constant(self._k12),
+        }
     }
 }
 
@@ -1541,19 +1579,17 @@ for CotangentEulerArnoldMidpoint<'_, S> {
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S>
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ImplicitMidpoint>
 for CotangentEulerArnoldSystem<S> {
     type Equation<'a> = CotangentEulerArnoldMidpoint<'a, S> where Self: 'a;
-    fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ImplicitMidpoint,
+        h: S,
+    ) -> CotangentEulerArnoldMidpoint<'a, S> {
         CotangentEulerArnoldMidpoint::new(self, h)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 1>
-for CotangentEulerArnoldSystem<S> {
-    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, 1> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-        ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
 
@@ -1687,12 +1723,24 @@ for CotangentEulerArnoldGauss4<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 2>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for CotangentEulerArnoldSystem<S> {
     type Equation<'a> = CotangentEulerArnoldGauss4<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> CotangentEulerArnoldGauss4<'a, S> {
         CotangentEulerArnoldGauss4(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -1851,12 +1899,24 @@ for CotangentEulerArnoldGauss6<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 3>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for CotangentEulerArnoldSystem<S> {
     type Equation<'a> = CotangentEulerArnoldGauss6<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> CotangentEulerArnoldGauss6<'a, S> {
         CotangentEulerArnoldGauss6(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -2171,12 +2231,28 @@ for CotangentEulerArnoldExpMidpoint<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S>
-for CotangentEulerArnoldSystem<S> {
-    type Exp<'a> = CotangentEulerArnoldExpMidpoint<'a, S> where Self: 'a;
-    fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for CotangentEulerArnoldSystem<S> {
+    type Equation<'a> = CotangentEulerArnoldExpMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> CotangentEulerArnoldExpMidpoint<'a, S> {
         CotangentEulerArnoldExpMidpoint(
             ::lie_runtime::generic::ExpMidpoint::new(self, h),
         )

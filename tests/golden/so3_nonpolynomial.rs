@@ -94,6 +94,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
     const NAME: &'static str = "NonpolynomialSpin";
     const COORDINATES: &'static [&'static str] = &["x", "y", "z"];
     const CASIMIR_NAMES: &'static [&'static str] = &["norm2"];
+    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::None;
+    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
+        ::core::option::Option::Some(2),
+    ];
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -367,6 +371,18 @@ for NonpolynomialSpinSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for NonpolynomialSpinSystem<S> {
+    type Lifted = NonpolynomialSpinSystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+        NonpolynomialSpinSystem {
+            _parameters: NonpolynomialSpin {
+                _scalar: ::core::marker::PhantomData,
+            },
+        }
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct NonpolynomialSpinMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -556,19 +572,17 @@ for NonpolynomialSpinMidpoint<'_, S> {
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S>
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ImplicitMidpoint>
 for NonpolynomialSpinSystem<S> {
     type Equation<'a> = NonpolynomialSpinMidpoint<'a, S> where Self: 'a;
-    fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ImplicitMidpoint,
+        h: S,
+    ) -> NonpolynomialSpinMidpoint<'a, S> {
         NonpolynomialSpinMidpoint::new(self, h)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 1>
-for NonpolynomialSpinSystem<S> {
-    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, 1> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-        ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
 
@@ -821,12 +835,24 @@ for NonpolynomialSpinGauss4<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 2>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for NonpolynomialSpinSystem<S> {
     type Equation<'a> = NonpolynomialSpinGauss4<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> NonpolynomialSpinGauss4<'a, S> {
         NonpolynomialSpinGauss4(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -928,12 +954,24 @@ for NonpolynomialSpinGauss6<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 3>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for NonpolynomialSpinSystem<S> {
     type Equation<'a> = NonpolynomialSpinGauss6<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> NonpolynomialSpinGauss6<'a, S> {
         NonpolynomialSpinGauss6(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -1042,12 +1080,28 @@ for NonpolynomialSpinExpMidpoint<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S>
-for NonpolynomialSpinSystem<S> {
-    type Exp<'a> = NonpolynomialSpinExpMidpoint<'a, S> where Self: 'a;
-    fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = NonpolynomialSpinExpMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> NonpolynomialSpinExpMidpoint<'a, S> {
         NonpolynomialSpinExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
     }
 }
@@ -1287,12 +1341,30 @@ for NonpolynomialSpinCayleyMidpoint<'_, S> {
         residual[1] = _b1;
         residual[2] = _b2;
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::State,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
+        *xi *= self.h;
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S>
-for NonpolynomialSpinSystem<S> {
-    type Cayley<'a> = NonpolynomialSpinCayleyMidpoint<'a, S> where Self: 'a;
-    fn cayley_equation(&self, h: S) -> Self::Cayley<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+> for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = NonpolynomialSpinCayleyMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+        h: S,
+    ) -> NonpolynomialSpinCayleyMidpoint<'a, S> {
         NonpolynomialSpinCayleyMidpoint::new(self, h)
     }
 }

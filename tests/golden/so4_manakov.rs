@@ -297,6 +297,13 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
         "m34",
     ];
     const CASIMIR_NAMES: &'static [&'static str] = &["norm2", "pfaffian"];
+    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
+        2,
+    );
+    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
+        ::core::option::Option::Some(2),
+        ::core::option::Option::Some(2),
+    ];
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -671,6 +678,53 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSys
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for ManakovTopSystem<S> {
+    type Lifted = ManakovTopSystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+        ManakovTopSystem {
+            _parameters: ManakovTop {
+                J1: _constant(self._parameters.J1),
+                J2: _constant(self._parameters.J2),
+                J3: _constant(self._parameters.J3),
+                J4: _constant(self._parameters.J4),
+            },
+            _k0: _constant(self._k0),
+            _k1: _constant(self._k1),
+            _k2: _constant(self._k2),
+            _k3: _constant(self._k3),
+            _k4: _constant(self._k4),
+            _k5: _constant(self._k5),
+            _k6: _constant(self._k6),
+            _k7: _constant(self._k7),
+            _k8: _constant(self._k8),
+            _k9: _constant(self._k9),
+            _k10: _constant(self._k10),
+            _k11: _constant(self._k11),
+            _k12: _constant(self._k12),
+            _k13: _constant(self._k13),
+            _k14: _constant(self._k14),
+            _k15: _constant(self._k15),
+            _k16: _constant(self._k16),
+            _k17: _constant(self._k17),
+            _k18: _constant(self._k18),
+            _k19: _constant(self._k19),
+            _k20: _constant(self._k20),
+            _k21: _constant(self._k21),
+            _k22: _constant(self._k22),
+            _k23: _constant(self._k23),
+            _k24: _constant(self._k24),
+            _k25: _constant(self._k25),
+            _k26: _constant(self._k26),
+            _k27: _constant(self._k27),
+            _k28: _constant(self._k28),
+            _k29: _constant(self._k29),
+            _k30: _constant(self._k30),
+            _k31: _constant(self._k31),
+        }
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct ManakovTopMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -1031,19 +1085,17 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for ManakovTopMidpoint
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S>
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ImplicitMidpoint>
 for ManakovTopSystem<S> {
     type Equation<'a> = ManakovTopMidpoint<'a, S> where Self: 'a;
-    fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ImplicitMidpoint,
+        h: S,
+    ) -> ManakovTopMidpoint<'a, S> {
         ManakovTopMidpoint::new(self, h)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 1>
-for ManakovTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, 1> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-        ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
 
@@ -1150,12 +1202,24 @@ for ManakovTopGauss4<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 2>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for ManakovTopSystem<S> {
     type Equation<'a> = ManakovTopGauss4<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> ManakovTopGauss4<'a, S> {
         ManakovTopGauss4(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -1275,12 +1339,24 @@ for ManakovTopGauss6<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 3>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for ManakovTopSystem<S> {
     type Equation<'a> = ManakovTopGauss6<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> ManakovTopGauss6<'a, S> {
         ManakovTopGauss6(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -1527,12 +1603,28 @@ for ManakovTopExpMidpoint<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S>
-for ManakovTopSystem<S> {
-    type Exp<'a> = ManakovTopExpMidpoint<'a, S> where Self: 'a;
-    fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for ManakovTopSystem<S> {
+    type Equation<'a> = ManakovTopExpMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> ManakovTopExpMidpoint<'a, S> {
         ManakovTopExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
     }
 }
@@ -2060,12 +2152,30 @@ for ManakovTopCayleyMidpoint<'_, S> {
         residual[4] = _b4;
         residual[5] = _b5;
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::State,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
+        *xi *= self.h;
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S>
-for ManakovTopSystem<S> {
-    type Cayley<'a> = ManakovTopCayleyMidpoint<'a, S> where Self: 'a;
-    fn cayley_equation(&self, h: S) -> Self::Cayley<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+> for ManakovTopSystem<S> {
+    type Equation<'a> = ManakovTopCayleyMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
+        h: S,
+    ) -> ManakovTopCayleyMidpoint<'a, S> {
         ManakovTopCayleyMidpoint::new(self, h)
     }
 }

@@ -95,6 +95,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
     const NAME: &'static str = "TodaLattice";
     const COORDINATES: &'static [&'static str] = &["b1", "b2", "b3", "a1", "a2"];
     const CASIMIR_NAMES: &'static [&'static str] = &["momentum"];
+    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
+        2,
+    );
+    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
+        ::core::option::Option::Some(1),
+    ];
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -307,6 +313,18 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for TodaLatticeSyste
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for TodaLatticeSystem<S> {
+    type Lifted = TodaLatticeSystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+        TodaLatticeSystem {
+            _parameters: TodaLattice {
+                _scalar: ::core::marker::PhantomData,
+            },
+        }
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct TodaLatticeMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -484,19 +502,17 @@ for TodaLatticeMidpoint<'_, S> {
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S>
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ImplicitMidpoint>
 for TodaLatticeSystem<S> {
     type Equation<'a> = TodaLatticeMidpoint<'a, S> where Self: 'a;
-    fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ImplicitMidpoint,
+        h: S,
+    ) -> TodaLatticeMidpoint<'a, S> {
         TodaLatticeMidpoint::new(self, h)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 1>
-for TodaLatticeSystem<S> {
-    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, 1> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-        ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
 
@@ -780,12 +796,24 @@ for TodaLatticeGauss4<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 2>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for TodaLatticeSystem<S> {
     type Equation<'a> = TodaLatticeGauss4<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> TodaLatticeGauss4<'a, S> {
         TodaLatticeGauss4(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -899,12 +927,24 @@ for TodaLatticeGauss6<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, 3>
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for TodaLatticeSystem<S> {
     type Equation<'a> = TodaLatticeGauss6<'a, S> where Self: 'a;
-    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> TodaLatticeGauss6<'a, S> {
         TodaLatticeGauss6(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
@@ -1049,12 +1089,28 @@ for TodaLatticeExpMidpoint<'a, S> {
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.0.result(unknown, mu);
     }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S>
-for TodaLatticeSystem<S> {
-    type Exp<'a> = TodaLatticeExpMidpoint<'a, S> where Self: 'a;
-    fn exp_equation(&self, h: S) -> Self::Exp<'_> {
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for TodaLatticeSystem<S> {
+    type Equation<'a> = TodaLatticeExpMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> TodaLatticeExpMidpoint<'a, S> {
         TodaLatticeExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
     }
 }

@@ -91,6 +91,13 @@ pub fn check(
     Some(normal.degree(candidate.expr))
 }
 
+/// The total degree of a function in the coordinates, if it is a polynomial in them and small enough
+/// to tell.
+pub fn degree(graph: &Graph, function: ExprId) -> Option<u32> {
+    let budget = Budget::new(WORK);
+    NormalForm::new(graph, &budget).degree(function)
+}
+
 /// The brackets with all coordinates that are not trivially zero: their terms and their sum.
 fn brackets(
     graph: &mut Graph,

@@ -24,7 +24,7 @@ pub fn check(model: &Model, report: &mut Report) {
 fn check_one(model: &Model, id: &str, origin: Origin, report: &mut Report) {
     let (message, help) = match Choice::from_id(id) {
         Err(unusable) => (unusable.message, unusable.help),
-        Ok(choice) => match refusal(model, choice) {
+        Ok(choice) => match refusal(model, &choice) {
             Some(reason) => reason,
             None => return,
         },

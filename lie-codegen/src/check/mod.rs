@@ -128,6 +128,7 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     let casimirs = independent(declaration, &graph, candidates, &degrees, report);
     let dimension = declaration.algebra.basis.len();
     let generic_rank = rank::generic(&exact_constants, dimension - casimirs.len().min(dimension));
+    let hamiltonian_degree = casimirs::degree(&scratch, hamiltonian);
     let mut model = Model {
         name: declaration.name.text.clone(),
         name_origin: declaration.name.origin,
@@ -142,6 +143,7 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         exact_constants,
         invariance: declaration.invariance,
         hamiltonian,
+        hamiltonian_degree,
         casimirs,
         representation,
         methods: declaration.methods.clone(),

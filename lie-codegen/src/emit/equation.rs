@@ -10,6 +10,7 @@ use super::elimination::{Elimination, UNROLLED};
 use super::names::{ident, index};
 use super::prepared::{Owner, Prepared, step_name};
 use crate::derive::{Kernel, Shape};
+use crate::methods::{Choice, Retraction};
 use crate::schedule::{Program, Value};
 
 /// What distinguishes one fused equation from another.
@@ -22,55 +23,74 @@ struct Form {
     docs: &'static [&'static str],
     /// The factor of `h f(mu)` in the initial guess.
     guess: TokenStream,
+    /// The retraction of a method of coadjoint form along `h grad H(u)`.
+    retraction: Option<&'static str>,
 }
 
 impl Writer<'_> {
-    /// The hook impls with their equations: fused where asked for, generic elsewhere.
+    /// The equation of each implicit method: fused where asked for, generic elsewhere.
     pub fn equations(&mut self) -> TokenStream {
-        let fused = self.blueprint.fused.clone();
-        let mut tokens = if fused.midpoint {
-            self.fused_midpoint()
-        } else {
-            self.generic_midpoint()
-        };
-        tokens.extend(self.gauss(&fused.gauss));
-        tokens.extend(self.exp(fused.exp));
-        if self.source.triple.is_some() {
-            tokens.extend(if fused.cayley {
-                self.fused_cayley()
+        let mut tokens = TokenStream::new();
+        let mut generic = Vec::new();
+        let methods = [
+            (Choice::Midpoint, "midpoint"),
+            (Choice::Gauss(2), "gauss4"),
+            (Choice::Gauss(3), "gauss6"),
+            (Choice::LieMidpoint(Retraction::Exp), "exp"),
+            (Choice::LieMidpoint(Retraction::Cayley), "cayley"),
+        ];
+        for (choice, name) in methods {
+            if choice == Choice::LieMidpoint(Retraction::Cayley) && self.source.triple.is_none() {
+                continue;
+            }
+            if self.asked(&choice) {
+                tokens.extend(self.fused_method(&choice));
             } else {
-                self.generic_cayley()
+                generic.push(ident(name));
+            }
+        }
+        if !generic.is_empty() {
+            let system = self.system_name();
+            tokens.extend(quote! {
+                ::lie_runtime::generic_equations!(
+                    [S: ::lie_runtime::Scalar] #system<S>, S: #(#generic),*
+                );
             });
         }
         tokens
     }
 
+    fn fused_method(&mut self, choice: &Choice) -> TokenStream {
+        match choice {
+            Choice::Midpoint => self.fused_midpoint(),
+            Choice::Gauss(stages) => self.fused_gauss(*stages),
+            Choice::LieMidpoint(Retraction::Exp) => self.fused_exp(),
+            Choice::LieMidpoint(Retraction::Cayley) => self.fused_cayley(),
+            _ => TokenStream::new(),
+        }
+    }
+
+    /// The hook by which the runtime finds the equation of a method, `equation` in terms of
+    /// `self` and `h`.
+    pub(super) fn implicit(
+        &self,
+        method: &TokenStream,
+        equation: &Ident,
+        value: &TokenStream,
+    ) -> TokenStream {
+        let system = self.system_name();
+        quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, #method> for #system<S> {
+                type Equation<'a> = #equation<'a, S> where Self: 'a;
+                fn equation<'a>(&'a self, _method: &#method, h: S) -> #equation<'a, S> {
+                    #value
+                }
+            }
+        }
+    }
+
     pub(super) fn system_name(&self) -> Ident {
         format_ident!("{}System", self.blueprint.name)
-    }
-
-    fn generic_midpoint(&self) -> TokenStream {
-        let system = self.system_name();
-        quote! {
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S> for #system<S> {
-                type Equation<'a> = ::lie_runtime::generic::Midpoint<'a, S, Self> where Self: 'a;
-                fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
-                    ::lie_runtime::generic::Midpoint::new(self, h)
-                }
-            }
-        }
-    }
-
-    fn generic_cayley(&self) -> TokenStream {
-        let system = self.system_name();
-        quote! {
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S> for #system<S> {
-                type Cayley<'a> = ::lie_runtime::generic::CayleyMidpoint<'a, S, Self> where Self: 'a;
-                fn cayley_equation(&self, h: S) -> Self::Cayley<'_> {
-                    ::lie_runtime::generic::CayleyMidpoint::new(self, h)
-                }
-            }
-        }
     }
 
     fn fused_midpoint(&mut self) -> TokenStream {
@@ -82,21 +102,13 @@ impl Writer<'_> {
                 "The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.",
             ],
             guess: quote! { self.h },
+            retraction: None,
         };
         let equation = self.fused(&form, &kernels);
-        let (system, name) = (
-            self.system_name(),
-            format_ident!("{}Midpoint", self.blueprint.name),
-        );
-        quote! {
-            #equation
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::MidpointEquations<S> for #system<S> {
-                type Equation<'a> = #name<'a, S> where Self: 'a;
-                fn midpoint_equation(&self, h: S) -> Self::Equation<'_> {
-                    #name::new(self, h)
-                }
-            }
-        }
+        let name = format_ident!("{}Midpoint", self.blueprint.name);
+        let method = quote! { ::lie_runtime::methods::ImplicitMidpoint };
+        let hook = self.implicit(&method, &name, &quote! { #name::new(self, h) });
+        quote! { #equation #hook }
     }
 
     fn fused_cayley(&mut self) -> TokenStream {
@@ -111,21 +123,15 @@ impl Writer<'_> {
                 "`m - ad*_x m/2 - Q_x m/4 - mu = 0` with `x = h grad H(m)`, then `mu1 = mu + ad*_x m`.",
             ],
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
+            retraction: Some("Cayley"),
         };
         let equation = self.fused(&form, &kernels);
-        let (system, name) = (
-            self.system_name(),
-            format_ident!("{}CayleyMidpoint", self.blueprint.name),
-        );
-        quote! {
-            #equation
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyEquations<S> for #system<S> {
-                type Cayley<'a> = #name<'a, S> where Self: 'a;
-                fn cayley_equation(&self, h: S) -> Self::Cayley<'_> {
-                    #name::new(self, h)
-                }
-            }
-        }
+        let name = format_ident!("{}CayleyMidpoint", self.blueprint.name);
+        let method = quote! {
+            ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>
+        };
+        let hook = self.implicit(&method, &name, &quote! { #name::new(self, h) });
+        quote! { #equation #hook }
     }
 
     /// The struct of a fused equation and its impl.
@@ -199,6 +205,15 @@ impl Writer<'_> {
             });
         }
         methods.extend(self.elimination_methods(&elimination));
+        if let Some(retraction) = form.retraction.map(ident) {
+            methods.extend(quote! {
+                fn group_factor(&mut self, unknown: &Self::State, xi: &mut Self::State) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+                    ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
+                    *xi *= self.h;
+                    ::core::option::Option::Some(::lie_runtime::methods::Retraction::#retraction)
+                }
+            });
+        }
         let table = super::fixed_order::table(
             &format_ident!("{}{}", self.blueprint.name, form.suffix),
             &elimination,

@@ -10,37 +10,9 @@ use super::Writer;
 use super::elimination::{Elimination, UNROLLED};
 use super::names::index;
 
-/// Stage numbers of the methods that are built.
-const STAGES: [usize; 3] = [1, 2, 3];
-
 impl Writer<'_> {
-    /// Gauss collocation: fused for the stage numbers asked for, generic for the others.
-    pub fn gauss(&mut self, fused: &[usize]) -> TokenStream {
-        let system = self.system_name();
-        let generic = |stages: usize| {
-            let stages = index(stages);
-            quote! {
-                impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, #stages> for #system<S> {
-                    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, Self, #stages> where Self: 'a;
-                    fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-                        ::lie_runtime::generic::Gauss::new(self, h)
-                    }
-                }
-            }
-        };
-        STAGES
-            .into_iter()
-            .map(|stages| {
-                if fused.contains(&stages) {
-                    self.fused_gauss(stages)
-                } else {
-                    generic(stages)
-                }
-            })
-            .collect()
-    }
-
-    fn fused_gauss(&mut self, stages: usize) -> TokenStream {
+    /// Gauss collocation with a number of stages.
+    pub fn fused_gauss(&mut self, stages: usize) -> TokenStream {
         let n = self.source.dimension;
         let field = self.source.field_of_h();
         let slopes = self.source.jacobian_of(&field);
@@ -88,6 +60,10 @@ impl Writer<'_> {
         );
         let visibility = &self.blueprint.visibility;
         let table = table(&name, &elimination);
+        let method = format_ident!("Gauss{}", 2 * stages);
+        let method = quote! { ::lie_runtime::methods::#method };
+        let value = quote! { #name(::lie_runtime::generic::Gauss::new(self, h)) };
+        let hook = self.implicit(&method, &name, &value);
         quote! {
             #[doc = #doc]
             #[derive(Debug)]
@@ -102,28 +78,13 @@ impl Writer<'_> {
                 #methods
             }
 
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::GaussEquations<S, #count> for #system<S> {
-                type Equation<'a> = #name<'a, S> where Self: 'a;
-                fn gauss_equation(&self, h: S) -> Self::Equation<'_> {
-                    #name(::lie_runtime::generic::Gauss::new(self, h))
-                }
-            }
+            #hook
         }
     }
 
     /// The retraction method with the exponential.
-    pub fn exp(&mut self, fused: bool) -> TokenStream {
+    pub fn fused_exp(&mut self) -> TokenStream {
         let system = self.system_name();
-        if !fused {
-            return quote! {
-                impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S> for #system<S> {
-                    type Exp<'a> = ::lie_runtime::generic::ExpMidpoint<'a, S, Self> where Self: 'a;
-                    fn exp_equation(&self, h: S) -> Self::Exp<'_> {
-                        ::lie_runtime::generic::ExpMidpoint::new(self, h)
-                    }
-                }
-            };
-        }
         let n = self.source.dimension;
         let pattern = self.exp_pattern();
         let unit = (0..n)
@@ -145,6 +106,11 @@ impl Writer<'_> {
         );
         let visibility = &self.blueprint.visibility;
         let table = table(&name, &elimination);
+        let method = quote! {
+            ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>
+        };
+        let value = quote! { #name(::lie_runtime::generic::ExpMidpoint::new(self, h)) };
+        let hook = self.implicit(&method, &name, &value);
         quote! {
             #[doc = " The retraction method with the exponential, elimination specialised to the pattern of the system."]
             #[derive(Debug)]
@@ -159,12 +125,7 @@ impl Writer<'_> {
                 #methods
             }
 
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::LieMidpointEquations<S> for #system<S> {
-                type Exp<'a> = #name<'a, S> where Self: 'a;
-                fn exp_equation(&self, h: S) -> Self::Exp<'_> {
-                    #name(::lie_runtime::generic::ExpMidpoint::new(self, h))
-                }
-            }
+            #hook
         }
     }
 
@@ -267,6 +228,10 @@ impl Writer<'_> {
 
             fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
                 self.0.result(unknown, mu);
+            }
+
+            fn group_factor(&mut self, unknown: &Self::Unknown, xi: &mut Self::State) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+                self.0.group_factor(unknown, xi)
             }
         }
     }

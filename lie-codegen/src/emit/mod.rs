@@ -16,10 +16,11 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use crate::derive::Source;
+use crate::methods::Choice;
 use crate::schedule::Counts;
 use crate::symbolic::ExprId;
 
-/// What a system is called and which equations are fused for it.
+/// What a system is called and which methods get fused code.
 #[derive(Clone, Debug)]
 pub struct Blueprint {
     /// Visibility of the generated types.
@@ -40,8 +41,12 @@ pub struct Blueprint {
     pub initial: Option<Vec<ExprId>>,
     /// The expressions.
     pub source: Source,
-    /// The equations that get fused code.
-    pub fused: Fused,
+    /// The methods whose equations get fused code; all others run on the generic forms.
+    pub methods: Vec<Choice>,
+    /// The total degree of H, if it is a polynomial.
+    pub hamiltonian_degree: Option<u32>,
+    /// The total degree of each Casimir, if it is a polynomial.
+    pub casimir_degrees: Vec<Option<u32>>,
 }
 
 /// A parameter of the generated struct.
@@ -53,19 +58,6 @@ pub struct Parameter {
     pub default: ExprId,
     /// Its doc line.
     pub doc: String,
-}
-
-/// The equations that get fused code; all others run on the generic forms.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Fused {
-    /// The Poisson midpoint rule.
-    pub midpoint: bool,
-    /// Gauss collocation by number of stages.
-    pub gauss: Vec<usize>,
-    /// The retraction method with the exponential.
-    pub exp: bool,
-    /// The retraction method with the Cayley map.
-    pub cayley: bool,
 }
 
 /// Generated code and the operation counts of its kernels.
@@ -84,8 +76,9 @@ pub fn emit(blueprint: &Blueprint) -> Emitted {
     let equations = writer.equations();
     let parameters = writer.parameters();
     let system = writer.system_struct();
+    let lift = writer.lift();
     Emitted {
-        tokens: quote! { #parameters #system #basic #equations },
+        tokens: quote! { #parameters #system #basic #lift #equations },
         counts: writer.counts,
     }
 }
@@ -106,5 +99,10 @@ impl<'a> Writer<'a> {
             prepared: prepared::Prepared::default(),
             counts: Vec::new(),
         }
+    }
+
+    /// Whether fused code is wanted for a method.
+    fn asked(&self, choice: &Choice) -> bool {
+        self.blueprint.methods.contains(choice)
     }
 }

@@ -178,4 +178,36 @@ impl Writer<'_> {
             }
         }
     }
+
+    /// The same system over dual numbers.
+    pub fn lift(&self) -> TokenStream {
+        let name = &self.blueprint.name;
+        let system = format_ident!("{}System", name);
+        let constants = self.prepared.all().iter().enumerate();
+        let fields: Vec<_> = constants
+            .map(|(position, id)| self.prepared_name(*id, position))
+            .collect();
+        let names: Vec<_> = self.blueprint.parameters.iter().map(|p| &p.name).collect();
+        let marker = self
+            .blueprint
+            .parameters
+            .is_empty()
+            .then(|| quote! { _scalar: ::core::marker::PhantomData });
+        quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for #system<S> {
+                type Lifted = #system<::lie_runtime::Dual<S>>;
+
+                fn lift(&self) -> Self::Lifted {
+                    let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+                    #system {
+                        _parameters: #name {
+                            #(#names: _constant(self._parameters.#names),)*
+                            #marker
+                        },
+                        #(#fields: _constant(self.#fields),)*
+                    }
+                }
+            }
+        }
+    }
 }

@@ -30,6 +30,15 @@ impl Writer<'_> {
         let name = self.blueprint.name.to_string();
         let coordinates = self.blueprint.coordinates.iter().map(Ident::to_string);
         let casimir_names = &self.blueprint.casimir_names;
+        let option = |degree: &Option<u32>| match degree {
+            Some(degree) => {
+                let degree = index(*degree as usize);
+                quote! { ::core::option::Option::Some(#degree) }
+            }
+            None => quote! { ::core::option::Option::None },
+        };
+        let degree = option(&self.blueprint.hamiltonian_degree);
+        let degrees = self.blueprint.casimir_degrees.iter().map(option);
         let cayley = cayley.map(|triple| {
             quote! {
                 #[allow(non_snake_case, clippy::many_single_char_names)]
@@ -49,6 +58,8 @@ impl Writer<'_> {
                 const NAME: &'static str = #name;
                 const COORDINATES: &'static [&'static str] = &[#(#coordinates),*];
                 const CASIMIR_NAMES: &'static [&'static str] = &[#(#casimir_names),*];
+                const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = #degree;
+                const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[#(#degrees),*];
 
                 fn zero_state(&self) -> Self::State {
                     Self::State::repeat(S::zero())

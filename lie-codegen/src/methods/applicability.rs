@@ -4,7 +4,10 @@ use super::{Availability, CATALOGUE, Choice, Retraction};
 use crate::model::Model;
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
-pub fn refusal(model: &Model, choice: Choice) -> Option<(String, String)> {
+pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
+    if let Choice::Compose(_, _, base) = choice {
+        return refusal(model, base);
+    }
     let Choice::LieMidpoint(Retraction::Cayley) = choice else {
         return None;
     };
@@ -29,10 +32,14 @@ pub fn applicability(model: &Model) -> Vec<(&'static str, Option<String>)> {
     CATALOGUE
         .iter()
         .map(|method| {
+            let composition = method.id.starts_with("compose");
             let reason = match (method.availability, Choice::from_id(method.id)) {
-                (Availability::Planned, _) | (_, Err(_)) => Some("not built yet".to_string()),
+                (Availability::Planned, _) => Some("not built yet".to_string()),
+                // the midpoint rule applies to every system
+                (Availability::Built, _) if composition => None,
+                (Availability::Built, Err(unusable)) => Some(unusable.message),
                 (Availability::Built, Ok(choice)) => {
-                    refusal(model, choice).map(|(reason, _)| reason)
+                    refusal(model, &choice).map(|(reason, _)| reason)
                 }
             };
             (method.id, reason)

@@ -1,25 +1,12 @@
 //! A method with its options, as asked for.
 
-use proc_macro2::TokenStream;
-use quote::quote;
-
+use super::options::{Gradient, Lift, OptionError, Retraction, Scheme};
 use super::table::RESERVED;
 use super::{Availability, CATALOGUE, find};
-use crate::emit::Fused;
 use crate::suggest::did_you_mean;
 
-/// A retraction `tau: g -> G`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Retraction {
-    /// The exponential map.
-    #[default]
-    Exp,
-    /// The Cayley map of the declared representation.
-    Cayley,
-}
-
-/// A built method with its options.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// A method with its options. Numbers are orders, except where stages are said.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Choice {
     /// `midpoint`
@@ -28,6 +15,37 @@ pub enum Choice {
     Gauss(usize),
     /// `lie-midpoint`
     LieMidpoint(Retraction),
+    /// `lie-euler`
+    LieEuler,
+    /// `rkmk2`, `rkmk3`, `rkmk4`, `rkmk6`
+    Rkmk(u32),
+    /// `cg3`
+    CrouchGrossman3,
+    /// `cf4`
+    CommutatorFree4,
+    /// `moser-veselov`
+    MoserVeselov,
+    /// `compose4(ID)`, `compose6(ID)`, `compose8(ID)` of a symmetric method of order 2.
+    Compose(u32, Scheme, Box<Choice>),
+    /// `generating2`, `generating4`, `generating6`
+    Generating(u32, Retraction),
+    /// `generating-second-kind2`
+    GeneratingSecondKind2,
+    /// `collective2`, `collective4`, `collective6`
+    Collective(u32, Lift),
+    /// `isospectral2`, `isospectral4`, `isospectral6`
+    Isospectral(u32),
+    /// `spherical-midpoint`
+    SphericalMidpoint,
+    /// `splitting1`, `splitting2`, `splitting4`, `splitting6`, `splitting8`; below order 4 the
+    /// scheme means nothing.
+    Splitting(u32, Scheme),
+    /// `gonzalez`, `mean-value`, `itoh-abe`
+    DiscreteGradient(Gradient),
+    /// `orbit-energy`
+    OrbitEnergy(Gradient),
+    /// `cohen-hairer2`, `cohen-hairer4`, `cohen-hairer6`
+    CohenHairer(u32),
     /// `rk4`
     Rk4,
     /// `dopri5`; its tolerances are arguments of the program.
@@ -49,91 +67,226 @@ impl Choice {
     /// # Errors
     /// An id that is unknown, or whose method is not built yet.
     pub fn from_id(id: &str) -> Result<Self, Unusable> {
-        match id {
-            "midpoint" => return Ok(Self::Midpoint),
-            "gauss4" => return Ok(Self::Gauss(2)),
-            "gauss6" => return Ok(Self::Gauss(3)),
-            "lie-midpoint" => return Ok(Self::LieMidpoint(Retraction::Exp)),
-            "rk4" => return Ok(Self::Rk4),
-            "dopri5" => return Ok(Self::Dopri5),
-            _ => {}
+        let id = id.trim();
+        if let Some((outer, base)) = id.strip_suffix(')').and_then(|id| id.split_once('(')) {
+            return Self::composed(id, outer.trim(), base.trim());
         }
-        let built: Vec<&str> = CATALOGUE
-            .iter()
-            .filter(|m| m.availability == Availability::Built)
-            .map(|m| m.id)
-            .collect();
-        let base = id.split('(').next().unwrap_or(id).trim();
-        if find(base).is_some() || RESERVED.contains(&base) {
+        let entry = find(id);
+        if entry.is_some_and(|method| method.availability == Availability::Built)
+            && let Some(choice) = Self::plain(id)
+        {
+            return Ok(choice);
+        }
+        if matches!(id, "compose4" | "compose6" | "compose8") {
             return Err(Unusable {
-                message: format!("the method `{id}` is not built yet"),
-                help: format!("the methods that are built: {}", built.join(", ")),
+                message: format!("`{id}` needs the method that it composes"),
+                help: format!("write for example `{id}(lie-midpoint)`"),
             });
+        }
+        if entry.is_some() || RESERVED.contains(&id) {
+            return Err(not_built(id));
         }
         let known = CATALOGUE.iter().map(|m| m.id);
         Err(Unusable {
             message: format!("there is no method `{id}`"),
-            help: match did_you_mean(base, known) {
+            help: match did_you_mean(id, known) {
                 Some(near) => format!("did you mean `{near}`? `lie methods` lists all of them"),
-                None => format!("the methods that are built: {}", built.join(", ")),
+                None => format!("the methods that are built: {}", built().join(", ")),
             },
         })
     }
 
+    /// `composeN(base)`.
+    fn composed(id: &str, outer: &str, base: &str) -> Result<Self, Unusable> {
+        let order = match outer {
+            "compose4" => 4,
+            "compose6" => 6,
+            "compose8" => 8,
+            _ => {
+                return Err(Unusable {
+                    message: format!("there is no method `{id}`"),
+                    help: "compositions are `compose4(ID)`, `compose6(ID)` and `compose8(ID)`"
+                        .into(),
+                });
+            }
+        };
+        if find(outer).is_none_or(|method| method.availability == Availability::Planned) {
+            return Err(not_built(id));
+        }
+        let base = Self::from_id(base)?;
+        let symmetric = base
+            .entry()
+            .is_some_and(|method| method.symmetric && method.order == 2);
+        if !symmetric {
+            return Err(Unusable {
+                message: format!(
+                    "`{outer}` composes symmetric methods of order 2, and `{}` is none",
+                    base.id()
+                ),
+                help: format!("take for example `{outer}(lie-midpoint)`"),
+            });
+        }
+        Ok(Self::Compose(
+            order,
+            Scheme::of_composition(order)[0],
+            Box::new(base),
+        ))
+    }
+
+    fn plain(id: &str) -> Option<Self> {
+        let splitting = |order| {
+            let scheme = Scheme::of_splitting(order).first();
+            Self::Splitting(order, scheme.copied().unwrap_or_default())
+        };
+        Some(match id {
+            "midpoint" => Self::Midpoint,
+            "gauss4" => Self::Gauss(2),
+            "gauss6" => Self::Gauss(3),
+            "lie-midpoint" => Self::LieMidpoint(Retraction::Exp),
+            "lie-euler" => Self::LieEuler,
+            "rkmk2" => Self::Rkmk(2),
+            "rkmk3" => Self::Rkmk(3),
+            "rkmk4" => Self::Rkmk(4),
+            "rkmk6" => Self::Rkmk(6),
+            "cg3" => Self::CrouchGrossman3,
+            "cf4" => Self::CommutatorFree4,
+            "moser-veselov" => Self::MoserVeselov,
+            "generating2" => Self::Generating(2, Retraction::Exp),
+            "generating4" => Self::Generating(4, Retraction::Exp),
+            "generating6" => Self::Generating(6, Retraction::Exp),
+            "generating-second-kind2" => Self::GeneratingSecondKind2,
+            "collective2" => Self::Collective(2, Lift::Representation),
+            "collective4" => Self::Collective(4, Lift::Representation),
+            "collective6" => Self::Collective(6, Lift::Representation),
+            "isospectral2" => Self::Isospectral(2),
+            "isospectral4" => Self::Isospectral(4),
+            "isospectral6" => Self::Isospectral(6),
+            "spherical-midpoint" => Self::SphericalMidpoint,
+            "splitting1" => splitting(1),
+            "splitting2" => splitting(2),
+            "splitting4" => splitting(4),
+            "splitting6" => splitting(6),
+            "splitting8" => splitting(8),
+            "gonzalez" => Self::DiscreteGradient(Gradient::Gonzalez),
+            "mean-value" => Self::DiscreteGradient(Gradient::MeanValue),
+            "itoh-abe" => Self::DiscreteGradient(Gradient::ItohAbe),
+            "orbit-energy" => Self::OrbitEnergy(Gradient::Gonzalez),
+            "cohen-hairer2" => Self::CohenHairer(2),
+            "cohen-hairer4" => Self::CohenHairer(4),
+            "cohen-hairer6" => Self::CohenHairer(6),
+            "rk4" => Self::Rk4,
+            "dopri5" => Self::Dopri5,
+            _ => return None,
+        })
+    }
+
+    /// A method from its label: an id, then options as on the command line,
+    /// `lie-midpoint --retraction cayley`.
+    ///
+    /// # Errors
+    /// An id that cannot be used, or an option that the method does not have.
+    pub fn from_label(label: &str) -> Result<Self, Unusable> {
+        let mut parts = label.split("--");
+        let mut choice = Self::from_id(parts.next().unwrap_or_default())?;
+        for option in parts {
+            let (name, value) = option
+                .trim()
+                .split_once([' ', '='])
+                .unwrap_or((option.trim(), ""));
+            let id = choice.id();
+            choice = choice
+                .with_option(name, value.trim())
+                .map_err(|error| match error {
+                    OptionError::Value(message, help) => Unusable { message, help },
+                    OptionError::Foreign => Unusable {
+                        message: format!("`{name}` is not an option of {id}"),
+                        help: "`lie methods` lists the options of each method".into(),
+                    },
+                })?;
+        }
+        Ok(choice)
+    }
+
+    /// The row of the catalogue.
+    pub fn entry(&self) -> Option<&'static super::Method> {
+        match self {
+            Self::Compose(order, ..) => find(&format!("compose{order}")),
+            other => find(&other.id()),
+        }
+    }
+
     /// The id.
-    pub fn id(self) -> &'static str {
+    pub fn id(&self) -> String {
         match self {
-            Self::Midpoint => "midpoint",
-            Self::Gauss(2) => "gauss4",
-            Self::Gauss(_) => "gauss6",
-            Self::LieMidpoint(_) => "lie-midpoint",
-            Self::Rk4 => "rk4",
-            Self::Dopri5 => "dopri5",
+            Self::Midpoint => "midpoint".into(),
+            Self::Gauss(stages) => format!("gauss{}", 2 * stages),
+            Self::LieMidpoint(_) => "lie-midpoint".into(),
+            Self::LieEuler => "lie-euler".into(),
+            Self::Rkmk(order) => format!("rkmk{order}"),
+            Self::CrouchGrossman3 => "cg3".into(),
+            Self::CommutatorFree4 => "cf4".into(),
+            Self::MoserVeselov => "moser-veselov".into(),
+            Self::Compose(order, _, base) => format!("compose{order}({})", base.id()),
+            Self::Generating(order, _) => format!("generating{order}"),
+            Self::GeneratingSecondKind2 => "generating-second-kind2".into(),
+            Self::Collective(order, _) => format!("collective{order}"),
+            Self::Isospectral(order) => format!("isospectral{order}"),
+            Self::SphericalMidpoint => "spherical-midpoint".into(),
+            Self::Splitting(order, _) => format!("splitting{order}"),
+            Self::DiscreteGradient(gradient) => gradient.name().into(),
+            Self::OrbitEnergy(_) => "orbit-energy".into(),
+            Self::CohenHairer(order) => format!("cohen-hairer{order}"),
+            Self::Rk4 => "rk4".into(),
+            Self::Dopri5 => "dopri5".into(),
         }
     }
 
-    /// The id with the options that are not at their defaults.
-    pub fn label(self) -> String {
-        match self {
-            Self::LieMidpoint(Retraction::Cayley) => "lie-midpoint --retraction cayley".into(),
-            other => other.id().into(),
+    /// The id with the options that are not at their defaults, as [`Choice::from_label`] reads it.
+    pub fn label(&self) -> String {
+        let id = self.id();
+        let defaults = Self::from_id(&id).map_or_else(|_| self.options(), |c| c.options());
+        let options = self.options();
+        let changed = options.iter().zip(&defaults).filter(|(a, b)| a != b);
+        changed.fold(id, |label, ((name, value), _)| {
+            format!("{label} --{name} {value}")
+        })
+    }
+
+    /// For people, `lie-midpoint (cayley)`: the values of options that are not at their defaults.
+    pub fn title(&self) -> String {
+        let label = self.label();
+        let mut parts = label.split(" --");
+        let id = parts.next().unwrap_or_default().to_owned();
+        let values: Vec<&str> = parts
+            .filter_map(|option| option.split_once(' ').map(|(_, value)| value))
+            .collect();
+        if values.is_empty() {
+            id
+        } else {
+            format!("{id} ({})", values.join(", "))
         }
     }
 
-    /// The value of the method in the runtime, as Rust; `tolerances` is in scope.
-    pub fn constructor(self) -> TokenStream {
+    /// The methods whose equations this one solves: itself, or the base of a composition.
+    pub fn solved(&self) -> &Self {
         match self {
-            Self::Midpoint => quote! { ::lie_runtime::methods::ImplicitMidpoint },
-            Self::Gauss(2) => quote! { ::lie_runtime::methods::Gauss4 },
-            Self::Gauss(_) => quote! { ::lie_runtime::methods::Gauss6 },
-            Self::LieMidpoint(Retraction::Exp) => {
-                quote! { ::lie_runtime::methods::LieMidpoint::exp() }
-            }
-            Self::LieMidpoint(Retraction::Cayley) => {
-                quote! { ::lie_runtime::methods::LieMidpoint::cayley() }
-            }
-            Self::Rk4 => quote! { ::lie_runtime::methods::Rk4 },
-            Self::Dopri5 => quote! {
-                ::lie_runtime::methods::Dopri5 { rtol: tolerances.rtol, atol: tolerances.atol }
-            },
+            Self::Compose(_, _, base) => base,
+            other => other,
         }
     }
 }
 
-impl Fused {
-    /// The equations of these methods.
-    pub fn of(choices: &[Choice]) -> Self {
-        let mut fused = Self::default();
-        for choice in choices {
-            match *choice {
-                Choice::Midpoint => fused.midpoint = true,
-                Choice::Gauss(stages) if !fused.gauss.contains(&stages) => fused.gauss.push(stages),
-                Choice::LieMidpoint(Retraction::Exp) => fused.exp = true,
-                Choice::LieMidpoint(Retraction::Cayley) => fused.cayley = true,
-                _ => {}
-            }
-        }
-        fused.gauss.sort_unstable();
-        fused
+fn built() -> Vec<&'static str> {
+    CATALOGUE
+        .iter()
+        .filter(|m| m.availability == Availability::Built)
+        .map(|m| m.id)
+        .collect()
+}
+
+fn not_built(id: &str) -> Unusable {
+    Unusable {
+        message: format!("the method `{id}` is not built yet"),
+        help: format!("the methods that are built: {}", built().join(", ")),
     }
 }

@@ -3,11 +3,13 @@
 
 mod applicability;
 mod choice;
+mod constructor;
+mod options;
 mod table;
 
 pub use applicability::{applicability, refusal};
-pub use choice::Unusable;
-pub use choice::{Choice, Retraction};
+pub use choice::{Choice, Unusable};
+pub use options::{Gradient, Lift, OptionError, Retraction, Scheme};
 pub use table::CATALOGUE;
 
 /// What a method preserves up to round-off.
@@ -17,27 +19,39 @@ pub struct Preserves {
     pub energy: bool,
     /// Every Casimir.
     pub casimirs: bool,
-    /// Casimirs (and other first integrals) of degree at most two.
+    /// Every Casimir of degree at most two.
     pub quadratic_casimirs: bool,
     /// The coadjoint orbit.
     pub orbit: bool,
     /// The Poisson structure.
     pub poisson: bool,
+    /// Every quadratic invariant of the equation.
+    pub quadratic_invariants: bool,
+    /// Every linear invariant of the equation.
+    pub linear_invariants: bool,
 }
 
 impl Preserves {
-    /// Nothing beyond linear first integrals.
+    /// Nothing at all.
     pub const NOTHING: Self = Self {
         energy: false,
         casimirs: false,
         quadratic_casimirs: false,
         orbit: false,
         poisson: false,
+        quadratic_invariants: false,
+        linear_invariants: false,
     };
-    /// Casimirs of degree at most two.
+    /// Linear invariants of the equation: what every Runge–Kutta method keeps.
+    pub const LINEAR: Self = Self {
+        linear_invariants: true,
+        ..Self::NOTHING
+    };
+    /// Quadratic and linear invariants of the equation, and so quadratic Casimirs.
     pub const QUADRATIC: Self = Self {
         quadratic_casimirs: true,
-        ..Self::NOTHING
+        quadratic_invariants: true,
+        ..Self::LINEAR
     };
     /// The coadjoint orbit and with it every Casimir.
     pub const ORBIT: Self = Self {
@@ -90,8 +104,6 @@ pub struct Method {
     pub preserves: Preserves,
     /// What a system must have.
     pub needs: &'static str,
-    /// Options by flag name, with their defaults.
-    pub options: &'static [(&'static str, &'static str)],
     /// Author, year, DOI.
     pub reference: &'static str,
     /// Whether it is built.
@@ -101,4 +113,17 @@ pub struct Method {
 /// The method of an id.
 pub fn find(id: &str) -> Option<&'static Method> {
     CATALOGUE.iter().find(|method| method.id == id)
+}
+
+impl Method {
+    /// Options by flag name, with their defaults; none while the method is not built.
+    pub fn options(&self) -> Vec<(&'static str, &'static str)> {
+        // a composition has those of its base, too: the midpoint rule has none
+        let id = if self.id.starts_with("compose") {
+            format!("{}(midpoint)", self.id)
+        } else {
+            self.id.to_owned()
+        };
+        Choice::from_id(&id).map_or_else(|_| Vec::new(), |choice| choice.options())
+    }
 }

@@ -24,15 +24,13 @@ const fn planned(
         explicit,
         preserves,
         needs,
-        options: &[],
         reference,
         availability: Availability::Planned,
     }
 }
 
 impl Method {
-    const fn built(mut self, options: &'static [(&'static str, &'static str)]) -> Self {
-        self.options = options;
+    const fn built(mut self) -> Self {
         self.availability = Availability::Built;
         self
     }
@@ -67,7 +65,7 @@ pub const CATALOGUE: &[Method] = &[
         ANY,
         AKW,
     )
-    .built(&[]),
+    .built(),
     planned(
         "gauss4",
         "Gauss collocation, 2 stages",
@@ -77,7 +75,7 @@ pub const CATALOGUE: &[Method] = &[
         ANY,
         HLW,
     )
-    .built(&[]),
+    .built(),
     planned(
         "gauss6",
         "Gauss collocation, 3 stages",
@@ -87,7 +85,7 @@ pub const CATALOGUE: &[Method] = &[
         ANY,
         HLW,
     )
-    .built(&[]),
+    .built(),
     planned(
         "lie-midpoint",
         "retraction Lie–Poisson integrator",
@@ -97,27 +95,27 @@ pub const CATALOGUE: &[Method] = &[
         "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)",
         MPS,
     )
-    .built(&[("retraction", "exp")]),
+    .built(),
     planned(
         "rk4",
         "classical Runge–Kutta method (control)",
         4,
         [false, true],
-        Preserves::NOTHING,
+        Preserves::LINEAR,
         ANY,
         "Kutta (1901)",
     )
-    .built(&[]),
+    .built(),
     planned(
         "dopri5",
         "Dormand–Prince pair with step control (control)",
         5,
         [false, true],
-        Preserves::NOTHING,
+        Preserves::LINEAR,
         ANY,
         "Dormand, Prince (1980), 10.1016/0771-050X(80)90013-3",
     )
-    .built(&[("rtol", "1e-6"), ("atol", "1e-9")]),
+    .built(),
     planned(
         "lie-euler",
         "Lie–Euler",

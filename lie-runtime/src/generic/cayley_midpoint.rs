@@ -2,6 +2,7 @@
 
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
+use crate::methods::Retraction;
 use crate::newton::dense;
 use crate::poisson::CayleyPoisson;
 use crate::scalar::Scalar;
@@ -128,5 +129,11 @@ impl<S: Scalar, P: CayleyPoisson<S>> Equation<S> for CayleyMidpoint<'_, S, P> {
         for (row, out) in mu.as_mut_slice().iter_mut().enumerate() {
             *out = self.base.as_slice()[row] + action.as_slice()[row];
         }
+    }
+
+    fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
+        self.set_direction(unknown);
+        xi.copy_from(&self.direction);
+        Some(Retraction::Cayley)
     }
 }

@@ -3,6 +3,7 @@
 use super::series::{Scratch, coadjoint_action_in, dexp_dual_in};
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
+use crate::methods::Retraction;
 use crate::newton::dense;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
@@ -150,5 +151,11 @@ impl<S: Scalar, P: LiePoisson<S>> Equation<S> for ExpMidpoint<'_, S, P> {
         self.set_direction(unknown);
         let scratch = &mut self.scratch;
         coadjoint_action_in(self.system, &self.direction, &self.base, mu, scratch);
+    }
+
+    fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
+        self.set_direction(unknown);
+        xi.copy_from(&self.direction);
+        Some(Retraction::Exp)
     }
 }

@@ -89,14 +89,7 @@ impl Facts for Dopri5 {
     const ORDER: u32 = 5;
     const SYMMETRIC: bool = false;
     const EXPLICIT: bool = true;
-    const PRESERVES: Preserves = Preserves {
-        energy: false,
-        casimirs: false,
-        orbit: false,
-        poisson: false,
-        quadratic_invariants: false,
-        linear_invariants: true,
-    };
+    const PRESERVES: Preserves = Preserves::LINEAR;
 }
 
 impl<S: Scalar, P: Poisson<S>> Method<S, P> for Dopri5 {

@@ -7,6 +7,8 @@ pub struct Preserves {
     pub energy: bool,
     /// Every Casimir.
     pub casimirs: bool,
+    /// Every Casimir of degree at most two.
+    pub quadratic_casimirs: bool,
     /// The coadjoint orbit: the new state is `Ad*_g mu` for some g.
     pub orbit: bool,
     /// The Poisson structure: the step is a Poisson map.
@@ -15,6 +17,53 @@ pub struct Preserves {
     pub quadratic_invariants: bool,
     /// Every linear invariant of the equation.
     pub linear_invariants: bool,
+}
+
+impl Preserves {
+    /// Nothing at all.
+    pub const NOTHING: Self = Self {
+        energy: false,
+        casimirs: false,
+        quadratic_casimirs: false,
+        orbit: false,
+        poisson: false,
+        quadratic_invariants: false,
+        linear_invariants: false,
+    };
+    /// Linear invariants of the equation: what every Runge–Kutta method keeps.
+    pub const LINEAR: Self = Self {
+        linear_invariants: true,
+        ..Self::NOTHING
+    };
+    /// Quadratic and linear invariants of the equation, and so quadratic Casimirs.
+    pub const QUADRATIC: Self = Self {
+        quadratic_casimirs: true,
+        quadratic_invariants: true,
+        ..Self::LINEAR
+    };
+    /// The coadjoint orbit, and so every Casimir.
+    pub const ORBIT: Self = Self {
+        casimirs: true,
+        quadratic_casimirs: true,
+        orbit: true,
+        ..Self::NOTHING
+    };
+    /// The orbit and the Poisson structure.
+    pub const POISSON: Self = Self {
+        poisson: true,
+        ..Self::ORBIT
+    };
+    /// The orbit and the energy.
+    pub const ORBIT_ENERGY: Self = Self {
+        energy: true,
+        ..Self::ORBIT
+    };
+    /// The energy and Casimirs of degree at most two.
+    pub const ENERGY: Self = Self {
+        energy: true,
+        quadratic_casimirs: true,
+        ..Self::NOTHING
+    };
 }
 
 /// The constants of a method.

@@ -20,7 +20,7 @@
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;
 use super::stepper::Method;
-use crate::equation::GaussEquations;
+use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
 use crate::scalar::Scalar;
 
@@ -35,17 +35,10 @@ macro_rules! gauss {
             const ORDER: u32 = 2 * $stages;
             const SYMMETRIC: bool = true;
             const EXPLICIT: bool = false;
-            const PRESERVES: Preserves = Preserves {
-                energy: false,
-                casimirs: false,
-                orbit: false,
-                poisson: false,
-                quadratic_invariants: true,
-                linear_invariants: true,
-            };
+            const PRESERVES: Preserves = Preserves::QUADRATIC;
         }
 
-        impl<S: Scalar, P: GaussEquations<S, $stages>> Method<S, P> for $name {
+        impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for $name {
             type Stepper<'a>
                 = ImplicitStepper<S, P::Equation<'a>>
             where
@@ -57,7 +50,7 @@ macro_rules! gauss {
                 h: S,
                 newton: &NewtonOptions,
             ) -> Self::Stepper<'a> {
-                ImplicitStepper::new(system.gauss_equation(h), system.zero_state(), newton)
+                ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
             }
         }
     };

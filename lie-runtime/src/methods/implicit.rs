@@ -4,7 +4,7 @@ use super::stepper::{FactorSink, StepFailure, StepReport, Stepper, not_finite};
 use crate::equation::Equation;
 use crate::newton::{Newton, NewtonOptions};
 use crate::scalar::{Mask, Scalar};
-use crate::state::Unknown;
+use crate::state::{State, Unknown};
 
 /// Solves the equation of a step and takes over its result.
 pub struct ImplicitStepper<S: Scalar, E: Equation<S>> {
@@ -33,7 +33,7 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
     }
 
     /// Advances one step without a sink.
-    pub(super) fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
+    fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
         self.equation.set_base(mu);
         self.equation.initial_guess(&mut self.unknown);
         let solved = self
@@ -65,8 +65,22 @@ impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
     fn step<K: FactorSink<E::State>>(
         &mut self,
         mu: &mut E::State,
-        _sink: &mut K,
+        sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        self.advance(mu)
+        let outcome = self.advance(mu);
+        if K::ACTIVE {
+            let failed = S::Mask::from_bits(outcome.map_or_else(|failure| failure.lanes, |_| 0));
+            // the state at the end has been taken over: its place is free
+            let factor = &mut self.next;
+            if let Some(retraction) = self.equation.group_factor(&self.unknown, factor)
+                && !failed.all()
+            {
+                for entry in factor.as_mut_slice() {
+                    *entry = S::select(failed, S::zero(), *entry);
+                }
+                sink.push(retraction, factor);
+            }
+        }
+        outcome
     }
 }

@@ -27,12 +27,10 @@
 
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;
-use super::stepper::{FactorSink, Method, Retraction, StepFailure, StepReport, Stepper};
-use crate::equation::{CayleyEquations, Equation, LieMidpointEquations};
+use super::stepper::Method;
+use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
-use crate::poisson::Poisson;
-use crate::scalar::{Mask, Scalar};
-use crate::state::State;
+use crate::scalar::Scalar;
 
 /// The exponential map, for every algebra.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,103 +67,16 @@ impl<T> Facts for LieMidpoint<T> {
     const ORDER: u32 = 2;
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
-    const PRESERVES: Preserves = Preserves {
-        energy: false,
-        casimirs: true,
-        orbit: true,
-        poisson: true,
-        quadratic_invariants: false,
-        linear_invariants: false,
-    };
+    const PRESERVES: Preserves = Preserves::POISSON;
 }
 
-impl<S: Scalar, P: LieMidpointEquations<S>> Method<S, P> for LieMidpoint<Exp> {
+impl<S: Scalar, P: Implicit<S, Self>, T> Method<S, P> for LieMidpoint<T> {
     type Stepper<'a>
-        = CoadjointStepper<'a, S, P, P::Exp<'a>>
+        = ImplicitStepper<S, P::Equation<'a>>
     where
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        CoadjointStepper::new(system, system.exp_equation(h), h, Retraction::Exp, newton)
-    }
-}
-
-impl<S: Scalar, P: CayleyEquations<S>> Method<S, P> for LieMidpoint<Cayley> {
-    type Stepper<'a>
-        = CoadjointStepper<'a, S, P, P::Cayley<'a>>
-    where
-        P: 'a;
-
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        CoadjointStepper::new(
-            system,
-            system.cayley_equation(h),
-            h,
-            Retraction::Cayley,
-            newton,
-        )
-    }
-}
-
-/// An implicit stepper that gives away the group factor `tau(h grad H(m))` of each step.
-pub struct CoadjointStepper<'a, S: Scalar, P: Poisson<S>, E: Equation<S>> {
-    system: &'a P,
-    implicit: ImplicitStepper<S, E>,
-    step: S,
-    retraction: Retraction,
-    direction: P::State,
-}
-
-impl<'a, S, P, E> CoadjointStepper<'a, S, P, E>
-where
-    S: Scalar,
-    P: Poisson<S>,
-    E: Equation<S, State = P::State, Unknown = P::State>,
-{
-    /// A stepper for an equation whose unknown is the momentum at the midpoint.
-    pub fn new(
-        system: &'a P,
-        equation: E,
-        h: S,
-        retraction: Retraction,
-        newton: &NewtonOptions,
-    ) -> Self {
-        let implicit = ImplicitStepper::new(equation, system.zero_state(), newton);
-        Self {
-            system,
-            implicit,
-            step: h,
-            retraction,
-            direction: system.zero_state(),
-        }
-    }
-}
-
-impl<S, P, E> Stepper<S> for CoadjointStepper<'_, S, P, E>
-where
-    S: Scalar,
-    P: Poisson<S>,
-    E: Equation<S, State = P::State, Unknown = P::State>,
-{
-    type State = P::State;
-
-    fn step<K: FactorSink<P::State>>(
-        &mut self,
-        mu: &mut P::State,
-        sink: &mut K,
-    ) -> Result<StepReport, StepFailure> {
-        let outcome = self.implicit.advance(mu);
-        if K::ACTIVE {
-            let failed = S::Mask::from_bits(outcome.map_or_else(|failure| failure.lanes, |_| 0));
-            if !failed.all() {
-                self.system
-                    .gradient(self.implicit.unknown(), &mut self.direction);
-                for entry in self.direction.as_mut_slice() {
-                    *entry = S::select(failed, S::zero(), self.step * *entry);
-                }
-                sink.push(self.retraction, &self.direction);
-            }
-        }
-        outcome
+        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
     }
 }

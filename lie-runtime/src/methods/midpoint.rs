@@ -20,7 +20,7 @@
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;
 use super::stepper::Method;
-use crate::equation::MidpointEquations;
+use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
 use crate::scalar::Scalar;
 
@@ -33,23 +33,16 @@ impl Facts for ImplicitMidpoint {
     const ORDER: u32 = 2;
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
-    const PRESERVES: Preserves = Preserves {
-        energy: false,
-        casimirs: false,
-        orbit: false,
-        poisson: false,
-        quadratic_invariants: true,
-        linear_invariants: true,
-    };
+    const PRESERVES: Preserves = Preserves::QUADRATIC;
 }
 
-impl<S: Scalar, P: MidpointEquations<S>> Method<S, P> for ImplicitMidpoint {
+impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for ImplicitMidpoint {
     type Stepper<'a>
         = ImplicitStepper<S, P::Equation<'a>>
     where
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.midpoint_equation(h), system.zero_state(), newton)
+        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
     }
 }

@@ -27,7 +27,7 @@ pub use dopri5::{Dopri5, Dopri5Stepper};
 pub use facts::{Facts, Preserves};
 pub use gauss::{Gauss4, Gauss6};
 pub use implicit::ImplicitStepper;
-pub use lie_midpoint::{Cayley, CoadjointStepper, Exp, LieMidpoint};
+pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
 pub use midpoint::ImplicitMidpoint;
 pub use rk4::{Rk4, Rk4Stepper};
 pub use stepper::{FactorSink, Method, Retraction, StepFailure, StepReport, Stepper};

@@ -108,7 +108,7 @@ pub trait Stepper<S: Scalar> {
 /// A method of integration, as a value with its options.
 #[diagnostic::on_unimplemented(
     message = "the method `{Self}` does not apply to the system `{P}` over the scalar `{S}`",
-    note = "implicit methods need the equations trait of their family (`MidpointEquations`, `GaussEquations`, `LieMidpointEquations`, `CayleyEquations`): for a system written by hand see `lie_runtime::generic_equations!`",
+    note = "implicit methods need an equation (`Implicit<S, Method>`): for a system written by hand see `lie_runtime::generic_equations!`",
     note = "the Cayley map exists where the declared `matrices` are closed under (abc + cba)/2"
 )]
 pub trait Method<S: Scalar, P: Poisson<S>>: Facts {

@@ -84,4 +84,4 @@ impl<S: Scalar> CayleyPoisson<S> for Nonpolynomial {
     }
 }
 
-lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: midpoint, gauss, exp, cayley);
+lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: midpoint, gauss4, gauss6, exp, cayley);

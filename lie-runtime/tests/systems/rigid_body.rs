@@ -126,4 +126,4 @@ impl<S: Scalar> CayleyPoisson<S> for RigidBody<S> {
     }
 }
 
-lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: midpoint, gauss, exp, cayley);
+lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: midpoint, gauss4, gauss6, exp, cayley);

@@ -16,7 +16,6 @@ use lie_codegen::diagnostic::Kind;
 use lie_poisson::plot::Plot;
 
 use super::args::{self, Cpu, Format};
-use super::method;
 use crate::build::protocol::{self, End, Job, Stop, Times};
 use crate::build::{self, Request};
 use crate::compiler::{self, Spec};
@@ -49,7 +48,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     let interrupt = Interrupt::install();
     let request = Request {
         name: &spec.model.name,
-        source: &compile::program(&spec.model, &[plan.method]),
+        source: &compile::program(&spec.model, std::slice::from_ref(&plan.method)),
         native: flags.cpu == Some(Cpu::Native),
         quiet: flags.quiet,
     };
@@ -111,7 +110,7 @@ fn integrate(
     };
     let mut rows = Rows::start(outputs.rows, format, &header).map_err(lost)?;
     let mut plot = outputs.plot.as_ref().map(|_| {
-        let subtitle = format!("{}, h = {}", method::title(plan.method), plan.step.1.trim());
+        let subtitle = format!("{}, h = {}", plan.method.title(), plan.step.1.trim());
         Plot::new(&*model.name, &columns, model.dimension(), (0.0, plan.end())).subtitle(subtitle)
     });
     let mut drift = Drift::new(&columns[model.dimension() + 1..]);
@@ -159,7 +158,7 @@ fn integrate(
         let title = format!(
             "{}, {}, step {}",
             model.name,
-            method::title(plan.method),
+            plan.method.title(),
             plan.step.1.trim()
         );
         eprint!("{}", summary::text(&title, counts, &drift, start.elapsed()));

@@ -3,9 +3,9 @@
 mod state;
 mod times;
 
-use lie_codegen::methods::Choice;
+use lie_codegen::methods::{Choice, OptionError};
 
-use super::values::{At, Given};
+use super::values::Given;
 use crate::build::protocol::Times;
 use crate::command::args;
 use crate::command::method;
@@ -55,6 +55,7 @@ pub fn plan(spec: &Spec, flags: &args::Run) -> Result<Plan, Vec<Message>> {
     let step = planner.step();
     let times = planner.times(step.as_ref());
     let tolerances = method
+        .as_ref()
         .map(|method| planner.tolerances(method))
         .unwrap_or_default();
     let parameters = planner.parameters();
@@ -123,37 +124,41 @@ impl Planner<'_> {
         let place = id.wrong("").place;
         let found = method::find(&id.text).map_err(|message| message.at(place.clone()));
         let mut choice = self.keep(found)?;
-        if let Some(given) = self.given("--retraction", self.flags.retraction.as_ref()) {
+        for name in method::OPTIONS {
+            let flag = self.flags.method_options.get(name);
+            let given = match flag {
+                Some((flag, text)) => Some(Given::flag(flag, text)),
+                None => self.in_spec(name).into_iter().next(),
+            };
+            let Some(given) = given else {
+                continue;
+            };
             // The spec's option belongs to the spec's method; a flag may have replaced that.
-            let belongs = matches!(given.place, At::Flag(..)) || self.flags.method.is_none();
-            if method::takes(choice, "retraction") {
-                choice = self.keep(method::with_retraction(choice, &given.text).map_err(
-                    |help| {
-                        given
-                            .wrong(format!("there is no retraction `{}`", given.text))
-                            .help(help)
-                    },
-                ))?;
-            } else if belongs {
-                self.foreign("retraction", &given, choice);
-            }
-        }
-        for name in ["composition", "pieces", "lift", "gradient"] {
-            if let (Some(given), None) = (self.in_spec(name).first(), &self.flags.method) {
-                self.foreign(name, given, choice);
+            let belongs = flag.is_some() || self.flags.method.is_none();
+            match choice.clone().with_option(name, &given.text) {
+                Ok(chosen) => choice = chosen,
+                Err(OptionError::Foreign) => {
+                    if belongs {
+                        self.foreign(name, &given, &choice);
+                    }
+                }
+                Err(OptionError::Value(text, help)) => {
+                    self.mistakes.push(given.wrong(text).help(help));
+                    return None;
+                }
             }
         }
         let applies = method::applies(choice, &self.spec.model);
         self.keep(applies.map_err(|message| message.at(place)))
     }
 
-    fn foreign(&mut self, name: &str, given: &Given, choice: Choice) {
+    fn foreign(&mut self, name: &str, given: &Given, choice: &Choice) {
         let text = format!("`{name}` is not an option of {}", choice.id());
         self.mistakes
             .push(given.wrong(text).help(method::help_on_options(choice)));
     }
 
-    fn tolerances(&mut self, choice: Choice) -> Vec<(&'static str, f64)> {
+    fn tolerances(&mut self, choice: &Choice) -> Vec<(&'static str, f64)> {
         let mut tolerances = Vec::new();
         for (name, flag, value) in [
             ("rtol", "--rtol", &self.flags.rtol),

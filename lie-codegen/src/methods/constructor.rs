@@ -1,0 +1,102 @@
+//! The value of a method in the runtime, as Rust.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::Choice;
+use super::options::{Gradient, Lift, Retraction, Scheme};
+
+impl Choice {
+    /// The value of the method in the runtime, as Rust; `tolerances` is in scope.
+    pub fn constructor(&self) -> TokenStream {
+        let method = |name: Ident| quote! { ::lie_runtime::methods::#name };
+        let named = |name: &str| method(format_ident!("{name}"));
+        match self {
+            Self::Midpoint => named("ImplicitMidpoint"),
+            Self::Gauss(stages) => method(format_ident!("Gauss{}", 2 * stages)),
+            Self::LieMidpoint(retraction) => {
+                let tau = function_of(*retraction);
+                quote! { ::lie_runtime::methods::LieMidpoint::#tau() }
+            }
+            Self::LieEuler => named("LieEuler"),
+            Self::Rkmk(order) => method(format_ident!("Rkmk{order}")),
+            Self::CrouchGrossman3 => named("CrouchGrossman3"),
+            Self::CommutatorFree4 => named("CommutatorFree4"),
+            Self::MoserVeselov => named("MoserVeselov"),
+            Self::Compose(order, scheme, base) => {
+                let compose = method(format_ident!("Compose{order}"));
+                let base = base.constructor();
+                let scheme = (*scheme != Scheme::of_composition(*order)[0]).then(|| with(*scheme));
+                quote! { #compose::new(#base) #scheme }
+            }
+            Self::Generating(order, retraction) => {
+                let generating = method(format_ident!("Generating{order}"));
+                let tau = function_of(*retraction);
+                quote! { #generating::#tau() }
+            }
+            Self::GeneratingSecondKind2 => named("GeneratingSecondKind2"),
+            Self::Collective(order, lift) => {
+                let collective = method(format_ident!("Collective{order}"));
+                let lift = match lift {
+                    Lift::Representation => format_ident!("representation"),
+                    Lift::Hopf => format_ident!("hopf"),
+                };
+                quote! { #collective::#lift() }
+            }
+            Self::Isospectral(order) => {
+                let isospectral = method(format_ident!("Isospectral{order}"));
+                quote! { #isospectral::new() }
+            }
+            Self::SphericalMidpoint => named("SphericalMidpoint"),
+            Self::Splitting(order, scheme) => {
+                let splitting = method(format_ident!("Splitting{order}"));
+                let default = Scheme::of_splitting(*order).first().copied();
+                let scheme = default
+                    .is_some_and(|default| default != *scheme)
+                    .then(|| with(*scheme));
+                quote! { #splitting::new() #scheme }
+            }
+            Self::DiscreteGradient(gradient) => method(type_of(*gradient)),
+            Self::OrbitEnergy(gradient) => {
+                let gradient = match gradient {
+                    Gradient::Gonzalez => format_ident!("gonzalez"),
+                    Gradient::MeanValue => format_ident!("mean_value"),
+                    Gradient::ItohAbe => format_ident!("itoh_abe"),
+                };
+                quote! { ::lie_runtime::methods::OrbitEnergy::#gradient() }
+            }
+            Self::CohenHairer(order) => {
+                let method = method(format_ident!("CohenHairer{order}"));
+                quote! { #method::new() }
+            }
+            Self::Rk4 => named("Rk4"),
+            Self::Dopri5 => quote! {
+                ::lie_runtime::methods::Dopri5 { rtol: tolerances.rtol, atol: tolerances.atol }
+            },
+        }
+    }
+}
+
+fn function_of(retraction: Retraction) -> Ident {
+    format_ident!("{}", retraction.name())
+}
+
+fn type_of(gradient: Gradient) -> Ident {
+    match gradient {
+        Gradient::Gonzalez => format_ident!("Gonzalez"),
+        Gradient::MeanValue => format_ident!("MeanValue"),
+        Gradient::ItohAbe => format_ident!("ItohAbe"),
+    }
+}
+
+fn with(scheme: Scheme) -> TokenStream {
+    let scheme = match scheme {
+        Scheme::Suzuki => format_ident!("Suzuki"),
+        Scheme::TripleJump => format_ident!("TripleJump"),
+        Scheme::Yoshida => format_ident!("Yoshida"),
+        Scheme::KahanLi => format_ident!("KahanLi"),
+        Scheme::SuzukiUmeno => format_ident!("SuzukiUmeno"),
+        Scheme::BlanesMoan => format_ident!("BlanesMoan"),
+    };
+    quote! { .scheme(::lie_runtime::methods::Scheme::#scheme) }
+}

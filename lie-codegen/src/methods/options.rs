@@ -1,0 +1,254 @@
+//! The options of methods, by the names of their flags.
+
+use super::Choice;
+
+macro_rules! named {
+    ($(#[$doc:meta])* $type:ident, $default:ident { $($(#[$variant_doc:meta])* $variant:ident = $name:literal,)+ }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum $type {
+            $($(#[$variant_doc])* $variant,)+
+        }
+
+        impl $type {
+            /// Every value, in the order of the documentation.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),+];
+
+            /// The value as an option spells it.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)+
+                }
+            }
+
+            /// The value of a name.
+            pub fn from_name(name: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|value| value.name() == name)
+            }
+        }
+
+        impl Default for $type {
+            fn default() -> Self {
+                Self::$default
+            }
+        }
+    };
+}
+
+named! {
+    /// A retraction `tau: g -> G`, `--retraction`.
+    Retraction, Exp {
+        /// The exponential map.
+        Exp = "exp",
+        /// The Cayley map of the declared representation.
+        Cayley = "cayley",
+    }
+}
+
+named! {
+    /// A canonical space over g*, `--lift`.
+    Lift, Representation {
+        /// `T*V` of the declared representation V.
+        Representation = "representation",
+        /// `T*R^2` by the Hopf map, for so(3).
+        Hopf = "hopf",
+    }
+}
+
+named! {
+    /// A discrete gradient, `--gradient`.
+    Gradient, Gonzalez {
+        /// The midpoint discrete gradient.
+        Gonzalez = "gonzalez",
+        /// The mean value along the segment.
+        MeanValue = "mean-value",
+        /// Coordinate increments, symmetrised.
+        ItohAbe = "itoh-abe",
+    }
+}
+
+named! {
+    /// The coefficients of a composition, `--composition`.
+    Scheme, Suzuki {
+        /// Five stages, order 4.
+        Suzuki = "suzuki",
+        /// Three stages for each two orders.
+        TripleJump = "triple-jump",
+        /// Yoshida's solution A: seven stages, order 6.
+        Yoshida = "yoshida",
+        /// Kahan and Li: nine stages for order 6, seventeen for order 8.
+        KahanLi = "kahan-li",
+        /// Suzuki and Umeno: fifteen stages, order 8.
+        SuzukiUmeno = "suzuki-umeno",
+        /// Blanes and Moan: splittings with the fewest stages for their error.
+        BlanesMoan = "blanes-moan",
+    }
+}
+
+impl Scheme {
+    /// The schemes of a composition of an order; the first is the default.
+    pub const fn of_composition(order: u32) -> &'static [Self] {
+        match order {
+            4 => &[Self::Suzuki, Self::TripleJump],
+            6 => &[Self::KahanLi, Self::Yoshida, Self::TripleJump],
+            8 => &[Self::KahanLi, Self::SuzukiUmeno],
+            _ => &[],
+        }
+    }
+
+    /// The schemes of a splitting of an order; the first is the default.
+    pub const fn of_splitting(order: u32) -> &'static [Self] {
+        match order {
+            4 => &[Self::BlanesMoan, Self::Suzuki, Self::TripleJump],
+            6 => &[
+                Self::BlanesMoan,
+                Self::KahanLi,
+                Self::Yoshida,
+                Self::TripleJump,
+            ],
+            8 => &[Self::KahanLi, Self::SuzukiUmeno],
+            _ => &[],
+        }
+    }
+}
+
+/// Why an option cannot be set.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum OptionError {
+    /// The method has no option of this name.
+    Foreign,
+    /// The option has no such value: what is wrong, and what there is.
+    Value(String, String),
+}
+
+fn pick<T: Copy + PartialEq>(
+    what: &str,
+    text: &str,
+    all: &[T],
+    name: impl Fn(T) -> &'static str,
+) -> Result<T, OptionError> {
+    all.iter()
+        .copied()
+        .find(|value| name(*value) == text)
+        .ok_or_else(|| {
+            let names: Vec<&str> = all.iter().map(|value| name(*value)).collect();
+            OptionError::Value(
+                format!("there is no {what} `{text}`"),
+                format!("the {what}s here are {}", names.join(", ")),
+            )
+        })
+}
+
+impl Choice {
+    /// The same method with an option set; the options of a composition are those of its base, and
+    /// its own.
+    ///
+    /// # Errors
+    /// The option is none of this method, or its value none of the option.
+    pub fn with_option(self, option: &str, value: &str) -> Result<Self, OptionError> {
+        Ok(match (self, option) {
+            (Self::LieMidpoint(_), "retraction") => {
+                Self::LieMidpoint(pick(option, value, Retraction::ALL, Retraction::name)?)
+            }
+            (Self::Generating(order, _), "retraction") => Self::Generating(
+                order,
+                pick(option, value, Retraction::ALL, Retraction::name)?,
+            ),
+            (Self::Collective(order, _), "lift") => {
+                if value == "spec" {
+                    return Err(OptionError::Value(
+                        "the lift `spec` is not built yet".into(),
+                        "take `representation`, or `hopf` for so(3)".into(),
+                    ));
+                }
+                Self::Collective(order, pick(option, value, Lift::ALL, Lift::name)?)
+            }
+            (Self::OrbitEnergy(_), "gradient") => {
+                Self::OrbitEnergy(pick(option, value, Gradient::ALL, Gradient::name)?)
+            }
+            (Self::Splitting(order, _), "composition") if order > 2 => {
+                let all = Scheme::of_splitting(order);
+                Self::Splitting(order, pick(option, value, all, Scheme::name)?)
+            }
+            (split @ Self::Splitting(..), "pieces") => match value {
+                "coordinate" => split,
+                "found" => {
+                    return Err(OptionError::Value(
+                        "the pieces `found` are not built yet".into(),
+                        "take `--pieces coordinate`, for H = sum f_i(x_i)".into(),
+                    ));
+                }
+                _ => pick(option, value, &["coordinate"], |name| name).map(|_| split)?,
+            },
+            (Self::Compose(order, _, base), "composition") => {
+                let all = Scheme::of_composition(order);
+                Self::Compose(order, pick(option, value, all, Scheme::name)?, base)
+            }
+            (Self::Compose(order, scheme, base), _) => {
+                Self::Compose(order, scheme, Box::new(base.with_option(option, value)?))
+            }
+            _ => return Err(OptionError::Foreign),
+        })
+    }
+
+    /// The options and their values, defaults included.
+    pub fn options(&self) -> Vec<(&'static str, &'static str)> {
+        match self {
+            Self::LieMidpoint(retraction) | Self::Generating(_, retraction) => {
+                vec![("retraction", retraction.name())]
+            }
+            Self::Collective(_, lift) => vec![("lift", lift.name())],
+            Self::OrbitEnergy(gradient) => vec![("gradient", gradient.name())],
+            Self::Splitting(1 | 2, _) => vec![("pieces", "coordinate")],
+            Self::Splitting(_, scheme) => {
+                vec![("composition", scheme.name()), ("pieces", "coordinate")]
+            }
+            Self::Compose(_, scheme, base) => {
+                let mut options = vec![("composition", scheme.name())];
+                options.extend(base.options());
+                options
+            }
+            Self::Dopri5 => vec![("rtol", "1e-6"), ("atol", "1e-9")],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The method with every combination of its options, the default first.
+    pub fn variants(&self) -> Vec<Self> {
+        match self {
+            Self::LieMidpoint(_) => Retraction::ALL
+                .iter()
+                .map(|r| Self::LieMidpoint(*r))
+                .collect(),
+            Self::Generating(order, _) => Retraction::ALL
+                .iter()
+                .map(|r| Self::Generating(*order, *r))
+                .collect(),
+            Self::Collective(order, _) => Lift::ALL
+                .iter()
+                .map(|l| Self::Collective(*order, *l))
+                .collect(),
+            Self::OrbitEnergy(_) => Gradient::ALL
+                .iter()
+                .map(|g| Self::OrbitEnergy(*g))
+                .collect(),
+            Self::Splitting(order @ (4 | 6 | 8), _) => Scheme::of_splitting(*order)
+                .iter()
+                .map(|s| Self::Splitting(*order, *s))
+                .collect(),
+            Self::Compose(order, _, base) => {
+                let schemes = Scheme::of_composition(*order);
+                let bases = base.variants();
+                let of = |scheme: &Scheme| {
+                    let scheme = *scheme;
+                    bases
+                        .iter()
+                        .map(move |base| Self::Compose(*order, scheme, Box::new(base.clone())))
+                        .collect::<Vec<_>>()
+                };
+                schemes.iter().flat_map(of).collect()
+            }
+            other => vec![other.clone()],
+        }
+    }
+}
