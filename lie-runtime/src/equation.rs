@@ -81,7 +81,11 @@ pub trait Implicit<S: Scalar, M>: Poisson<S> {
 /// lie_runtime::generic_equations!([S: Scalar] Body<S>, S: midpoint, gauss4, exp);
 /// ```
 ///
-/// After the colon stand the equations: `midpoint`, `gauss4`, `gauss6`, `exp`, `cayley`.
+/// After the colon stand the equations: `midpoint`, `gauss4`, `gauss6`, `exp`, `cayley`;
+/// `generating` (all orders with exp, and coordinates of the second kind; needs `exp` and
+/// [`crate::Lift`]) and `generating_cayley` (needs `cayley` and [`crate::Lift`]), or one of them alone:
+/// `generating2`, `generating4`, `generating6`, `second_kind`, `generating2_cayley`,
+/// `generating4_cayley`.
 #[macro_export]
 macro_rules! generic_equations {
     ($generics:tt $system:ty, $scalar:ty: $($equation:ident),* $(,)?) => {
@@ -116,6 +120,85 @@ macro_rules! generic_equations {
             @impl $generics $system, $scalar, [LieMidpoint<$crate::methods::Cayley>],
             $crate::generic::CayleyMidpoint<'a, $scalar, Self>
         );
+    };
+    (@generating $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            $generics $system, $scalar: generating2, generating4, generating6, second_kind
+        );
+    };
+    (@generating_cayley $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            $generics $system, $scalar: generating2_cayley, generating4_cayley
+        );
+    };
+    (@generating2 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(@same $generics $system, $scalar, Exp, exp);
+    };
+    (@generating2_cayley $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(@same $generics $system, $scalar, Cayley, cayley);
+    };
+    (@generating4 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @function $generics $system, $scalar, [Generating<$crate::methods::Exp, 4>],
+            ExpRetraction, Generating4
+        );
+    };
+    (@generating6 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @function $generics $system, $scalar, [Generating<$crate::methods::Exp, 6>],
+            ExpRetraction, Generating6
+        );
+    };
+    (@generating4_cayley $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @function $generics $system, $scalar, [Generating<$crate::methods::Cayley, 4>],
+            CayleyRetraction, CayleyGenerating4
+        );
+    };
+    (@second_kind $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [GeneratingSecondKind2],
+            $crate::generic::SecondKind<
+                'a, $scalar, Self, $crate::generic::SecondKind2<'a, $scalar, Self>,
+            >
+        );
+    };
+    // order 2 is the Lie–Poisson midpoint method, fused or not
+    (@same [$($generics:tt)*] $system:ty, $scalar:ty, $retraction:ident, $constructor:ident) => {
+        impl<$($generics)*>
+            $crate::Implicit<$scalar, $crate::methods::Generating<$crate::methods::$retraction, 2>>
+            for $system
+        {
+            type Equation<'a> = <Self as $crate::Implicit<
+                $scalar,
+                $crate::methods::LieMidpoint<$crate::methods::$retraction>,
+            >>::Equation<'a> where Self: 'a;
+            fn equation<'a>(
+                &'a self,
+                _method: &$crate::methods::Generating<$crate::methods::$retraction, 2>,
+                h: $scalar,
+            ) -> Self::Equation<'a> {
+                $crate::Implicit::equation(self, &$crate::methods::LieMidpoint::$constructor(), h)
+            }
+        }
+    };
+    (
+        @function [$($generics:tt)*] $system:ty, $scalar:ty, [$($method:tt)*],
+        $equation:ident, $function:ident
+    ) => {
+        impl<$($generics)*> $crate::Implicit<$scalar, $crate::methods::$($method)*> for $system {
+            type Equation<'a> = $crate::generic::$equation<
+                'a, $scalar, Self, $crate::generic::$function<'a, $scalar, Self>,
+            > where Self: 'a;
+            fn equation<'a>(
+                &'a self,
+                _method: &$crate::methods::$($method)*,
+                h: $scalar,
+            ) -> Self::Equation<'a> {
+                let function = $crate::generic::$function::new(self, h);
+                $crate::generic::$equation::with_function(self, function, h)
+            }
+        }
     };
     (@impl [$($generics:tt)*] $system:ty, $scalar:ty, [$($method:tt)*], $equation:ty) => {
         impl<$($generics)*> $crate::Implicit<$scalar, $crate::methods::$($method)*> for $system {

@@ -61,6 +61,7 @@ pub mod diagnostics;
 pub mod driver;
 pub mod elimination;
 pub mod equation;
+pub mod generating;
 pub mod generic;
 pub mod matrix;
 pub mod methods;
@@ -77,6 +78,7 @@ pub mod state;
 mod test_systems;
 
 pub use equation::{Equation, Implicit};
+pub use generating::GeneratingFunction;
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
 pub use matrix::{SquareMatrix, StageMatrix};
@@ -95,7 +97,8 @@ pub mod prelude {
         solve, solve_observed,
     };
     pub use crate::methods::{
-        Dopri5, Gauss4, Gauss6, ImplicitMidpoint, LieMidpoint, Method, Rk4, Stepper,
+        Dopri5, Gauss4, Gauss6, Generating2, Generating4, Generating6, GeneratingSecondKind2,
+        ImplicitMidpoint, LieMidpoint, Method, Rk4, Stepper,
     };
     pub use crate::newton::{Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]
@@ -114,6 +117,7 @@ pub mod prelude {
 pub mod __private {
     pub use crate::elimination::StaticElimination;
     pub use crate::equation::{Equation, Implicit};
+    pub use crate::generating::GeneratingFunction;
     pub use crate::generic;
     pub use crate::matrix::{SquareMatrix, StageMatrix};
     pub use crate::newton::{dense, inverse_pivots_are_safe};

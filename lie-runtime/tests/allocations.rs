@@ -49,6 +49,10 @@ fn steps_allocate_nothing() {
         assert_eq!(allocations::<f64, _>(&Gauss6, &options), 0);
         assert_eq!(allocations::<f64, _>(&LieMidpoint::exp(), &options), 0);
         assert_eq!(allocations::<f64, _>(&LieMidpoint::cayley(), &options), 0);
+        assert_eq!(allocations::<f64, _>(&Generating4::exp(), &options), 0);
+        assert_eq!(allocations::<f64, _>(&Generating4::cayley(), &options), 0);
+        assert_eq!(allocations::<f64, _>(&Generating6::exp(), &options), 0);
+        assert_eq!(allocations::<f64, _>(&GeneratingSecondKind2, &options), 0);
         assert_eq!(allocations::<f64, _>(&Rk4, &options), 0);
         assert_eq!(allocations::<f64, _>(&Dopri5::default(), &options), 0);
         assert_eq!(allocations::<F64x8, _>(&Gauss6, &options), 0);

@@ -132,6 +132,13 @@ fn every_method_has_the_digits_of_the_scalar_run() {
         )));
     }
     let options = NewtonOptions::default();
+    let generating = [
+        compare(bodies, &Generating4::exp(), &options, h, body),
+        compare(bodies, &Generating4::cayley(), &options, h, body),
+        compare(bodies, &Generating6::exp(), &options, h, body),
+        compare(tops, &GeneratingSecondKind2, &options, h, top),
+    ];
+    assert!(generating.map(different).iter().all(|different| *different));
     compare(tops, &Rk4, &options, h, top);
     compare(bodies, &Rk4, &options, h, body);
     compare(tops, &Dopri5::default(), &options, h, top);

@@ -1,6 +1,9 @@
-//! The equation of the Lie–Poisson midpoint method with the Cayley map.
+//! The equation of methods of coadjoint form along the Cayley map: the Lie–Poisson midpoint method
+//! and the generating-function methods.
 
+use super::generating::Generating2;
 use crate::equation::Equation;
+use crate::generating::GeneratingFunction;
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::newton::dense;
@@ -8,16 +11,18 @@ use crate::poisson::CayleyPoisson;
 use crate::scalar::Scalar;
 use crate::state::State;
 
-/// The retraction method `mu1 = Ad*_(cay x) mu` for an algebra with a triple-closed representation.
+/// The method `mu1 = Ad*_(cay xi) mu` of a generating function S, for an algebra with a triple-closed
+/// representation.
 ///
-/// Unknown: the momentum m at the midpoint. Equation, polynomial in `x = h grad H(m)`:
-/// `r(m) = m - ad*_x m/2 - Q_x m/4 - mu`, with `(Q_x m)_b = T_abc^d x^a x^c m_d`.
-/// New state: `mu + ad*_x m`. Jacobian, column j: the terms linear in m applied to `e_j`, and with
-/// `v = h H''(m) e_j` the terms `-ad*_v m/2 - (T_abc^d v^a x^c m_d)_b/2`.
-/// Start: `m = mu + (h/2) f(mu)`.
+/// Unknown: the momentum p of the function. Equation, polynomial in `xi = grad S(p)`:
+/// `r(p) = p - ad*_xi p/2 - Q_xi p/4 - mu`, with `(Q_xi p)_b = T_abc^d xi^a xi^c p_d`.
+/// New state: `mu + ad*_xi p`. Jacobian, column j: the terms linear in p applied to `e_j`, and with
+/// `v = S''(p) e_j` the terms `-ad*_v p/2 - (T_abc^d v^a xi^c p_d)_b/2`.
+/// Start: `p = mu + (h/2) f(mu)`.
 #[derive(Debug)]
-pub struct CayleyMidpoint<'a, S: Scalar, P: CayleyPoisson<S>> {
+pub struct CayleyRetraction<'a, S: Scalar, P: CayleyPoisson<S>, G> {
     system: &'a P,
+    function: G,
     step: S,
     base: P::State,
     direction: P::State,
@@ -25,12 +30,28 @@ pub struct CayleyMidpoint<'a, S: Scalar, P: CayleyPoisson<S>> {
     columns: [P::State; 4],
 }
 
+/// The Lie–Poisson midpoint method with the Cayley map: [`CayleyRetraction`] with `S = h H`.
+pub type CayleyMidpoint<'a, S, P> = CayleyRetraction<'a, S, P, Generating2<'a, S, P>>;
+
 impl<'a, S: Scalar, P: CayleyPoisson<S>> CayleyMidpoint<'a, S, P> {
     /// The equation of a step of size h.
     pub fn new(system: &'a P, h: S) -> Self {
+        Self::with_function(system, Generating2::new(system, h), h)
+    }
+}
+
+impl<'a, S, P, G> CayleyRetraction<'a, S, P, G>
+where
+    S: Scalar,
+    P: CayleyPoisson<S>,
+    G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
+{
+    /// The equation of the step of size h of a generating function.
+    pub fn with_function(system: &'a P, function: G, h: S) -> Self {
         let zero = system.zero_state();
         Self {
             system,
+            function,
             step: h,
             base: zero.clone(),
             direction: zero.clone(),
@@ -39,16 +60,26 @@ impl<'a, S: Scalar, P: CayleyPoisson<S>> CayleyMidpoint<'a, S, P> {
         }
     }
 
-    /// Sets the direction to `x = h grad H(m)`.
-    fn set_direction(&mut self, unknown: &P::State) {
-        self.system.gradient(unknown, &mut self.direction);
-        for entry in self.direction.as_mut_slice() {
-            *entry *= self.step;
+    /// Computes the residual for the direction.
+    fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) {
+        let (half, quarter) = (S::ratio(1.0, 2.0), S::ratio(1.0, 4.0));
+        let [action, triple, ..] = &mut self.columns;
+        self.system.ad_star(&self.direction, unknown, action);
+        self.system
+            .triple(&self.direction, &self.direction, unknown, triple);
+        for (row, out) in residual.as_mut_slice().iter_mut().enumerate() {
+            let corrections = half * action.as_slice()[row] + quarter * triple.as_slice()[row];
+            *out = unknown.as_slice()[row] - corrections - self.base.as_slice()[row];
         }
     }
 }
 
-impl<S: Scalar, P: CayleyPoisson<S>> Equation<S> for CayleyMidpoint<'_, S, P> {
+impl<S, P, G> Equation<S> for CayleyRetraction<'_, S, P, G>
+where
+    S: Scalar,
+    P: CayleyPoisson<S>,
+    G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
+{
     type State = P::State;
     type Unknown = P::State;
     type Matrix = P::Jacobian;
@@ -72,21 +103,14 @@ impl<S: Scalar, P: CayleyPoisson<S>> Equation<S> for CayleyMidpoint<'_, S, P> {
     }
 
     fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
-        self.set_direction(unknown);
-        let (half, quarter) = (S::ratio(1.0, 2.0), S::ratio(1.0, 4.0));
-        let [action, triple, ..] = &mut self.columns;
-        self.system.ad_star(&self.direction, unknown, action);
-        self.system
-            .triple(&self.direction, &self.direction, unknown, triple);
-        for (row, out) in residual.as_mut_slice().iter_mut().enumerate() {
-            let corrections = half * action.as_slice()[row] + quarter * triple.as_slice()[row];
-            *out = unknown.as_slice()[row] - corrections - self.base.as_slice()[row];
-        }
+        self.function.gradient(unknown, &mut self.direction);
+        self.evaluate(unknown, residual);
     }
 
     fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
-        self.residual(unknown, residual);
-        self.system.hessian(unknown, &mut self.hessian);
+        self.function
+            .linearize(unknown, &mut self.direction, &mut self.hessian);
+        self.evaluate(unknown, residual);
         let (half, quarter) = (S::ratio(1.0, 2.0), S::ratio(1.0, 4.0));
         let [along, unit, first, second] = &mut self.columns;
         for column in 0..P::DIM {
@@ -100,7 +124,7 @@ impl<S: Scalar, P: CayleyPoisson<S>> Equation<S> for CayleyMidpoint<'_, S, P> {
                 matrix.set(row, column, one - linear);
             }
             for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {
-                *entry = self.step * self.hessian.get(row, column);
+                *entry = self.hessian.get(row, column);
             }
             if along.as_slice().iter().all(|&entry| entry == S::zero()) {
                 continue;
@@ -123,7 +147,7 @@ impl<S: Scalar, P: CayleyPoisson<S>> Equation<S> for CayleyMidpoint<'_, S, P> {
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
-        self.set_direction(unknown);
+        self.function.gradient(unknown, &mut self.direction);
         let [action, ..] = &mut self.columns;
         self.system.ad_star(&self.direction, unknown, action);
         for (row, out) in mu.as_mut_slice().iter_mut().enumerate() {
@@ -132,8 +156,7 @@ impl<S: Scalar, P: CayleyPoisson<S>> Equation<S> for CayleyMidpoint<'_, S, P> {
     }
 
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
-        self.set_direction(unknown);
-        xi.copy_from(&self.direction);
+        self.function.gradient(unknown, xi);
         Some(Retraction::Cayley)
     }
 }

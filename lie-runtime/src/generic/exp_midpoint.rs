@@ -1,7 +1,10 @@
-//! The equation of the Lie–Poisson midpoint method with the exponential map.
+//! The equation of methods of coadjoint form along the exponential map: the Lie–Poisson midpoint
+//! method and the generating-function methods.
 
+use super::generating::Generating2;
 use super::series::{Scratch, coadjoint_action_in, dexp_dual_in};
 use crate::equation::Equation;
+use crate::generating::GeneratingFunction;
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::newton::dense;
@@ -13,17 +16,18 @@ use crate::state::State;
 /// approximate, the residual is not.
 const TERMS: usize = 24;
 
-/// The retraction method `mu1 = Ad*_(exp x) mu` for any Lie algebra.
+/// The method `mu1 = Ad*_(exp xi) mu` of a generating function S, for any Lie algebra.
 ///
-/// Unknown: the momentum m at the midpoint. Equation: `(dexp_x^-1)* m = mu` with `x = h grad H(m)`,
-/// in the equivalent entire form `r(m) = m - phi1(ad*_x) mu`, `phi1(z) = (e^z - 1)/z`.
-/// New state: `exp(ad*_x) mu`, on the coadjoint orbit of mu to round-off whatever the error of m.
-/// Jacobian: `1 - d/dx[phi1(ad*_x) mu] h H''(m)`; with `t_k = (ad*_x)^k mu/(k + 1)!` the derivative
-/// along v is the sum of `e_k = (ad*_x e_(k-1) + ad*_v t_(k-1))/(k + 1)`, `e_0 = 0`.
-/// Start: `m = mu + (h/2) f(mu)`.
+/// Unknown: the momentum p of the function. Equation: `(dexp_xi^-1)* p = mu` with `xi = grad S(p)`,
+/// in the equivalent entire form `r(p) = p - phi1(ad*_xi) mu`, `phi1(z) = (e^z - 1)/z`.
+/// New state: `exp(ad*_xi) mu`, on the coadjoint orbit of mu to round-off whatever the error of p.
+/// Jacobian: `1 - d/dxi[phi1(ad*_xi) mu] S''(p)`; with `t_k = (ad*_xi)^k mu/(k + 1)!` the derivative
+/// along v is the sum of `e_k = (ad*_xi e_(k-1) + ad*_v t_(k-1))/(k + 1)`, `e_0 = 0`.
+/// Start: `p = mu + (h/2) f(mu)`.
 #[derive(Debug)]
-pub struct ExpMidpoint<'a, S: Scalar, P: LiePoisson<S>> {
+pub struct ExpRetraction<'a, S: Scalar, P: LiePoisson<S>, G> {
     system: &'a P,
+    function: G,
     step: S,
     base: P::State,
     direction: P::State,
@@ -34,12 +38,28 @@ pub struct ExpMidpoint<'a, S: Scalar, P: LiePoisson<S>> {
     columns: [P::State; 5],
 }
 
+/// The Lie–Poisson midpoint method for any Lie algebra: [`ExpRetraction`] with `S = h H`.
+pub type ExpMidpoint<'a, S, P> = ExpRetraction<'a, S, P, Generating2<'a, S, P>>;
+
 impl<'a, S: Scalar, P: LiePoisson<S>> ExpMidpoint<'a, S, P> {
     /// The equation of a step of size h.
     pub fn new(system: &'a P, h: S) -> Self {
+        Self::with_function(system, Generating2::new(system, h), h)
+    }
+}
+
+impl<'a, S, P, G> ExpRetraction<'a, S, P, G>
+where
+    S: Scalar,
+    P: LiePoisson<S>,
+    G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
+{
+    /// The equation of the step of size h of a generating function.
+    pub fn with_function(system: &'a P, function: G, h: S) -> Self {
         let zero = system.zero_state();
         Self {
             system,
+            function,
             step: h,
             base: zero.clone(),
             direction: zero.clone(),
@@ -51,17 +71,8 @@ impl<'a, S: Scalar, P: LiePoisson<S>> ExpMidpoint<'a, S, P> {
         }
     }
 
-    /// Sets the direction to `x = h grad H(m)`.
-    fn set_direction(&mut self, unknown: &P::State) {
-        self.system.gradient(unknown, &mut self.direction);
-        for entry in self.direction.as_mut_slice() {
-            *entry *= self.step;
-        }
-    }
-
-    /// Computes the residual; returns the index of the last term in each lane.
+    /// Computes the residual for the direction; returns the index of the last term in each lane.
     fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) -> S {
-        self.set_direction(unknown);
         let terms = &mut self.terms;
         let keep = |index: usize, term: &P::State| {
             if let Some(kept) = terms.get_mut(index) {
@@ -77,7 +88,12 @@ impl<'a, S: Scalar, P: LiePoisson<S>> ExpMidpoint<'a, S, P> {
     }
 }
 
-impl<S: Scalar, P: LiePoisson<S>> Equation<S> for ExpMidpoint<'_, S, P> {
+impl<S, P, G> Equation<S> for ExpRetraction<'_, S, P, G>
+where
+    S: Scalar,
+    P: LiePoisson<S>,
+    G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
+{
     type State = P::State;
     type Unknown = P::State;
     type Matrix = P::Jacobian;
@@ -101,16 +117,18 @@ impl<S: Scalar, P: LiePoisson<S>> Equation<S> for ExpMidpoint<'_, S, P> {
     }
 
     fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
+        self.function.gradient(unknown, &mut self.direction);
         self.evaluate(unknown, residual);
     }
 
     fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
+        self.function
+            .linearize(unknown, &mut self.direction, &mut self.hessian);
         let last = self.evaluate(unknown, residual);
-        self.system.hessian(unknown, &mut self.hessian);
         let [along, derivative, first, second, total] = &mut self.columns;
         for column in 0..P::DIM {
             for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {
-                *entry = self.step * self.hessian.get(row, column);
+                *entry = self.hessian.get(row, column);
             }
             derivative.fill(S::zero());
             total.fill(S::zero());
@@ -148,14 +166,13 @@ impl<S: Scalar, P: LiePoisson<S>> Equation<S> for ExpMidpoint<'_, S, P> {
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
-        self.set_direction(unknown);
+        self.function.gradient(unknown, &mut self.direction);
         let scratch = &mut self.scratch;
         coadjoint_action_in(self.system, &self.direction, &self.base, mu, scratch);
     }
 
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
-        self.set_direction(unknown);
-        xi.copy_from(&self.direction);
+        self.function.gradient(unknown, xi);
         Some(Retraction::Exp)
     }
 }

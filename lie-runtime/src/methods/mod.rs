@@ -1,6 +1,6 @@
 //! The integrators, one per file, each with its mathematics, what it needs and its reference.
 //!
-//! With the vector field `$f = \Pi\, \nabla H$`, the step `$h$` and, for the last two rows, a retraction `$\tau$`
+//! With the vector field `$f = \Pi\, \nabla H$`, the step `$h$` and, for the methods of coadjoint form, a retraction `$\tau$`
 //! of the group with its right-trivialised tangent `$\mathrm{d}\tau$`:
 //!
 //! | method | one step | order |
@@ -9,6 +9,8 @@
 //! | [`Gauss4`], [`Gauss6`] | `$Y_i = \mu + h \sum_j a_{ij} f(Y_j), \quad \mu_1 = \mu + h \sum_i b_i f(Y_i)$` | 4, 6 |
 //! | [`LieMidpoint::exp`] | `$(\mathrm{d}\tau_x^{-1})^* m = \mu, \quad x = h \nabla H(m), \quad \mu_1 = \mathrm{Ad}^*_{\tau(x)} \mu$`, `$\tau = \exp$` | 2 |
 //! | [`LieMidpoint::cayley`] | the same with `$\tau(x) = (1 - x/2)^{-1}(1 + x/2)$` | 2 |
+//! | [`Generating2`], [`Generating4`], [`Generating6`] | the same with `$x = \nabla S(m)$`, `$S = h H + h^3 S_3 + h^5 S_5$` | 2, 4, 6 |
+//! | [`GeneratingSecondKind2`] | the same in coordinates `$\exp(x_1 e_1) \cdots \exp(x_n e_n)$` | 2 |
 //!
 //! [`Rk4`] and [`Dopri5`] keep no structure: they are there to compare with. What a method keeps is data,
 //! see [`Facts`].
@@ -17,6 +19,8 @@
 pub mod dopri5;
 mod facts;
 pub mod gauss;
+pub mod generating;
+pub mod generating_second_kind;
 mod implicit;
 pub mod lie_midpoint;
 pub mod midpoint;
@@ -26,6 +30,8 @@ mod stepper;
 pub use dopri5::{Dopri5, Dopri5Stepper};
 pub use facts::{Facts, Preserves};
 pub use gauss::{Gauss4, Gauss6};
+pub use generating::{Generating, Generating2, Generating4, Generating6};
+pub use generating_second_kind::GeneratingSecondKind2;
 pub use implicit::ImplicitStepper;
 pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
 pub use midpoint::ImplicitMidpoint;

@@ -72,6 +72,8 @@ pub enum Retraction {
     Exp,
     /// The Cayley map of the declared representation.
     Cayley,
+    /// Coordinates of the second kind: `exp(xi_1 e_1) … exp(xi_n e_n)`.
+    SecondKind,
 }
 
 /// Takes the group factors of a step, in order: a method of coadjoint form advances

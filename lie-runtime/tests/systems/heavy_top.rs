@@ -2,7 +2,7 @@
 // `gamma' = gamma x Omega`.
 
 use super::rigid_body::{cross, dot, hat, so3_triple};
-use lie_runtime::{CayleyPoisson, LiePoisson, Poisson, Scalar, generic};
+use lie_runtime::{CayleyPoisson, Dual, LiePoisson, Lift, Poisson, Scalar, generic};
 use nalgebra::{SMatrix, SVector};
 
 /// Moments of inertia and the gradient of the potential energy, `mgl chi`.
@@ -117,6 +117,16 @@ impl<S: Scalar> LiePoisson<S> for HeavyTop<S> {
     }
 }
 
+impl<S: Scalar> Lift<S> for HeavyTop<S> {
+    type Lifted = HeavyTop<Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        HeavyTop {
+            inertia: self.inertia.map(Dual::constant_of),
+            weight: self.weight.map(Dual::constant_of),
+        }
+    }
+}
+
 impl<S: Scalar> CayleyPoisson<S> for HeavyTop<S> {
     /// In the 4x4 representation (hat a, u; 0, 0), with x = (a, u), z = (c, w), mu = (m, gamma):
     /// `-(a (c.m) + c (a.m))/2 + (w x (gamma x a) + u x (gamma x c))/2` and 0.
@@ -132,4 +142,4 @@ impl<S: Scalar> CayleyPoisson<S> for HeavyTop<S> {
     }
 }
 
-lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: midpoint, gauss4, gauss6, exp, cayley);
+lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);

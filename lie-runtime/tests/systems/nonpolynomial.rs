@@ -1,7 +1,7 @@
 // A system on so(3)* with the Hamiltonian `sin x + exp(y/2) + sqrt(1 + z^2) + x y^2 z`.
 
 use super::rigid_body::{cross, dot, hat, so3_triple};
-use lie_runtime::{CayleyPoisson, LiePoisson, Poisson, Scalar, generic};
+use lie_runtime::{CayleyPoisson, LiePoisson, Lift, Poisson, Scalar, generic};
 use nalgebra::{SMatrix, SVector};
 
 /// No parameters.
@@ -72,6 +72,13 @@ impl<S: Scalar> LiePoisson<S> for Nonpolynomial {
     }
 }
 
+impl<S: Scalar> Lift<S> for Nonpolynomial {
+    type Lifted = Self;
+    fn lift(&self) -> Self::Lifted {
+        Self
+    }
+}
+
 impl<S: Scalar> CayleyPoisson<S> for Nonpolynomial {
     fn triple(
         &self,
@@ -84,4 +91,4 @@ impl<S: Scalar> CayleyPoisson<S> for Nonpolynomial {
     }
 }
 
-lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: midpoint, gauss4, gauss6, exp, cayley);
+lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);

@@ -1,6 +1,6 @@
 // The free rigid body on so(3)*, written by hand: `mu' = mu x (mu/I)`.
 
-use lie_runtime::{CayleyPoisson, LiePoisson, Poisson, Scalar};
+use lie_runtime::{CayleyPoisson, Dual, LiePoisson, Lift, Poisson, Scalar};
 use nalgebra::{SMatrix, SVector};
 
 /// Principal moments of inertia.
@@ -120,10 +120,19 @@ impl<S: Scalar> LiePoisson<S> for RigidBody<S> {
     }
 }
 
+impl<S: Scalar> Lift<S> for RigidBody<S> {
+    type Lifted = RigidBody<Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        RigidBody {
+            inertia: self.inertia.map(Dual::constant_of),
+        }
+    }
+}
+
 impl<S: Scalar> CayleyPoisson<S> for RigidBody<S> {
     fn triple(&self, x: &Self::State, z: &Self::State, mu: &Self::State, out: &mut Self::State) {
         *out = so3_triple(x.as_slice(), z.as_slice(), mu.as_slice()).into();
     }
 }
 
-lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: midpoint, gauss4, gauss6, exp, cayley);
+lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);

@@ -1,0 +1,156 @@
+//! Generating functions for any system, by dual numbers.
+
+mod derivatives;
+mod slopes;
+
+use crate::generating::GeneratingFunction;
+use crate::matrix::SquareMatrix;
+use crate::poisson::{CayleyPoisson, Lift, Poisson};
+use crate::scalar::{Dual, Scalar};
+use crate::state::State;
+use derivatives::seeded;
+
+/// `S = h H`, for every retraction: the Lie–Poisson midpoint method.
+#[derive(Clone, Copy, Debug)]
+pub struct Generating2<'a, S, P> {
+    system: &'a P,
+    step: S,
+}
+
+impl<'a, S: Scalar, P: Poisson<S>> Generating2<'a, S, P> {
+    /// The function of a step of size h.
+    pub fn new(system: &'a P, h: S) -> Self {
+        Self { system, step: h }
+    }
+}
+
+impl<S: Scalar, P: Poisson<S>> GeneratingFunction<S> for Generating2<'_, S, P> {
+    type State = P::State;
+    type Jacobian = P::Jacobian;
+
+    fn gradient(&mut self, p: &P::State, xi: &mut P::State) {
+        self.system.gradient(p, xi);
+        for entry in xi.as_mut_slice() {
+            *entry *= self.step;
+        }
+    }
+
+    fn linearize(&mut self, p: &P::State, xi: &mut P::State, hessian: &mut P::Jacobian) {
+        self.gradient(p, xi);
+        self.system.hessian(p, hessian);
+        for row in 0..P::DIM {
+            for column in 0..P::DIM {
+                hessian.set(row, column, self.step * hessian.get(row, column));
+            }
+        }
+    }
+}
+
+/// The gradient over dual numbers along each coordinate: gradient and Hessian of a function given
+/// over [`Lift::Lifted`].
+///
+/// Generated code uses it where a Hessian written out would be too long.
+pub fn linearize_by_duals<S, F, V, M>(
+    function: &mut F,
+    zero: &F::State,
+    p: &V,
+    xi: &mut V,
+    hessian: &mut M,
+) where
+    S: Scalar,
+    F: GeneratingFunction<Dual<S>>,
+    V: State<S>,
+    M: SquareMatrix<S>,
+{
+    let (mut q, mut gradient) = (zero.clone(), zero.clone());
+    for (entry, &value) in q.as_mut_slice().iter_mut().zip(p.as_slice()) {
+        *entry = Dual::constant_of(value);
+    }
+    for column in 0..p.as_slice().len() {
+        q.as_mut_slice()[column].derivative = S::one();
+        function.gradient(&q, &mut gradient);
+        q.as_mut_slice()[column].derivative = S::zero();
+        for (row, entry) in gradient.as_slice().iter().enumerate() {
+            hessian.set(row, column, entry.derivative);
+        }
+    }
+    for (entry, dual) in xi.as_mut_slice().iter_mut().zip(gradient.as_slice()) {
+        *entry = dual.value;
+    }
+}
+
+macro_rules! by_duals {
+    ($(#[$doc:meta])* $name:ident, $slope:path $(, $cayley:ident)?) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug)]
+        pub struct $name<'a, S, P> {
+            system: &'a P,
+            step: S,
+        }
+
+        impl<'a, S: Scalar, P: Poisson<S>> $name<'a, S, P> {
+            /// The function of a step of size h.
+            pub fn new(system: &'a P, h: S) -> Self {
+                Self { system, step: h }
+            }
+        }
+
+        impl<S, P> GeneratingFunction<S> for $name<'_, S, P>
+        where
+            S: Scalar,
+            P: Lift<S> $(+ $cayley<S>, P::Lifted: $cayley<Dual<S>>)?,
+        {
+            type State = P::State;
+            type Jacobian = P::Jacobian;
+
+            fn gradient(&mut self, p: &P::State, xi: &mut P::State) {
+                $slope(self.system, self.step, p, xi);
+            }
+
+            fn linearize(&mut self, p: &P::State, xi: &mut P::State, hessian: &mut P::Jacobian) {
+                let lifted = self.system.lift();
+                let h = Dual::constant_of(self.step);
+                let mut q = seeded(&lifted, p.as_slice(), None);
+                let mut gradient = lifted.zero_state();
+                for column in 0..P::DIM {
+                    q.as_mut_slice()[column].derivative = S::one();
+                    $slope(&lifted, h, &q, &mut gradient);
+                    q.as_mut_slice()[column].derivative = S::zero();
+                    for (row, entry) in gradient.as_slice().iter().enumerate() {
+                        hessian.set(row, column, entry.derivative);
+                    }
+                }
+                for (entry, dual) in xi.as_mut_slice().iter_mut().zip(gradient.as_slice()) {
+                    *entry = dual.value;
+                }
+            }
+        }
+    };
+}
+
+by_duals!(
+    /// `S = h H + h^3 S3` in exponential coordinates, `S3 = H''(X, X)/24` with `X = f(p)`.
+    Generating4,
+    slopes::exp4
+);
+by_duals!(
+    /// `S = h H + h^3 S3 + h^5 S5` in exponential coordinates: [`Generating4`], and with
+    /// `X2 = ad*_(grad H) X`, `eta = grad S3`
+    /// `S5 = (-<X2, eta>/12 + H''(X, ad*_eta p)/4 + H''(X2, X2)/288 + H'''(X, X, X2)/96
+    /// + H''''(X, X, X, X)/384)/5`.
+    Generating6,
+    slopes::exp6
+);
+by_duals!(
+    /// `S = h H + h^3 S3` in Cayley coordinates,
+    /// `S3 = H''(X, X)/24 - <p, T(xi, xi, xi)>/12` with `X = f(p)`, `xi = grad H(p)`.
+    CayleyGenerating4,
+    slopes::cayley4,
+    CayleyPoisson
+);
+by_duals!(
+    /// `S = h H + h^2 S2` in coordinates of the second kind,
+    /// `S2 = sum_(i<j) H_i H_j C_ji^k p_k/2`.
+    SecondKind2,
+    slopes::second_kind
+);

@@ -1,0 +1,175 @@
+//! The equation of generating-function methods in coordinates of the second kind.
+
+use super::generating::SecondKind2;
+use super::series::{Scratch, coadjoint_action_in};
+use crate::equation::Equation;
+use crate::generating::GeneratingFunction;
+use crate::matrix::SquareMatrix;
+use crate::methods::Retraction;
+use crate::newton::dense;
+use crate::poisson::{LiePoisson, Lift};
+use crate::scalar::Scalar;
+use crate::state::State;
+
+/// The method `mu1 = Ad*_g mu` with `g = exp(xi_1 e_1) … exp(xi_n e_n)`, `xi = grad S(p)`, for any
+/// Lie algebra.
+///
+/// Unknown: p. With `m_0 = mu` and `m_i = exp(xi_i ad*_(e_i)) m_(i-1)`, the equation
+/// `D_R^-T p = mu` (`D_R` the right-trivialised tangent of the coordinates, its columns are
+/// `Ad_(exp(xi_1 e_1) … exp(xi_(i-1) e_(i-1))) e_i`) is `r_i(p) = p_i - (m_(i-1))_i`, entire in xi,
+/// and the new state is `m_n`, on the coadjoint orbit of mu to round-off whatever the error of p.
+/// Jacobian: `dm_i/dxi_l` is `ad*_(e_l) m_l` moved on by the actions l+1 to i.
+/// Start: the fixed-point form of the equation at mu.
+#[derive(Clone, Debug)]
+pub struct SecondKind<'a, S: Scalar, P: LiePoisson<S>, G> {
+    system: &'a P,
+    function: G,
+    base: P::State,
+    xi: P::State,
+    hessian: P::Jacobian,
+    tangents: P::Jacobian,
+    scratch: Scratch<P::State>,
+    columns: [P::State; 4],
+}
+
+impl<'a, S: Scalar, P: Lift<S>> SecondKind<'a, S, P, SecondKind2<'a, S, P>> {
+    /// The equation of a step of size h, order 2.
+    pub fn new(system: &'a P, h: S) -> Self {
+        Self::with_function(system, SecondKind2::new(system, h))
+    }
+}
+
+impl<'a, S, P, G> SecondKind<'a, S, P, G>
+where
+    S: Scalar,
+    P: LiePoisson<S>,
+    G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
+{
+    /// The equation of the step of a generating function.
+    pub fn with_function(system: &'a P, function: G) -> Self {
+        let zero = system.zero_state();
+        Self {
+            system,
+            function,
+            base: zero.clone(),
+            xi: zero.clone(),
+            hessian: system.zero_jacobian(),
+            tangents: system.zero_jacobian(),
+            scratch: Scratch::new(&zero),
+            columns: core::array::from_fn(|_| zero.clone()),
+        }
+    }
+
+    /// Calls `visit` with i and `m_(i-1)` before each action and leaves `m_n` in `columns[0]`.
+    fn walk(&mut self, mut visit: impl FnMut(usize, &P::State)) {
+        let [moment, one, moved, _] = &mut self.columns;
+        moment.copy_from(&self.base);
+        one.fill(S::zero());
+        for i in 0..P::DIM {
+            visit(i, moment);
+            one.as_mut_slice()[i] = self.xi.as_slice()[i];
+            coadjoint_action_in(self.system, one, &*moment, moved, &mut self.scratch);
+            one.as_mut_slice()[i] = S::zero();
+            core::mem::swap(moment, moved);
+        }
+    }
+
+    fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) {
+        self.walk(|i, moment| {
+            residual.as_mut_slice()[i] = unknown.as_slice()[i] - moment.as_slice()[i];
+        });
+    }
+}
+
+impl<S, P, G> Equation<S> for SecondKind<'_, S, P, G>
+where
+    S: Scalar,
+    P: LiePoisson<S>,
+    G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
+{
+    type State = P::State;
+    type Unknown = P::State;
+    type Matrix = P::Jacobian;
+
+    fn zero_unknown(&self) -> P::State {
+        self.system.zero_state()
+    }
+
+    fn zero_matrix(&self) -> P::Jacobian {
+        self.system.zero_jacobian()
+    }
+
+    fn set_base(&mut self, mu: &P::State) {
+        self.base.copy_from(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut P::State) {
+        self.function.gradient(&self.base, &mut self.xi);
+        self.walk(|i, moment| unknown.as_mut_slice()[i] = moment.as_slice()[i]);
+    }
+
+    fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
+        self.function.gradient(unknown, &mut self.xi);
+        self.evaluate(unknown, residual);
+    }
+
+    fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
+        self.function
+            .linearize(unknown, &mut self.xi, &mut self.hessian);
+        let [moment, one, moved, column] = &mut self.columns;
+        let (system, scratch) = (self.system, &mut self.scratch);
+        moment.copy_from(&self.base);
+        one.fill(S::zero());
+        for i in 0..P::DIM {
+            residual.as_mut_slice()[i] = unknown.as_slice()[i] - moment.as_slice()[i];
+            // dm_(i-1)/dxi_l; component i stays when action i moves the rest
+            for j in 0..P::DIM {
+                let mut sum = if i == j { S::one() } else { S::zero() };
+                for l in 0..i {
+                    sum -= self.tangents.get(i, l) * self.hessian.get(l, j);
+                }
+                matrix.set(i, j, sum);
+            }
+            one.as_mut_slice()[i] = self.xi.as_slice()[i];
+            coadjoint_action_in(system, one, &*moment, moved, scratch);
+            core::mem::swap(moment, moved);
+            if i + 1 == P::DIM {
+                break;
+            }
+            for l in 0..i {
+                for (row, entry) in column.as_mut_slice().iter_mut().enumerate() {
+                    *entry = self.tangents.get(row, l);
+                }
+                coadjoint_action_in(system, one, &*column, moved, scratch);
+                for (row, &entry) in moved.as_slice().iter().enumerate() {
+                    self.tangents.set(row, l, entry);
+                }
+            }
+            one.as_mut_slice()[i] = S::one();
+            system.ad_star(one, moment, column);
+            for (row, &entry) in column.as_slice().iter().enumerate() {
+                self.tangents.set(row, i, entry);
+            }
+            one.as_mut_slice()[i] = S::zero();
+        }
+    }
+
+    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
+        dense::factor(matrix)
+    }
+
+    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
+        dense::solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
+        self.function.gradient(unknown, &mut self.xi);
+        self.walk(|_, _| ());
+        mu.copy_from(&self.columns[0]);
+    }
+
+    fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
+        self.function.gradient(unknown, xi);
+        Some(Retraction::SecondKind)
+    }
+}
