@@ -45,7 +45,7 @@ impl Writer<'_> {
     /// The tokens of a constant of a kernel; `step` collects those of the step size.
     pub fn constant(&mut self, id: ExprId, owner: Owner, step: &mut Prepared) -> TokenStream {
         if matches!(self.source.graph.node(id), Node::Pi) {
-            return quote! { S::constant(3.141592653589793, 1.2246467991473532e-16) };
+            return quote! { S::constant(::core::f64::consts::PI, 1.2246467991473532e-16) };
         }
         if self.source.graph.symbols(id).contains(&Symbol::Step) {
             if matches!(self.source.graph.node(id), Node::Symbol(Symbol::Step)) {

@@ -85,6 +85,15 @@ impl Builder<'_> {
         is_known(self.graph, id, self.known, &mut self.cache)
     }
 
+    /// Whether a power of a known quantity goes into a prepared coefficient. Where nothing is known but
+    /// numbers, only what is a rational number again does: nobody prepares the rest.
+    fn goes_before(&mut self, base: ExprId, exponent: &Rational) -> bool {
+        if self.known != Known::Nothing {
+            return self.is_known(base);
+        }
+        self.graph.as_number(base).is_some() && exponent.to_integer().is_some()
+    }
+
     /// The atom of an expression and its sign; `settle` asks for the sign inside the atom.
     fn convert(&mut self, id: ExprId, settle: bool) -> Signed {
         if self.is_known(id) {
@@ -114,8 +123,10 @@ impl Builder<'_> {
         terms: &[(ExprId, Rational)],
         settle: bool,
     ) -> Signed {
-        let (known, varying): (Vec<_>, Vec<_>) =
-            terms.iter().cloned().partition(|(t, _)| self.is_known(*t));
+        let (known, varying): (Vec<_>, Vec<_>) = terms
+            .iter()
+            .cloned()
+            .partition(|(term, _)| self.goes_before(*term, &Rational::ONE));
         let mut known = known;
         known.push((self.graph.number(constant.clone()), Rational::ONE));
         let fixed = self.graph.linear(&known);
@@ -211,7 +222,8 @@ impl Builder<'_> {
         if let Atom::Product(factors) = self.formula.atoms[atom].clone() {
             for (position, &factor) in factors.iter().enumerate() {
                 let coefficient = match &self.formula.atoms[factor] {
-                    Atom::Leaf(Value::Prepared(id)) => *id,
+                    // pi stands for itself where nothing is prepared
+                    Atom::Leaf(Value::Prepared(id)) if self.known != Known::Nothing => *id,
                     Atom::Leaf(Value::Number(value)) => {
                         let value = value.clone();
                         self.graph.number(value)
@@ -257,7 +269,7 @@ impl Builder<'_> {
         let (known, varying): (Vec<_>, Vec<_>) = factors
             .iter()
             .cloned()
-            .partition(|(b, _)| self.is_known(*b));
+            .partition(|(base, exponent)| self.goes_before(*base, exponent));
         let known = self.graph.power_product(&known);
         let coefficient = self.graph.scale(known, coefficient);
         let negative = self.leads_negative(coefficient);
@@ -278,6 +290,9 @@ impl Builder<'_> {
         let Atom::Product(factors) = &self.formula.atoms[atom] else {
             return None;
         };
+        if self.known == Known::Nothing {
+            return None;
+        }
         factors
             .iter()
             .find_map(|factor| match &self.formula.atoms[*factor] {
