@@ -1,9 +1,21 @@
 //! The catalogue of methods against the constants of the runtime: one of them cannot change alone.
 
 use lie_codegen::methods::{Availability, CATALOGUE, Method};
-use lie_runtime::methods::{Dopri5, Facts, Gauss4, Gauss6, ImplicitMidpoint, LieMidpoint, Rk4};
+use lie_runtime::methods::{
+    CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, Dopri5, Facts, Gauss4, Gauss6,
+    ImplicitMidpoint, LieEuler, LieMidpoint, Preserves, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6,
+};
 
 fn agrees<F: Facts>(_: &F) -> &'static str {
+    compare::<F>(F::PRESERVES)
+}
+
+/// Of a composition the catalogue says only what every one has: it keeps what its base keeps.
+fn composition<F: Facts>(_: &F) -> &'static str {
+    compare::<F>(Preserves::NOTHING)
+}
+
+fn compare<F: Facts>(facts: Preserves) -> &'static str {
     let Method {
         order,
         symmetric,
@@ -21,7 +33,6 @@ fn agrees<F: Facts>(_: &F) -> &'static str {
         "{}",
         F::ID
     );
-    let facts = F::PRESERVES;
     assert_eq!(preserves.energy, facts.energy, "{}", F::ID);
     assert_eq!(preserves.casimirs, facts.casimirs, "{}", F::ID);
     assert_eq!(
@@ -56,6 +67,16 @@ fn facts_are_those_of_the_runtime() {
         agrees(&LieMidpoint::exp()),
         agrees(&Rk4),
         agrees(&Dopri5::default()),
+        agrees(&LieEuler),
+        agrees(&Rkmk2),
+        agrees(&Rkmk3),
+        agrees(&Rkmk4),
+        agrees(&Rkmk6),
+        agrees(&CrouchGrossman3),
+        agrees(&CommutatorFree4),
+        composition(&Compose4::new(LieMidpoint::exp())),
+        composition(&Compose6::new(ImplicitMidpoint)),
+        composition(&Compose8::new(LieMidpoint::cayley())),
     ];
     assert_eq!(agrees(&LieMidpoint::cayley()), "lie-midpoint");
     built.sort_unstable();

@@ -69,7 +69,7 @@ fn values_are_exact_constants_with_their_own_kinds_of_mistakes() {
         ("--initial log(0),0,1", "number"),
         ("--method runge", "method"),
         ("--method gonzalez", "method"),
-        ("--method compose4(midpoint)", "method"),
+        ("--method compose4(rk4)", "method"),
     ] {
         let flag = option.split(' ').next().unwrap_or_default();
         lie(&format!("run {body} {option}")).error(kind, &format!("command line: {flag}"));

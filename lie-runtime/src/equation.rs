@@ -85,7 +85,8 @@ pub trait Implicit<S: Scalar, M>: Poisson<S> {
 /// `generating` (all orders with exp, and coordinates of the second kind; needs `exp` and
 /// [`crate::Lift`]) and `generating_cayley` (needs `cayley` and [`crate::Lift`]), or one of them alone:
 /// `generating2`, `generating4`, `generating6`, `second_kind`, `generating2_cayley`,
-/// `generating4_cayley`.
+/// `generating4_cayley`. And `splitting` implements [`crate::SeparablePoisson`], for a Hamiltonian that
+/// is a sum of functions of one coordinate each.
 #[macro_export]
 macro_rules! generic_equations {
     ($generics:tt $system:ty, $scalar:ty: $($equation:ident),* $(,)?) => {
@@ -120,6 +121,14 @@ macro_rules! generic_equations {
             @impl $generics $system, $scalar, [LieMidpoint<$crate::methods::Cayley>],
             $crate::generic::CayleyMidpoint<'a, $scalar, Self>
         );
+    };
+    (@splitting [$($generics:tt)*] $system:ty, $scalar:ty) => {
+        impl<$($generics)*> $crate::SeparablePoisson<$scalar> for $system {
+            type Flows<'a> = $crate::generic::CoordinateFlows<'a, $scalar, Self> where Self: 'a;
+            fn flows(&self) -> Self::Flows<'_> {
+                $crate::generic::CoordinateFlows::new(self)
+            }
+        }
     };
     (@generating $generics:tt $system:ty, $scalar:ty) => {
         $crate::generic_equations!(

@@ -67,6 +67,7 @@ pub mod matrix;
 pub mod methods;
 pub mod newton;
 pub mod parameter;
+pub mod pieces;
 pub mod poisson;
 #[cfg(feature = "std")]
 pub mod program;
@@ -83,6 +84,7 @@ pub use generating::GeneratingFunction;
 pub use lie_macros::lie_poisson;
 pub use matrix::{SquareMatrix, StageMatrix};
 pub use parameter::ParameterError;
+pub use pieces::{PieceFlows, SeparablePoisson};
 pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
@@ -122,6 +124,7 @@ pub mod __private {
     pub use crate::matrix::{SquareMatrix, StageMatrix};
     pub use crate::newton::{dense, inverse_pivots_are_safe};
     pub use crate::parameter::{ParameterError, all_finite};
+    pub use crate::pieces::{PieceFlows, SeparablePoisson};
     pub use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};

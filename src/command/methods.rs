@@ -89,7 +89,9 @@ fn table() -> String {
         .filter(|method| method.availability == Availability::Built)
     {
         let kept = preserved(method.preserves);
-        let kept = if kept.is_empty() {
+        let kept = if method.id.starts_with("compose") {
+            "what the method that is composed preserves".to_owned()
+        } else if kept.is_empty() {
             "linear first integrals only".to_owned()
         } else {
             kept.join(", ")

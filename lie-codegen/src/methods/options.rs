@@ -70,7 +70,7 @@ named! {
 named! {
     /// The coefficients of a composition, `--composition`.
     Scheme, Suzuki {
-        /// Five stages, order 4.
+        /// Five stages for each two orders.
         Suzuki = "suzuki",
         /// Three stages for each two orders.
         TripleJump = "triple-jump",
@@ -90,7 +90,7 @@ impl Scheme {
     pub const fn of_composition(order: u32) -> &'static [Self] {
         match order {
             4 => &[Self::Suzuki, Self::TripleJump],
-            6 => &[Self::KahanLi, Self::Yoshida, Self::TripleJump],
+            6 => &[Self::KahanLi, Self::Yoshida, Self::Suzuki, Self::TripleJump],
             8 => &[Self::KahanLi, Self::SuzukiUmeno],
             _ => &[],
         }
@@ -104,6 +104,7 @@ impl Scheme {
                 Self::BlanesMoan,
                 Self::KahanLi,
                 Self::Yoshida,
+                Self::Suzuki,
                 Self::TripleJump,
             ],
             8 => &[Self::KahanLi, Self::SuzukiUmeno],

@@ -124,7 +124,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ORBIT,
         ALGEBRA,
         MK,
-    ),
+    )
+    .built(),
     planned(
         "rkmk2",
         "Runge–Kutta–Munthe-Kaas",
@@ -133,7 +134,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ORBIT,
         ALGEBRA,
         MK,
-    ),
+    )
+    .built(),
     planned(
         "rkmk3",
         "Runge–Kutta–Munthe-Kaas",
@@ -142,7 +144,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ORBIT,
         ALGEBRA,
         MK,
-    ),
+    )
+    .built(),
     planned(
         "rkmk4",
         "Runge–Kutta–Munthe-Kaas",
@@ -151,7 +154,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ORBIT,
         ALGEBRA,
         MK,
-    ),
+    )
+    .built(),
     planned(
         "rkmk6",
         "Runge–Kutta–Munthe-Kaas",
@@ -160,7 +164,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ORBIT,
         ALGEBRA,
         MK,
-    ),
+    )
+    .built(),
     planned(
         "cg3",
         "Crouch–Grossman",
@@ -169,7 +174,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ORBIT,
         ALGEBRA,
         CROUCH,
-    ),
+    )
+    .built(),
     planned(
         "cf4",
         "commutator-free",
@@ -178,7 +184,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ORBIT,
         ALGEBRA,
         CMO,
-    ),
+    )
+    .built(),
     planned(
         "moser-veselov",
         "discrete rigid body",
@@ -199,7 +206,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::NOTHING,
         "a symmetric method of order 2",
         KL,
-    ),
+    )
+    .built(),
     planned(
         "compose6",
         "composition of a symmetric method",
@@ -208,7 +216,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::NOTHING,
         "a symmetric method of order 2",
         KL,
-    ),
+    )
+    .built(),
     planned(
         "compose8",
         "composition of a symmetric method",
@@ -217,7 +226,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::NOTHING,
         "a symmetric method of order 2",
         KL,
-    ),
+    )
+    .built(),
     planned(
         "generating2",
         "generating function",

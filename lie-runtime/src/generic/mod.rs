@@ -4,6 +4,7 @@
 //! form given here.
 
 mod cayley_midpoint;
+mod coordinate_flows;
 mod exp_midpoint;
 mod gauss;
 mod generating;
@@ -14,6 +15,7 @@ mod series;
 mod tableau;
 
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
+pub use coordinate_flows::CoordinateFlows;
 pub use exp_midpoint::{ExpMidpoint, ExpRetraction};
 pub use gauss::Gauss;
 pub use generating::{
@@ -22,5 +24,6 @@ pub use generating::{
 pub use kernels::{ad_star, ad_star_matrix, jacobian, linearize, multiply, vector_field};
 pub use midpoint::Midpoint;
 pub use second_kind::SecondKind;
+pub(crate) use series::{Scratch, coadjoint_action_in};
 pub use series::{coadjoint_action, dexp_dual};
 pub use tableau::{Tableau, gauss_tableau};

@@ -107,7 +107,9 @@ fn sum<S: Scalar, P: LiePoisson<S>>(
 /// The coadjoint action `out = Ad*_(exp x) mu = exp(ad*_x) mu`.
 ///
 /// The series is applied to mu itself, so the result lies on the coadjoint orbit of mu to round-off
-/// whatever x is. Where the series cancels, x is halved and the series applied repeatedly.
+/// whatever x is. Where the series cancels, x is halved and the series applied repeatedly; where
+/// x is so large (some thousand in the norm of `ad_x`) that even this does not help, the result is
+/// not a number.
 pub fn coadjoint_action<S: Scalar, P: LiePoisson<S>>(
     system: &P,
     x: &P::State,
@@ -129,8 +131,9 @@ pub(crate) fn coadjoint_action_in<S: Scalar, P: LiePoisson<S>>(
     let Scratch { terms, argument } = scratch;
     argument.copy_from(x);
     let mut remaining = S::one();
+    let mut settled = S::Mask::splat(false);
     for round in 0..=MAX_HALVINGS {
-        let settled = sum(system, argument, mu, 0, terms, |_, _| ()).settled;
+        settled = sum(system, argument, mu, 0, terms, |_, _| ()).settled;
         if settled.all() || round == MAX_HALVINGS {
             break;
         }
@@ -140,6 +143,13 @@ pub(crate) fn coadjoint_action_in<S: Scalar, P: LiePoisson<S>>(
         remaining = S::select(settled, remaining, remaining + remaining);
     }
     out.copy_from(&terms.sum);
+    if !settled.all() {
+        let not_a_number = S::zero() / S::zero();
+        for entry in out.as_mut_slice() {
+            *entry = S::select(settled, *entry, not_a_number);
+        }
+        remaining = S::select(settled, remaining, S::zero());
+    }
     remaining -= S::one();
     loop {
         let open = S::zero().less(remaining);

@@ -12,28 +12,49 @@
 //! | [`Generating2`], [`Generating4`], [`Generating6`] | the same with `$x = \nabla S(m)$`, `$S = h H + h^3 S_3 + h^5 S_5$` | 2, 4, 6 |
 //! | [`GeneratingSecondKind2`] | the same in coordinates `$\exp(x_1 e_1) \cdots \exp(x_n e_n)$` | 2 |
 //!
+//! Explicit, by exponentials: [`LieEuler`], [`Rkmk2`], [`Rkmk3`], [`Rkmk4`], [`Rkmk6`], [`CrouchGrossman3`]
+//! and [`CommutatorFree4`] for any Lie algebra; [`Splitting`] for a Hamiltonian that is a sum of functions
+//! of one coordinate each. [`Compose`] makes methods of order 4, 6 and 8 of any symmetric one of order 2.
+//!
 //! [`Rk4`] and [`Dopri5`] keep no structure: they are there to compare with. What a method keeps is data,
 //! see [`Facts`].
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+mod coefficients;
+pub mod commutator_free;
+pub mod compose;
+pub mod crouch_grossman;
 pub mod dopri5;
+mod explicit;
 mod facts;
 pub mod gauss;
 pub mod generating;
 pub mod generating_second_kind;
 mod implicit;
+pub mod lie_euler;
 pub mod lie_midpoint;
 pub mod midpoint;
 pub mod rk4;
+pub mod rkmk;
+pub mod splitting;
 mod stepper;
 
+pub use coefficients::Scheme;
+pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
+pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};
+pub use crouch_grossman::{CrouchGrossman3, CrouchGrossmanStepper};
 pub use dopri5::{Dopri5, Dopri5Stepper};
 pub use facts::{Facts, Preserves};
 pub use gauss::{Gauss4, Gauss6};
 pub use generating::{Generating, Generating2, Generating4, Generating6};
 pub use generating_second_kind::GeneratingSecondKind2;
 pub use implicit::ImplicitStepper;
+pub use lie_euler::{LieEuler, LieEulerStepper};
 pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
 pub use midpoint::ImplicitMidpoint;
 pub use rk4::{Rk4, Rk4Stepper};
+pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
+pub use splitting::{
+    Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, SplittingStepper,
+};
 pub use stepper::{FactorSink, Method, Retraction, StepFailure, StepReport, Stepper};

@@ -143,3 +143,4 @@ impl<S: Scalar> CayleyPoisson<S> for HeavyTop<S> {
 }
 
 lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);
+lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: splitting);

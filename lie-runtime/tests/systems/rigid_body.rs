@@ -136,3 +136,4 @@ impl<S: Scalar> CayleyPoisson<S> for RigidBody<S> {
 }
 
 lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);
+lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: splitting);

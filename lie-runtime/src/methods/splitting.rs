@@ -1,0 +1,308 @@
+//! Splittings of a Hamiltonian that is a sum of functions of one coordinate each.
+//!
+//! ```math
+//! H(\mu) = \sum_i f_i(\mu_i), \qquad
+//! \varphi^i_t(\mu) = \exp\!\left(t f_i'(\mu_i)\, \mathrm{ad}^*_{e_i}\right) \mu
+//! ```
+//!
+//! Along the flow of a piece its coordinate is constant, so that each flow is explicit and exact. With
+//! the sweeps through all n pieces, forwards and backwards,
+//!
+//! ```math
+//! \chi_t = \varphi^n_t \circ \dots \circ \varphi^1_t, \qquad
+//! \chi^*_t = \varphi^1_t \circ \dots \circ \varphi^n_t
+//! ```
+//!
+//! a step is
+//!
+//! | method | one step | sweeps |
+//! |---|---|---|
+//! | [`Splitting1`] | `$\chi_h$` (Lie, Trotter) | 1 |
+//! | [`Splitting2`] | `$\chi^*_{h/2} \circ \chi_{h/2}$` (Strang) | 2 |
+//! | [`Splitting4`] | `$\chi^*_{s_{12} h} \circ \chi_{s_{11} h} \circ \dots \circ \chi^*_{s_2 h} \circ \chi_{s_1 h}$` (Blanes, Moan: S6), or a composition of Strang steps: [`Scheme::Suzuki`], [`Scheme::TripleJump`] | 12, 10, 6 |
+//! | [`Splitting6`] | the same with 10 stages (S10), or [`Scheme::KahanLi`], [`Scheme::Yoshida`], [`Scheme::Suzuki`], [`Scheme::TripleJump`] | 20, 18, 14, 50, 18 |
+//! | [`Splitting8`] | composition of Strang steps, [`Scheme::KahanLi`] or [`Scheme::SuzukiUmeno`] | 34, 30 |
+//!
+//! Where a sweep turns, the same piece is the last of one and the first of the next: the two are one
+//! flow over the sum of the times. This holds within a step, also between the stages of a composition;
+//! the last flow of a step and the first of the next are not joined, so that a step depends on nothing
+//! but its state.
+//!
+//! Explicit, Poisson maps; they keep the coadjoint orbit and every Casimir, and the energy without
+//! drift though not exactly. All but [`Splitting1`] are symmetric. A step fails only where numbers
+//! overflow or H has no value.
+//!
+//! Needs: a Hamiltonian of that form ([`SeparablePoisson`]); any Lie algebra.
+//!
+//! References: R. I. McLachlan, "Explicit Lie–Poisson integration and the Euler equations", Physical
+//! Review Letters 71 (1993) 3043–3046,
+//! [doi:10.1103/PhysRevLett.71.3043](https://doi.org/10.1103/PhysRevLett.71.3043); sweeps from the
+//! coefficients of a splitting in two: R. I. McLachlan, "On the numerical integration of ordinary
+//! differential equations by symmetric composition methods", SIAM Journal on Scientific Computing 16
+//! (1995) 151–168, [doi:10.1137/0916010](https://doi.org/10.1137/0916010); for the coefficients see
+//! [`Scheme`].
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
+
+use super::coefficients::{Parts, Scheme};
+use super::facts::{Facts, Preserves};
+use super::stepper::{
+    FactorSink, Method, Retraction, StepFailure, StepReport, Stepper, not_finite,
+};
+use crate::newton::NewtonOptions;
+use crate::pieces::{PieceFlows, SeparablePoisson};
+use crate::scalar::{Mask, Scalar};
+use crate::state::{State, Unknown};
+
+/// The most sweeps of a scheme.
+const SWEEPS: usize = 50;
+
+/// A splitting of order 1, 2, 4, 6 or 8; see the [module's text](self).
+///
+/// ```
+/// use lie_runtime::methods::{Scheme, Splitting2, Splitting4};
+/// let strang = Splitting2::new();
+/// let suzuki = Splitting4::new().scheme(Scheme::Suzuki);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Splitting<const ORDER: u32> {
+    scheme: Option<Scheme>,
+}
+
+/// The splitting of order 1, of Lie and Trotter.
+pub type Splitting1 = Splitting<1>;
+/// The splitting of order 2, of Strang.
+pub type Splitting2 = Splitting<2>;
+/// A splitting of order 4, by default that of Blanes and Moan with 6 stages.
+pub type Splitting4 = Splitting<4>;
+/// A splitting of order 6, by default that of Blanes and Moan with 10 stages.
+pub type Splitting6 = Splitting<6>;
+/// A splitting of order 8, by default the composition of Kahan and Li of 17 Strang steps.
+pub type Splitting8 = Splitting<8>;
+
+impl<const ORDER: u32> Default for Splitting<ORDER> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<const ORDER: u32> Splitting<ORDER> {
+    /// The splitting with the default scheme of its order.
+    pub const fn new() -> Self {
+        const {
+            assert!(
+                matches!(ORDER, 1 | 2 | 4 | 6 | 8),
+                "splittings have order 1, 2, 4, 6 or 8"
+            );
+        }
+        let scheme = match ORDER {
+            1 | 2 => None,
+            4 | 6 => Some(Scheme::BlanesMoan),
+            _ => Some(Scheme::of_composition(ORDER)),
+        };
+        Self { scheme }
+    }
+
+    /// The same with other coefficients.
+    ///
+    /// # Panics
+    /// If there is no such scheme of this order (the table is in the [module's text](self)).
+    #[must_use]
+    pub const fn scheme(self, scheme: Scheme) -> Self {
+        assert!(
+            scheme.sweeps(ORDER).is_some() || scheme.composition(ORDER).is_some(),
+            "there is no such splitting of this order"
+        );
+        Self {
+            scheme: Some(scheme),
+        }
+    }
+
+    /// The size of each sweep in units of the step; returns their number.
+    fn sweeps<S: Scalar>(self, sizes: &mut [S; SWEEPS]) -> usize {
+        let mut count = 0;
+        let mut push = |size: S| {
+            sizes[count] = size;
+            count += 1;
+        };
+        let Some(scheme) = self.scheme else {
+            let size = if ORDER == 1 { Parts::ONE } else { Parts::HALF };
+            for _ in 0..ORDER {
+                push(size.number());
+            }
+            return count;
+        };
+        if let Some(half) = scheme.sweeps(ORDER) {
+            for parts in half.iter().chain(half.iter().rev()) {
+                push(parts.number());
+            }
+        } else if let Some(half) = scheme.composition(ORDER) {
+            for parts in half.iter().chain(half.iter().rev().skip(1)) {
+                let size = parts.number::<S>() * Parts::HALF.number();
+                push(size);
+                push(size);
+            }
+        }
+        count
+    }
+}
+
+impl<const ORDER: u32> Facts for Splitting<ORDER> {
+    const ID: &'static str = match ORDER {
+        1 => "splitting1",
+        2 => "splitting2",
+        4 => "splitting4",
+        6 => "splitting6",
+        _ => "splitting8",
+    };
+    const ORDER: u32 = ORDER;
+    const SYMMETRIC: bool = ORDER != 1;
+    const EXPLICIT: bool = true;
+    const PRESERVES: Preserves = Preserves::POISSON;
+}
+
+impl<S, P, const ORDER: u32> Method<S, P> for Splitting<ORDER>
+where
+    S: Scalar,
+    P: SeparablePoisson<S>,
+{
+    type Stepper<'a>
+        = SplittingStepper<S, P::Flows<'a>>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, _newton: &NewtonOptions) -> Self::Stepper<'a> {
+        let mut sizes = [S::zero(); SWEEPS];
+        let count = self.sweeps(&mut sizes);
+        let mut sweeps = [Sweep::default(); SWEEPS];
+        let mut before = S::zero();
+        for (sweep, &size) in sweeps.iter_mut().zip(&sizes[..count]) {
+            *sweep = Sweep {
+                turn: (before + size) * h,
+                time: size * h,
+            };
+            before = size;
+        }
+        SplittingStepper {
+            flows: system.flows(),
+            sweeps,
+            count,
+            end: before * h,
+            step: h,
+            next: system.zero_state(),
+            factor: system.zero_state(),
+        }
+    }
+}
+
+/// One sweep: the time of its first piece, joined with the last of the sweep before, and of the
+/// others.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sweep<S> {
+    turn: S,
+    time: S,
+}
+
+/// The stepper of a splitting.
+pub struct SplittingStepper<S: Scalar, F: PieceFlows<S>> {
+    flows: F,
+    sweeps: [Sweep<S>; SWEEPS],
+    count: usize,
+    /// The time of the last piece of the last sweep.
+    end: S,
+    step: S,
+    next: F::State,
+    factor: F::State,
+}
+
+impl<S: Scalar, F: PieceFlows<S>> SplittingStepper<S, F> {
+    /// One step of `next`.
+    #[inline]
+    fn advance(&mut self) {
+        let pieces = self.flows.pieces();
+        if pieces < 2 {
+            if pieces == 1 {
+                self.flows.flow(0, self.step, &mut self.next);
+            }
+            return;
+        }
+        for (index, sweep) in self.sweeps[..self.count].iter().enumerate() {
+            if index % 2 == 0 {
+                self.flows.ascend(sweep.turn, sweep.time, &mut self.next);
+            } else {
+                self.flows.descend(sweep.turn, sweep.time, &mut self.next);
+            }
+        }
+        let last = if self.count % 2 == 0 { 0 } else { pieces - 1 };
+        self.flows.flow(last, self.end, &mut self.next);
+    }
+
+    /// The same piece by piece, with the factors given away in the lanes of the mask.
+    fn advance_with<K: FactorSink<F::State>>(&mut self, good: S::Mask, sink: &mut K) {
+        let pieces = self.flows.pieces();
+        let Self {
+            flows,
+            next,
+            factor,
+            ..
+        } = self;
+        let mut flow = |piece: usize, t: S| {
+            flows.direction(piece, t, next, factor);
+            for entry in factor.as_mut_slice() {
+                *entry = S::select(good, *entry, S::zero());
+            }
+            sink.push(Retraction::Exp, factor);
+            flows.flow(piece, t, next);
+        };
+        if pieces < 2 {
+            if pieces == 1 {
+                flow(0, self.step);
+            }
+            return;
+        }
+        for (index, sweep) in self.sweeps[..self.count].iter().enumerate() {
+            let place = |piece: usize| {
+                if index % 2 == 0 {
+                    piece
+                } else {
+                    pieces - 1 - piece
+                }
+            };
+            flow(place(0), sweep.turn);
+            for piece in 1..pieces - 1 {
+                flow(place(piece), sweep.time);
+            }
+        }
+        let last = if self.count % 2 == 0 { 0 } else { pieces - 1 };
+        flow(last, self.end);
+    }
+}
+
+impl<S: Scalar, F: PieceFlows<S>> Stepper<S> for SplittingStepper<S, F> {
+    type State = F::State;
+
+    fn step<K: FactorSink<F::State>>(
+        &mut self,
+        mu: &mut F::State,
+        sink: &mut K,
+    ) -> Result<StepReport, StepFailure> {
+        self.next.copy_from(mu);
+        self.advance();
+        let finite = self.next.finite();
+        if K::ACTIVE && finite.any() {
+            // only at the end it is known which lanes have no factors to give away
+            self.next.copy_from(mu);
+            self.advance_with(finite, sink);
+        }
+        mu.assign_where(finite, &self.next);
+        let report = StepReport {
+            evaluations: self.count as u32,
+            substeps: 1,
+            ..StepReport::default()
+        };
+        if finite.all() {
+            Ok(report)
+        } else {
+            Err(not_finite((!finite).bits(), report))
+        }
+    }
+}
