@@ -26,7 +26,7 @@ use lie_runtime::{CayleyPoisson, Dual, Implicit, Poisson, State};
 use representation::Representation;
 use systems::{
     CotangentEulerArnold, Declared, FreeRigidBody, HeavyTop, Heisenberg, KirchhoffBody, ManakovTop,
-    NonpolynomialSpin, Pendulum, Random, Sl2Quadratic, TodaLattice, state,
+    NonpolynomialSpin, Pendulum, Random, Sl2Quadratic, Su3Quadratic, TodaLattice, state,
 };
 
 /// Random states per system.

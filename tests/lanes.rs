@@ -10,7 +10,7 @@ use lie_runtime::prelude::*;
 use systems::{
     Declared, HeavyTop, Random, e2_pendulum, heisenberg_h3, se3_heavy_top, se3_kirchhoff,
     sl2_quadratic, so3_cotangent_euler_arnold, so3_free_rigid_body, so3_nonpolynomial, so4_manakov,
-    state, toda3_solvable,
+    state, su3_quadratic, toda3_solvable,
 };
 
 const STEPS: usize = 20;

@@ -1,4 +1,4 @@
-//! The ten systems against their reference values: trajectories by the command, kernels and single
+//! The systems against their reference values: trajectories by the command, kernels and single
 //! steps by the golden code and by the generic forms.
 
 mod common;
@@ -16,7 +16,8 @@ use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{CayleyPoisson, Implicit, Poisson, SquareMatrix, State};
 use systems::{
     CotangentEulerArnold, Declared, FreeRigidBody, HeavyTop, Heisenberg, KirchhoffBody, ManakovTop,
-    NonpolynomialSpin, Pendulum, Sl2Quadratic, TodaLattice, distance, relative_distance, state,
+    NonpolynomialSpin, Pendulum, Sl2Quadratic, Su3Quadratic, TodaLattice, distance,
+    relative_distance, state,
 };
 use vectors::{Reference, number, numbers, rows, steps};
 

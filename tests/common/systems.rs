@@ -33,6 +33,9 @@ pub mod so3_nonpolynomial;
 #[path = "../golden/so4_manakov.rs"]
 #[rustfmt::skip]
 pub mod so4_manakov;
+#[path = "../golden/su3_quadratic.rs"]
+#[rustfmt::skip]
+pub mod su3_quadratic;
 #[path = "../golden/toda3_solvable.rs"]
 #[rustfmt::skip]
 pub mod toda3_solvable;
@@ -46,6 +49,7 @@ pub use so3_cotangent_euler_arnold::CotangentEulerArnold;
 pub use so3_free_rigid_body::FreeRigidBody;
 pub use so3_nonpolynomial::NonpolynomialSpin;
 pub use so4_manakov::ManakovTop;
+pub use su3_quadratic::Su3Quadratic;
 pub use toda3_solvable::TodaLattice;
 
 /// A system of `specs/` with its default parameters, over any scalar.
@@ -97,6 +101,7 @@ declared!(
     NonpolynomialSpinSystem
 );
 declared!(so4_manakov, ManakovTop, ManakovTopSystem);
+declared!(su3_quadratic, Su3Quadratic, Su3QuadraticSystem);
 declared!(toda3_solvable, TodaLattice, TodaLatticeSystem);
 
 /// Calls a macro once per system: file, type, and `cayley` where that retraction exists, else `exp`.
@@ -111,6 +116,7 @@ macro_rules! each_system {
         $check!(so3_free_rigid_body, FreeRigidBody, cayley);
         $check!(so3_nonpolynomial, NonpolynomialSpin, cayley);
         $check!(so4_manakov, ManakovTop, cayley);
+        $check!(su3_quadratic, Su3Quadratic, exp);
         $check!(toda3_solvable, TodaLattice, exp);
     };
 }
