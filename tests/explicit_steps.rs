@@ -11,7 +11,7 @@ use lie_runtime::methods::{CommutatorFree4, LieEuler, Method, Rkmk4, Stepper};
 use lie_runtime::newton::NewtonOptions;
 use systems::{
     CotangentEulerArnold, Declared, FreeRigidBody, HeavyTop, Heisenberg, KirchhoffBody, ManakovTop,
-    NonpolynomialSpin, Pendulum, Sl2Quadratic, TodaLattice, distance,
+    NonpolynomialSpin, Pendulum, Sl2Quadratic, Su3Quadratic, TodaLattice, distance,
 };
 use vectors::steps;
 
