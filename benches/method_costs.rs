@@ -21,7 +21,7 @@ const SYSTEMS: [(&str, &str); 4] = [
     ("so(3), free rigid body", "so3_free_rigid_body"),
     ("se(3), heavy top", "se3_heavy_top"),
     ("so(4), Manakov top", "so4_manakov"),
-    ("su(3)", "su3_quartic"),
+    ("su(3)", "su3_quadratic"),
 ];
 
 /// Makes steps of a method; `NAME` and `METHODS` are replaced.
