@@ -39,6 +39,21 @@ const AT_TEN: [f64; 3] = [
     0.779_554_981_481_871_1,
 ];
 
+/// The page shows this row.
+fn page_shows(row: &str) {
+    let page = std::fs::read_to_string("docs/published.md").expect("the page");
+    assert!(
+        page.lines().any(|line| line == row),
+        "not in the page: {row}"
+    );
+}
+
+/// The entries in parentheses, with so many decimals.
+fn entries(values: &[f64], decimals: usize) -> String {
+    let texts: Vec<String> = values.iter().map(|v| format!("{v:.decimals$}")).collect();
+    format!("({})", texts.join(", "))
+}
+
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     let pairs = a.iter().zip(b);
@@ -71,12 +86,19 @@ where
 fn free_rigid_body_of_hairer_and_vilmart() {
     let body = || HairerVilmartBody::new().system().expect("valid");
     for (name, value) in [
-        ("gauss6", end(body(), Gauss6, &HAIRER_VILMART, 10.0, 0.01)),
-        ("rk4", end(body(), Rk4, &HAIRER_VILMART, 10.0, 0.001)),
+        (
+            "y(10) by `gauss6`, h = 0.01",
+            end(body(), Gauss6, &HAIRER_VILMART, 10.0, 0.01),
+        ),
+        (
+            "the same by `rk4`, h = 0.001",
+            end(body(), Rk4, &HAIRER_VILMART, 10.0, 0.001),
+        ),
     ] {
         let error = distance(&value, &AT_TEN);
         println!("{name}: {error:.1e}");
         assert!(error < 1e-12, "{name}: {error:e}");
+        page_shows(&format!("| {name} | {} |", entries(&value, 12)));
     }
     let midpoint = end(body(), ImplicitMidpoint, &HAIRER_VILMART, 10.0, 0.1);
     assert!(distance(&midpoint, &AT_TEN) > 1e-3, "a control");
@@ -105,6 +127,11 @@ fn heavy_top_of_diffman() {
         let error = distance(&value, &expected);
         println!("{name}: {error:.1e}");
         assert!(error < 2e-12, "{name}: {error:e}");
+        page_shows(&format!(
+            "| Pi(5) by `gauss6`, h = 0.005 | {} |",
+            entries(&value[..3], 10)
+        ));
+        page_shows(&format!("| Gamma(5) | {} |", entries(&value[3..], 10)));
     }
     let coarse = end(top(), LieMidpoint::exp(), &start, 5.0, 0.01);
     assert!(distance(&coarse, &expected) > 1e-6, "a control");
@@ -119,16 +146,15 @@ fn almost_poisson_midpoint() {
         .system()
         .expect("valid");
     let newton = NewtonOptions::default();
-    let mut defects = Vec::new();
     for (h, expected) in [(0.1, 3.56e-5), (0.05, 4.77e-6), (0.025, 6.15e-7)] {
         let defect = poisson_defect(&system, &ImplicitMidpoint, h, &HAIRER_VILMART, &newton);
         let defect = defect.expect("the step converges");
         println!("h = {h}: {defect:.4e}, published {expected:e}");
-        defects.push(defect);
         assert!(
             (defect / expected - 1.0).abs() < 2e-3,
             "h = {h}: {defect:e}"
         );
+        page_shows(&format!("| {h} | {defect:.2e} |"));
     }
     let exact = poisson_defect(&system, &LieMidpoint::exp(), 0.1, &HAIRER_VILMART, &newton);
     assert!(exact.expect("the step converges") < 1e-14);
