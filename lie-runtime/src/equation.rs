@@ -86,7 +86,10 @@ pub trait Implicit<S: Scalar, M>: Poisson<S> {
 /// [`crate::Lift`]) and `generating_cayley` (needs `cayley` and [`crate::Lift`]), or one of them alone:
 /// `generating2`, `generating4`, `generating6`, `second_kind`, `generating2_cayley`,
 /// `generating4_cayley`. And `splitting` implements [`crate::SeparablePoisson`], for a Hamiltonian that
-/// is a sum of functions of one coordinate each.
+/// is a sum of functions of one coordinate each. `discrete_gradients`
+/// (`gonzalez`, `mean_value`, `itoh_abe`), `orbit_energy` (along each of them: `orbit_gonzalez`,
+/// `orbit_mean_value`, `orbit_itoh_abe`), `cohen_hairer` (`cohen_hairer2`, `cohen_hairer4`,
+/// `cohen_hairer6`).
 #[macro_export]
 macro_rules! generic_equations {
     ($generics:tt $system:ty, $scalar:ty: $($equation:ident),* $(,)?) => {
@@ -208,6 +211,85 @@ macro_rules! generic_equations {
                 $crate::generic::$equation::with_function(self, function, h)
             }
         }
+    };
+    (@discrete_gradients $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!($generics $system, $scalar: gonzalez, mean_value, itoh_abe);
+    };
+    (@orbit_energy $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            $generics $system, $scalar: orbit_gonzalez, orbit_mean_value, orbit_itoh_abe
+        );
+    };
+    (@cohen_hairer $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            $generics $system, $scalar: cohen_hairer2, cohen_hairer4, cohen_hairer6
+        );
+    };
+    (@gonzalez $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [Gonzalez],
+            $crate::generic::DiscreteGradientStep<
+                'a, $scalar, Self, $crate::generic::GonzalezGradient<$scalar, Self>
+            >
+        );
+    };
+    (@mean_value $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [MeanValue],
+            $crate::generic::DiscreteGradientStep<
+                'a, $scalar, Self, $crate::generic::MeanValueGradient<$scalar, Self>
+            >
+        );
+    };
+    (@itoh_abe $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [ItohAbe],
+            $crate::generic::DiscreteGradientStep<
+                'a, $scalar, Self, $crate::generic::ItohAbeGradient<$scalar, Self>
+            >
+        );
+    };
+    (@orbit_gonzalez $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [OrbitEnergy<$crate::methods::Gonzalez>],
+            $crate::generic::OrbitEnergyStep<
+                'a, $scalar, Self, $crate::generic::GonzalezGradient<$scalar, Self>
+            >
+        );
+    };
+    (@orbit_mean_value $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [OrbitEnergy<$crate::methods::MeanValue>],
+            $crate::generic::OrbitEnergyStep<
+                'a, $scalar, Self, $crate::generic::MeanValueGradient<$scalar, Self>
+            >
+        );
+    };
+    (@orbit_itoh_abe $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [OrbitEnergy<$crate::methods::ItohAbe>],
+            $crate::generic::OrbitEnergyStep<
+                'a, $scalar, Self, $crate::generic::ItohAbeGradient<$scalar, Self>
+            >
+        );
+    };
+    (@cohen_hairer2 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [CohenHairer<1>],
+            $crate::generic::CohenHairerStep<'a, $scalar, Self, 1>
+        );
+    };
+    (@cohen_hairer4 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [CohenHairer<2>],
+            $crate::generic::CohenHairerStep<'a, $scalar, Self, 2>
+        );
+    };
+    (@cohen_hairer6 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [CohenHairer<3>],
+            $crate::generic::CohenHairerStep<'a, $scalar, Self, 3>
+        );
     };
     (@impl [$($generics:tt)*] $system:ty, $scalar:ty, [$($method:tt)*], $equation:ty) => {
         impl<$($generics)*> $crate::Implicit<$scalar, $crate::methods::$($method)*> for $system {

@@ -99,8 +99,9 @@ pub mod prelude {
         solve, solve_observed,
     };
     pub use crate::methods::{
-        Dopri5, Gauss4, Gauss6, Generating2, Generating4, Generating6, GeneratingSecondKind2,
-        ImplicitMidpoint, LieMidpoint, Method, Rk4, Stepper,
+        CohenHairer2, CohenHairer4, CohenHairer6, Dopri5, Gauss4, Gauss6, Generating2, Generating4,
+        Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, ItohAbe, LieMidpoint,
+        MeanValue, Method, OrbitEnergy, Rk4, Stepper,
     };
     pub use crate::newton::{Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]

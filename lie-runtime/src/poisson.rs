@@ -60,6 +60,14 @@ pub trait Poisson<S: Scalar>: Sized {
     /// The Poisson matrix: `out_ij = {mu_i, mu_j} = -C_ij^k mu_k`.
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian);
 
+    /// The derivative of the Poisson matrix against a fixed vector: `out_ij = d(Pi(mu) xi)_i/dmu_j`.
+    ///
+    /// The provided body is for a Poisson matrix that is affine in mu, as that of a Lie algebra is, where
+    /// it is `ad*_xi`; any other one must have its own.
+    fn poisson_slope(&self, _mu: &Self::State, xi: &Self::State, out: &mut Self::Jacobian) {
+        generic::poisson_slope(self, xi, out);
+    }
+
     /// The vector field `f(mu) = Pi(mu) grad H(mu)`.
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         generic::vector_field(self, mu, out);

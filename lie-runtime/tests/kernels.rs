@@ -50,6 +50,8 @@ where
     system.ad_star_matrix(&x, &mut left);
     generic::ad_star_matrix(system, &x, &mut right);
     assert_eq!(left, right);
+    generic::poisson_slope(system, &x, &mut right);
+    assert!(matrix_distance(&left, &right) < 1e-15);
 
     system.jacobian(&mu, &mut left);
     system.hessian(&mu, &mut right);

@@ -57,6 +57,25 @@ pub fn linearize<S: Scalar, P: LiePoisson<S>>(
     jacobian(system, mu, out);
 }
 
+/// The derivative of `mu -> Pi(mu) xi` for a Poisson matrix that is affine in mu, as that of a Lie
+/// algebra is: column j is `(Pi(e_j) - Pi(0)) xi`.
+pub fn poisson_slope<S: Scalar, P: Poisson<S>>(system: &P, xi: &P::State, out: &mut P::Jacobian) {
+    let mut matrix = system.zero_jacobian();
+    let (mut at_origin, mut column) = (system.zero_state(), system.zero_state());
+    system.poisson_matrix(&system.zero_state(), &mut matrix);
+    multiply(&matrix, xi, &mut at_origin);
+    for k in 0..P::DIM {
+        let mut unit = system.zero_state();
+        unit.as_mut_slice()[k] = S::one();
+        system.poisson_matrix(&unit, &mut matrix);
+        multiply(&matrix, xi, &mut column);
+        let pairs = column.as_slice().iter().zip(at_origin.as_slice());
+        for (row, (&entry, &origin)) in pairs.enumerate() {
+            out.set(row, k, entry - origin);
+        }
+    }
+}
+
 /// The coadjoint action by the Poisson matrix: `ad*_xi mu = Pi(mu) xi`.
 pub fn ad_star<S: Scalar, P: Poisson<S>>(
     system: &P,

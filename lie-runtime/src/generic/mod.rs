@@ -4,25 +4,39 @@
 //! form given here.
 
 mod cayley_midpoint;
+mod cohen_hairer;
 mod coordinate_flows;
+mod discrete_gradient;
+mod discrete_gradient_step;
 mod exp_midpoint;
 mod gauss;
 mod generating;
 mod kernels;
 mod midpoint;
+mod orbit_energy;
+mod quadrature;
 mod second_kind;
 mod series;
 mod tableau;
 
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
+pub use cohen_hairer::CohenHairerStep;
 pub use coordinate_flows::CoordinateFlows;
+pub use discrete_gradient::{
+    DiscreteGradient, GonzalezGradient, ItohAbeGradient, MeanValueGradient,
+};
+pub use discrete_gradient_step::DiscreteGradientStep;
 pub use exp_midpoint::{ExpMidpoint, ExpRetraction};
 pub use gauss::Gauss;
 pub use generating::{
     CayleyGenerating4, Generating2, Generating4, Generating6, SecondKind2, linearize_by_duals,
 };
-pub use kernels::{ad_star, ad_star_matrix, jacobian, linearize, multiply, vector_field};
+pub use kernels::{
+    ad_star, ad_star_matrix, jacobian, linearize, multiply, poisson_slope, vector_field,
+};
 pub use midpoint::Midpoint;
+pub use orbit_energy::OrbitEnergyStep;
+pub use quadrature::{MAX_NODES, Quadrature};
 pub use second_kind::SecondKind;
 pub(crate) use series::{Scratch, coadjoint_action_in};
 pub use series::{coadjoint_action, dexp_dual};

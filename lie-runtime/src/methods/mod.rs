@@ -11,6 +11,9 @@
 //! | [`LieMidpoint::cayley`] | the same with `$\tau(x) = (1 - x/2)^{-1}(1 + x/2)$` | 2 |
 //! | [`Generating2`], [`Generating4`], [`Generating6`] | the same with `$x = \nabla S(m)$`, `$S = h H + h^3 S_3 + h^5 S_5$` | 2, 4, 6 |
 //! | [`GeneratingSecondKind2`] | the same in coordinates `$\exp(x_1 e_1) \cdots \exp(x_n e_n)$` | 2 |
+//! | [`Gonzalez`], [`MeanValue`], [`ItohAbe`] | `$\mu_1 = \mu + h\, \Pi\!\left(\tfrac12(\mu + \mu_1)\right) \overline\nabla H(\mu, \mu_1)$` | 2 |
+//! | [`OrbitEnergy`] | `$\mu_1 = \mathrm{Ad}^*_{\exp(h \overline\nabla H(\mu, \mu_1))}\, \mu$` | 2 |
+//! | [`CohenHairer`] | collocation with mean gradients, `$s$` stages | `$2s$` |
 //!
 //! Explicit, by exponentials: [`LieEuler`], [`Rkmk2`], [`Rkmk3`], [`Rkmk4`], [`Rkmk6`], [`CrouchGrossman3`]
 //! and [`CommutatorFree4`] for any Lie algebra; [`Splitting`] for a Hamiltonian that is a sum of functions
@@ -21,6 +24,7 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 mod coefficients;
+pub mod cohen_hairer;
 pub mod commutator_free;
 pub mod compose;
 pub mod crouch_grossman;
@@ -30,16 +34,21 @@ mod facts;
 pub mod gauss;
 pub mod generating;
 pub mod generating_second_kind;
+pub mod gonzalez;
 mod implicit;
+pub mod itoh_abe;
 pub mod lie_euler;
 pub mod lie_midpoint;
+pub mod mean_value;
 pub mod midpoint;
+pub mod orbit_energy;
 pub mod rk4;
 pub mod rkmk;
 pub mod splitting;
 mod stepper;
 
 pub use coefficients::Scheme;
+pub use cohen_hairer::{CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6};
 pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
 pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};
 pub use crouch_grossman::{CrouchGrossman3, CrouchGrossmanStepper};
@@ -48,10 +57,14 @@ pub use facts::{Facts, Preserves};
 pub use gauss::{Gauss4, Gauss6};
 pub use generating::{Generating, Generating2, Generating4, Generating6};
 pub use generating_second_kind::GeneratingSecondKind2;
+pub use gonzalez::Gonzalez;
 pub use implicit::ImplicitStepper;
+pub use itoh_abe::ItohAbe;
 pub use lie_euler::{LieEuler, LieEulerStepper};
 pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
+pub use mean_value::MeanValue;
 pub use midpoint::ImplicitMidpoint;
+pub use orbit_energy::OrbitEnergy;
 pub use rk4::{Rk4, Rk4Stepper};
 pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
 pub use splitting::{

@@ -144,3 +144,4 @@ impl<S: Scalar> CayleyPoisson<S> for HeavyTop<S> {
 
 lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);
 lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: splitting);
+lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: discrete_gradients, orbit_energy, cohen_hairer);

@@ -3,6 +3,7 @@
 
 pub mod heavy_top;
 pub mod nonpolynomial;
+pub mod quartic;
 pub mod rigid_body;
 pub mod saddle;
 

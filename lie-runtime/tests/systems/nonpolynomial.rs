@@ -92,3 +92,4 @@ impl<S: Scalar> CayleyPoisson<S> for Nonpolynomial {
 }
 
 lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);
+lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: discrete_gradients, orbit_energy, cohen_hairer);

@@ -137,3 +137,4 @@ impl<S: Scalar> CayleyPoisson<S> for RigidBody<S> {
 
 lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);
 lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: splitting);
+lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: discrete_gradients, orbit_energy, cohen_hairer);

@@ -43,4 +43,4 @@ impl<S: Scalar> Poisson<S> for Saddle<S> {
     fn casimir_gradient(&self, _index: usize, _mu: &Self::State, _out: &mut Self::State) {}
 }
 
-lie_runtime::generic_equations!([S: Scalar] Saddle<S>, S: midpoint, gauss4, gauss6);
+lie_runtime::generic_equations!([S: Scalar] Saddle<S>, S: midpoint, gauss4, gauss6, discrete_gradients, cohen_hairer);

@@ -1,0 +1,240 @@
+//! The equation of energy-preserving collocation.
+
+use super::kernels::multiply;
+use super::quadrature::{MAX_NODES, Quadrature};
+use super::tableau::{Tableau, gauss_tableau};
+use crate::equation::Equation;
+use crate::matrix::{SquareMatrix, StageMatrix};
+use crate::newton::dense;
+use crate::poisson::Poisson;
+use crate::scalar::Scalar;
+use crate::state::{Stages, State};
+
+/// The method of Cohen and Hairer with 1, 2 or 3 stages for any Poisson system.
+///
+/// Unknown: the increments `D_i` of the stages. With the Gauss nodes c and weights b, the Lagrange
+/// polynomials `l_i` on the nodes and `L_i(t) = int_0^t l_i`, the solution is
+/// `u(t) = mu + sum_i L_i(t) D_i`. Equation: `r_i = D_i - h Pi(Y_i) g_i` with `Y_i = u(c_i)` and the means
+/// of the gradient `g_i = (1/b_i) int_0^1 l_i(t) grad H(u(t)) dt`, by quadrature over q. New state:
+/// `mu + sum_i b_i D_i`. Jacobian:
+/// `dr_i/dD_j = delta_ij - h a_ij d/dY[Pi(Y_i) g_i] - h Pi(Y_i) sum_q w_q l_i(t_q) L_j(t_q)/b_i H''(u(t_q))`.
+/// Start: `D_i = h f(mu + c_i h f(mu))`.
+#[derive(Debug)]
+pub struct CohenHairerStep<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> {
+    system: &'a P,
+    step: S,
+    tableau: Tableau<S, STAGES>,
+    nodes: usize,
+    /// `w_q l_i(t_q)/b_i`
+    means: [[S; STAGES]; MAX_NODES],
+    /// `L_i(t_q)`
+    curve: [[S; STAGES]; MAX_NODES],
+    base: P::State,
+    point: P::State,
+    field: P::State,
+    /// The means of the gradient.
+    gradients: [P::State; STAGES],
+    poisson_matrix: P::Jacobian,
+    hessian: P::Jacobian,
+}
+
+impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P, STAGES> {
+    /// The equation of a step of size h.
+    pub fn new(system: &'a P, h: S) -> Self {
+        let zero = system.zero_state();
+        let tableau = gauss_tableau::<S, STAGES>();
+        let rule = Quadrature::of_hamiltonian::<P>(STAGES);
+        let mut means = [[S::zero(); STAGES]; MAX_NODES];
+        let mut curve = means;
+        for node in 0..rule.len() {
+            let (offset, weight) = rule.node(node);
+            let t = S::ratio(1.0, 2.0) + offset;
+            for i in 0..STAGES {
+                means[node][i] = weight * lagrange(&tableau.c, i, t) / tableau.b[i];
+                let mut sum = S::zero();
+                for (&b, &c) in tableau.b.iter().zip(&tableau.c) {
+                    sum += b * lagrange(&tableau.c, i, t * c);
+                }
+                curve[node][i] = t * sum;
+            }
+        }
+        Self {
+            system,
+            step: h,
+            tableau,
+            nodes: rule.len(),
+            means,
+            curve,
+            base: zero.clone(),
+            point: zero.clone(),
+            field: zero.clone(),
+            gradients: core::array::from_fn(|_| zero.clone()),
+            poisson_matrix: system.zero_jacobian(),
+            hessian: system.zero_jacobian(),
+        }
+    }
+
+    /// Sets the point to `mu + sum_j weights_j D_j`.
+    fn set_point(&mut self, weights: &[S; STAGES], increments: &Stages<P::State, STAGES>) {
+        for (index, point) in self.point.as_mut_slice().iter_mut().enumerate() {
+            let mut sum = S::zero();
+            for (&weight, increment) in weights.iter().zip(&increments.0) {
+                sum += weight * increment.as_slice()[index];
+            }
+            *point = self.base.as_slice()[index] + sum;
+        }
+    }
+
+    /// Adds the gradient at the point to the means.
+    fn add_gradient(&mut self, node: usize) {
+        self.system.gradient(&self.point, &mut self.field);
+        for (gradient, &weight) in self.gradients.iter_mut().zip(&self.means[node]) {
+            gradient.axpy(weight, &self.field);
+        }
+    }
+
+    /// `r_i = D_i - h Pi(Y_i) g_i`; leaves `Y_i` in the point and `Pi(Y_i)` in the matrix.
+    fn write_residual(
+        &mut self,
+        stage: usize,
+        unknown: &Stages<P::State, STAGES>,
+        residual: &mut P::State,
+    ) {
+        self.set_point(&{ self.tableau.a[stage] }, unknown);
+        let matrix = &mut self.poisson_matrix;
+        self.system.poisson_matrix(&self.point, matrix);
+        multiply(matrix, &self.gradients[stage], &mut self.field);
+        let pairs = unknown.0[stage]
+            .as_slice()
+            .iter()
+            .zip(self.field.as_slice());
+        for (out, (&increment, &field)) in residual.as_mut_slice().iter_mut().zip(pairs) {
+            *out = increment - self.step * field;
+        }
+    }
+}
+
+/// The Lagrange polynomial of a node at t.
+fn lagrange<S: Scalar>(nodes: &[S], index: usize, t: S) -> S {
+    let mut product = S::one();
+    for (other, &node) in nodes.iter().enumerate() {
+        if other != index {
+            product *= (t - node) / (nodes[index] - node);
+        }
+    }
+    product
+}
+
+impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
+    for CohenHairerStep<'_, S, P, STAGES>
+{
+    type State = P::State;
+    type Unknown = Stages<P::State, STAGES>;
+    type Matrix = StageMatrix<P::Jacobian, STAGES>;
+
+    fn zero_unknown(&self) -> Self::Unknown {
+        Stages(core::array::from_fn(|_| self.system.zero_state()))
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        StageMatrix(core::array::from_fn(|_| {
+            core::array::from_fn(|_| self.system.zero_jacobian())
+        }))
+    }
+
+    fn set_base(&mut self, mu: &P::State) {
+        self.base.copy_from(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        // the slope at the base is kept in the last increment until that one is due
+        self.system
+            .vector_field(&self.base, &mut unknown.0[STAGES - 1]);
+        for stage in 0..STAGES {
+            self.point.copy_from(&self.base);
+            self.point
+                .axpy(self.tableau.c[stage] * self.step, &unknown.0[STAGES - 1]);
+            self.system.vector_field(&self.point, &mut self.field);
+            unknown.0[stage].fill(S::zero());
+            unknown.0[stage].axpy(self.step, &self.field);
+        }
+    }
+
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        for gradient in &mut self.gradients {
+            gradient.fill(S::zero());
+        }
+        for node in 0..self.nodes {
+            self.set_point(&{ self.curve[node] }, unknown);
+            self.add_gradient(node);
+        }
+        for (stage, residual) in residual.0.iter_mut().enumerate() {
+            self.write_residual(stage, unknown, residual);
+        }
+    }
+
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        let pairs = || (0..P::DIM).flat_map(|row| (0..P::DIM).map(move |column| (row, column)));
+        for gradient in &mut self.gradients {
+            gradient.fill(S::zero());
+        }
+        for block in matrix.0.as_flattened_mut() {
+            for (row, column) in pairs() {
+                block.set(row, column, S::zero());
+            }
+        }
+        // the blocks first collect the means of the Hessian
+        for node in 0..self.nodes {
+            self.set_point(&{ self.curve[node] }, unknown);
+            self.add_gradient(node);
+            self.system.hessian(&self.point, &mut self.hessian);
+            for (blocks, &mean) in matrix.0.iter_mut().zip(&self.means[node]) {
+                for (block, &curve) in blocks.iter_mut().zip(&self.curve[node]) {
+                    let weight = mean * curve;
+                    for (row, column) in pairs() {
+                        let term = weight * self.hessian.get(row, column);
+                        block.set(row, column, block.get(row, column) + term);
+                    }
+                }
+            }
+        }
+        for (stage, blocks) in matrix.0.iter_mut().enumerate() {
+            self.write_residual(stage, unknown, &mut residual.0[stage]);
+            let slope = &mut self.hessian;
+            self.system
+                .poisson_slope(&self.point, &self.gradients[stage], slope);
+            for (other, block) in blocks.iter_mut().enumerate() {
+                for column in 0..P::DIM {
+                    for (row, entry) in self.point.as_mut_slice().iter_mut().enumerate() {
+                        *entry = block.get(row, column);
+                    }
+                    multiply(&self.poisson_matrix, &self.point, &mut self.field);
+                    for (row, &entry) in self.field.as_slice().iter().enumerate() {
+                        let unit = stage == other && row == column;
+                        let identity = if unit { S::one() } else { S::zero() };
+                        let slope = self.tableau.a[stage][other] * self.hessian.get(row, column);
+                        block.set(row, column, identity - self.step * (slope + entry));
+                    }
+                }
+            }
+        }
+    }
+
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        dense::factor(matrix)
+    }
+
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        dense::solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut P::State) {
+        self.set_point(&{ self.tableau.b }, unknown);
+        mu.copy_from(&self.point);
+    }
+}

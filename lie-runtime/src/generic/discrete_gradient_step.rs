@@ -1,0 +1,129 @@
+//! The equation of the discrete gradient methods.
+
+use super::discrete_gradient::DiscreteGradient;
+use super::kernels::multiply;
+use crate::equation::Equation;
+use crate::matrix::SquareMatrix;
+use crate::newton::dense;
+use crate::poisson::Poisson;
+use crate::scalar::Scalar;
+use crate::state::State;
+
+/// A discrete gradient method for any Poisson system.
+///
+/// Unknown: the new state u. Equation: `r(u) = u - mu - h Pi(m) g(mu, u)` with `m = (mu + u)/2` and the
+/// discrete gradient g. Jacobian: `1 - (h/2) d/dm[Pi(m) g] - h Pi(m) dg/du`.
+/// Start: `mu + h f(mu)`.
+#[derive(Debug)]
+pub struct DiscreteGradientStep<'a, S: Scalar, P: Poisson<S>, G> {
+    system: &'a P,
+    gradient: G,
+    step: S,
+    base: P::State,
+    middle: P::State,
+    xi: P::State,
+    field: P::State,
+    poisson_matrix: P::Jacobian,
+    derivative: P::Jacobian,
+}
+
+impl<'a, S: Scalar, P: Poisson<S>, G: DiscreteGradient<S, P>> DiscreteGradientStep<'a, S, P, G> {
+    /// The equation of a step of size h.
+    pub fn new(system: &'a P, h: S) -> Self {
+        let zero = system.zero_state();
+        Self {
+            system,
+            gradient: G::new(system),
+            step: h,
+            base: zero.clone(),
+            middle: zero.clone(),
+            xi: zero.clone(),
+            field: zero,
+            poisson_matrix: system.zero_jacobian(),
+            derivative: system.zero_jacobian(),
+        }
+    }
+
+    /// `r = u - mu - h Pi(m) g` with the discrete gradient already computed.
+    fn write_residual(&mut self, unknown: &P::State, residual: &mut P::State) {
+        let half = S::ratio(1.0, 2.0);
+        let pairs = self.base.as_slice().iter().zip(unknown.as_slice());
+        for (middle, (&mu, &u)) in self.middle.as_mut_slice().iter_mut().zip(pairs) {
+            *middle = half * (mu + u);
+        }
+        let matrix = &mut self.poisson_matrix;
+        self.system.poisson_matrix(&self.middle, matrix);
+        multiply(matrix, &self.xi, &mut self.field);
+        let (base, field) = (self.base.as_slice(), self.field.as_slice());
+        for (index, out) in residual.as_mut_slice().iter_mut().enumerate() {
+            *out = unknown.as_slice()[index] - base[index] - self.step * field[index];
+        }
+    }
+}
+
+impl<S, P, G> Equation<S> for DiscreteGradientStep<'_, S, P, G>
+where
+    S: Scalar,
+    P: Poisson<S>,
+    G: DiscreteGradient<S, P>,
+{
+    type State = P::State;
+    type Unknown = P::State;
+    type Matrix = P::Jacobian;
+
+    fn zero_unknown(&self) -> P::State {
+        self.system.zero_state()
+    }
+
+    fn zero_matrix(&self) -> P::Jacobian {
+        self.system.zero_jacobian()
+    }
+
+    fn set_base(&mut self, mu: &P::State) {
+        self.base.copy_from(mu);
+        self.gradient.set_start(self.system, mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut P::State) {
+        self.system.vector_field(&self.base, &mut self.field);
+        unknown.copy_from(&self.base);
+        unknown.axpy(self.step, &self.field);
+    }
+
+    fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
+        self.gradient.value(self.system, unknown, &mut self.xi);
+        self.write_residual(unknown, residual);
+    }
+
+    fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
+        let derivative = &mut self.derivative;
+        self.gradient
+            .linearize(self.system, unknown, &mut self.xi, derivative);
+        self.write_residual(unknown, residual);
+        self.system.poisson_slope(&self.middle, &self.xi, matrix);
+        let half = S::ratio(1.0, 2.0);
+        for row in 0..P::DIM {
+            for column in 0..P::DIM {
+                let mut sum = half * matrix.get(row, column);
+                for inner in 0..P::DIM {
+                    let slope = self.derivative.get(inner, column);
+                    sum += self.poisson_matrix.get(row, inner) * slope;
+                }
+                let identity = if row == column { S::one() } else { S::zero() };
+                matrix.set(row, column, identity - self.step * sum);
+            }
+        }
+    }
+
+    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
+        dense::factor(matrix)
+    }
+
+    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
+        dense::solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
+        mu.copy_from(unknown);
+    }
+}

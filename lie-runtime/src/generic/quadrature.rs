@@ -1,0 +1,140 @@
+//! Gauss–Legendre quadrature on a segment.
+
+use crate::poisson::Poisson;
+use crate::scalar::Scalar;
+
+/// The largest number of nodes of a rule.
+pub const MAX_NODES: usize = 24;
+/// Nodes where the integrand is no polynomial of known degree.
+const DEFAULT_NODES: usize = 10;
+
+/// The rule with m nodes: exact for polynomials of degree 2m - 1.
+///
+/// Nodes are given by their distance from the middle of the segment, in units of its length, and
+/// are exactly antisymmetric: seen from the other end, the rule is the same to the last bit.
+#[derive(Clone, Copy, Debug)]
+pub struct Quadrature<S> {
+    count: usize,
+    offsets: [S; MAX_NODES],
+    weights: [S; MAX_NODES],
+    exact: bool,
+}
+
+impl<S: Scalar> Quadrature<S> {
+    /// The rule with a number of nodes between 1 and [`MAX_NODES`].
+    pub fn gauss(nodes: usize) -> Self {
+        let count = nodes.clamp(1, MAX_NODES);
+        let mut rule = Self {
+            count,
+            offsets: [S::zero(); MAX_NODES],
+            weights: [S::zero(); MAX_NODES],
+            exact: false,
+        };
+        for index in 0..count / 2 {
+            let (node, weight) = node(count, index);
+            rule.offsets[index] = S::from_f64(-0.5 * node);
+            rule.offsets[count - 1 - index] = S::from_f64(0.5 * node);
+            rule.weights[index] = S::from_f64(weight);
+            rule.weights[count - 1 - index] = S::from_f64(weight);
+        }
+        if count % 2 == 1 {
+            let derivative = legendre(count, 0.0).1;
+            rule.weights[count / 2] = S::from_f64(1.0 / (derivative * derivative));
+        }
+        rule
+    }
+
+    /// The rule for gradients of H along a curve of degree `degree` against polynomials of degree
+    /// `degree - 1`: exact where H is a polynomial of known degree, with 10 nodes elsewhere.
+    pub fn of_hamiltonian<P: Poisson<S>>(degree: usize) -> Self {
+        let needed = P::HAMILTONIAN_DEGREE.map(|of_h| (degree * of_h as usize).div_ceil(2));
+        Self {
+            exact: needed.is_some_and(|needed| needed <= MAX_NODES),
+            ..Self::gauss(needed.unwrap_or(DEFAULT_NODES))
+        }
+    }
+
+    /// Whether the rule integrates what it was made for exactly.
+    pub fn is_exact(&self) -> bool {
+        self.exact
+    }
+
+    /// The number of nodes.
+    #[allow(clippy::len_without_is_empty, reason = "there is at least one node")]
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// A node, between -1/2 and 1/2 in ascending order, and its weight; the weights add up to 1.
+    #[inline]
+    pub fn node(&self, index: usize) -> (S, S) {
+        (self.offsets[index], self.weights[index])
+    }
+}
+
+/// A positive zero t of the Legendre polynomial of degree n, counted from the largest, and the weight
+/// `1/((1 - t^2) P_n'(t)^2)` on the segment of length 1.
+fn node(n: usize, index: usize) -> (f64, f64) {
+    let angle = core::f64::consts::PI * (index as f64 + 0.75) / (n as f64 + 0.5);
+    let mut zero = Scalar::cos(angle);
+    for _ in 0..8 {
+        let (value, derivative) = legendre(n, zero);
+        zero -= value / derivative;
+    }
+    let derivative = legendre(n, zero).1;
+    let weight = 1.0 / ((1.0 - zero) * (1.0 + zero) * derivative * derivative);
+    (zero, weight)
+}
+
+/// The Legendre polynomial of degree n at least 1 and its derivative, at t in (-1, 1).
+fn legendre(n: usize, t: f64) -> (f64, f64) {
+    let (mut before, mut value) = (1.0, t);
+    for k in 1..n {
+        let k = k as f64;
+        let next = ((2.0 * k + 1.0) * t * value - k * before) / (k + 1.0);
+        (before, value) = (value, next);
+    }
+    let derivative = n as f64 * (t * value - before) / ((t - 1.0) * (t + 1.0));
+    (value, derivative)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generic::gauss_tableau;
+
+    /// `sum_q w_q (2 c_q)^k`: the mean of t^k on [-1, 1] is 1/(k + 1) for even k, 0 for odd k.
+    #[test]
+    fn exact_to_degree_twice_the_nodes_less_one() {
+        for count in 1..=MAX_NODES {
+            let rule = Quadrature::<f64>::gauss(count);
+            let nodes = || (0..rule.len()).map(|index| rule.node(index));
+            let moment = |k: i32| -> f64 { nodes().map(|(c, w)| w * (2.0 * c).powi(k)).sum() };
+            for k in 0..2 * count as i32 {
+                let mean = if k % 2 == 0 {
+                    1.0 / f64::from(k + 1)
+                } else {
+                    0.0
+                };
+                assert!(
+                    (moment(k) - mean).abs() < 1e-15,
+                    "{count} nodes, degree {k}"
+                );
+            }
+            let k = 2 * count as i32;
+            let gap = (moment(k) - 1.0 / f64::from(k + 1)).abs();
+            assert!(gap > 1e-15, "{count} nodes are not exact beyond that");
+        }
+    }
+
+    #[test]
+    fn nodes_are_those_of_collocation() {
+        let tableau = gauss_tableau::<f64, 3>();
+        let rule = Quadrature::<f64>::gauss(3);
+        for index in 0..3 {
+            let (offset, weight) = rule.node(index);
+            assert!((0.5 + offset - tableau.c[index]).abs() < 2e-16);
+            assert!((weight - tableau.b[index]).abs() < 2e-16);
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! The midpoint discrete gradient method of Gonzalez.
+//!
+//! ```math
+//! \mu_1 = \mu + h\, \Pi(m)\, \overline\nabla H, \qquad m = \tfrac12 (\mu + \mu_1), \quad d = \mu_1 - \mu, \qquad
+//! \overline\nabla H = \nabla H(m) + \frac{H(\mu_1) - H(\mu) - \langle \nabla H(m), d \rangle}{\langle d, d \rangle}\, d
+//! ```
+//!
+//! Since `$\langle \overline\nabla H, d \rangle = H(\mu_1) - H(\mu)$` and `$\Pi$` is antisymmetric, the energy is
+//! kept whatever H is. Order 2, symmetric; keeps quadratic Casimirs, those of higher degree and the
+//! Poisson structure only to O(h^2) per unit of time. For a quadratic H it is the midpoint rule.
+//!
+//! The quotient loses digits where d is small. How that is avoided, for polynomials and in general, is
+//! told in [`GonzalezGradient`](crate::generic::GonzalezGradient).
+//!
+//! Needs: H, its gradient and Hessian, the Poisson matrix; any [`Poisson`](crate::Poisson) system.
+//!
+//! References: O. Gonzalez, "Time integration and discrete Hamiltonian systems", Journal of Nonlinear
+//! Science 6 (1996) 449–467, [doi:10.1007/BF02440162](https://doi.org/10.1007/BF02440162);
+//! R. I. McLachlan, G. R. W. Quispel, N. Robidoux, "Geometric integration using discrete gradients",
+//! Philosophical Transactions of the Royal Society A 357 (1999) 1021–1045,
+//! [doi:10.1098/rsta.1999.0363](https://doi.org/10.1098/rsta.1999.0363).
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
+
+use super::facts::{Facts, Preserves};
+use super::implicit::ImplicitStepper;
+use super::stepper::Method;
+use crate::equation::Implicit;
+use crate::newton::NewtonOptions;
+use crate::scalar::Scalar;
+
+/// The midpoint discrete gradient method, order 2; see the [module's text](self).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Gonzalez;
+
+impl Facts for Gonzalez {
+    const ID: &'static str = "gonzalez";
+    const ORDER: u32 = 2;
+    const SYMMETRIC: bool = true;
+    const EXPLICIT: bool = false;
+    const PRESERVES: Preserves = Preserves::ENERGY;
+}
+
+impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for Gonzalez {
+    type Stepper<'a>
+        = ImplicitStepper<S, P::Equation<'a>>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
+    }
+}
