@@ -20,8 +20,8 @@ pub fn run(arguments: &args::Methods) -> Result<u8, Failure> {
     Ok(0)
 }
 
-/// The names of what is preserved, in the order of the table.
-fn preserved(preserves: Preserves) -> Vec<&'static str> {
+/// What a method keeps, without what follows from it.
+fn kept(method: &Method) -> String {
     let Preserves {
         energy,
         casimirs,
@@ -29,20 +29,28 @@ fn preserved(preserves: Preserves) -> Vec<&'static str> {
         orbit,
         poisson,
         quadratic_invariants,
-        linear_invariants: _,
-    } = preserves;
-    let quadratic = quadratic_casimirs && !casimirs && !quadratic_invariants;
+        linear_invariants,
+    } = method.preserves;
+    if method.id.starts_with("compose") {
+        return "what its base keeps".to_owned();
+    }
     let all = [
-        (poisson, "Poisson structure"),
-        (orbit, "coadjoint orbit"),
-        (casimirs, "Casimirs"),
-        (quadratic_invariants, "quadratic invariants"),
-        (quadratic, "quadratic Casimirs"),
+        (poisson, "Poisson"),
+        (orbit, "orbit"),
+        (casimirs && !orbit, "Casimirs"),
         (energy, "energy"),
+        (quadratic_invariants, "quadratic invariants"),
+        (
+            quadratic_casimirs && !casimirs && !quadratic_invariants,
+            "quadratic Casimirs",
+        ),
+        (
+            linear_invariants && !quadratic_invariants,
+            "linear invariants",
+        ),
     ];
-    all.into_iter()
-        .filter_map(|(kept, name)| kept.then_some(name))
-        .collect()
+    let names = all.into_iter().filter(|(kept, _)| *kept);
+    names.map(|(_, name)| name).collect::<Vec<_>>().join(", ")
 }
 
 fn as_json(method: &Method) -> Value {
@@ -83,43 +91,88 @@ fn as_json(method: &Method) -> Value {
 }
 
 fn table() -> String {
-    let mut text = String::new();
-    for method in CATALOGUE
+    let (built, planned): (Vec<&Method>, Vec<&Method>) = CATALOGUE
         .iter()
-        .filter(|method| method.availability == Availability::Built)
-    {
-        let kept = preserved(method.preserves);
-        let kept = if method.id.starts_with("compose") {
-            "what the method that is composed preserves".to_owned()
-        } else if kept.is_empty() {
-            "linear first integrals only".to_owned()
-        } else {
-            kept.join(", ")
-        };
-        let nature = match (method.symmetric, method.explicit) {
-            (true, true) => ", symmetric, explicit",
-            (true, false) => ", symmetric, implicit",
-            (false, true) => ", explicit",
-            (false, false) => ", implicit",
-        };
-        text.push_str(&format!(
-            "{}\n    {}, order {}{nature}\n",
-            method.id, method.title, method.order
-        ));
-        text.push_str(&format!(
-            "    preserves: {kept}\n    needs:     {}\n",
-            method.needs
-        ));
+        .partition(|method| method.availability == Availability::Built);
+    let mut references: Vec<&str> = Vec::new();
+    let mut options: Vec<(String, Vec<&str>)> = Vec::new();
+    let mut rows = vec![["method", "order", "", "", "keeps", "needs", ""].map(str::to_owned)];
+    for method in &built {
+        let number = references
+            .iter()
+            .position(|reference| *reference == method.reference)
+            .unwrap_or_else(|| {
+                references.push(method.reference);
+                references.len() - 1
+            });
         for (name, default) in method.options() {
-            text.push_str(&format!("    option:    --{name} (default {default})\n"));
+            let others: Vec<&str> = method
+                .values(name)
+                .into_iter()
+                .filter(|value| *value != default)
+                .collect();
+            let option = if others.is_empty() {
+                format!("--{name} {default}")
+            } else {
+                format!("--{name} {default} (or {})", others.join(", "))
+            };
+            match options.iter_mut().find(|(known, _)| *known == option) {
+                Some((_, takers)) => takers.push(method.id),
+                None => options.push((option, vec![method.id])),
+            }
         }
-        text.push_str(&format!("    reference: {}\n\n", method.reference));
+        rows.push([
+            method.id.to_owned(),
+            method.order.to_string(),
+            if method.symmetric { "symmetric" } else { "" }.to_owned(),
+            if method.explicit {
+                "explicit"
+            } else {
+                "implicit"
+            }
+            .to_owned(),
+            kept(method),
+            method.needs.to_owned(),
+            format!("[{}]", number + 1),
+        ]);
     }
-    let planned = CATALOGUE
-        .iter()
-        .filter(|method| method.availability == Availability::Planned);
-    let planned: Vec<&str> = planned.map(|method| method.id).collect();
-    text.push_str(&wrapped("Not built yet: ", &planned));
+    let mut text = aligned(&rows);
+    text.push_str(
+        "\nOrbit: the coadjoint orbit, with it every Casimir. Poisson: each step is a Poisson map.\n",
+    );
+    text.push_str("\nOptions and their defaults (a composition takes those of its base, too):\n");
+    for (option, takers) in &options {
+        text.push_str(&wrapped(&format!("  {option}: "), takers));
+    }
+    text.push_str("\nReferences (DOI):\n");
+    for (index, reference) in references.iter().enumerate() {
+        text.push_str(&format!("  [{}] {reference}\n", index + 1));
+    }
+    let planned: Vec<&str> = planned.iter().map(|method| method.id).collect();
+    if !planned.is_empty() {
+        text.push('\n');
+        text.push_str(&wrapped("Not built yet: ", &planned));
+    }
+    text
+}
+
+/// Columns of the width of their widest entry.
+fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
+    let mut widths = [0; N];
+    for row in rows {
+        for (width, entry) in widths.iter_mut().zip(row) {
+            *width = (*width).max(entry.chars().count());
+        }
+    }
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (width, entry) in widths.iter().zip(row) {
+            line.push_str(&format!("{entry:<width$}  "));
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
     text
 }
 

@@ -116,14 +116,33 @@ pub fn find(id: &str) -> Option<&'static Method> {
 }
 
 impl Method {
-    /// Options by flag name, with their defaults; none while the method is not built.
-    pub fn options(&self) -> Vec<(&'static str, &'static str)> {
-        // a composition has those of its base, too: the midpoint rule has none
+    /// The method with its options at their defaults; none while it is not built.
+    fn choice(&self) -> Option<Choice> {
+        // a composition has the options of its base, too: the midpoint rule has none
         let id = if self.id.starts_with("compose") {
             format!("{}(midpoint)", self.id)
         } else {
             self.id.to_owned()
         };
-        Choice::from_id(&id).map_or_else(|_| Vec::new(), |choice| choice.options())
+        Choice::from_id(&id).ok()
+    }
+
+    /// Options by flag name, with their defaults; none while the method is not built.
+    pub fn options(&self) -> Vec<(&'static str, &'static str)> {
+        self.choice()
+            .map_or_else(Vec::new, |choice| choice.options())
+    }
+
+    /// The values of an option that is a choice between names, the default first.
+    pub fn values(&self, option: &str) -> Vec<&'static str> {
+        let mut values = Vec::new();
+        for variant in self.choice().iter().flat_map(Choice::variants) {
+            for (name, value) in variant.options() {
+                if name == option && !values.contains(&value) {
+                    values.push(value);
+                }
+            }
+        }
+        values
     }
 }
