@@ -85,11 +85,13 @@ pub trait Implicit<S: Scalar, M>: Poisson<S> {
 /// `generating` (all orders with exp, and coordinates of the second kind; needs `exp` and
 /// [`crate::Lift`]) and `generating_cayley` (needs `cayley` and [`crate::Lift`]), or one of them alone:
 /// `generating2`, `generating4`, `generating6`, `second_kind`, `generating2_cayley`,
-/// `generating4_cayley`. And `splitting` implements [`crate::SeparablePoisson`], for a Hamiltonian that
-/// is a sum of functions of one coordinate each. `discrete_gradients`
-/// (`gonzalez`, `mean_value`, `itoh_abe`), `orbit_energy` (along each of them: `orbit_gonzalez`,
-/// `orbit_mean_value`, `orbit_itoh_abe`), `cohen_hairer` (`cohen_hairer2`, `cohen_hairer4`,
-/// `cohen_hairer6`).
+/// `generating4_cayley`; `discrete_gradients` (`gonzalez`, `mean_value`, `itoh_abe`), `orbit_energy` (along each
+/// of them: `orbit_gonzalez`, `orbit_mean_value`, `orbit_itoh_abe`), `cohen_hairer` (`cohen_hairer2`,
+/// `cohen_hairer4`, `cohen_hairer6`); `isospectral2`, `isospectral4`, `isospectral6` (also for `Collective`;
+/// need [`crate::MatrixPoisson`]), `isospectral2_cayley` (needs `cayley` instead), `hopf` and `spherical`
+/// (need [`crate::SpinPoisson`]), `moser_veselov` (the same with a diagonal quadratic H on so(3)) and
+/// `moser_veselov_n` (needs [`crate::InertiaPoisson`]). And `splitting` implements
+/// [`crate::SeparablePoisson`], for a Hamiltonian that is a sum of functions of one coordinate each.
 #[macro_export]
 macro_rules! generic_equations {
     ($generics:tt $system:ty, $scalar:ty: $($equation:ident),* $(,)?) => {
@@ -124,6 +126,99 @@ macro_rules! generic_equations {
             @impl $generics $system, $scalar, [LieMidpoint<$crate::methods::Cayley>],
             $crate::generic::CayleyMidpoint<'a, $scalar, Self>
         );
+    };
+    (@isospectral2 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(@stages $generics $system, $scalar, 1);
+    };
+    (@isospectral4 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(@stages $generics $system, $scalar, 2);
+    };
+    (@isospectral6 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(@stages $generics $system, $scalar, 3);
+    };
+    (@stages $generics:tt $system:ty, $scalar:ty, $stages:literal) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [Isospectral<$stages>],
+            $crate::generic::StageMomenta<
+                'a, $scalar, Self,
+                $crate::generic::MatrixStages<
+                    $scalar, <Self as $crate::MatrixPoisson<$scalar>>::Matrix, $stages,
+                >,
+                $stages,
+            >
+        );
+        $crate::generic_equations!(@collective $generics $system, $scalar, $stages);
+    };
+    // the same equation, fused or not
+    (@collective [$($generics:tt)*] $system:ty, $scalar:ty, $stages:literal) => {
+        $crate::generic_equations!(
+            @as [$($generics)*] $system, $scalar,
+            [Collective<$crate::methods::Representation, $stages>], [Isospectral<$stages>],
+            $crate::methods::Isospectral::<$stages>::new()
+        );
+    };
+    // with one stage over a closed representation: the retraction method with the Cayley map
+    (@isospectral2_cayley [$($generics:tt)*] $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @as [$($generics)*] $system, $scalar,
+            [Isospectral<1>], [LieMidpoint<$crate::methods::Cayley>],
+            $crate::methods::LieMidpoint::cayley()
+        );
+        $crate::generic_equations!(@collective [$($generics)*] $system, $scalar, 1);
+    };
+    (@hopf $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!($generics $system, $scalar: hopf2, hopf4, hopf6);
+    };
+    (@hopf2 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(@quaternions $generics $system, $scalar, 1);
+    };
+    (@hopf4 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(@quaternions $generics $system, $scalar, 2);
+    };
+    (@hopf6 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(@quaternions $generics $system, $scalar, 3);
+    };
+    (@quaternions $generics:tt $system:ty, $scalar:ty, $stages:literal) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [Collective<$crate::methods::Hopf, $stages>],
+            $crate::generic::StageMomenta<
+                'a, $scalar, Self, $crate::generic::QuaternionStages<$scalar, $stages>, $stages,
+            >
+        );
+    };
+    (@spherical $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [SphericalMidpoint],
+            $crate::generic::Spherical<'a, $scalar, Self>
+        );
+    };
+    (@moser_veselov $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [MoserVeselov],
+            $crate::generic::DiscreteTop<'a, $scalar, Self>
+        );
+    };
+    (@moser_veselov_n $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [MoserVeselov],
+            $crate::generic::DiscreteBody<'a, $scalar, Self>
+        );
+    };
+    // the equation of another method
+    (@as [$($generics:tt)*] $system:ty, $scalar:ty, [$($method:tt)*], [$($other:tt)*], $value:expr) => {
+        impl<$($generics)*> $crate::Implicit<$scalar, $crate::methods::$($method)*> for $system {
+            type Equation<'a> = <Self as $crate::Implicit<
+                $scalar,
+                $crate::methods::$($other)*,
+            >>::Equation<'a> where Self: 'a;
+            fn equation<'a>(
+                &'a self,
+                _method: &$crate::methods::$($method)*,
+                h: $scalar,
+            ) -> Self::Equation<'a> {
+                <Self as $crate::Implicit<$scalar, $crate::methods::$($other)*>>::equation(self, &$value, h)
+            }
+        }
     };
     (@splitting [$($generics:tt)*] $system:ty, $scalar:ty) => {
         impl<$($generics)*> $crate::SeparablePoisson<$scalar> for $system {

@@ -75,6 +75,7 @@ pub mod scalar;
 #[cfg(feature = "sources")]
 pub mod sources;
 pub mod state;
+pub mod structure;
 #[cfg(test)]
 mod test_systems;
 
@@ -88,6 +89,7 @@ pub use pieces::{PieceFlows, SeparablePoisson};
 pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
+pub use structure::{InertiaPoisson, MatrixPoisson, SpinPoisson};
 
 /// What a program usually needs.
 pub mod prelude {
@@ -129,6 +131,9 @@ pub mod __private {
     pub use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};
+    pub use crate::structure::{
+        Entry, InertiaPoisson, MatrixPoisson, Plane, Representation, SpinPoisson,
+    };
     pub use core::marker::PhantomData;
     pub use nalgebra::{SMatrix, SVector};
 }

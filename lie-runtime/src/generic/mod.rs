@@ -6,26 +6,34 @@
 mod cayley_midpoint;
 mod cohen_hairer;
 mod coordinate_flows;
+mod discrete_body;
 mod discrete_gradient;
 mod discrete_gradient_step;
+mod discrete_top;
 mod exp_midpoint;
 mod gauss;
 mod generating;
 mod kernels;
+mod matrix_stages;
 mod midpoint;
 mod orbit_energy;
 mod quadrature;
+mod quaternion_stages;
 mod second_kind;
 mod series;
+mod spherical;
+mod stage_momenta;
 mod tableau;
 
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
 pub use cohen_hairer::CohenHairerStep;
 pub use coordinate_flows::CoordinateFlows;
+pub use discrete_body::DiscreteBody;
 pub use discrete_gradient::{
     DiscreteGradient, GonzalezGradient, ItohAbeGradient, MeanValueGradient,
 };
 pub use discrete_gradient_step::DiscreteGradientStep;
+pub use discrete_top::DiscreteTop;
 pub use exp_midpoint::{ExpMidpoint, ExpRetraction};
 pub use gauss::Gauss;
 pub use generating::{
@@ -34,10 +42,14 @@ pub use generating::{
 pub use kernels::{
     ad_star, ad_star_matrix, jacobian, linearize, multiply, poisson_slope, vector_field,
 };
+pub use matrix_stages::MatrixStages;
 pub use midpoint::Midpoint;
 pub use orbit_energy::OrbitEnergyStep;
 pub use quadrature::{MAX_NODES, Quadrature};
+pub use quaternion_stages::QuaternionStages;
 pub use second_kind::SecondKind;
 pub(crate) use series::{Scratch, coadjoint_action_in};
 pub use series::{coadjoint_action, dexp_dual};
+pub use spherical::{Spherical, sphere_ratio};
+pub use stage_momenta::{StageMap, StageMomenta};
 pub use tableau::{Tableau, gauss_tableau};

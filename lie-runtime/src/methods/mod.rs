@@ -14,6 +14,10 @@
 //! | [`Gonzalez`], [`MeanValue`], [`ItohAbe`] | `$\mu_1 = \mu + h\, \Pi\!\left(\tfrac12(\mu + \mu_1)\right) \overline\nabla H(\mu, \mu_1)$` | 2 |
 //! | [`OrbitEnergy`] | `$\mu_1 = \mathrm{Ad}^*_{\exp(h \overline\nabla H(\mu, \mu_1))}\, \mu$` | 2 |
 //! | [`CohenHairer`] | collocation with mean gradients, `$s$` stages | `$2s$` |
+//! | [`Isospectral2`], [`Isospectral4`], [`Isospectral6`] | Gauss on `T*V` of a representation V, reduced to g*; also [`Collective`] | 2, 4, 6 |
+//! | [`Collective::hopf`] | Gauss on `T*R^2` by the Hopf map, reduced to so(3)* | 2, 4, 6 |
+//! | [`SphericalMidpoint`] | `$\mu_1 = \mu + h f(w)$`, w the midpoint on the sphere of each spin | 2 |
+//! | [`MoserVeselov`] | `$h M = g J - J g^T, \quad M_1 = g^T M g$`, keeps the energy too | 2 |
 //!
 //! Explicit, by exponentials: [`LieEuler`], [`Rkmk2`], [`Rkmk3`], [`Rkmk4`], [`Rkmk6`], [`CrouchGrossman3`]
 //! and [`CommutatorFree4`] for any Lie algebra; [`Splitting`] for a Hamiltonian that is a sum of functions
@@ -25,6 +29,7 @@
 
 mod coefficients;
 pub mod cohen_hairer;
+pub mod collective;
 pub mod commutator_free;
 pub mod compose;
 pub mod crouch_grossman;
@@ -36,19 +41,23 @@ pub mod generating;
 pub mod generating_second_kind;
 pub mod gonzalez;
 mod implicit;
+pub mod isospectral;
 pub mod itoh_abe;
 pub mod lie_euler;
 pub mod lie_midpoint;
 pub mod mean_value;
 pub mod midpoint;
+pub mod moser_veselov;
 pub mod orbit_energy;
 pub mod rk4;
 pub mod rkmk;
+pub mod spherical_midpoint;
 pub mod splitting;
 mod stepper;
 
 pub use coefficients::Scheme;
 pub use cohen_hairer::{CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6};
+pub use collective::{Collective, Collective2, Collective4, Collective6, Hopf, Representation};
 pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
 pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};
 pub use crouch_grossman::{CrouchGrossman3, CrouchGrossmanStepper};
@@ -59,14 +68,17 @@ pub use generating::{Generating, Generating2, Generating4, Generating6};
 pub use generating_second_kind::GeneratingSecondKind2;
 pub use gonzalez::Gonzalez;
 pub use implicit::ImplicitStepper;
+pub use isospectral::{Isospectral, Isospectral2, Isospectral4, Isospectral6};
 pub use itoh_abe::ItohAbe;
 pub use lie_euler::{LieEuler, LieEulerStepper};
 pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
 pub use mean_value::MeanValue;
 pub use midpoint::ImplicitMidpoint;
+pub use moser_veselov::{MoserVeselov, MoserVeselovStepper};
 pub use orbit_energy::OrbitEnergy;
 pub use rk4::{Rk4, Rk4Stepper};
 pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
+pub use spherical_midpoint::SphericalMidpoint;
 pub use splitting::{
     Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, SplittingStepper,
 };

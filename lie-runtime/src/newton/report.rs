@@ -31,6 +31,10 @@ pub enum FailureReason {
     /// The updates of the iteration neither grew nor reached round-off.
     #[error("the iteration does not converge")]
     NotConverged,
+    /// No rotation near the identity carries the momentum of the step, see
+    /// [`MoserVeselov`](crate::methods::MoserVeselov).
+    #[error("no rotation near the identity solves the discrete rigid body")]
+    RotationTooLarge,
     /// An adaptive method would need a step below round-off of the interval.
     #[error("the adaptive step size fell below round-off")]
     StepTooSmall,
@@ -49,6 +53,9 @@ impl FailureReason {
             Self::Singular | Self::Diverged => "take a smaller step",
             Self::NotConverged => {
                 "take a smaller step, or Newton's method if another iteration was chosen"
+            }
+            Self::RotationTooLarge => {
+                "take a smaller step: h times the angular momentum must be below the moments of inertia"
             }
             Self::StepTooSmall => {
                 "the solution has a singularity or the tolerances are below round-off: loosen rtol and atol or end earlier"

@@ -2,7 +2,8 @@
 // `gamma' = gamma x Omega`.
 
 use super::rigid_body::{cross, dot, hat, so3_triple};
-use lie_runtime::{CayleyPoisson, Dual, LiePoisson, Lift, Poisson, Scalar, generic};
+use lie_runtime::structure::{Entry, Representation};
+use lie_runtime::{CayleyPoisson, Dual, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar, generic};
 use nalgebra::{SMatrix, SVector};
 
 /// Moments of inertia and the gradient of the potential energy, `mgl chi`.
@@ -145,3 +146,38 @@ impl<S: Scalar> CayleyPoisson<S> for HeavyTop<S> {
 lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);
 lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: splitting);
 lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: discrete_gradients, orbit_energy, cohen_hairer);
+
+const fn entry(row: u16, column: u16, value: f64) -> Entry {
+    Entry::new(row, column, value)
+}
+
+/// se(3) by its 4 x 4 matrices.
+const SE3: Representation = Representation {
+    matrices: &[
+        &[entry(1, 2, -1.0), entry(2, 1, 1.0)],
+        &[entry(0, 2, 1.0), entry(2, 0, -1.0)],
+        &[entry(0, 1, -1.0), entry(1, 0, 1.0)],
+        &[entry(0, 3, 1.0)],
+        &[entry(1, 3, 1.0)],
+        &[entry(2, 3, 1.0)],
+    ],
+    dual: &[
+        &[entry(1, 2, 0.5), entry(2, 1, -0.5)],
+        &[entry(0, 2, -0.5), entry(2, 0, 0.5)],
+        &[entry(0, 1, 0.5), entry(1, 0, -0.5)],
+        &[entry(3, 0, 1.0)],
+        &[entry(3, 1, 1.0)],
+        &[entry(3, 2, 1.0)],
+    ],
+    skew: false,
+};
+
+impl<S: Scalar> MatrixPoisson<S> for HeavyTop<S> {
+    type Matrix = SMatrix<S, 4, 4>;
+    const REPRESENTATION: Representation = SE3;
+    fn zero_matrix(&self) -> Self::Matrix {
+        SMatrix::<S, 4, 4>::repeat(S::zero())
+    }
+}
+
+lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: isospectral2, isospectral4, isospectral6);

@@ -1,7 +1,10 @@
 // A system on so(3)* with the Hamiltonian `sin x + exp(y/2) + sqrt(1 + z^2) + x y^2 z`.
 
-use super::rigid_body::{cross, dot, hat, so3_triple};
-use lie_runtime::{CayleyPoisson, LiePoisson, Lift, Poisson, Scalar, generic};
+use super::rigid_body::{SO3, cross, dot, hat, so3_triple};
+use lie_runtime::structure::Representation;
+use lie_runtime::{
+    CayleyPoisson, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar, SpinPoisson, generic,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// No parameters.
@@ -93,3 +96,20 @@ impl<S: Scalar> CayleyPoisson<S> for Nonpolynomial {
 
 lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);
 lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: discrete_gradients, orbit_energy, cohen_hairer);
+
+impl<S: Scalar> MatrixPoisson<S> for Nonpolynomial {
+    type Matrix = SMatrix<S, 3, 3>;
+    const REPRESENTATION: Representation = SO3;
+    fn zero_matrix(&self) -> Self::Matrix {
+        SMatrix::<S, 3, 3>::repeat(S::zero())
+    }
+}
+
+impl<S: Scalar> SpinPoisson<S> for Nonpolynomial {
+    const SPINS: &'static [[usize; 3]] = &[[0, 1, 2]];
+    fn scale(&self, _spin: usize) -> S {
+        S::one()
+    }
+}
+
+lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: isospectral2, isospectral4, isospectral6, hopf, spherical);

@@ -1,6 +1,9 @@
 // The free rigid body on so(3)*, written by hand: `mu' = mu x (mu/I)`.
 
-use lie_runtime::{CayleyPoisson, Dual, LiePoisson, Lift, Poisson, Scalar};
+use lie_runtime::structure::{Entry, Representation};
+use lie_runtime::{
+    CayleyPoisson, Dual, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar, SpinPoisson,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// Principal moments of inertia.
@@ -138,3 +141,39 @@ impl<S: Scalar> CayleyPoisson<S> for RigidBody<S> {
 lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: midpoint, gauss4, gauss6, exp, cayley, generating, generating_cayley);
 lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: splitting);
 lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: discrete_gradients, orbit_energy, cohen_hairer);
+
+const fn entry(row: u16, column: u16, value: f64) -> Entry {
+    Entry::new(row, column, value)
+}
+
+/// so(3) by its vector representation.
+pub const SO3: Representation = Representation {
+    matrices: &[
+        &[entry(1, 2, -1.0), entry(2, 1, 1.0)],
+        &[entry(0, 2, 1.0), entry(2, 0, -1.0)],
+        &[entry(0, 1, -1.0), entry(1, 0, 1.0)],
+    ],
+    dual: &[
+        &[entry(1, 2, 0.5), entry(2, 1, -0.5)],
+        &[entry(0, 2, -0.5), entry(2, 0, 0.5)],
+        &[entry(0, 1, 0.5), entry(1, 0, -0.5)],
+    ],
+    skew: true,
+};
+
+impl<S: Scalar> MatrixPoisson<S> for RigidBody<S> {
+    type Matrix = SMatrix<S, 3, 3>;
+    const REPRESENTATION: Representation = SO3;
+    fn zero_matrix(&self) -> Self::Matrix {
+        SMatrix::<S, 3, 3>::repeat(S::zero())
+    }
+}
+
+impl<S: Scalar> SpinPoisson<S> for RigidBody<S> {
+    const SPINS: &'static [[usize; 3]] = &[[0, 1, 2]];
+    fn scale(&self, _spin: usize) -> S {
+        S::one()
+    }
+}
+
+lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: isospectral2, isospectral4, isospectral6, hopf, spherical, moser_veselov);

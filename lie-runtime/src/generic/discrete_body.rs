@@ -1,0 +1,271 @@
+//! The equation of Moser and Veselov's discrete rigid body on SO(n).
+
+use crate::equation::Equation;
+use crate::matrix::SquareMatrix;
+use crate::newton::dense;
+use crate::scalar::{Mask, Scalar};
+use crate::state::State;
+use crate::structure::{InertiaPoisson, Plane};
+
+/// The discrete rigid body on so(n)* for `H = sum_(i<j) M_ij^2/(2 (J_i + J_j))`.
+///
+/// The rotation of the step is `g = (1 + X/2)(1 - X/2)^-1` with X antisymmetric, and
+/// `h M = g J - J g^T` becomes `X J + J X = h (1 - X/2) M (1 + X/2)`, a polynomial equation in so(n).
+///
+/// Unknown: `U = (X J + J X)/h`, so that `X = h grad H(U)`. Equation:
+/// `r(U) = U - (1 - X/2) M (1 + X/2)`. Jacobian, column c, with the basis element R and
+/// `Y = M (1 + X/2)`: `e_c + (Y^T R + R Y)/2 h H''_cc`. New state: `g^T M g = M + [P, X]` with
+/// `P = (1 + X/2)^-1 M (1 - X/2)^-1`. Start: `U = M + (h/2) f(M)`.
+///
+/// The solutions near the identity are those with the pivots of `(g J + J g^T)/2` positive, like those of
+/// J (its congruent matrix `J + X J X/4` is looked at); where they are not, the new state is not a number.
+#[derive(Debug)]
+pub struct DiscreteBody<'a, S: Scalar, P: InertiaPoisson<S>> {
+    system: &'a P,
+    step: S,
+    base: P::State,
+    direction: P::State,
+    hessian: P::Jacobian,
+    /// M
+    momentum: P::Matrix,
+    /// X
+    rotation: P::Matrix,
+    /// `Y = M (1 + X/2)`, and other products
+    product: P::Matrix,
+    transformed: P::Matrix,
+}
+
+impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
+    /// The equation of a step of size h.
+    pub fn new(system: &'a P, h: S) -> Self {
+        let zero = system.zero_state();
+        let matrix = system.zero_matrix();
+        Self {
+            system,
+            step: h,
+            base: zero.clone(),
+            direction: zero,
+            hessian: system.zero_jacobian(),
+            momentum: matrix.clone(),
+            rotation: matrix.clone(),
+            product: matrix.clone(),
+            transformed: matrix,
+        }
+    }
+
+    /// Sets X, Y and `(1 - X/2) M (1 + X/2)`.
+    fn set(&mut self, unknown: &P::State) {
+        self.system.gradient(unknown, &mut self.direction);
+        for entry in self.direction.as_mut_slice() {
+            *entry *= self.step;
+        }
+        antisymmetric::<S, P>(&self.direction, &mut self.rotation);
+        let size = self.momentum.dimension();
+        let half = S::ratio(1.0, 2.0);
+        for r in 0..size {
+            for c in 0..size {
+                let mut sum = S::zero();
+                for k in 0..size {
+                    sum += self.momentum.get(r, k) * self.rotation.get(k, c);
+                }
+                self.product.set(r, c, self.momentum.get(r, c) + half * sum);
+            }
+        }
+        for r in 0..size {
+            for c in 0..size {
+                let mut sum = S::zero();
+                for k in 0..size {
+                    sum += self.rotation.get(r, k) * self.product.get(k, c);
+                }
+                self.transformed
+                    .set(r, c, self.product.get(r, c) - half * sum);
+            }
+        }
+    }
+
+    /// `r = U - (1 - X/2) M (1 + X/2)`
+    fn write_residual(&self, unknown: &P::State, residual: &mut P::State) {
+        let planes = P::PLANES.iter().zip(unknown.as_slice());
+        for (out, (plane, &u)) in residual.as_mut_slice().iter_mut().zip(planes) {
+            let (from, to) = axes(plane);
+            *out = u - self.transformed.get(to, from);
+        }
+    }
+
+    /// 0 where the pivots of `J + X J X/4` have the signs of those of J, and not a number elsewhere.
+    fn off_the_branch(&mut self) -> S {
+        let size = self.momentum.dimension();
+        let quarter = S::ratio(1.0, 4.0);
+        for r in 0..size {
+            for c in 0..size {
+                let mut sum = S::zero();
+                for k in 0..size {
+                    let moment = self.system.moment(k);
+                    sum += self.rotation.get(r, k) * moment * self.rotation.get(k, c);
+                }
+                let diagonal = if r == c {
+                    self.system.moment(r)
+                } else {
+                    S::zero()
+                };
+                self.product.set(r, c, diagonal + quarter * sum);
+            }
+        }
+        dense::factor(&mut self.product);
+        let mut good = S::Mask::splat(true);
+        for k in 0..size {
+            let moment = self.system.moment(k);
+            let same = S::zero().less(moment * self.product.get(k, k));
+            good = good & (same | moment.abs().less_equal(S::zero()));
+        }
+        S::select(good, S::zero(), S::from_f64(f64::NAN))
+    }
+}
+
+impl<S: Scalar, P: InertiaPoisson<S>> Equation<S> for DiscreteBody<'_, S, P> {
+    type State = P::State;
+    type Unknown = P::State;
+    type Matrix = P::Jacobian;
+
+    fn zero_unknown(&self) -> P::State {
+        self.system.zero_state()
+    }
+
+    fn zero_matrix(&self) -> P::Jacobian {
+        self.system.zero_jacobian()
+    }
+
+    fn set_base(&mut self, mu: &P::State) {
+        self.base.copy_from(mu);
+        antisymmetric::<S, P>(mu, &mut self.momentum);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut P::State) {
+        self.system.vector_field(&self.base, &mut self.direction);
+        unknown.copy_from(&self.base);
+        unknown.axpy(self.step * S::ratio(1.0, 2.0), &self.direction);
+    }
+
+    fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
+        self.set(unknown);
+        self.write_residual(unknown, residual);
+    }
+
+    fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
+        self.set(unknown);
+        self.write_residual(unknown, residual);
+        self.system.hessian(unknown, &mut self.hessian);
+        let half = self.step * S::ratio(1.0, 2.0);
+        for (column, turned) in P::PLANES.iter().enumerate() {
+            let factor = half * self.hessian.get(column, column);
+            let (b, a) = axes(turned);
+            for (row, plane) in P::PLANES.iter().enumerate() {
+                // entry (p, q) of Y^T R + R Y, R = E_ab - E_ba
+                let (q, p) = axes(plane);
+                let entry = |condition: bool, r: usize, c: usize| {
+                    if condition {
+                        self.product.get(r, c)
+                    } else {
+                        S::zero()
+                    }
+                };
+                let left = entry(q == b, a, p) - entry(q == a, b, p);
+                let right = entry(p == a, b, q) - entry(p == b, a, q);
+                let identity = if row == column { S::one() } else { S::zero() };
+                matrix.set(row, column, identity + factor * (left + right));
+            }
+        }
+    }
+
+    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
+        dense::factor(matrix)
+    }
+
+    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
+        dense::solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
+        self.set(unknown);
+        let poison = self.off_the_branch();
+        let size = self.momentum.dimension();
+        let half = S::ratio(1.0, 2.0);
+        // the leading minors of 1 + X/2 are at least 1
+        for r in 0..size {
+            for c in 0..size {
+                let identity = if r == c { S::one() } else { S::zero() };
+                self.product
+                    .set(r, c, identity + half * self.rotation.get(r, c));
+            }
+        }
+        dense::factor(&mut self.product);
+        // P = C M C^T = -C (C M)^T, C the inverse
+        copy(&self.momentum, &mut self.transformed);
+        solve_columns(&self.product, &mut self.transformed);
+        transpose(&mut self.transformed);
+        solve_columns(&self.product, &mut self.transformed);
+        mu.copy_from(&self.base);
+        for (out, plane) in mu.as_mut_slice().iter_mut().zip(P::PLANES) {
+            let (from, to) = axes(plane);
+            let mut sum = S::zero();
+            for k in 0..size {
+                sum += self.rotation.get(to, k) * self.transformed.get(k, from);
+                sum -= self.transformed.get(to, k) * self.rotation.get(k, from);
+            }
+            *out = *out + sum + poison;
+        }
+    }
+}
+
+/// From and to.
+fn axes(plane: &Plane) -> (usize, usize) {
+    (usize::from(plane.from), usize::from(plane.to))
+}
+
+/// `sum_k coordinates_k (E_(to, from) - E_(from, to))`
+fn antisymmetric<S: Scalar, P: InertiaPoisson<S>>(coordinates: &P::State, out: &mut P::Matrix) {
+    for (plane, &coordinate) in P::PLANES.iter().zip(coordinates.as_slice()) {
+        let (from, to) = axes(plane);
+        out.set(to, from, coordinate);
+        out.set(from, to, -coordinate);
+    }
+}
+
+fn copy<S: Scalar, M: SquareMatrix<S>>(from: &M, to: &mut M) {
+    for r in 0..from.dimension() {
+        for c in 0..from.dimension() {
+            to.set(r, c, from.get(r, c));
+        }
+    }
+}
+
+fn transpose<S: Scalar, M: SquareMatrix<S>>(matrix: &mut M) {
+    for r in 0..matrix.dimension() {
+        for c in 0..r {
+            let (a, b) = (matrix.get(r, c), matrix.get(c, r));
+            matrix.set(r, c, b);
+            matrix.set(c, r, a);
+        }
+    }
+}
+
+/// Solves `A X = B` in place of B by the factors of A.
+fn solve_columns<S: Scalar, M: SquareMatrix<S>>(factors: &M, matrix: &mut M) {
+    let size = factors.dimension();
+    for column in 0..size {
+        for row in 1..size {
+            let mut sum = matrix.get(row, column);
+            for k in 0..row {
+                sum -= factors.get(row, k) * matrix.get(k, column);
+            }
+            matrix.set(row, column, sum);
+        }
+        for row in (0..size).rev() {
+            let mut sum = matrix.get(row, column);
+            for k in row + 1..size {
+                sum -= factors.get(row, k) * matrix.get(k, column);
+            }
+            matrix.set(row, column, sum * factors.get(row, row));
+        }
+    }
+}

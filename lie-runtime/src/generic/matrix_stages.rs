@@ -1,0 +1,356 @@
+//! The momenta of the stages in a matrix representation.
+
+use super::stage_momenta::StageMap;
+use super::tableau::Tableau;
+use crate::matrix::{SquareMatrix, StageMatrix};
+use crate::newton::dense;
+use crate::scalar::Scalar;
+use crate::state::{Stages, State};
+use crate::structure::{Entry, MatrixPoisson};
+
+/// The stages of a Gauss method on `T*V`, V the space of a representation `rho`, reduced to g*.
+///
+/// With `B_j = -rho(x_j)` and any W of the momentum `tr(W rho(e_k)) = mu_k`:
+///
+/// ```math
+/// Q_i = 1 + \sum_j a_{ij} B_j Q_j, \qquad T_i = 1 - \sum_j a_{ij} T_j B_j, \qquad
+/// M_i[k] = \mathrm{tr}(Q_i W T_i\, \rho(e_k))
+/// ```
+///
+/// Both are linear systems of s d equations, solved in a fixed order. With `G = (1 - A B)^-1 A` and
+/// `F = (1 + A B^T)^-1 A` (A the matrix of the tableau, B block diagonal) the derivatives are
+///
+/// ```math
+/// \frac{\partial M_i[k]}{\partial x_j[c]} =
+/// -\mathrm{tr}\bigl(\rho(e_c)\, Q_j W T_i\, \rho(e_k)\, G_{ij}\bigr)
+/// + \mathrm{tr}\bigl(Q_i W T_j\, \rho(e_c)\, F_{ij}^T \rho(e_k)\bigr)
+/// ```
+///
+/// Where all matrices are antisymmetric, `T_i = Q_i^T`, `F = G`, and both terms are equal. Where a pivot of
+/// either system is small, the momenta are not a number: the step is too large.
+#[derive(Clone, Debug)]
+pub struct MatrixStages<S, M, const STAGES: usize> {
+    tableau: Tableau<S, STAGES>,
+    /// W
+    momentum: M,
+    /// `rho(x_j)`
+    motion: [M; STAGES],
+    /// Factors of `1 - A B`, then of `1 + A B^T`.
+    factors: StageMatrix<M, STAGES>,
+    /// `Q_i`
+    position: [M; STAGES],
+    /// `T_i^T`
+    covector: [M; STAGES],
+    /// G
+    forward: StageMatrix<M, STAGES>,
+    /// F
+    backward: StageMatrix<M, STAGES>,
+    /// `Q_j W T_i` in block (j, i)
+    paired: StageMatrix<M, STAGES>,
+    /// `Q_j W`
+    product: M,
+}
+
+impl<S: Scalar, M: SquareMatrix<S>, const STAGES: usize> MatrixStages<S, M, STAGES> {
+    fn with_zero(zero: &M, tableau: &Tableau<S, STAGES>) -> Self {
+        let blocks = || core::array::from_fn(|_| zero.clone());
+        let square = || StageMatrix(core::array::from_fn(|_| blocks()));
+        Self {
+            tableau: *tableau,
+            momentum: zero.clone(),
+            motion: blocks(),
+            factors: square(),
+            position: blocks(),
+            covector: blocks(),
+            forward: square(),
+            backward: square(),
+            paired: square(),
+            product: zero.clone(),
+        }
+    }
+
+    /// Factors `1 + A rho(x)` (`transposed` false) or `1 - A rho(x)^T`; true where no pivot is small.
+    fn factor(&mut self, transposed: bool) -> S::Mask {
+        let size = self.momentum.dimension();
+        for (i, row) in self.factors.0.iter_mut().enumerate() {
+            for (j, block) in row.iter_mut().enumerate() {
+                let weight = self.tableau.a[i][j];
+                let motion = &self.motion[j];
+                for r in 0..size {
+                    for c in 0..size {
+                        let identity = if i == j && r == c {
+                            S::one()
+                        } else {
+                            S::zero()
+                        };
+                        let entry = if transposed {
+                            identity - weight * motion.get(c, r)
+                        } else {
+                            identity + weight * motion.get(r, c)
+                        };
+                        block.set(r, c, entry);
+                    }
+                }
+            }
+        }
+        dense::factor(&mut self.factors)
+    }
+
+    /// Q, T, and with `derivatives` G and F.
+    fn solve(&mut self, skew: bool, derivatives: bool) {
+        let mut safe = self.factor(false);
+        solve_unit(&self.factors, &mut self.position);
+        if derivatives {
+            solve_weights(&self.factors, &self.tableau.a, &mut self.forward);
+        }
+        if skew {
+            self.covector.clone_from_slice(&self.position);
+        } else {
+            safe = safe & self.factor(true);
+            solve_unit(&self.factors, &mut self.covector);
+            if derivatives {
+                solve_weights(&self.factors, &self.tableau.a, &mut self.backward);
+            }
+        }
+        let poison = S::select(safe, S::zero(), S::from_f64(f64::NAN));
+        let size = self.momentum.dimension();
+        for block in &mut self.position {
+            for r in 0..size {
+                block.set(r, r, block.get(r, r) + poison);
+            }
+        }
+    }
+
+    /// `Q_j W T_i` for all pairs, or where j = i.
+    fn pair(&mut self, all: bool) {
+        let size = self.momentum.dimension();
+        for j in 0..STAGES {
+            multiply(size, &self.position[j], &self.momentum, &mut self.product);
+            for i in (0..STAGES).filter(|&i| all || i == j) {
+                let (left, right) = (&self.product, &self.covector[i]);
+                let out = &mut self.paired.0[j][i];
+                for r in 0..size {
+                    for c in 0..size {
+                        let mut sum = S::zero();
+                        for k in 0..size {
+                            sum += left.get(r, k) * right.get(c, k);
+                        }
+                        out.set(r, c, sum);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Sets W and `rho(x_j)`.
+    fn set<P: MatrixPoisson<S, Matrix = M>>(
+        &mut self,
+        mu: &P::State,
+        x: &Stages<P::State, STAGES>,
+    ) {
+        let table = &P::REPRESENTATION;
+        assemble(table.dual, mu.as_slice(), &mut self.momentum);
+        for (motion, x) in self.motion.iter_mut().zip(&x.0) {
+            assemble(table.matrices, x.as_slice(), motion);
+        }
+    }
+
+    fn read<P: MatrixPoisson<S, Matrix = M>>(&self, out: &mut Stages<P::State, STAGES>) {
+        for (i, out) in out.0.iter_mut().enumerate() {
+            let pairs = out.as_mut_slice().iter_mut();
+            for (out, matrix) in pairs.zip(P::REPRESENTATION.matrices) {
+                let mut sum = S::zero();
+                for entry in *matrix {
+                    let (row, column) = entry.place();
+                    sum += entry.value::<S>() * self.paired.0[i][i].get(column, row);
+                }
+                *out = sum;
+            }
+        }
+    }
+
+    /// `dM_i[k]/dx_j[c]`
+    fn slope(&self, [i, j]: [usize; 2], c: &[Entry], k: &[Entry], skew: bool) -> S {
+        let (forward, paired) = (&self.forward.0[i][j], &self.paired.0[j][i]);
+        let mut first = S::zero();
+        for left in c {
+            let (p, q) = left.place();
+            let mut inner = S::zero();
+            for right in k {
+                let (r, t) = right.place();
+                inner += right.value::<S>() * paired.get(q, r) * forward.get(t, p);
+            }
+            first += left.value::<S>() * inner;
+        }
+        if skew {
+            return -(first + first);
+        }
+        let (backward, paired) = (&self.backward.0[i][j], &self.paired.0[i][j]);
+        let mut second = S::zero();
+        for left in c {
+            let (p, q) = left.place();
+            let mut inner = S::zero();
+            for right in k {
+                let (r, t) = right.place();
+                inner += right.value::<S>() * paired.get(t, p) * backward.get(r, q);
+            }
+            second += left.value::<S>() * inner;
+        }
+        second - first
+    }
+}
+
+impl<S, P, const STAGES: usize> StageMap<S, P, STAGES> for MatrixStages<S, P::Matrix, STAGES>
+where
+    S: Scalar,
+    P: MatrixPoisson<S>,
+{
+    fn new(system: &P, tableau: &Tableau<S, STAGES>) -> Self {
+        Self::with_zero(&system.zero_matrix(), tableau)
+    }
+
+    fn momenta(
+        &mut self,
+        _system: &P,
+        mu: &P::State,
+        x: &Stages<P::State, STAGES>,
+        out: &mut Stages<P::State, STAGES>,
+    ) {
+        self.set::<P>(mu, x);
+        self.solve(P::REPRESENTATION.skew, false);
+        self.pair(false);
+        self.read::<P>(out);
+    }
+
+    fn linearize(
+        &mut self,
+        _system: &P,
+        mu: &P::State,
+        x: &Stages<P::State, STAGES>,
+        out: &mut Stages<P::State, STAGES>,
+        slopes: &mut StageMatrix<P::Jacobian, STAGES>,
+    ) {
+        let table = &P::REPRESENTATION;
+        self.set::<P>(mu, x);
+        self.solve(table.skew, true);
+        self.pair(true);
+        self.read::<P>(out);
+        for (i, row) in slopes.0.iter_mut().enumerate() {
+            for (j, block) in row.iter_mut().enumerate() {
+                for (c, left) in table.matrices.iter().enumerate() {
+                    for (k, right) in table.matrices.iter().enumerate() {
+                        block.set(k, c, self.slope([i, j], left, right, table.skew));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// `out = sum_k coordinates_k matrices_k`
+fn assemble<S: Scalar, M: SquareMatrix<S>>(matrices: &[&[Entry]], coordinates: &[S], out: &mut M) {
+    let size = out.dimension();
+    for row in 0..size {
+        for column in 0..size {
+            out.set(row, column, S::zero());
+        }
+    }
+    for (&coordinate, matrix) in coordinates.iter().zip(matrices) {
+        for entry in *matrix {
+            let (row, column) = entry.place();
+            let sum = out.get(row, column) + entry.value::<S>() * coordinate;
+            out.set(row, column, sum);
+        }
+    }
+}
+
+/// `out = a b`
+fn multiply<S: Scalar, M: SquareMatrix<S>>(size: usize, a: &M, b: &M, out: &mut M) {
+    for r in 0..size {
+        for c in 0..size {
+            let mut sum = S::zero();
+            for k in 0..size {
+                sum += a.get(r, k) * b.get(k, c);
+            }
+            out.set(r, c, sum);
+        }
+    }
+}
+
+/// Solves `K X = (1, ..., 1)^T`, one unit matrix per stage, by the factors of K.
+fn solve_unit<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
+    factors: &StageMatrix<M, STAGES>,
+    out: &mut [M; STAGES],
+) {
+    let size = out[0].dimension();
+    for block in out.iter_mut() {
+        for r in 0..size {
+            for c in 0..size {
+                block.set(r, c, if r == c { S::one() } else { S::zero() });
+            }
+        }
+    }
+    let rows = STAGES * size;
+    for column in 0..size {
+        for row in 1..rows {
+            let (i, r) = (row / size, row % size);
+            let mut sum = out[i].get(r, column);
+            // the right-hand side is zero above the unit of the first block
+            for k in column..row {
+                sum -=
+                    factors.0[i][k / size].get(r, k % size) * out[k / size].get(k % size, column);
+            }
+            out[i].set(r, column, sum);
+        }
+        for row in (0..rows).rev() {
+            let (i, r) = (row / size, row % size);
+            let mut sum = out[i].get(r, column);
+            for k in row + 1..rows {
+                sum -=
+                    factors.0[i][k / size].get(r, k % size) * out[k / size].get(k % size, column);
+            }
+            out[i].set(r, column, sum * factors.0[i][i].get(r, r));
+        }
+    }
+}
+
+/// Solves `K X = A`, each weight times the unit matrix, by the factors of K.
+fn solve_weights<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
+    factors: &StageMatrix<M, STAGES>,
+    weights: &[[S; STAGES]; STAGES],
+    out: &mut StageMatrix<M, STAGES>,
+) {
+    let size = out.0[0][0].dimension();
+    for (row, weights) in out.0.iter_mut().zip(weights) {
+        for (block, &weight) in row.iter_mut().zip(weights) {
+            for r in 0..size {
+                for c in 0..size {
+                    block.set(r, c, if r == c { weight } else { S::zero() });
+                }
+            }
+        }
+    }
+    let rows = STAGES * size;
+    for stage in 0..STAGES {
+        for column in 0..size {
+            for row in 1..rows {
+                let (i, r) = (row / size, row % size);
+                let mut sum = out.0[i][stage].get(r, column);
+                for k in column..row {
+                    sum -= factors.0[i][k / size].get(r, k % size)
+                        * out.0[k / size][stage].get(k % size, column);
+                }
+                out.0[i][stage].set(r, column, sum);
+            }
+            for row in (0..rows).rev() {
+                let (i, r) = (row / size, row % size);
+                let mut sum = out.0[i][stage].get(r, column);
+                for k in row + 1..rows {
+                    sum -= factors.0[i][k / size].get(r, k % size)
+                        * out.0[k / size][stage].get(k % size, column);
+                }
+                out.0[i][stage].set(r, column, sum * factors.0[i][i].get(r, r));
+            }
+        }
+    }
+}

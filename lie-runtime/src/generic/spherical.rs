@@ -1,0 +1,142 @@
+//! The equation of the spherical midpoint method.
+
+use crate::equation::Equation;
+use crate::matrix::SquareMatrix;
+use crate::newton::dense;
+use crate::scalar::Scalar;
+use crate::state::State;
+use crate::structure::SpinPoisson;
+
+/// `|mu| / |s|` for the momentum mu of a spin and the sum s of its ends, and `1 / s.s`; 1 and 0 where the sum
+/// is zero and mu is, and not a number where only the sum is.
+pub fn sphere_ratio<S: Scalar>(mu: [S; 3], sum: [S; 3]) -> (S, S) {
+    let square = |v: [S; 3]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    let (start, sum) = (square(mu), square(sum));
+    let zero = S::zero();
+    let resting = sum.less_equal(zero);
+    let divisor = S::select(resting, S::one(), sum);
+    let ratio = (start / divisor).sqrt();
+    let antipodal = S::select(start.less_equal(zero), S::one(), S::from_f64(f64::NAN));
+    (
+        S::select(resting, antipodal, ratio),
+        S::select(resting, zero, S::one() / divisor),
+    )
+}
+
+/// The spherical midpoint method for a direct sum of algebras so(3).
+///
+/// Unknown: the new state u. Equation: `r(u) = u - mu - h f(w)` with `w = |mu| s/|s|`, `s = mu + u` for each
+/// spin, and the vector field f. Jacobian: `1 - h Df(w) dw/du`, where
+/// `dw/du = (|mu|/|s|) (1 - s s^T/|s|^2)` for each spin. Start: `u = mu + h f(mu)`.
+#[derive(Debug)]
+pub struct Spherical<'a, S: Scalar, P: SpinPoisson<S>> {
+    system: &'a P,
+    step: S,
+    base: P::State,
+    point: P::State,
+    field: P::State,
+    jacobian: P::Jacobian,
+}
+
+impl<'a, S: Scalar, P: SpinPoisson<S>> Spherical<'a, S, P> {
+    /// The equation of a step of size h.
+    pub fn new(system: &'a P, h: S) -> Self {
+        let zero = system.zero_state();
+        Self {
+            system,
+            step: h,
+            base: zero.clone(),
+            point: zero.clone(),
+            field: zero,
+            jacobian: system.zero_jacobian(),
+        }
+    }
+
+    /// The sum of the ends of a spin, and [`sphere_ratio`].
+    fn sum(&self, spin: &[usize; 3], unknown: &P::State) -> ([S; 3], S, S) {
+        let (mu, unknown) = (self.base.as_slice(), unknown.as_slice());
+        let start = spin.map(|k| mu[k]);
+        let sum = spin.map(|k| mu[k] + unknown[k]);
+        let (ratio, inverse) = sphere_ratio(start, sum);
+        (sum, ratio, inverse)
+    }
+
+    /// Sets the point to w.
+    fn set_point(&mut self, unknown: &P::State) {
+        for spin in P::SPINS {
+            let (sum, ratio, _) = self.sum(spin, unknown);
+            for (k, &coordinate) in spin.iter().enumerate() {
+                self.point.as_mut_slice()[coordinate] = ratio * sum[k];
+            }
+        }
+    }
+
+    fn write_residual(&self, unknown: &P::State, residual: &mut P::State) {
+        for (row, out) in residual.as_mut_slice().iter_mut().enumerate() {
+            let moved = self.step * self.field.as_slice()[row];
+            *out = (unknown.as_slice()[row] - self.base.as_slice()[row]) - moved;
+        }
+    }
+}
+
+impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
+    type State = P::State;
+    type Unknown = P::State;
+    type Matrix = P::Jacobian;
+
+    fn zero_unknown(&self) -> P::State {
+        self.system.zero_state()
+    }
+
+    fn zero_matrix(&self) -> P::Jacobian {
+        self.system.zero_jacobian()
+    }
+
+    fn set_base(&mut self, mu: &P::State) {
+        self.base.copy_from(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut P::State) {
+        self.system.vector_field(&self.base, &mut self.field);
+        unknown.copy_from(&self.base);
+        unknown.axpy(self.step, &self.field);
+    }
+
+    fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
+        self.set_point(unknown);
+        self.system.vector_field(&self.point, &mut self.field);
+        self.write_residual(unknown, residual);
+    }
+
+    fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
+        self.set_point(unknown);
+        self.system
+            .linearize(&self.point, &mut self.field, &mut self.jacobian);
+        self.write_residual(unknown, residual);
+        for spin in P::SPINS {
+            let (sum, ratio, inverse) = self.sum(spin, unknown);
+            let factor = self.step * ratio;
+            for row in 0..P::DIM {
+                let slopes = spin.map(|k| factor * self.jacobian.get(row, k));
+                let along = slopes[0] * sum[0] + slopes[1] * sum[1] + slopes[2] * sum[2];
+                for (k, &column) in spin.iter().enumerate() {
+                    let identity = if row == column { S::one() } else { S::zero() };
+                    let tangent = slopes[k] - along * (sum[k] * inverse);
+                    matrix.set(row, column, identity - tangent);
+                }
+            }
+        }
+    }
+
+    fn factor(&self, matrix: &mut P::Jacobian) -> S::Mask {
+        dense::factor(matrix)
+    }
+
+    fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
+        dense::solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
+        mu.copy_from(unknown);
+    }
+}

@@ -1,0 +1,107 @@
+//! Collective symplectic methods: Gauss on a symplectic space over g*, projected.
+//!
+//! A linear symplectic action of g on a space with the momentum map J gives the Hamiltonian `$H \circ J$`, whose
+//! flow lies over that of H. The Gauss method commutes with everything that leaves `$H \circ J$` unchanged, so
+//! that it descends to g*:
+//!
+//! ```math
+//! \mu = J(z_0), \qquad z_1 = \Phi^{\text{Gauss}}_{H \circ J,\, h}(z_0), \qquad \mu_1 = J(z_1)
+//! ```
+//!
+//! Order 2s with s stages, symmetric, a Poisson map; keeps every Casimir and the coadjoint orbit, and the
+//! energy without drift though not exactly. The step does not depend on the point `z_0` over mu, and is
+//! computed without it, in the momenta of the stages.
+//!
+//! * [`Collective4::representation`](Collective::representation) and its kin lift to `T*V` of the declared
+//!   representation V, with `J_k(q, p) = -p rho(e_k) q`. See [`Isospectral`](super::Isospectral), which is
+//!   the same method.
+//! * [`Collective4::hopf`](Collective::hopf) and its kin lift to `T*R^2` by the Hopf map
+//!
+//!   ```math
+//!   J(q, p) = \tfrac14 \bigl(2 q_1 q_2 + 2 p_1 p_2,\; 2 q_2 p_1 - 2 q_1 p_2,\;
+//!   q_1^2 + p_1^2 - q_2^2 - p_2^2\bigr), \qquad |J| = \tfrac14 (q^2 + p^2)
+//!   ```
+//!
+//!   for so(3), and for direct sums of so(3), one map for each. In quaternions z the action is a
+//!   multiplication from the left, and with `B_i = -x_i/2`, `x_i = h grad H(m_i)`:
+//!
+//!   ```math
+//!   Q_i = 1 + \sum_j a_{ij} B_j Q_j, \qquad m_i = Q_i\, \mu\, \overline{Q_i}, \qquad
+//!   \mu_1 = \mu + \sum_i b_i\, \mathrm{ad}^*_{x_i} m_i
+//!   ```
+//!
+//! Needs: see [`MatrixPoisson`](crate::MatrixPoisson) and [`SpinPoisson`](crate::SpinPoisson); gradient
+//! and Hessian of H.
+//!
+//! References: R. I. McLachlan, K. Modin, O. Verdier, "Collective symplectic integrators", Nonlinearity 27
+//! (2014) 1525–1542, [doi:10.1088/0951-7715/27/6/1525](https://doi.org/10.1088/0951-7715/27/6/1525).
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
+
+use super::facts::{Facts, Preserves};
+use super::implicit::ImplicitStepper;
+use super::stepper::Method;
+use crate::equation::Implicit;
+use crate::newton::NewtonOptions;
+use crate::scalar::Scalar;
+
+/// The lift to `T*V` of the declared representation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Representation;
+
+/// The lift of so(3)* by the Hopf map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Hopf;
+
+/// The collective Gauss method with 1, 2 or 3 stages; see the [module's text](self).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Collective<L, const STAGES: usize> {
+    lift: L,
+}
+
+/// Order 2.
+pub type Collective2<L> = Collective<L, 1>;
+/// Order 4.
+pub type Collective4<L> = Collective<L, 2>;
+/// Order 6.
+pub type Collective6<L> = Collective<L, 3>;
+
+impl<const STAGES: usize> Collective<Representation, STAGES> {
+    /// Over the declared representation.
+    pub const fn representation() -> Self {
+        Self {
+            lift: Representation,
+        }
+    }
+}
+
+impl<const STAGES: usize> Collective<Hopf, STAGES> {
+    /// Over so(3)* by the Hopf map.
+    pub const fn hopf() -> Self {
+        Self { lift: Hopf }
+    }
+}
+
+impl<L, const STAGES: usize> Facts for Collective<L, STAGES> {
+    const ID: &'static str = match STAGES {
+        1 => "collective2",
+        2 => "collective4",
+        _ => "collective6",
+    };
+    const ORDER: u32 = 2 * STAGES as u32;
+    const SYMMETRIC: bool = true;
+    const EXPLICIT: bool = false;
+    const PRESERVES: Preserves = Preserves::POISSON;
+}
+
+impl<S: Scalar, P: Implicit<S, Self>, L, const STAGES: usize> Method<S, P>
+    for Collective<L, STAGES>
+{
+    type Stepper<'a>
+        = ImplicitStepper<S, P::Equation<'a>>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
+    }
+}

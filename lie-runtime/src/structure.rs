@@ -1,0 +1,111 @@
+//! Structure that some algebras and Hamiltonians have and some methods need: a matrix representation,
+//! factors so(3), the inertia of a rigid body in n dimensions.
+
+use crate::matrix::SquareMatrix;
+use crate::poisson::LiePoisson;
+use crate::scalar::Scalar;
+
+/// A nonzero entry of a constant matrix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// The row.
+    pub row: u16,
+    /// The column.
+    pub column: u16,
+    /// The f64 nearest to the value.
+    pub high: f64,
+    /// The rest of the value, rounded.
+    pub low: f64,
+}
+
+impl Entry {
+    /// An entry that f64 holds exactly.
+    pub const fn new(row: u16, column: u16, value: f64) -> Self {
+        Self {
+            row,
+            column,
+            high: value,
+            low: 0.0,
+        }
+    }
+
+    /// Row and column.
+    #[inline(always)]
+    pub(crate) fn place(&self) -> (usize, usize) {
+        (usize::from(self.row), usize::from(self.column))
+    }
+
+    /// The value.
+    #[inline(always)]
+    pub(crate) fn value<S: Scalar>(&self) -> S {
+        S::constant(self.high, self.low)
+    }
+}
+
+/// The matrices of a representation `rho` and of its dual, by their nonzero entries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Representation {
+    /// `rho(e_k)`, one list per basis element.
+    pub matrices: &'static [&'static [Entry]],
+    /// Matrices `D^k` with `tr(D^k rho(e_l)) = delta_kl`: `W = sum_k mu_k D^k` has the momentum mu.
+    pub dual: &'static [&'static [Entry]],
+    /// Whether all these matrices are antisymmetric.
+    pub skew: bool,
+}
+
+/// A Lie–Poisson system with a matrix representation that carries a reduction of `T*V` to g*.
+///
+/// The words `T rho(e_k) Q` that the method of the module [`crate::methods::isospectral`] forms must lie in
+/// the span of `rho` and of matrices that commute with all of `rho(g)`, and the dual matrices pair to
+/// zero with the latter. It holds where the closure of the span under `(abc + cba)/2` has this form.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no matrix representation over the scalar `{S}` that carries this method",
+    note = "declare `matrices` whose closure under (abc + cba)/2 adds only matrices that commute with them, or use `LieMidpoint::exp()`"
+)]
+pub trait MatrixPoisson<S: Scalar>: LiePoisson<S> {
+    /// A matrix of the size of the representation.
+    type Matrix: SquareMatrix<S>;
+    /// The matrices.
+    const REPRESENTATION: Representation;
+    /// A matrix of the size of the representation, all entries 0.
+    fn zero_matrix(&self) -> Self::Matrix;
+}
+
+/// A Lie–Poisson system on a direct sum of algebras so(3): each coordinate belongs to one spin, a triple
+/// (i, j, k) with `[e_i, e_j] = c e_k` and its cyclic permutations.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no system of spins over the scalar `{S}`",
+    note = "the method needs a direct sum of algebras so(3), each with [e1, e2] = c e3 and cyclic permutations"
+)]
+pub trait SpinPoisson<S: Scalar>: LiePoisson<S> {
+    /// The coordinates of each spin.
+    const SPINS: &'static [[usize; 3]];
+    /// The constant c of one spin.
+    fn scale(&self, spin: usize) -> S;
+}
+
+/// A plane of rotation: the basis element is `E_(to, from) - E_(from, to)`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plane {
+    /// The axis that is turned.
+    pub from: u16,
+    /// The axis that it is turned to.
+    pub to: u16,
+}
+
+/// The rigid body in n >= 4 dimensions: so(n) in the basis of planes of rotation, and
+/// `H = sum_(i<j) M_ij^2 / (2 (J_i + J_j))`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no rigid body in n dimensions over the scalar `{S}`",
+    note = "the method needs so(n) in the basis E_ij - E_ji and H = sum M_ij^2/(2 (J_i + J_j))"
+)]
+pub trait InertiaPoisson<S: Scalar>: LiePoisson<S> {
+    /// An n x n matrix.
+    type Matrix: SquareMatrix<S>;
+    /// The plane of each basis element.
+    const PLANES: &'static [Plane];
+    /// An n x n matrix, all entries 0.
+    fn zero_matrix(&self) -> Self::Matrix;
+    /// The second moment `J_i` along one axis.
+    fn moment(&self, axis: usize) -> S;
+}
