@@ -4,6 +4,7 @@ use lie_codegen::methods::{Availability, CATALOGUE, Method};
 use lie_runtime::methods::{
     CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, Dopri5, Facts, Gauss4, Gauss6,
     ImplicitMidpoint, LieEuler, LieMidpoint, Preserves, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6,
+    Splitting1, Splitting2, Splitting4, Splitting6, Splitting8,
 };
 
 fn agrees<F: Facts>(_: &F) -> &'static str {
@@ -74,6 +75,11 @@ fn facts_are_those_of_the_runtime() {
         agrees(&Rkmk6),
         agrees(&CrouchGrossman3),
         agrees(&CommutatorFree4),
+        agrees(&Splitting1::new()),
+        agrees(&Splitting2::new()),
+        agrees(&Splitting4::new()),
+        agrees(&Splitting6::new()),
+        agrees(&Splitting8::new()),
         composition(&Compose4::new(LieMidpoint::exp())),
         composition(&Compose6::new(ImplicitMidpoint)),
         composition(&Compose8::new(LieMidpoint::cayley())),

@@ -123,6 +123,6 @@ fn expand_prints_rust_with_fused_code_on_demand() {
     );
     lie("expand specs/so3_free_rigid_body.json --method gaus4")
         .error("method", "command line: --method");
-    lie("expand specs/so3_free_rigid_body.json --method cf4")
+    lie("expand specs/so3_free_rigid_body.json --method variational4")
         .error("method", "command line: --method");
 }

@@ -8,7 +8,7 @@ use lie_codegen::golden::Golden;
 use std::path::PathBuf;
 
 /// Every family of methods with fused code; of `lie-midpoint` both retractions where they apply.
-const METHODS: [&str; 4] = ["midpoint", "gauss4", "gauss6", "lie-midpoint"];
+const METHODS: [&str; 5] = ["midpoint", "gauss4", "gauss6", "lie-midpoint", "splitting2"];
 
 /// The systems of `specs/`, without their schema.
 fn specs() -> Vec<PathBuf> {

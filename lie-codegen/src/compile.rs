@@ -11,6 +11,7 @@ use crate::emit::{Blueprint, Emitted, Parameter, emit};
 use crate::front::{Body, spec};
 use crate::methods::{Choice, refusal};
 use crate::model::Model;
+use crate::structure::separable;
 
 /// Reads and checks a spec file.
 ///
@@ -185,6 +186,7 @@ pub fn source(model: &Model) -> Source {
         constants: model.constants.entries().to_vec(),
         hamiltonian: model.hamiltonian,
         casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
+        pieces: separable::pieces(model),
         triple: model.representation.as_ref().and_then(|r| r.triple.clone()),
     }
 }

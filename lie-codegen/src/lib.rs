@@ -62,5 +62,6 @@ pub mod golden;
 pub mod methods;
 pub mod model;
 pub mod schedule;
+pub mod structure;
 pub mod suggest;
 pub mod symbolic;

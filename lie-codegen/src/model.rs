@@ -74,6 +74,9 @@ pub struct Model {
     pub hamiltonian: ExprId,
     /// Its total degree in the coordinates, where it is a polynomial in them.
     pub hamiltonian_degree: Option<u32>,
+    /// The coordinates on which H depends, if H is a sum of functions of one of them each; else two
+    /// that it mixes.
+    pub pieces: Result<Vec<usize>, (usize, usize)>,
     /// The independent declared Casimirs.
     pub casimirs: Vec<Casimir>,
     /// The matrix representation.

@@ -36,7 +36,8 @@ pub fn applies(choice: Choice, model: &Model) -> Result<Choice, Message> {
                 choice.label(),
                 model.name
             );
-            Err(Message::new(Kind::Method, text).help(remedy))
+            let kind = methods::kind_of_refusal(&choice);
+            Err(Message::new(kind, text).help(remedy))
         }
     }
 }

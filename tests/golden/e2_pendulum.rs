@@ -1350,3 +1350,85 @@ impl<
         PendulumCayleyMidpoint::new(self, h)
     }
 }
+
+/// The flows of the pieces of H in `L`, `x`.
+#[derive(Debug)]
+pub struct PendulumSplitting<'a, S: ::lie_runtime::Scalar> {
+    system: &'a PendulumSystem<S>,
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<'a, S: ::lie_runtime::Scalar> PendulumSplitting<'a, S> {
+    /// The flows of a system.
+    #[must_use]
+    pub fn new(system: &'a PendulumSystem<S>) -> Self {
+        Self { system }
+    }
+
+    /// The flow of the piece in `L` over a time t.
+    ///
+    /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
+    ///
+    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    #[inline]
+    fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
+        let [[_L, x, y]] = mu.data.0;
+        let _t0 = (_L * t * S::ratio(1.0, 2.0)).tan();
+        let _t1 = _t0 * S::ratio(2.0, 1.0) / (S::one() + _t0 * _t0);
+        let _t2 = _t0 * _t1;
+        mu[1] += y * _t1 - x * _t2;
+        mu[2] -= x * _t1 + y * _t2;
+    }
+
+    /// The flow of the piece in `x` over a time t.
+    ///
+    /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
+    ///
+    /// 1 addition, 2 multiplications.
+    #[inline]
+    fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
+        let [[_, _, y]] = mu.data.0;
+        mu[0] -= y * (t * self.system._k1);
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::PieceFlows<S>
+for PendulumSplitting<'_, S> {
+    type State = ::lie_runtime::__private::SVector<S, 3>;
+    #[inline]
+    fn pieces(&self) -> usize {
+        2
+    }
+
+    fn direction(&self, _piece: usize, _t: S, _mu: &Self::State, _xi: &mut Self::State) {
+        const COORDINATES: [usize; 2] = [0, 1];
+        let coordinate = COORDINATES[_piece];
+        ::lie_runtime::generic::piece_direction(self.system, coordinate, _t, _mu, _xi);
+    }
+
+    #[inline]
+    fn flow(&mut self, piece: usize, _t: S, _mu: &mut Self::State) {
+        match piece {
+            0 => self._flow0(_t, _mu),
+            1 => self._flow1(_t, _mu),
+            _ => panic!("the splitting has 2 pieces"),
+        }
+    }
+
+    #[inline]
+    fn ascend(&mut self, first: S, _t: S, mu: &mut Self::State) {
+        self._flow0(first, mu);
+    }
+
+    #[inline]
+    fn descend(&mut self, last: S, _t: S, mu: &mut Self::State) {
+        self._flow1(last, mu);
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::SeparablePoisson<S> for PendulumSystem<S> {
+    type Flows<'a> = PendulumSplitting<'a, S> where Self: 'a;
+    fn flows(&self) -> Self::Flows<'_> {
+        PendulumSplitting::new(self)
+    }
+}

@@ -1668,3 +1668,108 @@ impl<
         FreeRigidBodyCayleyMidpoint::new(self, h)
     }
 }
+
+/// The flows of the pieces of H in `x`, `y`, `z`.
+#[derive(Debug)]
+pub struct FreeRigidBodySplitting<'a, S: ::lie_runtime::Scalar> {
+    system: &'a FreeRigidBodySystem<S>,
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySplitting<'a, S> {
+    /// The flows of a system.
+    #[must_use]
+    pub fn new(system: &'a FreeRigidBodySystem<S>) -> Self {
+        Self { system }
+    }
+
+    /// The flow of the piece in `x` over a time t.
+    ///
+    /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
+    ///
+    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    #[inline]
+    fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
+        let [[x, y, z]] = mu.data.0;
+        let _t0 = (x * t * self.system._k0).tan();
+        let _t1 = _t0 * S::ratio(2.0, 1.0) / (S::one() + _t0 * _t0);
+        let _t2 = _t0 * _t1;
+        mu[1] += z * _t1 - y * _t2;
+        mu[2] -= y * _t1 + z * _t2;
+    }
+
+    /// The flow of the piece in `y` over a time t.
+    ///
+    /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
+    ///
+    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    #[inline]
+    fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
+        let [[x, y, z]] = mu.data.0;
+        let _t0 = (y * t * self.system._k1).tan();
+        let _t1 = _t0 * S::ratio(2.0, 1.0) / (S::one() + _t0 * _t0);
+        let _t2 = _t0 * _t1;
+        mu[0] -= z * _t1 + x * _t2;
+        mu[2] += x * _t1 - z * _t2;
+    }
+
+    /// The flow of the piece in `z` over a time t.
+    ///
+    /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
+    ///
+    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    #[inline]
+    fn _flow2(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
+        let [[x, y, z]] = mu.data.0;
+        let _t0 = (z * t * self.system._k2).tan();
+        let _t1 = _t0 * S::ratio(2.0, 1.0) / (S::one() + _t0 * _t0);
+        let _t2 = _t0 * _t1;
+        mu[0] += y * _t1 - x * _t2;
+        mu[1] -= y * _t2 + x * _t1;
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::PieceFlows<S>
+for FreeRigidBodySplitting<'_, S> {
+    type State = ::lie_runtime::__private::SVector<S, 3>;
+    #[inline]
+    fn pieces(&self) -> usize {
+        3
+    }
+
+    fn direction(&self, _piece: usize, _t: S, _mu: &Self::State, _xi: &mut Self::State) {
+        const COORDINATES: [usize; 3] = [0, 1, 2];
+        let coordinate = COORDINATES[_piece];
+        ::lie_runtime::generic::piece_direction(self.system, coordinate, _t, _mu, _xi);
+    }
+
+    #[inline]
+    fn flow(&mut self, piece: usize, _t: S, _mu: &mut Self::State) {
+        match piece {
+            0 => self._flow0(_t, _mu),
+            1 => self._flow1(_t, _mu),
+            2 => self._flow2(_t, _mu),
+            _ => panic!("the splitting has 3 pieces"),
+        }
+    }
+
+    #[inline]
+    fn ascend(&mut self, first: S, t: S, mu: &mut Self::State) {
+        self._flow0(first, mu);
+        self._flow1(t, mu);
+    }
+
+    #[inline]
+    fn descend(&mut self, last: S, t: S, mu: &mut Self::State) {
+        self._flow2(last, mu);
+        self._flow1(t, mu);
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::SeparablePoisson<S>
+for FreeRigidBodySystem<S> {
+    type Flows<'a> = FreeRigidBodySplitting<'a, S> where Self: 'a;
+    fn flows(&self) -> Self::Flows<'_> {
+        FreeRigidBodySplitting::new(self)
+    }
+}

@@ -2,7 +2,7 @@
 //! to the system.
 
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::methods::{Choice, refusal};
+use crate::methods::{Choice, kind_of_refusal, refusal};
 use crate::model::Model;
 
 /// Reports the methods of the declaration that cannot be had, with the reason.
@@ -22,12 +22,12 @@ pub fn check(model: &Model, report: &mut Report) {
 }
 
 fn check_one(model: &Model, id: &str, origin: Origin, report: &mut Report) {
-    let (message, help) = match Choice::from_id(id) {
-        Err(unusable) => (unusable.message, unusable.help),
+    let (kind, (message, help)) = match Choice::from_id(id) {
+        Err(unusable) => (Kind::Method, (unusable.message, unusable.help)),
         Ok(choice) => match refusal(model, &choice) {
-            Some(reason) => reason,
+            Some(reason) => (kind_of_refusal(&choice), reason),
             None => return,
         },
     };
-    report.push(Diagnostic::new(Kind::Method, origin, message).help(help));
+    report.push(Diagnostic::new(kind, origin, message).help(help));
 }

@@ -16,7 +16,7 @@ mod lets;
 mod lower;
 mod methods;
 mod names;
-mod normal;
+pub(crate) mod normal;
 mod parameters;
 mod sample;
 mod size;
@@ -31,6 +31,7 @@ use crate::ast::{Declaration, Invariance};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Fraction, Rational};
 use crate::model::{Casimir, Model};
+use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
 use casimirs::Candidate;
 use environment::{Allowed, Environment};
@@ -128,6 +129,7 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     let casimirs = independent(declaration, &graph, candidates, &degrees, report);
     let dimension = declaration.algebra.basis.len();
     let generic_rank = rank::generic(&exact_constants, dimension - casimirs.len().min(dimension));
+    let pieces = separable::coordinates(&mut scratch, hamiltonian, dimension);
     let hamiltonian_degree = casimirs::degree(&scratch, hamiltonian);
     let mut model = Model {
         name: declaration.name.text.clone(),
@@ -144,6 +146,7 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         invariance: declaration.invariance,
         hamiltonian,
         hamiltonian_degree,
+        pieces,
         casimirs,
         representation,
         methods: declaration.methods.clone(),
@@ -258,7 +261,7 @@ fn independent(
 }
 
 /// A rational function of the parameters in the arena.
-fn expression(graph: &mut Graph, value: &Fraction) -> ExprId {
+pub(crate) fn expression(graph: &mut Graph, value: &Fraction) -> ExprId {
     let polynomial = |graph: &mut Graph, p: &crate::exact::Polynomial| {
         let mut terms = Vec::new();
         for (monomial, coefficient) in p.terms() {

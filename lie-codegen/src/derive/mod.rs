@@ -5,10 +5,13 @@ mod coadjoint;
 mod field;
 mod kernel;
 mod midpoint;
+mod splitting;
 
 pub use kernel::{Argument, Kernel, Shape};
+pub use splitting::{PieceKernel, Update};
 
 use crate::algebra::TripleEntry;
+use crate::structure::separable::Piece;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// What the kernels are derived from.
@@ -27,6 +30,8 @@ pub struct Source {
     /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
     /// representation is closed under it.
     pub triple: Option<Vec<TripleEntry>>,
+    /// The coordinate pieces of H, if it is a sum of functions of one coordinate each.
+    pub pieces: Option<Vec<Piece>>,
 }
 
 /// Vector arguments of kernels besides the state; each has n symbols.
@@ -146,5 +151,11 @@ impl Source {
     /// Residual, Jacobian and result of the retraction method with the Cayley map.
     pub fn cayley_kernels(&mut self) -> Option<Vec<Kernel>> {
         self.triple.is_some().then(|| cayley::kernels(self))
+    }
+
+    /// The flows of the coordinate pieces of a separable Hamiltonian.
+    pub fn splitting_kernels(&mut self) -> Option<Vec<PieceKernel>> {
+        let pieces = self.pieces.clone()?;
+        Some(splitting::kernels(self, &pieces))
     }
 }

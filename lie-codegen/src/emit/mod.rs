@@ -10,6 +10,7 @@ mod function;
 mod names;
 mod parameters;
 mod prepared;
+mod splitting;
 mod system;
 
 use proc_macro2::{Ident, TokenStream};
@@ -74,11 +75,12 @@ pub fn emit(blueprint: &Blueprint) -> Emitted {
     let mut writer = Writer::new(blueprint);
     let basic = writer.system_impls();
     let equations = writer.equations();
+    let splitting = writer.splitting();
     let parameters = writer.parameters();
     let system = writer.system_struct();
     let lift = writer.lift();
     Emitted {
-        tokens: quote! { #parameters #system #basic #lift #equations },
+        tokens: quote! { #parameters #system #basic #lift #equations #splitting },
         counts: writer.counts,
     }
 }

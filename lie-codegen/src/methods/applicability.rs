@@ -1,12 +1,17 @@
 //! Which methods a system can carry.
 
 use super::{Availability, CATALOGUE, Choice, Retraction};
+use crate::diagnostic::Kind;
 use crate::model::Model;
+use crate::structure::separable;
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
 pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
     if let Choice::Compose(_, _, base) = choice {
         return refusal(model, base);
+    }
+    if let Choice::Splitting(order, _) = choice {
+        return separable::refusal(model, *order);
     }
     let Choice::LieMidpoint(Retraction::Cayley) = choice else {
         return None;
@@ -25,6 +30,14 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
         reason.into(),
         "use `lie-midpoint` with `--retraction exp`, which works for every Lie algebra".into(),
     ))
+}
+
+/// The kind of the mistake to ask for a method of a system that cannot carry it.
+pub fn kind_of_refusal(choice: &Choice) -> Kind {
+    match choice.solved() {
+        Choice::Splitting(..) => Kind::Splitting,
+        _ => Kind::Method,
+    }
 }
 
 /// Every method of the catalogue with the reason why it cannot be used, if there is one.

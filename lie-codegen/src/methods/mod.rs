@@ -7,7 +7,7 @@ mod constructor;
 mod options;
 mod table;
 
-pub use applicability::{applicability, refusal};
+pub use applicability::{applicability, kind_of_refusal, refusal};
 pub use choice::{Choice, Unusable};
 pub use options::{Gradient, Lift, OptionError, Retraction, Scheme};
 pub use table::CATALOGUE;

@@ -36,6 +36,8 @@ impl Method {
     }
 }
 
+const SUM: &str = "H = sum f_i(x_i), each term of one coordinate";
+
 const AKW: &str = "Austin, Krishnaprasad, Wang (1993), 10.1006/jcph.1993.1128";
 const HLW: &str =
     "Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), 10.1007/3-540-30666-8";
@@ -48,6 +50,7 @@ const GM: &str = "Ge, Marsden (1988), 10.1016/0375-9601(88)90773-6; Channell, Sc
 const MODIN: &str = "Modin, Viviani (2020), 10.1007/s10208-019-09428-w";
 const MMV: &str = "McLachlan, Modin, Verdier (2014), 10.1103/PhysRevE.89.061301";
 const MCL: &str = "McLachlan (1993), 10.1103/PhysRevLett.71.3043";
+const BM: &str = "McLachlan (1993), 10.1103/PhysRevLett.71.3043; Blanes, Moan (2002), 10.1016/S0377-0427(01)00492-7";
 const DG: &str = "Gonzalez (1996), 10.1007/BF02440162; McLachlan, Quispel, Robidoux (1999), 10.1098/rsta.1999.0363";
 const EF: &str = "Engø, Faltinsen (2001), 10.1137/S0036142999364212";
 const CH: &str = "Cohen, Hairer (2011), 10.1007/s10543-011-0310-z";
@@ -333,45 +336,50 @@ pub const CATALOGUE: &[Method] = &[
         1,
         [false, true],
         Preserves::POISSON,
-        "a splitting of H",
+        SUM,
         MCL,
-    ),
+    )
+    .built(),
     planned(
         "splitting2",
         "Strang splitting",
         2,
         [true, true],
         Preserves::POISSON,
-        "a splitting of H",
+        SUM,
         MCL,
-    ),
+    )
+    .built(),
     planned(
         "splitting4",
         "Blanes–Moan splitting",
         4,
         [true, true],
         Preserves::POISSON,
-        "a splitting of H",
-        MCL,
-    ),
+        SUM,
+        BM,
+    )
+    .built(),
     planned(
         "splitting6",
         "Blanes–Moan splitting",
         6,
         [true, true],
         Preserves::POISSON,
-        "a splitting of H",
-        MCL,
-    ),
+        SUM,
+        BM,
+    )
+    .built(),
     planned(
         "splitting8",
         "composed splitting",
         8,
         [true, true],
         Preserves::POISSON,
-        "a splitting of H",
+        SUM,
         MCL,
-    ),
+    )
+    .built(),
     planned(
         "gonzalez",
         "midpoint discrete gradient",

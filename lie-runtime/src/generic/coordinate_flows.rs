@@ -36,27 +36,27 @@ impl<S: Scalar, P: LiePoisson<S>> PieceFlows<S> for CoordinateFlows<'_, S, P> {
     }
 
     fn direction(&self, piece: usize, t: S, mu: &P::State, xi: &mut P::State) {
-        direction(self.system, piece, t, mu, xi);
+        piece_direction(self.system, piece, t, mu, xi);
     }
 
     fn flow(&mut self, piece: usize, t: S, mu: &mut P::State) {
-        direction(self.system, piece, t, mu, &mut self.direction);
+        piece_direction(self.system, piece, t, mu, &mut self.direction);
         let (direction, scratch) = (&self.direction, &mut self.scratch);
         coadjoint_action_in(self.system, direction, mu, &mut self.next, scratch);
         mu.copy_from(&self.next);
     }
 }
 
-/// `xi = t (dH/dmu_i) e_i`
-fn direction<S: Scalar, P: LiePoisson<S>>(
+/// The element along which a coordinate piece moves in a time t: `xi = t (dH/dmu_i) e_i`.
+pub fn piece_direction<S: Scalar, P: LiePoisson<S>>(
     system: &P,
-    piece: usize,
+    coordinate: usize,
     t: S,
     mu: &P::State,
     xi: &mut P::State,
 ) {
     system.gradient(mu, xi);
-    let speed = t * xi.as_slice()[piece];
+    let speed = t * xi.as_slice()[coordinate];
     xi.fill(S::zero());
-    xi.as_mut_slice()[piece] = speed;
+    xi.as_mut_slice()[coordinate] = speed;
 }

@@ -27,7 +27,7 @@ mod tableau;
 
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
 pub use cohen_hairer::CohenHairerStep;
-pub use coordinate_flows::CoordinateFlows;
+pub use coordinate_flows::{CoordinateFlows, piece_direction};
 pub use discrete_body::DiscreteBody;
 pub use discrete_gradient::{
     DiscreteGradient, GonzalezGradient, ItohAbeGradient, MeanValueGradient,

@@ -232,7 +232,11 @@ impl<S: Scalar, F: PieceFlows<S>> SplittingStepper<S, F> {
                 self.flows.descend(sweep.turn, sweep.time, &mut self.next);
             }
         }
-        let last = if self.count % 2 == 0 { 0 } else { pieces - 1 };
+        let last = if self.count.is_multiple_of(2) {
+            0
+        } else {
+            pieces - 1
+        };
         self.flows.flow(last, self.end, &mut self.next);
     }
 
@@ -272,7 +276,11 @@ impl<S: Scalar, F: PieceFlows<S>> SplittingStepper<S, F> {
                 flow(place(piece), sweep.time);
             }
         }
-        let last = if self.count % 2 == 0 { 0 } else { pieces - 1 };
+        let last = if self.count.is_multiple_of(2) {
+            0
+        } else {
+            pieces - 1
+        };
         flow(last, self.end);
     }
 }

@@ -1,0 +1,259 @@
+//! The flows of the coordinate pieces of a separable Hamiltonian: `exp(s ad*_(e_i)) mu` with
+//! `s = t f_i'(mu_i)`.
+//!
+//! An entry that is only scaled is multiplied by an exponential, or divided by it where another grows
+//! as this one shrinks, so that their product keeps its digits. Of all others the increment is
+//! derived, which is added to mu last: then the only rounding in units of mu is that of this addition,
+//! and coefficients close to 1 lose nothing. For a rotation about the angle
+//! `a = w s`, with `T = tan(a/2)`: `sin a = 2 T/(1 + T^2)` and `1 - cos a = T sin a`, one function call;
+//! whatever the error of T, the squares of sine and cosine then sum to 1 up to `a^2` times round-off.
+
+use super::field::mu;
+use super::{Kernel, Source};
+use crate::check::expression;
+use crate::exact::Rational;
+use crate::structure::one_parameter::{Block, Form};
+use crate::structure::separable::Piece;
+use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+
+/// Symbols of intermediate quantities, beyond those of all vector arguments.
+const AUXILIARY: usize = 1 << 24;
+
+/// The flow of one piece.
+#[derive(Clone, Debug)]
+pub struct PieceKernel {
+    /// The coordinate i.
+    pub coordinate: usize,
+    /// What changes mu over a time t, if there is a closed form.
+    pub kernel: Option<Kernel>,
+    /// What is done with each output of the kernel.
+    pub updates: Vec<Update>,
+}
+
+/// What is done to an entry of mu with an output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Update {
+    /// It is added.
+    Add,
+    /// It is subtracted: every term of the increment is negative.
+    Subtract,
+    /// The entry is multiplied by it.
+    Multiply,
+    /// The entry is divided by it.
+    Divide,
+}
+
+/// Definitions under construction, each made once.
+#[derive(Default)]
+struct Definitions {
+    made: Vec<(Symbol, ExprId)>,
+}
+
+impl Definitions {
+    /// The symbol of a quantity.
+    fn define(&mut self, source: &mut Source, value: ExprId) -> ExprId {
+        let known = self.made.iter().find(|(_, made)| *made == value);
+        let symbol = match known {
+            Some((symbol, _)) => *symbol,
+            None => {
+                let symbol = Symbol::Input(AUXILIARY + self.made.len());
+                self.made.push((symbol, value));
+                symbol
+            }
+        };
+        source.graph.symbol(symbol)
+    }
+
+    /// The exponential of an expression, or its inverse where that is at hand.
+    fn exponential(&mut self, source: &mut Source, exponent: ExprId) -> (ExprId, bool) {
+        let opposite = source.graph.neg(exponent);
+        let opposite = source.graph.call(Function::Exp, &[opposite]);
+        if let Some((symbol, _)) = self.made.iter().find(|(_, made)| *made == opposite) {
+            return (source.graph.symbol(*symbol), true);
+        }
+        let value = source.graph.call(Function::Exp, &[exponent]);
+        (self.define(source, value), false)
+    }
+}
+
+/// `sigma = c s`
+fn sigma(source: &mut Source, block: &Block, s: ExprId) -> ExprId {
+    match &block.factor {
+        None => s,
+        Some(factor) => {
+            let factor = expression(&mut source.graph, factor);
+            source.graph.mul(factor, s)
+        }
+    }
+}
+
+pub(super) fn kernels(source: &mut Source, pieces: &[Piece]) -> Vec<PieceKernel> {
+    let flow = |piece: &Piece| match &piece.blocks {
+        Some(blocks) => kernel(source, piece.coordinate, blocks),
+        None => PieceKernel {
+            coordinate: piece.coordinate,
+            kernel: None,
+            updates: Vec::new(),
+        },
+    };
+    pieces.iter().map(flow).collect()
+}
+
+fn kernel(source: &mut Source, coordinate: usize, blocks: &[Block]) -> PieceKernel {
+    let mut definitions = Definitions::default();
+    let time = source.graph.symbol(Symbol::Time);
+    let slope = source.gradient_of_h()[coordinate];
+    let s = source.graph.mul(time, slope);
+    let mut increments: Vec<Vec<ExprId>> = vec![Vec::new(); source.dimension];
+    let mut changes = vec![None; source.dimension];
+    for block in blocks {
+        if let (Some(row), Form::Exponential(a)) = (block.only_row(), &block.form) {
+            let exponent = sigma(source, block, s);
+            let exponent = source.graph.scale(exponent, a);
+            let (value, inverted) = definitions.exponential(source, exponent);
+            changes[row] = Some(if inverted {
+                (Update::Divide, value)
+            } else {
+                (Update::Multiply, value)
+            });
+            continue;
+        }
+        let weights = weights(source, block, s, &mut definitions);
+        for (weight, power) in weights.into_iter().zip(&block.powers) {
+            for (row, column, value) in power {
+                let entry = source.graph.symbol(Symbol::Coordinate(*column));
+                let term = source.graph.mul(weight, entry);
+                increments[*row].push(source.graph.scale(term, value));
+            }
+        }
+    }
+    let (mut updates, mut values) = (Vec::new(), Vec::new());
+    for (change, terms) in changes.into_iter().zip(increments) {
+        let (update, value) = change.unwrap_or_else(|| {
+            let sum = source.graph.sum(&terms);
+            if all_negative(&source.graph, sum) {
+                (Update::Subtract, source.graph.neg(sum))
+            } else {
+                (Update::Add, sum)
+            }
+        });
+        if !source.graph.is_zero(value) {
+            updates.push(update);
+        }
+        values.push(value);
+    }
+    let arguments = vec![mu(source)];
+    let mut kernel = Kernel::vector(
+        &source.graph,
+        "flow",
+        "`mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`",
+        arguments,
+        &values,
+    );
+    kernel.task.definitions = definitions.made;
+    PieceKernel {
+        coordinate,
+        kernel: Some(kernel),
+        updates,
+    }
+}
+
+/// Whether every term of a sum is negative.
+fn all_negative(graph: &Graph, sum: ExprId) -> bool {
+    match graph.node(sum) {
+        Node::Sum { constant, terms } => {
+            constant.is_zero() && terms.iter().all(|(_, factor)| factor.is_negative())
+        }
+        _ => false,
+    }
+}
+
+/// The functions of s that stand before R, R^2, … of a block.
+fn weights(
+    source: &mut Source,
+    block: &Block,
+    s: ExprId,
+    definitions: &mut Definitions,
+) -> Vec<ExprId> {
+    let sigma = sigma(source, block, s);
+    match &block.form {
+        Form::Polynomial => {
+            let sigma = definitions.define(source, sigma);
+            let mut weight = sigma;
+            let mut weights = vec![weight];
+            for power in 2..=block.powers.len() {
+                let ratio = Rational::new(1, power as i64).unwrap_or(Rational::ONE);
+                let next = source.graph.mul(weight, sigma);
+                weight = source.graph.scale(next, &ratio);
+                weights.push(weight);
+            }
+            weights
+        }
+        Form::Exponential(a) => {
+            let exponent = source.graph.scale(sigma, a);
+            let (value, inverted) = definitions.exponential(source, exponent);
+            let power = Rational::from(if inverted { -1 } else { 1 });
+            let value = source.graph.pow(value, &power);
+            let one = source.graph.integer(1);
+            let grown = source.graph.sub(value, one);
+            let grown = definitions.define(source, grown);
+            vec![source.graph.scale(grown, &(&Rational::ONE / a))]
+        }
+        Form::Quadratic(kappa) => {
+            let size = source.graph.number(kappa.abs());
+            let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
+            let frequency = source.graph.pow(size, &half);
+            let angle = source.graph.mul(frequency, sigma);
+            let angle = source.graph.scale(angle, &half);
+            if kappa.is_negative() {
+                periodic(source, frequency, angle, definitions)
+            } else {
+                hyperbolic(source, frequency, angle, definitions)
+            }
+        }
+    }
+}
+
+/// `sin(2 a)/w` and `(1 - cos(2 a))/w^2`, by the tangent of a.
+fn periodic(
+    source: &mut Source,
+    frequency: ExprId,
+    angle: ExprId,
+    definitions: &mut Definitions,
+) -> Vec<ExprId> {
+    let tangent = source.graph.call(Function::Tan, &[angle]);
+    let tangent = definitions.define(source, tangent);
+    let graph = &mut source.graph;
+    let (one, two) = (graph.integer(1), Rational::from(2));
+    let square = graph.mul(tangent, tangent);
+    let denominator = graph.add(one, square);
+    let numerator = graph.scale(tangent, &two);
+    let sine = graph.div(numerator, denominator);
+    let sine = graph.div(sine, frequency);
+    let sine = definitions.define(source, sine);
+    let versine = source.graph.mul(tangent, sine);
+    let versine = source.graph.div(versine, frequency);
+    vec![sine, definitions.define(source, versine)]
+}
+
+/// `sinh(2 a)/w` and `(cosh(2 a) - 1)/w^2`, by the functions of a.
+fn hyperbolic(
+    source: &mut Source,
+    frequency: ExprId,
+    angle: ExprId,
+    definitions: &mut Definitions,
+) -> Vec<ExprId> {
+    let sine = source.graph.call(Function::Sinh, &[angle]);
+    let cosine = source.graph.call(Function::Cosh, &[angle]);
+    let sine = definitions.define(source, sine);
+    let double = source.graph.scale(sine, &Rational::from(2));
+    let double = source.graph.div(double, frequency);
+    let double = definitions.define(source, double);
+    let first = source.graph.mul(double, cosine);
+    let second = source.graph.mul(double, sine);
+    let second = source.graph.div(second, frequency);
+    vec![
+        definitions.define(source, first),
+        definitions.define(source, second),
+    ]
+}

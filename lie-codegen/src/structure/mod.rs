@@ -1,0 +1,4 @@
+//! What a system has beyond the algebra and H: structure that some methods need.
+
+pub mod one_parameter;
+pub mod separable;

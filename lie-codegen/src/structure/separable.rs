@@ -1,0 +1,98 @@
+//! Hamiltonians that are sums of functions of one coordinate each: what splittings by coordinate
+//! pieces need.
+//!
+//! H is such a sum exactly if its mixed second derivatives vanish. Each is proven to be zero by the
+//! normal form that verifies Casimirs; one that cannot be is taken for one that is not.
+
+use super::one_parameter::{self, Block, Entry};
+use crate::check::normal::{NormalForm, Verdict};
+use crate::exact::Budget;
+use crate::model::Model;
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// Work allowed for the derivatives of one Hamiltonian.
+const WORK: u64 = 500_000;
+
+/// The flow of `f_i(mu_i)`: `exp(t f_i'(mu_i) ad*_(e_i)) mu`.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    /// The coordinate i.
+    pub coordinate: usize,
+    /// The closed form of `exp(s ad*_(e_i))`, block by block; `None` where the series is summed.
+    pub blocks: Option<Vec<Block>>,
+}
+
+/// The coordinates on which H depends, in ascending order, if H is a sum of functions of one of them
+/// each.
+///
+/// `graph` is an arena that may be littered.
+///
+/// # Errors
+/// Two coordinates that H mixes.
+pub fn coordinates(
+    graph: &mut Graph,
+    hamiltonian: ExprId,
+    dimension: usize,
+) -> Result<Vec<usize>, (usize, usize)> {
+    let slopes: Vec<ExprId> = (0..dimension)
+        .map(|i| graph.derivative(hamiltonian, Symbol::Coordinate(i)))
+        .collect();
+    let mut mixed = Vec::new();
+    for (i, slope) in slopes.iter().enumerate() {
+        for j in i + 1..dimension {
+            let second = graph.derivative(*slope, Symbol::Coordinate(j));
+            if !graph.is_zero(second) {
+                mixed.push((i, j, second));
+            }
+        }
+    }
+    let graph = &*graph;
+    let budget = Budget::new(WORK);
+    let mut normal = NormalForm::new(graph, &budget);
+    for (i, j, second) in mixed {
+        if !matches!(normal.verdict(second), Verdict::Zero) {
+            return Err((i, j));
+        }
+    }
+    let mut moves =
+        |slope: ExprId| !graph.is_zero(slope) && !matches!(normal.verdict(slope), Verdict::Zero);
+    Ok((0..dimension).filter(|&i| moves(slopes[i])).collect())
+}
+
+/// The pieces with their flows, if H is such a sum; elements that act as zero are left out.
+pub fn pieces(model: &Model) -> Option<Vec<Piece>> {
+    let mut pieces = Vec::new();
+    for &coordinate in model.pieces.as_ref().ok()? {
+        // (ad*_(e_i))_jk = C_ij^k, and C_ji^k = -C_ij^k
+        let constants = model.exact_constants.entries().iter();
+        let entries: Vec<Entry> = constants
+            .filter_map(|(i, j, k, value)| match coordinate {
+                _ if coordinate == *i => Some((*j, *k, value.clone())),
+                _ if coordinate == *j => Some((*i, *k, value.neg())),
+                _ => None,
+            })
+            .collect();
+        if !entries.is_empty() {
+            let blocks = one_parameter::closed_form(&entries);
+            pieces.push(Piece { coordinate, blocks });
+        }
+    }
+    Some(pieces)
+}
+
+/// Why H cannot be split by coordinates, with the nearest method for each order.
+pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
+    let (i, j) = model.pieces.clone().err()?;
+    let name = |i: usize| &model.coordinates[i].text;
+    let reason = format!(
+        "the Hamiltonian is no sum of functions of one coordinate each: it mixes `{}` and `{}`",
+        name(i),
+        name(j)
+    );
+    let nearest = match order {
+        1 | 2 => "`lie-midpoint`".to_owned(),
+        order => format!("`compose{order}(lie-midpoint)`"),
+    };
+    let remedy = format!("use {nearest}, which is a Poisson map for every Hamiltonian");
+    Some((reason, remedy))
+}
