@@ -1,0 +1,98 @@
+//! What a measurement says about a claim.
+
+use crate::methods::StepFailure;
+
+/// Whether a claim holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It does.
+    Holds,
+    /// It does not.
+    Fails,
+    /// Nothing is claimed; the number is only shown.
+    NotClaimed,
+    /// The system has nothing of the kind.
+    Absent,
+}
+
+/// One fact of a method on one system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// The fact.
+    pub fact: &'static str,
+    /// What is claimed, as a number where it is one (an order).
+    pub claim: f64,
+    /// What was measured; not a number if it could not be.
+    pub measured: f64,
+    /// The largest value at which a claim of zero holds, or the smallest at which an order does.
+    pub bound: f64,
+    /// Whether it holds.
+    pub verdict: Verdict,
+    /// What else there is to say.
+    pub note: String,
+}
+
+impl Finding {
+    /// Something that is claimed to be zero up to `bound`.
+    pub(super) fn zero(fact: &'static str, claimed: bool, measured: f64, bound: f64) -> Self {
+        let verdict = match claimed {
+            false => Verdict::NotClaimed,
+            // what is not a number does not hold
+            true if measured <= bound => Verdict::Holds,
+            true => Verdict::Fails,
+        };
+        Self {
+            fact,
+            claim: 0.0,
+            measured,
+            bound,
+            verdict,
+            note: String::new(),
+        }
+    }
+
+    /// Something that is claimed to be at least `bound`.
+    pub(super) fn at_least(
+        fact: &'static str,
+        claimed: bool,
+        measured: f64,
+        claim: f64,
+        bound: f64,
+    ) -> Self {
+        let verdict = match claimed {
+            false => Verdict::NotClaimed,
+            true if measured >= bound => Verdict::Holds,
+            true => Verdict::Fails,
+        };
+        Self {
+            fact,
+            claim,
+            measured,
+            bound,
+            verdict,
+            note: String::new(),
+        }
+    }
+
+    /// A measurement that no step size made possible.
+    pub(super) fn unmeasured(fact: &'static str, claimed: bool, failure: &StepFailure) -> Self {
+        Self::zero(fact, claimed, f64::NAN, 0.0).note(format!("no step succeeds: {failure}"))
+    }
+
+    /// A fact about something that the system does not have.
+    pub(super) fn absent(fact: &'static str, note: &str) -> Self {
+        Self {
+            fact,
+            claim: 0.0,
+            measured: 0.0,
+            bound: 0.0,
+            verdict: Verdict::Absent,
+            note: note.to_owned(),
+        }
+    }
+
+    pub(super) fn note(mut self, note: String) -> Self {
+        self.note = note;
+        self
+    }
+}

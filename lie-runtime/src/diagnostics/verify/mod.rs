@@ -1,0 +1,206 @@
+//! Every fact that a method claims, measured on a system.
+//!
+//! Bounds follow from round-off: `epsilon` times the number of operations that can have added to it, relative
+//! to the size of the terms. The measurements are made at steps of about a third of the system's own time,
+//! where a fact that does not hold misses its bound by orders of magnitude.
+
+mod findings;
+mod ground;
+mod invariants;
+mod order;
+
+pub use findings::{Finding, Verdict};
+pub(crate) use ground::rate;
+pub use ground::{Exact, Ground};
+pub(crate) use order::relative_error;
+
+use super::any::AnyMethod;
+use super::newton_order::{order_of_iteration, residual_floor, residuals};
+use super::orbit::orbit_distance;
+use super::poisson_defect::tangent_map;
+use super::symmetry::symmetry_defect;
+use crate::methods::StepFailure;
+use crate::newton::NewtonOptions;
+use crate::poisson::{Lift, Poisson};
+use crate::scalar::Dual;
+use crate::state::{State, Unknown};
+
+type Made<S, P> = Box<dyn AnyMethod<S, P>>;
+
+/// Makes a method of a tolerance.
+type ByTolerance<P> = Box<dyn Fn(f64) -> Made<f64, P>>;
+
+/// A method under examination, over numbers and over dual numbers.
+pub struct Subject<P: Lift<f64>> {
+    /// The method.
+    pub method: Made<f64, P>,
+    /// The same over dual numbers.
+    pub lifted: Made<Dual<f64>, P::Lifted>,
+    /// Whether a step consists of steps of another method: how the iteration converges is then a fact of that one.
+    pub composed: bool,
+    /// Of an adaptive method: the same with both tolerances of this size.
+    pub with_tolerance: Option<ByTolerance<P>>,
+}
+
+/// Round-off of one step, in units of epsilon times the size of what is measured: the state after a step is
+/// exact to a few units per component, whatever the method does inside.
+const PER_STEP: f64 = 16.0;
+
+/// Measures everything that `subject` claims.
+pub fn verify<P: Lift<f64>>(
+    system: &P,
+    lifted: &P::Lifted,
+    ground: &Ground<P>,
+    subject: &Subject<P>,
+) -> Vec<Finding> {
+    let mut findings = vec![order::finding(system, ground, subject)];
+    findings.push(symmetry(system, ground, subject));
+    findings.extend(iterations(system, ground, subject));
+    findings.extend(invariants::findings(system, ground, subject));
+    findings.push(orbit(system, ground, subject));
+    findings.push(poisson(lifted, ground, subject));
+    findings
+}
+
+/// Runs a measurement at h, and where a step fails at half of it, and so on; returns the step that worked.
+fn smaller_steps<T>(
+    h: f64,
+    mut measure: impl FnMut(f64) -> Result<T, StepFailure>,
+) -> Result<(T, f64), StepFailure> {
+    let mut h = h;
+    let mut halvings = 0;
+    loop {
+        match measure(h) {
+            Ok(value) => return Ok((value, h)),
+            Err(failure) if halvings == 6 => return Err(failure),
+            Err(_) => {
+                h *= 0.5;
+                halvings += 1;
+            }
+        }
+    }
+}
+
+/// The largest of a measurement over the states and over steps forwards and backwards.
+fn worst<P: Poisson<f64>>(
+    ground: &Ground<P>,
+    fact: &'static str,
+    claimed: bool,
+    bound: f64,
+    measure: impl Fn(f64, &P::State) -> Result<f64, StepFailure>,
+) -> Finding {
+    let all = |h: f64| {
+        let mut largest = 0.0_f64;
+        for mu in &ground.states {
+            for h in [h, -h, 0.3 * h] {
+                let value = measure(h, mu)?;
+                largest = if value.is_nan() {
+                    value
+                } else {
+                    f64::max(largest, value)
+                };
+            }
+        }
+        Ok(largest)
+    };
+    match smaller_steps(ground.step, all) {
+        Ok((value, _)) => Finding::zero(fact, claimed, value, bound),
+        Err(failure) => Finding::unmeasured(fact, claimed, &failure),
+    }
+}
+
+fn symmetry<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
+    let claims = subject.method.claims();
+    let newton = NewtonOptions::default();
+    worst(
+        ground,
+        "symmetric",
+        claims.symmetric,
+        4.0 * PER_STEP * f64::EPSILON,
+        |h, mu| {
+            let defect = symmetry_defect(system, &*subject.method, h, mu, &newton)?;
+            Ok(defect / mu.max_norm())
+        },
+    )
+}
+
+fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
+    let claimed = subject.method.claims().preserves.orbit;
+    let newton = NewtonOptions::default();
+    worst(
+        ground,
+        "orbit",
+        claimed,
+        4.0 * PER_STEP * f64::EPSILON,
+        |h, mu| {
+            let mut end = mu.clone();
+            subject
+                .method
+                .any_stepper(system, h, &newton)
+                .step(&mut end)?;
+            let scale = mu.max_norm().max(end.max_norm());
+            Ok(orbit_distance(system, mu, &end) / scale)
+        },
+    )
+}
+
+fn poisson<P: Lift<f64>>(lifted: &P::Lifted, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
+    let claimed = subject.method.claims().preserves.poisson;
+    let newton = NewtonOptions::default();
+    let operations = PER_STEP * P::DIM as f64;
+    worst(
+        ground,
+        "Poisson",
+        claimed,
+        operations * f64::EPSILON,
+        |h, mu| {
+            let map = tangent_map(lifted, &*subject.lifted, h, mu.as_slice(), &newton)?;
+            let defect = map.poisson_defect(lifted, mu.as_slice());
+            let norm = map.norm().max(1.0);
+            let size = ground.structure * mu.max_norm().max(largest(&map.end));
+            Ok(defect / (norm * norm * size))
+        },
+    )
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, x| f64::max(m, x.abs()))
+}
+
+/// Whether explicit methods iterate, and how fast the iteration of implicit ones converges.
+fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Vec<Finding> {
+    let claims = subject.method.claims();
+    let mut most = 0;
+    let mut slowest = f64::INFINITY;
+    let measured = smaller_steps(3.0 * ground.step, |h| {
+        (most, slowest) = (0, f64::INFINITY);
+        for mu in &ground.states {
+            for h in [h, -h] {
+                let (residuals, iterations) = residuals(system, &*subject.method, h, mu)?;
+                most = most.max(iterations);
+                if let Some(order) = order_of_iteration(&residuals, residual_floor(mu)) {
+                    slowest = slowest.min(order);
+                }
+            }
+        }
+        Ok(())
+    });
+    if let Err(failure) = measured {
+        return vec![Finding::unmeasured("explicit", claims.explicit, &failure)];
+    }
+    let explicit = Finding::zero("explicit", claims.explicit, f64::from(most), 0.0)
+        .note(format!("{most} iterations"));
+    if most == 0 {
+        return vec![explicit];
+    }
+    if subject.composed {
+        return vec![explicit, Finding::absent("Newton", "that of the base")];
+    }
+    let note = if slowest.is_finite() {
+        format!("order of the iteration, at most {most} iterations")
+    } else {
+        format!("at round-off at once, at most {most} iterations")
+    };
+    let newton = Finding::at_least("Newton", true, slowest, 2.0, 1.25).note(note);
+    vec![explicit, newton]
+}

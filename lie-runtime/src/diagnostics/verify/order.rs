@@ -1,0 +1,158 @@
+//! The order, as the slope of the error over the step.
+
+use super::findings::Finding;
+use super::ground::{Exact, Ground};
+use super::{Made, Subject};
+use crate::driver::Stats;
+use crate::newton::NewtonOptions;
+use crate::poisson::{Lift, Poisson};
+use crate::state::State;
+
+/// Numbers of steps over the span, by factors of about the fourth root of 2.
+const STEPS: [u64; 31] = [
+    3, 4, 5, 6, 7, 8, 10, 11, 13, 16, 19, 23, 27, 32, 38, 45, 54, 64, 76, 91, 108, 128, 152, 181,
+    215, 256, 304, 362, 431, 512, 609,
+];
+/// Points of the slope: a factor of 4 in the step.
+const POINTS: usize = 9;
+/// As few may do, where the next step is at round-off already.
+const LEAST: usize = 4;
+/// How much smaller than the order a slope may be at the end of the ladder.
+const SLACK: f64 = 0.3;
+
+pub(super) fn finding<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    subject: &Subject<P>,
+) -> Finding {
+    let order = subject.method.claims().order;
+    let (bound, claim) = (f64::from(order) - SLACK, f64::from(order));
+    let mut exact_everywhere = true;
+    let mut best: Vec<(f64, f64)> = Vec::new();
+    for exact in &ground.exact {
+        let floor = (20.0 * exact.error).max(100.0 * f64::EPSILON);
+        let measured = match &subject.with_tolerance {
+            Some(make) => by_tolerance(system, ground, exact, make, floor),
+            None => by_step(system, ground, exact, &subject.method, floor),
+        };
+        let above: Vec<(f64, f64)> = measured.iter().filter(|p| p.1 > floor).copied().collect();
+        exact_everywhere &= measured.len() >= 3 && above.is_empty();
+        if above.len() > best.len() {
+            best = above;
+        }
+        if best.len() >= LEAST {
+            break;
+        }
+    }
+    if exact_everywhere {
+        return Finding::at_least("order", true, f64::INFINITY, claim, bound)
+            .note("exact to round-off".to_owned());
+    }
+    if best.len() < LEAST {
+        return Finding::at_least("order", true, f64::NAN, claim, bound)
+            .note("too few steps between failure and round-off".to_owned());
+    }
+    let last = &best[best.len().saturating_sub(POINTS)..];
+    let note = format!("errors {:.1e} to {:.1e}", last[0].1, last[last.len() - 1].1);
+    Finding::at_least("order", true, slope(last), claim, bound).note(note)
+}
+
+/// Errors over steps of a fixed size, the largest over the states, and the size of round-off in them.
+fn by_step<P: Poisson<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    exact: &Exact<P::State>,
+    method: &Made<f64, P>,
+    floor: f64,
+) -> Vec<(f64, f64)> {
+    let mut points = Vec::new();
+    let mut below = 0;
+    for steps in STEPS {
+        let h = exact.span / steps as f64;
+        if let Some((error, _)) = error(system, ground, exact, method, h, steps) {
+            points.push((h, error));
+            below += u32::from(error <= floor);
+        }
+        if below == 2 {
+            break;
+        }
+    }
+    points
+}
+
+/// Errors of an adaptive method over the mean of its own steps.
+fn by_tolerance<P: Poisson<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    exact: &Exact<P::State>,
+    make: &dyn Fn(f64) -> Made<f64, P>,
+    floor: f64,
+) -> Vec<(f64, f64)> {
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for k in 0..24 {
+        let tolerance = 10_f64.powf(-3.0 - 0.5 * f64::from(k));
+        // one step of the grid: the span
+        let Some((error, stats)) = error(system, ground, exact, &make(tolerance), exact.span, 1)
+        else {
+            continue;
+        };
+        let mean = exact.span * ground.states.len() as f64 / stats.accepted as f64;
+        if points.last().is_none_or(|last| mean < 0.9 * last.0) {
+            points.push((mean, error));
+        }
+        if error <= floor {
+            break;
+        }
+    }
+    points
+}
+
+/// The largest error at the end of the span relative to the state, and the work of all runs.
+fn error<P: Poisson<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    exact: &Exact<P::State>,
+    method: &Made<f64, P>,
+    h: f64,
+    steps: u64,
+) -> Option<(f64, Stats)> {
+    let newton = NewtonOptions::default();
+    let mut largest = 0.0_f64;
+    let mut sum = Stats::default();
+    for (mu, end) in ground.states.iter().zip(&exact.ends) {
+        let mut state = mu.clone();
+        let stats = method
+            .any_stepper(system, h, &newton)
+            .advance(&mut state, steps)
+            .ok()?;
+        sum.accepted += stats.accepted;
+        let error = relative_error(&state, end);
+        if !error.is_finite() {
+            return None;
+        }
+        largest = largest.max(error);
+    }
+    Some((largest, sum))
+}
+
+/// The largest difference of a component over the largest component.
+pub(crate) fn relative_error<V: State<f64>>(state: &V, exact: &V) -> f64 {
+    let pairs = state.as_slice().iter().zip(exact.as_slice());
+    let largest = pairs.fold(0.0, |m, (a, b)| {
+        let d = (a - b).abs();
+        if d.is_nan() { d } else { f64::max(m, d) }
+    });
+    largest / exact.max_norm()
+}
+
+/// The slope of the logarithms by least squares.
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let count = points.len() as f64;
+    let x = points.iter().map(|p| p.0.ln()).sum::<f64>() / count;
+    let y = points.iter().map(|p| p.1.ln()).sum::<f64>() / count;
+    let (xy, xx) = points.iter().fold((0.0, 0.0), |(xy, xx), p| {
+        let dx = p.0.ln() - x;
+        (xy + dx * (p.1.ln() - y), xx + dx * dx)
+    });
+    xy / xx
+}
