@@ -224,6 +224,15 @@ fn the_lock_file_has_the_versions_of_the_workspace() {
             "{package:?}: run with LIE_UPDATE_LOCK=1"
         );
     }
+    // the programs of `lie bench` have the same, and what the controls need
+    let bench = packages("src/build/template/bench/Cargo.lock");
+    assert!(bench.iter().any(|(name, _)| name == "ode_solvers"));
+    for package in &template {
+        assert!(
+            bench.contains(package),
+            "{package:?}: run with LIE_UPDATE_LOCK=1"
+        );
+    }
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! The compiler from end to end: read a declaration, check it, derive, emit.
 
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::quote;
 
 use crate::ast::Declaration;
 use crate::check::check;
@@ -74,39 +73,7 @@ pub fn expand(model: &Model, choices: &[Choice]) -> String {
     header + &format_tokens(tokens)
 }
 
-/// The program that `lie run` builds: the system and one entry per method.
-pub fn program(model: &Model, choices: &[Choice]) -> String {
-    let system = generate(model, choices).tokens;
-    let name = Ident::new(&model.name, Span::call_site());
-    let entries = choices.iter().map(|choice| {
-        let label = choice.label();
-        let constructor = choice.constructor();
-        let argument = if choice.solved() == &Choice::Dopri5 {
-            quote! { tolerances }
-        } else {
-            quote! { _ }
-        };
-        quote! { .method(#label, |#argument| #constructor) }
-    });
-    let count = model.parameters.len();
-    let defaults = model.parameters.iter().map(|p| p.default_value);
-    let main = quote! {
-        #[allow(dead_code)]
-        mod system { #system }
-
-        fn main() -> ::std::process::ExitCode {
-            ::lie_runtime::program::Program::new(&[#(#defaults),*], |values: &[f64]| {
-                let values: &[f64; #count] = values.try_into().unwrap_or(&[f64::NAN; #count]);
-                system::#name::from_values(values).system()
-            })
-            #(#entries)*
-            .main()
-        }
-    };
-    format_tokens(main)
-}
-
-fn format_tokens(tokens: TokenStream) -> String {
+pub(crate) fn format_tokens(tokens: TokenStream) -> String {
     match syn::parse2(tokens.clone()) {
         Ok(file) => air(&prettyplease::unparse(&file)),
         // The emitter writes valid Rust; should it not, the text as it is shows where.

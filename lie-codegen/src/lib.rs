@@ -61,6 +61,7 @@ pub mod front;
 pub mod golden;
 pub mod methods;
 pub mod model;
+pub mod program;
 pub mod schedule;
 pub mod structure;
 pub mod suggest;

@@ -20,13 +20,39 @@ use std::process::Output;
 use std::time::Instant;
 
 use lie_codegen::diagnostic::Kind;
+use lie_codegen::program::Purpose;
 
 use crate::message::{Failure, Message};
 use key::Key;
 use toolchain::Toolchain;
 
-const MANIFEST: &str = include_str!("template/Cargo.toml");
-const LOCK: &str = include_str!("template/Cargo.lock");
+/// The files of a program beside its `main.rs`.
+struct Template {
+    manifest: &'static str,
+    lock: &'static str,
+    modules: &'static [(&'static str, &'static str)],
+}
+
+const PLAIN: Template = Template {
+    manifest: include_str!("template/Cargo.toml"),
+    lock: include_str!("template/Cargo.lock"),
+    modules: &[],
+};
+/// With the methods from elsewhere that `lie bench` compares with: only its programs depend on them.
+const BENCH: Template = Template {
+    manifest: include_str!("template/bench/Cargo.toml"),
+    lock: include_str!("template/bench/Cargo.lock"),
+    modules: &[("controls.rs", include_str!("template/bench/controls.rs"))],
+};
+
+impl Template {
+    fn of(purpose: Purpose) -> &'static Self {
+        match purpose {
+            Purpose::Bench => &BENCH,
+            Purpose::Run | Purpose::Verify | Purpose::Stress => &PLAIN,
+        }
+    }
+}
 
 /// What is built.
 pub struct Request<'a> {
@@ -38,6 +64,8 @@ pub struct Request<'a> {
     pub native: bool,
     /// Whether to say nothing.
     pub quiet: bool,
+    /// What the program is for.
+    pub purpose: Purpose,
 }
 
 /// The path of the compiled program, built if it is not in the cache.
@@ -47,12 +75,16 @@ pub struct Request<'a> {
 pub fn program(request: &Request<'_>) -> Result<PathBuf, Failure> {
     let cache = cache::root()?;
     let toolchain = Toolchain::find(&cache, request.native)?;
-    let key = Key::new()
-        .with(request.source)
+    let template = Template::of(request.purpose);
+    let modules = template.modules.iter();
+    let key = modules
+        .fold(Key::new().with(request.source), |key, (_, text)| {
+            key.with(text)
+        })
         .with(&toolchain.identity)
         .with(&runtime::identity())
-        .with(MANIFEST)
-        .with(LOCK)
+        .with(template.manifest)
+        .with(template.lock)
         .with(if request.native { "native" } else { "portable" })
         .hex();
     let folder = cache.join("programs").join(&key);
@@ -108,14 +140,18 @@ fn build(
 ) -> Result<PathBuf, Failure> {
     runtime::unpack(cache).map_err(|error| cache::failure(cache, &error))?;
     let name = format!("lie-{key}");
-    let manifest = manifest(&name);
+    let template = Template::of(request.purpose);
+    let manifest = manifest(template, &name);
     let write = |file: &str, content: &str| {
         let path = folder.join(file);
         cache::write(&path, content.as_bytes()).map_err(|error| cache::failure(&path, &error))
     };
     std::fs::create_dir_all(folder).map_err(|error| cache::failure(folder, &error))?;
     write("Cargo.toml", &manifest)?;
-    write("Cargo.lock", LOCK)?;
+    write("Cargo.lock", template.lock)?;
+    for (file, text) in template.modules {
+        write(file, text)?;
+    }
     write("main.rs", request.source)?;
 
     let say = |text: &str| {
@@ -152,10 +188,11 @@ fn build(
 }
 
 /// The manifest of a program.
-fn manifest(name: &str) -> String {
+fn manifest(template: &Template, name: &str) -> String {
     // Relative, so that no character of the cache's path can break it.
     let runtime = format!("../../runtime/{}", runtime::identity());
-    MANIFEST
+    template
+        .manifest
         .replace("PROGRAM", name)
         .replace("RUNTIME", &runtime)
 }
@@ -232,10 +269,16 @@ fn install(built: &Path, program: &Path) -> std::io::Result<()> {
 mod tests {
     use super::*;
 
-    /// The lock file fits the manifests, and nothing in it is superfluous. After a change of the
-    /// dependencies, `LIE_UPDATE_LOCK=1 cargo test -p lie-poisson lock_file` writes it anew.
+    /// The lock files fit the manifests, and nothing in them is superfluous. After a change of the
+    /// dependencies, `LIE_UPDATE_LOCK=1 cargo test -p lie-poisson lock_file` writes them anew; a new package
+    /// has to be in cargo's cache for that (`cargo fetch`).
     #[test]
-    fn the_lock_file_fits_the_manifests() {
+    fn the_lock_files_fit_the_manifests() {
+        check_lock(&PLAIN, "src/build/template/Cargo.lock");
+        check_lock(&BENCH, "src/build/template/bench/Cargo.lock");
+    }
+
+    fn check_lock(template: &Template, path: &str) {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let update = std::env::var_os("LIE_UPDATE_LOCK").is_some();
         let cache = tempfile::tempdir().unwrap();
@@ -243,7 +286,7 @@ mod tests {
         let folder = cache.path().join("programs").join("key");
         std::fs::create_dir_all(&folder).unwrap();
         let write = |file: &str, text: &str| std::fs::write(folder.join(file), text).unwrap();
-        write("Cargo.toml", &manifest("lie-key"));
+        write("Cargo.toml", &manifest(template, "lie-key"));
         write("main.rs", "fn main() {}");
         if update {
             write(
@@ -251,7 +294,7 @@ mod tests {
                 &std::fs::read_to_string(root.join("Cargo.lock")).unwrap(),
             );
         } else {
-            write("Cargo.lock", LOCK);
+            write("Cargo.lock", template.lock);
         }
         let mut cargo = std::process::Command::new(toolchain::cargo_name());
         cargo
@@ -267,8 +310,7 @@ mod tests {
             String::from_utf8_lossy(&output.stderr)
         );
         if update {
-            let target = root.join("src/build/template/Cargo.lock");
-            std::fs::copy(folder.join("Cargo.lock"), target).unwrap();
+            std::fs::copy(folder.join("Cargo.lock"), root.join(path)).unwrap();
         }
     }
 }

@@ -174,6 +174,76 @@ pub fn run(
     })
 }
 
+/// How a measuring program ended.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Words {
+    /// Its exit code, if it was not killed.
+    pub code: Option<i32>,
+    /// The same for people.
+    pub status: String,
+    /// Its last line on stderr.
+    pub last: String,
+}
+
+/// Runs a measuring program to its end: `request` goes in, `line` receives each line of its stdout as it comes,
+/// `progress` what is done and all there is, on another thread.
+///
+/// # Errors
+/// The program cannot be started.
+pub fn measure(
+    mut command: Command,
+    request: &str,
+    interrupt: &Interrupt,
+    line: &mut dyn FnMut(&str),
+    progress: &mut (dyn FnMut(u64, u64) + Send),
+) -> io::Result<Words> {
+    command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    own_group(&mut command);
+    let mut child = command.spawn()?;
+    if let Some(mut stdin) = child.stdin.take() {
+        // A program that has died already says why on its stderr.
+        let _ = stdin
+            .write_all(request.as_bytes())
+            .and_then(|()| stdin.flush());
+        interrupt.watch(stdin);
+    }
+    let stderr = child.stderr.take();
+    let stdout = child.stdout.take();
+    let last = std::thread::scope(|scope| {
+        let listener = scope.spawn(|| stderr.map(|pipe| last_line(pipe, progress)));
+        if let Some(pipe) = stdout {
+            let lines = BufReader::new(pipe).lines();
+            lines.map_while(Result::ok).for_each(|text| line(&text));
+        }
+        listener.join().ok().flatten().unwrap_or_default()
+    });
+    let status = child.wait()?;
+    interrupt.stop();
+    Ok(Words {
+        code: status.code(),
+        status: status.to_string(),
+        last,
+    })
+}
+
+fn last_line(pipe: ChildStderr, progress: &mut (dyn FnMut(u64, u64) + Send)) -> String {
+    let mut last = String::new();
+    for text in BufReader::new(pipe).lines().map_while(Result::ok) {
+        let Some(rest) = text.strip_prefix("progress ") else {
+            last = text;
+            continue;
+        };
+        let mut numbers = rest.split(' ').map_while(|number| number.parse().ok());
+        if let (Some(done), Some(all)) = (numbers.next(), numbers.next()) {
+            progress(done, all);
+        }
+    }
+    last
+}
+
 /// Ctrl-C at the terminal must reach this process alone: the program ends by its stdin.
 fn own_group(command: &mut Command) {
     #[cfg(unix)]

@@ -28,6 +28,10 @@ pub enum Command {
     Expand(Expand),
     /// Integrates a spec with its generated, compiled code
     Run(Box<Run>),
+    /// Measures every fact that the methods claim, on a spec
+    Verify(Verify),
+    /// Compares methods on a spec: the error at the end against the run time
+    Bench(Bench),
     /// Lists the methods: order, what they preserve, what they need, reference
     Methods(Methods),
     /// Prints the JSON Schema of spec files
@@ -39,10 +43,6 @@ pub enum Command {
 /// Names that are kept for commands to come.
 #[derive(Debug, Subcommand)]
 pub enum Later {
-    #[command(hide = true)]
-    Verify(Anything),
-    #[command(hide = true)]
-    Bench(Anything),
     #[command(hide = true)]
     Stress(Anything),
     #[command(hide = true)]
@@ -63,8 +63,6 @@ impl Later {
     /// The name as it was typed.
     pub fn name(&self) -> &'static str {
         match self {
-            Later::Verify(_) => "verify",
-            Later::Bench(_) => "bench",
             Later::Stress(_) => "stress",
             Later::Ensemble(_) => "ensemble",
             Later::Merge(_) => "merge",
@@ -201,6 +199,77 @@ impl MethodOptions {
         };
         value.as_ref().map(|value| (flag, value))
     }
+}
+
+/// What the commands that measure many methods share.
+#[derive(Args, Clone, Debug, Default)]
+pub struct Measured {
+    /// The spec file
+    #[arg(value_name = "SPEC")]
+    pub spec: PathBuf,
+    /// The methods, separated by commas, each an id (with every option that applies) or an id with
+    /// options: `midpoint,lie-midpoint --retraction cayley`; all that apply without it
+    #[arg(long, value_name = "LIST")]
+    pub methods: Option<String>,
+    /// Sets a parameter (repeatable)
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub param: Vec<String>,
+    /// Initial state, separated by commas
+    #[arg(long, value_name = "V1,V2,…", allow_hyphen_values = true)]
+    pub initial: Option<String>,
+    /// Says nothing on stderr unless something fails
+    #[arg(long)]
+    pub quiet: bool,
+    /// Compiles for this machine's processor (same results, bit for bit)
+    #[arg(long, value_enum)]
+    pub cpu: Option<Cpu>,
+}
+
+/// `lie verify`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Exit codes: 0 every claim holds, 1 a claim fails, 2 invalid input, 130 Ctrl-C."
+)]
+pub struct Verify {
+    #[command(flatten)]
+    pub measured: Measured,
+    /// The step at which facts are measured (default: from the Jacobian of the vector field)
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub step: Option<String>,
+    /// Seed of the states near the initial one
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        allow_hyphen_values = true
+    )]
+    pub seed: u32,
+    /// Prints one JSON object in place of the table
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `lie bench`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Without --until, the end is that of the spec's `run`, but at most 20; 10 without either.
+Exit codes: 0 done, 1 the reference solution was not confirmed, 2 invalid input, 130 Ctrl-C."
+)]
+pub struct Bench {
+    #[command(flatten)]
+    pub measured: Measured,
+    /// Final time
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub until: Option<String>,
+    /// Seconds that a single run may take
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    pub budget: Option<String>,
+    /// Draws error against run time
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
+    /// Writes every measured point as CSV
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: Option<PathBuf>,
 }
 
 /// `--format`.

@@ -3,6 +3,7 @@
 pub mod args;
 mod check;
 mod expand;
+mod measure;
 pub mod method;
 mod methods;
 mod run;
@@ -25,16 +26,26 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
         Command::Check(arguments) => check::run(arguments),
         Command::Expand(arguments) => expand::run(arguments),
         Command::Run(arguments) => run::run(arguments),
+        Command::Bench(arguments) => measure::bench::run(arguments),
+        Command::Verify(arguments) => measure::verify::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
         Command::Schema => schema::run(),
         Command::Later(later) => Err(not_built(later)),
     }
 }
 
+/// The commands that are built.
+pub const BUILT: [&str; 7] = [
+    "check", "expand", "run", "verify", "bench", "methods", "schema",
+];
+
 fn not_built(later: &Later) -> Failure {
     let name = later.name();
     Message::option(name, format!("`lie {name}` is not built yet"))
-        .help("the commands are check, expand, run, methods, schema; see `lie --help`")
+        .help(format!(
+            "the commands are {}; see `lie --help`",
+            BUILT.join(", ")
+        ))
         .into()
 }
 

@@ -4,6 +4,7 @@ use clap::Parser as _;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use lie_codegen::diagnostic::Kind;
 
+use super::BUILT;
 use super::args::Cli;
 use crate::message::Message;
 
@@ -82,19 +83,18 @@ fn message(error: &clap::Error) -> Message {
         ErrorKind::InvalidSubcommand => {
             let command = text(error, ContextKind::InvalidSubcommand).unwrap_or_default();
             let suggested = text(error, ContextKind::SuggestedSubcommand).unwrap_or_default();
-            let built = ["check", "expand", "run", "methods", "schema"];
             let help = suggested
                 .split(", ")
-                .find(|name| built.contains(name))
+                .find(|name| BUILT.contains(name))
                 .map(|name| format!("did you mean `{name}`?"))
-                .unwrap_or_else(|| format!("the commands are {}", built.join(", ")));
+                .unwrap_or_else(|| format!("the commands are {}", BUILT.join(", ")));
             let what = format!("unknown command `{command}`");
             return Message::new(Kind::Option, what)
                 .at_option(&command)
                 .help(help);
         }
         ErrorKind::MissingSubcommand | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
-            let help = "the commands are check, expand, run, methods, schema; see `lie --help`";
+            let help = format!("the commands are {}; see `lie --help`", BUILT.join(", "));
             return Message::option("lie", "no command given").help(help);
         }
         ErrorKind::MissingRequiredArgument => (format!("`{place}` is missing"), None),

@@ -19,6 +19,7 @@
 
 mod bins;
 mod draw;
+pub mod frontier;
 mod ticks;
 
 use std::io;

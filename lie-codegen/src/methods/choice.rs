@@ -267,6 +267,11 @@ impl Choice {
         }
     }
 
+    /// Whether it chooses its own steps by tolerances.
+    pub fn is_adaptive(&self) -> bool {
+        self.options().iter().any(|(name, _)| *name == "rtol")
+    }
+
     /// The methods whose equations this one solves: itself, or the base of a composition.
     pub fn solved(&self) -> &Self {
         match self {

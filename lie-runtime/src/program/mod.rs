@@ -17,6 +17,7 @@
 //! | `failed step=… time=… iterations=… residual=… reason=<text> remedy=<text>` | 3 |
 //! | `interrupted steps=… evaluations=… newton=… rejected=…` | 130 |
 
+pub mod measure;
 mod request;
 mod rows;
 
@@ -96,13 +97,7 @@ impl<P: Poisson<f64>> Program<P> {
                 return say(&mut messages, 2, &format!("request {text}"));
             }
         };
-        let interrupted = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&interrupted);
-        std::thread::spawn(move || {
-            // an error of the input ends the run as its end does
-            let _ = io::copy(&mut input, &mut io::sink());
-            flag.store(true, Ordering::Relaxed);
-        });
+        let interrupted = lifeline(input);
         let mut output = io::BufWriter::with_capacity(1 << 16, output);
         let (code, message) = self.run(&request, &mut output, &mut messages, &interrupted);
         say(&mut messages, code, &message)
@@ -163,6 +158,18 @@ impl<P: Poisson<f64>> Program<P> {
             }
         }
     }
+}
+
+/// Becomes true when the input ends.
+fn lifeline(mut input: impl BufRead + Send + 'static) -> Arc<AtomicBool> {
+    let ended = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&ended);
+    std::thread::spawn(move || {
+        // an error of the input ends the run as its end does
+        let _ = io::copy(&mut input, &mut io::sink());
+        flag.store(true, Ordering::Relaxed);
+    });
+    ended
 }
 
 fn figures(stats: &Stats) -> String {

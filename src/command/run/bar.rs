@@ -16,13 +16,19 @@ pub struct Bar {
 
 impl Bar {
     pub fn new(wanted: bool) -> Self {
+        Self::of(wanted, "steps")
+    }
+
+    /// A bar that counts something else.
+    pub fn of(wanted: bool, what: &str) -> Self {
         let bar = if wanted && io::stderr().is_terminal() {
             ProgressBar::new(0)
         } else {
             ProgressBar::hidden()
         };
-        let template = "{bar:40} {percent}% of {len} steps, {rate} per second, {eta} left";
-        let style = ProgressStyle::with_template(template)
+        let template =
+            format!("{{bar:40}} {{percent}}% of {{len}} {what}, {{rate}} per second, {{eta}} left");
+        let style = ProgressStyle::with_template(&template)
             .unwrap_or_else(|_| ProgressStyle::default_bar())
             .with_key(
                 "rate",

@@ -1,18 +1,18 @@
 //! `lie run`: integrates a spec with its generated, compiled code.
 
-mod bar;
+pub mod bar;
 mod outputs;
 pub mod plan;
 mod summary;
-mod values;
+pub mod values;
 
 use std::io::{self, IsTerminal as _};
 use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use lie_codegen::compile;
 use lie_codegen::diagnostic::Kind;
+use lie_codegen::program::{Purpose, program};
 use lie_poisson::plot::Plot;
 
 use super::args::{self, Cpu, Format};
@@ -48,9 +48,14 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     let interrupt = Interrupt::install();
     let request = Request {
         name: &spec.model.name,
-        source: &compile::program(&spec.model, std::slice::from_ref(&plan.method)),
+        source: &program(
+            &spec.model,
+            std::slice::from_ref(&plan.method),
+            Purpose::Run,
+        ),
         native: flags.cpu == Some(Cpu::Native),
         quiet: flags.quiet,
+        purpose: Purpose::Run,
     };
     match build::program(&request) {
         Ok(program) => integrate(&spec, &plan, flags, format, outputs, &program, &interrupt),

@@ -80,6 +80,28 @@ pub fn plan(spec: &Spec, flags: &args::Run) -> Result<Plan, Vec<Message>> {
     }
 }
 
+/// The values of the parameters and the initial state alone.
+///
+/// # Errors
+/// Every mistake.
+pub fn start(spec: &Spec, flags: &args::Run) -> Result<(Vec<f64>, Vec<f64>), Vec<Message>> {
+    let mut planner = Planner {
+        spec,
+        flags,
+        mistakes: Vec::new(),
+    };
+    let parameters = planner.parameters();
+    let initial = parameters
+        .as_ref()
+        .and_then(|values| planner.initial(values));
+    match (parameters, initial) {
+        (Some(parameters), Some(initial)) if planner.mistakes.is_empty() => {
+            Ok((parameters, initial))
+        }
+        _ => Err(planner.mistakes),
+    }
+}
+
 struct Planner<'a> {
     spec: &'a Spec,
     flags: &'a args::Run,

@@ -1,0 +1,529 @@
+//! The program behind `lie stress`: each method at the limits of steps, parameters and states, and over a long
+//! run.
+//!
+//! Further keys: `steps` (of the long run), `only` (a bit for each experiment). Lines:
+//!
+//! | line | |
+//! |---|---|
+//! | `ground <step> <cells in all>` | the step h0 at which h0 times the largest rate of the field is 0.2 |
+//! | `cell <label> <experiment> <name> <value> <step> <outcome> <steps> <newton> <energy> <growth> <casimirs> <growth> <orbit bound ratio> <what>` | see below |
+//!
+//! Drifts are relative to the size of the terms; `claimed` is the largest drift of a claimed invariant over its round-off
+//! bound. The outcome is `kept`, `lost` (a claimed invariant beyond its bound, with no message), `stopped` (with the
+//! step and the reason) or `domain` (H or the field is not finite there: nothing to integrate).
+
+use super::super::{Build, Tolerances};
+use super::{Ended, Request, Session, main, prepare};
+use crate::diagnostics::verify::rate;
+use crate::diagnostics::{AnyMethod, Claims};
+use crate::methods::Method;
+use crate::newton::NewtonOptions;
+use crate::parameter::ParameterError;
+use crate::poisson::Poisson;
+use crate::state::{State, Unknown};
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// `h0` times the rate.
+const REACH: f64 = 0.2;
+/// Steps of a cell other than the long run.
+const STEPS: u64 = 400;
+/// Round-off of a step in units of epsilon, as for `lie verify`.
+const PER_STEP: f64 = 16.0;
+const WINDOWS: usize = 10;
+
+type Made<P> = Box<dyn AnyMethod<f64, P>>;
+type Make<P> = Box<dyn Fn() -> Made<P> + Send + Sync>;
+
+/// A program that takes methods to their limits.
+pub struct Stress<P: Poisson<f64>> {
+    defaults: Vec<f64>,
+    build: Box<dyn Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync>,
+    methods: Vec<(&'static str, Make<P>)>,
+}
+
+/// A state, parameters and a step.
+#[derive(Clone)]
+struct Cell {
+    experiment: &'static str,
+    name: String,
+    value: f64,
+    parameters: Vec<f64>,
+    mu: Vec<f64>,
+    /// None: 0.2 over the rate there.
+    step: Option<f64>,
+    steps: u64,
+}
+
+impl<P: Poisson<f64> + Sync> Stress<P> {
+    /// A program from the default parameters and the function that makes a system of parameters.
+    pub fn new(
+        defaults: &[f64],
+        build: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            defaults: defaults.to_vec(),
+            build: Box::new(build),
+            methods: Vec::new(),
+        }
+    }
+
+    /// Adds a method under the name by which requests ask for it.
+    #[must_use]
+    pub fn method<M: Method<f64, P> + 'static>(
+        mut self,
+        label: &'static str,
+        make: impl Fn(&Tolerances) -> M + Send + Sync + 'static,
+    ) -> Self {
+        let make = move || -> Made<P> { Box::new(make(&Tolerances::default())) };
+        self.methods.push((label, Box::new(make)));
+        self
+    }
+
+    /// Adds a method that chooses its own steps.
+    #[must_use]
+    pub fn adaptive<M: Method<f64, P> + 'static>(
+        self,
+        label: &'static str,
+        make: impl Fn(&Tolerances) -> M + Send + Sync + 'static,
+    ) -> Self {
+        self.method(label, make)
+    }
+
+    /// Serves the request on standard input.
+    pub fn main(&self) -> ExitCode {
+        main(&self.defaults, &|request, session| {
+            self.work(request, session)
+        })
+    }
+
+    fn work(&self, request: &Request, session: &mut Session<'_>) -> Ended {
+        let build: &Build<P> = &*self.build;
+        let (system, mu) = prepare(build, &request.parameters, &request.initial)?;
+        let steps = request.number("steps").unwrap_or(1e7) as u64;
+        let step = REACH / rate(&system, &mu);
+        if !(step.is_finite() && step > 0.0) {
+            return Err((
+                2,
+                "ground the Jacobian of the vector field is zero or not finite".into(),
+            ));
+        }
+        let cells = self.cells(&system, request, &mu, step, steps);
+        let jobs: Vec<(&str, &Make<P>, &Cell)> = cells
+            .iter()
+            .flat_map(|cell| {
+                let wanted = self
+                    .methods
+                    .iter()
+                    .filter(|(label, _)| request.methods.iter().any(|m| m == label));
+                wanted.map(move |(label, make)| (*label, make, cell))
+            })
+            .collect();
+        session.line(&["ground", &format!("{step:?}"), &jobs.len().to_string()]);
+        self.all(&jobs, session)
+    }
+
+    /// All cells, on as many threads as the machine has, reported in the order in which they end.
+    fn all(&self, jobs: &[(&str, &Make<P>, &Cell)], session: &mut Session<'_>) -> Ended {
+        let next = AtomicUsize::new(0);
+        let done = AtomicUsize::new(0);
+        let stop = std::sync::atomic::AtomicBool::new(false);
+        let lines: Mutex<Vec<Vec<String>>> = Mutex::new(Vec::new());
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let taken = || {
+            lines
+                .lock()
+                .map_or_else(|_| Vec::new(), |mut lines| core::mem::take(&mut *lines))
+        };
+        std::thread::scope(|scope| {
+            for _ in 0..threads.min(jobs.len()) {
+                scope.spawn(|| {
+                    loop {
+                        let index = next.fetch_add(1, Ordering::Relaxed);
+                        let Some((label, make, cell)) = jobs.get(index) else {
+                            break;
+                        };
+                        let line = self.cell(label, &*make(), cell, &stop);
+                        if stop.load(Ordering::Relaxed) {
+                            break;
+                        }
+                        if let Ok(mut lines) = lines.lock() {
+                            lines.push(line);
+                        }
+                        done.fetch_add(1, Ordering::Relaxed);
+                    }
+                });
+            }
+            let mut ended = Ok(());
+            loop {
+                // before the lines are taken: what is done by now is among them
+                let finished = done.load(Ordering::Relaxed);
+                for line in taken() {
+                    session.line(&line.iter().map(String::as_str).collect::<Vec<_>>());
+                }
+                if finished == jobs.len() {
+                    return ended;
+                }
+                ended = session.progress(finished as u64, jobs.len() as u64);
+                if ended.is_err() {
+                    stop.store(true, Ordering::Relaxed);
+                    return ended;
+                }
+                std::thread::sleep(std::time::Duration::from_millis(20));
+            }
+        })
+    }
+
+    fn cells(
+        &self,
+        system: &P,
+        request: &Request,
+        mu: &P::State,
+        step: f64,
+        steps: u64,
+    ) -> Vec<Cell> {
+        let plain = Cell {
+            experiment: "step",
+            name: "h/h0".to_owned(),
+            value: 1.0,
+            parameters: request.parameters.clone(),
+            mu: mu.as_slice().to_vec(),
+            step: Some(step),
+            steps: STEPS,
+        };
+        let mut cells = Vec::new();
+        // the long run first: it takes longest
+        cells.push(Cell {
+            experiment: "long",
+            name: "steps".to_owned(),
+            value: steps as f64,
+            steps,
+            ..plain.clone()
+        });
+        for exponent in [-12, -9, -6, -4, -3, -2, -1, 0, 1, 2, 3, 4, 6, 8] {
+            // powers of ten up to the step of the system's own time, then of two
+            let factor = if exponent <= 0 {
+                10_f64.powi(exponent)
+            } else {
+                2_f64.powi(exponent)
+            };
+            cells.push(Cell {
+                value: factor,
+                step: Some(factor * step),
+                ..plain.clone()
+            });
+        }
+        for index in 0..request.parameters.len() {
+            for exponent in 1..=6 {
+                let factor = 10_f64.powi(exponent);
+                let mut parameters = request.parameters.clone();
+                parameters[index] *= factor;
+                cells.push(Cell {
+                    experiment: "parameter",
+                    name: index.to_string(),
+                    value: factor,
+                    parameters,
+                    ..plain.clone()
+                });
+            }
+        }
+        for exponent in [-100, -50, -20, -10, -5, -2, 2, 5, 10, 20, 50, 100] {
+            let factor = 10_f64.powi(exponent);
+            cells.push(Cell {
+                experiment: "scale",
+                name: "state".to_owned(),
+                value: factor,
+                mu: mu.as_slice().iter().map(|x| x * factor).collect(),
+                step: None,
+                ..plain.clone()
+            });
+        }
+        for index in 0..P::DIM {
+            for factor in [1e-8, 0.0] {
+                let mut mu = mu.as_slice().to_vec();
+                mu[index] *= factor;
+                cells.push(Cell {
+                    experiment: "component",
+                    name: P::COORDINATES[index].to_owned(),
+                    value: factor,
+                    mu,
+                    step: None,
+                    ..plain.clone()
+                });
+            }
+        }
+        for index in 0..P::CASIMIRS {
+            for factor in [1e-4, 1e-12, 0.0] {
+                let moved = towards_zero(system, mu, index, factor);
+                cells.extend(moved.map(|mu| Cell {
+                    experiment: "casimir",
+                    name: P::CASIMIR_NAMES[index].to_owned(),
+                    value: factor,
+                    mu,
+                    step: None,
+                    ..plain.clone()
+                }));
+            }
+        }
+        cells
+    }
+
+    fn cell(
+        &self,
+        label: &str,
+        method: &dyn AnyMethod<f64, P>,
+        cell: &Cell,
+        stop: &std::sync::atomic::AtomicBool,
+    ) -> Vec<String> {
+        let mut line = vec![
+            "cell".to_owned(),
+            label.to_owned(),
+            cell.experiment.to_owned(),
+        ];
+        line.extend([cell.name.clone(), format!("{:?}", cell.value)]);
+        let outcome = match (self.build)(&cell.parameters) {
+            Err(error) => Outcome::domain(&error.to_string()),
+            Ok(system) => run(&system, method, cell, stop),
+        };
+        line.extend(outcome.fields());
+        line
+    }
+}
+
+/// The state nearest to mu, about, at which a Casimir is so much smaller: along its gradient.
+fn towards_zero<P: Poisson<f64>>(
+    system: &P,
+    mu: &P::State,
+    index: usize,
+    factor: f64,
+) -> Option<Vec<f64>> {
+    let mut values = vec![0.0; P::CASIMIRS];
+    system.casimirs(mu, &mut values);
+    let goal = factor * values[index];
+    let mut state = mu.clone();
+    let mut gradient = system.zero_state();
+    for _ in 0..200 {
+        system.casimirs(&state, &mut values);
+        system.casimir_gradient(index, &state, &mut gradient);
+        let square: f64 = gradient.as_slice().iter().map(|g| g * g).sum();
+        let step = (goal - values[index]) / square;
+        if !step.is_finite() || step == 0.0 {
+            break;
+        }
+        state.axpy(step, &gradient);
+    }
+    // the origin is a state of its own: nothing moves there
+    let moves = state.max_norm() > 1e-30 * mu.max_norm();
+    (state.finite() && moves).then(|| state.as_slice().to_vec())
+}
+
+/// How an invariant moved.
+#[derive(Clone, Debug)]
+struct Drift {
+    first: f64,
+    size: f64,
+    max: f64,
+    windows: [f64; WINDOWS],
+}
+
+impl Drift {
+    fn new(first: f64, size: f64) -> Self {
+        Self {
+            first,
+            size,
+            max: 0.0,
+            windows: [0.0; WINDOWS],
+        }
+    }
+
+    fn see(&mut self, value: f64, window: usize) {
+        let change = (value - self.first).abs();
+        if change > self.max || change.is_nan() {
+            self.max = change;
+        }
+        self.windows[window] = f64::max(self.windows[window], change);
+    }
+
+    fn relative(&self) -> f64 {
+        if self.max == 0.0 {
+            0.0
+        } else {
+            self.max / self.size
+        }
+    }
+
+    fn growth(&self) -> f64 {
+        self.windows[WINDOWS - 1] / self.windows[0]
+    }
+}
+
+struct Outcome {
+    step: f64,
+    word: &'static str,
+    steps: u64,
+    newton: f64,
+    energy: (f64, f64),
+    casimirs: (f64, f64),
+    claimed: f64,
+    what: String,
+}
+
+impl Outcome {
+    fn domain(what: &str) -> Self {
+        Self {
+            step: f64::NAN,
+            word: "domain",
+            steps: 0,
+            newton: f64::NAN,
+            energy: (f64::NAN, f64::NAN),
+            casimirs: (f64::NAN, f64::NAN),
+            claimed: f64::NAN,
+            what: what.to_owned(),
+        }
+    }
+
+    fn fields(&self) -> Vec<String> {
+        let number = |value: f64| format!("{value:?}");
+        vec![
+            number(self.step),
+            self.word.to_owned(),
+            self.steps.to_string(),
+            number(self.newton),
+            number(self.energy.0),
+            number(self.energy.1),
+            number(self.casimirs.0),
+            number(self.casimirs.1),
+            number(self.claimed),
+            self.what.clone(),
+        ]
+    }
+}
+
+/// Which invariants a method claims on a system: the energy, then each Casimir.
+fn claimed<P: Poisson<f64>>(claims: &Claims) -> Vec<bool> {
+    let kept = claims.preserves;
+    let quadratic = P::HAMILTONIAN_DEGREE.is_some_and(|degree| degree <= 2);
+    let casimirs = (0..P::CASIMIRS).map(|index| {
+        let degree = P::CASIMIR_DEGREES.get(index).copied().flatten();
+        kept.casimirs || (kept.quadratic_casimirs && degree.is_some_and(|degree| degree <= 2))
+    });
+    std::iter::once(kept.energy || (kept.quadratic_invariants && quadratic))
+        .chain(casimirs)
+        .collect()
+}
+
+fn values<P: Poisson<f64>>(system: &P, mu: &P::State, values: &mut [f64]) {
+    values[0] = system.hamiltonian(mu);
+    system.casimirs(mu, &mut values[1..]);
+}
+
+/// The sizes of the terms: what round-off of the state changes.
+fn sizes<P: Poisson<f64>>(system: &P, mu: &P::State) -> Vec<f64> {
+    let mut all = vec![0.0; P::CASIMIRS + 1];
+    values(system, mu, &mut all);
+    let mut gradient = system.zero_state();
+    for (index, size) in all.iter_mut().enumerate() {
+        match index {
+            0 => system.gradient(mu, &mut gradient),
+            _ => system.casimir_gradient(index - 1, mu, &mut gradient),
+        }
+        let sum: f64 = gradient.as_slice().iter().map(|g| g.abs()).sum();
+        *size = size.abs() + sum * mu.max_norm();
+    }
+    all
+}
+
+fn run<P: Poisson<f64>>(
+    system: &P,
+    method: &dyn AnyMethod<f64, P>,
+    cell: &Cell,
+    stop: &std::sync::atomic::AtomicBool,
+) -> Outcome {
+    let mut mu = system.zero_state();
+    mu.as_mut_slice().copy_from_slice(&cell.mu);
+    let mut field = system.zero_state();
+    system.vector_field(&mu, &mut field);
+    let local = rate(system, &mu);
+    let step = cell.step.unwrap_or(REACH / local);
+    let sane = field.finite() && system.hamiltonian(&mu).is_finite() && local.is_finite();
+    let first_sizes = sizes(system, &mu);
+    // squares of tiny numbers are no numbers any more: nothing can be relative to them
+    let normal = first_sizes.iter().all(|size| size.is_finite());
+    if !sane || !normal || !step.is_finite() {
+        return Outcome::domain("H, its derivatives or a Casimir overflow there");
+    }
+    let mut now = vec![0.0; P::CASIMIRS + 1];
+    values(system, &mu, &mut now);
+    let mut drifts: Vec<Drift> = now
+        .iter()
+        .zip(&first_sizes)
+        .map(|(&first, &size)| Drift::new(first, size.max(f64::MIN_POSITIVE)))
+        .collect();
+    let mut stepper = method.any_stepper(system, step, &NewtonOptions::default());
+    let (mut newton, mut failure, mut done) = (0_u64, None, 0);
+    while done < cell.steps {
+        match stepper.step(&mut mu) {
+            Ok(report) => newton += u64::from(report.iterations),
+            Err(why) => {
+                failure = Some(why);
+                break;
+            }
+        }
+        let window = (done * WINDOWS as u64 / cell.steps) as usize;
+        done += 1;
+        values(system, &mu, &mut now);
+        for (drift, &value) in drifts.iter_mut().zip(&now) {
+            drift.see(value, window);
+        }
+        if done % 64 == 0 || done == cell.steps {
+            for (drift, size) in drifts.iter_mut().zip(sizes(system, &mu)) {
+                drift.size = drift.size.max(size);
+            }
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
+        }
+    }
+    for (drift, size) in drifts.iter_mut().zip(sizes(system, &mu)) {
+        drift.size = drift.size.max(size);
+    }
+    let bound = PER_STEP * f64::EPSILON * done.max(1) as f64;
+    let claims = claimed::<P>(&method.claims());
+    let excess = drifts
+        .iter()
+        .zip(&claims)
+        .filter(|(_, claimed)| **claimed)
+        .map(|(drift, _)| drift.relative() / bound)
+        .fold(0.0, |m: f64, x| if x.is_nan() { x } else { f64::max(m, x) });
+    let finite = mu.finite() && drifts.iter().all(|drift| drift.max.is_finite());
+    let worst = drifts[1..]
+        .iter()
+        .max_by(|a, b| a.relative().total_cmp(&b.relative()));
+    let (word, what) = match (failure, excess <= 1.0) {
+        (Some(failure), true) => ("stopped", format!("step {}: {failure}", done + 1)),
+        (_, false) => {
+            let lost: Vec<&str> = std::iter::once("energy")
+                .chain(P::CASIMIR_NAMES.iter().copied())
+                .zip(drifts.iter().zip(&claims))
+                .filter(|(_, (drift, claimed))| {
+                    **claimed && !matches!(drift.relative() / bound, r if r <= 1.0)
+                })
+                .map(|(name, _)| name)
+                .collect();
+            ("lost", lost.join(" "))
+        }
+        (None, true) if !finite => ("lost", "a number is not finite".to_owned()),
+        (None, true) => ("kept", String::new()),
+    };
+    Outcome {
+        step,
+        word,
+        steps: done,
+        newton: newton as f64 / done.max(1) as f64,
+        energy: (drifts[0].relative(), drifts[0].growth()),
+        casimirs: worst.map_or((0.0, f64::NAN), |drift| (drift.relative(), drift.growth())),
+        claimed: excess,
+        what,
+    }
+}

@@ -1,0 +1,279 @@
+//! `lie bench`: the error at the end of a run against the time that it takes.
+
+use lie_codegen::diagnostic::Kind;
+use lie_codegen::methods::Choice;
+use lie_codegen::program::Purpose;
+use lie_poisson::plot::frontier::{Curve, Frontier};
+
+use super::table::{self, short};
+use super::{Bed, Ended, bed, files, interrupted, list};
+use crate::command::run::values::Given;
+use crate::command::{args, print};
+use crate::interrupt::Interrupt;
+use crate::message::{Failure, Message, SURROUNDINGS};
+
+/// Accuracies of the table.
+const TARGETS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
+/// The longest default span.
+const SPAN: f64 = 20.0;
+
+/// One measured run.
+#[derive(Clone, Debug)]
+struct Point {
+    method: String,
+    kind: String,
+    value: f64,
+    error: f64,
+    seconds: f64,
+    median: f64,
+    counts: [u64; 3],
+}
+
+impl Point {
+    fn read(fields: &[&str]) -> Option<Self> {
+        let number = |index: usize| fields.get(index)?.parse::<f64>().ok();
+        let count = |index: usize| fields.get(index)?.parse::<u64>().ok();
+        Some(Self {
+            method: (*fields.get(1)?).to_owned(),
+            kind: (*fields.get(2)?).to_owned(),
+            value: number(3)?,
+            error: number(4)?,
+            seconds: number(5)?,
+            median: number(6)?,
+            counts: [count(7)?, count(8)?, count(9)?],
+        })
+    }
+}
+
+/// Compares methods on a spec.
+///
+/// # Errors
+/// Invalid input, or surroundings that fail.
+pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
+    let flags = &arguments.measured;
+    let budget = positive("--budget", arguments.budget.as_ref())?.unwrap_or(0.2);
+    let bed = bed(flags, |spec| list::fewer(&spec.model))?;
+    let until = until(arguments, &bed)?;
+    let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
+    let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
+    let interrupt = Interrupt::install();
+    let program = bed.program(flags, Purpose::Bench)?;
+    let (mut points, mut stopped, mut reference) = (Vec::new(), Vec::new(), [f64::NAN; 2]);
+    let numbers = [("until", until), ("budget", budget)];
+    let ended = bed.measure(
+        flags,
+        program,
+        &numbers,
+        &interrupt,
+        &mut |fields| match fields {
+            ["point", ..] => points.extend(Point::read(fields)),
+            ["stopped", label, kind, value, why] => {
+                stopped.push(format!("{label}, {kind} {value}: {why}"));
+            }
+            ["reference", error, difference, ..] => {
+                reference = [error, difference].map(|text| text.parse().unwrap_or(f64::NAN));
+            }
+            _ => {}
+        },
+    )?;
+    if let Ended::Said(_, text) = &ended {
+        files::write(out, None, None)?;
+        files::write(plot, None, None)?;
+        let text = format!("the reference solution is not confirmed: {text}");
+        let message = Message::new(Kind::Domain, text).at_option("--until");
+        return Err(Failure {
+            messages: vec![message.help("take a shorter span with `--until`")],
+            code: SURROUNDINGS,
+        });
+    }
+    let picture = || picture(&bed, until, &points, reference);
+    let wanted = !points.is_empty();
+    files::write(out, arguments.out.as_deref(), wanted.then(|| csv(&points)))?;
+    files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
+    print(&report(&bed, until, &points, &stopped, reference))?;
+    if matches!(ended, Ended::Interrupted) {
+        return Ok(interrupted(flags));
+    }
+    Ok(0)
+}
+
+fn positive(flag: &'static str, text: Option<&String>) -> Result<Option<f64>, Failure> {
+    let Some(text) = text else { return Ok(None) };
+    let given = Given::flag(flag, text);
+    let value = given.number()?;
+    if value > 0.0 {
+        return Ok(Some(value));
+    }
+    let message = given.wrong(format!("`{}` is not positive", text.trim()));
+    Err(message.help("give a positive number").into())
+}
+
+/// The flag, else the spec's `run`, else 10.
+fn until(arguments: &args::Bench, bed: &Bed) -> Result<f64, Failure> {
+    if let Some(text) = &arguments.until {
+        let given = Given::flag("--until", text);
+        let value = given.number()?;
+        if value == 0.0 {
+            let message = given.wrong("there is nothing to integrate");
+            return Err(message.help("give an end other than 0").into());
+        }
+        return Ok(value);
+    }
+    let run = bed.spec.model.run.iter();
+    let of_spec = run
+        .filter(|option| option.name.text == "until")
+        .flat_map(|option| &option.values)
+        .find_map(|(text, _)| crate::compiler::constant(text).ok());
+    Ok(of_spec.map_or(10.0, |until: f64| until.clamp(-SPAN, SPAN)))
+}
+
+fn csv(points: &[Point]) -> String {
+    let mut text =
+        "method,control,value,error,seconds_per_unit_time,median_seconds_per_unit_time,steps,evaluations,newton\n"
+            .to_owned();
+    for point in points {
+        let [steps, evaluations, newton] = point.counts;
+        text.push_str(&format!(
+            "{},{},{:?},{:?},{:?},{:?},{steps},{evaluations},{newton}\n",
+            point.method, point.kind, point.value, point.error, point.seconds, point.median
+        ));
+    }
+    text
+}
+
+/// The points of each method, in the order of the catalogue.
+fn by_method(points: &[Point]) -> Vec<(&str, Vec<&Point>)> {
+    let mut all: Vec<(&str, Vec<&Point>)> = Vec::new();
+    for point in points {
+        match all.iter_mut().find(|(method, _)| *method == point.method) {
+            Some((_, points)) => points.push(point),
+            None => all.push((&point.method, vec![point])),
+        }
+    }
+    all
+}
+
+/// The time to an error, between the points by their logarithms; of the fastest way there.
+fn time_to(points: &[&Point], target: f64) -> Option<f64> {
+    let reaching = points.iter().filter(|point| point.error <= target);
+    let reached = reaching.map(|point| point.seconds).reduce(f64::min)?;
+    let pairs = points.windows(2).filter_map(|pair| {
+        let [a, b] = pair else { return None };
+        if a.error <= target || b.error > target {
+            return None;
+        }
+        let part = (target / a.error).ln() / (b.error.max(1e-17) / a.error).ln();
+        Some((a.seconds.ln() + part * (b.seconds / a.seconds).ln()).exp())
+    });
+    Some(pairs.fold(reached, f64::min))
+}
+
+fn report(
+    bed: &Bed,
+    until: f64,
+    points: &[Point],
+    stopped: &[String],
+    reference: [f64; 2],
+) -> String {
+    let mut rows: Vec<(Vec<Option<f64>>, f64, &str, String)> = by_method(points)
+        .into_iter()
+        .map(|(method, points)| {
+            let times = TARGETS.iter().map(|&target| time_to(&points, target));
+            let least = points.iter().map(|p| p.error).fold(f64::INFINITY, f64::min);
+            let order = order_of(bed, method).map_or("–".to_owned(), |order| order.to_string());
+            (times.collect(), least, method, order)
+        })
+        .collect();
+    // by the time to 1e-6; methods that do not come there behind, by how far they come
+    rows.sort_by(|a, b| {
+        let key = |row: &(Vec<Option<f64>>, f64, &str, String)| row.0[1].unwrap_or(f64::INFINITY);
+        key(a).total_cmp(&key(b)).then(a.1.total_cmp(&b.1))
+    });
+    let fastest: Vec<f64> = (0..TARGETS.len())
+        .map(|k| {
+            rows.iter()
+                .filter_map(|row| row.0[k])
+                .fold(f64::INFINITY, f64::min)
+        })
+        .collect();
+    let mut cells = vec![vec!["method".to_owned(), "order".to_owned()]];
+    cells[0].extend(TARGETS.iter().map(|target| format!("to {target:.0e}")));
+    cells[0].push("least error".to_owned());
+    for (times, least, method, order) in &rows {
+        let mut row = vec![(*method).to_owned(), order.clone()];
+        for (time, fastest) in times.iter().zip(&fastest) {
+            row.push(match time {
+                Some(time) if time <= fastest => format!("{} *", micro(*time)),
+                Some(time) => micro(*time),
+                None => "–".to_owned(),
+            });
+        }
+        row.push(short(*least));
+        cells.push(row);
+    }
+    let mut text = format!(
+        "{}, to t = {until}: microseconds per unit of time to a relative error at the end\n\
+         reference: extrapolation, error about {}; differs from gauss6 by {}\n\n{}",
+        bed.spec.model.name,
+        short(reference[0]),
+        short(reference[1]),
+        table::text(&cells),
+    );
+    text.push_str("\n* the fastest\n");
+    if !stopped.is_empty() {
+        text.push_str(&format!(
+            "\n{} runs did not come to their end:\n",
+            stopped.len()
+        ));
+        for line in stopped {
+            text.push_str(&format!("  {line}\n"));
+        }
+    }
+    text
+}
+
+fn micro(seconds: f64) -> String {
+    let value = seconds * 1e6;
+    let digits = (2 - value.abs().log10().floor() as i32).clamp(0, 4) as usize;
+    format!("{value:.digits$}")
+}
+
+fn order_of(bed: &Bed, label: &str) -> Option<u32> {
+    let choice = bed.choices.iter().find(|choice| choice.label() == label)?;
+    choice.entry().map(|method| method.order)
+}
+
+/// The name of a method without its order: the base of a composition and options belong to it.
+fn family(label: &str) -> String {
+    let id = label.split(['(', ' ']).next().unwrap_or(label);
+    id.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned()
+}
+
+fn picture(bed: &Bed, until: f64, points: &[Point], reference: [f64; 2]) -> String {
+    let curves = by_method(points).into_iter().map(|(method, points)| {
+        let choice = bed.choices.iter().find(|choice| choice.label() == method);
+        let control = choice.is_none_or(|choice| matches!(choice, Choice::Rk4 | Choice::Dopri5));
+        Curve {
+            name: choice.map_or(method.to_owned(), Choice::title),
+            family: if control {
+                "control".to_owned()
+            } else {
+                family(method)
+            },
+            order: choice
+                .and_then(Choice::entry)
+                .map_or(if method.ends_with("853") { 8 } else { 5 }, |m| m.order),
+            control,
+            points: points.iter().map(|p| (p.seconds, p.error)).collect(),
+        }
+    });
+    Frontier {
+        title: format!("{}: error against run time", bed.spec.model.name),
+        subtitle: format!(
+            "relative error of the state at t = {until} over run time per unit of time, one core"
+        ),
+        floor: reference[0].max(reference[1]),
+        curves: curves.collect(),
+    }
+    .to_svg()
+}

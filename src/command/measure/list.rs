@@ -1,0 +1,112 @@
+//! Lists of methods: `midpoint,lie-midpoint --retraction cayley,compose4(midpoint)`.
+
+use lie_codegen::compile::with_options;
+use lie_codegen::diagnostic::Kind;
+use lie_codegen::methods::{Availability, CATALOGUE, Choice, Method, refusal};
+use lie_codegen::model::Model;
+
+use crate::command::method;
+use crate::command::run::values::Given;
+use crate::message::Message;
+
+/// The methods of a list. An id without options stands for every option that applies.
+///
+/// # Errors
+/// Every mistake, at its place in the list.
+pub fn parse(text: &str, model: &Model) -> Result<Vec<Choice>, Vec<Message>> {
+    let whole = Given::flag("--methods", text);
+    let mut choices: Vec<Choice> = Vec::new();
+    let mut mistakes = Vec::new();
+    for given in whole.split() {
+        let place = given.wrong("").place;
+        let chosen = Choice::from_label(&given.text)
+            .map_err(|e| Message::new(Kind::Method, e.message).help(e.help))
+            .and_then(|choice| {
+                let all = if given.text.contains("--") {
+                    Vec::new()
+                } else {
+                    with_options(model, std::slice::from_ref(&choice))
+                };
+                match all.is_empty() {
+                    true => method::applies(choice, model).map(|choice| vec![choice]),
+                    false => Ok(all),
+                }
+            });
+        match chosen {
+            Ok(chosen) => {
+                for choice in chosen {
+                    if !choices.contains(&choice) {
+                        choices.push(choice);
+                    }
+                }
+            }
+            Err(message) => mistakes.push(message.at(place)),
+        }
+    }
+    if mistakes.is_empty() {
+        Ok(choices)
+    } else {
+        Err(mistakes)
+    }
+}
+
+/// Every method that applies to a system, with every option that applies. Of the compositions, which are
+/// as many as schemes times bases: every scheme of one base, and the lowest order of the other bases.
+pub fn all(model: &Model) -> Vec<Choice> {
+    let built = CATALOGUE
+        .iter()
+        .filter(|method| method.availability == Availability::Built);
+    let (composing, plain): (Vec<&Method>, Vec<&Method>) =
+        built.partition(|method| method.id.starts_with("compose"));
+    let plain: Vec<Choice> = plain
+        .iter()
+        .filter_map(|method| Choice::from_id(method.id).ok())
+        .collect();
+    let mut all = with_options(model, &plain);
+    // Lie–Poisson bases first: what they keep, compositions keep
+    let mut bases: Vec<Choice> = all
+        .iter()
+        .filter(|choice| {
+            choice
+                .entry()
+                .is_some_and(|method| method.symmetric && method.order == 2)
+        })
+        .cloned()
+        .collect();
+    bases.sort_by_key(|choice| {
+        let keeps = choice.entry().map(|method| method.preserves);
+        !keeps.is_some_and(|keeps| keeps.poisson)
+    });
+    for (number, base) in bases.iter().enumerate() {
+        for (place, method) in composing.iter().enumerate() {
+            let id = format!("{}({})", method.id, base.id());
+            let Ok(composed) = Choice::from_id(&id) else {
+                continue;
+            };
+            let of_base = composed
+                .variants()
+                .into_iter()
+                .filter(|choice| choice.solved() == base && refusal(model, choice).is_none());
+            let wanted = match (number, place) {
+                (0, _) => usize::MAX,
+                (_, 0) => 1,
+                _ => 0,
+            };
+            all.extend(of_base.take(wanted));
+        }
+    }
+    all
+}
+
+/// The same with one composition per order and base option at most: the default scheme.
+pub fn fewer(model: &Model) -> Vec<Choice> {
+    let mut all = all(model);
+    all.retain(|choice| match choice {
+        Choice::Compose(..) => {
+            let default = Choice::from_id(&choice.id());
+            default.is_ok_and(|default| default.options()[0] == choice.options()[0])
+        }
+        _ => true,
+    });
+    all
+}

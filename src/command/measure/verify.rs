@@ -1,0 +1,240 @@
+//! `lie verify`: claimed against measured.
+
+use std::collections::BTreeMap;
+
+use lie_codegen::diagnostic::Kind;
+use lie_codegen::program::Purpose;
+use serde_json::{Map, Value, json};
+
+use super::table::{self, short};
+use super::{Ended, bed, interrupted, list};
+use crate::command::run::values::Given;
+use crate::command::{args, print};
+use crate::interrupt::Interrupt;
+use crate::message::{Failure, Message};
+
+/// One line of results.
+struct Finding {
+    method: String,
+    fact: String,
+    claim: f64,
+    measured: f64,
+    bound: f64,
+    verdict: String,
+    note: String,
+}
+
+impl Finding {
+    fn read(fields: &[&str]) -> Option<Self> {
+        let number = |index: usize| fields.get(index)?.parse::<f64>().ok();
+        Some(Self {
+            method: (*fields.get(1)?).to_owned(),
+            fact: (*fields.get(2)?).to_owned(),
+            claim: number(3)?,
+            measured: number(4)?,
+            bound: number(5)?,
+            verdict: (*fields.get(6)?).to_owned(),
+            note: (*fields.get(7)?).to_owned(),
+        })
+    }
+
+    fn fails(&self) -> bool {
+        self.verdict == "fails"
+    }
+
+    /// `fact: measured where at most bound is allowed`.
+    fn failure(&self) -> String {
+        let allowed = if self.claim == 0.0 {
+            format!("at most {}", short(self.bound))
+        } else {
+            format!("at least {}", short(self.bound))
+        };
+        let mut text = format!(
+            "{}: {} is claimed, {} was measured, where {allowed} holds",
+            self.method,
+            self.fact,
+            short(self.measured)
+        );
+        if !self.note.is_empty() {
+            text.push_str(&format!(" ({})", self.note));
+        }
+        text
+    }
+
+    /// What the table shows.
+    fn cell(&self) -> String {
+        match self.verdict.as_str() {
+            "absent" => "–".to_owned(),
+            "holds" => format!("{} ✓", short(self.measured)),
+            "fails" => format!("{} ✗", short(self.measured)),
+            _ => short(self.measured),
+        }
+    }
+
+    fn as_json(&self) -> Value {
+        let number = |value: f64| {
+            if value.is_finite() {
+                json!(value)
+            } else {
+                Value::Null
+            }
+        };
+        json!({
+            "claim": number(self.claim), "measured": number(self.measured),
+            "bound": number(self.bound), "verdict": self.verdict, "note": self.note,
+        })
+    }
+}
+
+/// Verifies methods on a spec.
+///
+/// # Errors
+/// Invalid input, or surroundings that fail.
+pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
+    let flags = &arguments.measured;
+    let step = match &arguments.step {
+        None => None,
+        Some(text) => {
+            let given = Given::flag("--step", text);
+            let value = given.number()?;
+            if value == 0.0 {
+                let message = given.wrong("a step of zero measures nothing");
+                return Err(message
+                    .help("leave it out, or give a step such as 0.1")
+                    .into());
+            }
+            Some(value)
+        }
+    };
+    let bed = bed(flags, |spec| list::all(&spec.model))?;
+    let interrupt = Interrupt::install();
+    let program = bed.program(flags, Purpose::Verify)?;
+    let mut numbers = vec![("seed", f64::from(arguments.seed))];
+    numbers.extend(step.map(|step| ("step", step)));
+    let mut findings = Vec::new();
+    let mut ground = Vec::new();
+    let ended = bed.measure(
+        flags,
+        program,
+        &numbers,
+        &interrupt,
+        &mut |fields| match fields.first() {
+            Some(&"finding") => findings.extend(Finding::read(fields)),
+            Some(&"ground") => ground = fields[1..].iter().map(|f| (*f).to_owned()).collect(),
+            _ => {}
+        },
+    )?;
+    if let Ended::Said(word, text) = &ended {
+        let what = if word == "ground" {
+            format!("nothing can be measured on {}: {text}", bed.spec.model.name)
+        } else {
+            format!("{word} {text}")
+        };
+        let message = Message::new(Kind::Domain, what).at_option("--initial");
+        return Err(message
+            .help("give another initial state with `--initial`, or a smaller `--step`")
+            .into());
+    }
+    if arguments.json {
+        print(&format!(
+            "{:#}\n",
+            as_json(&bed.spec.model.name, &ground, &findings)
+        ))?;
+    } else {
+        print(&report(&bed.spec.model.name, &ground, &findings))?;
+    }
+    if matches!(ended, Ended::Interrupted) {
+        return Ok(interrupted(flags));
+    }
+    let failed: Vec<&Finding> = findings.iter().filter(|finding| finding.fails()).collect();
+    for finding in &failed {
+        eprintln!("failed: {}", finding.failure());
+    }
+    Ok(u8::from(!failed.is_empty()))
+}
+
+fn facts(findings: &[Finding]) -> Vec<&str> {
+    let mut facts: Vec<&str> = Vec::new();
+    for finding in findings {
+        if !facts.contains(&finding.fact.as_str()) {
+            facts.push(&finding.fact);
+        }
+    }
+    facts
+}
+
+fn methods(findings: &[Finding]) -> Vec<&str> {
+    let mut methods: Vec<&str> = findings.iter().map(|f| f.method.as_str()).collect();
+    methods.dedup();
+    methods
+}
+
+fn report(system: &str, ground: &[String], findings: &[Finding]) -> String {
+    let facts = facts(findings);
+    let by_place: BTreeMap<(&str, &str), &Finding> = findings
+        .iter()
+        .map(|finding| ((finding.method.as_str(), finding.fact.as_str()), finding))
+        .collect();
+    let mut rows = vec![
+        std::iter::once("method")
+            .chain(facts.iter().copied())
+            .map(str::to_owned)
+            .collect::<Vec<_>>(),
+    ];
+    for method in methods(findings) {
+        let cell = |fact: &&str| match by_place.get(&(method, *fact)) {
+            Some(finding) => match (finding.fact.as_str(), finding.claim) {
+                ("order", claim) => format!("{claim}: {}", finding.cell()),
+                _ => finding.cell(),
+            },
+            None => "–".to_owned(),
+        };
+        rows.push(
+            std::iter::once(method.to_owned())
+                .chain(facts.iter().map(cell))
+                .collect(),
+        );
+    }
+    let claimed = findings
+        .iter()
+        .filter(|f| matches!(f.verdict.as_str(), "holds" | "fails"));
+    let failed = findings.iter().filter(|finding| finding.fails()).count();
+    let number = |index: usize| {
+        let value = ground.get(index).and_then(|text| text.parse().ok());
+        short(value.unwrap_or(f64::NAN))
+    };
+    format!(
+        "{system}: {} methods, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}\n\n{}\n\
+         ✓ claimed and measured, ✗ claimed and not measured, no sign: not claimed; relative to the size of the terms\n\
+         {} claims, {failed} fail\n",
+        methods(findings).len(),
+        number(0),
+        ground.get(3).map_or("", String::as_str),
+        ground.get(4).map_or("", String::as_str),
+        ground.get(5).map_or("", String::as_str),
+        number(2),
+        table::text(&rows),
+        claimed.count(),
+    )
+}
+
+fn as_json(system: &str, ground: &[String], findings: &[Finding]) -> Value {
+    let mut all = Map::new();
+    for finding in findings {
+        let method = all
+            .entry(finding.method.clone())
+            .or_insert_with(|| Value::Object(Map::new()));
+        method[finding.fact.as_str()] = finding.as_json();
+    }
+    let number = |index: usize| {
+        let value: Option<f64> = ground.get(index).and_then(|text| text.parse().ok());
+        json!(value)
+    };
+    json!({
+        "system": system,
+        "step": number(0), "span": number(1), "reference_error": number(2),
+        "states": number(3), "linear_integrals": number(4), "quadratic_integrals": number(5),
+        "methods": all,
+        "failed": findings.iter().filter(|finding| finding.fails()).count(),
+    })
+}

@@ -1,0 +1,83 @@
+//! `lie bench`: error against run time.
+
+mod common;
+
+use common::{csv, folder, lie};
+
+#[test]
+fn points_picture_and_table() {
+    let folder = folder();
+    let (out, plot) = (
+        folder.path().join("points.csv"),
+        folder.path().join("p.svg"),
+    );
+    let run = lie(&format!(
+        "bench specs/so3_nonpolynomial.json --methods midpoint,gauss4,rk4,dopri5 --until 2 --budget 0.002 --quiet \
+         --out {} --plot {}",
+        out.display(),
+        plot.display()
+    ))
+    .ok();
+    assert!(run.stderr.is_empty(), "{}", run.stderr);
+    for name in [
+        "midpoint",
+        "gauss4",
+        "rk4",
+        "dopri5",
+        "ode_solvers Dopri5",
+        "ode_solvers Dop853",
+    ] {
+        assert!(
+            run.stdout.lines().any(|line| line.starts_with(name)),
+            "{name}: {}",
+            run.stdout
+        );
+    }
+    let text = std::fs::read_to_string(out).expect("points");
+    let numbers: String = text
+        .lines()
+        .map(|line| line.split(',').skip(2).collect::<Vec<_>>().join(",") + "\n")
+        .collect();
+    let (header, rows) = csv(&numbers);
+    assert_eq!(header[..3], ["value", "error", "seconds_per_unit_time"]);
+    assert!(rows.len() > 20 && rows.iter().all(|row| row[2] > 0.0 && row[2] <= row[3]));
+    // the error of a method of order 4 falls by 2^4 where the step is halved
+    let of = |method: &str| -> Vec<f64> {
+        let lines = text.lines().filter(|line| line.starts_with(method));
+        let field = |line: &str| line.split(',').nth(3).and_then(|f| f.parse().ok());
+        lines.filter_map(field).collect()
+    };
+    let rk4 = of("rk4,");
+    let ratio = rk4[3] / rk4[4];
+    assert!((10.0..25.0).contains(&ratio), "{rk4:?}");
+    let svg = std::fs::read_to_string(plot).expect("picture");
+    assert!(
+        svg.starts_with("<svg") && svg.contains(">gauss4<") && svg.trim_end().ends_with("</svg>")
+    );
+}
+
+#[test]
+fn a_reference_that_is_not_confirmed_stops_it() {
+    let folder = folder();
+    let out = folder.path().join("points.csv");
+    let run = lie(&format!(
+        "bench specs/so3_nonpolynomial.json --methods midpoint,gauss4,rk4,dopri5 --until 100000 --budget 0.001 --quiet --initial 6,-5,7 --out {}",
+        out.display()
+    ));
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    let run = run.says("domain", "command line: --until");
+    assert!(run.stderr.contains("not confirmed"), "{}", run.stderr);
+    assert!(!out.exists(), "nothing was measured");
+}
+
+#[test]
+fn wrong_options() {
+    let bench = |rest: &str| lie(&format!("bench specs/so3_free_rigid_body.json {rest}"));
+    bench("--methods nope").error("method", "command line: --methods");
+    bench("--until 0").error("option", "command line: --until");
+    bench("--budget -1").error("option", "command line: --budget");
+    bench("--plot specs/so3_free_rigid_body.json").error("option", "command line: --plot");
+    let run = bench("--out /no/such/folder/x.csv");
+    assert_eq!(run.code, Some(1));
+    run.says("io", "/no/such/folder/x.csv");
+}

@@ -1,0 +1,140 @@
+//! `lie verify`: claims against measurements.
+
+mod common;
+
+use common::{command, folder, lie, spec};
+
+#[test]
+fn all_claims_of_a_few_methods_hold() {
+    let run = lie(
+        "verify specs/so3_nonpolynomial.json --methods midpoint,lie-midpoint,rk4,dopri5 --quiet",
+    )
+    .ok();
+    assert!(run.stderr.is_empty(), "{}", run.stderr);
+    let line = |name: &str| {
+        let found = run.stdout.lines().find(|line| line.starts_with(name));
+        found
+            .unwrap_or_else(|| panic!("{name} in {}", run.stdout))
+            .to_owned()
+    };
+    assert!(line("midpoint ").contains("2: 2.00 ✓"), "{}", run.stdout);
+    // an id stands for every option that applies
+    assert!(line("lie-midpoint --retraction cayley").contains('✓'));
+    assert!(run.stdout.contains(" claims, 0 fail\n"));
+}
+
+#[test]
+fn as_json() {
+    let run = lie("verify specs/so3_nonpolynomial.json --methods midpoint,lie-midpoint,rk4,dopri5 --quiet --json --seed 4").ok();
+    let value: serde_json::Value = serde_json::from_str(&run.stdout).expect("JSON");
+    assert_eq!(value["failed"], 0);
+    let order = &value["methods"]["rk4"]["order"];
+    assert_eq!(order["claim"], 4.0);
+    assert!((order["measured"].as_f64().expect("a number") - 4.0).abs() < 0.3);
+    assert_eq!(value["methods"]["rk4"]["energy"]["verdict"], "not-claimed");
+    assert!(
+        value["methods"]["rk4"]["energy"]["measured"].as_f64() > Some(1e-9),
+        "it drifts"
+    );
+}
+
+#[test]
+fn wrong_options() {
+    let verify = |rest: &str| lie(&format!("verify specs/so3_free_rigid_body.json {rest}"));
+    verify("--methods midpoint,midpont").error("method", "command line: --methods");
+    verify("--methods").error("option", "command line: --methods");
+    verify("--step 0").error("option", "command line: --step");
+    verify("--step x").error("number", "command line: --step");
+    verify("--seed -1").error("option", "command line: --seed");
+    verify("--initial 1,2").error("state-length", "command line: --initial");
+    verify("--param I9=2").error("option", "command line: --param");
+    lie("verify").error("option", "command line: SPEC");
+    let option = [
+        "verify",
+        "specs/so3_free_rigid_body.json",
+        "--methods",
+        "rk4 --retraction exp",
+    ];
+    common::Run::from(command(option).output().expect("lie starts"))
+        .error("method", "command line: --methods");
+    let foreign = [
+        "verify",
+        "specs/heisenberg_h3.json",
+        "--methods",
+        "splitting2,rk4 --x y",
+    ];
+    common::Run::from(command(foreign).output().expect("lie starts"))
+        .error("method", "command line: --methods");
+}
+
+#[test]
+fn a_system_at_rest_cannot_be_measured() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| spec["hamiltonian"] = "1".into());
+    let run: common::Run = command([
+        "verify".as_ref(),
+        path.as_os_str(),
+        "--methods".as_ref(),
+        "rk4".as_ref(),
+    ])
+    .output()
+    .expect("lie starts")
+    .into();
+    let run = run.error("domain", "command line: --initial");
+    assert!(run.stderr.contains("is zero"), "{}", run.stderr);
+}
+
+/// A program that lies in the place of the built one.
+#[test]
+#[cfg(unix)]
+fn a_claim_that_fails_is_exit_code_1() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = folder();
+    let path = spec(folder.path(), |spec| spec["name"] = "Lied".into());
+    let script = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, format!("#!/bin/sh\n{text}\n")).expect("the script is written");
+        let permissions = std::fs::Permissions::from_mode(0o755);
+        std::fs::set_permissions(&path, permissions).expect("it can be run");
+        path
+    };
+    let program = script(
+        "program",
+        "while read line; do [ \"$line\" = run ] && break; done\n\
+         printf 'finding\\trk4\\torder\\t4.0\\t4.01\\t3.7\\tholds\\t\\n'\n\
+         printf 'finding\\trk4\\tsymmetric\\t0.0\\t1e-7\\t1e-14\\tfails\\t\\n'\n\
+         echo done >&2",
+    );
+    let cargo = script(
+        "cargo",
+        &format!(
+            "name=$(sed -n '/bin/,$s/^name = \"\\(.*\\)\"/\\1/p' Cargo.toml)\n\
+             echo \"{{\\\"target\\\":{{\\\"name\\\":\\\"$name\\\"}},\\\"executable\\\":\\\"{}\\\"}}\"",
+            program.display()
+        ),
+    );
+    let run: common::Run = command([
+        "verify".as_ref(),
+        path.as_os_str(),
+        "--methods".as_ref(),
+        "rk4".as_ref(),
+    ])
+    .env("CARGO", cargo)
+    .env("LIE_CACHE_DIR", folder.path().join("cache"))
+    .output()
+    .expect("lie starts")
+    .into();
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(
+        run.stderr.contains(
+            "failed: rk4: symmetric is claimed, 1.0e-7 was measured, where at most 1.0e-14 holds"
+        ),
+        "{}",
+        run.stderr
+    );
+    assert!(
+        run.stdout.contains("4: 4.01 ✓") && run.stdout.contains("1.0e-7 ✗"),
+        "{}",
+        run.stdout
+    );
+}

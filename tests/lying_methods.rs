@@ -1,0 +1,128 @@
+//! Methods that claim what they do not keep: the verification says so.
+
+use lie_runtime::methods::{Facts, Method, Preserves, Rk4};
+use lie_runtime::prelude::*;
+use lie_runtime::program::measure::Verify;
+
+lie_poisson! { pub spec = "specs/so3_nonpolynomial.json"; }
+
+/// The Runge–Kutta method under a false flag.
+#[derive(Clone, Copy)]
+struct Lying<const WHAT: usize>;
+
+const CLAIMS: [&str; 8] = [
+    "order",
+    "symmetric",
+    "energy",
+    "quadratic Casimirs",
+    "orbit",
+    "Poisson",
+    "quadratic integrals",
+    "nothing",
+];
+
+impl<const WHAT: usize> Facts for Lying<WHAT> {
+    const ID: &'static str = "lying";
+    const ORDER: u32 = if WHAT == 0 { 5 } else { 4 };
+    const SYMMETRIC: bool = WHAT == 1;
+    const EXPLICIT: bool = true;
+    const PRESERVES: Preserves = Preserves {
+        energy: WHAT == 2,
+        quadratic_casimirs: WHAT == 3,
+        orbit: WHAT == 4,
+        poisson: WHAT == 5,
+        quadratic_invariants: WHAT == 6,
+        ..Preserves::LINEAR
+    };
+}
+
+impl<S: Scalar, P: Poisson<S>, const WHAT: usize> Method<S, P> for Lying<WHAT> {
+    type Stepper<'a>
+        = <Rk4 as Method<S, P>>::Stepper<'a>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+        Rk4.stepper(system, h, newton)
+    }
+}
+
+/// An implicit method that says that it is explicit.
+struct Implicit;
+
+impl Facts for Implicit {
+    const ID: &'static str = "implicit";
+    const ORDER: u32 = 2;
+    const SYMMETRIC: bool = true;
+    const EXPLICIT: bool = true;
+    const PRESERVES: Preserves = Preserves::QUADRATIC;
+}
+
+impl<S: Scalar> Method<S, NonpolynomialSpinSystem<S>> for Implicit {
+    type Stepper<'a> = <ImplicitMidpoint as Method<S, NonpolynomialSpinSystem<S>>>::Stepper<'a>;
+
+    fn stepper<'a>(
+        &self,
+        system: &'a NonpolynomialSpinSystem<S>,
+        h: S,
+        newton: &NewtonOptions,
+    ) -> Self::Stepper<'a> {
+        ImplicitMidpoint.stepper(system, h, newton)
+    }
+}
+
+/// The facts of each method that fail, as the program reports them.
+fn failing() -> Vec<(String, String)> {
+    let program = Verify::new(&[], |_: &[f64]| NonpolynomialSpin::new().system())
+        .method("order", |_| Lying::<0>)
+        .method("symmetric", |_| Lying::<1>)
+        .method("energy", |_| Lying::<2>)
+        .method("quadratic Casimirs", |_| Lying::<3>)
+        .method("orbit", |_| Lying::<4>)
+        .method("Poisson", |_| Lying::<5>)
+        .method("quadratic integrals", |_| Lying::<6>)
+        .method("nothing", |_| Lying::<7>)
+        .method("explicit", |_| Implicit);
+    let mut request = String::new();
+    for label in CLAIMS.iter().chain(&["explicit"]) {
+        request.push_str(&format!("method {label}\n"));
+    }
+    request.push_str("initial 0.6 -0.5 0.7\nseed 3\nrun\n");
+    let (mut lines, mut messages) = (Vec::new(), Vec::new());
+    // the input must not end before the program does
+    let input = std::io::BufReader::new(std::io::Read::chain(
+        std::io::Cursor::new(request.into_bytes()),
+        std::io::Read::take(std::io::repeat(b' '), u64::MAX),
+    ));
+    let code = program.serve(input, &mut lines, &mut messages);
+    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&messages));
+    let text = String::from_utf8(lines).expect("text");
+    let lines = text.lines().filter(|line| line.starts_with("finding\t"));
+    let fields = lines.map(|line| line.split('\t').collect::<Vec<_>>());
+    let failing = fields.filter(|fields| fields[6] == "fails");
+    failing
+        .map(|fields| (fields[1].to_owned(), fields[2].to_owned()))
+        .collect()
+}
+
+#[test]
+fn every_lie_is_found_and_nothing_else() {
+    let failing = failing();
+    let expected = |what: &str| {
+        let facts = failing.iter().filter(|(method, _)| method == what);
+        facts.map(|(_, fact)| fact.as_str()).collect::<Vec<_>>()
+    };
+    for what in [
+        "order",
+        "symmetric",
+        "energy",
+        "orbit",
+        "Poisson",
+        "explicit",
+    ] {
+        assert_eq!(expected(what), [what]);
+    }
+    assert_eq!(expected("quadratic Casimirs"), ["quadratic Casimirs"]);
+    assert_eq!(expected("quadratic integrals"), ["quadratic integrals"]);
+    assert!(expected("nothing").is_empty());
+}
