@@ -2,9 +2,10 @@
 
 use lie_codegen::methods::{Availability, CATALOGUE, Method};
 use lie_runtime::methods::{
-    CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, Dopri5, Facts, Gauss4, Gauss6,
-    ImplicitMidpoint, LieEuler, LieMidpoint, Preserves, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6,
-    Splitting1, Splitting2, Splitting4, Splitting6, Splitting8,
+    CohenHairer2, CohenHairer4, CohenHairer6, CommutatorFree4, Compose4, Compose6, Compose8,
+    CrouchGrossman3, Dopri5, Facts, Gauss4, Gauss6, Gonzalez, ImplicitMidpoint, ItohAbe, LieEuler,
+    LieMidpoint, MeanValue, OrbitEnergy, Preserves, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Splitting1,
+    Splitting2, Splitting4, Splitting6, Splitting8,
 };
 
 fn agrees<F: Facts>(_: &F) -> &'static str {
@@ -80,11 +81,20 @@ fn facts_are_those_of_the_runtime() {
         agrees(&Splitting4::new()),
         agrees(&Splitting6::new()),
         agrees(&Splitting8::new()),
+        agrees(&Gonzalez),
+        agrees(&MeanValue),
+        agrees(&ItohAbe),
+        agrees(&OrbitEnergy::gonzalez()),
+        agrees(&CohenHairer2::new()),
+        agrees(&CohenHairer4::new()),
+        agrees(&CohenHairer6::new()),
         composition(&Compose4::new(LieMidpoint::exp())),
         composition(&Compose6::new(ImplicitMidpoint)),
         composition(&Compose8::new(LieMidpoint::cayley())),
     ];
     assert_eq!(agrees(&LieMidpoint::cayley()), "lie-midpoint");
+    assert_eq!(agrees(&OrbitEnergy::mean_value()), "orbit-energy");
+    assert_eq!(agrees(&OrbitEnergy::itoh_abe()), "orbit-energy");
     built.sort_unstable();
     let rows = CATALOGUE
         .iter()

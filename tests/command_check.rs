@@ -38,7 +38,7 @@ fn json_has_the_agreed_fields() {
     assert_eq!(one["casimirs"][0]["degree"], 2);
     assert!(one["class"].is_null() && one["splitting"].is_null());
     assert!(one["methods"]["midpoint"].is_null());
-    assert!(one["methods"]["gonzalez"].is_string());
+    assert!(one["methods"]["spherical-midpoint"].is_string());
     assert_eq!(one["operations"]["vector_field"]["mul"], 21);
     assert_eq!(one["operations"]["vector_field"]["add"], 9);
     let several = lie("check specs/se3_heavy_top.json specs/sl2_quadratic.json --json")

@@ -8,7 +8,20 @@ use lie_codegen::golden::Golden;
 use std::path::PathBuf;
 
 /// Every family of methods with fused code; of `lie-midpoint` both retractions where they apply.
-const METHODS: [&str; 5] = ["midpoint", "gauss4", "gauss6", "lie-midpoint", "splitting2"];
+const METHODS: [&str; 12] = [
+    "midpoint",
+    "gauss4",
+    "gauss6",
+    "lie-midpoint",
+    "splitting2",
+    "gonzalez",
+    "mean-value",
+    "itoh-abe",
+    "orbit-energy",
+    "cohen-hairer2",
+    "cohen-hairer4",
+    "cohen-hairer6",
+];
 
 /// The systems of `specs/`, without their schema.
 fn specs() -> Vec<PathBuf> {

@@ -1,10 +1,13 @@
 //! Sparse elimination from a static index list, for systems whose elimination would be too long
 //! written out.
 
+use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
+use crate::methods::Retraction;
 use crate::newton::inverse_pivots_are_safe;
 use crate::scalar::Scalar;
 use crate::state::Unknown;
+use core::marker::PhantomData;
 
 /// The elimination of a matrix of known pattern, diagonal pivots in a fixed order. Pattern and
 /// fill-in are found at compile time; only entries in the lists are touched.
@@ -79,6 +82,98 @@ impl StaticElimination {
             .map(|list| list.len())
             .sum();
         factors + entries + self.order.len()
+    }
+}
+
+/// The elimination of a matrix of known pattern, as generated code writes it out.
+pub trait FixedElimination<S: Scalar, M, U> {
+    /// Replaces a matrix by its triangular factors. Returns the lanes in which every pivot was safe.
+    fn factor(matrix: &mut M) -> S::Mask;
+    /// Solves `A x = b` in place of b by the factors.
+    fn solve(factors: &M, vector: &mut U);
+}
+
+/// An equation with an elimination specialised to the pattern of its matrix.
+#[derive(Clone, Debug)]
+pub struct Eliminated<E, T> {
+    equation: E,
+    elimination: PhantomData<T>,
+}
+
+impl<E, T> Eliminated<E, T> {
+    /// The same equation with the elimination T.
+    pub fn new(equation: E) -> Self {
+        Self {
+            equation,
+            elimination: PhantomData,
+        }
+    }
+}
+
+impl<S, E, T> Equation<S> for Eliminated<E, T>
+where
+    S: Scalar,
+    E: Equation<S>,
+    T: FixedElimination<S, E::Matrix, E::Unknown>,
+{
+    type State = E::State;
+    type Unknown = E::Unknown;
+    type Matrix = E::Matrix;
+
+    fn zero_unknown(&self) -> Self::Unknown {
+        self.equation.zero_unknown()
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        self.equation.zero_matrix()
+    }
+
+    #[inline]
+    fn set_base(&mut self, mu: &Self::State) {
+        self.equation.set_base(mu);
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        self.equation.initial_guess(unknown);
+    }
+
+    #[inline]
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        self.equation.residual(unknown, residual);
+    }
+
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        self.equation.linearize(unknown, residual, matrix);
+    }
+
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        T::factor(matrix)
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        T::solve(factors, residual);
+    }
+
+    #[inline]
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
+        self.equation.result(unknown, mu);
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> Option<Retraction> {
+        self.equation.group_factor(unknown, xi)
     }
 }
 

@@ -120,7 +120,7 @@ pub mod prelude {
 /// versions.
 #[doc(hidden)]
 pub mod __private {
-    pub use crate::elimination::StaticElimination;
+    pub use crate::elimination::{Eliminated, FixedElimination, StaticElimination};
     pub use crate::equation::{Equation, Implicit};
     pub use crate::generating::GeneratingFunction;
     pub use crate::generic;

@@ -1351,6 +1351,214 @@ impl<
     }
 }
 
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 5 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct PendulumElimination1;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for PendulumElimination1 {
+    #[inline]
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_2 = matrix[(2, 2)];
+        let _a2_2 = S::one() / _a2_2;
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 1)] = _a1_1;
+        matrix[(2, 2)] = _a2_2;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a1_1.abs().max(_a2_2.abs()).max(_a0_0.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b1 = vector[1];
+        let _b2 = vector[2];
+        let _b0 = vector[0];
+        let _b0 = _b0 * factors[(0, 0)];
+        let _b2 = (_b2 - factors[(2, 0)] * _b0) * factors[(2, 2)];
+        let _b1 = (_b1 - factors[(1, 0)] * _b0) * factors[(1, 1)];
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez> for PendulumSystem<S> {
+    type Equation<'a> = PendulumMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gonzalez,
+        h: S,
+    ) -> Self::Equation<'a> {
+        PendulumMidpoint::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
+> for PendulumSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+        >,
+        PendulumElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::MeanValue> for PendulumSystem<S> {
+    type Equation<'a> = PendulumMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::MeanValue,
+        h: S,
+    ) -> Self::Equation<'a> {
+        PendulumMidpoint::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
+> for PendulumSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+        >,
+        PendulumElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ItohAbe> for PendulumSystem<S> {
+    type Equation<'a> = PendulumMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ItohAbe,
+        h: S,
+    ) -> Self::Equation<'a> {
+        PendulumMidpoint::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
+> for PendulumSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+        >,
+        PendulumElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<1>>
+for PendulumSystem<S> {
+    type Equation<'a> = PendulumMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<1>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        PendulumMidpoint::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
+for PendulumSystem<S> {
+    type Equation<'a> = PendulumGauss4<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<2>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        PendulumGauss4(::lie_runtime::generic::Gauss::new(self, h))
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
+for PendulumSystem<S> {
+    type Equation<'a> = PendulumGauss6<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<3>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        PendulumGauss6(::lie_runtime::generic::Gauss::new(self, h))
+    }
+}
+
 /// The flows of the pieces of H in `L`, `x`.
 #[derive(Debug)]
 pub struct PendulumSplitting<'a, S: ::lie_runtime::Scalar> {

@@ -1111,3 +1111,1252 @@ impl<
         HeisenbergCayleyMidpoint::new(self, h)
     }
 }
+
+/// The midpoint discrete gradient method, unknown `u = mu1`: `u - mu - h Pi((mu + u)/2) g(mu, u) = 0`.
+#[derive(Clone, Debug)]
+pub struct HeisenbergGonzalez<'a, S: ::lie_runtime::Scalar> {
+    system: &'a HeisenbergSystem<S>,
+    base: ::lie_runtime::__private::SVector<S, 3>,
+    h: S,
+    /// `h/2`
+    _h0: S,
+    /// `3*h/16`
+    _h1: S,
+    /// `h/4`
+    _h2: S,
+    /// `h/12`
+    _h3: S,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> HeisenbergGonzalez<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
+    #[must_use]
+    pub fn new(system: &'a HeisenbergSystem<S>, h: S) -> Self {
+        Self {
+            system,
+            base: ::lie_runtime::Poisson::zero_state(system),
+            h,
+            _h0: h * S::ratio(1.0, 2.0),
+            _h1: h * S::ratio(3.0, 16.0),
+            _h2: h * S::ratio(1.0, 4.0),
+            _h3: h * S::ratio(1.0, 12.0),
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergGonzalez<'_, S> {
+    type State = ::lie_runtime::__private::SVector<S, 3>;
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    fn zero_unknown(&self) -> Self::Unknown {
+        Self::State::repeat(S::zero())
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+
+    #[inline]
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
+    }
+
+    /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
+    ///
+    /// 15 additions, 15 multiplications.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[q, p, z]] = self.base.data.0;
+        let [[_u_q, _u_p, _u_z]] = unknown.data.0;
+        let [[_inverse_q]] = ::lie_runtime::generic::inverse_length(&self.base, unknown)
+            .data
+            .0;
+        let _t0 = p - _u_p;
+        let _t1 = -_t0;
+        let _t2 = _t1 * _inverse_q;
+        let _t3 = p + _u_p;
+        let _t4 = _t3 * S::ratio(1.0, 8.0);
+        let _t5 = _t1 * _t1 * _t2 * _t4;
+        let _t6 = z + _u_z;
+        let _t7 = _t6 * self._h0;
+        let _t8 = q - _u_q;
+        residual[0] = (_t2 * _t5 + (_t3 * _t3 + S::ratio(4.0, 1.0)) * _t4) * _t7 - _t8;
+        residual[1] = -((-_t8 * _inverse_q * _t5 + (q + _u_q) * S::ratio(1.0, 2.0)
+            + _t6 * S::ratio(1.0, 6.0)) * _t7) - _t0;
+        residual[2] = _u_z - z;
+    }
+
+    /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
+    ///
+    /// 29 additions, 44 multiplications.
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::State,
+        residual: &mut Self::State,
+        matrix: &mut Self::Matrix,
+    ) {
+        let [[q, p, z]] = self.base.data.0;
+        let [[_u_q, _u_p, _u_z]] = unknown.data.0;
+        let [[_inverse_q]] = ::lie_runtime::generic::inverse_length(&self.base, unknown)
+            .data
+            .0;
+        let _t0 = p - _u_p;
+        let _t1 = -_t0;
+        let _t2 = _t1 * _inverse_q;
+        let _t3 = _t1 * S::ratio(1.0, 8.0);
+        let _t4 = p + _u_p;
+        let _t5 = _t4 * _t1;
+        let _t6 = _t2 * _t5;
+        let _t7 = _t3 * _t6;
+        let _t8 = _t4 * _t4;
+        let _t9 = _t2 * _t7 + _t4 * S::ratio(1.0, 2.0) + _t4 * S::ratio(1.0, 8.0) * _t8;
+        let _t10 = z + _u_z;
+        let _t11 = _t10 * self._h0;
+        let _t12 = q - _u_q;
+        let _t13 = -_t12 * _inverse_q;
+        let _t14 = _t13 * _t7 + (q + _u_q) * S::ratio(1.0, 2.0)
+            + _t10 * S::ratio(1.0, 6.0);
+        let _t15 = _u_z - z;
+        let _t16 = _inverse_q * _t7;
+        let _t17 = S::ratio(-2.0, 1.0) * _t16;
+        let _t18 = _t13 * _t17;
+        let _t19 = _t2 * _t11;
+        let _t20 = _t1 * _t2 * _t3 + _inverse_q * _t5 * _t3 + S::ratio(1.0, 4.0) * _t6
+            - _t2 * S::ratio(2.0, 1.0) * _t16;
+        let _t21 = _t10 * self._h2 + _t11 * _t16;
+        let _t22 = _t15 * _inverse_q * _t17;
+        let _t23 = _t13 * _t11;
+        residual[0] = _t9 * _t11 - _t12;
+        residual[1] = -(_t14 * _t11) - _t0;
+        residual[2] = _t15;
+        matrix[(0, 0)] = S::one() + _t18 * _t19;
+        matrix[(0, 1)] = _t10 * self._h1 * _t8 + _t20 * _t19 + _t21;
+        matrix[(0, 2)] = _t9 * self._h0 + _t22 * _t19;
+        matrix[(1, 0)] = -(_t18 * _t23) - _t21;
+        matrix[(1, 1)] = S::one() - _t20 * _t23;
+        matrix[(1, 2)] = -(_t10 * self._h3) - _t14 * self._h0 - _t22 * _t23;
+        matrix[(2, 2)] = S::one();
+    }
+
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        *mu = *unknown;
+    }
+
+    /// Sparse elimination in the order [2, 0, 1], 0 entries of fill-in: 8 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a1_1 = S::one() / _a1_1;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        ::lie_runtime::__private::inverse_pivots_are_safe(_a0_0.abs().max(_a1_1.abs()))
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        let _b2 = residual[2];
+        let _b0 = residual[0] - factors[(0, 2)] * _b2;
+        let _b1 = residual[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
+        let _b1 = _b1 * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
+        residual[0] = _b0;
+        residual[1] = _b1;
+        residual[2] = _b2;
+    }
+}
+
+/// The discrete gradient `gonzalez` in closed form.
+#[derive(Clone, Debug)]
+pub struct HeisenbergGonzalezGradient<S: ::lie_runtime::Scalar> {
+    start: ::lie_runtime::__private::SVector<S, 3>,
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::generic::DiscreteGradient<S, HeisenbergSystem<S>>
+for HeisenbergGonzalezGradient<S> {
+    fn new(system: &HeisenbergSystem<S>) -> Self {
+        Self {
+            start: ::lie_runtime::Poisson::zero_state(system),
+        }
+    }
+
+    fn set_start(
+        &mut self,
+        _system: &HeisenbergSystem<S>,
+        start: &::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        self.start = *start;
+    }
+
+    /// `g(mu, u)`
+    ///
+    /// 11 additions, 15 multiplications.
+    #[inline]
+    fn value(
+        &mut self,
+        _system: &HeisenbergSystem<S>,
+        _end: &::lie_runtime::__private::SVector<S, 3>,
+        _out: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let [[q, p, z]] = self.start.data.0;
+        let [[_u_q, _u_p, _u_z]] = _end.data.0;
+        let [[_inverse_q]] = ::lie_runtime::generic::inverse_length(&self.start, _end)
+            .data
+            .0;
+        let _t0 = _u_p - p;
+        let _t1 = _t0 * _inverse_q;
+        let _t2 = p + _u_p;
+        let _t3 = _t2 * S::ratio(1.0, 8.0);
+        let _t4 = _t0 * _t0 * _t1 * _t3;
+        let _t5 = q + _u_q;
+        _out[0] = (_u_q - q) * _inverse_q * _t4 + _t5 * S::ratio(1.0, 2.0)
+            + (z + _u_z) * S::ratio(1.0, 6.0);
+        _out[1] = _t1 * _t4 + (_t2 * _t2 + S::ratio(4.0, 1.0)) * _t3;
+        _out[2] = (_u_z - z) * _inverse_q * _t4 + _t5 * S::ratio(1.0, 6.0);
+    }
+
+    /// `g(mu, u)` and `dg/du`
+    ///
+    /// 21 additions, 34 multiplications.
+    #[inline]
+    fn linearize(
+        &mut self,
+        _system: &HeisenbergSystem<S>,
+        _end: &::lie_runtime::__private::SVector<S, 3>,
+        _out: &mut ::lie_runtime::__private::SVector<S, 3>,
+        _slopes: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ) {
+        let [[q, p, z]] = self.start.data.0;
+        let [[_u_q, _u_p, _u_z]] = _end.data.0;
+        let [[_inverse_q]] = ::lie_runtime::generic::inverse_length(&self.start, _end)
+            .data
+            .0;
+        let _t0 = (_u_q - q) * _inverse_q;
+        let _t1 = _u_p - p;
+        let _t2 = _t1 * _inverse_q;
+        let _t3 = _t1 * _t2;
+        let _t4 = p + _u_p;
+        let _t5 = _t4 * S::ratio(1.0, 8.0);
+        let _t6 = _t1 * _t3 * _t5;
+        let _t7 = q + _u_q;
+        let _t8 = _t4 * _t4;
+        let _t9 = (_u_z - z) * _inverse_q;
+        let _t10 = _inverse_q * _t6;
+        let _t11 = _t10 * S::ratio(-2.0, 1.0);
+        let _t12 = _t0 * _t11;
+        let _t13 = _t10 + S::ratio(1.0, 2.0);
+        let _t14 = _t2 * S::ratio(2.0, 1.0);
+        let _t15 = _t1 * S::ratio(1.0, 8.0) * (_t3 + _t4 * (_t2 + _t14)) - _t10 * _t14;
+        let _t16 = _t9 * _t11;
+        _out[0] = _t0 * _t6 + _t7 * S::ratio(1.0, 2.0) + (z + _u_z) * S::ratio(1.0, 6.0);
+        _out[1] = _t2 * _t6 + (_t8 + S::ratio(4.0, 1.0)) * _t5;
+        _out[2] = _t9 * _t6 + _t7 * S::ratio(1.0, 6.0);
+        _slopes[(0, 0)] = _t0 * _t12 + _t13;
+        _slopes[(0, 1)] = _t0 * _t15;
+        _slopes[(0, 2)] = S::ratio(1.0, 6.0) + _t0 * _t16;
+        _slopes[(1, 0)] = _t2 * _t12;
+        _slopes[(1, 1)] = _t2 * _t15 + _t8 * S::ratio(3.0, 8.0) + _t13;
+        _slopes[(1, 2)] = _t2 * _t16;
+        _slopes[(2, 0)] = S::ratio(1.0, 6.0) + _t9 * _t12;
+        _slopes[(2, 1)] = _t9 * _t15;
+        _slopes[(2, 2)] = _t10 + _t9 * _t16;
+    }
+}
+
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 8 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct HeisenbergElimination1;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for HeisenbergElimination1 {
+    #[inline]
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a1_1 = S::one() / _a1_1;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        ::lie_runtime::__private::inverse_pivots_are_safe(_a0_0.abs().max(_a1_1.abs()))
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b2 = vector[2];
+        let _b0 = vector[0] - factors[(0, 2)] * _b2;
+        let _b1 = vector[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
+        let _b1 = _b1 * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+    }
+}
+
+/// The mean-value discrete gradient method, unknown `u = mu1`: `u - mu - h Pi((mu + u)/2) g(mu, u) = 0`.
+#[derive(Clone, Debug)]
+pub struct HeisenbergMeanValue<'a, S: ::lie_runtime::Scalar> {
+    system: &'a HeisenbergSystem<S>,
+    base: ::lie_runtime::__private::SVector<S, 3>,
+    h: S,
+    /// `h/2`
+    _h0: S,
+    /// `h/16`
+    _h1: S,
+    /// `-h/4`
+    _h2: S,
+    /// `-h/12`
+    _h3: S,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> HeisenbergMeanValue<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
+    #[must_use]
+    pub fn new(system: &'a HeisenbergSystem<S>, h: S) -> Self {
+        Self {
+            system,
+            base: ::lie_runtime::Poisson::zero_state(system),
+            h,
+            _h0: h * S::ratio(1.0, 2.0),
+            _h1: h * S::ratio(1.0, 16.0),
+            _h2: h * S::ratio(-1.0, 4.0),
+            _h3: h * S::ratio(-1.0, 12.0),
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for HeisenbergMeanValue<'_, S> {
+    type State = ::lie_runtime::__private::SVector<S, 3>;
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    fn zero_unknown(&self) -> Self::Unknown {
+        Self::State::repeat(S::zero())
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+
+    #[inline]
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
+    }
+
+    /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
+    ///
+    /// 13 additions, 9 multiplications.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[q, p, z]] = self.base.data.0;
+        let [[_u_q, _u_p, _u_z]] = unknown.data.0;
+        let _t0 = p + _u_p;
+        let _t1 = p - _u_p;
+        let _t2 = -_t1;
+        let _t3 = z + _u_z;
+        let _t4 = _t3 * self._h0;
+        residual[0] = _u_q - q
+            + _t0 * (_t0 * _t0 + _t2 * _t2 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
+                * _t4;
+        residual[1] = -(((q + _u_q) * S::ratio(1.0, 2.0) + _t3 * S::ratio(1.0, 6.0))
+            * _t4) - _t1;
+        residual[2] = _u_z - z;
+    }
+
+    /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
+    ///
+    /// 16 additions, 18 multiplications.
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::State,
+        residual: &mut Self::State,
+        matrix: &mut Self::Matrix,
+    ) {
+        let [[q, p, z]] = self.base.data.0;
+        let [[_u_q, _u_p, _u_z]] = unknown.data.0;
+        let _t0 = z + _u_z;
+        let _t1 = p + _u_p;
+        let _t2 = p - _u_p;
+        let _t3 = -_t2;
+        let _t4 = _t3 * _t3 + S::ratio(4.0, 1.0);
+        let _t5 = _t1 * (_t1 * _t1 + _t4) * S::ratio(1.0, 8.0) * self._h0;
+        let _t6 = (q + _u_q) * S::ratio(1.0, 2.0) + _t0 * S::ratio(1.0, 6.0);
+        residual[0] = _u_q - q + _t0 * _t5;
+        residual[1] = -(_t6 * _t0 * self._h0) - _t2;
+        residual[2] = _u_z - z;
+        matrix[(0, 0)] = S::one();
+        matrix[(0, 1)] = _t0
+            * (_t1 * (_t1 * S::ratio(3.0, 1.0) + _t3 * S::ratio(2.0, 1.0)) + _t4)
+            * self._h1;
+        matrix[(0, 2)] = _t5;
+        matrix[(1, 0)] = _t0 * self._h2;
+        matrix[(1, 1)] = S::one();
+        matrix[(1, 2)] = (_t0 + _t6 * S::ratio(6.0, 1.0)) * self._h3;
+        matrix[(2, 2)] = S::one();
+    }
+
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        *mu = *unknown;
+    }
+
+    /// Sparse elimination in the order [2, 0, 1], 0 entries of fill-in: 6 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        let _a1_0 = matrix[(1, 0)];
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a1_1 = S::one() / _a1_1;
+        matrix[(1, 1)] = _a1_1;
+        ::lie_runtime::__private::inverse_pivots_are_safe(_a1_1.abs())
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        let _b2 = residual[2];
+        let _b0 = residual[0] - factors[(0, 2)] * _b2;
+        let _b1 = residual[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
+        let _b1 = _b1 * factors[(1, 1)];
+        let _b0 = _b0 - factors[(0, 1)] * _b1;
+        residual[0] = _b0;
+        residual[1] = _b1;
+        residual[2] = _b2;
+    }
+}
+
+/// The discrete gradient `mean-value` in closed form.
+#[derive(Clone, Debug)]
+pub struct HeisenbergMeanValueGradient<S: ::lie_runtime::Scalar> {
+    start: ::lie_runtime::__private::SVector<S, 3>,
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::generic::DiscreteGradient<S, HeisenbergSystem<S>>
+for HeisenbergMeanValueGradient<S> {
+    fn new(system: &HeisenbergSystem<S>) -> Self {
+        Self {
+            start: ::lie_runtime::Poisson::zero_state(system),
+        }
+    }
+
+    fn set_start(
+        &mut self,
+        _system: &HeisenbergSystem<S>,
+        start: &::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        self.start = *start;
+    }
+
+    /// `g(mu, u)`
+    ///
+    /// 7 additions, 7 multiplications.
+    #[inline]
+    fn value(
+        &mut self,
+        _system: &HeisenbergSystem<S>,
+        _end: &::lie_runtime::__private::SVector<S, 3>,
+        _out: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let [[q, p, z]] = self.start.data.0;
+        let [[_u_q, _u_p, _u_z]] = _end.data.0;
+        let _t0 = q + _u_q;
+        let _t1 = p + _u_p;
+        let _t2 = _u_p - p;
+        _out[0] = _t0 * S::ratio(1.0, 2.0) + (z + _u_z) * S::ratio(1.0, 6.0);
+        _out[1] = _t1 * (_t1 * _t1 + _t2 * _t2 + S::ratio(4.0, 1.0))
+            * S::ratio(1.0, 8.0);
+        _out[2] = _t0 * S::ratio(1.0, 6.0);
+    }
+
+    /// `g(mu, u)` and `dg/du`
+    ///
+    /// 10 additions, 11 multiplications.
+    #[inline]
+    fn linearize(
+        &mut self,
+        _system: &HeisenbergSystem<S>,
+        _end: &::lie_runtime::__private::SVector<S, 3>,
+        _out: &mut ::lie_runtime::__private::SVector<S, 3>,
+        _slopes: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ) {
+        let [[q, p, z]] = self.start.data.0;
+        let [[_u_q, _u_p, _u_z]] = _end.data.0;
+        let _t0 = q + _u_q;
+        let _t1 = p + _u_p;
+        let _t2 = _u_p - p;
+        let _t3 = _t2 * _t2;
+        let _t4 = _t1 * S::ratio(1.0, 8.0);
+        _out[0] = S::ratio(1.0, 2.0) * _t0 + S::ratio(1.0, 6.0) * (z + _u_z);
+        _out[1] = (_t1 * _t1 + _t3 + S::ratio(4.0, 1.0)) * _t4;
+        _out[2] = S::ratio(1.0, 6.0) * _t0;
+        _slopes.fill(S::zero());
+        _slopes[(0, 0)] = S::ratio(1.0, 2.0);
+        _slopes[(0, 2)] = S::ratio(1.0, 6.0);
+        _slopes[(1, 1)] = S::ratio(1.0, 2.0) + _t3 * S::ratio(1.0, 8.0)
+            + (_t1 * S::ratio(3.0, 1.0) + _t2 * S::ratio(2.0, 1.0)) * _t4;
+        _slopes[(2, 0)] = S::ratio(1.0, 6.0);
+    }
+}
+
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 7 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct HeisenbergElimination2;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for HeisenbergElimination2 {
+    #[inline]
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a1_1 = S::one() / _a1_1;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        ::lie_runtime::__private::inverse_pivots_are_safe(_a0_0.abs().max(_a1_1.abs()))
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b2 = vector[2];
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
+        let _b1 = _b1 * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+    }
+}
+
+/// The symmetrised coordinate-increment method, unknown `u = mu1`: `u - mu - h Pi((mu + u)/2) g(mu, u) = 0`.
+#[derive(Clone, Debug)]
+pub struct HeisenbergItohAbe<'a, S: ::lie_runtime::Scalar> {
+    system: &'a HeisenbergSystem<S>,
+    base: ::lie_runtime::__private::SVector<S, 3>,
+    h: S,
+    /// `h/2`
+    _h0: S,
+    /// `h/16`
+    _h1: S,
+    /// `-h/4`
+    _h2: S,
+    /// `-h/12`
+    _h3: S,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> HeisenbergItohAbe<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
+    #[must_use]
+    pub fn new(system: &'a HeisenbergSystem<S>, h: S) -> Self {
+        Self {
+            system,
+            base: ::lie_runtime::Poisson::zero_state(system),
+            h,
+            _h0: h * S::ratio(1.0, 2.0),
+            _h1: h * S::ratio(1.0, 16.0),
+            _h2: h * S::ratio(-1.0, 4.0),
+            _h3: h * S::ratio(-1.0, 12.0),
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergItohAbe<'_, S> {
+    type State = ::lie_runtime::__private::SVector<S, 3>;
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    fn zero_unknown(&self) -> Self::Unknown {
+        Self::State::repeat(S::zero())
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+
+    #[inline]
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
+    }
+
+    /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
+    ///
+    /// 13 additions, 9 multiplications.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[q, p, z]] = self.base.data.0;
+        let [[_u_q, _u_p, _u_z]] = unknown.data.0;
+        let _t0 = p + _u_p;
+        let _t1 = p - _u_p;
+        let _t2 = -_t1;
+        let _t3 = z + _u_z;
+        let _t4 = _t3 * self._h0;
+        residual[0] = _u_q - q
+            + _t0 * (_t0 * _t0 + _t2 * _t2 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
+                * _t4;
+        residual[1] = -((_t3 * S::ratio(1.0, 6.0) + (q + _u_q) * S::ratio(1.0, 2.0))
+            * _t4) - _t1;
+        residual[2] = _u_z - z;
+    }
+
+    /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
+    ///
+    /// 16 additions, 18 multiplications.
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::State,
+        residual: &mut Self::State,
+        matrix: &mut Self::Matrix,
+    ) {
+        let [[q, p, z]] = self.base.data.0;
+        let [[_u_q, _u_p, _u_z]] = unknown.data.0;
+        let _t0 = z + _u_z;
+        let _t1 = p + _u_p;
+        let _t2 = p - _u_p;
+        let _t3 = -_t2;
+        let _t4 = _t3 * _t3 + S::ratio(4.0, 1.0);
+        let _t5 = _t1 * (_t1 * _t1 + _t4) * S::ratio(1.0, 8.0) * self._h0;
+        let _t6 = _t0 * S::ratio(1.0, 6.0) + (q + _u_q) * S::ratio(1.0, 2.0);
+        residual[0] = _u_q - q + _t0 * _t5;
+        residual[1] = -(_t6 * _t0 * self._h0) - _t2;
+        residual[2] = _u_z - z;
+        matrix[(0, 0)] = S::one();
+        matrix[(0, 1)] = _t0
+            * (_t1 * (_t1 * S::ratio(3.0, 1.0) + _t3 * S::ratio(2.0, 1.0)) + _t4)
+            * self._h1;
+        matrix[(0, 2)] = _t5;
+        matrix[(1, 0)] = _t0 * self._h2;
+        matrix[(1, 1)] = S::one();
+        matrix[(1, 2)] = (_t0 + _t6 * S::ratio(6.0, 1.0)) * self._h3;
+        matrix[(2, 2)] = S::one();
+    }
+
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        *mu = *unknown;
+    }
+
+    /// Sparse elimination in the order [2, 0, 1], 0 entries of fill-in: 6 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        let _a1_0 = matrix[(1, 0)];
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a1_1 = S::one() / _a1_1;
+        matrix[(1, 1)] = _a1_1;
+        ::lie_runtime::__private::inverse_pivots_are_safe(_a1_1.abs())
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        let _b2 = residual[2];
+        let _b0 = residual[0] - factors[(0, 2)] * _b2;
+        let _b1 = residual[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
+        let _b1 = _b1 * factors[(1, 1)];
+        let _b0 = _b0 - factors[(0, 1)] * _b1;
+        residual[0] = _b0;
+        residual[1] = _b1;
+        residual[2] = _b2;
+    }
+}
+
+/// The discrete gradient `itoh-abe` in closed form.
+#[derive(Clone, Debug)]
+pub struct HeisenbergItohAbeGradient<S: ::lie_runtime::Scalar> {
+    start: ::lie_runtime::__private::SVector<S, 3>,
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::generic::DiscreteGradient<S, HeisenbergSystem<S>>
+for HeisenbergItohAbeGradient<S> {
+    fn new(system: &HeisenbergSystem<S>) -> Self {
+        Self {
+            start: ::lie_runtime::Poisson::zero_state(system),
+        }
+    }
+
+    fn set_start(
+        &mut self,
+        _system: &HeisenbergSystem<S>,
+        start: &::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        self.start = *start;
+    }
+
+    /// `g(mu, u)`
+    ///
+    /// 7 additions, 7 multiplications.
+    #[inline]
+    fn value(
+        &mut self,
+        _system: &HeisenbergSystem<S>,
+        _end: &::lie_runtime::__private::SVector<S, 3>,
+        _out: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let [[q, p, z]] = self.start.data.0;
+        let [[_u_q, _u_p, _u_z]] = _end.data.0;
+        let _t0 = q + _u_q;
+        let _t1 = p + _u_p;
+        let _t2 = _u_p - p;
+        _out[0] = (z + _u_z) * S::ratio(1.0, 6.0) + _t0 * S::ratio(1.0, 2.0);
+        _out[1] = _t1 * (_t1 * _t1 + _t2 * _t2 + S::ratio(4.0, 1.0))
+            * S::ratio(1.0, 8.0);
+        _out[2] = _t0 * S::ratio(1.0, 6.0);
+    }
+
+    /// `g(mu, u)` and `dg/du`
+    ///
+    /// 10 additions, 11 multiplications.
+    #[inline]
+    fn linearize(
+        &mut self,
+        _system: &HeisenbergSystem<S>,
+        _end: &::lie_runtime::__private::SVector<S, 3>,
+        _out: &mut ::lie_runtime::__private::SVector<S, 3>,
+        _slopes: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ) {
+        let [[q, p, z]] = self.start.data.0;
+        let [[_u_q, _u_p, _u_z]] = _end.data.0;
+        let _t0 = q + _u_q;
+        let _t1 = p + _u_p;
+        let _t2 = _u_p - p;
+        let _t3 = _t2 * _t2;
+        _out[0] = S::ratio(1.0, 6.0) * (z + _u_z) + S::ratio(1.0, 2.0) * _t0;
+        _out[1] = _t1 * (_t1 * _t1 + _t3 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
+        _out[2] = S::ratio(1.0, 6.0) * _t0;
+        _slopes.fill(S::zero());
+        _slopes[(0, 0)] = S::ratio(1.0, 2.0);
+        _slopes[(0, 2)] = S::ratio(1.0, 6.0);
+        _slopes[(1, 1)] = S::ratio(1.0, 2.0)
+            + S::ratio(1.0, 8.0)
+                * (_t3 + _t1 * (_t1 * S::ratio(3.0, 1.0) + _t2 * S::ratio(2.0, 1.0)));
+        _slopes[(2, 0)] = S::ratio(1.0, 6.0);
+    }
+}
+
+/// Elimination of 6 rows in a fixed order, 2 entries of fill-in: 36 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct HeisenbergElimination3;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+> for HeisenbergElimination3 {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+    ) -> S::Mask {
+        let _a0_0 = matrix.0[0][0][(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix.0[0][0][(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix.0[0][0][(0, 1)];
+        let _a1_1 = matrix.0[0][0][(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_4 = matrix.0[0][1][(0, 1)];
+        let _a1_4 = -(_a1_0 * _a0_4);
+        let _a4_0 = matrix.0[1][0][(1, 0)];
+        let _a4_0 = _a4_0 * _a0_0;
+        let _a4_1 = -(_a4_0 * _a0_1);
+        let _a4_4 = matrix.0[1][1][(1, 1)];
+        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
+        let _a1_1 = S::one() / _a1_1;
+        let _a3_1 = matrix.0[1][0][(0, 1)];
+        let _a3_1 = _a3_1 * _a1_1;
+        let _a1_3 = matrix.0[0][1][(1, 0)];
+        let _a3_3 = matrix.0[1][1][(0, 0)];
+        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
+        let _a3_4 = matrix.0[1][1][(0, 1)];
+        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
+        let _a4_1 = _a4_1 * _a1_1;
+        let _a4_3 = matrix.0[1][1][(1, 0)];
+        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
+        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
+        let _a3_3 = S::one() / _a3_3;
+        let _a4_3 = _a4_3 * _a3_3;
+        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
+        let _a4_4 = S::one() / _a4_4;
+        matrix.0[0][0][(0, 0)] = _a0_0;
+        matrix.0[0][0][(1, 0)] = _a1_0;
+        matrix.0[0][0][(1, 1)] = _a1_1;
+        matrix.0[0][1][(1, 1)] = _a1_4;
+        matrix.0[1][0][(0, 1)] = _a3_1;
+        matrix.0[1][1][(0, 0)] = _a3_3;
+        matrix.0[1][1][(0, 1)] = _a3_4;
+        matrix.0[1][0][(1, 0)] = _a4_0;
+        matrix.0[1][0][(1, 1)] = _a4_1;
+        matrix.0[1][1][(1, 0)] = _a4_3;
+        matrix.0[1][1][(1, 1)] = _a4_4;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a0_0.abs().max(_a1_1.abs()).max(_a3_3.abs()).max(_a4_4.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            2,
+        >,
+    ) {
+        let _b2 = vector.0[0][2];
+        let _b5 = vector.0[1][2];
+        let _b0 = vector.0[0][0] - factors.0[0][0][(0, 2)] * _b2
+            - factors.0[0][1][(0, 2)] * _b5;
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 2)] * _b2
+            - factors.0[0][1][(1, 2)] * _b5 - factors.0[0][0][(1, 0)] * _b0;
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 2)] * _b2
+            - factors.0[1][1][(0, 2)] * _b5 - factors.0[1][0][(0, 1)] * _b1;
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 2)] * _b2
+            - factors.0[1][1][(1, 2)] * _b5 - factors.0[1][0][(1, 0)] * _b0
+            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][1][(1, 0)] * _b3;
+        let _b4 = _b4 * factors.0[1][1][(1, 1)];
+        let _b3 = (_b3 - factors.0[1][1][(0, 1)] * _b4) * factors.0[1][1][(0, 0)];
+        let _b1 = (_b1 - factors.0[0][1][(1, 0)] * _b3 - factors.0[0][1][(1, 1)] * _b4)
+            * factors.0[0][0][(1, 1)];
+        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][1][(0, 1)] * _b4)
+            * factors.0[0][0][(0, 0)];
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
+    }
+}
+
+/// Elimination of 9 rows in a fixed order, 6 entries of fill-in: 92 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct HeisenbergElimination4;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
+> for HeisenbergElimination4 {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+    ) -> S::Mask {
+        let _a0_0 = matrix.0[0][0][(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix.0[0][0][(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix.0[0][0][(0, 1)];
+        let _a1_1 = matrix.0[0][0][(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_4 = matrix.0[0][1][(0, 1)];
+        let _a1_4 = -(_a1_0 * _a0_4);
+        let _a0_7 = matrix.0[0][2][(0, 1)];
+        let _a1_7 = -(_a1_0 * _a0_7);
+        let _a4_0 = matrix.0[1][0][(1, 0)];
+        let _a4_0 = _a4_0 * _a0_0;
+        let _a4_1 = -(_a4_0 * _a0_1);
+        let _a4_4 = matrix.0[1][1][(1, 1)];
+        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
+        let _a4_7 = -(_a4_0 * _a0_7);
+        let _a7_0 = matrix.0[2][0][(1, 0)];
+        let _a7_0 = _a7_0 * _a0_0;
+        let _a7_1 = -(_a7_0 * _a0_1);
+        let _a7_4 = -(_a7_0 * _a0_4);
+        let _a7_7 = matrix.0[2][2][(1, 1)];
+        let _a7_7 = _a7_7 - _a7_0 * _a0_7;
+        let _a3_3 = matrix.0[1][1][(0, 0)];
+        let _a3_3 = S::one() / _a3_3;
+        let _a1_3 = matrix.0[0][1][(1, 0)];
+        let _a1_3 = _a1_3 * _a3_3;
+        let _a3_1 = matrix.0[1][0][(0, 1)];
+        let _a1_1 = _a1_1 - _a1_3 * _a3_1;
+        let _a3_4 = matrix.0[1][1][(0, 1)];
+        let _a1_4 = _a1_4 - _a1_3 * _a3_4;
+        let _a3_7 = matrix.0[1][2][(0, 1)];
+        let _a1_7 = _a1_7 - _a1_3 * _a3_7;
+        let _a4_3 = matrix.0[1][1][(1, 0)];
+        let _a4_3 = _a4_3 * _a3_3;
+        let _a4_1 = _a4_1 - _a4_3 * _a3_1;
+        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
+        let _a4_7 = _a4_7 - _a4_3 * _a3_7;
+        let _a7_3 = matrix.0[2][1][(1, 0)];
+        let _a7_3 = _a7_3 * _a3_3;
+        let _a7_1 = _a7_1 - _a7_3 * _a3_1;
+        let _a7_4 = _a7_4 - _a7_3 * _a3_4;
+        let _a7_7 = _a7_7 - _a7_3 * _a3_7;
+        let _a1_1 = S::one() / _a1_1;
+        let _a4_1 = _a4_1 * _a1_1;
+        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
+        let _a1_6 = matrix.0[0][2][(1, 0)];
+        let _a4_6 = matrix.0[1][2][(1, 0)];
+        let _a4_6 = _a4_6 - _a4_1 * _a1_6;
+        let _a4_7 = _a4_7 - _a4_1 * _a1_7;
+        let _a6_1 = matrix.0[2][0][(0, 1)];
+        let _a6_1 = _a6_1 * _a1_1;
+        let _a6_4 = matrix.0[2][1][(0, 1)];
+        let _a6_4 = _a6_4 - _a6_1 * _a1_4;
+        let _a6_6 = matrix.0[2][2][(0, 0)];
+        let _a6_6 = _a6_6 - _a6_1 * _a1_6;
+        let _a6_7 = matrix.0[2][2][(0, 1)];
+        let _a6_7 = _a6_7 - _a6_1 * _a1_7;
+        let _a7_1 = _a7_1 * _a1_1;
+        let _a7_4 = _a7_4 - _a7_1 * _a1_4;
+        let _a7_6 = matrix.0[2][2][(1, 0)];
+        let _a7_6 = _a7_6 - _a7_1 * _a1_6;
+        let _a7_7 = _a7_7 - _a7_1 * _a1_7;
+        let _a4_4 = S::one() / _a4_4;
+        let _a6_4 = _a6_4 * _a4_4;
+        let _a6_6 = _a6_6 - _a6_4 * _a4_6;
+        let _a6_7 = _a6_7 - _a6_4 * _a4_7;
+        let _a7_4 = _a7_4 * _a4_4;
+        let _a7_6 = _a7_6 - _a7_4 * _a4_6;
+        let _a7_7 = _a7_7 - _a7_4 * _a4_7;
+        let _a6_6 = S::one() / _a6_6;
+        let _a7_6 = _a7_6 * _a6_6;
+        let _a7_7 = _a7_7 - _a7_6 * _a6_7;
+        let _a7_7 = S::one() / _a7_7;
+        matrix.0[0][0][(0, 0)] = _a0_0;
+        matrix.0[0][0][(1, 0)] = _a1_0;
+        matrix.0[0][0][(1, 1)] = _a1_1;
+        matrix.0[0][1][(1, 0)] = _a1_3;
+        matrix.0[0][1][(1, 1)] = _a1_4;
+        matrix.0[0][2][(1, 1)] = _a1_7;
+        matrix.0[1][1][(0, 0)] = _a3_3;
+        matrix.0[1][0][(1, 0)] = _a4_0;
+        matrix.0[1][0][(1, 1)] = _a4_1;
+        matrix.0[1][1][(1, 0)] = _a4_3;
+        matrix.0[1][1][(1, 1)] = _a4_4;
+        matrix.0[1][2][(1, 0)] = _a4_6;
+        matrix.0[1][2][(1, 1)] = _a4_7;
+        matrix.0[2][0][(0, 1)] = _a6_1;
+        matrix.0[2][1][(0, 1)] = _a6_4;
+        matrix.0[2][2][(0, 0)] = _a6_6;
+        matrix.0[2][2][(0, 1)] = _a6_7;
+        matrix.0[2][0][(1, 0)] = _a7_0;
+        matrix.0[2][0][(1, 1)] = _a7_1;
+        matrix.0[2][1][(1, 0)] = _a7_3;
+        matrix.0[2][1][(1, 1)] = _a7_4;
+        matrix.0[2][2][(1, 0)] = _a7_6;
+        matrix.0[2][2][(1, 1)] = _a7_7;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a0_0
+                .abs()
+                .max(_a3_3.abs())
+                .max(_a1_1.abs())
+                .max(_a4_4.abs())
+                .max(_a6_6.abs())
+                .max(_a7_7.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            3,
+        >,
+    ) {
+        let _b2 = vector.0[0][2];
+        let _b5 = vector.0[1][2];
+        let _b8 = vector.0[2][2];
+        let _b0 = vector.0[0][0] - factors.0[0][0][(0, 2)] * _b2
+            - factors.0[0][1][(0, 2)] * _b5 - factors.0[0][2][(0, 2)] * _b8;
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 2)] * _b2
+            - factors.0[1][1][(0, 2)] * _b5 - factors.0[1][2][(0, 2)] * _b8;
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 2)] * _b2
+            - factors.0[0][1][(1, 2)] * _b5 - factors.0[0][2][(1, 2)] * _b8
+            - factors.0[0][0][(1, 0)] * _b0 - factors.0[0][1][(1, 0)] * _b3;
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 2)] * _b2
+            - factors.0[1][1][(1, 2)] * _b5 - factors.0[1][2][(1, 2)] * _b8
+            - factors.0[1][0][(1, 0)] * _b0 - factors.0[1][1][(1, 0)] * _b3
+            - factors.0[1][0][(1, 1)] * _b1;
+        let _b6 = vector.0[2][0] - factors.0[2][0][(0, 2)] * _b2
+            - factors.0[2][1][(0, 2)] * _b5 - factors.0[2][2][(0, 2)] * _b8
+            - factors.0[2][0][(0, 1)] * _b1 - factors.0[2][1][(0, 1)] * _b4;
+        let _b7 = vector.0[2][1] - factors.0[2][0][(1, 2)] * _b2
+            - factors.0[2][1][(1, 2)] * _b5 - factors.0[2][2][(1, 2)] * _b8
+            - factors.0[2][0][(1, 0)] * _b0 - factors.0[2][1][(1, 0)] * _b3
+            - factors.0[2][0][(1, 1)] * _b1 - factors.0[2][1][(1, 1)] * _b4
+            - factors.0[2][2][(1, 0)] * _b6;
+        let _b7 = _b7 * factors.0[2][2][(1, 1)];
+        let _b6 = (_b6 - factors.0[2][2][(0, 1)] * _b7) * factors.0[2][2][(0, 0)];
+        let _b4 = (_b4 - factors.0[1][2][(1, 0)] * _b6 - factors.0[1][2][(1, 1)] * _b7)
+            * factors.0[1][1][(1, 1)];
+        let _b1 = (_b1 - factors.0[0][1][(1, 1)] * _b4 - factors.0[0][2][(1, 0)] * _b6
+            - factors.0[0][2][(1, 1)] * _b7) * factors.0[0][0][(1, 1)];
+        let _b3 = (_b3 - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][1][(0, 1)] * _b4
+            - factors.0[1][2][(0, 1)] * _b7) * factors.0[1][1][(0, 0)];
+        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][1][(0, 1)] * _b4
+            - factors.0[0][2][(0, 1)] * _b7) * factors.0[0][0][(0, 0)];
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
+        vector.0[2][0] = _b6;
+        vector.0[2][1] = _b7;
+        vector.0[2][2] = _b8;
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez> for HeisenbergSystem<S> {
+    type Equation<'a> = HeisenbergGonzalez<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gonzalez,
+        h: S,
+    ) -> Self::Equation<'a> {
+        HeisenbergGonzalez::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
+> for HeisenbergSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            HeisenbergGonzalezGradient<S>,
+        >,
+        HeisenbergElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::MeanValue> for HeisenbergSystem<S> {
+    type Equation<'a> = HeisenbergMeanValue<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::MeanValue,
+        h: S,
+    ) -> Self::Equation<'a> {
+        HeisenbergMeanValue::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
+> for HeisenbergSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            HeisenbergMeanValueGradient<S>,
+        >,
+        HeisenbergElimination2,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ItohAbe> for HeisenbergSystem<S> {
+    type Equation<'a> = HeisenbergItohAbe<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ItohAbe,
+        h: S,
+    ) -> Self::Equation<'a> {
+        HeisenbergItohAbe::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
+> for HeisenbergSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            HeisenbergItohAbeGradient<S>,
+        >,
+        HeisenbergElimination2,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<1>>
+for HeisenbergSystem<S> {
+    type Equation<'a> = HeisenbergMeanValue<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<1>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        HeisenbergMeanValue::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
+for HeisenbergSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 2>,
+        HeisenbergElimination3,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<2>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::CohenHairerStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
+for HeisenbergSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 3>,
+        HeisenbergElimination4,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<3>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::CohenHairerStep::new(self, h),
+        )
+    }
+}

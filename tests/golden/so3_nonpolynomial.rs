@@ -1368,3 +1368,573 @@ impl<
         NonpolynomialSpinCayleyMidpoint::new(self, h)
     }
 }
+
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct NonpolynomialSpinElimination1;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for NonpolynomialSpinElimination1 {
+    #[inline]
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix[(0, 2)];
+        let _a1_2 = matrix[(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a2_0 = matrix[(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix[(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix[(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_2 = S::one() / _a2_2;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        matrix[(1, 2)] = _a1_2;
+        matrix[(2, 0)] = _a2_0;
+        matrix[(2, 1)] = _a2_1;
+        matrix[(2, 2)] = _a2_2;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+        let _b2 = _b2 * factors[(2, 2)];
+        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
+            * factors[(0, 0)];
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+    }
+}
+
+/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct NonpolynomialSpinElimination2;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+> for NonpolynomialSpinElimination2 {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+    ) -> S::Mask {
+        let _a0_0 = matrix.0[0][0][(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix.0[0][0][(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix.0[0][0][(0, 1)];
+        let _a1_1 = matrix.0[0][0][(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix.0[0][0][(0, 2)];
+        let _a1_2 = matrix.0[0][0][(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a0_3 = matrix.0[0][1][(0, 0)];
+        let _a1_3 = matrix.0[0][1][(1, 0)];
+        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
+        let _a0_4 = matrix.0[0][1][(0, 1)];
+        let _a1_4 = matrix.0[0][1][(1, 1)];
+        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
+        let _a0_5 = matrix.0[0][1][(0, 2)];
+        let _a1_5 = matrix.0[0][1][(1, 2)];
+        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
+        let _a2_0 = matrix.0[0][0][(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix.0[0][0][(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix.0[0][0][(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a2_3 = matrix.0[0][1][(2, 0)];
+        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
+        let _a2_4 = matrix.0[0][1][(2, 1)];
+        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
+        let _a2_5 = matrix.0[0][1][(2, 2)];
+        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
+        let _a3_0 = matrix.0[1][0][(0, 0)];
+        let _a3_0 = _a3_0 * _a0_0;
+        let _a3_1 = matrix.0[1][0][(0, 1)];
+        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
+        let _a3_2 = matrix.0[1][0][(0, 2)];
+        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
+        let _a3_3 = matrix.0[1][1][(0, 0)];
+        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
+        let _a3_4 = matrix.0[1][1][(0, 1)];
+        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
+        let _a3_5 = matrix.0[1][1][(0, 2)];
+        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
+        let _a4_0 = matrix.0[1][0][(1, 0)];
+        let _a4_0 = _a4_0 * _a0_0;
+        let _a4_1 = matrix.0[1][0][(1, 1)];
+        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
+        let _a4_2 = matrix.0[1][0][(1, 2)];
+        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
+        let _a4_3 = matrix.0[1][1][(1, 0)];
+        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
+        let _a4_4 = matrix.0[1][1][(1, 1)];
+        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
+        let _a4_5 = matrix.0[1][1][(1, 2)];
+        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
+        let _a5_0 = matrix.0[1][0][(2, 0)];
+        let _a5_0 = _a5_0 * _a0_0;
+        let _a5_1 = matrix.0[1][0][(2, 1)];
+        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
+        let _a5_2 = matrix.0[1][0][(2, 2)];
+        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
+        let _a5_3 = matrix.0[1][1][(2, 0)];
+        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
+        let _a5_4 = matrix.0[1][1][(2, 1)];
+        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
+        let _a5_5 = matrix.0[1][1][(2, 2)];
+        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
+        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
+        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
+        let _a3_1 = _a3_1 * _a1_1;
+        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
+        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
+        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
+        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
+        let _a4_1 = _a4_1 * _a1_1;
+        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
+        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
+        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
+        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
+        let _a5_1 = _a5_1 * _a1_1;
+        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
+        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
+        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
+        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
+        let _a2_2 = S::one() / _a2_2;
+        let _a3_2 = _a3_2 * _a2_2;
+        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
+        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
+        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
+        let _a4_2 = _a4_2 * _a2_2;
+        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
+        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
+        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
+        let _a5_2 = _a5_2 * _a2_2;
+        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
+        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
+        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
+        let _a3_3 = S::one() / _a3_3;
+        let _a4_3 = _a4_3 * _a3_3;
+        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
+        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
+        let _a5_3 = _a5_3 * _a3_3;
+        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
+        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
+        let _a4_4 = S::one() / _a4_4;
+        let _a5_4 = _a5_4 * _a4_4;
+        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
+        let _a5_5 = S::one() / _a5_5;
+        matrix.0[0][0][(0, 0)] = _a0_0;
+        matrix.0[0][0][(1, 0)] = _a1_0;
+        matrix.0[0][0][(1, 1)] = _a1_1;
+        matrix.0[0][0][(1, 2)] = _a1_2;
+        matrix.0[0][1][(1, 0)] = _a1_3;
+        matrix.0[0][1][(1, 1)] = _a1_4;
+        matrix.0[0][1][(1, 2)] = _a1_5;
+        matrix.0[0][0][(2, 0)] = _a2_0;
+        matrix.0[0][0][(2, 1)] = _a2_1;
+        matrix.0[0][0][(2, 2)] = _a2_2;
+        matrix.0[0][1][(2, 0)] = _a2_3;
+        matrix.0[0][1][(2, 1)] = _a2_4;
+        matrix.0[0][1][(2, 2)] = _a2_5;
+        matrix.0[1][0][(0, 0)] = _a3_0;
+        matrix.0[1][0][(0, 1)] = _a3_1;
+        matrix.0[1][0][(0, 2)] = _a3_2;
+        matrix.0[1][1][(0, 0)] = _a3_3;
+        matrix.0[1][1][(0, 1)] = _a3_4;
+        matrix.0[1][1][(0, 2)] = _a3_5;
+        matrix.0[1][0][(1, 0)] = _a4_0;
+        matrix.0[1][0][(1, 1)] = _a4_1;
+        matrix.0[1][0][(1, 2)] = _a4_2;
+        matrix.0[1][1][(1, 0)] = _a4_3;
+        matrix.0[1][1][(1, 1)] = _a4_4;
+        matrix.0[1][1][(1, 2)] = _a4_5;
+        matrix.0[1][0][(2, 0)] = _a5_0;
+        matrix.0[1][0][(2, 1)] = _a5_1;
+        matrix.0[1][0][(2, 2)] = _a5_2;
+        matrix.0[1][1][(2, 0)] = _a5_3;
+        matrix.0[1][1][(2, 1)] = _a5_4;
+        matrix.0[1][1][(2, 2)] = _a5_5;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a0_0
+                .abs()
+                .max(_a1_1.abs())
+                .max(_a2_2.abs())
+                .max(_a3_3.abs())
+                .max(_a4_4.abs())
+                .max(_a5_5.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            2,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
+        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+            - factors.0[0][0][(2, 1)] * _b1;
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 0)] * _b0
+            - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
+            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
+            - factors.0[1][1][(1, 0)] * _b3;
+        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
+            - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
+            - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
+        let _b5 = _b5 * factors.0[1][1][(2, 2)];
+        let _b4 = (_b4 - factors.0[1][1][(1, 2)] * _b5) * factors.0[1][1][(1, 1)];
+        let _b3 = (_b3 - factors.0[1][1][(0, 1)] * _b4 - factors.0[1][1][(0, 2)] * _b5)
+            * factors.0[1][1][(0, 0)];
+        let _b2 = (_b2 - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][1][(2, 1)] * _b4
+            - factors.0[0][1][(2, 2)] * _b5) * factors.0[0][0][(2, 2)];
+        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][1][(1, 0)] * _b3
+            - factors.0[0][1][(1, 1)] * _b4 - factors.0[0][1][(1, 2)] * _b5)
+            * factors.0[0][0][(1, 1)];
+        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
+            - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
+            - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
+    }
+}
+
+/// Elimination of 9 rows in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct NonpolynomialSpinElimination3;
+impl NonpolynomialSpinElimination3 {
+    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
+        below: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8],
+            &[2, 3, 4, 5, 6, 7, 8],
+            &[3, 4, 5, 6, 7, 8],
+            &[4, 5, 6, 7, 8],
+            &[5, 6, 7, 8],
+            &[6, 7, 8],
+            &[7, 8],
+            &[8],
+            &[],
+        ],
+        right: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8],
+            &[2, 3, 4, 5, 6, 7, 8],
+            &[3, 4, 5, 6, 7, 8],
+            &[4, 5, 6, 7, 8],
+            &[5, 6, 7, 8],
+            &[6, 7, 8],
+            &[7, 8],
+            &[8],
+            &[],
+        ],
+    };
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
+> for NonpolynomialSpinElimination3 {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+    ) -> S::Mask {
+        Self::LIST.factor(matrix)
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            3,
+        >,
+    ) {
+        Self::LIST.solve(factors, vector);
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez>
+for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::DiscreteGradientStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::GonzalezGradient<S, Self>,
+        >,
+        NonpolynomialSpinElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gonzalez,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
+> for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::GonzalezGradient<S, Self>,
+        >,
+        NonpolynomialSpinElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::MeanValue>
+for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::DiscreteGradientStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+        >,
+        NonpolynomialSpinElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::MeanValue,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
+> for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+        >,
+        NonpolynomialSpinElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ItohAbe>
+for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::DiscreteGradientStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::ItohAbeGradient<S, Self>,
+        >,
+        NonpolynomialSpinElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ItohAbe,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
+> for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::ItohAbeGradient<S, Self>,
+        >,
+        NonpolynomialSpinElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<1>>
+for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::DiscreteGradientStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+        >,
+        NonpolynomialSpinElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<1>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
+for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 2>,
+        NonpolynomialSpinElimination2,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<2>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::CohenHairerStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
+for NonpolynomialSpinSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 3>,
+        NonpolynomialSpinElimination3,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<3>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::CohenHairerStep::new(self, h),
+        )
+    }
+}

@@ -1115,6 +1115,270 @@ impl<
     }
 }
 
+/// Elimination of 5 rows in a fixed order, 0 entries of fill-in: 33 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct TodaLatticeElimination1;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 5, 5>,
+    ::lie_runtime::__private::SVector<S, 5>,
+> for TodaLatticeElimination1 {
+    #[inline]
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 5, 5>) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_3 = matrix[(0, 3)];
+        let _a1_3 = matrix[(1, 3)];
+        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
+        let _a3_0 = matrix[(3, 0)];
+        let _a3_0 = _a3_0 * _a0_0;
+        let _a3_1 = matrix[(3, 1)];
+        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
+        let _a3_3 = matrix[(3, 3)];
+        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
+        let _a3_3 = S::one() / _a3_3;
+        let _a1_3 = _a1_3 * _a3_3;
+        let _a1_1 = _a1_1 - _a1_3 * _a3_1;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = matrix[(2, 1)];
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a1_2 = matrix[(1, 2)];
+        let _a2_2 = matrix[(2, 2)];
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a1_4 = matrix[(1, 4)];
+        let _a2_4 = matrix[(2, 4)];
+        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
+        let _a4_1 = matrix[(4, 1)];
+        let _a4_1 = _a4_1 * _a1_1;
+        let _a4_2 = matrix[(4, 2)];
+        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
+        let _a4_4 = matrix[(4, 4)];
+        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
+        let _a2_2 = S::one() / _a2_2;
+        let _a4_2 = _a4_2 * _a2_2;
+        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
+        let _a4_4 = S::one() / _a4_4;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        matrix[(1, 3)] = _a1_3;
+        matrix[(2, 1)] = _a2_1;
+        matrix[(2, 2)] = _a2_2;
+        matrix[(2, 4)] = _a2_4;
+        matrix[(3, 0)] = _a3_0;
+        matrix[(3, 1)] = _a3_1;
+        matrix[(3, 3)] = _a3_3;
+        matrix[(4, 1)] = _a4_1;
+        matrix[(4, 2)] = _a4_2;
+        matrix[(4, 4)] = _a4_4;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a0_0
+                .abs()
+                .max(_a3_3.abs())
+                .max(_a1_1.abs())
+                .max(_a2_2.abs())
+                .max(_a4_4.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 5, 5>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 5>,
+    ) {
+        let _b0 = vector[0];
+        let _b3 = vector[3] - factors[(3, 0)] * _b0;
+        let _b1 = vector[1] - factors[(1, 0)] * _b0 - factors[(1, 3)] * _b3;
+        let _b2 = vector[2] - factors[(2, 1)] * _b1;
+        let _b4 = vector[4] - factors[(4, 1)] * _b1 - factors[(4, 2)] * _b2;
+        let _b4 = _b4 * factors[(4, 4)];
+        let _b2 = (_b2 - factors[(2, 4)] * _b4) * factors[(2, 2)];
+        let _b1 = (_b1 - factors[(1, 2)] * _b2 - factors[(1, 4)] * _b4)
+            * factors[(1, 1)];
+        let _b3 = (_b3 - factors[(3, 1)] * _b1) * factors[(3, 3)];
+        let _b0 = (_b0 - factors[(0, 3)] * _b3 - factors[(0, 1)] * _b1)
+            * factors[(0, 0)];
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+        vector[3] = _b3;
+        vector[4] = _b4;
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez> for TodaLatticeSystem<S> {
+    type Equation<'a> = TodaLatticeMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gonzalez,
+        h: S,
+    ) -> Self::Equation<'a> {
+        TodaLatticeMidpoint::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
+> for TodaLatticeSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+        >,
+        TodaLatticeElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::MeanValue>
+for TodaLatticeSystem<S> {
+    type Equation<'a> = TodaLatticeMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::MeanValue,
+        h: S,
+    ) -> Self::Equation<'a> {
+        TodaLatticeMidpoint::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
+> for TodaLatticeSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+        >,
+        TodaLatticeElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::ItohAbe> for TodaLatticeSystem<S> {
+    type Equation<'a> = TodaLatticeMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::ItohAbe,
+        h: S,
+    ) -> Self::Equation<'a> {
+        TodaLatticeMidpoint::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
+> for TodaLatticeSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::OrbitEnergyStep<
+            'a,
+            S,
+            Self,
+            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+        >,
+        TodaLatticeElimination1,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<1>>
+for TodaLatticeSystem<S> {
+    type Equation<'a> = TodaLatticeMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<1>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        TodaLatticeMidpoint::new(self, h)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
+for TodaLatticeSystem<S> {
+    type Equation<'a> = TodaLatticeGauss4<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<2>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        TodaLatticeGauss4(::lie_runtime::generic::Gauss::new(self, h))
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
+for TodaLatticeSystem<S> {
+    type Equation<'a> = TodaLatticeGauss6<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::CohenHairer<3>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        TodaLatticeGauss6(::lie_runtime::generic::Gauss::new(self, h))
+    }
+}
+
 /// The flows of the pieces of H in `b1`, `b2`, `b3`, `a1`, `a2`.
 #[derive(Debug)]
 pub struct TodaLatticeSplitting<'a, S: ::lie_runtime::Scalar> {

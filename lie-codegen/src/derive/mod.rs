@@ -2,6 +2,7 @@
 
 mod cayley;
 mod coadjoint;
+mod discrete_gradient;
 mod field;
 mod kernel;
 mod midpoint;
@@ -45,6 +46,16 @@ pub(crate) enum Block {
     Unknown,
     /// The sum of the two ends of a step.
     Middle,
+    /// The difference of the two ends of a step.
+    Difference,
+    /// The difference divided by its length.
+    Direction,
+    /// Its first symbol: the inverse of that length.
+    Inverse,
+    /// Its first symbol: the correction of a gradient along the direction.
+    Correction,
+    /// How that correction depends on the end of the step.
+    Tilt,
 }
 
 impl Source {

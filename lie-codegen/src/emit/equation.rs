@@ -14,17 +14,17 @@ use crate::methods::{Choice, Retraction};
 use crate::schedule::{Program, Value};
 
 /// What distinguishes one fused equation from another.
-struct Form {
+pub(super) struct Form {
     /// Suffix of its type.
-    suffix: &'static str,
+    pub(super) suffix: &'static str,
     /// Label in the table of operation counts.
-    label: &'static str,
+    pub(super) label: &'static str,
     /// Its doc lines.
-    docs: &'static [&'static str],
+    pub(super) docs: &'static [&'static str],
     /// The factor of `h f(mu)` in the initial guess.
-    guess: TokenStream,
+    pub(super) guess: TokenStream,
     /// The retraction of a method of coadjoint form along `h grad H(u)`.
-    retraction: Option<&'static str>,
+    pub(super) retraction: Option<&'static str>,
 }
 
 impl Writer<'_> {
@@ -49,6 +49,7 @@ impl Writer<'_> {
                 generic.push(ident(name));
             }
         }
+        tokens.extend(self.energy(&mut generic));
         if !generic.is_empty() {
             let system = self.system_name();
             tokens.extend(quote! {
@@ -94,6 +95,14 @@ impl Writer<'_> {
     }
 
     fn fused_midpoint(&mut self) -> TokenStream {
+        let (equation, name) = self.midpoint_equation();
+        let method = quote! { ::lie_runtime::methods::ImplicitMidpoint };
+        let hook = self.implicit(&method, &name, &quote! { #name::new(self, h) });
+        quote! { #equation #hook }
+    }
+
+    /// The fused equation of the midpoint rule, and its name.
+    pub(super) fn midpoint_equation(&mut self) -> (TokenStream, Ident) {
         let kernels = self.source.midpoint_kernels();
         let form = Form {
             suffix: "Midpoint",
@@ -105,10 +114,7 @@ impl Writer<'_> {
             retraction: None,
         };
         let equation = self.fused(&form, &kernels);
-        let name = format_ident!("{}Midpoint", self.blueprint.name);
-        let method = quote! { ::lie_runtime::methods::ImplicitMidpoint };
-        let hook = self.implicit(&method, &name, &quote! { #name::new(self, h) });
-        quote! { #equation #hook }
+        (equation, format_ident!("{}Midpoint", self.blueprint.name))
     }
 
     fn fused_cayley(&mut self) -> TokenStream {
@@ -135,17 +141,17 @@ impl Writer<'_> {
     }
 
     /// The struct of a fused equation and its impl.
-    fn fused(&mut self, form: &Form, kernels: &[Kernel]) -> TokenStream {
+    pub(super) fn fused(&mut self, form: &Form, kernels: &[Kernel]) -> TokenStream {
         let mut step = Prepared::default();
         let n = self.source.dimension;
         let unknown = self.argument("unknown");
         let start = unknown.clone();
-        let place = move |name: &str| {
-            if name == "mu" {
-                quote! { self.base }
-            } else {
-                quote! { #start }
+        let place = move |name: &str| match name {
+            "mu" => quote! { self.base },
+            "inverse" => {
+                quote! { ::lie_runtime::generic::inverse_length(&self.base, #start) }
             }
+            _ => quote! { #start },
         };
         let mut methods = TokenStream::new();
         let mut elimination = Elimination::default();

@@ -13,6 +13,16 @@ use super::names::index;
 impl Writer<'_> {
     /// Gauss collocation with a number of stages.
     pub fn fused_gauss(&mut self, stages: usize) -> TokenStream {
+        let (equation, name) = self.gauss_equation(stages);
+        let method = format_ident!("Gauss{}", 2 * stages);
+        let method = quote! { ::lie_runtime::methods::#method };
+        let value = quote! { #name(::lie_runtime::generic::Gauss::new(self, h)) };
+        let hook = self.implicit(&method, &name, &value);
+        quote! { #equation #hook }
+    }
+
+    /// The equation of Gauss collocation, and its name.
+    pub(super) fn gauss_equation(&mut self, stages: usize) -> (TokenStream, Ident) {
         let n = self.source.dimension;
         let field = self.source.field_of_h();
         let slopes = self.source.jacobian_of(&field);
@@ -60,10 +70,71 @@ impl Writer<'_> {
         );
         let visibility = &self.blueprint.visibility;
         let table = table(&name, &elimination);
-        let method = format_ident!("Gauss{}", 2 * stages);
-        let method = quote! { ::lie_runtime::methods::#method };
-        let value = quote! { #name(::lie_runtime::generic::Gauss::new(self, h)) };
+        let equation = quote! {
+            #[doc = #doc]
+            #[derive(Debug)]
+            #visibility struct #name<'a, S: ::lie_runtime::Scalar>(#inner);
+
+            #table
+
+            impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for #name<'a, S> {
+                type State = <#inner as ::lie_runtime::Equation<S>>::State;
+                type Unknown = <#inner as ::lie_runtime::Equation<S>>::Unknown;
+                type Matrix = <#inner as ::lie_runtime::Equation<S>>::Matrix;
+                #methods
+            }
+        };
+        (equation, name)
+    }
+
+    /// The retraction method with the exponential.
+    pub fn fused_exp(&mut self) -> TokenStream {
+        let system = self.system_name();
+        let hessian = self.source.hessian_of_h();
+        let hessian: Vec<Vec<bool>> = hessian
+            .iter()
+            .map(|row| row.iter().map(|e| !self.source.graph.is_zero(*e)).collect())
+            .collect();
+        let pattern = self.exp_pattern(&hessian);
+        let name = format_ident!("{}ExpMidpoint", self.blueprint.name);
+        let equation = self.eliminated(
+            &name,
+            "The retraction method with the exponential",
+            "lie-midpoint exp elimination",
+            &quote! { ::lie_runtime::generic::ExpMidpoint<'a, S, #system<S>> },
+            &pattern,
+        );
+        let method = quote! {
+            ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>
+        };
+        let value = quote! { #name(::lie_runtime::generic::ExpMidpoint::new(self, h)) };
         let hook = self.implicit(&method, &name, &value);
+        quote! { #equation #hook }
+    }
+
+    /// A generic equation whose unknown is a state, with an elimination of its own.
+    pub(super) fn eliminated(
+        &mut self,
+        name: &Ident,
+        doc: &str,
+        label: &str,
+        inner: &TokenStream,
+        pattern: &[(usize, usize)],
+    ) -> TokenStream {
+        let n = self.source.dimension;
+        let unit = (0..n)
+            .filter(|i| !pattern.iter().any(|(row, _)| row == i))
+            .collect();
+        let elimination = Elimination::new(n, pattern, &unit);
+        let matrix = |name: &str, i: usize, j: usize| super::equation::place(name, i, j);
+        let entry = |i: usize| {
+            let i = index(i);
+            quote! { residual[#i] }
+        };
+        let methods = self.specialised(label, &elimination, &matrix, &entry);
+        let visibility = &self.blueprint.visibility;
+        let table = table(name, &elimination);
+        let doc = format!(" {doc}, elimination specialised to the pattern of the system.");
         quote! {
             #[doc = #doc]
             #[derive(Debug)]
@@ -77,62 +148,13 @@ impl Writer<'_> {
                 type Matrix = <#inner as ::lie_runtime::Equation<S>>::Matrix;
                 #methods
             }
-
-            #hook
         }
     }
 
-    /// The retraction method with the exponential.
-    pub fn fused_exp(&mut self) -> TokenStream {
-        let system = self.system_name();
+    /// The pattern of `1 - d/dx[phi1(ad*_x) mu] S''` with the Hessian of S: what `ad*` reaches from
+    /// `Pi S''`.
+    pub(super) fn exp_pattern(&mut self, hessian: &[Vec<bool>]) -> Vec<(usize, usize)> {
         let n = self.source.dimension;
-        let pattern = self.exp_pattern();
-        let unit = (0..n)
-            .filter(|i| !pattern.iter().any(|(row, _)| row == i))
-            .collect();
-        let elimination = Elimination::new(n, &pattern, &unit);
-        let name = format_ident!("{}ExpMidpoint", self.blueprint.name);
-        let inner = quote! { ::lie_runtime::generic::ExpMidpoint<'a, S, #system<S>> };
-        let matrix = |name: &str, i: usize, j: usize| super::equation::place(name, i, j);
-        let entry = |i: usize| {
-            let i = index(i);
-            quote! { residual[#i] }
-        };
-        let methods = self.specialised(
-            "lie-midpoint exp elimination",
-            &elimination,
-            &matrix,
-            &entry,
-        );
-        let visibility = &self.blueprint.visibility;
-        let table = table(&name, &elimination);
-        let method = quote! {
-            ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>
-        };
-        let value = quote! { #name(::lie_runtime::generic::ExpMidpoint::new(self, h)) };
-        let hook = self.implicit(&method, &name, &value);
-        quote! {
-            #[doc = " The retraction method with the exponential, elimination specialised to the pattern of the system."]
-            #[derive(Debug)]
-            #visibility struct #name<'a, S: ::lie_runtime::Scalar>(#inner);
-
-            #table
-
-            impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for #name<'a, S> {
-                type State = <#inner as ::lie_runtime::Equation<S>>::State;
-                type Unknown = <#inner as ::lie_runtime::Equation<S>>::Unknown;
-                type Matrix = <#inner as ::lie_runtime::Equation<S>>::Matrix;
-                #methods
-            }
-
-            #hook
-        }
-    }
-
-    /// The pattern of `1 - h d/dx[phi1(ad*_x) mu] H''`: what `ad*` reaches from `Pi H''`.
-    fn exp_pattern(&mut self) -> Vec<(usize, usize)> {
-        let n = self.source.dimension;
-        let hessian = self.source.hessian_of_h();
         let constants = self.source.all_constants();
         let mut reach: Vec<BTreeSet<usize>> = (0..n).map(|i| BTreeSet::from([i])).collect();
         loop {
@@ -149,7 +171,7 @@ impl Writer<'_> {
         for &(a, b, _, _) in &constants {
             for (i, reached) in reach.iter().enumerate() {
                 if reached.contains(&b) {
-                    let columns = (0..n).filter(|&j| !self.source.graph.is_zero(hessian[a][j]));
+                    let columns = (0..n).filter(|&j| hessian[a][j]);
                     places.extend(columns.map(|j| (i, j)));
                 }
             }

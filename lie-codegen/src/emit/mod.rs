@@ -3,6 +3,7 @@
 //! The output is deterministic: the same system gives the same tokens, from a macro or from a spec.
 
 mod elimination;
+mod energy;
 mod equation;
 mod expression;
 mod fixed_order;

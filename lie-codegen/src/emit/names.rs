@@ -43,7 +43,12 @@ impl Writer<'_> {
                     0 => format_ident!("_xi_{}", self.blueprint.basis[index % n]),
                     1 => format_ident!("_eta_{}", self.blueprint.basis[index % n]),
                     2 => format_ident!("_u_{}", coordinate.to_string()),
-                    _ => format_ident!("_s_{}", coordinate.to_string()),
+                    3 => format_ident!("_s_{}", coordinate.to_string()),
+                    4 => format_ident!("_d_{}", coordinate.to_string()),
+                    5 => format_ident!("_e_{}", coordinate.to_string()),
+                    6 => format_ident!("_inverse_{}", coordinate.to_string()),
+                    7 => format_ident!("_along_{}", coordinate.to_string()),
+                    _ => format_ident!("_tilt_{}", coordinate.to_string()),
                 }
             }
         }

@@ -39,6 +39,8 @@ pub enum Owner {
     System,
     /// An equation of fixed step size; `self.system` is the system.
     Equation,
+    /// A function that is given the system as `_system`.
+    Argument,
 }
 
 impl Writer<'_> {
@@ -58,6 +60,7 @@ impl Writer<'_> {
         match owner {
             Owner::System => quote! { self.#name },
             Owner::Equation => quote! { self.system.#name },
+            Owner::Argument => quote! { _system.#name },
         }
     }
 

@@ -388,7 +388,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ENERGY,
         ANY,
         DG,
-    ),
+    )
+    .built(),
     planned(
         "mean-value",
         "mean-value discrete gradient",
@@ -397,7 +398,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ENERGY,
         ANY,
         DG,
-    ),
+    )
+    .built(),
     planned(
         "itoh-abe",
         "coordinate-increment discrete gradient",
@@ -406,7 +408,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ENERGY,
         ANY,
         DG,
-    ),
+    )
+    .built(),
     planned(
         "orbit-energy",
         "orbit- and energy-preserving",
@@ -415,7 +418,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ORBIT_ENERGY,
         ALGEBRA,
         EF,
-    ),
+    )
+    .built(),
     planned(
         "cohen-hairer2",
         "energy-preserving collocation",
@@ -424,7 +428,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ENERGY,
         ANY,
         CH,
-    ),
+    )
+    .built(),
     planned(
         "cohen-hairer4",
         "energy-preserving collocation",
@@ -433,7 +438,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ENERGY,
         ANY,
         CH,
-    ),
+    )
+    .built(),
     planned(
         "cohen-hairer6",
         "energy-preserving collocation",
@@ -442,7 +448,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ENERGY,
         ANY,
         CH,
-    ),
+    )
+    .built(),
 ];
 
 /// Ids that are kept for later and have no row in the table yet.

@@ -30,7 +30,7 @@ pub use cohen_hairer::CohenHairerStep;
 pub use coordinate_flows::{CoordinateFlows, piece_direction};
 pub use discrete_body::DiscreteBody;
 pub use discrete_gradient::{
-    DiscreteGradient, GonzalezGradient, ItohAbeGradient, MeanValueGradient,
+    DiscreteGradient, GonzalezGradient, ItohAbeGradient, MeanValueGradient, inverse_length,
 };
 pub use discrete_gradient_step::DiscreteGradientStep;
 pub use discrete_top::DiscreteTop;

@@ -16,8 +16,9 @@ use crate::state::State;
 /// `dH/dmu_i` along its edge; which form is taken decides the round-off of either, per lane and edge.
 ///
 /// Derivative: of the first quotient q in `y_j`, `(dH/dmu_j(w_i) - dH/dmu_j(w_(i-1)))/(y_i - x_i)` for
-/// `j < i`, `(dH/dmu_i(w_i) - q)/(y_i - x_i)` for `j = i`, and 0 for `j > i`; of the second alike. On an
-/// edge of length below the root of round-off, the Hessian at its middle.
+/// `j < i`, `(dH/dmu_i(w_i) - q)/(y_i - x_i)` for `j = i`, and 0 for `j > i`; of the second alike. These
+/// are means of the Hessian along the edge, and taken as such for a polynomial of known degree and on an
+/// edge whose length is below the root of round-off.
 #[derive(Clone, Debug)]
 pub struct ItohAbeGradient<S: Scalar, P: Poisson<S>> {
     increment: Increment<S>,
@@ -97,18 +98,19 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
         if differences {
             energy = system.hamiltonian(&self.corner);
         }
-        if derivative.is_some() {
+        if differences && derivative.is_some() {
             system.gradient(&self.corner, &mut self.before);
         }
         for index in 0..P::DIM {
             let (x, y) = (self.start.as_slice()[index], end.as_slice()[index]);
             let (from, to) = if there { (x, y) } else { (y, x) };
             let length = to - from;
-            let near = length.abs().less_equal(S::epsilon().sqrt() * self.size);
+            let short = S::epsilon().sqrt() * self.size;
+            let near = S::Mask::splat(!differences) | length.abs().less_equal(short);
             if let Some(matrix) = derivative.as_deref_mut()
                 && near.any()
             {
-                self.short_edge(system, index, from, length, path, near, matrix);
+                self.short_edge(system, index, (from, to), path, near, matrix);
             }
             let quotient = if differences {
                 let (quotient, after) = self.quotient(system, index, (from, to), energy);
@@ -119,7 +121,9 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
             };
             out.as_mut_slice()[index] += half * quotient;
             self.corner.as_mut_slice()[index] = to;
-            if let Some(matrix) = derivative.as_deref_mut() {
+            if let Some(matrix) = derivative.as_deref_mut()
+                && differences
+            {
                 system.gradient(&self.corner, &mut self.after);
                 if !near.all() {
                     let inverse = half / S::select(near, S::one(), length);
@@ -186,33 +190,45 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
         );
     }
 
-    /// The derivative on a short edge, from the Hessian at its middle.
+    /// The derivative on a short edge, from the Hessian: the mean along it where the quadrature is
+    /// exact, else the value at the middle.
     #[allow(clippy::too_many_arguments, reason = "the edge and where to write")]
     fn short_edge(
         &mut self,
         system: &P,
         index: usize,
-        from: S,
-        length: S,
+        (from, to): (S, S),
         path: Path,
         near: S::Mask,
         matrix: &mut P::Jacobian,
     ) {
         let half = S::ratio(1.0, 2.0);
-        self.corner.as_mut_slice()[index] = from + half * length;
-        system.hessian(&self.corner, &mut self.hessian);
-        self.corner.as_mut_slice()[index] = from;
-        let columns = if path == Path::There {
-            0..index
+        let there = path == Path::There;
+        let nodes = if self.increment.exact {
+            self.increment.rule(0).len()
         } else {
-            index + 1..P::DIM
+            1
         };
-        for column in columns {
-            let slope = half * self.hessian.get(index, column);
-            add(matrix, index, column, S::select(near, slope, S::zero()));
+        for node in 0..nodes {
+            let (offset, weight) = if self.increment.exact {
+                self.increment.rule(0).node(node)
+            } else {
+                (S::zero(), S::one())
+            };
+            self.corner.as_mut_slice()[index] = half * (from + to) + offset * (to - from);
+            system.hessian(&self.corner, &mut self.hessian);
+            let weight = half * weight;
+            // of the other coordinates those that are y on this edge
+            let columns = if there { 0..index } else { index + 1..P::DIM };
+            for column in columns {
+                let slope = weight * self.hessian.get(index, column);
+                add(matrix, index, column, S::select(near, slope, S::zero()));
+            }
+            let share = half + if there { offset } else { -offset };
+            let slope = weight * share * self.hessian.get(index, index);
+            add(matrix, index, index, S::select(near, slope, S::zero()));
         }
-        let slope = S::ratio(1.0, 4.0) * self.hessian.get(index, index);
-        add(matrix, index, index, S::select(near, slope, S::zero()));
+        self.corner.as_mut_slice()[index] = from;
     }
 
     fn evaluate(

@@ -79,6 +79,12 @@ impl<S: Scalar> Rule<S> {
         self.quadrature.len()
     }
 
+    /// The place of a node, from -1/2 to 1/2, and its weight.
+    #[inline]
+    pub(super) fn node(&self, node: usize) -> (S, S) {
+        self.quadrature.node(node)
+    }
+
     /// The place of a node, from -1/2 to 1/2.
     #[inline]
     pub(super) fn offset(&self, node: usize) -> S {

@@ -1,0 +1,308 @@
+//! Methods that keep the energy, on the systems of `specs/`: fused against generic forms, single steps
+//! against reference values, and what they keep.
+
+#[path = "common/equations.rs"]
+#[allow(dead_code)]
+mod equations;
+#[path = "common/errors.rs"]
+#[allow(dead_code)]
+mod errors;
+#[macro_use]
+#[path = "common/systems.rs"]
+mod systems;
+#[path = "common/vectors.rs"]
+mod vectors;
+
+use equations::Comparison;
+use errors::Errors;
+use lie_runtime::diagnostics::{Drift, DriftMonitor};
+use lie_runtime::driver::integrate;
+use lie_runtime::generic::{
+    self, DiscreteGradientStep, GonzalezGradient, ItohAbeGradient, MeanValueGradient,
+    OrbitEnergyStep,
+};
+use lie_runtime::methods::{
+    CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6, Gonzalez, ImplicitMidpoint,
+    ImplicitStepper, ItohAbe, MeanValue, Method, OrbitEnergy, Rk4, Stepper,
+};
+use lie_runtime::newton::NewtonOptions;
+use lie_runtime::prelude::*;
+use lie_runtime::{Equation, Implicit, LiePoisson, Poisson, State};
+use systems::{
+    CotangentEulerArnold, Declared, FreeRigidBody, HeavyTop, Heisenberg, KirchhoffBody, ManakovTop,
+    NonpolynomialSpin, Pendulum, Random, Sl2Quadratic, Su3Quadratic, TodaLattice, distance, state,
+};
+use vectors::steps;
+
+/// The methods of this file, all of them.
+trait Energy<S: Scalar>:
+    LiePoisson<S>
+    + Implicit<S, Gonzalez>
+    + Implicit<S, MeanValue>
+    + Implicit<S, ItohAbe>
+    + Implicit<S, OrbitEnergy<Gonzalez>>
+    + Implicit<S, OrbitEnergy<MeanValue>>
+    + Implicit<S, OrbitEnergy<ItohAbe>>
+    + Implicit<S, CohenHairer<1>>
+    + Implicit<S, CohenHairer<2>>
+    + Implicit<S, CohenHairer<3>>
+{
+}
+
+impl<S: Scalar, P> Energy<S> for P where
+    P: LiePoisson<S>
+        + Implicit<S, Gonzalez>
+        + Implicit<S, MeanValue>
+        + Implicit<S, ItohAbe>
+        + Implicit<S, OrbitEnergy<Gonzalez>>
+        + Implicit<S, OrbitEnergy<MeanValue>>
+        + Implicit<S, OrbitEnergy<ItohAbe>>
+        + Implicit<S, CohenHairer<1>>
+        + Implicit<S, CohenHairer<2>>
+        + Implicit<S, CohenHairer<3>>
+{
+}
+
+/// Every fused equation against its generic form on random states.
+fn compare<D: Declared>(fused: &D::System<f64>, nudge: f64) -> Errors
+where
+    D::System<f64>: Energy<f64>,
+{
+    let reference = &D::declared::<f64>();
+    let (mut random, mut errors) = (Random(2018), Errors::new(nudge));
+    for _ in 0..20 {
+        let initial = D::initial::<f64>();
+        let near = initial.as_slice().iter();
+        let near: Vec<f64> = near.map(|x| x + 0.5 * random.number()).collect();
+        let mu = state(fused, &near);
+        let h = 0.1 * random.number();
+        let mut compare = Comparison {
+            mu: &mu,
+            random: &mut random,
+            errors: &mut errors,
+        };
+        let gonzalez = DiscreteGradientStep::<_, _, GonzalezGradient<_, _>>::new(reference, h);
+        let mean_value = DiscreteGradientStep::<_, _, MeanValueGradient<_, _>>::new(reference, h);
+        let itoh_abe = DiscreteGradientStep::<_, _, ItohAbeGradient<_, _>>::new(reference, h);
+        compare.run("gonzalez", fused.equation(&Gonzalez, h), gonzalez);
+        compare.run("mean-value", fused.equation(&MeanValue, h), mean_value);
+        compare.run("itoh-abe", fused.equation(&ItohAbe, h), itoh_abe);
+        let gonzalez = OrbitEnergyStep::<_, _, GonzalezGradient<_, _>>::new(reference, h);
+        let mean_value = OrbitEnergyStep::<_, _, MeanValueGradient<_, _>>::new(reference, h);
+        let itoh_abe = OrbitEnergyStep::<_, _, ItohAbeGradient<_, _>>::new(reference, h);
+        let method = OrbitEnergy::gonzalez();
+        compare.run("orbit gonzalez", fused.equation(&method, h), gonzalez);
+        let method = OrbitEnergy::mean_value();
+        compare.run("orbit mean-value", fused.equation(&method, h), mean_value);
+        let method = OrbitEnergy::itoh_abe();
+        compare.run("orbit itoh-abe", fused.equation(&method, h), itoh_abe);
+        // with one stage it runs on the equation of the mean value
+        let one = DiscreteGradientStep::<_, _, MeanValueGradient<_, _>>::new(reference, h);
+        compare.run(
+            "cohen-hairer2",
+            fused.equation(&CohenHairer2::new(), h),
+            one,
+        );
+        let two = generic::CohenHairerStep::<_, _, 2>::new(reference, h);
+        compare.run(
+            "cohen-hairer4",
+            fused.equation(&CohenHairer4::new(), h),
+            two,
+        );
+        let three = generic::CohenHairerStep::<_, _, 3>::new(reference, h);
+        compare.run(
+            "cohen-hairer6",
+            fused.equation(&CohenHairer6::new(), h),
+            three,
+        );
+    }
+    errors
+}
+
+fn fused_equals_generic<D: Declared>()
+where
+    D::System<f64>: Energy<f64>,
+{
+    let errors = compare::<D>(&D::declared::<f64>(), 0.0);
+    let (largest, name) = errors.largest();
+    println!("{}: largest error {largest:.1e} ({name})", D::FILE);
+    assert_eq!(errors.beyond_round_off(), [""; 0], "{}", D::FILE);
+}
+
+/// One step from the initial state.
+fn one_step<D: Declared>(
+    stepper: &mut impl Stepper<f64, State = <D::System<f64> as Poisson<f64>>::State>,
+) -> Vec<f64> {
+    let mut mu = D::initial::<f64>();
+    stepper.step(&mut mu, &mut ()).expect("the step converges");
+    mu.as_slice().to_vec()
+}
+
+fn check_steps<D: Declared, M, E>(
+    key: &str,
+    method: &M,
+    reference: impl Fn(&'static D::System<f64>, f64) -> E,
+) -> usize
+where
+    M: Method<f64, D::System<f64>>,
+    E: Equation<f64, State = <D::System<f64> as Poisson<f64>>::State>,
+    D::System<f64>: 'static,
+{
+    let system: &'static D::System<f64> = Box::leak(Box::new(D::declared::<f64>()));
+    let newton = NewtonOptions::default();
+    let expected = steps(D::FILE, key);
+    for (h, expected) in &expected {
+        let fused = one_step::<D>(&mut method.stepper(system, *h, &newton));
+        let zero = system.zero_state();
+        let plain = ImplicitStepper::new(reference(system, *h), zero, &newton);
+        let plain = one_step::<D>(&mut { plain });
+        let errors = [distance(&fused, expected), distance(&plain, expected)];
+        println!("{}: {key}, h = {h}: {errors:?}", D::FILE);
+        for error in errors {
+            assert!(error < 1e-15, "{key} of {}: {errors:?}", D::FILE);
+        }
+    }
+    expected.len()
+}
+
+/// Single steps against reference values, fused and generic; returns how many there were.
+fn reference_steps<D: Declared>() -> usize
+where
+    D::System<f64>: Energy<f64> + 'static,
+{
+    type Plain<'a, P, G> = DiscreteGradientStep<'a, f64, P, G>;
+    type Orbit<'a, P, G> = OrbitEnergyStep<'a, f64, P, G>;
+    type MidpointGradient<D> = GonzalezGradient<f64, <D as Declared>::System<f64>>;
+    type Mean<D> = MeanValueGradient<f64, <D as Declared>::System<f64>>;
+    check_steps::<D, _, _>("discrete_gradient_gonzalez", &Gonzalez, |system, h| {
+        Plain::<_, MidpointGradient<D>>::new(system, h)
+    }) + check_steps::<D, _, _>("discrete_gradient_mean_value", &MeanValue, |system, h| {
+        Plain::<_, Mean<D>>::new(system, h)
+    }) + check_steps::<D, _, _>(
+        "orbit_energy_gonzalez",
+        &OrbitEnergy::gonzalez(),
+        |system, h| Orbit::<_, MidpointGradient<D>>::new(system, h),
+    ) + check_steps::<D, _, _>(
+        "orbit_energy_mean_value",
+        &OrbitEnergy::mean_value(),
+        |system, h| Orbit::<_, Mean<D>>::new(system, h),
+    ) + check_steps::<D, _, _>("cohen_hairer_2", &CohenHairer4::new(), |system, h| {
+        generic::CohenHairerStep::<_, _, 2>::new(system, h)
+    })
+}
+
+/// Energy and Casimirs over a run.
+fn drift<D: Declared>(method: impl Method<f64, D::System<f64>>, h: f64, steps: u32) -> Drift {
+    let problem = Problem {
+        system: D::declared::<f64>(),
+        mu0: D::initial::<f64>(),
+        span: (0.0, h * f64::from(steps)),
+    };
+    let mut monitor = DriftMonitor::<f64>::new::<D::System<f64>>();
+    let options = Options::new(h).save(Save::Ends);
+    integrate(&problem, method, &options, &mut monitor).expect("every step converges");
+    monitor.drift().clone()
+}
+
+/// Energy and quadratic Casimirs; with orbits, every Casimir.
+fn kept<D: Declared>()
+where
+    D::System<f64>: Energy<f64>,
+{
+    const BOUND: f64 = 1e-13;
+    let degrees = <D::System<f64> as Poisson<f64>>::CASIMIR_DEGREES;
+    macro_rules! check {
+        ($method:expr, $orbit:expr) => {
+            let drift = drift::<D>($method, 0.05, 5000);
+            assert!(drift.energy.max < BOUND, "{}: {:?}", D::FILE, drift.energy);
+            for (index, casimir) in drift.casimirs.iter().enumerate() {
+                let quadratic = degrees
+                    .get(index)
+                    .copied()
+                    .flatten()
+                    .is_some_and(|d| d <= 2);
+                if $orbit || quadratic {
+                    assert!(casimir.max < BOUND, "{}: {casimir:?}", D::FILE);
+                }
+            }
+        };
+    }
+    check!(Gonzalez, false);
+    check!(MeanValue, false);
+    check!(ItohAbe, false);
+    check!(OrbitEnergy::gonzalez(), true);
+    check!(OrbitEnergy::itoh_abe(), true);
+    check!(CohenHairer4::new(), false);
+    check!(CohenHairer6::new(), false);
+    assert!(drift::<D>(Rk4, 0.05, 5000).energy.max > 100.0 * BOUND);
+}
+
+macro_rules! tests {
+    ($file:ident, $system:ident, $cayley:ident) => {
+        mod $file {
+            use super::$system;
+            #[test]
+            fn fused_equals_generic() {
+                super::fused_equals_generic::<$system>();
+            }
+            #[test]
+            fn reference_steps() {
+                // mean values and collocation are given only where H is a polynomial, collocation not
+                // for twelve coordinates
+                let count = super::reference_steps::<$system>();
+                let expected = match stringify!($file) {
+                    "so3_nonpolynomial" => 4,
+                    "so3_cotangent_euler_arnold" => 8,
+                    _ => 10,
+                };
+                assert_eq!(count, expected);
+            }
+            #[test]
+            fn energy_and_casimirs_are_kept() {
+                super::kept::<$system>();
+            }
+        }
+    };
+}
+
+each_system!(tests);
+
+/// Differences of 1e-9 are noticed by every comparison.
+#[test]
+fn every_comparison_notices_another_state() {
+    for errors in [
+        compare::<NonpolynomialSpin>(&NonpolynomialSpin::declared(), 1e-9),
+        compare::<Heisenberg>(&Heisenberg::declared(), 1e-9),
+        compare::<HeavyTop>(&HeavyTop::declared(), 1e-9),
+    ] {
+        let mut noticed = errors.beyond_round_off();
+        noticed.sort_unstable();
+        assert_eq!(noticed, errors.names());
+    }
+}
+
+/// On su(3) one Casimir is cubic: orbits keep it, the midpoint rule does not, nor do discrete gradients.
+#[test]
+fn orbits_keep_the_cubic_casimir_of_su3() {
+    const STEPS: u32 = 100_000;
+    let relative = |drift: &Drift| -> Vec<f64> {
+        let values = drift.casimirs.iter().chain([&drift.energy]);
+        values
+            .map(|invariant| invariant.relative().expect("not zero"))
+            .collect()
+    };
+    for kept in [
+        relative(&drift::<Su3Quadratic>(OrbitEnergy::gonzalez(), 0.1, STEPS)),
+        relative(&drift::<Su3Quadratic>(OrbitEnergy::itoh_abe(), 0.1, 10_000)),
+    ] {
+        println!("orbit-energy: {kept:?}");
+        assert!(kept.iter().all(|error| *error < 1e-12), "{kept:?}");
+    }
+    let lost = relative(&drift::<Su3Quadratic>(ImplicitMidpoint, 0.1, STEPS));
+    println!("midpoint: {lost:?}");
+    assert!(
+        lost[0] < 1e-12 && lost[2] < 1e-12,
+        "quadratic ones: {lost:?}"
+    );
+    assert!(lost[1] > 1e-5, "the cubic one: {lost:?}");
+}
