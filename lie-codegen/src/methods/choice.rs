@@ -91,7 +91,7 @@ impl Choice {
             message: format!("there is no method `{id}`"),
             help: match did_you_mean(id, known) {
                 Some(near) => format!("did you mean `{near}`? `lie methods` lists all of them"),
-                None => format!("the methods that are built: {}", built().join(", ")),
+                None => "`lie methods` lists them".into(),
             },
         })
     }
@@ -281,17 +281,9 @@ impl Choice {
     }
 }
 
-fn built() -> Vec<&'static str> {
-    CATALOGUE
-        .iter()
-        .filter(|m| m.availability == Availability::Built)
-        .map(|m| m.id)
-        .collect()
-}
-
 fn not_built(id: &str) -> Unusable {
     Unusable {
         message: format!("the method `{id}` is not built yet"),
-        help: format!("the methods that are built: {}", built().join(", ")),
+        help: "`lie methods` lists those that are built".into(),
     }
 }
