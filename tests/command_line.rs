@@ -68,7 +68,7 @@ fn values_are_exact_constants_with_their_own_kinds_of_mistakes() {
         ("--param I1=0", "domain"),
         ("--initial log(0),0,1", "number"),
         ("--method runge", "method"),
-        ("--method gonzalez", "method"),
+        ("--method variational2", "method"),
         ("--method compose4(rk4)", "method"),
     ] {
         let flag = option.split(' ').next().unwrap_or_default();

@@ -165,6 +165,17 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
         impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for #system<S> {
             fn triple(&self, _x: &Self::State, _z: &Self::State, _mu: &Self::State, _out: &mut Self::State) {}
         }
-        ::lie_runtime::generic_equations!([S: ::lie_runtime::Scalar] #system<S>, S: midpoint, gauss, exp, cayley);
+        impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for #system<S> {
+            type Lifted = #system<::lie_runtime::Dual<S>>;
+            fn lift(&self) -> Self::Lifted { #system { _scalar: ::core::marker::PhantomData } }
+        }
+        // whatever the method is
+        impl<S: ::lie_runtime::Scalar, M> ::lie_runtime::Implicit<S, M> for #system<S> {
+            type Equation<'a> = ::lie_runtime::generic::Midpoint<'a, S, Self> where Self: 'a;
+            fn equation<'a>(&'a self, _method: &M, h: S) -> Self::Equation<'a> {
+                ::lie_runtime::generic::Midpoint::new(self, h)
+            }
+        }
+        ::lie_runtime::generic_equations!([S: ::lie_runtime::Scalar] #system<S>, S: splitting);
     }
 }
