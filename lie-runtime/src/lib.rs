@@ -101,9 +101,12 @@ pub mod prelude {
         solve, solve_observed,
     };
     pub use crate::methods::{
-        CohenHairer2, CohenHairer4, CohenHairer6, Dopri5, Gauss4, Gauss6, Generating2, Generating4,
-        Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, ItohAbe, LieMidpoint,
-        MeanValue, Method, OrbitEnergy, Rk4, Stepper,
+        CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6,
+        CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, Dopri5, Gauss4, Gauss6,
+        Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint,
+        Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue,
+        Method, MoserVeselov, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme,
+        SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper,
     };
     pub use crate::newton::{Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]
