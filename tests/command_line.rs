@@ -163,7 +163,6 @@ fn options_of_the_spec_are_checked_at_their_place() {
 #[test]
 fn commands_to_come_say_so() {
     for name in [
-        "stress",
         "ensemble",
         "merge",
         "resume",

@@ -32,6 +32,8 @@ pub enum Command {
     Verify(Verify),
     /// Compares methods on a spec: the error at the end against the run time
     Bench(Bench),
+    /// Takes methods to the limits of steps, parameters and states, and through a long run
+    Stress(Stress),
     /// Lists the methods: order, what they preserve, what they need, reference
     Methods(Methods),
     /// Prints the JSON Schema of spec files
@@ -43,8 +45,6 @@ pub enum Command {
 /// Names that are kept for commands to come.
 #[derive(Debug, Subcommand)]
 pub enum Later {
-    #[command(hide = true)]
-    Stress(Anything),
     #[command(hide = true)]
     Ensemble(Anything),
     #[command(hide = true)]
@@ -63,7 +63,6 @@ impl Later {
     /// The name as it was typed.
     pub fn name(&self) -> &'static str {
         match self {
-            Later::Stress(_) => "stress",
             Later::Ensemble(_) => "ensemble",
             Later::Merge(_) => "merge",
             Later::Resume(_) => "resume",
@@ -268,6 +267,30 @@ pub struct Bench {
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
     /// Writes every measured point as CSV
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: Option<PathBuf>,
+}
+
+/// `lie stress`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Exit codes: 0 no claimed invariant is lost without a message, 1 one is, 2 invalid input, 130 Ctrl-C."
+)]
+pub struct Stress {
+    #[command(flatten)]
+    pub measured: Measured,
+    /// Steps of the long run
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "10000000",
+        allow_hyphen_values = true
+    )]
+    pub steps: String,
+    /// Draws a map of what happened
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
+    /// Writes every experiment as CSV
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
 }

@@ -27,6 +27,7 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
         Command::Expand(arguments) => expand::run(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Bench(arguments) => measure::bench::run(arguments),
+        Command::Stress(arguments) => measure::stress::run(arguments),
         Command::Verify(arguments) => measure::verify::run(arguments),
         Command::Methods(arguments) => methods::run(arguments),
         Command::Schema => schema::run(),
@@ -35,8 +36,8 @@ pub fn run(command: &Command) -> Result<u8, Failure> {
 }
 
 /// The commands that are built.
-pub const BUILT: [&str; 7] = [
-    "check", "expand", "run", "verify", "bench", "methods", "schema",
+pub const BUILT: [&str; 8] = [
+    "check", "expand", "run", "verify", "bench", "stress", "methods", "schema",
 ];
 
 fn not_built(later: &Later) -> Failure {

@@ -96,7 +96,7 @@ impl Frontier {
             (family, curve.order, curve.name.clone())
         });
         let scale = self.scale(&curves);
-        let front = front(&curves);
+        let front = front(&curves, self.floor);
         let height = TOP + scale.height + 70.0;
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" \
@@ -243,11 +243,14 @@ impl Frontier {
 }
 
 /// Which curves have a point that no point of another curve beats in both.
-fn front(curves: &[Curve]) -> Vec<bool> {
+fn front(curves: &[Curve], floor: f64) -> Vec<bool> {
     let of_catalogue = |curve: &&Curve| !curve.control;
     let on_front = |curve: &Curve| {
-        // errors of the size of the solution are no contest
-        let serious = curve.points.iter().filter(|point| point.1 < SERIOUS);
+        // errors of the size of the solution are no contest, nor are those that nobody knows
+        let serious = curve
+            .points
+            .iter()
+            .filter(|point| point.1 < SERIOUS && point.1 > floor);
         serious.into_iter().any(|&(seconds, error)| {
             let others = curves.iter().filter(of_catalogue);
             let others = others.filter(|other| other.name != curve.name);

@@ -20,6 +20,7 @@
 mod bins;
 mod draw;
 pub mod frontier;
+pub mod map;
 mod ticks;
 
 use std::io;

@@ -243,10 +243,10 @@ fn order_of(bed: &Bed, label: &str) -> Option<u32> {
     choice.entry().map(|method| method.order)
 }
 
-/// The name of a method without its order: the base of a composition and options belong to it.
+/// The name of a method without its order and options; the base of a composition belongs to it.
 fn family(label: &str) -> String {
-    let id = label.split(['(', ' ']).next().unwrap_or(label);
-    id.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned()
+    let id = label.split(' ').next().unwrap_or(label);
+    id.chars().filter(|c| !c.is_ascii_digit()).collect()
 }
 
 fn picture(bed: &Bed, until: f64, points: &[Point], reference: [f64; 2]) -> String {

@@ -98,15 +98,16 @@ pub fn all(model: &Model) -> Vec<Choice> {
     all
 }
 
-/// The same with one composition per order and base option at most: the default scheme.
+/// The same without the schemes of compositions and splittings that are not the default ones.
 pub fn fewer(model: &Model) -> Vec<Choice> {
+    let scheme = |choice: &Choice| {
+        let options = choice.options();
+        let found = options.iter().find(|(name, _)| *name == "composition");
+        found.map(|(_, value)| *value)
+    };
     let mut all = all(model);
-    all.retain(|choice| match choice {
-        Choice::Compose(..) => {
-            let default = Choice::from_id(&choice.id());
-            default.is_ok_and(|default| default.options()[0] == choice.options()[0])
-        }
-        _ => true,
+    all.retain(|choice| {
+        Choice::from_id(&choice.id()).is_ok_and(|default| scheme(&default) == scheme(choice))
     });
     all
 }
