@@ -3,9 +3,10 @@
 use lie_codegen::methods::{Availability, CATALOGUE, Method};
 use lie_runtime::methods::{
     CohenHairer2, CohenHairer4, CohenHairer6, CommutatorFree4, Compose4, Compose6, Compose8,
-    CrouchGrossman3, Dopri5, Facts, Gauss4, Gauss6, Gonzalez, ImplicitMidpoint, ItohAbe, LieEuler,
-    LieMidpoint, MeanValue, OrbitEnergy, Preserves, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Splitting1,
-    Splitting2, Splitting4, Splitting6, Splitting8,
+    CrouchGrossman3, Dopri5, Facts, Gauss4, Gauss6, Generating2, Generating4, Generating6,
+    GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, ItohAbe, LieEuler, LieMidpoint, MeanValue,
+    OrbitEnergy, Preserves, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Splitting1, Splitting2, Splitting4,
+    Splitting6, Splitting8,
 };
 
 fn agrees<F: Facts>(_: &F) -> &'static str {
@@ -88,6 +89,10 @@ fn facts_are_those_of_the_runtime() {
         agrees(&CohenHairer2::new()),
         agrees(&CohenHairer4::new()),
         agrees(&CohenHairer6::new()),
+        agrees(&Generating2::exp()),
+        agrees(&Generating4::exp()),
+        agrees(&Generating6::exp()),
+        agrees(&GeneratingSecondKind2),
         composition(&Compose4::new(LieMidpoint::exp())),
         composition(&Compose6::new(ImplicitMidpoint)),
         composition(&Compose8::new(LieMidpoint::cayley())),
@@ -95,6 +100,8 @@ fn facts_are_those_of_the_runtime() {
     assert_eq!(agrees(&LieMidpoint::cayley()), "lie-midpoint");
     assert_eq!(agrees(&OrbitEnergy::mean_value()), "orbit-energy");
     assert_eq!(agrees(&OrbitEnergy::itoh_abe()), "orbit-energy");
+    assert_eq!(agrees(&Generating2::cayley()), "generating2");
+    assert_eq!(agrees(&Generating4::cayley()), "generating4");
     built.sort_unstable();
     let rows = CATALOGUE
         .iter()

@@ -1329,8 +1329,8 @@ for PendulumCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
-        *xi *= self.h;
+        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
         ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
     }
 }
@@ -1559,6 +1559,10 @@ for PendulumSystem<S> {
     }
 }
 
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] PendulumSystem < S >, S : generating2, generating4,
+    generating6, second_kind, generating2_cayley, generating4_cayley
+);
 /// The flows of the pieces of H in `L`, `x`.
 #[derive(Debug)]
 pub struct PendulumSplitting<'a, S: ::lie_runtime::Scalar> {

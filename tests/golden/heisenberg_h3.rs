@@ -1090,8 +1090,8 @@ for HeisenbergCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
-        *xi *= self.h;
+        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
         ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
     }
 }
@@ -2360,3 +2360,8 @@ for HeisenbergSystem<S> {
         )
     }
 }
+
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] HeisenbergSystem < S >, S : generating2, generating4,
+    generating6, second_kind, generating2_cayley, generating4_cayley
+);

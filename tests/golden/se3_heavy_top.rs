@@ -1868,8 +1868,8 @@ for HeavyTopCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
-        *xi *= self.h;
+        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
         ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
     }
 }
@@ -2144,6 +2144,10 @@ for HeavyTopSystem<S> {
     }
 }
 
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : generating2, generating4,
+    generating6, second_kind, generating2_cayley, generating4_cayley
+);
 /// The flows of the pieces of H in `m1`, `m2`, `m3`, `g1`, `g2`, `g3`.
 #[derive(Debug)]
 pub struct HeavyTopSplitting<'a, S: ::lie_runtime::Scalar> {

@@ -1964,8 +1964,8 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
-        *xi *= self.h;
+        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
         ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
     }
 }
@@ -2353,3 +2353,8 @@ for KirchhoffBodySystem<S> {
         KirchhoffBodyGauss6(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
+
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] KirchhoffBodySystem < S >, S : generating2, generating4,
+    generating6, second_kind, generating2_cayley, generating4_cayley
+);

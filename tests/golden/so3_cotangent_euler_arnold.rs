@@ -5478,3 +5478,8 @@ for CotangentEulerArnoldSystem<S> {
         )
     }
 }
+
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] CotangentEulerArnoldSystem < S >, S : generating2,
+    generating4, generating6, second_kind
+);

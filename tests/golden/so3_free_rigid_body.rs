@@ -1647,8 +1647,8 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
-        *xi *= self.h;
+        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
         ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
     }
 }
@@ -1899,6 +1899,10 @@ for FreeRigidBodySystem<S> {
     }
 }
 
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : generating2, generating4,
+    generating6, second_kind, generating2_cayley, generating4_cayley
+);
 /// The flows of the pieces of H in `x`, `y`, `z`.
 #[derive(Debug)]
 pub struct FreeRigidBodySplitting<'a, S: ::lie_runtime::Scalar> {

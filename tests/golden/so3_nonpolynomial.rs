@@ -1347,8 +1347,8 @@ for NonpolynomialSpinCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
-        *xi *= self.h;
+        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
         ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
     }
 }
@@ -1938,3 +1938,8 @@ for NonpolynomialSpinSystem<S> {
         )
     }
 }
+
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] NonpolynomialSpinSystem < S >, S : generating2,
+    generating4, generating6, second_kind, generating2_cayley, generating4_cayley
+);

@@ -2158,8 +2158,8 @@ for ManakovTopCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
-        *xi *= self.h;
+        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
         ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
     }
 }
@@ -2545,6 +2545,10 @@ for ManakovTopSystem<S> {
     }
 }
 
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] ManakovTopSystem < S >, S : generating2, generating4,
+    generating6, second_kind, generating2_cayley, generating4_cayley
+);
 /// The flows of the pieces of H in `m12`, `m13`, `m14`, `m23`, `m24`, `m34`.
 #[derive(Debug)]
 pub struct ManakovTopSplitting<'a, S: ::lie_runtime::Scalar> {

@@ -2566,3 +2566,8 @@ for Su3QuadraticSystem<S> {
         Su3QuadraticGauss6(::lie_runtime::generic::Gauss::new(self, h))
     }
 }
+
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] Su3QuadraticSystem < S >, S : generating2, generating4,
+    generating6, second_kind
+);

@@ -1379,6 +1379,10 @@ for TodaLatticeSystem<S> {
     }
 }
 
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] TodaLatticeSystem < S >, S : generating2, generating4,
+    generating6, second_kind
+);
 /// The flows of the pieces of H in `b1`, `b2`, `b3`, `a1`, `a2`.
 #[derive(Debug)]
 pub struct TodaLatticeSplitting<'a, S: ::lie_runtime::Scalar> {

@@ -32,7 +32,12 @@ pub(super) fn triple(source: &mut Source) -> Kernel {
     )
 }
 
-fn triple_of(source: &mut Source, x: &[ExprId], z: &[ExprId], m: &[ExprId]) -> Vec<ExprId> {
+pub(super) fn triple_of(
+    source: &mut Source,
+    x: &[ExprId],
+    z: &[ExprId],
+    m: &[ExprId],
+) -> Vec<ExprId> {
     let mut terms: Vec<Vec<(ExprId, Rational)>> = vec![Vec::new(); source.dimension];
     for (a, b, c, d, value) in source.triple.clone().unwrap_or_default() {
         let term = source.graph.product(&[x[a], z[c], m[d]]);

@@ -4,10 +4,13 @@ mod cayley;
 mod coadjoint;
 mod discrete_gradient;
 mod field;
+mod generating;
 mod kernel;
 mod midpoint;
 mod splitting;
+mod tape;
 
+pub use generating::{Function, Generating};
 pub use kernel::{Argument, Kernel, Shape};
 pub use splitting::{PieceKernel, Update};
 
@@ -168,5 +171,19 @@ impl Source {
     pub fn splitting_kernels(&mut self) -> Option<Vec<PieceKernel>> {
         let pieces = self.pieces.clone()?;
         Some(splitting::kernels(self, &pieces))
+    }
+
+    /// Gradient and Hessian of a generating function; `None` where they swell.
+    pub fn generating_function(&mut self, generating: Generating) -> Option<Function> {
+        generating::function(self, generating)
+    }
+
+    /// Residual, Jacobian and result of the generating-function method with the Cayley map; `None`
+    /// without a triple product, or where they swell.
+    pub fn cayley_generating_kernels(&mut self, order: u32) -> Option<Vec<Kernel>> {
+        self.triple
+            .is_some()
+            .then(|| generating::cayley_kernels(self, order))
+            .flatten()
     }
 }

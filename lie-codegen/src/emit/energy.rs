@@ -337,6 +337,7 @@ impl Writer<'_> {
                     docs: names.docs,
                     guess: quote! { self.h },
                     retraction: None,
+                    function: "",
                 };
                 shared.tokens.extend(writer.fused(&form, &kernels));
                 return Known::fused(&format_ident!("{}{}", writer.blueprint.name, names.method));

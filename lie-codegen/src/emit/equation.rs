@@ -23,8 +23,10 @@ pub(super) struct Form {
     pub(super) docs: &'static [&'static str],
     /// The factor of `h f(mu)` in the initial guess.
     pub(super) guess: TokenStream,
-    /// The retraction of a method of coadjoint form along `h grad H(u)`.
+    /// The retraction of a method of coadjoint form.
     pub(super) retraction: Option<&'static str>,
+    /// The generic function whose gradient at the unknown is the group factor of such a method.
+    pub(super) function: &'static str,
 }
 
 impl Writer<'_> {
@@ -43,13 +45,19 @@ impl Writer<'_> {
             if choice == Choice::LieMidpoint(Retraction::Cayley) && self.source.triple.is_none() {
                 continue;
             }
-            if self.asked(&choice) {
+            // generating functions of order 2 run on these equations
+            let asked = match choice {
+                Choice::LieMidpoint(retraction) => self.asked(&Choice::Generating(2, retraction)),
+                _ => false,
+            };
+            if asked || self.asked(&choice) {
                 tokens.extend(self.fused_method(&choice));
             } else {
                 generic.push(ident(name));
             }
         }
         tokens.extend(self.energy(&mut generic));
+        tokens.extend(self.generating(&mut generic));
         if !generic.is_empty() {
             let system = self.system_name();
             tokens.extend(quote! {
@@ -112,6 +120,7 @@ impl Writer<'_> {
             ],
             guess: quote! { self.h },
             retraction: None,
+            function: "",
         };
         let equation = self.fused(&form, &kernels);
         (equation, format_ident!("{}Midpoint", self.blueprint.name))
@@ -130,6 +139,7 @@ impl Writer<'_> {
             ],
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
             retraction: Some("Cayley"),
+            function: "Generating2",
         };
         let equation = self.fused(&form, &kernels);
         let name = format_ident!("{}CayleyMidpoint", self.blueprint.name);
@@ -212,10 +222,11 @@ impl Writer<'_> {
         }
         methods.extend(self.elimination_methods(&elimination));
         if let Some(retraction) = form.retraction.map(ident) {
+            let function = ident(form.function);
             methods.extend(quote! {
                 fn group_factor(&mut self, unknown: &Self::State, xi: &mut Self::State) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-                    ::lie_runtime::Poisson::gradient(self.system, unknown, xi);
-                    *xi *= self.h;
+                    let mut function = ::lie_runtime::generic::#function::new(self.system, self.h);
+                    ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
                     ::core::option::Option::Some(::lie_runtime::methods::Retraction::#retraction)
                 }
             });

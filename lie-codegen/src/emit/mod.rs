@@ -8,6 +8,7 @@ mod equation;
 mod expression;
 mod fixed_order;
 mod function;
+mod generating;
 mod names;
 mod parameters;
 mod prepared;

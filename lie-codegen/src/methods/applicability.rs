@@ -10,26 +10,40 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
     if let Choice::Compose(_, _, base) = choice {
         return refusal(model, base);
     }
-    if let Choice::Splitting(order, _) = choice {
-        return separable::refusal(model, *order);
+    match choice {
+        Choice::Splitting(order, _) => separable::refusal(model, *order),
+        Choice::Generating(6, Retraction::Cayley) => Some((
+            "the generating function of order 6 is known in exponential coordinates, not in those \
+             of the Cayley map"
+                .into(),
+            "use `generating6` with `--retraction exp`, or `generating4` with `--retraction cayley`"
+                .into(),
+        )),
+        Choice::LieMidpoint(Retraction::Cayley) | Choice::Generating(_, Retraction::Cayley) => {
+            cayley(model).map(|reason| {
+                let help = format!(
+                    "use `{}` with `--retraction exp`, which works for every Lie algebra",
+                    choice.id()
+                );
+                (reason.into(), help)
+            })
+        }
+        _ => None,
     }
-    let Choice::LieMidpoint(Retraction::Cayley) = choice else {
-        return None;
-    };
-    let reason = match &model.representation {
-        None => {
-            "the Cayley map needs a matrix representation, and the algebra declares no `matrices`"
-        }
-        Some(representation) if representation.triple.is_none() => {
+}
+
+/// Why a system has no Cayley map.
+fn cayley(model: &Model) -> Option<&'static str> {
+    match &model.representation {
+        None => Some(
+            "the Cayley map needs a matrix representation, and the algebra declares no `matrices`",
+        ),
+        Some(representation) if representation.triple.is_none() => Some(
             "the Cayley map needs a representation whose span is closed under (abc + cba)/2, \
-             and the declared `matrices` are not"
-        }
-        Some(_) => return None,
-    };
-    Some((
-        reason.into(),
-        "use `lie-midpoint` with `--retraction exp`, which works for every Lie algebra".into(),
-    ))
+             and the declared `matrices` are not",
+        ),
+        Some(_) => None,
+    }
 }
 
 /// The kind of the mistake to ask for a method of a system that cannot carry it.

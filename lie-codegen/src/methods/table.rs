@@ -4,6 +4,8 @@ use super::{Availability, Method, Preserves};
 
 const ANY: &str = "any Poisson system";
 const ALGEBRA: &str = "any Lie algebra";
+const RETRACTION: &str =
+    "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)";
 const CLOSED: &str = "a matrix representation closed under (abc + cba)/2";
 
 /// A row of the table; [`Method::built`] marks those that are built.
@@ -95,7 +97,7 @@ pub const CATALOGUE: &[Method] = &[
         2,
         [true, false],
         Preserves::POISSON,
-        "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)",
+        RETRACTION,
         MPS,
     )
     .built(),
@@ -237,18 +239,20 @@ pub const CATALOGUE: &[Method] = &[
         2,
         [true, false],
         Preserves::POISSON,
-        ALGEBRA,
+        RETRACTION,
         GM,
-    ),
+    )
+    .built(),
     planned(
         "generating4",
         "generating function",
         4,
         [true, false],
         Preserves::POISSON,
-        ALGEBRA,
+        RETRACTION,
         GM,
-    ),
+    )
+    .built(),
     planned(
         "generating6",
         "generating function",
@@ -257,7 +261,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::POISSON,
         ALGEBRA,
         GM,
-    ),
+    )
+    .built(),
     planned(
         "generating-second-kind2",
         "generating function, coordinates of the second kind",
@@ -266,7 +271,8 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::POISSON,
         ALGEBRA,
         GM,
-    ),
+    )
+    .built(),
     planned(
         "collective2",
         "collective symplectic",

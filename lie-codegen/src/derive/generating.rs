@@ -1,0 +1,355 @@
+//! Generating functions of Lie–Poisson steps and their derivatives.
+//!
+//! With `xi = grad H`, `X = ad*_xi p`, `X2 = ad*_xi X` and `w = H''(p) X`:
+//!
+//! - exp: `S3 = H''(X, X)/24` and, with `eta = 24 grad S3` and `Y = ad*_w p`,
+//!   `S5 = (-4 <X2 + 3 Y, eta> + 4 H''(X2, X2) + 12 H'''(X, X, X2) + 3 H''''(X, X, X, X))/5760`;
+//! - Cayley: `S3 = H''(X, X)/24 - <p, T(xi, xi, xi)>/12`;
+//! - coordinates of the second kind: `S2 = sum_(i<j) H_i H_j C_ji^k p_k/2`.
+//!
+//! The term `H''(X, ad*_eta p)` of S5 is written `<p, [eta, w]> = -<Y, eta>`.
+
+use super::field::mu;
+use super::tape::Tape;
+use super::{Argument, Block, Kernel, Source};
+use crate::exact::Rational;
+use crate::methods::Retraction;
+use crate::symbolic::{ExprId, Symbol};
+
+/// The generating function of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Generating {
+    /// In coordinates of the first kind by a retraction, to an order of 4 or 6.
+    First(Retraction, u32),
+    /// In coordinates of the second kind, order 2.
+    Second,
+}
+
+/// The gradient of S at p as definitions and results.
+struct Slope {
+    tape: Tape,
+    /// `grad S`, one quantity each.
+    entries: Vec<ExprId>,
+}
+
+fn rational(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator, denominator).unwrap_or(Rational::ONE)
+}
+
+/// `sum_i a_i b_i`
+fn dot(source: &mut Source, a: &[ExprId], b: &[ExprId]) -> ExprId {
+    let terms: Vec<ExprId> = a
+        .iter()
+        .zip(b)
+        .map(|(a, b)| source.graph.mul(*a, *b))
+        .collect();
+    source.graph.sum(&terms)
+}
+
+/// The derivatives of functions of the coordinates along a vector of opaque quantities.
+fn along(
+    source: &mut Source,
+    tape: &mut Tape,
+    functions: &[ExprId],
+    direction: &[ExprId],
+) -> Vec<ExprId> {
+    functions
+        .iter()
+        .map(|function| {
+            let slopes: Vec<ExprId> = (0..source.dimension)
+                .map(|i| tape.slope(source, *function, Symbol::Coordinate(i)))
+                .collect();
+            dot(source, &slopes, direction)
+        })
+        .collect()
+}
+
+/// `h^power/denominator`
+fn power_of_step(source: &mut Source, power: i64, denominator: i64) -> ExprId {
+    let h = source.graph.symbol(Symbol::Step);
+    let power = source.graph.pow(h, &Rational::from(power));
+    source.graph.scale(power, &rational(1, denominator))
+}
+
+/// The gradient of S.
+fn slope(source: &mut Source, generating: Generating) -> Slope {
+    let n = source.dimension;
+    // vectors of the algebra, the unknown and the midpoint have symbols of their own
+    let mut tape = Tape::new(4 * n);
+    let gradient = source.gradient_of_h();
+    let mut weighted: Vec<(ExprId, Vec<ExprId>)> = Vec::new();
+    let h = source.graph.symbol(Symbol::Step);
+    weighted.push((h, gradient.clone()));
+    match generating {
+        Generating::Second => {
+            let second = second_order(source, &mut tape);
+            let slope = tape.gradient(source, second);
+            weighted.push((power_of_step(source, 2, 2), slope));
+        }
+        Generating::First(retraction, order) => {
+            let field = source.field_of_h();
+            let x = tape.define_all(source, &field);
+            let w = along(source, &mut tape, &gradient, &x);
+            let w = tape.define_all(source, &w);
+            let mut third = dot(source, &w, &x);
+            if retraction == Retraction::Cayley {
+                let cubic = cubic_term(source, &mut tape);
+                third = source
+                    .graph
+                    .linear(&[(third, Rational::ONE), (cubic, Rational::from(-2))]);
+            }
+            let eta = tape.gradient(source, third);
+            let eta = tape.define_all(source, &eta);
+            weighted.push((power_of_step(source, 3, 24), eta.clone()));
+            if order == 6 {
+                let fifth = fifth_order(source, &mut tape, &x, &w, &eta);
+                let slope = tape.gradient(source, fifth);
+                weighted.push((power_of_step(source, 5, 5760), slope));
+            }
+        }
+    }
+    let entries: Vec<ExprId> = (0..n)
+        .map(|i| {
+            let terms: Vec<ExprId> = weighted
+                .iter()
+                .map(|(weight, slope)| source.graph.mul(*weight, slope[i]))
+                .collect();
+            source.graph.sum(&terms)
+        })
+        .collect();
+    Slope { tape, entries }
+}
+
+/// `2 S2 = sum_(i<j) H_i H_j C_ji^k p_k`
+fn second_order(source: &mut Source, tape: &mut Tape) -> ExprId {
+    let gradient = source.gradient_of_h();
+    let xi = tape.define_all(source, &gradient);
+    let p = source.coordinates();
+    let mut terms = Vec::new();
+    for (i, j, k, value) in source.constants.clone() {
+        let term = source.graph.product(&[value, xi[i], xi[j], p[k]]);
+        terms.push((term, Rational::MINUS_ONE));
+    }
+    source.graph.linear(&terms)
+}
+
+/// `<p, T(xi, xi, xi)>` with `xi = grad H`
+fn cubic_term(source: &mut Source, tape: &mut Tape) -> ExprId {
+    let gradient = source.gradient_of_h();
+    let xi = tape.define_all(source, &gradient);
+    let p = source.coordinates();
+    let product = super::cayley::triple_of(source, &xi, &xi, &p);
+    dot(source, &xi, &product)
+}
+
+/// `5760 S5` in exponential coordinates, given X, w and `eta = 24 grad S3`.
+fn fifth_order(
+    source: &mut Source,
+    tape: &mut Tape,
+    x: &[ExprId],
+    w: &[ExprId],
+    eta: &[ExprId],
+) -> ExprId {
+    let gradient = source.gradient_of_h();
+    let p = source.coordinates();
+    let xi = tape.define_all(source, &gradient);
+    let x2 = source.ad_star_of(&xi, x);
+    let x2 = tape.define_all(source, &x2);
+    let y = source.ad_star_of(w, &p);
+    let moved: Vec<ExprId> = x2
+        .iter()
+        .zip(&y)
+        .map(|(x2, y)| {
+            source
+                .graph
+                .linear(&[(*x2, Rational::ONE), (*y, Rational::from(3))])
+        })
+        .collect();
+    let moved = tape.define_all(source, &moved);
+    let first = dot(source, &moved, eta);
+    let along_x2 = along(source, tape, &gradient, &x2);
+    let square = dot(source, &along_x2, &x2);
+    let once = along(source, tape, &gradient, x);
+    let twice = along(source, tape, &once, x);
+    let cubic = dot(source, &twice, &x2);
+    let thrice = along(source, tape, &twice, x);
+    let quartic = dot(source, &thrice, x);
+    source.graph.linear(&[
+        (first, Rational::from(-4)),
+        (square, Rational::from(4)),
+        (cubic, Rational::from(12)),
+        (quartic, Rational::from(3)),
+    ])
+}
+
+/// The kernels of a generating function.
+pub struct Function {
+    /// `grad S`.
+    pub gradient: Kernel,
+    /// `grad S` and the Hessian; `None` where it swells.
+    pub linearize: Option<Kernel>,
+    /// Whether each entry of the Hessian can be nonzero.
+    pub pattern: Vec<Vec<bool>>,
+}
+
+/// The largest arena from which a Hessian is written out, nodes and operands together; su(3) with
+/// the function of order 6 takes a third of it.
+const MOST_SCHEDULED: usize = 120_000;
+
+/// `grad S` and the Hessian of S; `None` where already the gradient swells.
+pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Function> {
+    let n = source.dimension;
+    let Slope { mut tape, entries } = slope(source, generating);
+    if tape.is_swollen() {
+        return None;
+    }
+    let p = Argument {
+        name: "p",
+        symbols: mu(source).symbols,
+    };
+    let gradient = Kernel::vector(
+        &source.graph,
+        "gradient",
+        "`xi = grad S(p)`",
+        vec![p.clone()],
+        &entries,
+    )
+    .within_step(tape.definitions().to_vec());
+    let hessian = symmetric(tape.jacobian(source, &entries));
+    if tape.is_swollen() || source.graph.size() > MOST_SCHEDULED {
+        return Some(Function {
+            gradient,
+            linearize: None,
+            pattern: vec![vec![true; n]; n],
+        });
+    }
+    let linearize = Kernel::fused(
+        &source.graph,
+        "linearize",
+        "`xi = grad S(p)` and the Hessian of S",
+        vec![p],
+        &entries,
+        &hessian,
+    )
+    .within_step(tape.definitions().to_vec());
+    let pattern = hessian
+        .iter()
+        .map(|row| row.iter().map(|e| !source.graph.is_zero(*e)).collect())
+        .collect();
+    Some(Function {
+        gradient,
+        linearize: Some(linearize),
+        pattern,
+    })
+}
+
+/// The lower half as the mirror of the upper, so that each entry is computed once.
+fn symmetric(mut rows: Vec<Vec<ExprId>>) -> Vec<Vec<ExprId>> {
+    for i in 1..rows.len() {
+        let (above, below) = rows.split_at_mut(i);
+        for (entry, row) in below[0].iter_mut().zip(above.iter()) {
+            *entry = row[i];
+        }
+    }
+    rows
+}
+
+/// Residual, Jacobian and result of the method with the Cayley map, unknown p:
+/// `r(p) = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, `mu1 = mu + 2 ad*_y p`.
+/// `None` where their expressions swell.
+pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kernel>> {
+    let n = source.dimension;
+    let generating = Generating::First(Retraction::Cayley, order);
+    let Slope { mut tape, entries } = slope(source, generating);
+    let half = rational(1, 2);
+    let y: Vec<ExprId> = entries
+        .iter()
+        .map(|e| source.graph.scale(*e, &half))
+        .collect();
+    let y = tape.define_all(source, &y);
+    let p = source.coordinates();
+    let start = source.block(Block::Unknown);
+    let action = source.ad_star_of(&y, &p);
+    let square = super::cayley::triple_of(source, &y, &y, &p);
+    let residual: Vec<ExprId> = (0..n)
+        .map(|i| {
+            source.graph.linear(&[
+                (p[i], Rational::ONE),
+                (action[i], Rational::MINUS_ONE),
+                (square[i], Rational::MINUS_ONE),
+                (start[i], Rational::MINUS_ONE),
+            ])
+        })
+        .collect();
+    let result: Vec<ExprId> = (0..n)
+        .map(|i| {
+            source
+                .graph
+                .linear(&[(start[i], Rational::ONE), (action[i], Rational::from(2))])
+        })
+        .collect();
+    let values = tape.definitions().to_vec();
+    let rows = tape.jacobian(source, &residual);
+    let slopes = tape.definitions().to_vec();
+    if tape.is_swollen() || source.graph.size() > MOST_SCHEDULED {
+        return None;
+    }
+    // the list was made in the coordinates; the unknown has a block of its own
+    let arguments = vec![
+        mu(source),
+        Argument {
+            name: "unknown",
+            symbols: source.symbols(Block::Unknown),
+        },
+    ];
+    let mut exchange = |definitions: &[(Symbol, ExprId)]| -> Vec<(Symbol, ExprId)> {
+        definitions
+            .iter()
+            .map(|(symbol, value)| (*symbol, exchanged(source, &[*value])[0]))
+            .collect()
+    };
+    let (values, slopes) = (exchange(&values), exchange(&slopes));
+    let residual = exchanged(source, &residual);
+    let result = exchanged(source, &result);
+    let rows: Vec<Vec<ExprId>> = rows.iter().map(|row| exchanged(source, row)).collect();
+    let graph = &source.graph;
+    Some(vec![
+        Kernel::vector(
+            graph,
+            "residual",
+            "`r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`",
+            arguments.clone(),
+            &residual,
+        )
+        .within_step(values.clone()),
+        Kernel::fused(
+            graph,
+            "linearize",
+            "`r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`",
+            arguments.clone(),
+            &residual,
+            &rows,
+        )
+        .within_step(slopes),
+        Kernel::vector(
+            graph,
+            "result",
+            "`mu1 = mu + 2 ad*_y p`",
+            arguments,
+            &result,
+        )
+        .within_step(values),
+    ])
+}
+
+/// Coordinates and unknown exchanged.
+fn exchanged(source: &mut Source, expressions: &[ExprId]) -> Vec<ExprId> {
+    let (p, start) = (source.block(Block::Unknown), source.coordinates());
+    let unknown = source.symbols(Block::Unknown);
+    source
+        .graph
+        .substitute(expressions, &|symbol| match symbol {
+            Symbol::Coordinate(i) => Some(p[i]),
+            other => unknown.iter().position(|s| *s == other).map(|i| start[i]),
+        })
+}

@@ -1,0 +1,185 @@
+//! A function as a list of definitions, and its derivatives as further definitions.
+//!
+//! Derivatives of a composed function swell when they are written out in the coordinates. Here
+//! each intermediate quantity is a symbol; the chain rule runs along the list, backwards for the
+//! gradient of one result (adjoints), forwards for its derivative along a coordinate (tangents), and
+//! adds definitions whose number is proportional to that of the function.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::Source;
+use crate::symbolic::{ExprId, Node, Symbol};
+
+/// Definitions in order; each may use the coordinates and earlier ones.
+#[derive(Clone, Debug)]
+pub struct Tape {
+    definitions: Vec<(Symbol, ExprId)>,
+    known: HashMap<ExprId, ExprId>,
+    next: usize,
+    swollen: bool,
+}
+
+/// The largest arena that a list may fill, nodes and operands together.
+const MOST_DERIVED: usize = 300_000;
+
+impl Tape {
+    /// An empty list; `first` is the first symbol that no argument uses.
+    pub fn new(first: usize) -> Self {
+        Self {
+            definitions: Vec::new(),
+            known: HashMap::new(),
+            next: first,
+            swollen: false,
+        }
+    }
+
+    /// Whether a derivative was too large; the list then is of no use.
+    pub fn is_swollen(&self) -> bool {
+        self.swollen
+    }
+
+    /// The partial derivative of an expression; 0 and a note if it is too large.
+    pub fn slope(&mut self, source: &mut Source, value: ExprId, symbol: Symbol) -> ExprId {
+        let slope = source.graph.derivative_within(value, symbol, MOST_DERIVED);
+        self.swollen |= slope.is_none();
+        slope.unwrap_or_else(|| source.graph.integer(0))
+    }
+
+    /// The definitions.
+    pub fn definitions(&self) -> &[(Symbol, ExprId)] {
+        &self.definitions
+    }
+
+    /// The quantity as one symbol, which derivatives in the coordinates take for a constant. What does
+    /// not vary, or is such a symbol up to a factor, stays as it is.
+    pub fn define(&mut self, source: &mut Source, value: ExprId) -> ExprId {
+        let (_, bare) = source.graph.coefficient(value);
+        let symbols = source.graph.symbols(bare);
+        let varies = symbols
+            .iter()
+            .any(|s| matches!(s, Symbol::Coordinate(_) | Symbol::Input(_)));
+        if !varies || matches!(source.graph.node(bare), Node::Symbol(Symbol::Input(_))) {
+            return value;
+        }
+        if let Some(&known) = self.known.get(&value) {
+            return known;
+        }
+        let symbol = Symbol::Input(self.next);
+        self.next += 1;
+        self.definitions.push((symbol, value));
+        let id = source.graph.symbol(symbol);
+        self.known.insert(value, id);
+        id
+    }
+
+    /// Each entry as one symbol.
+    pub fn define_all(&mut self, source: &mut Source, values: &[ExprId]) -> Vec<ExprId> {
+        values.iter().map(|v| self.define(source, *v)).collect()
+    }
+
+    /// The gradient of a quantity in the coordinates, by adjoints.
+    pub fn gradient(&mut self, source: &mut Source, value: ExprId) -> Vec<ExprId> {
+        let mut adjoints: BTreeMap<Symbol, Vec<ExprId>> = BTreeMap::new();
+        let one = source.graph.integer(1);
+        self.spread(source, &mut adjoints, value, one);
+        for (symbol, definition) in self.definitions.clone().into_iter().rev() {
+            let Some(terms) = adjoints.remove(&symbol) else {
+                continue;
+            };
+            let adjoint = source.graph.sum(&terms);
+            if source.graph.is_zero(adjoint) {
+                continue;
+            }
+            let adjoint = self.define(source, adjoint);
+            self.spread(source, &mut adjoints, definition, adjoint);
+        }
+        (0..source.dimension)
+            .map(|i| {
+                let terms = adjoints.remove(&Symbol::Coordinate(i)).unwrap_or_default();
+                source.graph.sum(&terms)
+            })
+            .collect()
+    }
+
+    /// The derivatives of quantities along a coordinate, by tangents.
+    pub fn tangents(
+        &mut self,
+        source: &mut Source,
+        values: &[ExprId],
+        coordinate: usize,
+    ) -> Vec<ExprId> {
+        let mut tangents: HashMap<Symbol, ExprId> = HashMap::new();
+        let one = source.graph.integer(1);
+        tangents.insert(Symbol::Coordinate(coordinate), one);
+        for (symbol, definition) in self.definitions.clone() {
+            let tangent = self.tangent(source, &tangents, definition);
+            if !source.graph.is_zero(tangent) {
+                let tangent = self.define(source, tangent);
+                tangents.insert(symbol, tangent);
+            }
+        }
+        values
+            .iter()
+            .map(|value| self.tangent(source, &tangents, *value))
+            .collect()
+    }
+
+    /// The derivatives of quantities in all coordinates: `out[i][j]` of value i in coordinate j.
+    pub fn jacobian(&mut self, source: &mut Source, values: &[ExprId]) -> Vec<Vec<ExprId>> {
+        // tangents of tangents are not needed: each direction starts from the same list
+        let count = self.definitions.len();
+        let mut rows = vec![Vec::with_capacity(source.dimension); values.len()];
+        for j in 0..source.dimension {
+            let mut direction = Self {
+                definitions: self.definitions[..count].to_vec(),
+                known: std::mem::take(&mut self.known),
+                next: self.next,
+                swollen: self.swollen,
+            };
+            let column = direction.tangents(source, values, j);
+            self.next = direction.next;
+            self.known = direction.known;
+            self.swollen = direction.swollen;
+            self.definitions
+                .extend_from_slice(&direction.definitions[count..]);
+            for (row, entry) in rows.iter_mut().zip(column) {
+                row.push(entry);
+            }
+        }
+        rows
+    }
+
+    /// Adds `adjoint * d value/d symbol` to the adjoint of every symbol.
+    fn spread(
+        &mut self,
+        source: &mut Source,
+        adjoints: &mut BTreeMap<Symbol, Vec<ExprId>>,
+        value: ExprId,
+        adjoint: ExprId,
+    ) {
+        for symbol in source.graph.symbols(value) {
+            if matches!(symbol, Symbol::Coordinate(_) | Symbol::Input(_)) {
+                let slope = self.slope(source, value, symbol);
+                let term = source.graph.mul(slope, adjoint);
+                adjoints.entry(symbol).or_default().push(term);
+            }
+        }
+    }
+
+    /// `sum over symbols of d value/d symbol * tangent of the symbol`
+    fn tangent(
+        &mut self,
+        source: &mut Source,
+        tangents: &HashMap<Symbol, ExprId>,
+        value: ExprId,
+    ) -> ExprId {
+        let mut terms = Vec::new();
+        for symbol in source.graph.symbols(value) {
+            if let Some(&tangent) = tangents.get(&symbol) {
+                let slope = self.slope(source, value, symbol);
+                terms.push(source.graph.mul(slope, tangent));
+            }
+        }
+        source.graph.sum(&terms)
+    }
+}
