@@ -2,11 +2,12 @@
 
 use lie_codegen::methods::{Availability, CATALOGUE, Method};
 use lie_runtime::methods::{
-    CohenHairer2, CohenHairer4, CohenHairer6, CommutatorFree4, Compose4, Compose6, Compose8,
-    CrouchGrossman3, Dopri5, Facts, Gauss4, Gauss6, Generating2, Generating4, Generating6,
-    GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, ItohAbe, LieEuler, LieMidpoint, MeanValue,
-    OrbitEnergy, Preserves, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Splitting1, Splitting2, Splitting4,
-    Splitting6, Splitting8,
+    CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6,
+    CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, Dopri5, Facts, Gauss4, Gauss6,
+    Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint,
+    Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue,
+    MoserVeselov, OrbitEnergy, Preserves, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint,
+    Splitting1, Splitting2, Splitting4, Splitting6, Splitting8,
 };
 
 fn agrees<F: Facts>(_: &F) -> &'static str {
@@ -93,6 +94,14 @@ fn facts_are_those_of_the_runtime() {
         agrees(&Generating4::exp()),
         agrees(&Generating6::exp()),
         agrees(&GeneratingSecondKind2),
+        agrees(&Collective2::representation()),
+        agrees(&Collective4::hopf()),
+        agrees(&Collective6::hopf()),
+        agrees(&Isospectral2::new()),
+        agrees(&Isospectral4::new()),
+        agrees(&Isospectral6::new()),
+        agrees(&SphericalMidpoint),
+        agrees(&MoserVeselov),
         composition(&Compose4::new(LieMidpoint::exp())),
         composition(&Compose6::new(ImplicitMidpoint)),
         composition(&Compose8::new(LieMidpoint::cayley())),

@@ -10,7 +10,7 @@ use crate::emit::{Blueprint, Emitted, Parameter, emit};
 use crate::front::{Body, spec};
 use crate::methods::{Choice, refusal};
 use crate::model::Model;
-use crate::structure::separable;
+use crate::structure::{inertia, separable, spins};
 
 /// Reads and checks a spec file.
 ///
@@ -147,14 +147,19 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
 
 /// What the kernels of a model are derived from.
 pub fn source(model: &Model) -> Source {
+    let mut graph = model.graph.clone();
+    let body = inertia::body(model, &mut graph).ok();
     Source {
-        graph: model.graph.clone(),
+        graph,
         dimension: model.dimension(),
         constants: model.constants.entries().to_vec(),
         hamiltonian: model.hamiltonian,
         casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
         pieces: separable::pieces(model),
         triple: model.representation.as_ref().and_then(|r| r.triple.clone()),
+        matrices: model.representation.clone().filter(|r| r.dual.is_some()),
+        spins: spins::spins(model),
+        body,
     }
 }
 

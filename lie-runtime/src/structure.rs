@@ -29,6 +29,16 @@ impl Entry {
         }
     }
 
+    /// An entry of two parts: the f64 nearest to the value, and the rest.
+    pub const fn parts(row: u16, column: u16, high: f64, low: f64) -> Self {
+        Self {
+            row,
+            column,
+            high,
+            low,
+        }
+    }
+
     /// Row and column.
     #[inline(always)]
     pub(crate) fn place(&self) -> (usize, usize) {
@@ -91,6 +101,13 @@ pub struct Plane {
     pub from: u16,
     /// The axis that it is turned to.
     pub to: u16,
+}
+
+impl Plane {
+    /// The plane of two axes.
+    pub const fn new(from: u16, to: u16) -> Self {
+        Self { from, to }
+    }
 }
 
 /// The rigid body in n >= 4 dimensions: so(n) in the basis of planes of rotation, and

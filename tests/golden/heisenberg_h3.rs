@@ -297,6 +297,26 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeisenbergSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeisenbergSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+            &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
+            &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
+        ],
+        dual: &[
+            &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
+            &[::lie_runtime::__private::Entry::new(2, 1, 1.0)],
+            &[::lie_runtime::__private::Entry::new(2, 0, 1.0)],
+        ],
+        skew: false,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct HeisenbergMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -2363,5 +2383,6 @@ for HeisenbergSystem<S> {
 
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] HeisenbergSystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley
+    generating6, second_kind, generating2_cayley, generating4_cayley,
+    isospectral2_cayley, isospectral4, isospectral6
 );

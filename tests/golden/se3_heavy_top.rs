@@ -605,6 +605,50 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+            ],
+            &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+            &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+            &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+        ],
+        dual: &[
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+            ],
+            &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
+            &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
+            &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
+        ],
+        skew: false,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct HeavyTopMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -2146,7 +2190,8 @@ for HeavyTopSystem<S> {
 
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley
+    generating6, second_kind, generating2_cayley, generating4_cayley,
+    isospectral2_cayley, isospectral4, isospectral6
 );
 /// The flows of the pieces of H in `m1`, `m2`, `m3`, `g1`, `g2`, `g3`.
 #[derive(Debug)]

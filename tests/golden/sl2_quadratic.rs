@@ -345,6 +345,33 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for Sl2QuadraticSystem<S> 
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
+for Sl2QuadraticSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 2, 2>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[
+                ::lie_runtime::__private::Entry::new(0, 0, 1.0),
+                ::lie_runtime::__private::Entry::new(1, 1, -1.0),
+            ],
+            &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+            &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
+        ],
+        dual: &[
+            &[
+                ::lie_runtime::__private::Entry::new(0, 0, 0.5),
+                ::lie_runtime::__private::Entry::new(1, 1, -0.5),
+            ],
+            &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
+            &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+        ],
+        skew: false,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct Sl2QuadraticMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -1545,5 +1572,6 @@ for Sl2QuadraticSystem<S> {
 
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] Sl2QuadraticSystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley
+    generating6, second_kind, generating2_cayley, generating4_cayley,
+    isospectral2_cayley, isospectral4, isospectral6
 );

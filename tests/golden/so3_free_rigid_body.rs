@@ -399,6 +399,53 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for FreeRigidBodySystem<S>
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
+for FreeRigidBodySystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+            ],
+        ],
+        dual: &[
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+            ],
+        ],
+        skew: true,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for FreeRigidBodySystem<S> {
+    const SPINS: &'static [[usize; 3]] = &[[0, 1, 2]];
+    #[inline]
+    fn scale(&self, _spin: usize) -> S {
+        S::one()
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct FreeRigidBodyMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -1901,7 +1948,8 @@ for FreeRigidBodySystem<S> {
 
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley
+    generating6, second_kind, generating2_cayley, generating4_cayley,
+    isospectral2_cayley, isospectral4, isospectral6, hopf, spherical, moser_veselov
 );
 /// The flows of the pieces of H in `x`, `y`, `z`.
 #[derive(Debug)]

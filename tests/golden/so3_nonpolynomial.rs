@@ -383,6 +383,54 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for NonpolynomialSpinSyste
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
+for NonpolynomialSpinSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+            ],
+        ],
+        dual: &[
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+            ],
+        ],
+        skew: true,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S>
+for NonpolynomialSpinSystem<S> {
+    const SPINS: &'static [[usize; 3]] = &[[0, 1, 2]];
+    #[inline]
+    fn scale(&self, _spin: usize) -> S {
+        S::one()
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct NonpolynomialSpinMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -1941,5 +1989,6 @@ for NonpolynomialSpinSystem<S> {
 
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] NonpolynomialSpinSystem < S >, S : generating2,
-    generating4, generating6, second_kind, generating2_cayley, generating4_cayley
+    generating4, generating6, second_kind, generating2_cayley, generating4_cayley,
+    isospectral2_cayley, isospectral4, isospectral6, hopf, spherical
 );

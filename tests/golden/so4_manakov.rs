@@ -101,6 +101,10 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
         let _c29 = -_t17;
         let _c30 = -_t18;
         let _c31 = -_t19;
+        let _c32 = self.J1;
+        let _c33 = self.J2;
+        let _c34 = self.J3;
+        let _c35 = self.J4;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "J1", "1/(2*(J1 + J2))"),
@@ -135,6 +139,10 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
                 (_c29, "J1", "-1/(J1 + J2) + 1/(J1 + J4)"),
                 (_c30, "J1", "-1/(J1 + J3) + 1/(J1 + J4)"),
                 (_c31, "J2", "-1/(J2 + J3) + 1/(J2 + J4)"),
+                (_c32, "J1", "J1"),
+                (_c33, "J2", "J2"),
+                (_c34, "J3", "J3"),
+                (_c35, "J4", "J4"),
             ],
         )?;
         ::core::result::Result::Ok(ManakovTopSystem {
@@ -171,6 +179,10 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
             _k29: _c29,
             _k30: _c30,
             _k31: _c31,
+            J1: _c32,
+            J2: _c33,
+            J3: _c34,
+            J4: _c35,
         })
     }
 
@@ -257,6 +269,14 @@ pub struct ManakovTopSystem<S = f64> {
     _k30: S,
     /// `-1/(J2 + J3) + 1/(J2 + J4)`
     _k31: S,
+    /// `J1`
+    J1: S,
+    /// `J2`
+    J2: S,
+    /// `J3`
+    J3: S,
+    /// `J4`
+    J4: S,
 }
 
 impl<S> ManakovTopSystem<S> {
@@ -721,6 +741,97 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for ManakovTopSystem<S> {
             _k29: _constant(self._k29),
             _k30: _constant(self._k30),
             _k31: _constant(self._k31),
+            J1: _constant(self.J1),
+            J2: _constant(self.J2),
+            J3: _constant(self.J3),
+            J4: _constant(self.J4),
+        }
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for ManakovTopSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 0, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+                ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+                ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+                ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+            ],
+        ],
+        dual: &[
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, 0.5),
+                ::lie_runtime::__private::Entry::new(2, 0, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 3, 0.5),
+                ::lie_runtime::__private::Entry::new(3, 0, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 3, 0.5),
+                ::lie_runtime::__private::Entry::new(3, 1, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(2, 3, 0.5),
+                ::lie_runtime::__private::Entry::new(3, 2, -0.5),
+            ],
+        ],
+        skew: true,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::InertiaPoisson<S> for ManakovTopSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
+    const PLANES: &'static [::lie_runtime::__private::Plane] = &[
+        ::lie_runtime::__private::Plane::new(0, 1),
+        ::lie_runtime::__private::Plane::new(0, 2),
+        ::lie_runtime::__private::Plane::new(0, 3),
+        ::lie_runtime::__private::Plane::new(1, 2),
+        ::lie_runtime::__private::Plane::new(1, 3),
+        ::lie_runtime::__private::Plane::new(2, 3),
+    ];
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+
+    #[inline]
+    fn moment(&self, axis: usize) -> S {
+        match axis {
+            0 => self.J1,
+            1 => self.J2,
+            2 => self.J3,
+            _ => self.J4,
         }
     }
 }
@@ -2547,7 +2658,8 @@ for ManakovTopSystem<S> {
 
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] ManakovTopSystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley
+    generating6, second_kind, generating2_cayley, generating4_cayley,
+    isospectral2_cayley, isospectral4, isospectral6, moser_veselov_n
 );
 /// The flows of the pieces of H in `m12`, `m13`, `m14`, `m23`, `m24`, `m34`.
 #[derive(Debug)]

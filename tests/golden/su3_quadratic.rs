@@ -697,6 +697,181 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for Su3QuadraticSystem<S> 
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
+for Su3QuadraticSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 6, 6>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, 1.0),
+                ::lie_runtime::__private::Entry::new(1, 0, -1.0),
+                ::lie_runtime::__private::Entry::new(3, 4, 1.0),
+                ::lie_runtime::__private::Entry::new(4, 3, -1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 4, -1.0),
+                ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+                ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+                ::lie_runtime::__private::Entry::new(4, 0, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ::lie_runtime::__private::Entry::new(3, 5, 1.0),
+                ::lie_runtime::__private::Entry::new(5, 3, -1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 5, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+                ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+                ::lie_runtime::__private::Entry::new(5, 0, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, 1.0),
+                ::lie_runtime::__private::Entry::new(2, 1, -1.0),
+                ::lie_runtime::__private::Entry::new(4, 5, 1.0),
+                ::lie_runtime::__private::Entry::new(5, 4, -1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 5, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 4, -1.0),
+                ::lie_runtime::__private::Entry::new(4, 2, 1.0),
+                ::lie_runtime::__private::Entry::new(5, 1, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+                ::lie_runtime::__private::Entry::new(1, 4, 1.0),
+                ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+                ::lie_runtime::__private::Entry::new(4, 1, -1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 4, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 5, 1.0),
+                ::lie_runtime::__private::Entry::new(4, 1, 1.0),
+                ::lie_runtime::__private::Entry::new(5, 2, -1.0),
+            ],
+        ],
+        dual: &[
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, -0.25),
+                ::lie_runtime::__private::Entry::new(1, 0, 0.25),
+                ::lie_runtime::__private::Entry::new(3, 4, -0.25),
+                ::lie_runtime::__private::Entry::new(4, 3, 0.25),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 4, 0.25),
+                ::lie_runtime::__private::Entry::new(1, 3, 0.25),
+                ::lie_runtime::__private::Entry::new(3, 1, -0.25),
+                ::lie_runtime::__private::Entry::new(4, 0, -0.25),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, -0.25),
+                ::lie_runtime::__private::Entry::new(2, 0, 0.25),
+                ::lie_runtime::__private::Entry::new(3, 5, -0.25),
+                ::lie_runtime::__private::Entry::new(5, 3, 0.25),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 5, 0.25),
+                ::lie_runtime::__private::Entry::new(2, 3, 0.25),
+                ::lie_runtime::__private::Entry::new(3, 2, -0.25),
+                ::lie_runtime::__private::Entry::new(5, 0, -0.25),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, -0.25),
+                ::lie_runtime::__private::Entry::new(2, 1, 0.25),
+                ::lie_runtime::__private::Entry::new(4, 5, -0.25),
+                ::lie_runtime::__private::Entry::new(5, 4, 0.25),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 5, 0.25),
+                ::lie_runtime::__private::Entry::new(2, 4, 0.25),
+                ::lie_runtime::__private::Entry::new(4, 2, -0.25),
+                ::lie_runtime::__private::Entry::new(5, 1, -0.25),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::parts(
+                    0,
+                    3,
+                    0.3333333333333333,
+                    0.00000000000000001850371707708594,
+                ),
+                ::lie_runtime::__private::Entry::parts(
+                    1,
+                    4,
+                    -0.16666666666666666,
+                    -0.00000000000000000925185853854297,
+                ),
+                ::lie_runtime::__private::Entry::parts(
+                    2,
+                    5,
+                    -0.16666666666666666,
+                    -0.00000000000000000925185853854297,
+                ),
+                ::lie_runtime::__private::Entry::parts(
+                    3,
+                    0,
+                    -0.3333333333333333,
+                    -0.00000000000000001850371707708594,
+                ),
+                ::lie_runtime::__private::Entry::parts(
+                    4,
+                    1,
+                    0.16666666666666666,
+                    0.00000000000000000925185853854297,
+                ),
+                ::lie_runtime::__private::Entry::parts(
+                    5,
+                    2,
+                    0.16666666666666666,
+                    0.00000000000000000925185853854297,
+                ),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::parts(
+                    0,
+                    3,
+                    0.16666666666666666,
+                    0.00000000000000000925185853854297,
+                ),
+                ::lie_runtime::__private::Entry::parts(
+                    1,
+                    4,
+                    0.16666666666666666,
+                    0.00000000000000000925185853854297,
+                ),
+                ::lie_runtime::__private::Entry::parts(
+                    2,
+                    5,
+                    -0.3333333333333333,
+                    -0.00000000000000001850371707708594,
+                ),
+                ::lie_runtime::__private::Entry::parts(
+                    3,
+                    0,
+                    -0.16666666666666666,
+                    -0.00000000000000000925185853854297,
+                ),
+                ::lie_runtime::__private::Entry::parts(
+                    4,
+                    1,
+                    -0.16666666666666666,
+                    -0.00000000000000000925185853854297,
+                ),
+                ::lie_runtime::__private::Entry::parts(
+                    5,
+                    2,
+                    0.3333333333333333,
+                    0.00000000000000001850371707708594,
+                ),
+            ],
+        ],
+        skew: true,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 pub struct Su3QuadraticMidpoint<'a, S: ::lie_runtime::Scalar> {
@@ -2569,5 +2744,5 @@ for Su3QuadraticSystem<S> {
 
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] Su3QuadraticSystem < S >, S : generating2, generating4,
-    generating6, second_kind
+    generating6, second_kind, isospectral2, isospectral4, isospectral6
 );

@@ -3,6 +3,7 @@
 
 pub mod brackets;
 mod constants;
+mod envelope;
 pub mod jacobi;
 mod linear;
 pub mod rank;

@@ -2,7 +2,7 @@
 
 use super::linear::rational;
 use super::sparse::SparseMatrix;
-use super::{Scope, StructureConstants, triple};
+use super::{Scope, StructureConstants, envelope, triple};
 use crate::ast::{Algebra, Matrix};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::matrix::Span;
@@ -13,6 +13,9 @@ const MAX_ENTRIES: usize = 4_000_000;
 
 /// An entry `(a, b, c, d, T_abc^d)` of the triple product.
 pub type TripleEntry = (usize, usize, usize, usize, Rational);
+
+/// The triple product and the dual matrices of a [`Representation`].
+type Closures = (Option<Vec<TripleEntry>>, Option<Vec<Vec<Vec<Rational>>>>);
 
 /// A matrix representation of the algebra.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +28,10 @@ pub struct Representation {
     /// `(rho_a rho_b rho_c + rho_c rho_b rho_a)/2 = sum_d T_abc^d rho_d`, every nonzero entry,
     /// also both of `T_abc^d = T_cba^d`. Otherwise, and for dependent matrices, `None`.
     pub triple: Option<Vec<TripleEntry>>,
+    /// Dual matrices `D^k`, `tr(D^k rho_l) = delta_kl`, by rows, where the closure of the span under
+    /// `(abc + cba)/2` adds only matrices that commute with those of the representation; they pair to
+    /// zero with the latter. Otherwise, and for dependent matrices, `None`.
+    pub dual: Option<Vec<Vec<Vec<Rational>>>>,
 }
 
 /// The matrices as they were read, one for each basis element.
@@ -266,21 +273,29 @@ impl Matrices<'_> {
                 }
             }
         }
-        let triple = match Span::new(&self.flat()) {
-            Err(_) => None,
-            Ok(span) => triple::closure(&self.sparse, &span, budget).unwrap_or_else(|Exhausted| {
-                let message = "the matrices are too large to decide whether their span is closed under triple products; \
-                               the Cayley retraction is not available";
-                report.push(Diagnostic::new(Kind::Limit, self.declared[0].origin, message).help("choose a smaller representation").warning());
-                None
-            }),
-        };
+        let (triple, dual) = self.closures(budget).unwrap_or_else(|Exhausted| {
+            let message = "the matrices are too large to decide how their span is closed under triple products; \
+                           the Cayley retraction, collective and isospectral methods are not available";
+            report.push(Diagnostic::new(Kind::Limit, self.declared[0].origin, message).help("choose a smaller representation").warning());
+            (None, None)
+        });
         let matrices = self.sparse.iter().map(SparseMatrix::rows).collect();
         Some(Representation {
             dimension: self.dimension,
             matrices,
             triple,
+            dual,
         })
+    }
+
+    /// The triple product and the dual matrices, for independent matrices.
+    fn closures(&self, budget: &Budget) -> Result<Closures, Exhausted> {
+        let Ok(span) = Span::new(&self.flat()) else {
+            return Ok((None, None));
+        };
+        let triple = triple::closure(&self.sparse, &span, budget)?;
+        let dual = envelope::dual(&self.sparse, triple.is_some(), budget)?;
+        Ok((triple, dual))
     }
 
     /// The first entry of `[rho_i, rho_j] - C_ij^k rho_k` that is not zero.

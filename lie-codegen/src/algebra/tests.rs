@@ -253,3 +253,59 @@ fn a_change_of_basis_changes_nothing() {
         }
     }
 }
+
+/// The closure of the span may add matrices that commute with the representation, and no others.
+#[test]
+fn dual_matrices_exist_where_the_method_stays_on_the_orbit() {
+    let dual = |matrices: &[Vec<Vec<Rational>>]| {
+        let sparse: Vec<_> = matrices
+            .iter()
+            .map(|m| SparseMatrix::from_rows(m))
+            .collect();
+        let closed = triple(matrices).is_some();
+        // what is closed has the closure of any other
+        let found = envelope::dual(&sparse, closed, &budget()).unwrap();
+        assert_eq!(found, envelope::dual(&sparse, false, &budget()).unwrap());
+        found
+    };
+    let trace = |a: &[Vec<Rational>], b: &[Vec<Rational>]| {
+        let mut sum = Rational::ZERO;
+        for (i, row) in a.iter().enumerate() {
+            for (j, entry) in row.iter().enumerate() {
+                sum = &sum + &(entry * &b[j][i]);
+            }
+        }
+        sum
+    };
+    for matrices in [
+        known::so(4),
+        known::sl2(),
+        known::gl(2),
+        known::se3(),
+        known::sp(2),
+        known::su(3),
+        known::mixed(&known::su(3), 5),
+    ] {
+        let matrices = known::rationals(&matrices);
+        let dual = dual(&matrices).expect("it carries the method");
+        for (k, left) in dual.iter().enumerate() {
+            for (l, right) in matrices.iter().enumerate() {
+                assert_eq!(trace(left, right), Rational::from(i64::from(k == l)));
+            }
+        }
+    }
+    // su(3) closes to u(3): the dual matrices do not see the imaginary unit
+    let su3 = known::rationals(&known::su(3));
+    let size = su3[0].len();
+    let mut unit = vec![vec![Rational::ZERO; size]; size];
+    for k in 0..size / 2 {
+        unit[k][k + size / 2] = Rational::MINUS_ONE;
+        unit[k + size / 2][k] = Rational::ONE;
+    }
+    for matrix in dual(&su3).expect("su(3)") {
+        assert!(trace(&matrix, &unit).is_zero());
+    }
+    // the adjoint representation of su(3) closes to more
+    let constants = known::from_matrices(&known::su(3));
+    assert_eq!(dual(&known::adjoint(8, &constants)), None);
+}

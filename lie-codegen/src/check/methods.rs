@@ -24,10 +24,16 @@ pub fn check(model: &Model, report: &mut Report) {
 fn check_one(model: &Model, id: &str, origin: Origin, report: &mut Report) {
     let (kind, (message, help)) = match Choice::from_id(id) {
         Err(unusable) => (Kind::Method, (unusable.message, unusable.help)),
-        Ok(choice) => match refusal(model, &choice) {
-            Some(reason) => (kind_of_refusal(&choice), reason),
-            None => return,
-        },
+        // it is had with those of its options that apply
+        Ok(choice) => {
+            let refused = |choice: &Choice| refusal(model, choice).is_some();
+            match refusal(model, &choice) {
+                Some(reason) if choice.variants().iter().all(refused) => {
+                    (kind_of_refusal(&choice), reason)
+                }
+                _ => return,
+            }
+        }
     };
     report.push(Diagnostic::new(kind, origin, message).help(help));
 }

@@ -90,8 +90,11 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
             constants.map(Fraction::neg),
             algebra.representation.map(|mut representation| {
                 // The triple product of three matrices changes its sign with them.
-                for entry in representation.matrices.iter_mut().flatten().flatten() {
-                    *entry = -&*entry;
+                let dual = representation.dual.iter_mut().flatten();
+                for matrix in representation.matrices.iter_mut().chain(dual) {
+                    for entry in matrix.iter_mut().flatten() {
+                        *entry = -&*entry;
+                    }
                 }
                 representation
             }),

@@ -14,8 +14,10 @@ pub use generating::{Function, Generating};
 pub use kernel::{Argument, Kernel, Shape};
 pub use splitting::{PieceKernel, Update};
 
-use crate::algebra::TripleEntry;
+use crate::algebra::{Representation, TripleEntry};
+use crate::structure::inertia::Body;
 use crate::structure::separable::Piece;
+use crate::structure::spins::Spin;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// What the kernels are derived from.
@@ -36,6 +38,12 @@ pub struct Source {
     pub triple: Option<Vec<TripleEntry>>,
     /// The coordinate pieces of H, if it is a sum of functions of one coordinate each.
     pub pieces: Option<Vec<Piece>>,
+    /// The representation, where it carries collective methods.
+    pub matrices: Option<Representation>,
+    /// The summands of a direct sum of algebras so(3).
+    pub spins: Option<Vec<Spin>>,
+    /// The free rigid body that the system is.
+    pub body: Option<Body>,
 }
 
 /// Vector arguments of kernels besides the state; each has n symbols.

@@ -10,7 +10,7 @@ use super::elimination::{Elimination, UNROLLED};
 use super::names::{ident, index};
 use super::prepared::{Owner, Prepared, step_name};
 use crate::derive::{Kernel, Shape};
-use crate::methods::{Choice, Retraction};
+use crate::methods::{Choice, Lift, Retraction};
 use crate::schedule::{Program, Value};
 
 /// What distinguishes one fused equation from another.
@@ -45,9 +45,14 @@ impl Writer<'_> {
             if choice == Choice::LieMidpoint(Retraction::Cayley) && self.source.triple.is_none() {
                 continue;
             }
-            // generating functions of order 2 run on these equations
+            // generating functions of order 2 run on these equations, collective methods on the second
             let asked = match choice {
-                Choice::LieMidpoint(retraction) => self.asked(&Choice::Generating(2, retraction)),
+                Choice::LieMidpoint(retraction) => {
+                    self.asked(&Choice::Generating(2, retraction))
+                        || retraction == Retraction::Cayley
+                            && (self.asked(&Choice::Isospectral(2))
+                                || self.asked(&Choice::Collective(2, Lift::Representation)))
+                }
                 _ => false,
             };
             if asked || self.asked(&choice) {
@@ -58,6 +63,7 @@ impl Writer<'_> {
         }
         tokens.extend(self.energy(&mut generic));
         tokens.extend(self.generating(&mut generic));
+        tokens.extend(self.collective(&mut generic));
         if !generic.is_empty() {
             let system = self.system_name();
             tokens.extend(quote! {

@@ -2,6 +2,7 @@
 //!
 //! The output is deterministic: the same system gives the same tokens, from a macro or from a spec.
 
+mod collective;
 mod elimination;
 mod energy;
 mod equation;
@@ -13,6 +14,7 @@ mod names;
 mod parameters;
 mod prepared;
 mod splitting;
+mod structure;
 mod system;
 
 use proc_macro2::{Ident, TokenStream};
@@ -76,13 +78,14 @@ pub struct Emitted {
 pub fn emit(blueprint: &Blueprint) -> Emitted {
     let mut writer = Writer::new(blueprint);
     let basic = writer.system_impls();
+    let structure = writer.structure();
     let equations = writer.equations();
     let splitting = writer.splitting();
     let parameters = writer.parameters();
     let system = writer.system_struct();
     let lift = writer.lift();
     Emitted {
-        tokens: quote! { #parameters #system #basic #lift #equations #splitting },
+        tokens: quote! { #parameters #system #basic #lift #structure #equations #splitting },
         counts: writer.counts,
     }
 }

@@ -1,9 +1,9 @@
 //! Which methods a system can carry.
 
-use super::{Availability, CATALOGUE, Choice, Retraction};
+use super::{Availability, CATALOGUE, Choice, Lift, Retraction};
 use crate::diagnostic::Kind;
 use crate::model::Model;
-use crate::structure::separable;
+use crate::structure::{inertia, matrices, separable, spins};
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
 pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
@@ -28,6 +28,12 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
                 (reason.into(), help)
             })
         }
+        Choice::Collective(order, Lift::Representation) | Choice::Isospectral(order) => {
+            matrices::refusal(model, *order)
+        }
+        Choice::Collective(order, Lift::Hopf) => spins::refusal(model, Some(*order)),
+        Choice::SphericalMidpoint => spins::refusal(model, None),
+        Choice::MoserVeselov => inertia::refusal(model),
         _ => None,
     }
 }

@@ -6,7 +6,9 @@ const ANY: &str = "any Poisson system";
 const ALGEBRA: &str = "any Lie algebra";
 const RETRACTION: &str =
     "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)";
-const CLOSED: &str = "a matrix representation closed under (abc + cba)/2";
+const REDUCTIVE: &str =
+    "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
+const COLLECTIVE: &str = "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it; with --lift hopf a direct sum of algebras so(3)";
 
 /// A row of the table; [`Method::built`] marks those that are built.
 const fn planned(
@@ -50,6 +52,7 @@ const CMO: &str = "Celledoni, Marthinsen, Owren (2003), 10.1016/S0167-739X(02)00
 const MV: &str = "Moser, Veselov (1991), 10.1007/BF02352494";
 const GM: &str = "Ge, Marsden (1988), 10.1016/0375-9601(88)90773-6; Channell, Scovel (1991), 10.1016/0167-2789(91)90081-J";
 const MODIN: &str = "Modin, Viviani (2020), 10.1007/s10208-019-09428-w";
+const COLL: &str = "McLachlan, Modin, Verdier (2014), 10.1088/0951-7715/27/6/1525";
 const MMV: &str = "McLachlan, Modin, Verdier (2014), 10.1103/PhysRevE.89.061301";
 const MCL: &str = "McLachlan (1993), 10.1103/PhysRevLett.71.3043";
 const BM: &str = "McLachlan (1993), 10.1103/PhysRevLett.71.3043; Blanes, Moan (2002), 10.1016/S0377-0427(01)00492-7";
@@ -200,9 +203,10 @@ pub const CATALOGUE: &[Method] = &[
             energy: true,
             ..Preserves::POISSON
         },
-        "so(n) with H = sum M_ij^2/(2(J_i + J_j))",
+        "so(3) with a diagonal quadratic H, or so(n) with H = sum M_ij^2/(2(J_i + J_j))",
         MV,
-    ),
+    )
+    .built(),
     planned(
         "compose4",
         "composition of a symmetric method",
@@ -279,63 +283,70 @@ pub const CATALOGUE: &[Method] = &[
         2,
         [true, false],
         Preserves::POISSON,
-        CLOSED,
-        MMV,
-    ),
+        COLLECTIVE,
+        COLL,
+    )
+    .built(),
     planned(
         "collective4",
         "collective symplectic",
         4,
         [true, false],
         Preserves::POISSON,
-        CLOSED,
-        MMV,
-    ),
+        COLLECTIVE,
+        COLL,
+    )
+    .built(),
     planned(
         "collective6",
         "collective symplectic",
         6,
         [true, false],
         Preserves::POISSON,
-        CLOSED,
-        MMV,
-    ),
+        COLLECTIVE,
+        COLL,
+    )
+    .built(),
     planned(
         "isospectral2",
         "isospectral symplectic Runge–Kutta",
         2,
         [true, false],
         Preserves::POISSON,
-        CLOSED,
+        REDUCTIVE,
         MODIN,
-    ),
+    )
+    .built(),
     planned(
         "isospectral4",
         "isospectral symplectic Runge–Kutta",
         4,
         [true, false],
         Preserves::POISSON,
-        CLOSED,
+        REDUCTIVE,
         MODIN,
-    ),
+    )
+    .built(),
     planned(
         "isospectral6",
         "isospectral symplectic Runge–Kutta",
         6,
         [true, false],
         Preserves::POISSON,
-        CLOSED,
+        REDUCTIVE,
         MODIN,
-    ),
+    )
+    .built(),
     planned(
         "spherical-midpoint",
         "spherical midpoint",
         2,
         [true, false],
         Preserves::POISSON,
-        "so(3) factors",
+        "a direct sum of algebras so(3)",
         MMV,
-    ),
+    )
+    .built(),
     planned(
         "splitting1",
         "Lie–Trotter splitting",

@@ -1,4 +1,7 @@
 //! What a system has beyond the algebra and H: structure that some methods need.
 
+pub mod inertia;
+pub mod matrices;
 pub mod one_parameter;
 pub mod separable;
+pub mod spins;

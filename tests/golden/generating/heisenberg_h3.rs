@@ -297,6 +297,26 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeisenbergSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeisenbergSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+            &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
+            &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
+        ],
+        dual: &[
+            &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
+            &[::lie_runtime::__private::Entry::new(2, 1, 1.0)],
+            &[::lie_runtime::__private::Entry::new(2, 0, 1.0)],
+        ],
+        skew: false,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
 /// The generating function `S = h H + h^3 S3` in exponential coordinates.
 #[derive(Clone, Debug)]
 pub struct HeisenbergGenerating4<'a, S: ::lie_runtime::Scalar> {
@@ -1292,5 +1312,5 @@ impl<
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] HeisenbergSystem < S >, S : midpoint, gauss4, gauss6,
     exp, cayley, discrete_gradients, orbit_energy, cohen_hairer, generating2,
-    generating2_cayley
+    generating2_cayley, isospectral2_cayley, isospectral4, isospectral6
 );

@@ -891,6 +891,50 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+            ],
+            &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+            &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+            &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+        ],
+        dual: &[
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+            ],
+            &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
+            &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
+            &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
+        ],
+        skew: false,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
 /// The generating function `S = h H + h^3 S3` in exponential coordinates.
 #[derive(Clone, Debug)]
 pub struct HeavyTopGenerating4<'a, S: ::lie_runtime::Scalar> {
@@ -3712,7 +3756,7 @@ impl<
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : midpoint, gauss4, gauss6, exp,
     cayley, discrete_gradients, orbit_energy, cohen_hairer, generating2,
-    generating2_cayley
+    generating2_cayley, isospectral2_cayley, isospectral4, isospectral6
 );
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : splitting

@@ -481,6 +481,53 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for FreeRigidBodySystem<S>
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
+for FreeRigidBodySystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+            ],
+        ],
+        dual: &[
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+            ],
+        ],
+        skew: true,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for FreeRigidBodySystem<S> {
+    const SPINS: &'static [[usize; 3]] = &[[0, 1, 2]];
+    #[inline]
+    fn scale(&self, _spin: usize) -> S {
+        S::one()
+    }
+}
+
 /// The generating function `S = h H + h^3 S3` in exponential coordinates.
 #[derive(Clone, Debug)]
 pub struct FreeRigidBodyGenerating4<'a, S: ::lie_runtime::Scalar> {
@@ -1827,7 +1874,8 @@ impl<
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : midpoint, gauss4, gauss6,
     exp, cayley, discrete_gradients, orbit_energy, cohen_hairer, generating2,
-    generating2_cayley
+    generating2_cayley, isospectral2_cayley, isospectral4, isospectral6, hopf, spherical,
+    moser_veselov
 );
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : splitting

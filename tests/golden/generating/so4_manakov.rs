@@ -107,36 +107,40 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
         let _c29 = -_t17;
         let _c30 = -_t18;
         let _c31 = -_t19;
-        let _c32 = S::ratio(8.0, 1.0) / _t5;
-        let _c33 = S::ratio(8.0, 1.0) / _t3;
-        let _c34 = S::ratio(8.0, 1.0) / _t2;
-        let _c35 = S::ratio(8.0, 1.0) / _t0;
-        let _c36 = _t21 - _t20;
-        let _c37 = _t22 - _t23;
-        let _c38 = S::ratio(8.0, 1.0) / _t4;
-        let _c39 = S::ratio(8.0, 1.0) / _t1;
-        let _c40 = _t21 - _t22;
-        let _c41 = _t20 - _t23;
-        let _c42 = _t21 - _t24;
-        let _c43 = _t25 - _t23;
-        let _c44 = _t21 - _t25;
-        let _c45 = _t24 - _t23;
-        let _c46 = _t24 - _t20;
-        let _c47 = _t22 - _t25;
-        let _c48 = _t24 - _t22;
-        let _c49 = _t20 - _t25;
-        let _c50 = _t21;
-        let _c51 = S::ratio(2.0, 1.0) / _t0;
-        let _c52 = S::ratio(2.0, 1.0) / _t1;
-        let _c53 = _t24;
-        let _c54 = S::ratio(2.0, 1.0) / _t2;
-        let _c55 = _t22;
-        let _c56 = S::ratio(2.0, 1.0) / _t3;
-        let _c57 = _t20;
-        let _c58 = S::ratio(2.0, 1.0) / _t4;
-        let _c59 = _t25;
-        let _c60 = S::ratio(2.0, 1.0) / _t5;
-        let _c61 = _t23;
+        let _c32 = self.J1;
+        let _c33 = self.J2;
+        let _c34 = self.J3;
+        let _c35 = self.J4;
+        let _c36 = S::ratio(8.0, 1.0) / _t5;
+        let _c37 = S::ratio(8.0, 1.0) / _t3;
+        let _c38 = S::ratio(8.0, 1.0) / _t2;
+        let _c39 = S::ratio(8.0, 1.0) / _t0;
+        let _c40 = _t21 - _t20;
+        let _c41 = _t22 - _t23;
+        let _c42 = S::ratio(8.0, 1.0) / _t4;
+        let _c43 = S::ratio(8.0, 1.0) / _t1;
+        let _c44 = _t21 - _t22;
+        let _c45 = _t20 - _t23;
+        let _c46 = _t21 - _t24;
+        let _c47 = _t25 - _t23;
+        let _c48 = _t21 - _t25;
+        let _c49 = _t24 - _t23;
+        let _c50 = _t24 - _t20;
+        let _c51 = _t22 - _t25;
+        let _c52 = _t24 - _t22;
+        let _c53 = _t20 - _t25;
+        let _c54 = _t21;
+        let _c55 = S::ratio(2.0, 1.0) / _t0;
+        let _c56 = S::ratio(2.0, 1.0) / _t1;
+        let _c57 = _t24;
+        let _c58 = S::ratio(2.0, 1.0) / _t2;
+        let _c59 = _t22;
+        let _c60 = S::ratio(2.0, 1.0) / _t3;
+        let _c61 = _t20;
+        let _c62 = S::ratio(2.0, 1.0) / _t4;
+        let _c63 = _t25;
+        let _c64 = S::ratio(2.0, 1.0) / _t5;
+        let _c65 = _t23;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "J1", "1/(2*(J1 + J2))"),
@@ -171,36 +175,40 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
                 (_c29, "J1", "-1/(J1 + J2) + 1/(J1 + J4)"),
                 (_c30, "J1", "-1/(J1 + J3) + 1/(J1 + J4)"),
                 (_c31, "J2", "-1/(J2 + J3) + 1/(J2 + J4)"),
-                (_c32, "J3", "8/(J3 + J4)"),
-                (_c33, "J2", "8/(J2 + J3)"),
-                (_c34, "J1", "8/(J1 + J4)"),
-                (_c35, "J1", "8/(J1 + J2)"),
-                (_c36, "J1", "4/(J1 + J2) - 4/(J2 + J3)"),
-                (_c37, "J1", "4/(J1 + J4) - 4/(J3 + J4)"),
-                (_c38, "J2", "8/(J2 + J4)"),
-                (_c39, "J1", "8/(J1 + J3)"),
-                (_c40, "J1", "4/(J1 + J2) - 4/(J1 + J4)"),
-                (_c41, "J2", "4/(J2 + J3) - 4/(J3 + J4)"),
-                (_c42, "J1", "4/(J1 + J2) - 4/(J1 + J3)"),
-                (_c43, "J2", "4/(J2 + J4) - 4/(J3 + J4)"),
-                (_c44, "J1", "4/(J1 + J2) - 4/(J2 + J4)"),
-                (_c45, "J1", "4/(J1 + J3) - 4/(J3 + J4)"),
-                (_c46, "J1", "4/(J1 + J3) - 4/(J2 + J3)"),
-                (_c47, "J1", "4/(J1 + J4) - 4/(J2 + J4)"),
-                (_c48, "J1", "4/(J1 + J3) - 4/(J1 + J4)"),
-                (_c49, "J2", "4/(J2 + J3) - 4/(J2 + J4)"),
-                (_c50, "J1", "4/(J1 + J2)"),
-                (_c51, "J1", "2/(J1 + J2)"),
-                (_c52, "J1", "2/(J1 + J3)"),
-                (_c53, "J1", "4/(J1 + J3)"),
-                (_c54, "J1", "2/(J1 + J4)"),
-                (_c55, "J1", "4/(J1 + J4)"),
-                (_c56, "J2", "2/(J2 + J3)"),
-                (_c57, "J2", "4/(J2 + J3)"),
-                (_c58, "J2", "2/(J2 + J4)"),
-                (_c59, "J2", "4/(J2 + J4)"),
-                (_c60, "J3", "2/(J3 + J4)"),
-                (_c61, "J3", "4/(J3 + J4)"),
+                (_c32, "J1", "J1"),
+                (_c33, "J2", "J2"),
+                (_c34, "J3", "J3"),
+                (_c35, "J4", "J4"),
+                (_c36, "J3", "8/(J3 + J4)"),
+                (_c37, "J2", "8/(J2 + J3)"),
+                (_c38, "J1", "8/(J1 + J4)"),
+                (_c39, "J1", "8/(J1 + J2)"),
+                (_c40, "J1", "4/(J1 + J2) - 4/(J2 + J3)"),
+                (_c41, "J1", "4/(J1 + J4) - 4/(J3 + J4)"),
+                (_c42, "J2", "8/(J2 + J4)"),
+                (_c43, "J1", "8/(J1 + J3)"),
+                (_c44, "J1", "4/(J1 + J2) - 4/(J1 + J4)"),
+                (_c45, "J2", "4/(J2 + J3) - 4/(J3 + J4)"),
+                (_c46, "J1", "4/(J1 + J2) - 4/(J1 + J3)"),
+                (_c47, "J2", "4/(J2 + J4) - 4/(J3 + J4)"),
+                (_c48, "J1", "4/(J1 + J2) - 4/(J2 + J4)"),
+                (_c49, "J1", "4/(J1 + J3) - 4/(J3 + J4)"),
+                (_c50, "J1", "4/(J1 + J3) - 4/(J2 + J3)"),
+                (_c51, "J1", "4/(J1 + J4) - 4/(J2 + J4)"),
+                (_c52, "J1", "4/(J1 + J3) - 4/(J1 + J4)"),
+                (_c53, "J2", "4/(J2 + J3) - 4/(J2 + J4)"),
+                (_c54, "J1", "4/(J1 + J2)"),
+                (_c55, "J1", "2/(J1 + J2)"),
+                (_c56, "J1", "2/(J1 + J3)"),
+                (_c57, "J1", "4/(J1 + J3)"),
+                (_c58, "J1", "2/(J1 + J4)"),
+                (_c59, "J1", "4/(J1 + J4)"),
+                (_c60, "J2", "2/(J2 + J3)"),
+                (_c61, "J2", "4/(J2 + J3)"),
+                (_c62, "J2", "2/(J2 + J4)"),
+                (_c63, "J2", "4/(J2 + J4)"),
+                (_c64, "J3", "2/(J3 + J4)"),
+                (_c65, "J3", "4/(J3 + J4)"),
             ],
         )?;
         ::core::result::Result::Ok(ManakovTopSystem {
@@ -237,10 +245,10 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
             _k29: _c29,
             _k30: _c30,
             _k31: _c31,
-            _k32: _c32,
-            _k33: _c33,
-            _k34: _c34,
-            _k35: _c35,
+            J1: _c32,
+            J2: _c33,
+            J3: _c34,
+            J4: _c35,
             _k36: _c36,
             _k37: _c37,
             _k38: _c38,
@@ -267,6 +275,10 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
             _k59: _c59,
             _k60: _c60,
             _k61: _c61,
+            _k62: _c62,
+            _k63: _c63,
+            _k64: _c64,
+            _k65: _c65,
         })
     }
 
@@ -353,66 +365,74 @@ pub struct ManakovTopSystem<S = f64> {
     _k30: S,
     /// `-1/(J2 + J3) + 1/(J2 + J4)`
     _k31: S,
+    /// `J1`
+    J1: S,
+    /// `J2`
+    J2: S,
+    /// `J3`
+    J3: S,
+    /// `J4`
+    J4: S,
     /// `8/(J3 + J4)`
-    _k32: S,
-    /// `8/(J2 + J3)`
-    _k33: S,
-    /// `8/(J1 + J4)`
-    _k34: S,
-    /// `8/(J1 + J2)`
-    _k35: S,
-    /// `4/(J1 + J2) - 4/(J2 + J3)`
     _k36: S,
-    /// `4/(J1 + J4) - 4/(J3 + J4)`
+    /// `8/(J2 + J3)`
     _k37: S,
-    /// `8/(J2 + J4)`
+    /// `8/(J1 + J4)`
     _k38: S,
-    /// `8/(J1 + J3)`
+    /// `8/(J1 + J2)`
     _k39: S,
-    /// `4/(J1 + J2) - 4/(J1 + J4)`
+    /// `4/(J1 + J2) - 4/(J2 + J3)`
     _k40: S,
-    /// `4/(J2 + J3) - 4/(J3 + J4)`
+    /// `4/(J1 + J4) - 4/(J3 + J4)`
     _k41: S,
-    /// `4/(J1 + J2) - 4/(J1 + J3)`
+    /// `8/(J2 + J4)`
     _k42: S,
-    /// `4/(J2 + J4) - 4/(J3 + J4)`
+    /// `8/(J1 + J3)`
     _k43: S,
-    /// `4/(J1 + J2) - 4/(J2 + J4)`
+    /// `4/(J1 + J2) - 4/(J1 + J4)`
     _k44: S,
-    /// `4/(J1 + J3) - 4/(J3 + J4)`
+    /// `4/(J2 + J3) - 4/(J3 + J4)`
     _k45: S,
-    /// `4/(J1 + J3) - 4/(J2 + J3)`
+    /// `4/(J1 + J2) - 4/(J1 + J3)`
     _k46: S,
-    /// `4/(J1 + J4) - 4/(J2 + J4)`
+    /// `4/(J2 + J4) - 4/(J3 + J4)`
     _k47: S,
-    /// `4/(J1 + J3) - 4/(J1 + J4)`
+    /// `4/(J1 + J2) - 4/(J2 + J4)`
     _k48: S,
-    /// `4/(J2 + J3) - 4/(J2 + J4)`
+    /// `4/(J1 + J3) - 4/(J3 + J4)`
     _k49: S,
-    /// `4/(J1 + J2)`
+    /// `4/(J1 + J3) - 4/(J2 + J3)`
     _k50: S,
-    /// `2/(J1 + J2)`
+    /// `4/(J1 + J4) - 4/(J2 + J4)`
     _k51: S,
-    /// `2/(J1 + J3)`
+    /// `4/(J1 + J3) - 4/(J1 + J4)`
     _k52: S,
-    /// `4/(J1 + J3)`
+    /// `4/(J2 + J3) - 4/(J2 + J4)`
     _k53: S,
-    /// `2/(J1 + J4)`
+    /// `4/(J1 + J2)`
     _k54: S,
-    /// `4/(J1 + J4)`
+    /// `2/(J1 + J2)`
     _k55: S,
-    /// `2/(J2 + J3)`
+    /// `2/(J1 + J3)`
     _k56: S,
-    /// `4/(J2 + J3)`
+    /// `4/(J1 + J3)`
     _k57: S,
-    /// `2/(J2 + J4)`
+    /// `2/(J1 + J4)`
     _k58: S,
-    /// `4/(J2 + J4)`
+    /// `4/(J1 + J4)`
     _k59: S,
-    /// `2/(J3 + J4)`
+    /// `2/(J2 + J3)`
     _k60: S,
-    /// `4/(J3 + J4)`
+    /// `4/(J2 + J3)`
     _k61: S,
+    /// `2/(J2 + J4)`
+    _k62: S,
+    /// `4/(J2 + J4)`
+    _k63: S,
+    /// `2/(J3 + J4)`
+    _k64: S,
+    /// `4/(J3 + J4)`
+    _k65: S,
 }
 
 impl<S> ManakovTopSystem<S> {
@@ -877,10 +897,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for ManakovTopSystem<S> {
             _k29: _constant(self._k29),
             _k30: _constant(self._k30),
             _k31: _constant(self._k31),
-            _k32: _constant(self._k32),
-            _k33: _constant(self._k33),
-            _k34: _constant(self._k34),
-            _k35: _constant(self._k35),
+            J1: _constant(self.J1),
+            J2: _constant(self.J2),
+            J3: _constant(self.J3),
+            J4: _constant(self.J4),
             _k36: _constant(self._k36),
             _k37: _constant(self._k37),
             _k38: _constant(self._k38),
@@ -907,6 +927,97 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for ManakovTopSystem<S> {
             _k59: _constant(self._k59),
             _k60: _constant(self._k60),
             _k61: _constant(self._k61),
+            _k62: _constant(self._k62),
+            _k63: _constant(self._k63),
+            _k64: _constant(self._k64),
+            _k65: _constant(self._k65),
+        }
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for ManakovTopSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
+    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+        matrices: &[
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 0, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+                ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+                ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+                ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+            ],
+        ],
+        dual: &[
+            &[
+                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 2, 0.5),
+                ::lie_runtime::__private::Entry::new(2, 0, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(0, 3, 0.5),
+                ::lie_runtime::__private::Entry::new(3, 0, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(1, 3, 0.5),
+                ::lie_runtime::__private::Entry::new(3, 1, -0.5),
+            ],
+            &[
+                ::lie_runtime::__private::Entry::new(2, 3, 0.5),
+                ::lie_runtime::__private::Entry::new(3, 2, -0.5),
+            ],
+        ],
+        skew: true,
+    };
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::InertiaPoisson<S> for ManakovTopSystem<S> {
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
+    const PLANES: &'static [::lie_runtime::__private::Plane] = &[
+        ::lie_runtime::__private::Plane::new(0, 1),
+        ::lie_runtime::__private::Plane::new(0, 2),
+        ::lie_runtime::__private::Plane::new(0, 3),
+        ::lie_runtime::__private::Plane::new(1, 2),
+        ::lie_runtime::__private::Plane::new(1, 3),
+        ::lie_runtime::__private::Plane::new(2, 3),
+    ];
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+
+    #[inline]
+    fn moment(&self, axis: usize) -> S {
+        match axis {
+            0 => self.J1,
+            1 => self.J2,
+            2 => self.J3,
+            _ => self.J4,
         }
     }
 }
@@ -1652,7 +1763,7 @@ for ManakovTopGenerating6<'_, S> {
         let _t28 = m23 * self.system._k9;
         let _t29 = m24 * self.system._k10;
         let _t30 = _t14 * _t25 - _t20 * _t27 - _t8 * _t28 + _t2 * _t29;
-        let _t31 = _t30 * self.system._k32 - _t26 * S::ratio(4.0, 1.0);
+        let _t31 = _t30 * self.system._k36 - _t26 * S::ratio(4.0, 1.0);
         let _t32 = m12 * self.system._k6;
         let _t33 = m13 * self.system._k12;
         let _t34 = m14 * self.system._k13;
@@ -1669,14 +1780,14 @@ for ManakovTopGenerating6<'_, S> {
         let _t45 = _t16 * _t12 - _t37 * _t33 - _t42 * _t43 + _t10 * _t44;
         let _t46 = m34 * self.system._k11;
         let _t47 = _t35 * _t27 - _t14 * _t32 - _t40 * _t29 + _t8 * _t46;
-        let _t48 = _t47 * self.system._k33 - _t45 * S::ratio(4.0, 1.0);
+        let _t48 = _t47 * self.system._k37 - _t45 * S::ratio(4.0, 1.0);
         let _t49 = m24 * self.system._k13;
         let _t50 = m34 * self.system._k15;
         let _t51 = -(_t10 * _t6) - _t42 * _t38 - _t37 * _t49 - _t16 * _t50;
         let _t52 = _t8 * _t32 + _t40 * _t27 - _t35 * _t29 - _t14 * _t46;
-        let _t53 = _t52 * self.system._k34 - _t51 * S::ratio(4.0, 1.0);
+        let _t53 = _t52 * self.system._k38 - _t51 * S::ratio(4.0, 1.0);
         let _t54 = _t14 * _t28 - _t2 * _t27 - _t8 * _t25 + _t20 * _t29;
-        let _t55 = _t54 * self.system._k35 - _t24 * S::ratio(4.0, 1.0);
+        let _t55 = _t54 * self.system._k39 - _t24 * S::ratio(4.0, 1.0);
         let _t56 = _t47
             - S::ratio(3.0, 1.0) * (m13 * _t36 - m12 * _t15 + m34 * _t9 - m24 * _t41);
         let _t57 = _t54
@@ -1685,8 +1796,8 @@ for ManakovTopGenerating6<'_, S> {
             - S::ratio(3.0, 1.0) * (m14 * _t15 - m13 * _t21 + m24 * _t3 - m23 * _t9);
         let _t59 = _t52
             + S::ratio(3.0, 1.0) * (m24 * _t36 + m34 * _t15 - m12 * _t9 - m13 * _t41);
-        let _t60 = (m14 * _t58 + m34 * _t59) * self.system._k37
-            - (m12 * _t56 + m23 * _t57) * self.system._k36;
+        let _t60 = (m14 * _t58 + m34 * _t59) * self.system._k41
+            - (m12 * _t56 + m23 * _t57) * self.system._k40;
         let _t61 = _t25 * _t31 - _t32 * _t48 - _t46 * _t53 + _t28 * _t55
             + self.system._k7
                 * (_t60
@@ -1696,15 +1807,15 @@ for ManakovTopGenerating6<'_, S> {
         let _t62 = m34 * self.system._k19;
         let _t63 = _t22 * _t18 - _t37 * _t34 - _t42 * _t39 - _t4 * _t62;
         let _t64 = _t35 * _t25 - _t20 * _t32 + _t40 * _t28 - _t2 * _t46;
-        let _t65 = _t64 * self.system._k38 - _t63 * S::ratio(4.0, 1.0);
+        let _t65 = _t64 * self.system._k42 - _t63 * S::ratio(4.0, 1.0);
         let _t66 = m14 * self.system._k22;
         let _t67 = m23 * self.system._k12;
         let _t68 = m34 * self.system._k17;
         let _t69 = _t22 * _t68 - _t4 * _t0 - _t42 * _t66 - _t37 * _t67;
         let _t70 = _t2 * _t32 - _t40 * _t25 - _t35 * _t28 + _t20 * _t46;
-        let _t71 = _t70 * self.system._k39 - _t69 * S::ratio(4.0, 1.0);
-        let _t72 = (m12 * _t59 + m14 * _t57) * self.system._k40
-            - (m23 * _t58 + m34 * _t56) * self.system._k41;
+        let _t71 = _t70 * self.system._k43 - _t69 * S::ratio(4.0, 1.0);
+        let _t72 = (m12 * _t59 + m14 * _t57) * self.system._k44
+            - (m23 * _t58 + m34 * _t56) * self.system._k45;
         let _t73 = _t46 * _t48 - _t28 * _t31 + _t32 * _t53 - _t25 * _t55
             + self.system._k10
                 * (_t72
@@ -1715,70 +1826,70 @@ for ManakovTopGenerating6<'_, S> {
             + S::ratio(3.0, 1.0) * (m23 * _t36 - m34 * _t21 - m12 * _t3 + m14 * _t41);
         let _t75 = _t64
             - S::ratio(3.0, 1.0) * (m14 * _t36 - m12 * _t21 - m34 * _t3 + m23 * _t41);
-        let _t76 = (m12 * _t74 + m13 * _t57) * self.system._k42
-            + (m24 * _t58 + m34 * _t75) * self.system._k43;
+        let _t76 = (m12 * _t74 + m13 * _t57) * self.system._k46
+            + (m24 * _t58 + m34 * _t75) * self.system._k47;
         let _t77 = _t29 * _t31 - _t46 * _t65 + _t32 * _t71 - _t27 * _t55
             + self.system._k9
                 * (_t76
                     + (_t76
                         + S::ratio(12.0, 1.0)
                             * (m24 * _t26 - m34 * _t63 + m12 * _t69 - m13 * _t24)));
-        let _t78 = -((m12 * _t75 + m24 * _t57) * self.system._k44)
-            - (m13 * _t58 + m34 * _t74) * self.system._k45;
+        let _t78 = -((m12 * _t75 + m24 * _t57) * self.system._k48)
+            - (m13 * _t58 + m34 * _t74) * self.system._k49;
         let _t79 = _t46 * _t71 - _t27 * _t31 - _t32 * _t65 + _t29 * _t55
             + self.system._k8
                 * (_t78
                     + (_t78
                         - S::ratio(12.0, 1.0)
                             * (m13 * _t26 + m12 * _t63 - m34 * _t69 - m24 * _t24)));
-        let _t80 = _t22 * self.system._k44;
-        let _t81 = _t16 * self.system._k36;
-        let _t82 = _t10 * self.system._k40;
-        let _t83 = _t4 * self.system._k42;
+        let _t80 = _t22 * self.system._k48;
+        let _t81 = _t16 * self.system._k40;
+        let _t82 = _t10 * self.system._k44;
+        let _t83 = _t4 * self.system._k46;
         let _t84 = _t61 * _t17
             + self.system._k6 * (_t8 * _t53 - _t20 * _t65 - _t14 * _t48 + _t2 * _t71)
             - _t73 * _t11 - _t77 * _t5 + _t79 * _t23
             - S::ratio(12.0, 1.0)
                 * (_t21 * _t63 + _t15 * _t45 - _t9 * _t51 - _t3 * _t69);
-        let _t85 = (m13 * _t56 + m23 * _t74) * self.system._k46
-            + (m14 * _t75 + m24 * _t59) * self.system._k47;
+        let _t85 = (m13 * _t56 + m23 * _t74) * self.system._k50
+            + (m14 * _t75 + m24 * _t59) * self.system._k51;
         let _t86 = _t25 * _t65 + _t27 * _t48 - _t29 * _t53 - _t28 * _t71
             + self.system._k6
                 * (_t85
                     + (_t85
                         + S::ratio(12.0, 1.0)
                             * (m14 * _t63 + m13 * _t45 - m24 * _t51 - m23 * _t69)));
-        let _t87 = (m13 * _t59 + m14 * _t74) * self.system._k48
-            + (m23 * _t75 + m24 * _t56) * self.system._k49;
+        let _t87 = (m13 * _t59 + m14 * _t74) * self.system._k52
+            + (m23 * _t75 + m24 * _t56) * self.system._k53;
         let _t88 = _t28 * _t65 - _t29 * _t48 + _t27 * _t53 - _t25 * _t71
             + self.system._k11
                 * (_t87
                     + (_t87
                         + (m23 * _t63 - m24 * _t45 + m13 * _t51 - m14 * _t69)
                             * S::ratio(12.0, 1.0)));
-        let _t89 = _t22 * self.system._k45;
-        let _t90 = _t37 * self.system._k46;
-        let _t91 = _t42 * self.system._k48;
+        let _t89 = _t22 * self.system._k49;
+        let _t90 = _t37 * self.system._k50;
+        let _t91 = _t42 * self.system._k52;
         let _t92 = _t86 * _t67
             - self.system._k7 * (_t35 * _t48 - _t20 * _t31 + _t40 * _t53 - _t2 * _t55)
             + _t88 * _t66 + _t77 * _t0 - _t79 * _t68
             + S::ratio(12.0, 1.0)
                 * (_t21 * _t26 - _t36 * _t45 - _t41 * _t51 + _t3 * _t24);
-        let _t93 = _t16 * self.system._k37;
-        let _t94 = _t37 * self.system._k47;
+        let _t93 = _t16 * self.system._k41;
+        let _t94 = _t37 * self.system._k51;
         let _t95 = _t86 * _t49 + _t61 * _t50
             - self.system._k8 * (_t14 * _t31 + _t35 * _t65 - _t40 * _t71 - _t8 * _t55)
             + _t88 * _t38 + _t73 * _t6
             - S::ratio(12.0, 1.0)
                 * (_t15 * _t26 + _t36 * _t63 - _t41 * _t69 - _t9 * _t24);
-        let _t96 = _t10 * self.system._k41;
-        let _t97 = _t42 * self.system._k49;
+        let _t96 = _t10 * self.system._k45;
+        let _t97 = _t42 * self.system._k53;
         let _t98 = _t61 * _t12 - _t86 * _t33
             + self.system._k9 * (_t40 * _t65 - _t8 * _t31 - _t35 * _t71 + _t14 * _t55)
             - _t88 * _t43 + _t73 * _t44
             - S::ratio(12.0, 1.0)
                 * (_t9 * _t26 - _t41 * _t63 + _t36 * _t69 - _t15 * _t24);
-        let _t99 = _t4 * self.system._k43;
+        let _t99 = _t4 * self.system._k47;
         let _t100 = _t86 * _t34
             - self.system._k10 * (_t2 * _t31 - _t40 * _t48 - _t35 * _t53 + _t20 * _t55)
             + _t88 * _t39 + _t77 * _t62 - _t79 * _t18
@@ -1845,7 +1956,7 @@ for ManakovTopGenerating6<'_, S> {
         let _t28 = m14 * self.system._k8;
         let _t29 = m23 * self.system._k9;
         let _t30 = _t15 * _t28 - _t21 * _t27 - _t9 * _t29 + _t3 * _t25;
-        let _t31 = _t30 * self.system._k32 - _t26 * S::ratio(4.0, 1.0);
+        let _t31 = _t30 * self.system._k36 - _t26 * S::ratio(4.0, 1.0);
         let _t32 = m34 * self.system._k11;
         let _t33 = m14 * self.system._k25;
         let _t34 = m13 * self.system._k24;
@@ -1861,29 +1972,29 @@ for ManakovTopGenerating6<'_, S> {
         let _t44 = _t19 * _t23 + _t33 * _t37 + _t38 * _t42 + _t43 * _t5;
         let _t45 = m12 * self.system._k6;
         let _t46 = _t35 * _t28 - _t21 * _t45 + _t40 * _t29 - _t3 * _t32;
-        let _t47 = _t46 * self.system._k38 - _t44 * S::ratio(4.0, 1.0);
+        let _t47 = _t46 * self.system._k42 - _t44 * S::ratio(4.0, 1.0);
         let _t48 = m14 * self.system._k30;
         let _t49 = m23 * self.system._k24;
         let _t50 = m34 * self.system._k17;
         let _t51 = _t1 * _t5 + _t48 * _t42 + _t49 * _t37 + _t50 * _t23;
         let _t52 = _t3 * _t45 - _t40 * _t28 - _t35 * _t29 + _t21 * _t32;
-        let _t53 = _t52 * self.system._k39 - _t51 * S::ratio(4.0, 1.0);
+        let _t53 = _t52 * self.system._k43 - _t51 * S::ratio(4.0, 1.0);
         let _t54 = _t15 * _t29 - _t3 * _t27 - _t9 * _t28 + _t21 * _t25;
-        let _t55 = _t54 * self.system._k35 - _t24 * S::ratio(4.0, 1.0);
+        let _t55 = _t54 * self.system._k39 - _t24 * S::ratio(4.0, 1.0);
         let _t56 = m23 * S::ratio(3.0, 1.0);
         let _t57 = m34 * S::ratio(3.0, 1.0);
         let _t58 = m12 * S::ratio(3.0, 1.0);
         let _t59 = m14 * S::ratio(3.0, 1.0);
         let _t60 = _t52 + _t36 * _t56 - _t22 * _t57 - _t4 * _t58 + _t41 * _t59;
-        let _t61 = m12 * self.system._k42;
+        let _t61 = m12 * self.system._k46;
         let _t62 = m24 * S::ratio(3.0, 1.0);
         let _t63 = m13 * S::ratio(3.0, 1.0);
         let _t64 = _t54 - _t16 * _t56 - _t22 * _t62 + _t4 * _t63 + _t10 * _t59;
-        let _t65 = m13 * self.system._k42;
+        let _t65 = m13 * self.system._k46;
         let _t66 = _t30 - _t16 * _t59 + _t22 * _t63 - _t4 * _t62 + _t10 * _t56;
-        let _t67 = m24 * self.system._k43;
+        let _t67 = m24 * self.system._k47;
         let _t68 = _t46 - _t36 * _t59 + _t22 * _t58 + _t4 * _t57 - _t41 * _t56;
-        let _t69 = m34 * self.system._k43;
+        let _t69 = m34 * self.system._k47;
         let _t70 = _t60 * _t61 + _t64 * _t65 + _t66 * _t67 + _t68 * _t69;
         let _t71 = m24 * S::ratio(12.0, 1.0);
         let _t72 = m34 * S::ratio(12.0, 1.0);
@@ -1898,18 +2009,18 @@ for ManakovTopGenerating6<'_, S> {
         let _t78 = m34 * self.system._k21;
         let _t79 = _t13 * _t17 + _t34 * _t37 + _t77 * _t42 + _t78 * _t11;
         let _t80 = _t35 * _t27 - _t15 * _t45 - _t40 * _t25 + _t9 * _t32;
-        let _t81 = _t80 * self.system._k33 - _t79 * S::ratio(4.0, 1.0);
+        let _t81 = _t80 * self.system._k37 - _t79 * S::ratio(4.0, 1.0);
         let _t82 = m24 * self.system._k25;
         let _t83 = m34 * self.system._k26;
         let _t84 = _t7 * _t11 + _t39 * _t42 + _t82 * _t37 + _t83 * _t17;
         let _t85 = _t9 * _t45 + _t40 * _t27 - _t35 * _t25 - _t15 * _t32;
-        let _t86 = _t85 * self.system._k34 - _t84 * S::ratio(4.0, 1.0);
+        let _t86 = _t85 * self.system._k38 - _t84 * S::ratio(4.0, 1.0);
         let _t87 = _t85 + _t36 * _t62 + _t16 * _t57 - _t10 * _t58 - _t41 * _t63;
-        let _t88 = m12 * self.system._k40;
-        let _t89 = m14 * self.system._k40;
-        let _t90 = m23 * self.system._k41;
+        let _t88 = m12 * self.system._k44;
+        let _t89 = m14 * self.system._k44;
+        let _t90 = m23 * self.system._k45;
         let _t91 = _t80 - _t36 * _t63 + _t16 * _t58 - _t10 * _t57 + _t41 * _t62;
-        let _t92 = m34 * self.system._k41;
+        let _t92 = m34 * self.system._k45;
         let _t93 = _t87 * _t88 + _t64 * _t89 - _t66 * _t90 - _t91 * _t92;
         let _t94 = m23 * S::ratio(12.0, 1.0);
         let _t95 = m14 * S::ratio(12.0, 1.0);
@@ -1918,20 +2029,20 @@ for ManakovTopGenerating6<'_, S> {
             + self.system._k10
                 * (_t93 - _t26 * _t94 + _t79 * _t72 + _t84 * _t73 - _t24 * _t95);
         let _t97 = m14 * self._h9;
-        let _t98 = m12 * self.system._k36;
-        let _t99 = m23 * self.system._k36;
-        let _t100 = m14 * self.system._k37;
-        let _t101 = m34 * self.system._k37;
+        let _t98 = m12 * self.system._k40;
+        let _t99 = m23 * self.system._k40;
+        let _t100 = m14 * self.system._k41;
+        let _t101 = m34 * self.system._k41;
         let _t102 = _t66 * _t100 - _t91 * _t98 - _t64 * _t99 + _t87 * _t101;
         let _t103 = _t28 * _t31 - _t45 * _t81 - _t32 * _t86 + _t29 * _t55
             + self.system._k7 * _t102
             + self.system._k7
                 * (_t102 + _t26 * _t95 - _t79 * _t73 - _t84 * _t72 + _t24 * _t94);
         let _t104 = m23 * self._h10;
-        let _t105 = m12 * self.system._k44;
-        let _t106 = m24 * self.system._k44;
-        let _t107 = m13 * self.system._k45;
-        let _t108 = m34 * self.system._k45;
+        let _t105 = m12 * self.system._k48;
+        let _t106 = m24 * self.system._k48;
+        let _t107 = m13 * self.system._k49;
+        let _t108 = m34 * self.system._k49;
         let _t109 = -(_t68 * _t105) - _t64 * _t106 - _t66 * _t107 - _t60 * _t108;
         let _t110 = _t32 * _t53 - _t27 * _t31 - _t45 * _t47 + _t25 * _t55
             + self.system._k8 * _t109
@@ -1949,20 +2060,20 @@ for ManakovTopGenerating6<'_, S> {
         let _t120 = m12 * self._h0 + _t24 * self._h1 - _t75 * _t76 - _t96 * _t97
             + _t103 * _t104 + _t110 * _t111 - _t79 * _t112 - _t44 * _t113 + _t51 * _t114;
         let _t121 = m12 * self._h8;
-        let _t122 = m13 * self.system._k48;
-        let _t123 = m14 * self.system._k48;
-        let _t124 = m23 * self.system._k49;
-        let _t125 = m24 * self.system._k49;
+        let _t122 = m13 * self.system._k52;
+        let _t123 = m14 * self.system._k52;
+        let _t124 = m23 * self.system._k53;
+        let _t125 = m24 * self.system._k53;
         let _t126 = _t87 * _t122 + _t60 * _t123 + _t68 * _t124 + _t91 * _t125;
         let _t127 = _t29 * _t47 - _t25 * _t81 + _t27 * _t86 - _t28 * _t53
             + self.system._k11 * _t126
             + self.system._k11
                 * (_t126 + _t44 * _t94 - _t79 * _t71 + _t84 * _t74 - _t51 * _t95);
         let _t128 = m14 * self._h18;
-        let _t129 = m13 * self.system._k46;
-        let _t130 = m23 * self.system._k46;
-        let _t131 = m14 * self.system._k47;
-        let _t132 = m24 * self.system._k47;
+        let _t129 = m13 * self.system._k50;
+        let _t130 = m23 * self.system._k50;
+        let _t131 = m14 * self.system._k51;
+        let _t132 = m24 * self.system._k51;
         let _t133 = _t91 * _t129 + _t60 * _t130 + _t68 * _t131 + _t87 * _t132;
         let _t134 = _t28 * _t47 + _t27 * _t81 - _t25 * _t86 - _t29 * _t53
             + self.system._k6 * _t133
@@ -2043,18 +2154,18 @@ for ManakovTopGenerating6<'_, S> {
         let _t202 = _t16 * S::ratio(3.0, 1.0);
         let _t203 = _t201 + _t202 + _t168 * _t58 - _t174 * _t57;
         let _t204 = _t0 * _t177 + _t6 * _t181 + _t12 * _t182 + _t18 * _t178;
-        let _t205 = _t197 * self.system._k38 - _t187 * S::ratio(4.0, 1.0);
-        let _t206 = _t201 * self.system._k33 - _t185 * S::ratio(4.0, 1.0);
-        let _t207 = _t189 * self.system._k34 - _t183 * S::ratio(4.0, 1.0);
-        let _t208 = _t193 * self.system._k39 - _t179 * S::ratio(4.0, 1.0);
+        let _t205 = _t197 * self.system._k42 - _t187 * S::ratio(4.0, 1.0);
+        let _t206 = _t201 * self.system._k37 - _t185 * S::ratio(4.0, 1.0);
+        let _t207 = _t189 * self.system._k38 - _t183 * S::ratio(4.0, 1.0);
+        let _t208 = _t193 * self.system._k43 - _t179 * S::ratio(4.0, 1.0);
         let _t209 = _t20 * _t178 + _t14 * _t182 + _t8 * _t181 + _t2 * _t177;
         let _t210 = _t28 * _t12 - _t27 * _t18 + _t25 * _t0 - _t29 * _t6;
-        let _t211 = _t210 * self.system._k32 - _t209 * S::ratio(4.0, 1.0);
+        let _t211 = _t210 * self.system._k36 - _t209 * S::ratio(4.0, 1.0);
         let _t212 = _t29 * _t12 + _t25 * _t18 - _t27 * _t0 - _t28 * _t6;
-        let _t213 = _t212 * self.system._k35 - _t204 * S::ratio(4.0, 1.0);
+        let _t213 = _t212 * self.system._k39 - _t204 * S::ratio(4.0, 1.0);
         let _t214 = _t212 - _t168 * _t56 - _t170 * _t62 + _t172 * _t63 + _t174 * _t59;
         let _t215 = _t210 - _t168 * _t59 + _t170 * _t63 - _t172 * _t62 + _t174 * _t56;
-        let _t216 = _t60 * self.system._k42 + _t195 * _t61 + _t214 * _t65 + _t215 * _t67
+        let _t216 = _t60 * self.system._k46 + _t195 * _t61 + _t214 * _t65 + _t215 * _t67
             + _t199 * _t69;
         let _t217 = _t51 * S::ratio(12.0, 1.0);
         let _t218 = self.system._k6 * _t53 + _t25 * _t211 - _t32 * _t205 + _t45 * _t208
@@ -2062,7 +2173,7 @@ for ManakovTopGenerating6<'_, S> {
             + self.system._k9
                 * (_t216 + _t217 - _t204 * _t74 + _t179 * _t73 - _t187 * _t72
                     + _t209 * _t71);
-        let _t219 = _t87 * self.system._k40 + _t191 * _t88 + _t214 * _t89 - _t215 * _t90
+        let _t219 = _t87 * self.system._k44 + _t191 * _t88 + _t214 * _t89 - _t215 * _t90
             - _t203 * _t92;
         let _t220 = _t84 * S::ratio(12.0, 1.0);
         let _t221 = self.system._k6 * _t86 - _t29 * _t211 + _t32 * _t206 + _t45 * _t207
@@ -2070,7 +2181,7 @@ for ManakovTopGenerating6<'_, S> {
             + self.system._k10
                 * (_t219 + _t220 - _t204 * _t95 + _t183 * _t73 + _t185 * _t72
                     - _t209 * _t94);
-        let _t222 = _t215 * _t100 - _t91 * self.system._k36 - _t203 * _t98 - _t214 * _t99
+        let _t222 = _t215 * _t100 - _t91 * self.system._k40 - _t203 * _t98 - _t214 * _t99
             + _t191 * _t101;
         let _t223 = _t79 * S::ratio(12.0, 1.0);
         let _t224 = _t28 * _t211 - self.system._k6 * _t81 - _t45 * _t206 - _t32 * _t207
@@ -2078,7 +2189,7 @@ for ManakovTopGenerating6<'_, S> {
             + self.system._k7
                 * (_t222 - _t223 + _t204 * _t94 - _t183 * _t72 - _t185 * _t73
                     + _t209 * _t95);
-        let _t225 = -(_t68 * self.system._k44) - _t199 * _t105 - _t214 * _t106
+        let _t225 = -(_t68 * self.system._k48) - _t199 * _t105 - _t214 * _t106
             - _t215 * _t107 - _t195 * _t108;
         let _t226 = _t44 * S::ratio(12.0, 1.0);
         let _t227 = _t32 * _t208 - self.system._k6 * _t47 - _t27 * _t211 - _t45 * _t205
@@ -2100,25 +2211,25 @@ for ManakovTopGenerating6<'_, S> {
         let _t234 = _t233 + _t233;
         let _t235 = _t230 + _t20 * _t232 + _t2 * _t234;
         let _t236 = _t25 * _t1 - _t27 * _t50 - self.system._k7 * _t21;
-        let _t237 = self.system._k32 * _t236 - S::ratio(4.0, 1.0) * _t235;
+        let _t237 = self.system._k36 * _t236 - S::ratio(4.0, 1.0) * _t235;
         let _t238 = self.system._k6 * _t49;
         let _t239 = _t238 + _t238;
         let _t240 = self.system._k11 * _t48;
         let _t241 = _t240 + _t240;
         let _t242 = _t19 * _t232 + _t33 * _t239 + _t38 * _t241 + _t43 * _t234;
         let _t243 = _t28 * _t49 - _t45 * _t50 - _t32 * _t1 + _t29 * _t48;
-        let _t244 = self.system._k38 * _t243 - S::ratio(4.0, 1.0) * _t242;
+        let _t244 = self.system._k42 * _t243 - S::ratio(4.0, 1.0) * _t242;
         let _t245 = _t1 * _t234 + _t48 * _t241 + _t49 * _t239 + _t50 * _t232;
         let _t246 = _t32 * _t50 - _t29 * _t49 + _t45 * _t1 - _t28 * _t48;
-        let _t247 = self.system._k39 * _t246 - S::ratio(4.0, 1.0) * _t245;
+        let _t247 = self.system._k43 * _t246 - S::ratio(4.0, 1.0) * _t245;
         let _t248 = _t176 + _t0 * _t234 + _t18 * _t232;
         let _t249 = _t25 * _t50 - _t27 * _t1 - self.system._k7 * _t3;
-        let _t250 = self.system._k35 * _t249 - S::ratio(4.0, 1.0) * _t248;
+        let _t250 = self.system._k39 * _t249 - S::ratio(4.0, 1.0) * _t248;
         let _t251 = _t246 + _t238 * _t56 - _t231 * _t57 - _t233 * _t58 + _t240 * _t59;
         let _t252 = _t194 + _t249 - _t231 * _t62 + _t233 * _t63;
         let _t253 = _t198 + _t236 + _t231 * _t63 - _t233 * _t62;
         let _t254 = _t243 - _t238 * _t59 + _t231 * _t58 + _t233 * _t57 - _t240 * _t56;
-        let _t255 = _t64 * self.system._k42 + _t251 * _t61 + _t252 * _t65 + _t253 * _t67
+        let _t255 = _t64 * self.system._k46 + _t251 * _t61 + _t252 * _t65 + _t253 * _t67
             + _t254 * _t69;
         let _t256 = _t24 * S::ratio(12.0, 1.0);
         let _t257 = _t25 * _t237 - self.system._k7 * _t55 - _t32 * _t244 + _t45 * _t247
@@ -2136,8 +2247,8 @@ for ManakovTopGenerating6<'_, S> {
         let _t265 = _t27 * _t49 - _t25 * _t48 + self.system._k7 * _t35;
         let _t266 = _t36 * S::ratio(3.0, 1.0);
         let _t267 = _t265 - _t266 - _t238 * _t63 + _t240 * _t62;
-        let _t268 = self.system._k33 * _t265 - S::ratio(4.0, 1.0) * _t261;
-        let _t269 = self.system._k34 * _t262 - S::ratio(4.0, 1.0) * _t259;
+        let _t268 = self.system._k37 * _t265 - S::ratio(4.0, 1.0) * _t261;
+        let _t269 = self.system._k38 * _t262 - S::ratio(4.0, 1.0) * _t259;
         let _t270 = _t264 * _t88 + _t252 * _t89 - _t253 * _t90 - _t267 * _t92;
         let _t271 = _t32 * _t268 - _t29 * _t237 + _t45 * _t269 - _t28 * _t250
             + self.system._k10 * _t270
@@ -2148,7 +2259,7 @@ for ManakovTopGenerating6<'_, S> {
             + self.system._k7 * _t272
             + self.system._k7
                 * (_t272 + _t248 * _t94 - _t259 * _t72 - _t261 * _t73 + _t235 * _t95);
-        let _t274 = -(_t66 * self.system._k45) - _t253 * _t107 - _t251 * _t108
+        let _t274 = -(_t66 * self.system._k49) - _t253 * _t107 - _t251 * _t108
             - _t254 * _t105 - _t252 * _t106;
         let _t275 = _t26 * S::ratio(12.0, 1.0);
         let _t276 = _t32 * _t247 - self.system._k7 * _t31 - _t27 * _t237 - _t45 * _t244
@@ -2171,25 +2282,25 @@ for ManakovTopGenerating6<'_, S> {
         let _t284 = _t283 + _t283;
         let _t285 = _t280 + _t14 * _t282 + _t8 * _t284;
         let _t286 = _t28 * _t83 - _t29 * _t7 + self.system._k8 * _t15;
-        let _t287 = self.system._k32 * _t286 - S::ratio(4.0, 1.0) * _t285;
+        let _t287 = self.system._k36 * _t286 - S::ratio(4.0, 1.0) * _t285;
         let _t288 = self.system._k6 * _t82;
         let _t289 = _t288 + _t288;
         let _t290 = self.system._k11 * _t39;
         let _t291 = _t290 + _t290;
         let _t292 = _t13 * _t282 + _t34 * _t289 + _t77 * _t291 + _t78 * _t284;
         let _t293 = _t27 * _t82 - _t45 * _t83 + _t32 * _t7 - _t25 * _t39;
-        let _t294 = self.system._k33 * _t293 - S::ratio(4.0, 1.0) * _t292;
+        let _t294 = self.system._k37 * _t293 - S::ratio(4.0, 1.0) * _t292;
         let _t295 = _t7 * _t284 + _t39 * _t291 + _t82 * _t289 + _t83 * _t282;
         let _t296 = _t45 * _t7 - _t25 * _t82 - _t32 * _t83 + _t27 * _t39;
-        let _t297 = self.system._k34 * _t296 - S::ratio(4.0, 1.0) * _t295;
+        let _t297 = self.system._k38 * _t296 - S::ratio(4.0, 1.0) * _t295;
         let _t298 = _t180 + _t6 * _t284 + _t12 * _t282;
         let _t299 = _t29 * _t83 - _t28 * _t7 - self.system._k8 * _t9;
-        let _t300 = self.system._k35 * _t299 - S::ratio(4.0, 1.0) * _t298;
+        let _t300 = self.system._k39 * _t299 - S::ratio(4.0, 1.0) * _t298;
         let _t301 = _t296 + _t288 * _t62 + _t281 * _t57 - _t283 * _t58 - _t290 * _t63;
         let _t302 = _t190 + _t299 - _t281 * _t56 + _t283 * _t59;
         let _t303 = _t286 - _t202 - _t281 * _t59 + _t283 * _t56;
         let _t304 = _t293 - _t288 * _t63 + _t281 * _t58 - _t283 * _t57 + _t290 * _t62;
-        let _t305 = _t64 * self.system._k40 + _t301 * _t88 + _t302 * _t89 - _t303 * _t90
+        let _t305 = _t64 * self.system._k44 + _t301 * _t88 + _t302 * _t89 - _t303 * _t90
             - _t304 * _t92;
         let _t306 = _t32 * _t294 - self.system._k8 * _t55 - _t29 * _t287 + _t45 * _t297
             - _t28 * _t300 + self.system._k10 * _t305
@@ -2203,14 +2314,14 @@ for ManakovTopGenerating6<'_, S> {
         let _t311 = _t263 + _t310 + _t288 * _t56 + _t290 * _t59;
         let _t312 = _t28 * _t82 + _t29 * _t39 + self.system._k8 * _t35;
         let _t313 = _t312 - _t266 - _t288 * _t59 - _t290 * _t56;
-        let _t314 = self.system._k38 * _t312 - S::ratio(4.0, 1.0) * _t309;
-        let _t315 = self.system._k39 * _t310 - S::ratio(4.0, 1.0) * _t307;
+        let _t314 = self.system._k42 * _t312 - S::ratio(4.0, 1.0) * _t309;
+        let _t315 = self.system._k43 * _t310 - S::ratio(4.0, 1.0) * _t307;
         let _t316 = _t311 * _t61 + _t302 * _t65 + _t303 * _t67 + _t313 * _t69;
         let _t317 = _t25 * _t287 - _t32 * _t314 + _t45 * _t315 - _t27 * _t300
             + self.system._k9 * _t316
             + self.system._k9
                 * (_t316 - _t298 * _t74 + _t307 * _t73 - _t309 * _t72 + _t285 * _t71);
-        let _t318 = _t66 * self.system._k37 + _t303 * _t100 + _t301 * _t101
+        let _t318 = _t66 * self.system._k41 + _t303 * _t100 + _t301 * _t101
             - _t304 * _t98 - _t302 * _t99;
         let _t319 = self.system._k8 * _t31 + _t28 * _t287 - _t45 * _t294 - _t32 * _t297
             + _t29 * _t300 + self.system._k7 * _t318
@@ -2237,25 +2348,25 @@ for ManakovTopGenerating6<'_, S> {
         let _t329 = _t328 + _t328;
         let _t330 = _t325 + _t14 * _t327 + _t8 * _t329;
         let _t331 = _t28 * _t13 - _t29 * _t78 - self.system._k9 * _t9;
-        let _t332 = self.system._k32 * _t331 - S::ratio(4.0, 1.0) * _t330;
+        let _t332 = self.system._k36 * _t331 - S::ratio(4.0, 1.0) * _t330;
         let _t333 = self.system._k6 * _t34;
         let _t334 = _t333 + _t333;
         let _t335 = self.system._k11 * _t77;
         let _t336 = _t335 + _t335;
         let _t337 = _t13 * _t327 + _t34 * _t334 + _t77 * _t336 + _t78 * _t329;
         let _t338 = _t27 * _t34 - _t45 * _t13 + _t32 * _t78 - _t25 * _t77;
-        let _t339 = self.system._k33 * _t338 - S::ratio(4.0, 1.0) * _t337;
+        let _t339 = self.system._k37 * _t338 - S::ratio(4.0, 1.0) * _t337;
         let _t340 = _t7 * _t329 + _t39 * _t336 + _t82 * _t334 + _t83 * _t327;
         let _t341 = _t45 * _t78 - _t25 * _t34 - _t32 * _t13 + _t27 * _t77;
-        let _t342 = self.system._k34 * _t341 - S::ratio(4.0, 1.0) * _t340;
+        let _t342 = self.system._k38 * _t341 - S::ratio(4.0, 1.0) * _t340;
         let _t343 = _t184 + _t6 * _t329 + _t12 * _t327;
         let _t344 = _t29 * _t13 - _t28 * _t78 + self.system._k9 * _t15;
-        let _t345 = self.system._k35 * _t344 - S::ratio(4.0, 1.0) * _t343;
+        let _t345 = self.system._k39 * _t344 - S::ratio(4.0, 1.0) * _t343;
         let _t346 = _t338 - _t333 * _t63 + _t326 * _t58 - _t328 * _t57 + _t335 * _t62;
         let _t347 = _t344 - _t202 - _t326 * _t56 + _t328 * _t59;
         let _t348 = _t190 + _t331 - _t326 * _t59 + _t328 * _t56;
         let _t349 = _t341 + _t333 * _t62 + _t326 * _t57 - _t328 * _t58 - _t335 * _t63;
-        let _t350 = _t348 * _t100 - _t64 * self.system._k36 - _t346 * _t98 - _t347 * _t99
+        let _t350 = _t348 * _t100 - _t64 * self.system._k40 - _t346 * _t98 - _t347 * _t99
             + _t349 * _t101;
         let _t351 = self.system._k9 * _t55 + _t28 * _t332 - _t45 * _t339 - _t32 * _t342
             + _t29 * _t345 + self.system._k7 * _t350
@@ -2269,14 +2380,14 @@ for ManakovTopGenerating6<'_, S> {
         let _t356 = _t266 + _t355 + _t333 * _t56 + _t335 * _t59;
         let _t357 = _t28 * _t34 + _t29 * _t77 + self.system._k9 * _t40;
         let _t358 = _t357 - _t263 - _t333 * _t59 - _t335 * _t56;
-        let _t359 = self.system._k38 * _t357 - S::ratio(4.0, 1.0) * _t354;
-        let _t360 = self.system._k39 * _t355 - S::ratio(4.0, 1.0) * _t352;
+        let _t359 = self.system._k42 * _t357 - S::ratio(4.0, 1.0) * _t354;
+        let _t360 = self.system._k43 * _t355 - S::ratio(4.0, 1.0) * _t352;
         let _t361 = _t356 * _t61 + _t347 * _t65 + _t348 * _t67 + _t358 * _t69;
         let _t362 = _t25 * _t332 - _t32 * _t359 + _t45 * _t360 - _t27 * _t345
             + self.system._k9 * _t361
             + self.system._k9
                 * (_t361 - _t343 * _t74 + _t352 * _t73 - _t354 * _t72 + _t330 * _t71);
-        let _t363 = _t349 * _t88 - _t66 * self.system._k41 - _t348 * _t90 - _t346 * _t92
+        let _t363 = _t349 * _t88 - _t66 * self.system._k45 - _t348 * _t90 - _t346 * _t92
             + _t347 * _t89;
         let _t364 = _t32 * _t339 - self.system._k9 * _t31 - _t29 * _t332 + _t45 * _t342
             - _t28 * _t345 + self.system._k10 * _t363
@@ -2303,25 +2414,25 @@ for ManakovTopGenerating6<'_, S> {
         let _t374 = _t373 + _t373;
         let _t375 = _t370 + _t20 * _t372 + _t2 * _t374;
         let _t376 = _t25 * _t43 - _t27 * _t19 + self.system._k10 * _t3;
-        let _t377 = self.system._k32 * _t376 - S::ratio(4.0, 1.0) * _t375;
+        let _t377 = self.system._k36 * _t376 - S::ratio(4.0, 1.0) * _t375;
         let _t378 = self.system._k6 * _t33;
         let _t379 = _t378 + _t378;
         let _t380 = self.system._k11 * _t38;
         let _t381 = _t380 + _t380;
         let _t382 = _t19 * _t372 + _t33 * _t379 + _t38 * _t381 + _t43 * _t374;
         let _t383 = _t28 * _t33 - _t45 * _t19 - _t32 * _t43 + _t29 * _t38;
-        let _t384 = self.system._k38 * _t383 - S::ratio(4.0, 1.0) * _t382;
+        let _t384 = self.system._k42 * _t383 - S::ratio(4.0, 1.0) * _t382;
         let _t385 = _t1 * _t374 + _t48 * _t381 + _t49 * _t379 + _t50 * _t372;
         let _t386 = _t32 * _t19 - _t29 * _t33 + _t45 * _t43 - _t28 * _t38;
-        let _t387 = self.system._k39 * _t386 - S::ratio(4.0, 1.0) * _t385;
+        let _t387 = self.system._k43 * _t386 - S::ratio(4.0, 1.0) * _t385;
         let _t388 = _t186 + _t0 * _t374 + _t18 * _t372;
         let _t389 = _t25 * _t19 - _t27 * _t43 + self.system._k10 * _t21;
-        let _t390 = self.system._k35 * _t389 - S::ratio(4.0, 1.0) * _t388;
+        let _t390 = self.system._k39 * _t389 - S::ratio(4.0, 1.0) * _t388;
         let _t391 = _t383 - _t378 * _t59 + _t371 * _t58 + _t373 * _t57 - _t380 * _t56;
         let _t392 = _t389 - _t198 - _t371 * _t62 + _t373 * _t63;
         let _t393 = _t376 - _t194 + _t371 * _t63 - _t373 * _t62;
         let _t394 = _t386 + _t378 * _t56 - _t371 * _t57 - _t373 * _t58 + _t380 * _t59;
-        let _t395 = -(_t64 * self.system._k44) - _t391 * _t105 - _t392 * _t106
+        let _t395 = -(_t64 * self.system._k48) - _t391 * _t105 - _t392 * _t106
             - _t393 * _t107 - _t394 * _t108;
         let _t396 = self.system._k10 * _t55 - _t27 * _t377 - _t45 * _t384 + _t32 * _t387
             + _t25 * _t390 + self.system._k8 * _t395
@@ -2334,9 +2445,9 @@ for ManakovTopGenerating6<'_, S> {
         let _t400 = _t266 + _t399 + _t378 * _t62 - _t380 * _t63;
         let _t401 = _t27 * _t33 - _t25 * _t38 - self.system._k10 * _t40;
         let _t402 = _t263 + _t401 - _t378 * _t63 + _t380 * _t62;
-        let _t403 = self.system._k33 * _t401 - S::ratio(4.0, 1.0) * _t398;
-        let _t404 = self.system._k34 * _t399 - S::ratio(4.0, 1.0) * _t397;
-        let _t405 = _t66 * self.system._k43 + _t393 * _t67 + _t391 * _t69 + _t394 * _t61
+        let _t403 = self.system._k37 * _t401 - S::ratio(4.0, 1.0) * _t398;
+        let _t404 = self.system._k38 * _t399 - S::ratio(4.0, 1.0) * _t397;
+        let _t405 = _t66 * self.system._k47 + _t393 * _t67 + _t391 * _t69 + _t394 * _t61
             + _t392 * _t65;
         let _t406 = self.system._k10 * _t31 + _t25 * _t377 - _t32 * _t384 + _t45 * _t387
             - _t27 * _t390 + self.system._k9 * _t405
@@ -2382,39 +2493,39 @@ for ManakovTopGenerating6<'_, S> {
         let _t432 = _t32 * _t8 - _t45 * _t14 + self.system._k11 * _t9;
         let _t433 = _t432 - _t190 + _t414 * _t58 - _t417 * _t57;
         let _t434 = _t0 * _t418 + _t6 * _t421 + _t12 * _t422 + _t18 * _t419;
-        let _t435 = self.system._k38 * _t430 - S::ratio(4.0, 1.0) * _t425;
-        let _t436 = self.system._k33 * _t432 - S::ratio(4.0, 1.0) * _t424;
-        let _t437 = self.system._k34 * _t426 - S::ratio(4.0, 1.0) * _t423;
-        let _t438 = self.system._k39 * _t428 - S::ratio(4.0, 1.0) * _t420;
+        let _t435 = self.system._k42 * _t430 - S::ratio(4.0, 1.0) * _t425;
+        let _t436 = self.system._k37 * _t432 - S::ratio(4.0, 1.0) * _t424;
+        let _t437 = self.system._k38 * _t426 - S::ratio(4.0, 1.0) * _t423;
+        let _t438 = self.system._k43 * _t428 - S::ratio(4.0, 1.0) * _t420;
         let _t439 = _t20 * _t419 + _t14 * _t422 + _t8 * _t421 + _t2 * _t418;
         let _t440 = _t28 * _t14 - _t27 * _t20 + _t25 * _t2 - _t29 * _t8;
-        let _t441 = self.system._k32 * _t440 - S::ratio(4.0, 1.0) * _t439;
+        let _t441 = self.system._k36 * _t440 - S::ratio(4.0, 1.0) * _t439;
         let _t442 = _t29 * _t14 + _t25 * _t20 - _t27 * _t2 - _t28 * _t8;
-        let _t443 = self.system._k35 * _t442 - S::ratio(4.0, 1.0) * _t434;
+        let _t443 = self.system._k39 * _t442 - S::ratio(4.0, 1.0) * _t434;
         let _t444 = _t440 - _t414 * _t59 + _t415 * _t63 - _t416 * _t62 + _t417 * _t56;
         let _t445 = _t442 - _t414 * _t56 - _t415 * _t62 + _t416 * _t63 + _t417 * _t59;
-        let _t446 = _t68 * self.system._k43 + _t444 * _t67 + _t431 * _t69 + _t429 * _t61
+        let _t446 = _t68 * self.system._k47 + _t444 * _t67 + _t431 * _t69 + _t429 * _t61
             + _t445 * _t65;
         let _t447 = _t25 * _t441 - self.system._k11 * _t47 - _t32 * _t435 + _t45 * _t438
             - _t27 * _t443 + self.system._k9 * _t446
             + self.system._k9
                 * (_t446 - _t226 - _t434 * _t74 + _t420 * _t73 - _t425 * _t72
                     + _t439 * _t71);
-        let _t448 = _t427 * _t88 - _t91 * self.system._k41 - _t444 * _t90 - _t433 * _t92
+        let _t448 = _t427 * _t88 - _t91 * self.system._k45 - _t444 * _t90 - _t433 * _t92
             + _t445 * _t89;
         let _t449 = self.system._k11 * _t81 - _t29 * _t441 + _t32 * _t436 + _t45 * _t437
             - _t28 * _t443 + self.system._k10 * _t448
             + self.system._k10
                 * (_t223 + _t448 - _t434 * _t95 + _t423 * _t73 + _t424 * _t72
                     - _t439 * _t94);
-        let _t450 = _t87 * self.system._k37 + _t444 * _t100 + _t427 * _t101
+        let _t450 = _t87 * self.system._k41 + _t444 * _t100 + _t427 * _t101
             - _t433 * _t98 - _t445 * _t99;
         let _t451 = _t28 * _t441 - self.system._k11 * _t86 - _t45 * _t436 - _t32 * _t437
             + _t29 * _t443 + self.system._k7 * _t450
             + self.system._k7
                 * (_t450 - _t220 + _t434 * _t94 - _t423 * _t72 - _t424 * _t73
                     + _t439 * _t95);
-        let _t452 = -(_t60 * self.system._k45) - _t444 * _t107 - _t429 * _t108
+        let _t452 = -(_t60 * self.system._k49) - _t444 * _t107 - _t429 * _t108
             - _t431 * _t105 - _t445 * _t106;
         let _t453 = self.system._k11 * _t53 - _t27 * _t441 - _t45 * _t435 + _t32 * _t438
             + _t25 * _t443 + self.system._k8 * _t452
@@ -2435,14 +2546,14 @@ for ManakovTopGenerating6<'_, S> {
         let _t460 = _t64 * self._h14;
         let _t461 = _t66 * self._h22;
         let _t462 = _t91 * self._h23;
-        let _t463 = _t87 * self.system._k48 + _t264 * _t122 + _t251 * _t123
+        let _t463 = _t87 * self.system._k52 + _t264 * _t122 + _t251 * _t123
             + _t254 * _t124 + _t267 * _t125;
         let _t464 = self.system._k7 * _t86 + _t29 * _t244 - _t25 * _t268 + _t27 * _t269
             - _t28 * _t247 + self.system._k11 * _t463
             + self.system._k11
                 * (_t220 + _t463 - _t245 * _t95 + _t259 * _t74 - _t261 * _t71
                     + _t242 * _t94);
-        let _t465 = _t91 * self.system._k46 + _t267 * _t129 + _t251 * _t130
+        let _t465 = _t91 * self.system._k50 + _t267 * _t129 + _t251 * _t130
             + _t254 * _t131 + _t264 * _t132;
         let _t466 = self.system._k7 * _t81 + _t28 * _t244 + _t27 * _t268 - _t25 * _t269
             - _t29 * _t247 + self.system._k6 * _t465
@@ -2456,14 +2567,14 @@ for ManakovTopGenerating6<'_, S> {
             - _t253 * _t140 + _t239 * _t462 + _t267 * _t141 + _t245 * self._h1
             + (_t81 * _t49 - _t31 * _t50 - _t55 * _t1 + _t86 * _t48 - _t21 * _t237
                 + _t35 * _t268 + _t40 * _t269 - _t3 * _t250) * self._h24;
-        let _t469 = _t60 * self.system._k48 + _t301 * _t122 + _t311 * _t123
+        let _t469 = _t60 * self.system._k52 + _t301 * _t122 + _t311 * _t123
             + _t313 * _t124 + _t304 * _t125;
         let _t470 = _t29 * _t314 - self.system._k8 * _t53 - _t25 * _t294 + _t27 * _t297
             - _t28 * _t315 + self.system._k11 * _t469
             + self.system._k11
                 * (_t469 - _t217 - _t307 * _t95 + _t295 * _t74 - _t292 * _t71
                     + _t309 * _t94);
-        let _t471 = _t68 * self.system._k47 + _t313 * _t131 + _t301 * _t132
+        let _t471 = _t68 * self.system._k51 + _t313 * _t131 + _t301 * _t132
             + _t304 * _t129 + _t311 * _t130;
         let _t472 = self.system._k8 * _t47 + _t28 * _t314 + _t27 * _t294 - _t25 * _t297
             - _t29 * _t315 + self.system._k6 * _t471
@@ -2478,14 +2589,14 @@ for ManakovTopGenerating6<'_, S> {
             + (_t81 * _t82 + _t86 * _t39 - _t21 * _t287 + _t35 * _t294 + _t40 * _t297
                 - _t3 * _t300) * self._h24;
         let _t475 = _t474 - _t317 * _t121 - _t472 * _t135 + _t321 * _t136;
-        let _t476 = _t60 * self.system._k46 + _t346 * _t129 + _t356 * _t130
+        let _t476 = _t60 * self.system._k50 + _t346 * _t129 + _t356 * _t130
             + _t358 * _t131 + _t349 * _t132;
         let _t477 = _t28 * _t359 - self.system._k9 * _t53 + _t27 * _t339 - _t25 * _t342
             - _t29 * _t360 + self.system._k6 * _t476
             + self.system._k6
                 * (_t476 - _t217 - _t352 * _t94 - _t340 * _t71 + _t337 * _t74
                     + _t354 * _t95);
-        let _t478 = _t68 * self.system._k49 + _t358 * _t124 + _t346 * _t125
+        let _t478 = _t68 * self.system._k53 + _t358 * _t124 + _t346 * _t125
             + _t349 * _t122 + _t356 * _t123;
         let _t479 = self.system._k9 * _t47 + _t29 * _t359 - _t25 * _t339 + _t27 * _t342
             - _t28 * _t360 + self.system._k11 * _t478
@@ -2500,14 +2611,14 @@ for ManakovTopGenerating6<'_, S> {
             + (_t81 * _t34 + _t86 * _t77 - _t21 * _t332 + _t35 * _t339 + _t40 * _t342
                 - _t3 * _t345) * self._h24;
         let _t482 = _t481 - _t362 * _t121 - _t479 * _t128 + _t366 * _t136;
-        let _t483 = _t91 * self.system._k49 + _t391 * _t124 + _t402 * _t125
+        let _t483 = _t91 * self.system._k53 + _t391 * _t124 + _t402 * _t125
             + _t400 * _t122 + _t394 * _t123;
         let _t484 = _t29 * _t384 - self.system._k10 * _t81 - _t25 * _t403 + _t27 * _t404
             - _t28 * _t387 + self.system._k11 * _t483
             + self.system._k11
                 * (_t483 - _t223 - _t385 * _t95 + _t397 * _t74 - _t398 * _t71
                     + _t382 * _t94);
-        let _t485 = _t87 * self.system._k47 + _t391 * _t131 + _t400 * _t132
+        let _t485 = _t87 * self.system._k51 + _t391 * _t131 + _t400 * _t132
             + _t402 * _t129 + _t394 * _t130;
         let _t486 = _t28 * _t384 - self.system._k10 * _t86 + _t27 * _t403 - _t25 * _t404
             - _t29 * _t387 + self.system._k6 * _t485
@@ -3812,9 +3923,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t166 = self.system._k7 * _t49;
         let _t167 = _t166 + _t166;
         let _t168 = self.system._k6
-            * (_t53 * S::ratio(6.0, 1.0) + _t159 + (_t11 + _t20) * self.system._k50)
+            * (_t53 * S::ratio(6.0, 1.0) + _t159 + (_t11 + _t20) * self.system._k54)
             + _t161 * _t34 + _t163 * _t39 + _t165 * _t44 + _t167 * _t49
-            + (_t53 * S::ratio(3.0, 1.0) + _t60) * self.system._k51;
+            + (_t53 * S::ratio(3.0, 1.0) + _t60) * self.system._k55;
         let _t169 = _t168 * self._h0 + self._h2;
         let _t170 = S::ratio(2.0, 1.0) * _t63 + _t131;
         let _t171 = _t72 + _t22;
@@ -3826,8 +3937,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t177 = _t9 * S::ratio(2.0, 1.0);
         let _t178 = _t12 * _t177;
         let _t179 = _t5 * _t2 + _t178;
-        let _t180 = (self.system._k7 * (self.system._k51 * _t172 + _t176) + _t165 * _t82
-            + self.system._k27 * (_t38 + _t163 * _u_m12) + _t179 * self.system._k51)
+        let _t180 = (self.system._k7 * (self.system._k55 * _t172 + _t176) + _t165 * _t82
+            + self.system._k27 * (_t38 + _t163 * _u_m12) + _t179 * self.system._k55)
             * self._h0;
         let _t181 = _t62 * _u_m13 + _t132;
         let _t182 = _t112 + _t26;
@@ -3836,35 +3947,35 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t185 = _t184 - _t16 * _t175;
         let _t186 = _t16 * _t177;
         let _t187 = _t0 * _t2 - _t186;
-        let _t188 = (self.system._k8 * (-(self.system._k51 * _t183) - _t185)
+        let _t188 = (self.system._k8 * (-(self.system._k55 * _t183) - _t185)
             + _t167 * _t113 + self.system._k29 * (_t33 + _t161 * _u_m12)
-            - _t187 * self.system._k51) * self._h0;
+            - _t187 * self.system._k55) * self._h0;
         let _t189 = _t62 * _u_m14 + _t133;
         let _t190 = _t123 - S::ratio(2.0, 1.0) * _t139;
         let _t191 = _t16 * _t173;
         let _t192 = _t191 - _t0 * _t175;
         let _t193 = _t0 * _t177;
         let _t194 = _t16 * _t2 - _t193;
-        let _t195 = (self.system._k9 * (-(self.system._k51 * _t190) - _t192)
+        let _t195 = (self.system._k9 * (-(self.system._k55 * _t190) - _t192)
             + _t161 * _t126 + self.system._k14 * (_t48 + _t167 * _u_m12)
-            - _t194 * self.system._k51) * self._h0;
+            - _t194 * self.system._k55) * self._h0;
         let _t196 = _u_m13 - _t62 * _u_m23 + _t118 * _u_m34;
         let _t197 = S::ratio(2.0, 1.0) * _t138 + _t100;
         let _t198 = _t12 * _t173;
         let _t199 = _t198 + _t5 * _t175;
         let _t200 = _t5 * _t177;
         let _t201 = _t12 * _t2 + _t200;
-        let _t202 = (self.system._k10 * (self.system._k51 * _t197 + _t199)
+        let _t202 = (self.system._k10 * (self.system._k55 * _t197 + _t199)
             + _t163 * _t104 + self.system._k16 * (_t43 + _t165 * _u_m12)
-            + _t201 * self.system._k51) * self._h0;
+            + _t201 * self.system._k55) * self._h0;
         let _t203 = _u_m14 - _t62 * _u_m24 - _t94 * _u_m34;
         let _t204 = _t62 * _t94;
         let _t205 = self.system._k8 * _t82;
         let _t206 = _t205 + _t205;
         let _t207 = self.system._k9 * _t35;
         let _t208 = _t207 + _t207;
-        let _t209 = (self.system._k6 * (_t172 * self.system._k52 + _t176) + _t206 * _t44
-            + self.system._k27 * (_t38 + _t208 * _u_m13) + _t179 * self.system._k52)
+        let _t209 = (self.system._k6 * (_t172 * self.system._k56 + _t176) + _t206 * _t44
+            + self.system._k27 * (_t38 + _t208 * _u_m13) + _t179 * self.system._k56)
             * self._h0;
         let _t210 = S::ratio(2.0, 1.0) * _t92;
         let _t211 = self.system._k11 * _t81;
@@ -3872,9 +3983,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t213 = self.system._k6 * _t87;
         let _t214 = _t213 + _t213;
         let _t215 = self.system._k7
-            * (_t210 + _t54 * S::ratio(6.0, 1.0) + (_t67 + _t70) * self.system._k53)
+            * (_t210 + _t54 * S::ratio(6.0, 1.0) + (_t67 + _t70) * self.system._k57)
             + _t212 * _t81 + _t208 * _t35 + _t206 * _t82 + _t214 * _t87
-            + (_t54 * S::ratio(3.0, 1.0) + _t92) * self.system._k52;
+            + (_t54 * S::ratio(3.0, 1.0) + _t92) * self.system._k56;
         let _t216 = _t215 * self._h0 + self._h3;
         let _t217 = _t96 + _t73;
         let _t218 = S::ratio(2.0, 1.0) * _t217 + _t76;
@@ -3884,8 +3995,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t222 = _t220 + _t221 * S::ratio(4.0, 1.0);
         let _t223 = _t221 * S::ratio(2.0, 1.0);
         let _t224 = _t219 + _t223;
-        let _t225 = (self.system._k8 * (self.system._k52 * _t218 + _t222) + _t214 * _t114
-            + self.system._k30 * (_t80 + _t212 * _u_m13) + _t224 * self.system._k52)
+        let _t225 = (self.system._k8 * (self.system._k56 * _t218 + _t222) + _t214 * _t114
+            + self.system._k30 * (_t80 + _t212 * _u_m13) + _t224 * self.system._k56)
             * self._h0;
         let _t226 = S::ratio(2.0, 1.0) * _t103 + _t124;
         let _t227 = _t16 * _t5;
@@ -3894,103 +4005,103 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t230 = _t228 + _t229 * S::ratio(4.0, 1.0);
         let _t231 = _t229 * S::ratio(2.0, 1.0);
         let _t232 = _t227 + _t231;
-        let _t233 = (self.system._k9 * (self.system._k52 * _t226 + _t230) + _t212 * _t125
-            + self.system._k24 * (_t86 + _t214 * _u_m13) + _t232 * self.system._k52)
+        let _t233 = (self.system._k9 * (self.system._k56 * _t226 + _t230) + _t212 * _t125
+            + self.system._k24 * (_t86 + _t214 * _u_m13) + _t232 * self.system._k56)
             * self._h0;
         let _t234 = _t89 * S::ratio(2.0, 1.0);
         let _t235 = _t16 * _u_m23 + _t0 * _u_m14;
         let _t236 = _t9 * _u_m34 + _t2 * _u_m12;
         let _t237 = _t235 + _t236;
-        let _t238 = (self.system._k10 * (_t234 + self.system._k52 * _t237) + _t212 * _t78
-            + _t208 * _t104 + _t206 * _t40 + _t214 * _t84 + _t89 * self.system._k52)
+        let _t238 = (self.system._k10 * (_t234 + self.system._k56 * _t237) + _t212 * _t78
+            + _t208 * _t104 + _t206 * _t40 + _t214 * _t84 + _t89 * self.system._k56)
             * self._h0;
         let _t239 = _t62 * _t118;
         let _t240 = self.system._k7 * _t113;
         let _t241 = _t240 + _t240;
         let _t242 = self.system._k10 * _t30;
         let _t243 = _t242 + _t242;
-        let _t244 = (self.system._k6 * (-(_t183 * self.system._k54) - _t185)
+        let _t244 = (self.system._k6 * (-(_t183 * self.system._k58) - _t185)
             + _t241 * _t49 + self.system._k29 * (_t33 + _t243 * _u_m14)
-            - _t187 * self.system._k54) * self._h0;
+            - _t187 * self.system._k58) * self._h0;
         let _t245 = self.system._k6 * _t114;
         let _t246 = _t245 + _t245;
         let _t247 = self.system._k11 * _t77;
         let _t248 = _t247 + _t247;
-        let _t249 = (self.system._k7 * (_t218 * self.system._k54 + _t222) + _t246 * _t87
-            + self.system._k30 * (_t80 + _t248 * _u_m14) + _t224 * self.system._k54)
+        let _t249 = (self.system._k7 * (_t218 * self.system._k58 + _t222) + _t246 * _t87
+            + self.system._k30 * (_t80 + _t248 * _u_m14) + _t224 * self.system._k58)
             * self._h0;
         let _t250 = S::ratio(2.0, 1.0) * _t116;
         let _t251 = self.system._k8
-            * (_t250 + _t57 * S::ratio(6.0, 1.0) + (_t109 + _t110) * self.system._k55)
+            * (_t250 + _t57 * S::ratio(6.0, 1.0) + (_t109 + _t110) * self.system._k59)
             + _t248 * _t77 + _t243 * _t30 + _t241 * _t113 + _t246 * _t114
-            + (_t57 * S::ratio(3.0, 1.0) + _t116) * self.system._k54;
+            + (_t57 * S::ratio(3.0, 1.0) + _t116) * self.system._k58;
         let _t252 = _t251 * self._h0 + self._h4;
         let _t253 = _t115 * S::ratio(2.0, 1.0);
         let _t254 = _t12 * _u_m24 + _t5 * _u_m13;
         let _t255 = _t254 - _t236;
-        let _t256 = (self.system._k9 * (_t253 + self.system._k54 * _t255) + _t248 * _t125
-            + _t243 * _t126 + _t241 * _t45 + _t246 * _t83 + _t115 * self.system._k54)
+        let _t256 = (self.system._k9 * (_t253 + self.system._k58 * _t255) + _t248 * _t125
+            + _t243 * _t126 + _t241 * _t45 + _t246 * _t83 + _t115 * self.system._k58)
             * self._h0;
         let _t257 = _t103 + S::ratio(2.0, 1.0) * _t124;
         let _t258 = _t231 + _t227 * S::ratio(4.0, 1.0);
         let _t259 = _t229 + _t228;
-        let _t260 = (self.system._k10 * (self.system._k54 * _t257 + _t258) + _t248 * _t78
-            + self.system._k25 * (_t86 + _t246 * _u_m14) + _t259 * self.system._k54)
+        let _t260 = (self.system._k10 * (self.system._k58 * _t257 + _t258) + _t248 * _t78
+            + self.system._k25 * (_t86 + _t246 * _u_m14) + _t259 * self.system._k58)
             * self._h0;
         let _t261 = _t62 * _t128;
         let _t262 = self.system._k10 * _t126;
         let _t263 = _t262 + _t262;
         let _t264 = self.system._k7 * _t45;
         let _t265 = _t264 + _t264;
-        let _t266 = (self.system._k6 * (-(_t190 * self.system._k56) - _t192)
+        let _t266 = (self.system._k6 * (-(_t190 * self.system._k60) - _t192)
             + _t263 * _t34 + self.system._k14 * (_t48 + _t265 * _u_m23)
-            - _t194 * self.system._k56) * self._h0;
+            - _t194 * self.system._k60) * self._h0;
         let _t267 = self.system._k11 * _t125;
         let _t268 = _t267 + _t267;
         let _t269 = self.system._k6 * _t83;
         let _t270 = _t269 + _t269;
-        let _t271 = (self.system._k7 * (_t226 * self.system._k56 + _t230) + _t268 * _t81
-            + self.system._k24 * (_t86 + _t270 * _u_m23) + _t232 * self.system._k56)
+        let _t271 = (self.system._k7 * (_t226 * self.system._k60 + _t230) + _t268 * _t81
+            + self.system._k24 * (_t86 + _t270 * _u_m23) + _t232 * self.system._k60)
             * self._h0;
-        let _t272 = (self.system._k8 * (_t253 + _t255 * self.system._k56) + _t268 * _t77
-            + _t263 * _t30 + _t265 * _t113 + _t270 * _t114 + _t115 * self.system._k56)
+        let _t272 = (self.system._k8 * (_t253 + _t255 * self.system._k60) + _t268 * _t77
+            + _t263 * _t30 + _t265 * _t113 + _t270 * _t114 + _t115 * self.system._k60)
             * self._h0;
         let _t273 = self.system._k9
-            * (_t250 + _t58 * S::ratio(6.0, 1.0) + (_t120 + _t110) * self.system._k57)
+            * (_t250 + _t58 * S::ratio(6.0, 1.0) + (_t120 + _t110) * self.system._k61)
             + _t268 * _t125 + _t263 * _t126 + _t265 * _t45 + _t270 * _t83
-            + (_t58 * S::ratio(3.0, 1.0) + _t116) * self.system._k56;
+            + (_t58 * S::ratio(3.0, 1.0) + _t116) * self.system._k60;
         let _t274 = _t273 * self._h0 + self._h5;
         let _t275 = _t217 + S::ratio(2.0, 1.0) * _t76;
         let _t276 = _t223 + _t219 * S::ratio(4.0, 1.0);
         let _t277 = _t221 + _t220;
-        let _t278 = (self.system._k10 * (self.system._k56 * _t275 + _t276) + _t270 * _t84
-            + self.system._k31 * (_t80 + _t268 * _u_m23) + _t277 * self.system._k56)
+        let _t278 = (self.system._k10 * (self.system._k60 * _t275 + _t276) + _t270 * _t84
+            + self.system._k31 * (_t80 + _t268 * _u_m23) + _t277 * self.system._k60)
             * self._h0;
         let _t279 = _t62 * _t106;
         let _t280 = self.system._k9 * _t104;
         let _t281 = _t280 + _t280;
         let _t282 = self.system._k8 * _t40;
         let _t283 = _t282 + _t282;
-        let _t284 = (self.system._k6 * (_t197 * self.system._k58 + _t199) + _t281 * _t39
-            + self.system._k16 * (_t43 + _t283 * _u_m24) + _t201 * self.system._k58)
+        let _t284 = (self.system._k6 * (_t197 * self.system._k62 + _t199) + _t281 * _t39
+            + self.system._k16 * (_t43 + _t283 * _u_m24) + _t201 * self.system._k62)
             * self._h0;
         let _t285 = self.system._k11 * _t78;
         let _t286 = _t285 + _t285;
         let _t287 = self.system._k6 * _t84;
         let _t288 = _t287 + _t287;
-        let _t289 = (self.system._k7 * (_t234 + _t237 * self.system._k58) + _t286 * _t81
-            + _t281 * _t35 + _t283 * _t82 + _t288 * _t87 + _t89 * self.system._k58)
+        let _t289 = (self.system._k7 * (_t234 + _t237 * self.system._k62) + _t286 * _t81
+            + _t281 * _t35 + _t283 * _t82 + _t288 * _t87 + _t89 * self.system._k62)
             * self._h0;
-        let _t290 = (self.system._k8 * (_t257 * self.system._k58 + _t258) + _t286 * _t77
-            + self.system._k25 * (_t86 + _t288 * _u_m24) + _t259 * self.system._k58)
+        let _t290 = (self.system._k8 * (_t257 * self.system._k62 + _t258) + _t286 * _t77
+            + self.system._k25 * (_t86 + _t288 * _u_m24) + _t259 * self.system._k62)
             * self._h0;
-        let _t291 = (self.system._k9 * (_t275 * self.system._k58 + _t276) + _t288 * _t83
-            + self.system._k31 * (_t80 + _t286 * _u_m24) + _t277 * self.system._k58)
+        let _t291 = (self.system._k9 * (_t275 * self.system._k62 + _t276) + _t288 * _t83
+            + self.system._k31 * (_t80 + _t286 * _u_m24) + _t277 * self.system._k62)
             * self._h0;
         let _t292 = self.system._k10
-            * (_t210 + _t55 * S::ratio(6.0, 1.0) + (_t97 + _t70) * self.system._k59)
+            * (_t210 + _t55 * S::ratio(6.0, 1.0) + (_t97 + _t70) * self.system._k63)
             + _t286 * _t78 + _t281 * _t104 + _t283 * _t40 + _t288 * _t84
-            + (_t55 * S::ratio(3.0, 1.0) + _t92) * self.system._k58;
+            + (_t55 * S::ratio(3.0, 1.0) + _t92) * self.system._k62;
         let _t293 = _t292 * self._h0 + self._h1;
         let _t294 = _t52 * S::ratio(2.0, 1.0);
         let _t295 = _t254 - _t235;
@@ -4002,33 +4113,33 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t301 = _t300 + _t300;
         let _t302 = self.system._k7 * _t46;
         let _t303 = _t302 + _t302;
-        let _t304 = (self.system._k6 * (_t294 + _t295 * self.system._k60) + _t297 * _t34
-            + _t299 * _t39 + _t301 * _t44 + _t303 * _t49 + _t52 * self.system._k60)
+        let _t304 = (self.system._k6 * (_t294 + _t295 * self.system._k64) + _t297 * _t34
+            + _t299 * _t39 + _t301 * _t44 + _t303 * _t49 + _t52 * self.system._k64)
             * self._h0;
         let _t305 = _t138 + S::ratio(2.0, 1.0) * _t100;
         let _t306 = _t2 * S::ratio(4.0, 1.0);
         let _t307 = _t200 + _t12 * _t306;
         let _t308 = _t9 * _t5 + _t198;
-        let _t309 = (self.system._k7 * (_t305 * self.system._k60 + _t307) + _t299 * _t35
-            + self.system._k17 * (_t43 + _t301 * _u_m34) + _t308 * self.system._k60)
+        let _t309 = (self.system._k7 * (_t305 * self.system._k64 + _t307) + _t299 * _t35
+            + self.system._k17 * (_t43 + _t301 * _u_m34) + _t308 * self.system._k64)
             * self._h0;
         let _t310 = _t139 - S::ratio(2.0, 1.0) * _t123;
         let _t311 = _t193 - _t16 * _t306;
         let _t312 = _t9 * _t0 - _t191;
-        let _t313 = (self.system._k8 * (-(_t310 * self.system._k60) - _t311)
+        let _t313 = (self.system._k8 * (-(_t310 * self.system._k64) - _t311)
             + _t297 * _t30 + self.system._k26 * (_t48 + _t303 * _u_m34)
-            - _t312 * self.system._k60) * self._h0;
+            - _t312 * self.system._k64) * self._h0;
         let _t314 = _t182 - S::ratio(2.0, 1.0) * _t29;
         let _t315 = _t186 - _t0 * _t306;
         let _t316 = _t9 * _t16 - _t184;
-        let _t317 = (self.system._k9 * (-(_t314 * self.system._k60) - _t315)
+        let _t317 = (self.system._k9 * (-(_t314 * self.system._k64) - _t315)
             + _t303 * _t45 + self.system._k21 * (_t33 + _t297 * _u_m34)
-            - _t316 * self.system._k60) * self._h0;
+            - _t316 * self.system._k64) * self._h0;
         let _t318 = _t171 + S::ratio(2.0, 1.0) * _t25;
         let _t319 = _t178 + _t5 * _t306;
         let _t320 = _t9 * _t12 + _t174;
-        let _t321 = (self.system._k10 * (_t318 * self.system._k60 + _t319) + _t301 * _t40
-            + self.system._k28 * (_t38 + _t299 * _u_m34) + _t320 * self.system._k60)
+        let _t321 = (self.system._k10 * (_t318 * self.system._k64 + _t319) + _t301 * _t40
+            + self.system._k28 * (_t38 + _t299 * _u_m34) + _t320 * self.system._k64)
             * self._h0;
         let _t322 = _t94 * _t106;
         let _t323 = _t118 * _t128;
@@ -4037,30 +4148,30 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t326 = S::ratio(2.0, 1.0) * _t95 + _t144;
         let _t327 = _t94 * _u_m14 + _t147;
         let _t328 = _u_m12 + _t94 * _u_m23 + _t118 * _u_m24;
-        let _t329 = (self.system._k11 * (_t294 + _t295 * self.system._k51) + _t161 * _t31
-            + _t163 * _t36 + _t165 * _t41 + _t167 * _t46 + _t52 * self.system._k51)
+        let _t329 = (self.system._k11 * (_t294 + _t295 * self.system._k55) + _t161 * _t31
+            + _t163 * _t36 + _t165 * _t41 + _t167 * _t46 + _t52 * self.system._k55)
             * self._h0;
-        let _t330 = (self.system._k11 * (_t305 * self.system._k52 + _t307) + _t208 * _t36
-            + self.system._k17 * (_t43 + _t206 * _u_m13) + _t308 * self.system._k52)
+        let _t330 = (self.system._k11 * (_t305 * self.system._k56 + _t307) + _t208 * _t36
+            + self.system._k17 * (_t43 + _t206 * _u_m13) + _t308 * self.system._k56)
             * self._h0;
         let _t331 = _t94 * _t118;
-        let _t332 = (self.system._k11 * (-(_t310 * self.system._k54) - _t311)
+        let _t332 = (self.system._k11 * (-(_t310 * self.system._k58) - _t311)
             + _t243 * _t31 + self.system._k26 * (_t48 + _t241 * _u_m14)
-            - _t312 * self.system._k54) * self._h0;
+            - _t312 * self.system._k58) * self._h0;
         let _t333 = _t94 * _t128;
-        let _t334 = (self.system._k11 * (-(_t314 * self.system._k56) - _t315)
+        let _t334 = (self.system._k11 * (-(_t314 * self.system._k60) - _t315)
             + _t265 * _t46 + self.system._k21 * (_t33 + _t263 * _u_m23)
-            - _t316 * self.system._k56) * self._h0;
-        let _t335 = (self.system._k11 * (_t318 * self.system._k58 + _t319) + _t283 * _t41
-            + self.system._k28 * (_t38 + _t281 * _u_m24) + _t320 * self.system._k58)
+            - _t316 * self.system._k60) * self._h0;
+        let _t335 = (self.system._k11 * (_t318 * self.system._k62 + _t319) + _t283 * _t41
+            + self.system._k28 * (_t38 + _t281 * _u_m24) + _t320 * self.system._k62)
             * self._h0;
         let _t336 = _t62 * _t141;
         let _t337 = _t323 + _t336;
         let _t338 = _t94 * _t141;
         let _t339 = self.system._k11
-            * (_t159 + _t90 * S::ratio(6.0, 1.0) + (_t137 + _t20) * self.system._k61)
+            * (_t159 + _t90 * S::ratio(6.0, 1.0) + (_t137 + _t20) * self.system._k65)
             + _t297 * _t31 + _t299 * _t36 + _t301 * _t41 + _t303 * _t46
-            + (_t90 * S::ratio(3.0, 1.0) + _t60) * self.system._k60;
+            + (_t90 * S::ratio(3.0, 1.0) + _t60) * self.system._k64;
         let _t340 = _t339 * self._h0 + self._h6;
         let _t341 = _t153 - _t118 * _u_m12;
         let _t342 = _t155 - _t118 * _u_m13;
@@ -4512,7 +4623,7 @@ impl<
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] ManakovTopSystem < S >, S : midpoint, gauss4, gauss6,
     exp, cayley, discrete_gradients, orbit_energy, cohen_hairer, generating2,
-    generating2_cayley
+    generating2_cayley, isospectral2_cayley, isospectral4, isospectral6, moser_veselov_n
 );
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] ManakovTopSystem < S >, S : splitting

@@ -1,0 +1,171 @@
+//! Dual matrices of a representation, for methods on `T*V` that are reduced to g*.
+//!
+//! Such a method forms words `T rho_k Q` in the matrices. They lie in the closure E of the span under
+//! `(abc + cba)/2` and `ab - ba`. A matrix W determines the momentum `mu_k = tr(W rho_k)`, but the method
+//! needs `tr(W e)` for all e in E. If E = rho(g) + Z, where every matrix of Z commutes with those of
+//! rho(g), then `tr(W z) = 0` for all z is consistent with the motion, and mu determines the step: the
+//! dual matrices D^k are those of E^T with `tr(D^k rho_l) = delta_kl` and `tr(D^k z) = 0`. On any other E the
+//! step would depend on more than mu and leave the coadjoint orbit.
+
+use super::sparse::SparseMatrix;
+use crate::exact::matrix::{Span, solve};
+use crate::exact::{Budget, Exhausted, Rational};
+
+/// The dual matrices by rows, `None` where there are none; `closed` says that the span is closed under
+/// triple products.
+pub(super) fn dual(
+    matrices: &[SparseMatrix],
+    closed: bool,
+    budget: &Budget,
+) -> Result<Option<Vec<Vec<Vec<Rational>>>>, Exhausted> {
+    let basis = if closed {
+        matrices.to_vec()
+    } else {
+        match closure(matrices, budget)? {
+            Some(basis) => basis,
+            None => return Ok(None),
+        }
+    };
+    let flat: Vec<Vec<Rational>> = basis.iter().map(SparseMatrix::flat).collect();
+    let size = basis[0].rows().len();
+    // D^k = sum_b c_b basis_b^T has tr(D^k basis_a) = sum_b c_b (basis_b . basis_a)
+    let gram: Vec<Vec<Rational>> = flat
+        .iter()
+        .map(|a| flat.iter().map(|b| dot(a, b)).collect())
+        .collect();
+    budget.spend((flat.len() * flat.len() * size * size) as u64)?;
+    let duals = (0..matrices.len()).map(|k| {
+        let right: Vec<Rational> = (0..flat.len())
+            .map(|a| {
+                if a == k {
+                    Rational::ONE
+                } else {
+                    Rational::ZERO
+                }
+            })
+            .collect();
+        let coefficients = solve(&gram, &right)?;
+        let mut rows = vec![vec![Rational::ZERO; size]; size];
+        for (coefficient, matrix) in coefficients.iter().zip(&flat) {
+            for (position, entry) in matrix.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
+                let place = &mut rows[position % size][position / size];
+                *place = &*place + &(coefficient * entry);
+            }
+        }
+        Some(rows)
+    });
+    Ok(duals.collect())
+}
+
+/// The matrices and a basis of Z; `None` where the closure has another form.
+fn closure(
+    matrices: &[SparseMatrix],
+    budget: &Budget,
+) -> Result<Option<Vec<SparseMatrix>>, Exhausted> {
+    let mut basis = matrices.to_vec();
+    let mut known = 0;
+    while known < basis.len() {
+        let Ok(mut span) = span(&basis) else {
+            return Ok(None);
+        };
+        // triples in which something new takes part
+        let (first, count) = (known, basis.len());
+        known = count;
+        for a in 0..count {
+            for b in 0..count {
+                for c in a..count {
+                    if a.max(b).max(c) < first {
+                        continue;
+                    }
+                    let left = SparseMatrix::product(&basis[a], &basis[b], budget)?;
+                    let right = SparseMatrix::product(&basis[c], &basis[b], budget)?;
+                    let sum = SparseMatrix::combine(
+                        &[(&left, &basis[c], true), (&right, &basis[a], true)],
+                        budget,
+                    )?;
+                    if !extend(&sum, matrices, &mut basis, &mut span, budget)? {
+                        return Ok(None);
+                    }
+                }
+            }
+            for b in (a + 1..count).filter(|&b| b >= first) {
+                let commutator = SparseMatrix::commutator(&basis[a], &basis[b], budget)?;
+                if !extend(&commutator, matrices, &mut basis, &mut span, budget)? {
+                    return Ok(None);
+                }
+            }
+        }
+    }
+    Ok(Some(basis))
+}
+
+/// Adds what a matrix has beyond the span, if it commutes with the representation up to elements of it;
+/// false where it does not.
+fn extend(
+    matrix: &SparseMatrix,
+    matrices: &[SparseMatrix],
+    basis: &mut Vec<SparseMatrix>,
+    span: &mut Span,
+    budget: &Budget,
+) -> Result<bool, Exhausted> {
+    let flat = matrix.flat();
+    budget.spend(flat.len() as u64)?;
+    if span.coordinates(&flat).is_some() {
+        return Ok(true);
+    }
+    // z = matrix - sum_i c_i rho_i with [z, rho_j] = 0 for all j
+    let mut rows = Vec::new();
+    let mut right = Vec::new();
+    for other in matrices {
+        let commutators: Vec<Vec<Rational>> = matrices
+            .iter()
+            .map(|rho| Ok(SparseMatrix::commutator(rho, other, budget)?.flat()))
+            .collect::<Result<_, Exhausted>>()?;
+        let target = SparseMatrix::commutator(matrix, other, budget)?.flat();
+        for (position, value) in target.into_iter().enumerate() {
+            let row: Vec<Rational> = commutators.iter().map(|c| c[position].clone()).collect();
+            if !value.is_zero() || row.iter().any(|entry| !entry.is_zero()) {
+                rows.push(row);
+                right.push(value);
+            }
+        }
+    }
+    budget.spend((rows.len() * matrices.len() * matrices.len()) as u64)?;
+    let coefficients = if rows.is_empty() {
+        vec![Rational::ZERO; matrices.len()]
+    } else {
+        match solve(&rows, &right) {
+            Some(coefficients) => coefficients,
+            None => return Ok(false),
+        }
+    };
+    let mut rest = flat;
+    for (coefficient, rho) in coefficients.iter().zip(matrices) {
+        for (position, entry) in rho.entries() {
+            rest[position] = &rest[position] - &(coefficient * entry);
+        }
+    }
+    let size = matrix.rows().len();
+    let rows: Vec<Vec<Rational>> = rest.chunks(size).map(<[Rational]>::to_vec).collect();
+    basis.push(SparseMatrix::from_rows(&rows));
+    match self::span(basis) {
+        Ok(larger) => *span = larger,
+        Err(()) => return Ok(false),
+    }
+    Ok(true)
+}
+
+fn span(basis: &[SparseMatrix]) -> Result<Span, ()> {
+    let flat: Vec<Vec<Rational>> = basis.iter().map(SparseMatrix::flat).collect();
+    Span::new(&flat).map_err(drop)
+}
+
+fn dot(a: &[Rational], b: &[Rational]) -> Rational {
+    let mut sum = Rational::ZERO;
+    for (x, y) in a.iter().zip(b) {
+        if !x.is_zero() && !y.is_zero() {
+            sum = &sum + &(x * y);
+        }
+    }
+    sum
+}

@@ -1,0 +1,155 @@
+//! The impls of traits for structure that not every system has: a representation, spins, inertia.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::Writer;
+use super::names::index;
+use super::prepared::{Owner, Prepared};
+use crate::derive::Kernel;
+use crate::exact::Rational;
+use crate::structure::inertia::Body;
+use crate::symbolic::ExprId;
+
+impl Writer<'_> {
+    /// The impls that the system has a structure for.
+    pub fn structure(&mut self) -> TokenStream {
+        let matrices = self.matrix_poisson();
+        let spins = self.spin_poisson();
+        let inertia = self.inertia_poisson();
+        quote! { #matrices #spins #inertia }
+    }
+
+    fn matrix_poisson(&self) -> Option<TokenStream> {
+        let representation = self.source.matrices.as_ref()?;
+        let dual = representation.dual.as_ref()?;
+        let system = self.system_name();
+        let size = index(representation.dimension);
+        let skew = representation.matrices.iter().chain(dual).all(is_skew);
+        let matrices = representation.matrices.iter().map(entries);
+        let dual = dual.iter().map(entries);
+        Some(quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for #system<S> {
+                type Matrix = ::lie_runtime::__private::SMatrix<S, #size, #size>;
+                const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+                    matrices: &[#(#matrices),*],
+                    dual: &[#(#dual),*],
+                    skew: #skew,
+                };
+
+                fn zero_matrix(&self) -> Self::Matrix {
+                    Self::Matrix::repeat(S::zero())
+                }
+            }
+        })
+    }
+
+    fn spin_poisson(&mut self) -> Option<TokenStream> {
+        let spins = self.source.spins.clone()?;
+        let system = self.system_name();
+        let triples = spins.iter().map(|spin| {
+            let triple = spin.coordinates.map(index);
+            quote! { [#(#triple),*] }
+        });
+        let scales: Vec<ExprId> = spins.iter().map(|spin| spin.scale).collect();
+        let (argument, value) = self.chosen("spin", &scales);
+        Some(quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for #system<S> {
+                const SPINS: &'static [[usize; 3]] = &[#(#triples),*];
+
+                #[inline]
+                fn scale(&self, #argument: usize) -> S {
+                    #value
+                }
+            }
+        })
+    }
+
+    fn inertia_poisson(&mut self) -> Option<TokenStream> {
+        let Body::Many { planes, moments } = self.source.body.clone()? else {
+            return None;
+        };
+        let system = self.system_name();
+        let size = index(moments.len());
+        let planes = planes.iter().map(|&(from, to)| {
+            let (from, to) = (index(from), index(to));
+            quote! { ::lie_runtime::__private::Plane::new(#from, #to) }
+        });
+        let (argument, value) = self.chosen("axis", &moments);
+        Some(quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::InertiaPoisson<S> for #system<S> {
+                type Matrix = ::lie_runtime::__private::SMatrix<S, #size, #size>;
+                const PLANES: &'static [::lie_runtime::__private::Plane] = &[#(#planes),*];
+
+                fn zero_matrix(&self) -> Self::Matrix {
+                    Self::Matrix::repeat(S::zero())
+                }
+
+                #[inline]
+                fn moment(&self, #argument: usize) -> S {
+                    #value
+                }
+            }
+        })
+    }
+
+    /// One of several constants, by an argument.
+    fn chosen(&mut self, argument: &str, values: &[ExprId]) -> (proc_macro2::Ident, TokenStream) {
+        let mut texts = Vec::new();
+        for value in values {
+            let kernel = Kernel::scalar("", "", Vec::new(), *value);
+            let program = kernel.program(&mut self.source.graph);
+            let mut none = Prepared::default();
+            let (statements, outputs) = self.program(&program, |writer, value| {
+                writer.value(value, Owner::System, &mut none)
+            });
+            texts.push(quote! { #statements #(#outputs)* });
+        }
+        let same = values.iter().all(|value| *value == values[0]);
+        let name = super::names::ident(&if same {
+            format!("_{argument}")
+        } else {
+            argument.to_owned()
+        });
+        let Some((last, others)) = texts.split_last() else {
+            return (name, quote! { S::zero() });
+        };
+        if same {
+            return (name, last.clone());
+        }
+        let arms = others.iter().enumerate().map(|(k, text)| {
+            let k = index(k);
+            quote! { #k => { #text } }
+        });
+        let value = quote! { match #name { #(#arms)* _ => { #last } } };
+        (name, value)
+    }
+}
+
+fn is_skew(matrix: &Vec<Vec<Rational>>) -> bool {
+    matrix.iter().enumerate().all(|(i, row)| {
+        row.iter()
+            .enumerate()
+            .all(|(j, entry)| (entry + &matrix[j][i]).is_zero())
+    })
+}
+
+/// The nonzero entries of a matrix.
+fn entries(matrix: &Vec<Vec<Rational>>) -> TokenStream {
+    let mut tokens = Vec::new();
+    for (i, row) in matrix.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
+            let (i, j) = (index(i), index(j));
+            let high = entry.to_f64();
+            let low = Rational::from_f64(high).map_or(0.0, |high| (entry - &high).to_f64());
+            let exact = low == 0.0;
+            let (high, low) = (Literal::f64_unsuffixed(high), Literal::f64_unsuffixed(low));
+            tokens.push(if exact {
+                quote! { ::lie_runtime::__private::Entry::new(#i, #j, #high) }
+            } else {
+                quote! { ::lie_runtime::__private::Entry::parts(#i, #j, #high, #low) }
+            });
+        }
+    }
+    quote! { &[#(#tokens),*] }
+}

@@ -1,0 +1,35 @@
+//! Representations that carry collective and isospectral methods.
+
+use crate::model::Model;
+
+/// Why a collective or isospectral method in the declared representation does not apply, with the
+/// nearest one that does.
+pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
+    let nearest = |also: &str| {
+        let remedy = match order {
+            2 => "use `lie-midpoint`, which works for every Lie algebra".to_owned(),
+            order => {
+                format!("use `compose{order}(lie-midpoint)`, which works for every Lie algebra")
+            }
+        };
+        format!("{remedy}{also}")
+    };
+    match &model.representation {
+        None => {
+            let spins = super::spins::spins(model).is_some();
+            let hopf = ", or the same method with `--lift hopf`";
+            Some((
+                "it needs a matrix representation, and the algebra declares no `matrices`".into(),
+                nearest(if spins { hopf } else { "" }),
+            ))
+        }
+        Some(representation) if representation.dual.is_none() => Some((
+            "it needs a representation whose closure under (abc + cba)/2 adds only matrices that \
+             commute with it; that of the declared `matrices` adds others, and the step would leave \
+             the coadjoint orbit"
+                .into(),
+            nearest(", or declare other matrices, such as those that define the algebra"),
+        )),
+        Some(_) => None,
+    }
+}

@@ -1,0 +1,74 @@
+//! Direct sums of algebras so(3) in bases with `[e_i, e_j] = c e_k` and its cyclic permutations.
+
+use crate::exact::Budget;
+use crate::model::Model;
+use crate::symbolic::ExprId;
+
+/// Work allowed to compare the constants.
+const WORK: u64 = 100_000;
+
+/// A summand so(3).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Spin {
+    /// Its coordinates, ascending.
+    pub coordinates: [usize; 3],
+    /// The constant c.
+    pub scale: ExprId,
+}
+
+/// The summands in the order of their coordinates; `None` where the algebra is no such sum.
+pub fn spins(model: &Model) -> Option<Vec<Spin>> {
+    let n = model.dimension();
+    if n == 0 || !n.is_multiple_of(3) {
+        return None;
+    }
+    let budget = Budget::new(WORK);
+    let entries = model.exact_constants.entries();
+    let expressions = model.constants.entries();
+    if entries.len() != n || expressions.len() != n {
+        return None;
+    }
+    let mut spins = Vec::new();
+    for (entry, expression) in entries.iter().zip(expressions) {
+        let &(i, j, k, ref c) = entry;
+        if j > k || i > j {
+            continue;
+        }
+        // i < j < k: [e_i, e_j] = c e_k, [e_j, e_k] = c e_i, [e_i, e_k] = -c e_j
+        let find = |a: usize, b: usize, to: usize| match model.exact_constants.upper(a, b) {
+            [(_, _, found, value)] if *found == to => Some(value),
+            _ => None,
+        };
+        let alone = model.exact_constants.upper(i, j).len() == 1;
+        let (second, third) = (find(j, k, i)?, find(i, k, j)?);
+        if !alone || !c.equals(second, &budget).ok()? || !c.neg().equals(third, &budget).ok()? {
+            return None;
+        }
+        spins.push(Spin {
+            coordinates: [i, j, k],
+            scale: expression.3,
+        });
+    }
+    let mut covered: Vec<usize> = spins.iter().flat_map(|spin| spin.coordinates).collect();
+    covered.sort_unstable();
+    (covered == (0..n).collect::<Vec<_>>()).then_some(spins)
+}
+
+/// Why a method for spins does not apply, with the nearest one that does.
+pub fn refusal(model: &Model, hopf: Option<u32>) -> Option<(String, String)> {
+    if spins(model).is_some() {
+        return None;
+    }
+    let reason = "it needs so(3), or a direct sum of algebras so(3), in a basis with [e1, e2] = c e3 \
+                  and its cyclic permutations";
+    let remedy = match hopf {
+        Some(order) if super::matrices::refusal(model, order).is_none() => {
+            format!("use `collective{order}` with `--lift representation`")
+        }
+        Some(order) if order > 2 => {
+            format!("use `compose{order}(lie-midpoint)`, which works for every Lie algebra")
+        }
+        _ => "use `lie-midpoint`, which works for every Lie algebra".into(),
+    };
+    Some((reason.into(), remedy))
+}
