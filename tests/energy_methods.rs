@@ -237,6 +237,63 @@ where
     assert!(drift::<D>(Rk4, 0.05, 5000).energy.max > 100.0 * BOUND);
 }
 
+/// Steps in lanes from eight states against steps of each alone, to the bit.
+fn lanes<D: Declared>()
+where
+    D::System<f64>: Energy<f64>,
+    D::System<F64x8>: Energy<F64x8>,
+{
+    let (many, one) = (D::declared::<F64x8>(), D::declared::<f64>());
+    let start = D::initial::<f64>();
+    let options = NewtonOptions::default();
+    let size = |lane: usize| 1.0 - 0.1 * lane as f64;
+    macro_rules! check {
+        ($method:expr) => {
+            let mut together = many.zero_state();
+            for (entry, &start) in together.as_mut_slice().iter_mut().zip(start.as_slice()) {
+                *entry = F64x8::new(core::array::from_fn(|lane| size(lane) * start));
+            }
+            let h = core::array::from_fn(|lane| 0.02 * (lane as f64 - 3.0));
+            let mut stepper = $method.stepper(&many, F64x8::new(h), &options);
+            for _ in 0..3 {
+                stepper
+                    .step(&mut together, &mut ())
+                    .expect("the lanes converge");
+            }
+            for lane in 0..8 {
+                let mut alone = start.clone();
+                for entry in alone.as_mut_slice() {
+                    *entry *= size(lane);
+                }
+                let mut stepper = $method.stepper(&one, h[lane], &options);
+                for _ in 0..3 {
+                    stepper
+                        .step(&mut alone, &mut ())
+                        .expect("the lane converges");
+                }
+                let pairs = together.as_slice().iter().zip(alone.as_slice());
+                for (together, alone) in pairs {
+                    assert_eq!(
+                        together.lane(lane).to_bits(),
+                        alone.to_bits(),
+                        "{}",
+                        D::FILE
+                    );
+                }
+            }
+        };
+    }
+    check!(Gonzalez);
+    check!(MeanValue);
+    check!(ItohAbe);
+    check!(OrbitEnergy::gonzalez());
+    check!(OrbitEnergy::mean_value());
+    check!(OrbitEnergy::itoh_abe());
+    check!(CohenHairer2::new());
+    check!(CohenHairer4::new());
+    check!(CohenHairer6::new());
+}
+
 macro_rules! tests {
     ($file:ident, $system:ident, $cayley:ident) => {
         mod $file {
@@ -266,6 +323,14 @@ macro_rules! tests {
 }
 
 each_system!(tests);
+
+/// One system of each kind: any function, a polynomial, a quadratic one.
+#[test]
+fn lanes_have_the_digits_of_the_scalar_run() {
+    lanes::<NonpolynomialSpin>();
+    lanes::<Heisenberg>();
+    lanes::<HeavyTop>();
+}
 
 /// Differences of 1e-9 are noticed by every comparison.
 #[test]

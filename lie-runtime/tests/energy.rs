@@ -152,7 +152,7 @@ fn jacobians_by_dual_numbers() {
                 let bound = if method_id(&method) == "orbit-energy" {
                     1e-9
                 } else {
-                    4e-15
+                    1e-14
                 };
                 for error in errors {
                     assert!(error < bound, "{}: {errors:?}", method_id(&method));
@@ -386,6 +386,29 @@ fn lanes_have_the_digits_of_the_scalar_run() {
                         assert_eq!(many[row].lane(lane).to_bits(), one[row].to_bits(), "{lane}");
                     }
                 }
+            }
+        };
+    }
+    each_method!(check);
+}
+
+/// In single precision, short and long steps.
+#[test]
+fn single_precision() {
+    macro_rules! check {
+        ($method:expr) => {
+            for h in [0.2, 1e-3] {
+                let mut single = SVector::from(BODY.map(|entry| entry as f32));
+                let energy = Poisson::<f32>::hamiltonian(&Nonpolynomial, &single);
+                let mut stepper =
+                    $method.stepper(&Nonpolynomial, h as f32, &NewtonOptions::default());
+                for _ in 0..100 {
+                    stepper
+                        .step(&mut single, &mut ())
+                        .expect("the step converges");
+                }
+                let error = (Poisson::<f32>::hamiltonian(&Nonpolynomial, &single) - energy).abs();
+                assert!(error < 50.0 * f32::EPSILON, "h = {h}: {error:e}");
             }
         };
     }

@@ -1,7 +1,7 @@
 //! The midpoint discrete gradient of Gonzalez.
 
 use super::DiscreteGradient;
-use super::resolution::{Increment, Mean, difference_serves, largest};
+use super::resolution::{Mean, Rule, difference_serves, largest};
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
@@ -17,7 +17,7 @@ use crate::state::State;
 /// decides the round-off of either, per lane. It vanishes for a quadratic H.
 #[derive(Clone, Debug)]
 pub struct GonzalezGradient<S: Scalar, P: Poisson<S>> {
-    increment: Increment<S>,
+    rule: Rule<S>,
     start: P::State,
     energy: S,
     middle: P::State,
@@ -45,8 +45,8 @@ impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
             self.direction.as_mut_slice()[index] = (y[index] - x[index]) * inverse;
         }
         system.gradient(&self.middle, out);
-        let numerator = if self.increment.exact {
-            self.integral(system, out, 0).value
+        let numerator = if self.rule.exact {
+            self.integral(system, out).value
         } else {
             self.numerator(system, end, out, inverse)
         };
@@ -63,9 +63,9 @@ impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
         S::select(flat, S::one(), square)
     }
 
-    /// `int_0^1 <grad H(x + s d) - grad H(m), e> ds` with the direction e by one of the rules.
-    fn integral(&mut self, system: &P, at_middle: &P::State, rule: usize) -> Mean<S> {
-        let rule = self.increment.rule(rule);
+    /// `int_0^1 <grad H(x + s d) - grad H(m), e> ds` with the direction e.
+    fn integral(&mut self, system: &P, at_middle: &P::State) -> Mean<S> {
+        let rule = &self.rule;
         let mut mean = Mean::new();
         for node in 0..rule.len() {
             self.point.copy_from(&self.middle);
@@ -93,18 +93,13 @@ impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
         }
         let difference = (after - self.energy) * inverse - along;
         let energy = self.energy.abs() + after.abs() + terms;
-        let mut settled = difference_serves(energy, size * self.length);
-        let mut result = difference;
-        for rule in 0..self.increment.rules() {
-            if settled.all() {
-                break;
-            }
-            let mean = self.integral(system, at_middle, rule);
-            let good = !settled & mean.stands_for(difference, energy, inverse);
-            result = S::select(good, mean.value, result);
-            settled = settled | good;
+        let serves = difference_serves(energy, size * self.length);
+        if serves.all() {
+            return difference;
         }
-        result
+        let mean = self.integral(system, at_middle);
+        let stands = !serves & mean.stands_for(difference, energy, inverse);
+        S::select(stands, mean.value, difference)
     }
 }
 
@@ -112,7 +107,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
     fn new(system: &P) -> Self {
         let zero = system.zero_state();
         Self {
-            increment: Increment::new::<P>(),
+            rule: Rule::of_hamiltonian::<P>(),
             start: zero.clone(),
             energy: S::zero(),
             middle: zero.clone(),
@@ -126,7 +121,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
 
     fn set_start(&mut self, system: &P, start: &P::State) {
         self.start.copy_from(start);
-        if !self.increment.exact {
+        if !self.rule.exact {
             self.energy = system.hamiltonian(start);
         }
     }

@@ -1,7 +1,7 @@
 //! The symmetrised coordinate-increment discrete gradient of Itoh and Abe.
 
 use super::DiscreteGradient;
-use super::resolution::{Increment, Mean, difference_serves, largest};
+use super::resolution::{Mean, Rule, difference_serves, largest};
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
@@ -21,7 +21,7 @@ use crate::state::State;
 /// edge whose length is below the root of round-off.
 #[derive(Clone, Debug)]
 pub struct ItohAbeGradient<S: Scalar, P: Poisson<S>> {
-    increment: Increment<S>,
+    rule: Rule<S>,
     start: P::State,
     /// The corner or point of an edge.
     corner: P::State,
@@ -51,7 +51,7 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
         let half = S::ratio(1.0, 2.0);
         let (x, y) = (self.start.as_slice(), end.as_slice());
         self.size = largest(x.iter().chain(y).copied());
-        if self.increment.exact {
+        if self.rule.exact {
             return;
         }
         for (index, corner) in self.corner.as_mut_slice().iter_mut().enumerate() {
@@ -65,10 +65,9 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
         }
     }
 
-    /// The mean of `dH/dmu_i` along an edge from the corner by one of the rules. Leaves the corner in
-    /// place.
-    fn integral(&mut self, system: &P, index: usize, (from, to): (S, S), rule: usize) -> Mean<S> {
-        let rule = self.increment.rule(rule);
+    /// The mean of `dH/dmu_i` along an edge from the corner. Leaves the corner in place.
+    fn integral(&mut self, system: &P, index: usize, (from, to): (S, S)) -> Mean<S> {
+        let rule = &self.rule;
         let mut mean = Mean::new();
         let middle = S::ratio(1.0, 2.0) * (from + to);
         for node in 0..rule.len() {
@@ -93,7 +92,7 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
         let half = S::ratio(1.0, 2.0);
         let there = path == Path::There;
         self.corner.copy_from(if there { &self.start } else { end });
-        let differences = !self.increment.exact;
+        let differences = !self.rule.exact;
         let mut energy = S::zero();
         if differences {
             energy = system.hamiltonian(&self.corner);
@@ -117,7 +116,7 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
                 energy = after;
                 quotient
             } else {
-                self.integral(system, index, (from, to), 0).value
+                self.integral(system, index, (from, to)).value
             };
             out.as_mut_slice()[index] += half * quotient;
             self.corner.as_mut_slice()[index] = to;
@@ -144,18 +143,13 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
         let flat = length.abs().less_equal(S::zero());
         let inverse = S::one() / S::select(flat, S::one(), length);
         let difference = (after - energy) * inverse;
-        let mut settled = difference_serves(noise, self.steepness * length.abs());
-        let mut result = difference;
-        for rule in 0..self.increment.rules() {
-            if settled.all() {
-                break;
-            }
-            let mean = self.integral(system, index, (from, to), rule);
-            let good = !settled & (mean.stands_for(difference, noise, inverse) | flat);
-            result = S::select(good, mean.value, result);
-            settled = settled | good;
+        let serves = difference_serves(noise, self.steepness * length.abs());
+        if serves.all() {
+            return (difference, after);
         }
-        (result, after)
+        let mean = self.integral(system, index, (from, to));
+        let stands = !serves & (mean.stands_for(difference, noise, inverse) | flat);
+        (S::select(stands, mean.value, difference), after)
     }
 
     /// The derivative on an edge that is not short, from the gradients at its corners;
@@ -204,14 +198,10 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
     ) {
         let half = S::ratio(1.0, 2.0);
         let there = path == Path::There;
-        let nodes = if self.increment.exact {
-            self.increment.rule(0).len()
-        } else {
-            1
-        };
+        let nodes = if self.rule.exact { self.rule.len() } else { 1 };
         for node in 0..nodes {
-            let (offset, weight) = if self.increment.exact {
-                self.increment.rule(0).node(node)
+            let (offset, weight) = if self.rule.exact {
+                self.rule.node(node)
             } else {
                 (S::zero(), S::one())
             };
@@ -255,7 +245,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for ItohAbeGradient<S, P> 
     fn new(system: &P) -> Self {
         let zero = system.zero_state();
         Self {
-            increment: Increment::new::<P>(),
+            rule: Rule::of_hamiltonian::<P>(),
             start: zero.clone(),
             corner: zero.clone(),
             gradient: zero.clone(),

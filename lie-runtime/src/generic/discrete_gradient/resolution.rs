@@ -6,8 +6,7 @@
 //!
 //! - H is a polynomial of known degree: always the integral, by the quadrature that is exact.
 //! - Otherwise the difference where its round-off stays near that of the gradient. Where it does not,
-//!   the integral by 6 or 10 nodes, if they resolve the integrand and the two forms agree to
-//!   round-off; if not, y is not close to x on the scale on which H varies, and the difference is
+//!   the integral by 10 nodes, if they resolve the integrand and the two forms agree to round-off; if not, y is not close to x on the scale on which H varies, and the difference is
 //!   taken after all.
 //!
 //! All thresholds are ratios of like quantities: there is no absolute scale.
@@ -16,39 +15,8 @@ use crate::generic::quadrature::{MAX_NODES, Quadrature};
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 
-/// Nodes where H is no polynomial of known degree, and where those do not resolve the integrand.
-const NODES: [usize; 2] = [6, 10];
 /// The difference serves while its round-off is below that many times the gradient's.
 const AMPLIFICATION: f64 = 16.0;
-
-/// The quadrature of an increment: the exact rule, or those to be tried in turn.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Increment<S> {
-    rules: [Rule<S>; 2],
-    pub(super) exact: bool,
-}
-
-impl<S: Scalar> Increment<S> {
-    pub(super) fn new<P: Poisson<S>>() -> Self {
-        let rule = Quadrature::of_hamiltonian::<P>(1);
-        let exact = rule.is_exact();
-        let rules = if exact {
-            [Rule::new(rule); 2]
-        } else {
-            NODES.map(|nodes| Rule::new(Quadrature::gauss(nodes)))
-        };
-        Self { rules, exact }
-    }
-
-    /// The rules in the order in which they are to be tried.
-    pub(super) fn rules(&self) -> usize {
-        if self.exact { 1 } else { self.rules.len() }
-    }
-
-    pub(super) fn rule(&self, index: usize) -> &Rule<S> {
-        &self.rules[index]
-    }
-}
 
 /// A quadrature that notices what it does not resolve.
 ///
@@ -61,9 +29,16 @@ pub(super) struct Rule<S> {
     quadrature: Quadrature<S>,
     /// Weights of the last two coefficients, up to a factor, per node.
     tails: [[S; 2]; MAX_NODES],
+    /// Whether it is exact.
+    pub(super) exact: bool,
 }
 
 impl<S: Scalar> Rule<S> {
+    /// The rule for increments of H.
+    pub(super) fn of_hamiltonian<P: Poisson<S>>() -> Self {
+        Self::new(Quadrature::of_hamiltonian::<P>(1))
+    }
+
     fn new(quadrature: Quadrature<S>) -> Self {
         let count = quadrature.len();
         let degrees = [count.saturating_sub(2), count - 1];
@@ -72,7 +47,12 @@ impl<S: Scalar> Rule<S> {
             let (offset, weight) = quadrature.node(node);
             *tails = degrees.map(|degree| weight * legendre(degree, offset + offset));
         }
-        Self { quadrature, tails }
+        let exact = quadrature.is_exact();
+        Self {
+            quadrature,
+            tails,
+            exact,
+        }
     }
 
     pub(super) fn len(&self) -> usize {
