@@ -125,6 +125,13 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
             }
         })
         .collect();
+    let mut source = source(model);
+    if choices
+        .iter()
+        .any(|c| *c.solved() == Choice::GeneratingSecondKind2)
+    {
+        source.actions = Some(separable::actions(model));
+    }
     Blueprint {
         visibility: model.visibility.clone(),
         name: identifier(&model.name, Some(model.name_origin)),
@@ -138,7 +145,7 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
         parameters,
         casimir_names: model.casimirs.iter().map(|c| c.name.clone()).collect(),
         initial: model.initial.clone(),
-        source: source(model),
+        source,
         methods: choices.iter().map(|c| c.solved().clone()).collect(),
         hamiltonian_degree: model.hamiltonian_degree,
         casimir_degrees: model.casimirs.iter().map(|c| c.degree).collect(),
@@ -156,6 +163,7 @@ pub fn source(model: &Model) -> Source {
         hamiltonian: model.hamiltonian,
         casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
         pieces: separable::pieces(model),
+        actions: None,
         triple: model.representation.as_ref().and_then(|r| r.triple.clone()),
         matrices: model.representation.clone().filter(|r| r.dual.is_some()),
         spins: spins::spins(model),

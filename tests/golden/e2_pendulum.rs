@@ -387,14 +387,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for PendulumMidpoint<'
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`
     ///
     /// 9 additions, 4 multiplications.
@@ -441,6 +433,14 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for PendulumMidpoint<'
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [1, 0, 2], 0 entries of fill-in: 9 multiplications with the solution.
@@ -1237,14 +1237,6 @@ for PendulumCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
-    }
-
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
     ///
     /// 7 additions, 6 multiplications.
@@ -1299,6 +1291,14 @@ for PendulumCayleyMidpoint<'_, S> {
         mu[0] = _L + _u_y * self._h5;
         mu[1] = x + _u_y * _t0;
         mu[2] = y - _u_x * _t0;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.

@@ -367,14 +367,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergMidpoint
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`
     ///
     /// 10 additions, 7 multiplications.
@@ -423,6 +415,14 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergMidpoint
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [2, 0, 1], 0 entries of fill-in: 6 multiplications with the solution.
@@ -1021,14 +1021,6 @@ for HeisenbergCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
-    }
-
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
     ///
     /// 7 additions, 7 multiplications.
@@ -1079,6 +1071,14 @@ for HeisenbergCayleyMidpoint<'_, S> {
         mu[0] = q - _u_z * self.h * (_u_p + _u_p * _u_p * _u_p);
         mu[1] = p + _u_z * (_u_z + _u_q * S::ratio(3.0, 1.0)) * self._h4;
         mu[2] = z;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [2, 0, 1], 0 entries of fill-in: 6 multiplications with the solution.
@@ -1182,14 +1182,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergGonzalez
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
     /// 15 additions, 15 multiplications.
@@ -1271,6 +1263,14 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergGonzalez
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [2, 0, 1], 0 entries of fill-in: 8 multiplications with the solution.
@@ -1496,14 +1496,6 @@ for HeisenbergMeanValue<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
     /// 13 additions, 9 multiplications.
@@ -1560,6 +1552,14 @@ for HeisenbergMeanValue<'_, S> {
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [2, 0, 1], 0 entries of fill-in: 6 multiplications with the solution.
@@ -1755,14 +1755,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergItohAbe<
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
     /// 13 additions, 9 multiplications.
@@ -1819,6 +1811,14 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergItohAbe<
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [2, 0, 1], 0 entries of fill-in: 6 multiplications with the solution.

@@ -654,14 +654,6 @@ for KirchhoffBodyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`
     ///
     /// 37 additions, 36 multiplications.
@@ -783,6 +775,14 @@ for KirchhoffBodyMidpoint<'_, S> {
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2, 3, 4, 5], 2 entries of fill-in: 89 multiplications with the solution.
@@ -1614,14 +1614,6 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
-    }
-
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
     ///
     /// 46 additions, 64 multiplications.
@@ -1826,6 +1818,14 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         mu[4] = p2 + _u_p3 * _t7 + _u_p1 * (_t2 + _t3) * S::ratio(1.0, 8.0);
         mu[5] = p3 - _u_p2 * _t7
             + _u_p1 * (_u_m2 * self._h21 + _t6) * S::ratio(1.0, 12.0);
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2, 3, 4, 5], 2 entries of fill-in: 99 multiplications with the solution.

@@ -983,14 +983,6 @@ for CotangentEulerArnoldMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`
     ///
     /// 61 additions, 55 multiplications.
@@ -1213,6 +1205,14 @@ for CotangentEulerArnoldMidpoint<'_, S> {
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [10, 7, 9, 6, 8, 4, 5, 0, 1, 2, 3, 11], 13 entries of fill-in: 255 multiplications with the solution.
@@ -2356,14 +2356,6 @@ for CotangentEulerArnoldGonzalez<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
     /// 91 additions, 100 multiplications.
@@ -2790,6 +2782,14 @@ for CotangentEulerArnoldGonzalez<'_, S> {
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination from an index list, 0 entries of fill-in: 716 multiplications with the solution.
@@ -3283,14 +3283,6 @@ for CotangentEulerArnoldMeanValue<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
     /// 65 additions, 59 multiplications.
@@ -3519,6 +3511,14 @@ for CotangentEulerArnoldMeanValue<'_, S> {
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [10, 7, 9, 6, 8, 4, 5, 0, 1, 2, 3, 11], 13 entries of fill-in: 255 multiplications with the solution.
@@ -4367,14 +4367,6 @@ for CotangentEulerArnoldItohAbe<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
     /// 61 additions, 58 multiplications.
@@ -4592,6 +4584,14 @@ for CotangentEulerArnoldItohAbe<'_, S> {
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [10, 7, 9, 6, 8, 4, 5, 0, 1, 2, 3, 11], 13 entries of fill-in: 255 multiplications with the solution.

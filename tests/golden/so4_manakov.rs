@@ -933,14 +933,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for ManakovTopMidpoint
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`
     ///
     /// 24 additions, 24 multiplications.
@@ -1037,6 +1029,14 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for ManakovTopMidpoint
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2, 3, 4, 5], 4 entries of fill-in: 89 multiplications with the solution.
@@ -1889,14 +1889,6 @@ for ManakovTopCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
-    }
-
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
     ///
     /// 45 additions, 51 multiplications.
@@ -2075,6 +2067,14 @@ for ManakovTopCayleyMidpoint<'_, S> {
         mu[3] = m23 - _u_m12 * _u_m13 * self._h24 - _u_m24 * _u_m34 * self._h25;
         mu[4] = m24 - _u_m12 * _u_m14 * self._h26 + _u_m23 * _u_m34 * self._h27;
         mu[5] = m34 - _u_m13 * _u_m14 * self._h28 - _u_m23 * _u_m24 * self._h29;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2, 3, 4, 5], 0 entries of fill-in: 106 multiplications with the solution.

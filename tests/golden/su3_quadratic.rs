@@ -956,14 +956,6 @@ for Su3QuadraticMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`
     ///
     /// 57 additions, 55 multiplications.
@@ -1150,6 +1142,14 @@ for Su3QuadraticMidpoint<'_, S> {
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [6, 0, 1, 2, 3, 4, 5, 7], 0 entries of fill-in: 202 multiplications with the solution.

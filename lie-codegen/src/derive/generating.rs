@@ -26,10 +26,10 @@ pub enum Generating {
 }
 
 /// The gradient of S at p as definitions and results.
-struct Slope {
-    tape: Tape,
-    /// `grad S`, one quantity each.
-    entries: Vec<ExprId>,
+pub(super) struct Slope {
+    pub(super) tape: Tape,
+    /// `grad S`.
+    pub(super) entries: Vec<ExprId>,
 }
 
 fn rational(numerator: i64, denominator: i64) -> Rational {
@@ -72,7 +72,7 @@ fn power_of_step(source: &mut Source, power: i64, denominator: i64) -> ExprId {
 }
 
 /// The gradient of S.
-fn slope(source: &mut Source, generating: Generating) -> Slope {
+pub(super) fn slope(source: &mut Source, generating: Generating) -> Slope {
     let n = source.dimension;
     // vectors of the algebra, the unknown and the midpoint have symbols of their own
     let mut tape = Tape::new(4 * n);
@@ -196,6 +196,11 @@ pub struct Function {
 /// the function of order 6 takes a third of it.
 const MOST_SCHEDULED: usize = 120_000;
 
+/// Whether what was derived is no good, or too much to be written out.
+pub(super) fn too_large(source: &Source, tape: &Tape) -> bool {
+    tape.is_swollen() || source.graph.size() > MOST_SCHEDULED
+}
+
 /// `grad S` and the Hessian of S; `None` where already the gradient swells.
 pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Function> {
     let n = source.dimension;
@@ -216,7 +221,7 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
     )
     .within_step(tape.definitions().to_vec());
     let hessian = symmetric(tape.jacobian(source, &entries));
-    if tape.is_swollen() || source.graph.size() > MOST_SCHEDULED {
+    if too_large(source, &tape) {
         return Some(Function {
             gradient,
             linearize: None,
@@ -244,7 +249,7 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
 }
 
 /// The lower half as the mirror of the upper, so that each entry is computed once.
-fn symmetric(mut rows: Vec<Vec<ExprId>>) -> Vec<Vec<ExprId>> {
+pub(super) fn symmetric(mut rows: Vec<Vec<ExprId>>) -> Vec<Vec<ExprId>> {
     for i in 1..rows.len() {
         let (above, below) = rows.split_at_mut(i);
         for (entry, row) in below[0].iter_mut().zip(above.iter()) {
@@ -291,7 +296,7 @@ pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kern
     let values = tape.definitions().to_vec();
     let rows = tape.jacobian(source, &residual);
     let slopes = tape.definitions().to_vec();
-    if tape.is_swollen() || source.graph.size() > MOST_SCHEDULED {
+    if too_large(source, &tape) {
         return None;
     }
     // the list was made in the coordinates; the unknown has a block of its own
@@ -343,7 +348,7 @@ pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kern
 }
 
 /// Coordinates and unknown exchanged.
-fn exchanged(source: &mut Source, expressions: &[ExprId]) -> Vec<ExprId> {
+pub(super) fn exchanged(source: &mut Source, expressions: &[ExprId]) -> Vec<ExprId> {
     let (p, start) = (source.block(Block::Unknown), source.coordinates());
     let unknown = source.symbols(Block::Unknown);
     source

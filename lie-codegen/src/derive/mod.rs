@@ -7,6 +7,7 @@ mod field;
 mod generating;
 mod kernel;
 mod midpoint;
+mod second_kind;
 mod splitting;
 mod tape;
 
@@ -16,6 +17,7 @@ pub use splitting::{PieceKernel, Update};
 
 use crate::algebra::{Representation, TripleEntry};
 use crate::structure::inertia::Body;
+use crate::structure::one_parameter::Block as OneParameter;
 use crate::structure::separable::Piece;
 use crate::structure::spins::Spin;
 use crate::symbolic::{ExprId, Graph, Symbol};
@@ -44,6 +46,8 @@ pub struct Source {
     pub spins: Option<Vec<Spin>>,
     /// The free rigid body that the system is.
     pub body: Option<Body>,
+    /// The closed form of `exp(s ad*_(e_i))` for each basis element, where a method needs them.
+    pub actions: Option<Vec<Option<Vec<OneParameter>>>>,
 }
 
 /// Vector arguments of kernels besides the state; each has n symbols.
@@ -184,6 +188,12 @@ impl Source {
     /// Gradient and Hessian of a generating function; `None` where they swell.
     pub fn generating_function(&mut self, generating: Generating) -> Option<Function> {
         generating::function(self, generating)
+    }
+
+    /// The equation of the generating-function method in coordinates of the second kind; `None`
+    /// where an action has no closed form, or derivatives swell.
+    pub fn second_kind_kernels(&mut self) -> Option<Vec<Kernel>> {
+        second_kind::kernels(self)
     }
 
     /// Residual, Jacobian and result of the generating-function method with the Cayley map; `None`

@@ -45,13 +45,18 @@ pub enum Update {
 
 /// Definitions under construction, each made once.
 #[derive(Default)]
-struct Definitions {
+pub(super) struct Definitions {
     made: Vec<(Symbol, ExprId)>,
 }
 
 impl Definitions {
+    /// The definitions in order.
+    pub(super) fn all(&self) -> &[(Symbol, ExprId)] {
+        &self.made
+    }
+
     /// The symbol of a quantity.
-    fn define(&mut self, source: &mut Source, value: ExprId) -> ExprId {
+    pub(super) fn define(&mut self, source: &mut Source, value: ExprId) -> ExprId {
         let known = self.made.iter().find(|(_, made)| *made == value);
         let symbol = match known {
             Some((symbol, _)) => *symbol,
@@ -65,7 +70,7 @@ impl Definitions {
     }
 
     /// The exponential of an expression, or its inverse where that is at hand.
-    fn exponential(&mut self, source: &mut Source, exponent: ExprId) -> (ExprId, bool) {
+    pub(super) fn exponential(&mut self, source: &mut Source, exponent: ExprId) -> (ExprId, bool) {
         let opposite = source.graph.neg(exponent);
         let opposite = source.graph.call(Function::Exp, &[opposite]);
         if let Some((symbol, _)) = self.made.iter().find(|(_, made)| *made == opposite) {
@@ -77,7 +82,7 @@ impl Definitions {
 }
 
 /// `sigma = c s`
-fn sigma(source: &mut Source, block: &Block, s: ExprId) -> ExprId {
+pub(super) fn sigma(source: &mut Source, block: &Block, s: ExprId) -> ExprId {
     match &block.factor {
         None => s,
         Some(factor) => {
@@ -169,7 +174,7 @@ fn all_negative(graph: &Graph, sum: ExprId) -> bool {
 }
 
 /// The functions of s that stand before R, R^2, … of a block.
-fn weights(
+pub(super) fn weights(
     source: &mut Source,
     block: &Block,
     s: ExprId,

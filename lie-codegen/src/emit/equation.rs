@@ -171,7 +171,7 @@ impl Writer<'_> {
         };
         let mut methods = TokenStream::new();
         let mut elimination = Elimination::default();
-        let mut has_result = false;
+        let (mut has_result, mut has_guess) = (false, false);
         for kernel in kernels {
             let program = kernel.program(&mut self.source.graph);
             let docs =
@@ -187,6 +187,19 @@ impl Writer<'_> {
                         #docs
                         #[inline]
                         fn linearize(&mut self, #unknown: &Self::State, #residual: &mut Self::State, #matrix: &mut Self::Matrix) {
+                            #body
+                        }
+                    }
+                }
+                _ if kernel.name == "initial_guess" => {
+                    has_guess = true;
+                    let (owner, targets) = (Owner::Equation, &["unknown"]);
+                    let body =
+                        self.kernel_body(kernel, &program, owner, &mut step, &place, targets);
+                    quote! {
+                        #docs
+                        #[inline]
+                        fn initial_guess(&mut self, #unknown: &mut Self::Unknown) {
                             #body
                         }
                     }
@@ -223,6 +236,18 @@ impl Writer<'_> {
                 #[inline]
                 fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
                     *mu = *unknown;
+                }
+            });
+        }
+        if !has_guess {
+            let guess = &form.guess;
+            methods.extend(quote! {
+                #[inline]
+                fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+                    let mut field = self.base;
+                    ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+                    *unknown = self.base;
+                    ::lie_runtime::State::axpy(unknown, #guess, &field);
                 }
             });
         }
@@ -357,7 +382,6 @@ impl Writer<'_> {
         let (statements, values) =
             self.preparation(&constants, &|name| quote! { system._parameters.#name });
         let docs = form.docs.iter().map(|line| format!(" {line}"));
-        let guess = &form.guess;
         quote! {
             #(#[doc = #docs])*
             #[derive(Clone, Debug)]
@@ -394,14 +418,6 @@ impl Writer<'_> {
                 #[inline]
                 fn set_base(&mut self, mu: &Self::State) {
                     self.base = *mu;
-                }
-
-                #[inline]
-                fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-                    let mut field = self.base;
-                    ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-                    *unknown = self.base;
-                    ::lie_runtime::State::axpy(unknown, #guess, &field);
                 }
 
                 #methods

@@ -73,7 +73,11 @@ impl Writer<'_> {
         };
         let asked = self.asked(&Choice::GeneratingSecondKind2);
         let kind = Generating::Second;
-        match asked.then(|| self.fused_generating(&named, kind)).flatten() {
+        let fused = asked.then(|| {
+            self.fused_second_kind(&named)
+                .or_else(|| self.fused_generating(&named, kind))
+        });
+        match fused.flatten() {
             Some(equation) => tokens.extend(equation),
             None => generic.push(ident("second_kind")),
         }
@@ -220,14 +224,42 @@ impl Writer<'_> {
         }
     }
 
+    /// The equation in coordinates of the second kind, where every action has a closed form.
+    fn fused_second_kind(&mut self, named: &Named) -> Option<TokenStream> {
+        let kernels = self.source.second_kind_kernels()?;
+        if !self.short(&kernels) {
+            return None;
+        }
+        let form = Form {
+            suffix: named.equation,
+            label: named.label,
+            docs: &[
+                "The generating-function method in coordinates of the second kind, unknown p, with",
+                "`S = h H + h^2 S2`: the actions `exp(xi_i ad*_(e_i))`, `xi = grad S(p)`, in closed form.",
+            ],
+            guess: TokenStream::new(),
+            retraction: Some("SecondKind"),
+            function: "SecondKind2",
+        };
+        let equation = self.fused(&form, &kernels);
+        let name = format_ident!("{}{}", self.blueprint.name, named.equation);
+        let hook = self.implicit(&named.method, &name, &quote! { #name::new(self, h) });
+        Some(quote! { #equation #hook })
+    }
+
+    /// Whether the longest of the kernels of an equation may be written out.
+    fn short(&mut self, kernels: &[Kernel]) -> bool {
+        let longest = kernels
+            .iter()
+            .find(|kernel| matches!(kernel.shape, Shape::VectorAndMatrix(..)));
+        longest
+            .is_none_or(|kernel| size(&kernel.program(&mut self.source.graph)) <= MOST_OPERATIONS)
+    }
+
     fn fused_cayley_generating(&mut self) -> Option<TokenStream> {
         let kernels = self.source.cayley_generating_kernels(4)?;
-        for kernel in &kernels {
-            if matches!(kernel.shape, Shape::VectorAndMatrix(..))
-                && size(&kernel.program(&mut self.source.graph)) > MOST_OPERATIONS
-            {
-                return None;
-            }
+        if !self.short(&kernels) {
+            return None;
         }
         let form = Form {
             suffix: "CayleyGenerating4",

@@ -63,21 +63,33 @@ pub fn coordinates(
 pub fn pieces(model: &Model) -> Option<Vec<Piece>> {
     let mut pieces = Vec::new();
     for &coordinate in model.pieces.as_ref().ok()? {
-        // (ad*_(e_i))_jk = C_ij^k, and C_ji^k = -C_ij^k
-        let constants = model.exact_constants.entries().iter();
-        let entries: Vec<Entry> = constants
-            .filter_map(|(i, j, k, value)| match coordinate {
-                _ if coordinate == *i => Some((*j, *k, value.clone())),
-                _ if coordinate == *j => Some((*i, *k, value.neg())),
-                _ => None,
-            })
-            .collect();
+        let entries = action(model, coordinate);
         if !entries.is_empty() {
             let blocks = one_parameter::closed_form(&entries);
             pieces.push(Piece { coordinate, blocks });
         }
     }
     Some(pieces)
+}
+
+/// The matrix of `ad*_(e_i)`.
+fn action(model: &Model, coordinate: usize) -> Vec<Entry> {
+    // (ad*_(e_i))_jk = C_ij^k, and C_ji^k = -C_ij^k
+    let constants = model.exact_constants.entries().iter();
+    constants
+        .filter_map(|(i, j, k, value)| match coordinate {
+            _ if coordinate == *i => Some((*j, *k, value.clone())),
+            _ if coordinate == *j => Some((*i, *k, value.neg())),
+            _ => None,
+        })
+        .collect()
+}
+
+/// The closed form of `exp(s ad*_(e_i))` for each basis element that has one.
+pub fn actions(model: &Model) -> Vec<Option<Vec<Block>>> {
+    (0..model.dimension())
+        .map(|i| one_parameter::closed_form(&action(model, i)))
+        .collect()
 }
 
 /// Why H cannot be split by coordinates, with the nearest method for each order.

@@ -898,159 +898,136 @@ impl<
     }
 }
 
-/// The generating function `S = h H + h^2 S2` in coordinates of the second kind.
+/// The generating-function method in coordinates of the second kind, unknown p, with
+/// `S = h H + h^2 S2`: the actions `exp(xi_i ad*_(e_i))`, `xi = grad S(p)`, in closed form.
 #[derive(Clone, Debug)]
-pub struct HeisenbergSecondKind2<'a, S: ::lie_runtime::Scalar> {
+pub struct HeisenbergSecondKind2Equation<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeisenbergSystem<S>,
+    base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
     /// `h/3`
     _h0: S,
     /// `h^2/2`
     _h1: S,
-    /// `h^2/6`
+    /// `-h`
     _h2: S,
-    /// `3*h^2`
-    _h3: S,
-    /// `-h^2/3`
-    _h4: S,
 }
 
-impl<'a, S: ::lie_runtime::Scalar> HeisenbergSecondKind2<'a, S> {
-    /// The function of a step of size h; what depends on h alone is computed here, once.
+impl<'a, S: ::lie_runtime::Scalar> HeisenbergSecondKind2Equation<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a HeisenbergSystem<S>, h: S) -> Self {
-        let _t0 = h * h;
         Self {
             system,
+            base: ::lie_runtime::Poisson::zero_state(system),
             h,
             _h0: h * S::ratio(1.0, 3.0),
-            _h1: S::ratio(1.0, 2.0) * _t0,
-            _h2: S::ratio(1.0, 6.0) * _t0,
-            _h3: S::ratio(3.0, 1.0) * _t0,
-            _h4: S::ratio(-1.0, 3.0) * _t0,
+            _h1: h * h * S::ratio(1.0, 2.0),
+            _h2: -h,
         }
     }
 }
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GeneratingFunction<S>
-for HeisenbergSecondKind2<'_, S> {
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for HeisenbergSecondKind2Equation<'_, S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
-    type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    /// `xi = grad S(p)`
-    ///
-    /// 10 additions, 16 multiplications.
-    #[inline]
-    fn gradient(&mut self, _p: &Self::State, xi: &mut Self::State) {
-        let [[q, p, z]] = _p.data.0;
-        let _t0 = p * p;
-        let _t1 = p + p * _t0;
-        let _t2 = -(z * _t1);
-        let _t3 = q + z * S::ratio(1.0, 3.0);
-        xi[0] = (z + q * S::ratio(3.0, 1.0)) * self._h0 + _t2 * self._h1;
-        xi[1] = _t1 * self.h
-            + (S::one() + S::ratio(3.0, 1.0) * _t0) * -(z * _t3) * self._h1;
-        xi[2] = q * self._h0 + (_t2 - S::ratio(3.0, 1.0) * _t3 * _t1) * self._h2;
-    }
-
-    /// `xi = grad S(p)` and the Hessian of S
-    ///
-    /// 15 additions, 24 multiplications.
-    #[inline]
-    fn linearize(
-        &mut self,
-        _p: &Self::State,
-        xi: &mut Self::State,
-        hessian: &mut Self::Jacobian,
-    ) {
-        let [[q, p, z]] = _p.data.0;
-        let _t0 = p * p;
-        let _t1 = p + p * _t0;
-        let _t2 = -(z * _t1);
-        let _t3 = z * S::ratio(1.0, 3.0);
-        let _t4 = q + _t3;
-        let _t5 = -(z * _t4);
-        let _t6 = S::one() + S::ratio(3.0, 1.0) * _t0;
-        let _t7 = _t6 * self._h1;
-        let _t8 = -(z * _t6) * self._h1;
-        let _t9 = self._h0 - _t1 * self._h1;
-        let _t10 = (-_t3 - _t4) * _t7;
-        xi[0] = (z + q * S::ratio(3.0, 1.0)) * self._h0 + _t2 * self._h1;
-        xi[1] = _t1 * self.h + _t5 * _t7;
-        xi[2] = q * self._h0 + (_t2 - S::ratio(3.0, 1.0) * _t4 * _t1) * self._h2;
-        hessian[(0, 0)] = self.h;
-        hessian[(0, 1)] = _t8;
-        hessian[(0, 2)] = _t9;
-        hessian[(1, 0)] = _t8;
-        hessian[(1, 1)] = _t6 * self.h + p * _t5 * self._h3;
-        hessian[(1, 2)] = _t10;
-        hessian[(2, 0)] = _t9;
-        hessian[(2, 1)] = _t10;
-        hessian[(2, 2)] = _t1 * self._h4;
-    }
-}
-
-/// The method of `S = h H + h^2 S2` in coordinates of the second kind, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct HeisenbergSecondKind2Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergSecondKind2<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for HeisenbergSecondKind2Equation<'a, S> {
-    type State = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
+        Self::State::repeat(S::zero())
     }
 
     fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+        Self::Matrix::repeat(S::zero())
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
     }
 
-    /// Elimination in a fixed order, 0 entries of fill-in: 3 multiplications with the solution.
+    /// `p_i = (m_(i-1))_i` with `xi = grad S(mu)`
+    ///
+    /// 5 additions, 7 multiplications.
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let [[q, p, z]] = self.base.data.0;
+        unknown[0] = q;
+        unknown[1] = p
+            + z
+                * ((z + q * S::ratio(3.0, 1.0)) * self._h0
+                    + -(z * (p + p * (p * p))) * self._h1);
+        unknown[2] = z;
+    }
+
+    /// `r_i = p_i - (m_(i-1))_i`, `m_i = exp(xi_i ad*_(e_i)) m_(i-1)`, `xi = grad S(p)`
+    ///
+    /// 8 additions, 7 multiplications.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[q, p, z]] = self.base.data.0;
+        let [[_u_q, _u_p, _u_z]] = unknown.data.0;
+        residual[0] = _u_q - q;
+        residual[1] = _u_p
+            - (p
+                + z
+                    * (-((_u_p + _u_p * (_u_p * _u_p)) * _u_z) * self._h1
+                        + (_u_z + S::ratio(3.0, 1.0) * _u_q) * self._h0));
+        residual[2] = _u_z - z;
+    }
+
+    /// `r_i = p_i - (m_(i-1))_i` and `dr/dp`, by `dm_i/dxi_i = ad*_(e_i) m_i`
+    ///
+    /// 13 additions, 14 multiplications.
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::State,
+        residual: &mut Self::State,
+        matrix: &mut Self::Matrix,
+    ) {
+        let [[q, p, z]] = self.base.data.0;
+        let [[_u_q, _u_p, _u_z]] = unknown.data.0;
+        let _t0 = _u_p * _u_p;
+        let _t1 = _u_p + _u_p * _t0;
+        residual[0] = _u_q - q;
+        residual[1] = _u_p
+            - (p
+                + z
+                    * (-(_t1 * _u_z) * self._h1
+                        + self._h0 * (_u_z + S::ratio(3.0, 1.0) * _u_q)));
+        residual[2] = _u_z - z;
+        matrix[(0, 0)] = S::one();
+        matrix[(1, 0)] = z * self._h2;
+        matrix[(1, 1)] = S::one()
+            - z * (-((S::one() + S::ratio(3.0, 1.0) * _t0) * _u_z) * self._h1);
+        matrix[(1, 2)] = -(z * (self._h0 - _t1 * self._h1));
+        matrix[(2, 2)] = S::one();
+    }
+
+    /// `mu1 = m_n`
+    ///
+    /// 11 additions, 14 multiplications.
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        let [[q, p, z]] = self.base.data.0;
+        let [[_u_q, _u_p, _u_z]] = unknown.data.0;
+        let _t0 = _u_p * _u_p;
+        let _t1 = _u_p + _u_p * _t0;
+        mu[0] = q
+            + -(z
+                * (self.h * _t1
+                    + -((_u_q + _u_z * S::ratio(1.0, 3.0)) * _u_z) * self._h1
+                        * (S::one() + S::ratio(3.0, 1.0) * _t0)));
+        mu[1] = p
+            + z
+                * (-(_t1 * _u_z) * self._h1
+                    + (_u_z + S::ratio(3.0, 1.0) * _u_q) * self._h0);
+        mu[2] = z;
+    }
+
+    /// Sparse elimination in the order [1, 0, 2], 0 entries of fill-in: 3 multiplications with the solution.
     #[inline]
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
         let _a1_1 = matrix[(1, 1)];
@@ -1071,16 +1048,14 @@ for HeisenbergSecondKind2Equation<'a, S> {
         residual[2] = _b2;
     }
 
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
     fn group_factor(
         &mut self,
-        unknown: &Self::Unknown,
+        unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
+        let mut function = ::lie_runtime::generic::SecondKind2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::SecondKind)
     }
 }
 
@@ -1094,12 +1069,7 @@ for HeisenbergSystem<S> {
         _method: &::lie_runtime::methods::GeneratingSecondKind2,
         h: S,
     ) -> HeisenbergSecondKind2Equation<'a, S> {
-        HeisenbergSecondKind2Equation(
-            ::lie_runtime::generic::SecondKind::with_function(
-                self,
-                HeisenbergSecondKind2::new(self, h),
-            ),
-        )
+        HeisenbergSecondKind2Equation::new(self, h)
     }
 }
 
@@ -1111,9 +1081,9 @@ pub struct HeisenbergCayleyGenerating4<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeisenbergSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `h^3/48`
-    _h0: S,
     /// `h/2`
+    _h0: S,
+    /// `h^3/48`
     _h1: S,
     /// `h/6`
     _h2: S,
@@ -1127,8 +1097,8 @@ impl<'a, S: ::lie_runtime::Scalar> HeisenbergCayleyGenerating4<'a, S> {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * h * h * S::ratio(1.0, 48.0),
-            _h1: h * S::ratio(1.0, 2.0),
+            _h0: h * S::ratio(1.0, 2.0),
+            _h1: h * h * h * S::ratio(1.0, 48.0),
             _h2: h * S::ratio(1.0, 6.0),
         }
     }
@@ -1153,14 +1123,6 @@ for HeisenbergCayleyGenerating4<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
-    }
-
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`
     ///
     /// 13 additions, 21 multiplications.
@@ -1168,17 +1130,18 @@ for HeisenbergCayleyGenerating4<'_, S> {
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
-        let _t0 = _u_z + _u_q * S::ratio(3.0, 1.0);
-        let _t1 = _t0 * (_u_z * S::ratio(1.0, 3.0));
-        let _t2 = _u_p * _u_p;
-        let _t3 = S::one() + S::ratio(3.0, 1.0) * _t2;
-        let _t4 = _u_p + _u_p * _t2;
-        let _t5 = _t1 * _t3;
+        let _t0 = _u_p * _u_p;
+        let _t1 = _u_p + _u_p * _t0;
+        let _t2 = _u_z + _u_q * S::ratio(3.0, 1.0);
+        let _t3 = _u_z * S::ratio(1.0, 3.0) * _t2;
+        let _t4 = S::one() + S::ratio(3.0, 1.0) * _t0;
+        let _t5 = _t3 * _t4;
         residual[0] = _u_q - q
-            + ((_t1 * _t1 * _u_p * S::ratio(6.0, 1.0)
-                - _u_z * _t3 * (-(_u_z * _t4) * S::ratio(2.0, 1.0))) * self._h0
-                + _t4 * self._h1) * _u_z;
-        residual[1] = _u_p - p - ((_t5 + _t5) * _u_z * self._h0 + _t0 * self._h2) * _u_z;
+            + (_t1 * self._h0
+                + (_t3 * _t3 * _u_p * S::ratio(6.0, 1.0)
+                    - _u_z * _t4 * (-(_u_z * _t1) * S::ratio(2.0, 1.0))) * self._h1)
+                * _u_z;
+        residual[1] = _u_p - p - (_t2 * self._h2 + (_t5 + _t5) * _u_z * self._h1) * _u_z;
         residual[2] = _u_z - z;
     }
 
@@ -1194,38 +1157,39 @@ for HeisenbergCayleyGenerating4<'_, S> {
     ) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
-        let _t0 = _u_z + _u_q * S::ratio(3.0, 1.0);
-        let _t1 = _t0 * (_u_z * S::ratio(1.0, 3.0));
-        let _t2 = _t1 * _u_p;
-        let _t3 = _t1 * S::ratio(6.0, 1.0);
-        let _t4 = _u_p * _u_p;
-        let _t5 = S::one() + S::ratio(3.0, 1.0) * _t4;
-        let _t6 = _u_z * _t5;
-        let _t7 = _u_p + _u_p * _t4;
-        let _t8 = -(_u_z * _t7);
+        let _t0 = _u_p * _u_p;
+        let _t1 = _u_p + _u_p * _t0;
+        let _t2 = _u_z + _u_q * S::ratio(3.0, 1.0);
+        let _t3 = _u_z * S::ratio(1.0, 3.0) * _t2;
+        let _t4 = _t3 * _u_p;
+        let _t5 = _t3 * S::ratio(6.0, 1.0);
+        let _t6 = S::one() + S::ratio(3.0, 1.0) * _t0;
+        let _t7 = _u_z * _t6;
+        let _t8 = -(_u_z * _t1);
         let _t9 = _t8 * S::ratio(2.0, 1.0);
-        let _t10 = (_t2 * _t3 - _t6 * _t9) * self._h0 + self._h1 * _t7;
-        let _t11 = _t1 * _t5;
+        let _t10 = _t1 * self._h0 + (_t4 * _t5 - _t7 * _t9) * self._h1;
+        let _t11 = _t3 * _t6;
         let _t12 = _t11 + _t11;
-        let _t13 = _t12 * _u_z * self._h0 + self._h2 * _t0;
-        let _t14 = S::ratio(12.0, 1.0) * _t2;
+        let _t13 = _t2 * self._h2 + _t12 * _u_z * self._h1;
+        let _t14 = S::ratio(12.0, 1.0) * _t4;
         let _t15 = _u_q + _u_z * S::ratio(2.0, 3.0);
-        let _t16 = _u_z * _t5;
-        let _t17 = S::ratio(6.0, 1.0) * _t2;
-        let _t18 = _t15 * _t5;
+        let _t16 = _u_z * _t6;
+        let _t17 = S::ratio(6.0, 1.0) * _t4;
+        let _t18 = _t15 * _t6;
         residual[0] = _u_q - q + _t10 * _u_z;
         residual[1] = _u_p - p - _t13 * _u_z;
         residual[2] = _u_z - z;
-        matrix[(0, 0)] = S::one() + _u_z * _t14 * self._h0 * _u_z;
-        matrix[(0, 1)] = ((_t1 * _t3 - _t8 * _u_p * _u_z * S::ratio(12.0, 1.0)
-            - _t6 * (-_t6 * S::ratio(2.0, 1.0))) * self._h0 + self._h1 * _t5) * _u_z;
+        matrix[(0, 0)] = S::one() + _u_z * _t14 * self._h1 * _u_z;
+        matrix[(0, 1)] = (_t6 * self._h0
+            + (_t3 * _t5 - _t8 * _u_p * _u_z * S::ratio(12.0, 1.0)
+                - _t7 * (-_t7 * S::ratio(2.0, 1.0))) * self._h1) * _u_z;
         matrix[(0, 2)] = _t10
-            + (_t15 * _t14 - _t5 * _t9 - _t6 * (-_t7 * S::ratio(2.0, 1.0))) * self._h0
+            + (_t15 * _t14 - _t6 * _t9 - _t7 * (-_t1 * S::ratio(2.0, 1.0))) * self._h1
                 * _u_z;
-        matrix[(1, 0)] = -(((_t16 + _t16) * _u_z * self._h0 + self._h1) * _u_z);
-        matrix[(1, 1)] = S::one() - (_t17 + _t17) * _u_z * self._h0 * _u_z;
+        matrix[(1, 0)] = -(((_t16 + _t16) * _u_z * self._h1 + self._h0) * _u_z);
+        matrix[(1, 1)] = S::one() - (_t17 + _t17) * _u_z * self._h1 * _u_z;
         matrix[(1, 2)] = -_t13
-            - (self._h2 + (_t12 + (_t18 + _t18) * _u_z) * self._h0) * _u_z;
+            - (self._h2 + (_t12 + (_t18 + _t18) * _u_z) * self._h1) * _u_z;
         matrix[(2, 2)] = S::one();
     }
 
@@ -1236,18 +1200,27 @@ for HeisenbergCayleyGenerating4<'_, S> {
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
-        let _t0 = _u_z + _u_q * S::ratio(3.0, 1.0);
-        let _t1 = _t0 * (_u_z * S::ratio(1.0, 3.0));
-        let _t2 = _u_p * _u_p;
-        let _t3 = _u_p + _u_p * _t2;
-        let _t4 = S::one() + S::ratio(3.0, 1.0) * _t2;
+        let _t0 = _u_p * _u_p;
+        let _t1 = _u_p + _u_p * _t0;
+        let _t2 = _u_z + _u_q * S::ratio(3.0, 1.0);
+        let _t3 = _u_z * S::ratio(1.0, 3.0) * _t2;
+        let _t4 = S::one() + S::ratio(3.0, 1.0) * _t0;
         let _t5 = _u_z * S::ratio(2.0, 1.0);
-        let _t6 = _t1 * _t4;
+        let _t6 = _t3 * _t4;
         mu[0] = q
-            - ((_t1 * _t1 * _u_p * S::ratio(6.0, 1.0) - -(_u_z * _t3) * _t4 * _t5)
-                * self._h0 + _t3 * self._h1) * _t5;
-        mu[1] = p + ((_t6 + _t6) * _u_z * self._h0 + _t0 * self._h2) * _t5;
+            - (_t1 * self._h0
+                + (_t3 * _t3 * _u_p * S::ratio(6.0, 1.0) - -(_u_z * _t1) * _t4 * _t5)
+                    * self._h1) * _t5;
+        mu[1] = p + (_t2 * self._h2 + (_t6 + _t6) * _u_z * self._h1) * _t5;
         mu[2] = z;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [2, 0, 1], 0 entries of fill-in: 8 multiplications with the solution.

@@ -2591,10 +2591,12 @@ impl<
     }
 }
 
-/// The generating function `S = h H + h^2 S2` in coordinates of the second kind.
+/// The generating-function method in coordinates of the second kind, unknown p, with
+/// `S = h H + h^2 S2`: the actions `exp(xi_i ad*_(e_i))`, `xi = grad S(p)`, in closed form.
 #[derive(Clone, Debug)]
-pub struct HeavyTopSecondKind2<'a, S: ::lie_runtime::Scalar> {
+pub struct HeavyTopSecondKind2Equation<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeavyTopSystem<S>,
+    base: ::lie_runtime::__private::SVector<S, 6>,
     h: S,
     /// `h/I1`
     _h0: S,
@@ -2610,218 +2612,320 @@ pub struct HeavyTopSecondKind2<'a, S: ::lie_runtime::Scalar> {
     _h5: S,
     /// `h^2/(2*I3)`
     _h6: S,
-    /// `mgl*c3*h^2/2`
+    /// `-h/I1`
     _h7: S,
-    /// `mgl*c2*h^2/2`
+    /// `-mgl*c3*h^2/(2*I1)`
     _h8: S,
-    /// `mgl*c1*h`
+    /// `mgl*c2*h^2/(2*I1)`
     _h9: S,
-    /// `mgl*c1*h^2/2`
+    /// `mgl*c3*h^2/(2*I2)`
     _h10: S,
-    /// `mgl*c2*h`
-    _h11: S,
-    /// `mgl*c3*h`
-    _h12: S,
-    /// `mgl*c3*h^2/(2*I1)`
-    _h13: S,
-    /// `-mgl*c2*h^2/(2*I1)`
-    _h14: S,
-    /// `-mgl*c3*h^2/(2*I2)`
-    _h15: S,
     /// `mgl*c1*h^2/(2*I2)`
-    _h16: S,
+    _h11: S,
     /// `mgl*c2*h^2/(2*I3)`
+    _h12: S,
+    /// `mgl*c1*h^2/(2*I3)`
+    _h13: S,
+    /// `mgl*c3*h^2/2`
+    _h14: S,
+    /// `mgl*c1*h^2/2`
+    _h15: S,
+    /// `mgl*c2*h`
+    _h16: S,
+    /// `mgl*c2*h^2/2`
     _h17: S,
-    /// `-mgl*c1*h^2/(2*I3)`
+    /// `mgl*c3*h`
     _h18: S,
+    /// `mgl*c1*h`
+    _h19: S,
 }
 
-impl<'a, S: ::lie_runtime::Scalar> HeavyTopSecondKind2<'a, S> {
-    /// The function of a step of size h; what depends on h alone is computed here, once.
+impl<'a, S: ::lie_runtime::Scalar> HeavyTopSecondKind2Equation<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a HeavyTopSystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I1;
-        let _t1 = h * h;
-        let _t2 = S::ratio(1.0, 2.0) * _t1;
-        let _t3 = S::one() / system._parameters.I2;
-        let _t4 = S::one() / system._parameters.I3;
-        let _t5 = system._parameters.mgl * _t2;
-        let _t6 = system._parameters.c3 * _t5;
-        let _t7 = system._parameters.c2 * _t5;
-        let _t8 = system._parameters.mgl * h;
-        let _t9 = system._parameters.c1 * _t5;
-        let _t10 = _t1 * (system._parameters.mgl * S::ratio(-1.0, 2.0));
+        let _t1 = h * _t0;
+        let _t2 = h * h;
+        let _t3 = S::ratio(1.0, 2.0) * _t2;
+        let _t4 = S::one() / system._parameters.I2;
+        let _t5 = S::one() / system._parameters.I3;
+        let _t6 = system._parameters.mgl * _t3;
+        let _t7 = system._parameters.c2 * _t6;
+        let _t8 = system._parameters.c3 * _t6;
+        let _t9 = system._parameters.c1 * _t6;
+        let _t10 = system._parameters.mgl * h;
         Self {
             system,
+            base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * _t0,
-            _h1: _t2,
-            _h2: _t0 * _t2,
-            _h3: h * _t3,
-            _h4: _t3 * _t2,
-            _h5: h * _t4,
-            _h6: _t4 * _t2,
-            _h7: _t6,
-            _h8: _t7,
-            _h9: system._parameters.c1 * _t8,
-            _h10: _t9,
-            _h11: system._parameters.c2 * _t8,
-            _h12: system._parameters.c3 * _t8,
-            _h13: _t0 * _t6,
-            _h14: system._parameters.c2 * _t0 * _t10,
-            _h15: system._parameters.c3 * _t3 * _t10,
-            _h16: _t3 * _t9,
-            _h17: _t4 * _t7,
-            _h18: system._parameters.c1 * _t4 * _t10,
+            _h0: _t1,
+            _h1: _t3,
+            _h2: _t0 * _t3,
+            _h3: h * _t4,
+            _h4: _t4 * _t3,
+            _h5: h * _t5,
+            _h6: _t5 * _t3,
+            _h7: -_t1,
+            _h8: system._parameters.mgl * system._parameters.c3 * _t0
+                * S::ratio(-1.0, 2.0) * _t2,
+            _h9: _t0 * _t7,
+            _h10: _t4 * _t8,
+            _h11: _t4 * _t9,
+            _h12: _t5 * _t7,
+            _h13: _t5 * _t9,
+            _h14: _t8,
+            _h15: _t9,
+            _h16: system._parameters.c2 * _t10,
+            _h17: _t7,
+            _h18: system._parameters.c3 * _t10,
+            _h19: system._parameters.c1 * _t10,
         }
     }
 }
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GeneratingFunction<S>
-for HeavyTopSecondKind2<'_, S> {
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for HeavyTopSecondKind2Equation<'_, S> {
     type State = ::lie_runtime::__private::SVector<S, 6>;
-    type Jacobian = ::lie_runtime::__private::SMatrix<S, 6, 6>;
-    /// `xi = grad S(p)`
-    ///
-    /// 21 additions, 32 multiplications.
-    #[inline]
-    fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
-        let [[m1, m2, m3, g1, g2, g3]] = p.data.0;
-        let _t0 = m2 * self.system._k7;
-        let _t1 = m3 * self.system._k8;
-        let _t2 = m1 * self.system._k6;
-        let _t3 = _t2 * self._h1;
-        xi[0] = m1 * self._h0 - _t0 * _t1 * self._h1
-            + (g2 * self.system._k2 - g3 * self.system._k1 - m3 * _t0 + m2 * _t1)
-                * self._h2;
-        xi[1] = m2 * self._h3 + _t1 * _t3
-            + (g3 * self.system._k0 - g1 * self.system._k2 - m3 * _t2 - m1 * _t1)
-                * self._h4;
-        xi[2] = m3 * self._h5 - _t0 * _t3
-            + (g1 * self.system._k1 - g2 * self.system._k0 + m2 * _t2 - m1 * _t0)
-                * self._h6;
-        xi[3] = self._h9 - _t0 * self._h7 + _t1 * self._h8;
-        xi[4] = self._h11 + _t2 * self._h7 - _t1 * self._h10;
-        xi[5] = self._h12 - _t2 * self._h8 + _t0 * self._h10;
-    }
-
-    /// `xi = grad S(p)` and the Hessian of S
-    ///
-    /// 28 additions, 41 multiplications.
-    #[inline]
-    fn linearize(
-        &mut self,
-        p: &Self::State,
-        xi: &mut Self::State,
-        hessian: &mut Self::Jacobian,
-    ) {
-        let [[m1, m2, m3, g1, g2, g3]] = p.data.0;
-        let _t0 = m2 * self.system._k7;
-        let _t1 = m3 * self.system._k8;
-        let _t2 = m1 * self.system._k6;
-        let _t3 = _t2 * self._h1;
-        let _t4 = (_t1 - m3 * self.system._k7) * self._h2 - _t1 * self._h4;
-        let _t5 = (m2 * self.system._k8 - _t0) * self._h2 - _t0 * self._h6;
-        let _t6 = _t2 * self._h6 + (-(m1 * self.system._k8) - _t2) * self._h4;
-        xi[0] = m1 * self._h0 - _t0 * _t1 * self._h1
-            + (g2 * self.system._k2 - g3 * self.system._k1 - m3 * _t0 + m2 * _t1)
-                * self._h2;
-        xi[1] = m2 * self._h3 + _t1 * _t3
-            + (g3 * self.system._k0 - g1 * self.system._k2 - m3 * _t2 - m1 * _t1)
-                * self._h4;
-        xi[2] = m3 * self._h5 - _t0 * _t3
-            + (g1 * self.system._k1 - g2 * self.system._k0 + m2 * _t2 - m1 * _t0)
-                * self._h6;
-        xi[3] = self._h9 - _t0 * self._h7 + _t1 * self._h8;
-        xi[4] = self._h11 + _t2 * self._h7 - _t1 * self._h10;
-        xi[5] = self._h12 - _t2 * self._h8 + _t0 * self._h10;
-        hessian.fill(S::zero());
-        hessian[(0, 0)] = self._h0;
-        hessian[(0, 1)] = _t4;
-        hessian[(0, 2)] = _t5;
-        hessian[(0, 4)] = self._h13;
-        hessian[(0, 5)] = self._h14;
-        hessian[(1, 0)] = _t4;
-        hessian[(1, 1)] = self._h3;
-        hessian[(1, 2)] = _t6;
-        hessian[(1, 3)] = self._h15;
-        hessian[(1, 5)] = self._h16;
-        hessian[(2, 0)] = _t5;
-        hessian[(2, 1)] = _t6;
-        hessian[(2, 2)] = self._h5;
-        hessian[(2, 3)] = self._h17;
-        hessian[(2, 4)] = self._h18;
-        hessian[(3, 1)] = self._h15;
-        hessian[(3, 2)] = self._h17;
-        hessian[(4, 0)] = self._h13;
-        hessian[(4, 2)] = self._h18;
-        hessian[(5, 0)] = self._h14;
-        hessian[(5, 1)] = self._h16;
-    }
-}
-
-/// The method of `S = h H + h^2 S2` in coordinates of the second kind, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct HeavyTopSecondKind2Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        HeavyTopSystem<S>,
-        HeavyTopSecondKind2<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for HeavyTopSecondKind2Equation<'a, S> {
-    type State = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        HeavyTopSystem<S>,
-        HeavyTopSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        HeavyTopSystem<S>,
-        HeavyTopSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        HeavyTopSystem<S>,
-        HeavyTopSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 6, 6>;
     fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
+        Self::State::repeat(S::zero())
     }
 
     fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+        Self::Matrix::repeat(S::zero())
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
     }
 
-    /// Elimination in a fixed order, 0 entries of fill-in: 64 multiplications with the solution.
+    /// `p_i = (m_(i-1))_i` with `xi = grad S(mu)`
+    ///
+    /// 40 additions, 56 multiplications, 3 divisions, 3 function calls.
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
+        let _t0 = m2 * self.system._k7;
+        let _t1 = m3 * self.system._k8;
+        let _t2 = ((m1 * self._h0 - _t0 * _t1 * self._h1
+            + (g2 * self.system._k2 - g3 * self.system._k1 - m3 * _t0 + m2 * _t1)
+                * self._h2) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t3 = _t2 * S::ratio(2.0, 1.0) / (S::one() + _t2 * _t2);
+        let _t4 = _t2 * _t3;
+        let _t5 = m3 + (-(m2 * _t3) - m3 * _t4);
+        let _t6 = m1 * self.system._k6;
+        let _t7 = _t6 * self._h1;
+        let _t8 = ((m2 * self._h3 + _t1 * _t7
+            + (g3 * self.system._k0 - g1 * self.system._k2 - m3 * _t6 - m1 * _t1)
+                * self._h4) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t9 = S::ratio(2.0, 1.0) * _t8 / (S::one() + _t8 * _t8);
+        let _t10 = _t8 * _t9;
+        let _t11 = g3 + (-(g2 * _t3) - g3 * _t4);
+        let _t12 = g1 + (-(_t9 * _t11) - g1 * _t10);
+        let _t13 = ((m3 * self._h5 - _t0 * _t7
+            + (g1 * self.system._k1 - g2 * self.system._k0 + m2 * _t6 - m1 * _t0)
+                * self._h6) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t14 = S::ratio(2.0, 1.0) * _t13 / (S::one() + _t13 * _t13);
+        let _t15 = g2 + (g3 * _t3 - g2 * _t4);
+        let _t16 = _t13 * _t14;
+        unknown[0] = m1;
+        unknown[1] = m2 + (m3 * _t3 - m2 * _t4);
+        unknown[2] = _t5 + (m1 * _t9 - _t10 * _t5);
+        unknown[3] = _t12 + (_t14 * _t15 - _t16 * _t12);
+        unknown[4] = _t15 + (-(_t14 * _t12) - _t16 * _t15);
+        unknown[5] = _t11 + (g1 * _t9 - _t10 * _t11);
+    }
+
+    /// `r_i = p_i - (m_(i-1))_i`, `m_i = exp(xi_i ad*_(e_i)) m_(i-1)`, `xi = grad S(p)`
+    ///
+    /// 46 additions, 56 multiplications, 3 divisions, 3 function calls.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
+        let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
+        let _t0 = _u_m2 * self.system._k7;
+        let _t1 = _u_m3 * self.system._k8;
+        let _t2 = ((_u_m1 * self._h0 - _t0 * _t1 * self._h1
+            + (_u_g2 * self.system._k2 - _u_g3 * self.system._k1 - _t0 * _u_m3
+                + _t1 * _u_m2) * self._h2) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t3 = _t2 * S::ratio(2.0, 1.0) / (S::one() + _t2 * _t2);
+        let _t4 = _t2 * _t3;
+        let _t5 = m3 + (-(m2 * _t3) - m3 * _t4);
+        let _t6 = _u_m1 * self.system._k6;
+        let _t7 = _t6 * self._h1;
+        let _t8 = ((_u_m2 * self._h3 + _t1 * _t7
+            + (_u_g3 * self.system._k0 - _u_g1 * self.system._k2 - _t6 * _u_m3
+                - _t1 * _u_m1) * self._h4) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t9 = S::ratio(2.0, 1.0) * _t8 / (S::one() + _t8 * _t8);
+        let _t10 = _t8 * _t9;
+        let _t11 = g3 + (-(g2 * _t3) - g3 * _t4);
+        let _t12 = g1 + (-(_t9 * _t11) - g1 * _t10);
+        let _t13 = ((_u_m3 * self._h5 - _t0 * _t7
+            + (_u_g1 * self.system._k1 - _u_g2 * self.system._k0 + _t6 * _u_m2
+                - _t0 * _u_m1) * self._h6) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t14 = S::ratio(2.0, 1.0) * _t13 / (S::one() + _t13 * _t13);
+        let _t15 = g2 + (g3 * _t3 - g2 * _t4);
+        let _t16 = _t13 * _t14;
+        residual[0] = _u_m1 - m1;
+        residual[1] = _u_m2 - (m2 + (m3 * _t3 - m2 * _t4));
+        residual[2] = _u_m3 - (_t5 + (m1 * _t9 - _t10 * _t5));
+        residual[3] = _u_g1 - (_t12 + (_t14 * _t15 - _t16 * _t12));
+        residual[4] = _u_g2 - (_t15 + (-(_t14 * _t12) - _t16 * _t15));
+        residual[5] = _u_g3 - (_t11 + (g1 * _t9 - _t10 * _t11));
+    }
+
+    /// `r_i = p_i - (m_(i-1))_i` and `dr/dp`, by `dm_i/dxi_i = ad*_(e_i) m_i`
+    ///
+    /// 104 additions, 131 multiplications, 3 divisions, 3 function calls.
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::State,
+        residual: &mut Self::State,
+        matrix: &mut Self::Matrix,
+    ) {
+        let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
+        let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
+        let _t0 = _u_m2 * self.system._k7;
+        let _t1 = _u_m3 * self.system._k8;
+        let _t2 = (((_u_g2 * self.system._k2 - _u_g3 * self.system._k1 - _t0 * _u_m3
+            + _t1 * _u_m2) * self._h2 - _u_m1 * self._h7 - _t0 * _t1 * self._h1)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t3 = _t2 * S::ratio(2.0, 1.0) / (S::one() + _t2 * _t2);
+        let _t4 = _t2 * _t3;
+        let _t5 = m2 + (m3 * _t3 - m2 * _t4);
+        let _t6 = m3 + (-(m2 * _t3) - m3 * _t4);
+        let _t7 = _u_m1 * self.system._k6;
+        let _t8 = _t7 * self._h1;
+        let _t9 = ((_u_m2 * self._h3 + _t1 * _t8
+            + (_u_g3 * self.system._k0 - _u_g1 * self.system._k2 - _t7 * _u_m3
+                - _t1 * _u_m1) * self._h4) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t10 = S::ratio(2.0, 1.0) * _t9 / (S::one() + _t9 * _t9);
+        let _t11 = _t9 * _t10;
+        let _t12 = g3 + (-(g2 * _t3) - g3 * _t4);
+        let _t13 = g1 + (-(_t10 * _t12) - g1 * _t11);
+        let _t14 = ((_u_m3 * self._h5 - _t0 * _t8
+            + (_u_g1 * self.system._k1 - _u_g2 * self.system._k0 + _t7 * _u_m2
+                - _t0 * _u_m1) * self._h6) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t15 = S::ratio(2.0, 1.0) * _t14 / (S::one() + _t14 * _t14);
+        let _t16 = g2 + (g3 * _t3 - g2 * _t4);
+        let _t17 = _t14 * _t15;
+        let _t18 = _t13 + (_t15 * _t16 - _t17 * _t13);
+        let _t19 = _t16 + (-(_t15 * _t13) - _t17 * _t16);
+        let _t20 = _t12 + (g1 * _t10 - _t11 * _t12);
+        let _t21 = (_t1 - _u_m3 * self.system._k7) * self._h2 - _t1 * self._h4;
+        let _t22 = (_u_m2 * self.system._k8 - _t0) * self._h2 - _t0 * self._h6;
+        let _t23 = _t11 * _t5 - _t5;
+        let _t24 = m1 + (-(_t10 * _t6) - m1 * _t11);
+        let _t25 = _t7 * self._h6 + (-_t7 - _u_m1 * self.system._k8) * self._h4;
+        let _t26 = _t10 * _t16;
+        let _t27 = _t26 + (_t15 * _t12 - _t17 * _t26);
+        let _t28 = _t17 * _t20 - _t20;
+        let _t29 = _t12 + (-(_t15 * _t26) - _t17 * _t12);
+        let _t30 = _t15 * _t20;
+        let _t31 = -_t18;
+        let _t32 = _t11 * _t16 - _t16;
+        residual[0] = _u_m1 - m1;
+        residual[1] = _u_m2 - _t5;
+        residual[2] = _u_m3 - (_t6 + (m1 * _t10 - _t11 * _t6));
+        residual[3] = _u_g1 - _t18;
+        residual[4] = _u_g2 - _t19;
+        residual[5] = _u_g3 - _t20;
+        matrix[(0, 0)] = S::one();
+        matrix[(1, 0)] = _t6 * self._h7;
+        matrix[(1, 1)] = S::one() - _t21 * _t6;
+        matrix[(1, 2)] = -(_t22 * _t6);
+        matrix[(1, 4)] = _t6 * self._h8;
+        matrix[(1, 5)] = _t6 * self._h9;
+        matrix[(2, 0)] = self._h7 * _t23 - _t21 * _t24;
+        matrix[(2, 1)] = -(_t21 * _t23) - _t24 * self._h3;
+        matrix[(2, 2)] = S::one() - _t22 * _t23 - _t25 * _t24;
+        matrix[(2, 3)] = _t24 * self._h10;
+        matrix[(2, 4)] = self._h8 * _t23;
+        matrix[(2, 5)] = self._h9 * _t23 - _t24 * self._h11;
+        matrix[(3, 0)] = self._h7 * _t27 - _t21 * _t28 - _t22 * _t19;
+        matrix[(3, 1)] = -(_t21 * _t27) - self._h3 * _t28 - _t25 * _t19;
+        matrix[(3, 2)] = -(_t22 * _t27) - _t25 * _t28 - _t19 * self._h5;
+        matrix[(3, 3)] = S::one() + self._h10 * _t28 - _t19 * self._h12;
+        matrix[(3, 4)] = self._h8 * _t27 + _t19 * self._h13;
+        matrix[(3, 5)] = self._h9 * _t27 - self._h11 * _t28;
+        matrix[(4, 0)] = self._h7 * _t29 - _t21 * _t30 - _t22 * _t31;
+        matrix[(4, 1)] = -(_t21 * _t29) - self._h3 * _t30 - _t25 * _t31;
+        matrix[(4, 2)] = -(_t22 * _t29) - _t25 * _t30 - self._h5 * _t31;
+        matrix[(4, 3)] = self._h10 * _t30 - self._h12 * _t31;
+        matrix[(4, 4)] = S::one() + self._h8 * _t29 + self._h13 * _t31;
+        matrix[(4, 5)] = self._h9 * _t29 - self._h11 * _t30;
+        matrix[(5, 0)] = self._h7 * _t32 - _t21 * _t13;
+        matrix[(5, 1)] = -(_t21 * _t32) - _t13 * self._h3;
+        matrix[(5, 2)] = -(_t22 * _t32) - _t25 * _t13;
+        matrix[(5, 3)] = _t13 * self._h10;
+        matrix[(5, 4)] = self._h8 * _t32;
+        matrix[(5, 5)] = S::one() + self._h9 * _t32 - _t13 * self._h11;
+    }
+
+    /// `mu1 = m_n`
+    ///
+    /// 63 additions, 74 multiplications, 3 divisions, 3 function calls.
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
+        let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
+        let _t0 = _u_m3 * self.system._k8;
+        let _t1 = _u_m1 * self.system._k6;
+        let _t2 = _t1 * self._h1;
+        let _t3 = ((_u_m2 * self._h3 + _t0 * _t2
+            + (_u_g3 * self.system._k0 - _u_g1 * self.system._k2 - _t1 * _u_m3
+                - _t0 * _u_m1) * self._h4) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t4 = S::ratio(2.0, 1.0) * _t3 / (S::one() + _t3 * _t3);
+        let _t5 = _u_m2 * self.system._k7;
+        let _t6 = ((_u_m1 * self._h0 - _t5 * _t0 * self._h1
+            + (_u_g2 * self.system._k2 - _u_g3 * self.system._k1 - _t5 * _u_m3
+                + _t0 * _u_m2) * self._h2) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t7 = _t6 * S::ratio(2.0, 1.0) / (S::one() + _t6 * _t6);
+        let _t8 = _t6 * _t7;
+        let _t9 = m3 + (-(m2 * _t7) - m3 * _t8);
+        let _t10 = _t3 * _t4;
+        let _t11 = m1 + (-(_t4 * _t9) - m1 * _t10);
+        let _t12 = ((_u_m3 * self._h5 - _t5 * _t2
+            + (_u_g1 * self.system._k1 - _u_g2 * self.system._k0 + _t1 * _u_m2
+                - _t5 * _u_m1) * self._h6) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t13 = S::ratio(2.0, 1.0) * _t12 / (S::one() + _t12 * _t12);
+        let _t14 = m2 + (m3 * _t7 - m2 * _t8);
+        let _t15 = _t12 * _t13;
+        let _t16 = self._h16 + _t1 * self._h14 - _t0 * self._h15;
+        let _t17 = g3 + (-(g2 * _t7) - g3 * _t8);
+        let _t18 = _t17 + (g1 * _t4 - _t10 * _t17);
+        let _t19 = self._h18 - _t1 * self._h17 + _t5 * self._h15;
+        let _t20 = g2 + (g3 * _t7 - g2 * _t8);
+        let _t21 = g1 + (-(_t4 * _t17) - g1 * _t10);
+        let _t22 = _t20 + (-(_t13 * _t21) - _t15 * _t20);
+        let _t23 = self._h19 - _t5 * self._h14 + _t0 * self._h17;
+        let _t24 = _t21 + (_t13 * _t20 - _t15 * _t21);
+        mu[0] = _t11 + (_t13 * _t14 - _t15 * _t11) + -(_t16 * _t18) + _t19 * _t22;
+        mu[1] = _t14 + (-(_t13 * _t11) - _t15 * _t14) + _t23 * _t18 + -(_t19 * _t24);
+        mu[2] = _t9 + (m1 * _t4 - _t10 * _t9) + -(_t23 * _t22) + _t16 * _t24;
+        mu[3] = _t24;
+        mu[4] = _t22;
+        mu[5] = _t18;
+    }
+
+    /// Sparse elimination in the order [0, 3, 1, 2, 4, 5], 0 entries of fill-in: 64 multiplications with the solution.
     #[inline]
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
         let _a3_3 = matrix[(3, 3)];
@@ -2942,16 +3046,14 @@ for HeavyTopSecondKind2Equation<'a, S> {
         residual[5] = _b5;
     }
 
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
     fn group_factor(
         &mut self,
-        unknown: &Self::Unknown,
+        unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
+        let mut function = ::lie_runtime::generic::SecondKind2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::SecondKind)
     }
 }
 
@@ -2965,12 +3067,7 @@ for HeavyTopSystem<S> {
         _method: &::lie_runtime::methods::GeneratingSecondKind2,
         h: S,
     ) -> HeavyTopSecondKind2Equation<'a, S> {
-        HeavyTopSecondKind2Equation(
-            ::lie_runtime::generic::SecondKind::with_function(
-                self,
-                HeavyTopSecondKind2::new(self, h),
-            ),
-        )
+        HeavyTopSecondKind2Equation::new(self, h)
     }
 }
 
@@ -3067,14 +3164,6 @@ for HeavyTopCayleyGenerating4<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
-    }
-
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`
     ///
     /// 102 additions, 120 multiplications.
@@ -3086,7 +3175,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t1 = self.system._k2 * _u_g1;
         let _t2 = self.system._k7 * (_t0 - _t1 + self.system._k10 * _u_m1 * _u_m3);
         let _t3 = _t2 + _t2;
-        let _t4 = self.system._k1 * _u_g3;
+        let _t4 = _u_g3 * self.system._k1;
         let _t5 = self.system._k2 * _u_g2;
         let _t6 = self.system._k6 * (_t5 - _t4 - self.system._k9 * _u_m2 * _u_m3);
         let _t7 = _t6 + _t6;
@@ -3103,11 +3192,11 @@ for HeavyTopCayleyGenerating4<'_, S> {
             * self._h0 + self._h1;
         let _t17 = _t16 * _u_g2;
         let _t18 = _t10 * S::ratio(2.0, 1.0);
-        let _t19 = self.system._k42 * _u_g2 + _u_m2 * _t18;
-        let _t20 = _u_m3 * _t15 + self.system._k47 * _u_g3;
+        let _t19 = _u_g2 * self.system._k42 + _u_m2 * _t18;
+        let _t20 = _u_m3 * _t15 + _u_g3 * self.system._k47;
         let _t21 = _t8 * S::ratio(2.0, 1.0);
         let _t22 = self.system._k0 * _u_g2;
-        let _t23 = self.system._k1 * _u_g1;
+        let _t23 = _u_g1 * self.system._k1;
         let _t24 = _t22 + _t23;
         let _t25 = _t0 + _t1;
         let _t26 = self.system._k8 * (_t23 - _t22 - self.system._k11 * _u_m1 * _u_m2);
@@ -3120,25 +3209,25 @@ for HeavyTopCayleyGenerating4<'_, S> {
             * ((_t8 * _u_m1 * S::ratio(3.0, 1.0) + _t19 + _t20) * _t21
                 - (_t24 - _t10 * _u_m1) * _t18 - (_t25 - _t14 * _u_m1) * _t15)
             - _u_m2 * _t28 + _u_m3 * _t29;
-        let _t33 = (_t32 + _t31 * _t21) * self._h0 + _u_m1 * self._h2;
+        let _t33 = _u_m1 * self._h2 + (_t32 + _t31 * _t21) * self._h0;
         let _t34 = _t16 * _u_g3;
         let _t35 = _t14 * self.system._k2;
         let _t36 = (self.system._k2 * _t7 - self.system._k0 * _t27
             + _t9 * self.system._k42 + _t30 * self.system._k42 - (_t12 + _t35) * _t18)
             * self._h0 + self._h3;
-        let _t37 = self.system._k54 * _u_g1 + _u_m1 * _t21;
+        let _t37 = _u_g1 * self.system._k54 + _u_m1 * _t21;
         let _t38 = _t4 + _t5;
         let _t39 = self.system._k9 * _t7;
         let _t40 = self.system._k8
             * ((_t14 * _u_m3 * S::ratio(3.0, 1.0) + _t37 + _t19) * _t15
                 - (_t25 - _t8 * _u_m3) * _t21 - (_t38 - _t10 * _u_m3) * _t18)
             + _u_m1 * _t29 - _u_m2 * _t39;
-        let _t41 = (_t40 + _t31 * _t15) * self._h0 + _u_m3 * self._h4;
+        let _t41 = _u_m3 * self._h4 + (_t40 + _t31 * _t15) * self._h0;
         let _t42 = self.system._k7
             * ((_t10 * _u_m2 * S::ratio(3.0, 1.0) + _t37 + _t20) * _t18
                 - (_t24 - _t8 * _u_m2) * _t21 - (_t38 - _t14 * _u_m2) * _t15)
             - _u_m1 * _t28 - _u_m3 * _t39;
-        let _t43 = (_t42 + _t31 * _t18) * self._h0 + _u_m2 * self._h5;
+        let _t43 = _u_m2 * self._h5 + (_t42 + _t31 * _t18) * self._h0;
         let _t44 = _t41 * _u_m3 + (_t33 * _u_m1 + _t43 * _u_m2);
         let _t45 = _t36 * _u_g2 + _t44;
         let _t46 = _t36 * _u_g1;
@@ -3197,8 +3286,8 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t20 = _t19 * _u_g2;
         let _t21 = _t10 * _u_m1;
         let _t22 = S::ratio(3.0, 1.0) * _t21;
-        let _t23 = self.system._k42 * _u_g2;
-        let _t24 = self.system._k47 * _u_g3;
+        let _t23 = _u_g2 * self.system._k42;
+        let _t24 = _u_g3 * self.system._k47;
         let _t25 = _t12 * _u_m2;
         let _t26 = _t15 * _u_m3;
         let _t27 = _t12 * _u_m1;
@@ -3219,9 +3308,9 @@ for HeavyTopCayleyGenerating4<'_, S> {
                 * (_t10 * (_t22 + _t23 + _t24 + S::ratio(2.0, 1.0) * (_t25 + _t26))
                     - _t12 * (_t30 - _t27) - _t15 * (_t32 - _t31))) + _t35 * _t36
             + _t4 * _t37;
-        let _t41 = (_t40 + _t10 * _t39) * self._h0 + _u_m1 * self._h2;
+        let _t41 = _u_m1 * self._h2 + (_t40 + _t10 * _t39) * self._h0;
         let _t42 = S::ratio(3.0, 1.0) * _t26;
-        let _t43 = self.system._k54 * _u_g1;
+        let _t43 = _u_g1 * self.system._k54;
         let _t44 = _t10 * _u_m3;
         let _t45 = _t12 * _u_m3;
         let _t46 = _t5 + _t6;
@@ -3230,7 +3319,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
                 * (_t15 * (_t42 + _t43 + _t23 + S::ratio(2.0, 1.0) * (_t21 + _t25))
                     - _t10 * (_t32 - _t44) - _t12 * (_t46 - _t45))) + _t4 * _t2
             + _t9 * _t7;
-        let _t48 = (_t47 + _t15 * _t39) * self._h0 + _u_m3 * self._h4;
+        let _t48 = _u_m3 * self._h4 + (_t47 + _t15 * _t39) * self._h0;
         let _t49 = _t48 * _u_m3;
         let _t50 = _t49 + _t19 * _u_g3;
         let _t51 = _t11 + _t38;
@@ -3250,7 +3339,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
                 * (_t12 * (_t57 + _t43 + S::ratio(2.0, 1.0) * (_t21 + _t26) + _t24)
                     - _t10 * (_t30 - _t58) - _t15 * (_t46 - _t59))) + _t35 * _t33
             + _t9 * _t60;
-        let _t62 = (_t61 + _t12 * _t39) * self._h0 + _u_m2 * self._h5;
+        let _t62 = _u_m2 * self._h5 + (_t61 + _t12 * _t39) * self._h0;
         let _t63 = _t62 * _u_m2;
         let _t64 = _t56 + _t63;
         let _t65 = _t55 + _t64;
@@ -3470,15 +3559,15 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t0 = self.system._k7 * _u_m2;
         let _t1 = self.system._k6 * _u_m1;
         let _t2 = _t1 * S::ratio(2.0, 1.0);
-        let _t3 = self.system._k54 * _u_g1 + _u_m1 * _t2;
+        let _t3 = _u_g1 * self.system._k54 + _u_m1 * _t2;
         let _t4 = self.system._k8 * _u_m3;
         let _t5 = _t4 * S::ratio(2.0, 1.0);
-        let _t6 = _u_m3 * _t5 + self.system._k47 * _u_g3;
+        let _t6 = _u_m3 * _t5 + _u_g3 * self.system._k47;
         let _t7 = _t0 * S::ratio(2.0, 1.0);
         let _t8 = self.system._k0 * _u_g2;
-        let _t9 = self.system._k1 * _u_g1;
+        let _t9 = _u_g1 * self.system._k1;
         let _t10 = _t8 + _t9;
-        let _t11 = self.system._k1 * _u_g3;
+        let _t11 = _u_g3 * self.system._k1;
         let _t12 = self.system._k2 * _u_g2;
         let _t13 = _t11 + _t12;
         let _t14 = self.system._k8 * (_t9 - _t8 - self.system._k11 * _u_m1 * _u_m2);
@@ -3495,9 +3584,9 @@ for HeavyTopCayleyGenerating4<'_, S> {
             * ((_t0 * _u_m2 * S::ratio(3.0, 1.0) + _t3 + _t6) * _t7
                 - (_t10 - _t1 * _u_m2) * _t2 - (_t13 - _t4 * _u_m2) * _t5) - _u_m1 * _t16
             - _u_m3 * _t19;
-        let _t25 = ((_t24 + _t23 * _t7) * self._h0 + _u_m2 * self._h5)
+        let _t25 = (_u_m2 * self._h5 + (_t24 + _t23 * _t7) * self._h0)
             * S::ratio(2.0, 1.0);
-        let _t26 = self.system._k42 * _u_g2 + _u_m2 * _t7;
+        let _t26 = _u_g2 * self.system._k42 + _u_m2 * _t7;
         let _t27 = self.system._k0 * _u_g3;
         let _t28 = self.system._k2 * _u_g1;
         let _t29 = _t27 + _t28;
@@ -3508,7 +3597,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
             * ((_t4 * _u_m3 * S::ratio(3.0, 1.0) + _t3 + _t26) * _t5
                 - (_t29 - _t1 * _u_m3) * _t2 - (_t13 - _t0 * _u_m3) * _t7) + _u_m1 * _t32
             - _u_m2 * _t19;
-        let _t34 = ((_t33 + _t23 * _t5) * self._h0 + _u_m3 * self._h4)
+        let _t34 = (_u_m3 * self._h4 + (_t33 + _t23 * _t5) * self._h0)
             * S::ratio(2.0, 1.0);
         let _t35 = _t1 * self.system._k0;
         let _t36 = _t4 * self.system._k2;
@@ -3523,7 +3612,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
             * ((_t1 * _u_m1 * S::ratio(3.0, 1.0) + _t26 + _t6) * _t2
                 - (_t10 - _t0 * _u_m1) * _t7 - (_t29 - _t4 * _u_m1) * _t5) - _u_m2 * _t16
             + _u_m3 * _t32;
-        let _t41 = ((_t40 + _t23 * _t2) * self._h0 + _u_m1 * self._h2)
+        let _t41 = (_u_m1 * self._h2 + (_t40 + _t23 * _t2) * self._h0)
             * S::ratio(2.0, 1.0);
         let _t42 = ((_t15 * self.system._k1 - self.system._k2 * _t31
             - (_t36 + _t38) * _t2 + _t21 * self.system._k54 + _t22 * self.system._k54)
@@ -3534,6 +3623,14 @@ for HeavyTopCayleyGenerating4<'_, S> {
         mu[3] = g1 - _u_g3 * _t25 + _u_g2 * _t34;
         mu[4] = g2 + _u_g3 * _t41 - _u_g1 * _t34;
         mu[5] = g3 - _u_g2 * _t41 + _u_g1 * _t25;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2, 3, 4, 5], 0 entries of fill-in: 106 multiplications with the solution.

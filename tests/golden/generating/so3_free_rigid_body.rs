@@ -1274,163 +1274,207 @@ impl<
     }
 }
 
-/// The generating function `S = h H + h^2 S2` in coordinates of the second kind.
+/// The generating-function method in coordinates of the second kind, unknown p, with
+/// `S = h H + h^2 S2`: the actions `exp(xi_i ad*_(e_i))`, `xi = grad S(p)`, in closed form.
 #[derive(Clone, Debug)]
-pub struct FreeRigidBodySecondKind2<'a, S: ::lie_runtime::Scalar> {
+pub struct FreeRigidBodySecondKind2Equation<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
+    base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
     /// `h/I1`
     _h0: S,
     /// `h^2/2`
     _h1: S,
-    /// `h^2/(2*I1)`
-    _h2: S,
     /// `h/I2`
+    _h2: S,
+    /// `-h/I1`
     _h3: S,
-    /// `h^2/(2*I2)`
+    /// `h^2/(2*I1)`
     _h4: S,
-    /// `h/I3`
+    /// `h^2/(2*I2)`
     _h5: S,
     /// `h^2/(2*I3)`
     _h6: S,
+    /// `h/I3`
+    _h7: S,
 }
 
-impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySecondKind2<'a, S> {
-    /// The function of a step of size h; what depends on h alone is computed here, once.
+impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySecondKind2Equation<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I1;
-        let _t1 = S::ratio(1.0, 2.0) * (h * h);
-        let _t2 = S::one() / system._parameters.I2;
-        let _t3 = S::one() / system._parameters.I3;
+        let _t1 = h * _t0;
+        let _t2 = S::ratio(1.0, 2.0) * (h * h);
+        let _t3 = S::one() / system._parameters.I2;
+        let _t4 = S::one() / system._parameters.I3;
         Self {
             system,
+            base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * _t0,
-            _h1: _t1,
-            _h2: _t0 * _t1,
-            _h3: h * _t2,
-            _h4: _t2 * _t1,
-            _h5: h * _t3,
-            _h6: _t3 * _t1,
+            _h0: _t1,
+            _h1: _t2,
+            _h2: h * _t3,
+            _h3: -_t1,
+            _h4: _t0 * _t2,
+            _h5: _t3 * _t2,
+            _h6: _t4 * _t2,
+            _h7: h * _t4,
         }
     }
 }
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GeneratingFunction<S>
-for FreeRigidBodySecondKind2<'_, S> {
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for FreeRigidBodySecondKind2Equation<'_, S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
-    type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    /// `xi = grad S(p)`
-    ///
-    /// 10 additions, 20 multiplications.
-    #[inline]
-    fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
-        let [[x, y, z]] = p.data.0;
-        let _t0 = y * self.system._k4;
-        let _t1 = z * self.system._k5;
-        let _t2 = x * self.system._k3;
-        let _t3 = _t2 * self._h1;
-        xi[0] = x * self._h0 - _t0 * _t1 * self._h1 + (y * _t1 - z * _t0) * self._h2;
-        xi[1] = y * self._h3 + _t1 * _t3 + (-(z * _t2) - x * _t1) * self._h4;
-        xi[2] = z * self._h5 - _t0 * _t3 + (y * _t2 - x * _t0) * self._h6;
-    }
-
-    /// `xi = grad S(p)` and the Hessian of S
-    ///
-    /// 17 additions, 29 multiplications.
-    #[inline]
-    fn linearize(
-        &mut self,
-        p: &Self::State,
-        xi: &mut Self::State,
-        hessian: &mut Self::Jacobian,
-    ) {
-        let [[x, y, z]] = p.data.0;
-        let _t0 = y * self.system._k4;
-        let _t1 = z * self.system._k5;
-        let _t2 = x * self.system._k3;
-        let _t3 = _t2 * self._h1;
-        let _t4 = (_t1 - z * self.system._k4) * self._h2 - _t1 * self._h4;
-        let _t5 = (y * self.system._k5 - _t0) * self._h2 - _t0 * self._h6;
-        let _t6 = _t2 * self._h6 + (-(x * self.system._k5) - _t2) * self._h4;
-        xi[0] = x * self._h0 - _t0 * _t1 * self._h1 + (y * _t1 - z * _t0) * self._h2;
-        xi[1] = y * self._h3 + _t1 * _t3 + (-(z * _t2) - x * _t1) * self._h4;
-        xi[2] = z * self._h5 - _t0 * _t3 + (y * _t2 - x * _t0) * self._h6;
-        hessian[(0, 0)] = self._h0;
-        hessian[(0, 1)] = _t4;
-        hessian[(0, 2)] = _t5;
-        hessian[(1, 0)] = _t4;
-        hessian[(1, 1)] = self._h3;
-        hessian[(1, 2)] = _t6;
-        hessian[(2, 0)] = _t5;
-        hessian[(2, 1)] = _t6;
-        hessian[(2, 2)] = self._h5;
-    }
-}
-
-/// The method of `S = h H + h^2 S2` in coordinates of the second kind, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct FreeRigidBodySecondKind2Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodySecondKind2<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for FreeRigidBodySecondKind2Equation<'a, S> {
-    type State = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodySecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodySecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodySecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
+        Self::State::repeat(S::zero())
     }
 
     fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+        Self::Matrix::repeat(S::zero())
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
     }
 
-    /// Elimination in a fixed order, 0 entries of fill-in: 8 multiplications with the solution.
+    /// `p_i = (m_(i-1))_i` with `xi = grad S(mu)`
+    ///
+    /// 16 additions, 29 multiplications, 2 divisions, 2 function calls.
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let [[x, y, z]] = self.base.data.0;
+        let _t0 = y * self.system._k4;
+        let _t1 = z * self.system._k5;
+        let _t2 = ((x * self._h0
+            - (_t0 * _t1 - self.system._k3 * (y * _t1 - z * _t0)) * self._h1)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t3 = _t2 * S::ratio(2.0, 1.0) / (S::one() + _t2 * _t2);
+        let _t4 = _t2 * _t3;
+        let _t5 = z + (-(y * _t3) - z * _t4);
+        let _t6 = x * self.system._k3;
+        let _t7 = ((y * self._h2
+            + (_t6 * _t1 + self.system._k4 * (-(z * _t6) - x * _t1)) * self._h1)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t8 = S::ratio(2.0, 1.0) * _t7 / (S::one() + _t7 * _t7);
+        unknown[0] = x;
+        unknown[1] = y + (z * _t3 - y * _t4);
+        unknown[2] = _t5 + (x * _t8 - _t7 * _t8 * _t5);
+    }
+
+    /// `r_i = p_i - (m_(i-1))_i`, `m_i = exp(xi_i ad*_(e_i)) m_(i-1)`, `xi = grad S(p)`
+    ///
+    /// 19 additions, 29 multiplications, 2 divisions, 2 function calls.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = self.system._k4 * _u_y;
+        let _t1 = self.system._k5 * _u_z;
+        let _t2 = ((_u_x * self._h0
+            - (_t0 * _t1 - (_t1 * _u_y - _t0 * _u_z) * self.system._k3) * self._h1)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t3 = _t2 * S::ratio(2.0, 1.0) / (S::one() + _t2 * _t2);
+        let _t4 = _t2 * _t3;
+        let _t5 = z + (-(y * _t3) - z * _t4);
+        let _t6 = self.system._k3 * _u_x;
+        let _t7 = ((_u_y * self._h2
+            + (_t6 * _t1 + (-(_t6 * _u_z) - _t1 * _u_x) * self.system._k4) * self._h1)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t8 = S::ratio(2.0, 1.0) * _t7 / (S::one() + _t7 * _t7);
+        residual[0] = _u_x - x;
+        residual[1] = _u_y - (y + (z * _t3 - y * _t4));
+        residual[2] = _u_z - (_t5 + (x * _t8 - _t7 * _t8 * _t5));
+    }
+
+    /// `r_i = p_i - (m_(i-1))_i` and `dr/dp`, by `dm_i/dxi_i = ad*_(e_i) m_i`
+    ///
+    /// 37 additions, 50 multiplications, 2 divisions, 2 function calls.
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::State,
+        residual: &mut Self::State,
+        matrix: &mut Self::Matrix,
+    ) {
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = _u_y * self.system._k4;
+        let _t1 = _u_z * self.system._k5;
+        let _t2 = (((_t1 * _u_y - _t0 * _u_z) * self._h4 - _u_x * self._h3
+            - _t0 * _t1 * self._h1) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t3 = _t2 * S::ratio(2.0, 1.0) / (S::one() + _t2 * _t2);
+        let _t4 = _t2 * _t3;
+        let _t5 = y + (z * _t3 - y * _t4);
+        let _t6 = z + (-(y * _t3) - z * _t4);
+        let _t7 = _u_x * self.system._k3;
+        let _t8 = ((_u_y * self._h2 + _t1 * (_t7 * self._h1)
+            + (-(_t7 * _u_z) - _t1 * _u_x) * self._h5) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t9 = S::ratio(2.0, 1.0) * _t8 / (S::one() + _t8 * _t8);
+        let _t10 = _t8 * _t9;
+        let _t11 = (_t1 - _u_z * self.system._k4) * self._h4 - _t1 * self._h5;
+        let _t12 = (_u_y * self.system._k5 - _t0) * self._h4 - _t0 * self._h6;
+        let _t13 = _t10 * _t5 - _t5;
+        let _t14 = x + (-(_t9 * _t6) - x * _t10);
+        residual[0] = _u_x - x;
+        residual[1] = _u_y - _t5;
+        residual[2] = _u_z - (_t6 + (x * _t9 - _t10 * _t6));
+        matrix[(0, 0)] = S::one();
+        matrix[(1, 0)] = _t6 * self._h3;
+        matrix[(1, 1)] = S::one() - _t11 * _t6;
+        matrix[(1, 2)] = -(_t12 * _t6);
+        matrix[(2, 0)] = self._h3 * _t13 - _t11 * _t14;
+        matrix[(2, 1)] = -(_t11 * _t13) - _t14 * self._h2;
+        matrix[(2, 2)] = S::one() - _t12 * _t13
+            - (_t7 * self._h6 + (-_t7 - _u_x * self.system._k5) * self._h5) * _t14;
+    }
+
+    /// `mu1 = m_n`
+    ///
+    /// 28 additions, 44 multiplications, 3 divisions, 3 function calls.
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = _u_z * self.system._k5;
+        let _t1 = _u_x * self.system._k3;
+        let _t2 = _t1 * self._h1;
+        let _t3 = ((_u_y * self._h2 + _t0 * _t2
+            + (-(_t1 * _u_z) - _t0 * _u_x) * self._h5) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t4 = S::ratio(2.0, 1.0) * _t3 / (S::one() + _t3 * _t3);
+        let _t5 = _u_y * self.system._k4;
+        let _t6 = ((_u_x * self._h0 - _t5 * _t0 * self._h1
+            + (_t0 * _u_y - _t5 * _u_z) * self._h4) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t7 = _t6 * S::ratio(2.0, 1.0) / (S::one() + _t6 * _t6);
+        let _t8 = _t6 * _t7;
+        let _t9 = z + (-(y * _t7) - z * _t8);
+        let _t10 = _t3 * _t4;
+        let _t11 = x + (-(_t4 * _t9) - x * _t10);
+        let _t12 = ((_u_z * self._h7 - _t5 * _t2 + (_t1 * _u_y - _t5 * _u_x) * self._h6)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t13 = S::ratio(2.0, 1.0) * _t12 / (S::one() + _t12 * _t12);
+        let _t14 = y + (z * _t7 - y * _t8);
+        let _t15 = _t12 * _t13;
+        mu[0] = _t11 + (_t13 * _t14 - _t15 * _t11);
+        mu[1] = _t14 + (-(_t13 * _t11) - _t15 * _t14);
+        mu[2] = _t9 + (x * _t4 - _t10 * _t9);
+    }
+
+    /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 8 multiplications with the solution.
     #[inline]
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
         let _a1_1 = matrix[(1, 1)];
@@ -1459,16 +1503,14 @@ for FreeRigidBodySecondKind2Equation<'a, S> {
         residual[2] = _b2;
     }
 
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
     fn group_factor(
         &mut self,
-        unknown: &Self::Unknown,
+        unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
+        let mut function = ::lie_runtime::generic::SecondKind2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::SecondKind)
     }
 }
 
@@ -1482,12 +1524,7 @@ for FreeRigidBodySystem<S> {
         _method: &::lie_runtime::methods::GeneratingSecondKind2,
         h: S,
     ) -> FreeRigidBodySecondKind2Equation<'a, S> {
-        FreeRigidBodySecondKind2Equation(
-            ::lie_runtime::generic::SecondKind::with_function(
-                self,
-                FreeRigidBodySecondKind2::new(self, h),
-            ),
-        )
+        FreeRigidBodySecondKind2Equation::new(self, h)
     }
 }
 
@@ -1499,9 +1536,9 @@ pub struct FreeRigidBodyCayleyGenerating4<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `h^3/48`
-    _h0: S,
     /// `h/(2*I2)`
+    _h0: S,
+    /// `h^3/48`
     _h1: S,
     /// `h/(2*I3)`
     _h2: S,
@@ -1518,8 +1555,8 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyCayleyGenerating4<'a, S> {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * h * h * S::ratio(1.0, 48.0),
-            _h1: _t0 / system._parameters.I2,
+            _h0: _t0 / system._parameters.I2,
+            _h1: h * h * h * S::ratio(1.0, 48.0),
             _h2: _t0 / system._parameters.I3,
             _h3: _t0 / system._parameters.I1,
         }
@@ -1543,14 +1580,6 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
     #[inline]
     fn set_base(&mut self, mu: &Self::State) {
         self.base = *mu;
-    }
-
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`
@@ -1579,21 +1608,23 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
             * (S::ratio(2.0, 1.0)
                 * (_t0 * (S::ratio(2.0, 1.0) * (_t2 + _t4) + _t5 * S::ratio(3.0, 1.0))
                     + _u_y * (_t6 + _t7))) + _u_x * _t9 + _u_z * _t11 + _t0 * _t14)
-            * self._h0;
-        let _t16 = _t15 + _u_y * self._h1;
+            * self._h1;
+        let _t16 = _u_y * self._h0 + _t15;
         let _t17 = self.system._k4 * (self.system._k7 * _u_x * _u_z);
         let _t18 = self.system._k7 * (_t17 + _t17);
-        let _t19 = (self.system._k5
-            * (S::ratio(2.0, 1.0)
-                * (_t3 * ((_t2 + _t5) * S::ratio(2.0, 1.0) + _t4 * S::ratio(3.0, 1.0))
-                    + _u_z * _t13)) + _u_x * _t18 + _u_y * _t11 + _t3 * _t14) * self._h0
-            + _u_z * self._h2;
+        let _t19 = _u_z * self._h2
+            + (self.system._k5
+                * (S::ratio(2.0, 1.0)
+                    * (_t3
+                        * ((_t2 + _t5) * S::ratio(2.0, 1.0) + _t4 * S::ratio(3.0, 1.0))
+                        + _u_z * _t13)) + _u_x * _t18 + _u_y * _t11 + _t3 * _t14)
+                * self._h1;
         let _t20 = (self.system._k3
             * (S::ratio(2.0, 1.0)
                 * (_t1 * (_t2 * S::ratio(3.0, 1.0) + S::ratio(2.0, 1.0) * (_t5 + _t4))
                     + _u_x * (_t12 + _t7))) + _u_y * _t9 + _u_z * _t18 + _t1 * _t14)
-            * self._h0;
-        let _t21 = _t20 + _u_x * self._h3;
+            * self._h1;
+        let _t21 = _u_x * self._h3 + _t20;
         let _t22 = _t21 * _u_x + _t16 * _u_y + _t19 * _u_z;
         residual[0] = _u_x - x + _t16 * _u_z - _t19 * _u_y + _t21 * _t22;
         residual[1] = _u_y - y - _t21 * _u_z + _t19 * _u_x + _t16 * _t22;
@@ -1631,10 +1662,11 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t16 = _t15 + _t15;
         let _t17 = _t0 * _t0;
         let _t18 = S::ratio(2.0, 1.0) * (_t17 + _t10);
-        let _t19 = (self.system._k5
-            * (S::ratio(2.0, 1.0)
-                * (_t0 * (_t2 + S::ratio(2.0, 1.0) * _t7) + _u_z * _t10)) + _t13 * _t11
-            + _t16 * _t14 + _t0 * _t18) * self._h0 + _u_z * self._h2;
+        let _t19 = _u_z * self._h2
+            + (self.system._k5
+                * (S::ratio(2.0, 1.0)
+                    * (_t0 * (_t2 + S::ratio(2.0, 1.0) * _t7) + _u_z * _t10))
+                + _t13 * _t11 + _t16 * _t14 + _t0 * _t18) * self._h1;
         let _t20 = _t19 * _u_y;
         let _t21 = S::ratio(3.0, 1.0) * _t6;
         let _t22 = _t4 + _t1;
@@ -1643,20 +1675,22 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t25 = self.system._k5 * (_u_y * _t24);
         let _t26 = _t25 + _t25;
         let _t27 = _u_z * self.system._k6;
-        let _t28 = (self.system._k4
-            * (S::ratio(2.0, 1.0)
-                * (_t5 * (_t21 + S::ratio(2.0, 1.0) * _t22) + _u_y * _t23)) + _t26 * _t24
-            + _t16 * _t27 + _t5 * _t18) * self._h0 + _u_y * self._h1;
+        let _t28 = _u_y * self._h0
+            + (self.system._k4
+                * (S::ratio(2.0, 1.0)
+                    * (_t5 * (_t21 + S::ratio(2.0, 1.0) * _t22) + _u_y * _t23))
+                + _t26 * _t24 + _t16 * _t27 + _t5 * _t18) * self._h1;
         let _t29 = _u_x + _t28 * _u_z;
         let _t30 = S::ratio(3.0, 1.0) * _t4;
         let _t31 = _t6 + _t1;
         let _t32 = _t9 + _t17;
         let _t33 = _u_y * self.system._k8;
         let _t34 = self.system._k7 * _u_z;
-        let _t35 = (self.system._k3
-            * (S::ratio(2.0, 1.0)
-                * (_t3 * (_t30 + S::ratio(2.0, 1.0) * _t31) + _u_x * _t32)) + _t26 * _t33
-            + _t13 * _t34 + _t3 * _t18) * self._h0 + _u_x * self._h3;
+        let _t35 = _u_x * self._h3
+            + (self.system._k3
+                * (S::ratio(2.0, 1.0)
+                    * (_t3 * (_t30 + S::ratio(2.0, 1.0) * _t31) + _u_x * _t32))
+                + _t26 * _t33 + _t13 * _t34 + _t3 * _t18) * self._h1;
         let _t36 = _t19 * _u_z;
         let _t37 = _t35 * _u_x;
         let _t38 = _t28 * _u_y;
@@ -1673,7 +1707,7 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t49 = (self.system._k3
             * (_t8 * S::ratio(6.0, 1.0) + _t32 * S::ratio(2.0, 1.0)
                 + self.system._k16 * (_t30 + _t31)) + _t46 * _t33 + _t48 * _t34
-            + (_t8 * S::ratio(3.0, 1.0) + _t32) * self.system._k17) * self._h0
+            + (_t8 * S::ratio(3.0, 1.0) + _t32) * self.system._k17) * self._h1
             + self._h3;
         let _t50 = _t38 + _t36 + S::ratio(2.0, 1.0) * _t37;
         let _t51 = _t3 * _t5;
@@ -1681,47 +1715,47 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t53 = _t5 * _u_x + _t3 * _u_y;
         let _t54 = (self.system._k4 * (_t52 + self.system._k16 * _t53)
             + self.system._k8 * (_t26 + _t46 * _u_x) + self.system._k16 * _t51)
-            * self._h0;
+            * self._h1;
         let _t55 = _t3 * _t0;
         let _t56 = S::ratio(4.0, 1.0) * _t55;
         let _t57 = _t0 * _u_x + _t3 * _u_z;
         let _t58 = (self.system._k5 * (_t56 + _t57 * self.system._k16)
             + self.system._k7 * (_t13 + _t48 * _u_x) + self.system._k16 * _t55)
-            * self._h0;
+            * self._h1;
         let _t59 = _t35 * _t28;
         let _t60 = self.system._k5 * _t24;
         let _t61 = _t60 + _t60;
         let _t62 = (self.system._k3 * (_t52 + _t53 * self.system._k18)
             + self.system._k8 * (_t26 + _t61 * _u_y) + self.system._k18 * _t51)
-            * self._h0;
+            * self._h1;
         let _t63 = self.system._k3 * _t27;
         let _t64 = _t63 + _t63;
         let _t65 = (self.system._k4
             * (S::ratio(2.0, 1.0) * _t23 + _t9 * S::ratio(6.0, 1.0)
                 + self.system._k18 * (_t21 + _t22)) + _t61 * _t24 + _t64 * _t27
-            + (_t9 * S::ratio(3.0, 1.0) + _t23) * self.system._k19) * self._h0
-            + self._h1;
+            + (_t9 * S::ratio(3.0, 1.0) + _t23) * self.system._k19) * self._h1
+            + self._h0;
         let _t66 = _t5 * _t0;
         let _t67 = S::ratio(4.0, 1.0) * _t66;
         let _t68 = _t0 * _u_y + _t5 * _u_z;
         let _t69 = (self.system._k5 * (_t67 + _t68 * self.system._k18)
             + self.system._k6 * (_t16 + _t64 * _u_y) + self.system._k18 * _t66)
-            * self._h0;
+            * self._h1;
         let _t70 = _t35 * _t19;
         let _t71 = self.system._k4 * _t11;
         let _t72 = _t71 + _t71;
         let _t73 = (self.system._k3 * (_t56 + _t57 * self.system._k20)
             + self.system._k7 * (_t13 + _t72 * _u_z) + self.system._k20 * _t55)
-            * self._h0;
+            * self._h1;
         let _t74 = self.system._k3 * _t14;
         let _t75 = _t74 + _t74;
         let _t76 = (self.system._k4 * (_t67 + _t68 * self.system._k20)
             + self.system._k6 * (_t16 + _t75 * _u_z) + self.system._k20 * _t66)
-            * self._h0;
+            * self._h1;
         let _t77 = (self.system._k5
             * (S::ratio(2.0, 1.0) * _t10 + _t17 * S::ratio(6.0, 1.0)
                 + (_t2 + _t7) * self.system._k20) + _t72 * _t11 + _t75 * _t14
-            + (_t17 * S::ratio(3.0, 1.0) + _t10) * self.system._k21) * self._h0
+            + (_t17 * S::ratio(3.0, 1.0) + _t10) * self.system._k21) * self._h1
             + self._h2;
         let _t78 = _u_z - _t43;
         let _t79 = _t37 + _t36 + S::ratio(2.0, 1.0) * _t38;
@@ -1773,23 +1807,32 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t17 = (self.system._k4
             * (_t0 * S::ratio(2.0, 1.0) * (_t3 + _t6 + _t0 * _u_y * S::ratio(3.0, 1.0))
                 + (_t7 + _t8) * _t9) + _u_x * _t11 + _u_z * _t13 + _t0 * _t16)
-            * self._h0;
-        let _t18 = _t17 + _u_y * self._h1;
+            * self._h1;
+        let _t18 = _u_y * self._h0 + _t17;
         let _t19 = _t0 * _t9;
         let _t20 = self.system._k4 * (self.system._k7 * _u_x * _u_z);
         let _t21 = self.system._k7 * (_t20 + _t20);
-        let _t22 = (self.system._k5
-            * (_t4 * S::ratio(2.0, 1.0) * (_t3 + _t19 + _t4 * _u_z * S::ratio(3.0, 1.0))
-                + _t15 * _t5) + _u_x * _t21 + _u_y * _t13 + _t4 * _t16) * self._h0
-            + _u_z * self._h2;
+        let _t22 = _u_z * self._h2
+            + (self.system._k5
+                * (_t4 * S::ratio(2.0, 1.0)
+                    * (_t3 + _t19 + _t4 * _u_z * S::ratio(3.0, 1.0)) + _t15 * _t5)
+                + _u_x * _t21 + _u_y * _t13 + _t4 * _t16) * self._h1;
         let _t23 = (self.system._k3
             * (_t1 * S::ratio(2.0, 1.0) * (_t19 + _t6 + _t1 * _u_x * S::ratio(3.0, 1.0))
                 + (_t14 + _t8) * _t2) + _u_y * _t11 + _u_z * _t21 + _t1 * _t16)
-            * self._h0;
-        let _t24 = _t23 + _u_x * self._h3;
+            * self._h1;
+        let _t24 = _u_x * self._h3 + _t23;
         mu[0] = x - _t18 * _t5 + _t22 * _t9;
         mu[1] = y + _t24 * _t5 - _t22 * _t2;
         mu[2] = z - _t24 * _t9 + _t18 * _t2;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.

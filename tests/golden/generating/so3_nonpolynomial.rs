@@ -2030,10 +2030,12 @@ impl<
     }
 }
 
-/// The generating function `S = h H + h^2 S2` in coordinates of the second kind.
+/// The generating-function method in coordinates of the second kind, unknown p, with
+/// `S = h H + h^2 S2`: the actions `exp(xi_i ad*_(e_i))`, `xi = grad S(p)`, in closed form.
 #[derive(Clone, Debug)]
-pub struct NonpolynomialSpinSecondKind2<'a, S: ::lie_runtime::Scalar> {
+pub struct NonpolynomialSpinSecondKind2Equation<'a, S: ::lie_runtime::Scalar> {
     system: &'a NonpolynomialSpinSystem<S>,
+    base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
     /// `h^2/2`
     _h0: S,
@@ -2045,211 +2047,269 @@ pub struct NonpolynomialSpinSecondKind2<'a, S: ::lie_runtime::Scalar> {
     _h3: S,
     /// `2*h`
     _h4: S,
-    /// `h/4`
+    /// `2*h^2`
     _h5: S,
-    /// `h^2/16`
+    /// `4*h`
     _h6: S,
-    /// `3*h^2/2`
-    _h7: S,
 }
 
-impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinSecondKind2<'a, S> {
-    /// The function of a step of size h; what depends on h alone is computed here, once.
+impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinSecondKind2Equation<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a NonpolynomialSpinSystem<S>, h: S) -> Self {
         let _t0 = h * h;
         Self {
             system,
+            base: ::lie_runtime::Poisson::zero_state(system),
             h,
             _h0: S::ratio(1.0, 2.0) * _t0,
             _h1: h * S::ratio(1.0, 2.0),
             _h2: _t0 * S::ratio(1.0, 8.0),
             _h3: _t0,
             _h4: h * S::ratio(2.0, 1.0),
-            _h5: h * S::ratio(1.0, 4.0),
-            _h6: _t0 * S::ratio(1.0, 16.0),
-            _h7: _t0 * S::ratio(3.0, 2.0),
+            _h5: S::ratio(2.0, 1.0) * _t0,
+            _h6: h * S::ratio(4.0, 1.0),
         }
     }
 }
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GeneratingFunction<S>
-for NonpolynomialSpinSecondKind2<'_, S> {
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for NonpolynomialSpinSecondKind2Equation<'_, S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
-    type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    /// `xi = grad S(p)`
-    ///
-    /// 23 additions, 43 multiplications, 1 division, 4 function calls.
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    fn zero_unknown(&self) -> Self::Unknown {
+        Self::State::repeat(S::zero())
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+
     #[inline]
-    fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
-        let [[x, y, z]] = p.data.0;
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
+    }
+
+    /// `p_i = (m_(i-1))_i` with `xi = grad S(mu)`
+    ///
+    /// 27 additions, 49 multiplications, 3 divisions, 6 function calls.
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let [[x, y, z]] = self.base.data.0;
         let _t0 = y * y;
         let _t1 = x.cos() + z * _t0;
         let _t2 = (y * S::ratio(1.0, 2.0)).exp();
         let _t3 = x * y;
         let _t4 = z * _t3;
         let _t5 = S::ratio(1.0, 2.0) * _t2 + S::ratio(2.0, 1.0) * _t4;
-        let _t6 = S::one() / (S::one() + z * z).sqrt();
-        let _t7 = z * _t6;
-        let _t8 = _t7 + y * _t3;
-        let _t9 = y * _t1 - x * _t5;
-        let _t10 = y * _t8 - z * _t5;
-        let _t11 = y * z;
-        let _t12 = -(z * _t1) - x * _t8;
-        let _t13 = S::ratio(2.0, 1.0) * _t12;
-        xi[0] = _t1 * self.h
-            - (_t5 * _t8 - _t9 * _t0 + x.sin() * _t10 - _t11 * _t13) * self._h0;
-        xi[1] = (_t2 + S::ratio(4.0, 1.0) * _t4) * self._h1
-            + ((_t2 + x * z * S::ratio(8.0, 1.0)) * _t12 + S::ratio(4.0, 1.0) * _t1 * _t8
-                + S::ratio(8.0, 1.0) * (_t9 * _t3 + _t10 * _t11)) * self._h2;
-        xi[2] = _t8 * self.h
-            - self._h0
-                * (_t1 * _t5 - (_t6 - _t6 * _t7 * _t7) * _t9 - _t10 * _t0 - _t3 * _t13);
+        let _t6 = z * (S::one() / (S::one() + z * z).sqrt()) + y * _t3;
+        let _t7 = y * _t1 - x * _t5;
+        let _t8 = y * _t6 - z * _t5;
+        let _t9 = y * z;
+        let _t10 = -(z * _t1) - x * _t6;
+        let _t11 = (S::ratio(1.0, 2.0)
+            * (_t1 * self.h
+                - (_t5 * _t6 - _t7 * _t0 + x.sin() * _t8
+                    - _t9 * (S::ratio(2.0, 1.0) * _t10)) * self._h0))
+            .tan();
+        let _t12 = S::ratio(2.0, 1.0) * _t11 / (S::one() + _t11 * _t11);
+        let _t13 = _t11 * _t12;
+        let _t14 = z + (-(y * _t12) - z * _t13);
+        let _t15 = (_t2 + S::ratio(4.0, 1.0) * _t4) * self._h1
+            + ((_t2 + x * z * S::ratio(8.0, 1.0)) * _t10 + S::ratio(4.0, 1.0) * _t1 * _t6
+                + S::ratio(8.0, 1.0) * (_t7 * _t3 + _t8 * _t9)) * self._h2;
+        let _t16 = (S::ratio(1.0, 2.0) * _t15).tan();
+        let _t17 = S::ratio(2.0, 1.0) * _t16 / (S::one() + _t16 * _t16);
+        unknown[0] = x;
+        unknown[1] = y + (z * _t12 - y * _t13);
+        unknown[2] = _t14 + (x * _t17 - _t16 * _t17 * _t14);
     }
 
-    /// `xi = grad S(p)` and the Hessian of S
+    /// `r_i = p_i - (m_(i-1))_i`, `m_i = exp(xi_i ad*_(e_i)) m_(i-1)`, `xi = grad S(p)`
     ///
-    /// 84 additions, 122 multiplications, 1 division, 4 function calls.
+    /// 30 additions, 49 multiplications, 3 divisions, 6 function calls.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = _u_y * _u_y;
+        let _t1 = _u_x.cos() + _u_z * _t0;
+        let _t2 = (_u_y * S::ratio(1.0, 2.0)).exp();
+        let _t3 = _u_x * _u_y;
+        let _t4 = _u_z * _t3;
+        let _t5 = S::ratio(1.0, 2.0) * _t2 + S::ratio(2.0, 1.0) * _t4;
+        let _t6 = _u_z * (S::one() / (S::one() + _u_z * _u_z).sqrt()) + _u_y * _t3;
+        let _t7 = _t1 * _u_y - _t5 * _u_x;
+        let _t8 = _t6 * _u_y - _t5 * _u_z;
+        let _t9 = -(_t1 * _u_z) - _t6 * _u_x;
+        let _t10 = _u_y * _u_z;
+        let _t11 = ((self.h * _t1
+            - (_t5 * _t6 - _t7 * _t0 + _t8 * _u_x.sin()
+                - _t9 * S::ratio(2.0, 1.0) * _t10) * self._h0) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t12 = _t11 * S::ratio(2.0, 1.0) / (S::one() + _t11 * _t11);
+        let _t13 = _t11 * _t12;
+        let _t14 = z + (-(y * _t12) - z * _t13);
+        let _t15 = (_t2 + S::ratio(4.0, 1.0) * _t4) * self._h1
+            + (_t9 * (_t2 + _u_x * _u_z * S::ratio(8.0, 1.0))
+                + _t1 * _t6 * S::ratio(4.0, 1.0)
+                + S::ratio(8.0, 1.0) * (_t7 * _t3 + _t8 * _t10)) * self._h2;
+        let _t16 = (_t15 * S::ratio(1.0, 2.0)).tan();
+        let _t17 = S::ratio(2.0, 1.0) * _t16 / (S::one() + _t16 * _t16);
+        residual[0] = _u_x - x;
+        residual[1] = _u_y - (y + (z * _t12 - y * _t13));
+        residual[2] = _u_z - (_t14 + (x * _t17 - _t16 * _t17 * _t14));
+    }
+
+    /// `r_i = p_i - (m_(i-1))_i` and `dr/dp`, by `dm_i/dxi_i = ad*_(e_i) m_i`
+    ///
+    /// 98 additions, 129 multiplications, 3 divisions, 6 function calls.
     #[inline]
     fn linearize(
         &mut self,
-        p: &Self::State,
-        xi: &mut Self::State,
-        hessian: &mut Self::Jacobian,
-    ) {
-        let [[x, y, z]] = p.data.0;
-        let _t0 = x.cos();
-        let _t1 = y * z;
-        let _t2 = _t0 + y * _t1;
-        let _t3 = (y * S::ratio(1.0, 2.0)).exp();
-        let _t4 = S::ratio(2.0, 1.0) * _t1;
-        let _t5 = S::ratio(1.0, 2.0) * _t3 + x * _t4;
-        let _t6 = S::one() / (S::one() + z * z).sqrt();
-        let _t7 = z * _t6;
-        let _t8 = y * y;
-        let _t9 = _t7 + x * _t8;
-        let _t10 = y * _t2 - x * _t5;
-        let _t11 = x.sin();
-        let _t12 = y * _t9 - z * _t5;
-        let _t13 = -(z * _t2) - x * _t9;
-        let _t14 = x * z;
-        let _t15 = _t3 + S::ratio(8.0, 1.0) * _t14;
-        let _t16 = x * y;
-        let _t17 = _t6 * _t7;
-        let _t18 = _t7 * _t17;
-        let _t19 = _t6 - _t18;
-        let _t20 = S::ratio(2.0, 1.0) * _t16;
-        let _t21 = -_t11;
-        let _t22 = _t9 * _t4;
-        let _t23 = _t5 * _t8;
-        let _t24 = z * _t4;
-        let _t25 = y * _t8;
-        let _t26 = x * _t20;
-        let _t27 = -_t24 - _t26;
-        let _t28 = _t3 * S::ratio(1.0, 4.0) + S::ratio(2.0, 1.0) * _t14;
-        let _t29 = _t2 + y * _t4 - x * _t28;
-        let _t30 = _t9 - z * _t28 + y * _t20;
-        let _t31 = self._h4 * _t1 + self._h3 * (z * _t13 + y * _t10 + _t27 * _t1)
-            - self._h0 * (_t9 * _t28 + _t5 * _t20 - _t8 * _t29 + _t11 * _t30);
-        let _t32 = -_t2 - z * _t8 - x * _t19;
-        let _t33 = _t25 - _t26;
-        let _t34 = y * _t19 - _t5 - z * _t20;
-        let _t35 = _t8 * self.h + self._h3 * (y * _t13 + _t32 * _t1)
-            - self._h0 * (_t9 * _t20 + _t5 * _t19 - _t8 * _t33 + _t11 * _t34);
-        let _t36 = _t2 * _t20;
-        let _t37 = _t15 * self._h2;
-        let _t38 = _t15 * self._h5 + self._h0 * (_t22 + _t36)
-            + (_t3 * _t13 + (x * _t10 + z * _t12) * S::ratio(16.0, 1.0)) * self._h6
-            + self._h3 * (_t29 * _t16 + _t30 * _t1);
-        let _t39 = self._h4 * _t16
-            + self._h3 * (y * _t12 + x * _t13 + _t33 * _t16 + _t34 * _t1)
-            + self._h0 * (_t9 * _t8 + _t2 * _t19) + _t32 * _t37;
-        xi[0] = _t2 * self.h
-            - (_t5 * _t9 - _t8 * _t10 + _t11 * _t12 - _t13 * _t4) * self._h0;
-        xi[1] = (_t3 + x * S::ratio(4.0, 1.0) * _t1) * self._h1
-            + (_t15 * _t13 + S::ratio(4.0, 1.0) * _t2 * _t9
-                + S::ratio(8.0, 1.0) * (_t10 * _t16 + _t12 * _t1)) * self._h2;
-        xi[2] = _t9 * self.h
-            - self._h0 * (_t2 * _t5 - _t19 * _t10 - _t8 * _t12 - _t13 * _t20);
-        hessian[(0, 0)] = (-_t9 - z * _t21 - x * _t8) * self._h3 * _t1 - _t11 * self.h
-            - self._h0
-                * (_t0 * _t12 + _t22 + _t23 - _t8 * (y * _t21 - _t5 - x * _t4)
-                    + _t11 * (_t25 - _t24));
-        hessian[(0, 1)] = _t31;
-        hessian[(0, 2)] = _t35;
-        hessian[(1, 0)] = _t31;
-        hessian[(1, 1)] = _t38 + _t27 * _t37;
-        hessian[(1, 2)] = _t39;
-        hessian[(2, 0)] = _t35;
-        hessian[(2, 1)] = _t39;
-        hessian[(2, 2)] = _t19 * self.h + _t32 * self._h3 * _t16
-            - self._h0 * (_t23 + _t36 - _t19 * _t33 - _t8 * _t34)
-            - _t10 * (_t6 * _t17 - _t17 * _t18) * self._h7;
-    }
-}
-
-/// The method of `S = h H + h^2 S2` in coordinates of the second kind, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct NonpolynomialSpinSecondKind2Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        NonpolynomialSpinSecondKind2<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for NonpolynomialSpinSecondKind2Equation<'a, S> {
-    type State = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        NonpolynomialSpinSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        NonpolynomialSpinSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        NonpolynomialSpinSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
+        unknown: &Self::State,
+        residual: &mut Self::State,
         matrix: &mut Self::Matrix,
     ) {
-        self.0.linearize(unknown, residual, matrix);
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = _u_x.cos();
+        let _t1 = S::one() / (S::one() + _u_z * _u_z).sqrt();
+        let _t2 = _u_z * _t1;
+        let _t3 = _u_y * _u_y;
+        let _t4 = _t2 + _u_x * _t3;
+        let _t5 = _u_y * S::ratio(1.0, 2.0);
+        let _t6 = _t5.exp();
+        let _t7 = _u_x * S::ratio(2.0, 1.0);
+        let _t8 = _u_y * _u_z;
+        let _t9 = S::ratio(1.0, 2.0) * _t6 + _t7 * _t8;
+        let _t10 = _t9 * self._h0;
+        let _t11 = _t4 * _u_y - _t9 * _u_z;
+        let _t12 = _u_x.sin();
+        let _t13 = _t12 * self._h0;
+        let _t14 = _t0 + _u_z * _t3;
+        let _t15 = _t14 * _u_y - _t9 * _u_x;
+        let _t16 = _t15 * self._h3;
+        let _t17 = _u_y * (_t16 + _u_z * self._h4);
+        let _t18 = -(_t14 * _u_z) - _t4 * _u_x;
+        let _t19 = _u_z * self._h5;
+        let _t20 = ((self.h * _t0 - _t4 * _t10 - _t11 * _t13
+            + _t5 * (_t17 + _t18 * _t19)) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t21 = _t20 * S::ratio(2.0, 1.0) / (S::one() + _t20 * _t20);
+        let _t22 = _t20 * _t21;
+        let _t23 = y + (z * _t21 - y * _t22);
+        let _t24 = z + (-(y * _t21) - z * _t22);
+        let _t25 = self._h3 * _u_y;
+        let _t26 = _t18 * self._h3;
+        let _t27 = _u_z * _t26;
+        let _t28 = _t14 * self._h0;
+        let _t29 = _t26 + self._h6;
+        let _t30 = ((_u_z * (_t11 * _t25) + _u_x * (_t27 + _t17) + _t4 * _t28
+            + _t6 * _t29 * S::ratio(1.0, 8.0)) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t31 = S::ratio(2.0, 1.0) * _t30 / (S::one() + _t30 * _t30);
+        let _t32 = _t30 * _t31;
+        let _t33 = S::ratio(2.0, 1.0) * _t8;
+        let _t34 = _t4 * self._h0;
+        let _t35 = _t33 * _t34;
+        let _t36 = -_t12;
+        let _t37 = _t3 * _u_y;
+        let _t38 = _t33 * _u_z;
+        let _t39 = _t5
+            * ((_t36 * _u_y - _t9 - _t33 * _u_x) * _t25
+                + (-_t4 - _t3 * _u_x - _t36 * _u_z) * _t19) - _t35 - _t3 * _t10
+            - _t11 * _t0 * self._h0;
+        let _t40 = _t39
+            - S::ratio(1.0, 2.0) * _t12 * ((_t37 - _t38) * self._h3 + self._h4);
+        let _t41 = _t6 * S::ratio(1.0, 4.0) + _u_z * _t7;
+        let _t42 = _u_y * _t7;
+        let _t43 = _t4 + _t42 * _u_y - _t41 * _u_z;
+        let _t44 = (_t14 - _t41 * _u_x + _t33 * _u_y) * _t25;
+        let _t45 = _t42 * _u_x;
+        let _t46 = -_t38 - _t45;
+        let _t47 = _u_z * (self._h4 + _t46 * self._h3);
+        let _t48 = _t27 - _t41 * _t34 - _t42 * _t10 - _t43 * _t13
+            + _t5 * (_t44 + S::ratio(2.0, 1.0) * _t47 + _t15 * self._h5);
+        let _t49 = _t1 - _t1 * (_t2 * _t2);
+        let _t50 = _t49 * _u_y - _t9 - _t42 * _u_z;
+        let _t51 = _u_y * (self._h4 + (_t37 - _t45) * self._h3);
+        let _t52 = -_t14 - _t3 * _u_z - _t49 * _u_x;
+        let _t53 = _t5 * (_t18 * self._h5 + _t51 + _t52 * _t19) - _t42 * _t34
+            - _t49 * _t10 - _t50 * _t13;
+        let _t54 = _t32 * _t23 - _t23;
+        let _t55 = x + (-(_t31 * _t24) - x * _t32);
+        let _t56 = _t11 * self._h3;
+        let _t57 = self._h3 * _u_z;
+        residual[0] = _u_x - x;
+        residual[1] = _u_y - _t23;
+        residual[2] = _u_z - (_t24 + (x * _t31 - _t32 * _t24));
+        matrix[(0, 0)] = S::one();
+        matrix[(1, 0)] = -(_t40 * _t24);
+        matrix[(1, 1)] = S::one() - _t48 * _t24;
+        matrix[(1, 2)] = -(_t53 * _t24);
+        matrix[(2, 0)] = -(_t40 * _t54) - _t48 * _t55;
+        matrix[(2, 1)] = -(_t48 * _t54)
+            - (_t35 + _u_x * (_t44 + _t47 + _t16) + _u_z * (_t43 * _t25 + _t56)
+                + _t42 * _t28 + _t6 * (_t29 + _t46 * self._h5) * S::ratio(1.0, 16.0))
+                * _t55;
+        matrix[(2, 2)] = S::one() - _t53 * _t54
+            - (_u_x * (_t26 + _t52 * _t57 + _t51) + _u_y * (_t50 * _t57 + _t56)
+                + _t3 * _t34 + _t49 * _t28 + _t52 * _t6 * self._h2) * _t55;
     }
 
-    /// Elimination in a fixed order, 0 entries of fill-in: 8 multiplications with the solution.
+    /// `mu1 = m_n`
+    ///
+    /// 41 additions, 67 multiplications, 4 divisions, 7 function calls.
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = (_u_y * S::ratio(1.0, 2.0)).exp();
+        let _t1 = _u_x * _u_y;
+        let _t2 = _u_z * _t1;
+        let _t3 = _u_y * _u_y;
+        let _t4 = _u_x.cos() + _u_z * _t3;
+        let _t5 = S::one() / (S::one() + _u_z * _u_z).sqrt();
+        let _t6 = _u_z * _t5;
+        let _t7 = _t6 + _u_y * _t1;
+        let _t8 = -(_t4 * _u_z) - _t7 * _u_x;
+        let _t9 = S::ratio(1.0, 2.0) * _t0 + S::ratio(2.0, 1.0) * _t2;
+        let _t10 = _t4 * _u_y - _t9 * _u_x;
+        let _t11 = _t7 * _u_y - _t9 * _u_z;
+        let _t12 = _u_y * _u_z;
+        let _t13 = (_t0 + S::ratio(4.0, 1.0) * _t2) * self._h1
+            + (_t8 * (_t0 + _u_x * _u_z * S::ratio(8.0, 1.0))
+                + _t4 * _t7 * S::ratio(4.0, 1.0)
+                + S::ratio(8.0, 1.0) * (_t10 * _t1 + _t11 * _t12)) * self._h2;
+        let _t14 = (_t13 * S::ratio(1.0, 2.0)).tan();
+        let _t15 = S::ratio(2.0, 1.0) * _t14 / (S::one() + _t14 * _t14);
+        let _t16 = _t8 * S::ratio(2.0, 1.0);
+        let _t17 = ((self.h * _t4
+            - (_t9 * _t7 - _t10 * _t3 + _t11 * _u_x.sin() - _t16 * _t12) * self._h0)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t18 = _t17 * S::ratio(2.0, 1.0) / (S::one() + _t17 * _t17);
+        let _t19 = _t17 * _t18;
+        let _t20 = z + (-(y * _t18) - z * _t19);
+        let _t21 = _t14 * _t15;
+        let _t22 = x + (-(_t15 * _t20) - x * _t21);
+        let _t23 = ((self.h * _t7
+            - self._h0
+                * (_t4 * _t9 - _t10 * (_t5 - _t5 * _t6 * _t6) - _t11 * _t3 - _t1 * _t16))
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t24 = S::ratio(2.0, 1.0) * _t23 / (S::one() + _t23 * _t23);
+        let _t25 = y + (z * _t18 - y * _t19);
+        let _t26 = _t23 * _t24;
+        mu[0] = _t22 + (_t24 * _t25 - _t26 * _t22);
+        mu[1] = _t25 + (-(_t24 * _t22) - _t26 * _t25);
+        mu[2] = _t20 + (x * _t15 - _t21 * _t20);
+    }
+
+    /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 8 multiplications with the solution.
     #[inline]
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
         let _a1_1 = matrix[(1, 1)];
@@ -2278,16 +2338,14 @@ for NonpolynomialSpinSecondKind2Equation<'a, S> {
         residual[2] = _b2;
     }
 
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
     fn group_factor(
         &mut self,
-        unknown: &Self::Unknown,
+        unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
+        let mut function = ::lie_runtime::generic::SecondKind2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::SecondKind)
     }
 }
 
@@ -2301,12 +2359,7 @@ for NonpolynomialSpinSystem<S> {
         _method: &::lie_runtime::methods::GeneratingSecondKind2,
         h: S,
     ) -> NonpolynomialSpinSecondKind2Equation<'a, S> {
-        NonpolynomialSpinSecondKind2Equation(
-            ::lie_runtime::generic::SecondKind::with_function(
-                self,
-                NonpolynomialSpinSecondKind2::new(self, h),
-            ),
-        )
+        NonpolynomialSpinSecondKind2Equation::new(self, h)
     }
 }
 
@@ -2318,11 +2371,11 @@ pub struct NonpolynomialSpinCayleyGenerating4<'a, S: ::lie_runtime::Scalar> {
     system: &'a NonpolynomialSpinSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `h^3/48`
-    _h0: S,
-    /// `h/2`
-    _h1: S,
     /// `h/4`
+    _h0: S,
+    /// `h^3/48`
+    _h1: S,
+    /// `h/2`
     _h2: S,
     /// `h/8`
     _h3: S,
@@ -2336,9 +2389,9 @@ impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinCayleyGenerating4<'a, S> {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * h * h * S::ratio(1.0, 48.0),
-            _h1: h * S::ratio(1.0, 2.0),
-            _h2: h * S::ratio(1.0, 4.0),
+            _h0: h * S::ratio(1.0, 4.0),
+            _h1: h * h * h * S::ratio(1.0, 48.0),
+            _h2: h * S::ratio(1.0, 2.0),
             _h3: h * S::ratio(1.0, 8.0),
         }
     }
@@ -2363,14 +2416,6 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
-    }
-
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`
     ///
     /// 96 additions, 145 multiplications, 1 division, 4 function calls.
@@ -2378,98 +2423,98 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let _t0 = _u_z * _u_z;
-        let _t1 = S::one() / (S::one() + _t0).sqrt();
-        let _t2 = _u_z * _t1;
-        let _t3 = _u_y * _u_y;
-        let _t4 = _u_x * _t3;
-        let _t5 = _t2 + _t4;
-        let _t6 = (_u_y * S::ratio(1.0, 2.0)).exp();
-        let _t7 = _u_x * _u_z;
-        let _t8 = _u_y * S::ratio(2.0, 1.0);
-        let _t9 = S::ratio(1.0, 2.0) * _t6 + _t7 * _t8;
-        let _t10 = _t9 * _u_y;
-        let _t11 = _u_x.cos();
-        let _t12 = _u_z * _t3;
-        let _t13 = _t11 + _t12;
-        let _t14 = _t13 * _u_x;
-        let _t15 = _t5 * _u_z;
-        let _t16 = _t13 * _t13;
-        let _t17 = _t9 * _t9;
-        let _t18 = _t16 + _t17;
-        let _t19 = S::ratio(2.0, 1.0)
-            * (_t5 * (S::ratio(2.0, 1.0) * (_t10 + _t14) + _t15 * S::ratio(3.0, 1.0))
-                + _u_z * _t18);
-        let _t20 = _t1 * _t2;
-        let _t21 = _t1 - _t2 * _t20;
-        let _t22 = _u_z * _t13 - _u_x * _t5;
-        let _t23 = _t6 + S::ratio(8.0, 1.0) * _t7;
-        let _t24 = S::ratio(4.0, 1.0) * _t7;
-        let _t25 = _t6 + _u_y * _t24;
-        let _t26 = S::ratio(1.0, 2.0) * _t25;
-        let _t27 = _u_y * _t5 - _u_z * _t26;
-        let _t28 = _u_x * _t26 - _u_y * _t13;
-        let _t29 = _t27 * _u_z + _t28 * _u_x;
-        let _t30 = _t22 * _t23 * S::ratio(1.0, 4.0) + _t29 * _t8;
-        let _t31 = _t30 + _t30;
-        let _t32 = _u_z * S::ratio(2.0, 1.0);
-        let _t33 = _t5 * _t5;
-        let _t34 = S::ratio(2.0, 1.0)
-            * (_t13 * (S::ratio(2.0, 1.0) * (_t10 + _t15) + _t14 * S::ratio(3.0, 1.0))
-                + _u_x * (_t17 + _t33));
-        let _t35 = _t27 * _u_y;
-        let _t36 = _u_x * S::ratio(2.0, 1.0);
-        let _t37 = _t28 * _t21 + _u_y * (_t35 + _t22 * _t36);
-        let _t38 = _t37 + _t37;
-        let _t39 = S::ratio(2.0, 1.0)
-            * (_t9 * (_t10 * S::ratio(3.0, 1.0) + S::ratio(2.0, 1.0) * (_t14 + _t15))
-                + _u_y * (_t16 + _t33));
-        let _t40 = _t35 + _t22 * _u_x;
-        let _t41 = _t33 + _t18;
-        let _t42 = _u_x.sin();
-        let _t43 = _t28 * _u_y;
-        let _t44 = _t27 * _t42 - _u_y * (_t43 + _t22 * _t32);
-        let _t45 = -_t44 - _t44;
-        let _t46 = _t19 * _t21 + _t31 * (_t11 - _u_x * _t21 + _t3 * _t32)
-            + _u_y
-                * (_t34 * _u_y - _t38 * (_t3 - _u_x * _t36)
-                    + S::ratio(2.0, 1.0) * (_t27 * _t22 + _t39 * _u_x));
-        let _t47 = _t46 + S::ratio(2.0, 1.0) * (_t22 * _t40 + _t5 * _t41)
-            - _t28 * _t28 * _u_z * S::ratio(3.0, 1.0)
-                * (_t1 * _t1 * _t1 - _t1 * _t20 * _t20)
-            - _t45 * S::ratio(1.0, 2.0) * (_t6 - (_t21 - _t24) * _t8);
-        let _t48 = _t47 * self._h0 + _t5 * self._h1;
-        let _t49 = _t22 * _u_z + _t43;
-        let _t50 = S::ratio(2.0, 1.0)
-            * (_t28 * _t40 + _t27 * _t49 + _t9 * _t41
-                + _u_y * (_t19 * _u_x + _t34 * _u_z + _t31 * (_t0 - _u_x * _u_x)))
-            + _t22 * (_t22 * _t6 + _t29 * S::ratio(16.0, 1.0)) * S::ratio(1.0, 8.0);
-        let _t51 = _t50
+        let _t0 = (_u_y * S::ratio(1.0, 2.0)).exp();
+        let _t1 = _u_x * _u_z;
+        let _t2 = S::ratio(4.0, 1.0) * _t1;
+        let _t3 = _t0 + _u_y * _t2;
+        let _t4 = _u_x.cos();
+        let _t5 = _u_y * _u_y;
+        let _t6 = _u_z * _t5;
+        let _t7 = _t4 + _t6;
+        let _t8 = S::ratio(1.0, 2.0) * _t3;
+        let _t9 = _u_x * _t8 - _u_y * _t7;
+        let _t10 = _u_z * _u_z;
+        let _t11 = S::one() / (S::one() + _t10).sqrt();
+        let _t12 = _u_z * _t11;
+        let _t13 = _u_x * _t5;
+        let _t14 = _t12 + _t13;
+        let _t15 = _u_y * _t14 - _u_z * _t8;
+        let _t16 = _t15 * _u_y;
+        let _t17 = _u_z * _t7 - _u_x * _t14;
+        let _t18 = _t16 + _t17 * _u_x;
+        let _t19 = _t9 * _u_y;
+        let _t20 = _t17 * _u_z + _t19;
+        let _t21 = _u_y * S::ratio(2.0, 1.0);
+        let _t22 = S::ratio(1.0, 2.0) * _t0 + _t1 * _t21;
+        let _t23 = _t14 * _t14;
+        let _t24 = _t7 * _t7;
+        let _t25 = _t22 * _t22;
+        let _t26 = _t24 + _t25;
+        let _t27 = _t23 + _t26;
+        let _t28 = _t22 * _u_y;
+        let _t29 = _t14 * _u_z;
+        let _t30 = _t7 * _u_x;
+        let _t31 = S::ratio(2.0, 1.0)
+            * (_t7 * (S::ratio(2.0, 1.0) * (_t28 + _t29) + _t30 * S::ratio(3.0, 1.0))
+                + _u_x * (_t25 + _t23));
+        let _t32 = S::ratio(2.0, 1.0)
+            * (_t14 * (S::ratio(2.0, 1.0) * (_t28 + _t30) + _t29 * S::ratio(3.0, 1.0))
+                + _u_z * _t26);
+        let _t33 = _t0 + S::ratio(8.0, 1.0) * _t1;
+        let _t34 = _t15 * _u_z + _t9 * _u_x;
+        let _t35 = _t17 * _t33 * S::ratio(1.0, 4.0) + _t34 * _t21;
+        let _t36 = _t35 + _t35;
+        let _t37 = S::ratio(2.0, 1.0)
+            * (_t22 * (_t28 * S::ratio(3.0, 1.0) + S::ratio(2.0, 1.0) * (_t30 + _t29))
+                + _u_y * (_t24 + _t23));
+        let _t38 = _t11 * _t12;
+        let _t39 = _t11 - _t12 * _t38;
+        let _t40 = _u_x * S::ratio(2.0, 1.0);
+        let _t41 = _t9 * _t39 + _u_y * (_t16 + _t17 * _t40);
+        let _t42 = _t41 + _t41;
+        let _t43 = _u_x.sin();
+        let _t44 = _u_z * S::ratio(2.0, 1.0);
+        let _t45 = _t15 * _t43 - _u_y * (_t19 + _t17 * _t44);
+        let _t46 = -_t45 - _t45;
+        let _t47 = S::ratio(2.0, 1.0)
+            * (_t9 * _t18 + _t15 * _t20 + _t22 * _t27
+                + _u_y * (_t31 * _u_z + _t32 * _u_x + _t36 * (_t10 - _u_x * _u_x)))
+            + _t17 * (_t17 * _t0 + _t34 * S::ratio(16.0, 1.0)) * S::ratio(1.0, 8.0);
+        let _t48 = _t47
             + S::ratio(1.0, 4.0)
-                * (_t39 * _t23
-                    + _t38
-                        * (_u_x * _t23 - S::ratio(4.0, 1.0) * _t11
-                            - S::ratio(12.0, 1.0) * _t12)
-                    - _t45
-                        * (_u_z * (_t23 - _t1 * S::ratio(4.0, 1.0))
-                            - S::ratio(12.0, 1.0) * _t4));
-        let _t52 = _t51 * self._h0 + _t25 * self._h2;
+                * (_t37 * _t33
+                    + _t42
+                        * (_u_x * _t33 - _t4 * S::ratio(4.0, 1.0)
+                            - S::ratio(12.0, 1.0) * _t6)
+                    - _t46
+                        * (_u_z * (_t33 - _t11 * S::ratio(4.0, 1.0))
+                            - S::ratio(12.0, 1.0) * _t13));
+        let _t49 = _t3 * self._h0 + _t48 * self._h1;
+        let _t50 = _t32 * _t39 + _t36 * (_t4 - _u_x * _t39 + _t5 * _t44)
+            + _u_y
+                * (_t31 * _u_y - _t42 * (_t5 - _u_x * _t40)
+                    + S::ratio(2.0, 1.0) * (_t15 * _t17 + _t37 * _u_x));
+        let _t51 = _t50 + S::ratio(2.0, 1.0) * (_t17 * _t18 + _t14 * _t27)
+            - _t9 * _t9 * _u_z * (_t11 * _t11 * _t11 - _t11 * _t38 * _t38)
+                * S::ratio(3.0, 1.0)
+            - _t46 * S::ratio(1.0, 2.0) * (_t0 - (_t39 - _t2) * _t21);
+        let _t52 = _t14 * self._h2 + _t51 * self._h1;
         let _t53 = _u_y
-            * (_t19 * _u_y + _t45 * (_t3 - _u_z * _t32)
-                + S::ratio(2.0, 1.0) * (_t22 * _t28 + _t39 * _u_z)) - _t27 * _t27 * _t11
-            - _t34 * _t42 - _t31 * (_u_z * (_t1 + _t42) + _t3 * _t36);
-        let _t54 = (_t53 + S::ratio(2.0, 1.0) * (_t22 * _t49 + _t13 * _t41)
-            + _t38 * S::ratio(1.0, 2.0) * (_t6 + (_t42 + _t24) * _t8)) * self._h0
-            + _t13 * self._h1;
-        let _t55 = _t54 * _u_x + _t48 * _u_z + _t52 * _u_y;
-        residual[0] = _u_x - x - _t48 * _u_y + _t52 * _u_z + _t54 * _t55;
-        residual[1] = _u_y - y + _t48 * _u_x - _t54 * _u_z + _t52 * _t55;
-        residual[2] = _u_z - z - _t52 * _u_x + _t54 * _u_y + _t48 * _t55;
+            * (_t32 * _u_y + _t46 * (_t5 - _u_z * _t44)
+                + S::ratio(2.0, 1.0) * (_t17 * _t9 + _t37 * _u_z)) - _t15 * _t15 * _t4
+            - _t31 * _t43 - _t36 * (_u_z * (_t11 + _t43) + _t5 * _t40);
+        let _t54 = _t7 * self._h2
+            + (_t53 + S::ratio(2.0, 1.0) * (_t17 * _t20 + _t7 * _t27)
+                + _t42 * S::ratio(1.0, 2.0) * (_t0 + (_t43 + _t2) * _t21)) * self._h1;
+        let _t55 = _t54 * _u_x + _t49 * _u_y + _t52 * _u_z;
+        residual[0] = _u_x - x + _t49 * _u_z - _t52 * _u_y + _t54 * _t55;
+        residual[1] = _u_y - y - _t54 * _u_z + _t52 * _u_x + _t49 * _t55;
+        residual[2] = _u_z - z - _t49 * _u_x + _t54 * _u_y + _t52 * _t55;
     }
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 403 additions, 489 multiplications, 1 division, 4 function calls.
+    /// 403 additions, 488 multiplications, 1 division, 4 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -2484,309 +2529,310 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t2 = _u_y * _u_y;
         let _t3 = _u_x * _t2;
         let _t4 = _u_z * _t1 + _t3;
-        let _t5 = (_u_y * S::ratio(1.0, 2.0)).exp();
-        let _t6 = _u_z * S::ratio(4.0, 1.0);
-        let _t7 = _u_x * _u_y;
-        let _t8 = _t5 + _t6 * _t7;
-        let _t9 = S::ratio(1.0, 2.0) * _t8;
-        let _t10 = _u_y * _t4 - _u_z * _t9;
-        let _t11 = _t10 * _u_y;
-        let _t12 = _u_x.cos();
-        let _t13 = _u_z * _t2;
-        let _t14 = _t12 + _t13;
-        let _t15 = _u_z * _t14 - _u_x * _t4;
-        let _t16 = _t11 + _t15 * _u_x;
-        let _t17 = _u_x * _t9 - _u_y * _t14;
-        let _t18 = _t17 * S::ratio(2.0, 1.0);
-        let _t19 = _t17 * _u_y;
-        let _t20 = _t15 * _u_z + _t19;
-        let _t21 = _t10 * S::ratio(2.0, 1.0);
-        let _t22 = S::ratio(1.0, 2.0) * _t5;
-        let _t23 = _u_y * S::ratio(2.0, 1.0);
-        let _t24 = _u_x * _u_z;
-        let _t25 = _t22 + _t23 * _t24;
-        let _t26 = _t4 * _t4;
-        let _t27 = _t14 * _t14;
-        let _t28 = _t25 * _t25;
-        let _t29 = _t27 + _t28;
-        let _t30 = S::ratio(2.0, 1.0) * (_t26 + _t29);
-        let _t31 = _u_z * S::ratio(3.0, 1.0);
-        let _t32 = _t4 * _t31;
-        let _t33 = _t25 * _t23;
-        let _t34 = _u_x * S::ratio(2.0, 1.0);
-        let _t35 = _t14 * _t34;
-        let _t36 = _u_z * S::ratio(2.0, 1.0);
-        let _t37 = _t4 * S::ratio(2.0, 1.0) * (_t32 + _t33 + _t35) + _t29 * _t36;
-        let _t38 = _t14 * _u_x;
-        let _t39 = S::ratio(3.0, 1.0) * _t38;
-        let _t40 = _t4 * _t36;
-        let _t41 = _t28 + _t26;
-        let _t42 = _t14 * S::ratio(2.0, 1.0) * (_t39 + _t33 + _t40) + _t41 * _t34;
-        let _t43 = _t5 + S::ratio(8.0, 1.0) * _t24;
-        let _t44 = _t43 * S::ratio(1.0, 4.0);
-        let _t45 = _t10 * _u_z;
-        let _t46 = _t17 * _u_x;
-        let _t47 = _t15 * _t44 + (_t45 + _t46) * _t23;
-        let _t48 = _t47 + _t47;
-        let _t49 = _t0 - _u_x * _u_x;
-        let _t50 = _t15 * _t5;
-        let _t51 = _t50 + _t45 * S::ratio(16.0, 1.0) + _t46 * S::ratio(16.0, 1.0);
-        let _t52 = _t25 * _u_y;
-        let _t53 = S::ratio(3.0, 1.0) * _t52;
-        let _t54 = _t27 + _t26;
-        let _t55 = _t25 * S::ratio(2.0, 1.0) * (_t53 + _t35 + _t40) + _t54 * _t23;
-        let _t56 = _t1 * _t1;
-        let _t57 = _u_z * _t56;
-        let _t58 = _t1 * _t57;
-        let _t59 = _t1 - _u_z * _t58;
-        let _t60 = _t15 * _t34;
-        let _t61 = _t17 * _t59 + _u_y * (_t11 + _t60);
-        let _t62 = _t61 + _t61;
-        let _t63 = (_u_x * _t43 - S::ratio(4.0, 1.0) * _t12 - S::ratio(12.0, 1.0) * _t13)
-            * S::ratio(1.0, 4.0);
-        let _t64 = _u_x.sin();
-        let _t65 = _t10 * _t64;
-        let _t66 = _t15 * _t36;
-        let _t67 = _t65 - _u_y * (_t19 + _t66);
-        let _t68 = -_t67 - _t67;
-        let _t69 = _t1 * S::ratio(4.0, 1.0);
-        let _t70 = _u_z * (_t43 - _t69);
-        let _t71 = S::ratio(1.0, 4.0) * (_t70 - S::ratio(12.0, 1.0) * _t3);
-        let _t72 = _t16 * _t18 + _t20 * _t21 + _t25 * _t30
-            + (_t37 * _u_x + _t42 * _u_z + _t48 * _t49) * _t23
-            + _t15 * _t51 * S::ratio(1.0, 8.0) + _t55 * _t44;
-        let _t73 = (_t72 + _t62 * _t63 - _t68 * _t71) * self._h0 + _t8 * self._h2;
-        let _t74 = _t73 * _u_z;
-        let _t75 = _u_y * _u_z;
-        let _t76 = _t12 - _u_x * _t59 + _t23 * _t75;
-        let _t77 = _u_x * _t34;
-        let _t78 = _t2 - _t77;
-        let _t79 = _t15 * S::ratio(2.0, 1.0);
-        let _t80 = _t55 * _t34;
-        let _t81 = _t1 * _t56;
-        let _t82 = _t57 * _t58;
-        let _t83 = _t81 - _t82;
-        let _t84 = _t83 * _t31;
-        let _t85 = _t17 * _t84;
-        let _t86 = _u_x * _t6;
-        let _t87 = _t59 - _t86;
-        let _t88 = S::ratio(1.0, 2.0) * (_t5 - _t87 * _t23);
-        let _t89 = _t37 * _t59 + _t48 * _t76
-            + _u_y * (_t42 * _u_y - _t62 * _t78 + _t10 * _t79 + _t80) + _t16 * _t79
-            + _t4 * _t30 - _t17 * _t85;
-        let _t90 = (_t89 - _t68 * _t88) * self._h0 + _t4 * self._h1;
-        let _t91 = _u_x - _t90 * _u_y;
-        let _t92 = _t10 * _t12;
-        let _t93 = _u_z * (_t1 + _t64) + _t23 * _t7;
-        let _t94 = _u_z * _t36;
-        let _t95 = _t2 - _t94;
-        let _t96 = _t55 * _t36;
-        let _t97 = _t64 + _t86;
-        let _t98 = S::ratio(1.0, 2.0) * (_t5 + _t97 * _t23);
-        let _t99 = _u_y * (_t37 * _u_y + _t68 * _t95 + _t17 * _t79 + _t96) - _t10 * _t92
-            - _t42 * _t64 - _t48 * _t93 + _t20 * _t79 + _t14 * _t30;
-        let _t100 = (_t99 + _t62 * _t98) * self._h0 + _t14 * self._h1;
-        let _t101 = _t73 * _u_y;
-        let _t102 = _t100 * _u_x;
-        let _t103 = _t90 * _u_z;
-        let _t104 = _t102 + _t103;
-        let _t105 = _t101 + _t104;
-        let _t106 = _t100 * _u_z;
-        let _t107 = _u_y + _t90 * _u_x;
-        let _t108 = _t100 * _u_y;
-        let _t109 = _u_z - _t73 * _u_x;
-        let _t110 = _t4 * _u_z;
-        let _t111 = _t52 + _t110 + _t39;
-        let _t112 = -_t64;
+        let _t5 = _t4 * _u_z;
+        let _t6 = S::ratio(3.0, 1.0) * _t5;
+        let _t7 = (_u_y * S::ratio(1.0, 2.0)).exp();
+        let _t8 = S::ratio(1.0, 2.0) * _t7;
+        let _t9 = _u_y * S::ratio(2.0, 1.0);
+        let _t10 = _u_x * _u_z;
+        let _t11 = _t8 + _t9 * _t10;
+        let _t12 = _t11 * _t9;
+        let _t13 = _u_x.cos();
+        let _t14 = _u_z * _t2;
+        let _t15 = _t13 + _t14;
+        let _t16 = _u_x * S::ratio(2.0, 1.0);
+        let _t17 = _t15 * _t16;
+        let _t18 = _t15 * _t15;
+        let _t19 = _t11 * _t11;
+        let _t20 = _t18 + _t19;
+        let _t21 = _u_z * S::ratio(2.0, 1.0);
+        let _t22 = _t4 * S::ratio(2.0, 1.0) * (_t6 + _t12 + _t17) + _t20 * _t21;
+        let _t23 = _t1 * _t1;
+        let _t24 = _u_z * _t23;
+        let _t25 = _t1 * _t24;
+        let _t26 = _t1 - _u_z * _t25;
+        let _t27 = _u_z * _t15 - _u_x * _t4;
+        let _t28 = _t7 + S::ratio(8.0, 1.0) * _t10;
+        let _t29 = _t28 * S::ratio(1.0, 4.0);
+        let _t30 = _u_z * S::ratio(4.0, 1.0);
+        let _t31 = _u_x * _u_y;
+        let _t32 = _t7 + _t30 * _t31;
+        let _t33 = S::ratio(1.0, 2.0) * _t32;
+        let _t34 = _u_y * _t4 - _u_z * _t33;
+        let _t35 = _t34 * _u_z;
+        let _t36 = _u_x * _t33 - _u_y * _t15;
+        let _t37 = _t36 * _u_x;
+        let _t38 = _t27 * _t29 + (_t35 + _t37) * _t9;
+        let _t39 = _t38 + _t38;
+        let _t40 = _u_y * _u_z;
+        let _t41 = _t13 - _u_x * _t26 + _t9 * _t40;
+        let _t42 = _t15 * _u_x;
+        let _t43 = S::ratio(3.0, 1.0) * _t42;
+        let _t44 = _t4 * _t21;
+        let _t45 = _t4 * _t4;
+        let _t46 = _t19 + _t45;
+        let _t47 = _t15 * S::ratio(2.0, 1.0) * (_t43 + _t12 + _t44) + _t46 * _t16;
+        let _t48 = _t34 * _u_y;
+        let _t49 = _t27 * _t16;
+        let _t50 = _t36 * _t26 + _u_y * (_t48 + _t49);
+        let _t51 = _t50 + _t50;
+        let _t52 = _u_x * _t16;
+        let _t53 = _t2 - _t52;
+        let _t54 = _t27 * S::ratio(2.0, 1.0);
+        let _t55 = _t11 * _u_y;
+        let _t56 = S::ratio(3.0, 1.0) * _t55;
+        let _t57 = _t18 + _t45;
+        let _t58 = _t11 * S::ratio(2.0, 1.0) * (_t56 + _t17 + _t44) + _t57 * _t9;
+        let _t59 = _t58 * _t16;
+        let _t60 = _t48 + _t27 * _u_x;
+        let _t61 = S::ratio(2.0, 1.0) * (_t45 + _t20);
+        let _t62 = _t1 * _t23;
+        let _t63 = _t24 * _t25;
+        let _t64 = _t62 - _t63;
+        let _t65 = _u_z * _t64;
+        let _t66 = S::ratio(3.0, 1.0) * _t65;
+        let _t67 = _t36 * _t66;
+        let _t68 = _u_x.sin();
+        let _t69 = _t34 * _t68;
+        let _t70 = _t36 * _u_y;
+        let _t71 = _t27 * _t21;
+        let _t72 = _t69 - _u_y * (_t70 + _t71);
+        let _t73 = -_t72 - _t72;
+        let _t74 = _u_x * _t30;
+        let _t75 = _t26 - _t74;
+        let _t76 = S::ratio(1.0, 2.0) * (_t7 - _t75 * _t9);
+        let _t77 = _t22 * _t26 + _t39 * _t41
+            + _u_y * (_t47 * _u_y - _t51 * _t53 + _t34 * _t54 + _t59) + _t60 * _t54
+            + _t4 * _t61 - _t36 * _t67;
+        let _t78 = _t4 * self._h2 + (_t77 - _t73 * _t76) * self._h1;
+        let _t79 = _t78 * _u_y;
+        let _t80 = _t36 * S::ratio(2.0, 1.0);
+        let _t81 = _t27 * _u_z + _t70;
+        let _t82 = _t34 * S::ratio(2.0, 1.0);
+        let _t83 = _t0 - _u_x * _u_x;
+        let _t84 = _t27 * _t7;
+        let _t85 = _t84 + _t35 * S::ratio(16.0, 1.0) + _t37 * S::ratio(16.0, 1.0);
+        let _t86 = S::ratio(1.0, 4.0)
+            * (_u_x * _t28 - _t13 * S::ratio(4.0, 1.0) - S::ratio(12.0, 1.0) * _t14);
+        let _t87 = _t1 * S::ratio(4.0, 1.0);
+        let _t88 = _u_z * (_t28 - _t87);
+        let _t89 = S::ratio(1.0, 4.0) * (_t88 - S::ratio(12.0, 1.0) * _t3);
+        let _t90 = _t60 * _t80 + _t81 * _t82 + _t11 * _t61
+            + (_t47 * _u_z + _t22 * _u_x + _t39 * _t83) * _t9
+            + _t27 * _t85 * S::ratio(1.0, 8.0) + _t58 * _t29;
+        let _t91 = _t32 * self._h0 + (_t90 + _t51 * _t86 - _t73 * _t89) * self._h1;
+        let _t92 = _u_x + _t91 * _u_z;
+        let _t93 = _t34 * _t13;
+        let _t94 = _u_z * (_t1 + _t68) + _t9 * _t31;
+        let _t95 = _u_z * _t21;
+        let _t96 = _t2 - _t95;
+        let _t97 = _t58 * _t21;
+        let _t98 = _t68 + _t74;
+        let _t99 = S::ratio(1.0, 2.0) * (_t7 + _t98 * _t9);
+        let _t100 = _u_y * (_t22 * _u_y + _t73 * _t96 + _t36 * _t54 + _t97) - _t34 * _t93
+            - _t47 * _t68 - _t39 * _t94 + _t81 * _t54 + _t15 * _t61;
+        let _t101 = _t15 * self._h2 + (_t100 + _t51 * _t99) * self._h1;
+        let _t102 = _t78 * _u_z;
+        let _t103 = _t101 * _u_x;
+        let _t104 = _t91 * _u_y;
+        let _t105 = _t103 + _t104;
+        let _t106 = _t102 + _t105;
+        let _t107 = _t78 * _u_x;
+        let _t108 = _u_y - _t101 * _u_z;
+        let _t109 = _t101 * _u_y;
+        let _t110 = _u_z - _t91 * _u_x;
+        let _t111 = _t55 + _t5 + _t43;
+        let _t112 = -_t68;
         let _t113 = _t112 * S::ratio(4.0, 1.0);
-        let _t114 = _t14 * _u_z + _t4 * _u_x;
+        let _t114 = _t15 * _u_z + _t4 * _u_x;
         let _t115 = _t2 * S::ratio(4.0, 1.0);
-        let _t116 = _t28 * S::ratio(2.0, 1.0) + _t114 * _t115;
-        let _t117 = _t14 * _u_y + _t25 * _u_x;
-        let _t118 = _u_z * _t23;
+        let _t116 = S::ratio(2.0, 1.0) * _t19 + _t114 * _t115;
+        let _t117 = _t15 * _u_y + _t11 * _u_x;
+        let _t118 = _u_z * _t9;
         let _t119 = _t118 * S::ratio(4.0, 1.0);
-        let _t120 = _t26 * S::ratio(2.0, 1.0) + _t117 * _t119;
-        let _t121 = _t27 * S::ratio(6.0, 1.0) + _t111 * _t113 + _t116 + _t120;
-        let _t122 = _u_y * _t23;
-        let _t123 = -_t93;
-        let _t124 = _u_y * _t95;
-        let _t125 = _t22 + _u_y * _t97;
-        let _t126 = _t123 * _t44 + (_t66 + (_t17 + _t124 * _u_z + _t125 * _u_x) * _t23);
+        let _t120 = S::ratio(2.0, 1.0) * _t45 + _t117 * _t119;
+        let _t121 = _t18 * S::ratio(6.0, 1.0) + _t111 * _t113 + _t116 + _t120;
+        let _t122 = _u_y * _t9;
+        let _t123 = -_t94;
+        let _t124 = _u_y * _t96;
+        let _t125 = _t8 + _u_y * _t98;
+        let _t126 = _t123 * _t29 + (_t71 + (_t36 + _t124 * _u_z + _t125 * _u_x) * _t9);
         let _t127 = _t126 + _t126;
-        let _t128 = _t14 * S::ratio(4.0, 1.0);
+        let _t128 = _t15 * S::ratio(4.0, 1.0);
         let _t129 = _t4 * _t128;
-        let _t130 = _t25 * _u_z + _t4 * _u_y;
-        let _t131 = _t52 + _t38 + _t32;
+        let _t130 = _t11 * _u_z + _t4 * _u_y;
+        let _t131 = _t55 + _t42 + _t6;
         let _t132 = _t129 + _t114 * _t113 + _t130 * _t119 + _t131 * _t115;
-        let _t133 = _u_y * (_t125 * _u_y + _t123 * _t36) - (_t92 + _t124 * _t64);
+        let _t133 = _u_y * (_t125 * _u_y + _t123 * _t21) - (_t93 + _t124 * _t68);
         let _t134 = _t133 + _t133;
-        let _t135 = _t15 * S::ratio(4.0, 1.0);
-        let _t136 = _t25 * _t128;
-        let _t137 = _t38 + _t110 + _t53;
+        let _t135 = _t27 * S::ratio(4.0, 1.0);
+        let _t136 = _t11 * _t128;
+        let _t137 = _t42 + _t5 + _t56;
         let _t138 = _t136 + _t117 * _t113 + _t137 * _t119 + _t130 * _t115;
-        let _t139 = (_t27 * S::ratio(3.0, 1.0) + _t41) * S::ratio(2.0, 1.0);
-        let _t140 = S::ratio(4.0, 1.0) * _t20;
-        let _t141 = _t25 * _t118;
+        let _t139 = S::ratio(2.0, 1.0) * (_t18 * S::ratio(3.0, 1.0) + _t46);
+        let _t140 = S::ratio(4.0, 1.0) * _t81;
+        let _t141 = _t11 * _t118;
         let _t142 = _t4 * _t2;
-        let _t143 = _t125 * _t59 + _u_y * (_t124 * _u_y + _t79 + _t123 * _t34);
+        let _t143 = _t125 * _t26 + _u_y * (_t124 * _u_y + _t54 + _t123 * _t16);
         let _t144 = _t143 + _t143;
         let _t145 = _u_y
-            * (_t132 * _u_y + _t134 * _t95 + _t62 * (_t12 + _t6) + _t125 * _t135
-                + _t138 * _t36) - _t121 * _t64 - _t42 * _t12
-            - _t48 * (_u_z * _t12 + _t122);
-        let _t146 = (_t145 - _t127 * _t93
-            + _t10 * (_t65 - _t124 * _t12 * S::ratio(2.0, 1.0)) + _t112 * _t139
-            + _t123 * _t140 + (_t141 + _t142) * _t128 + _t144 * _t98) * self._h0;
-        let _t147 = _t146 - _t64 * self._h1;
-        let _t148 = _t103 + _t101 + _t100 * _t34;
-        let _t149 = self.h * _t75;
-        let _t150 = S::ratio(4.0, 1.0) * _t16;
-        let _t151 = _t14 * _t112;
-        let _t152 = _t25 * S::ratio(4.0, 1.0);
-        let _t153 = (_t28 * S::ratio(3.0, 1.0) + _t54) * S::ratio(2.0, 1.0);
-        let _t154 = _t48 * S::ratio(2.0, 1.0);
-        let _t155 = _t51 * S::ratio(1.0, 4.0);
-        let _t156 = S::ratio(3.0, 1.0) * _t2;
-        let _t157 = _t68 * (_t94 - _t156) - _t96
-            - (_t17 * _t135
-                + _t62 * (_t5 + S::ratio(4.0, 1.0) * _t64 + S::ratio(16.0, 1.0) * _t24)
-                    * S::ratio(1.0, 4.0));
+            * (_t132 * _u_y + _t134 * _t96 + _t51 * (_t13 + _t30) + _t125 * _t135
+                + _t138 * _t21) - _t121 * _t68 - _t47 * _t13
+            - _t39 * (_u_z * _t13 + _t122);
+        let _t146 = (_t145 - _t127 * _t94
+            + _t34 * (_t69 - _t124 * _t13 * S::ratio(2.0, 1.0)) + _t112 * _t139
+            + _t123 * _t140 + (_t141 + _t142) * _t128 + _t144 * _t99) * self._h1;
+        let _t147 = _t146 - _t68 * self._h2;
+        let _t148 = _t104 + _t102 + _t101 * _t16;
+        let _t149 = self.h * _t40;
+        let _t150 = S::ratio(4.0, 1.0) * _t60;
+        let _t151 = _t15 * _t112;
+        let _t152 = _t11 * S::ratio(4.0, 1.0);
+        let _t153 = S::ratio(2.0, 1.0) * (_t19 * S::ratio(3.0, 1.0) + _t57);
+        let _t154 = _t39 * S::ratio(2.0, 1.0);
+        let _t155 = S::ratio(1.0, 4.0) * _t85;
+        let _t156 = _t2 * S::ratio(3.0, 1.0);
+        let _t157 = _t73 * (_t95 - _t156) - _t97
+            - (_t36 * _t135
+                + _t51 * S::ratio(1.0, 4.0)
+                    * (_t7 + _t68 * S::ratio(4.0, 1.0) + S::ratio(16.0, 1.0) * _t10));
         let _t158 = _t124 * _t140 + _t125 * _t150 + (_t142 + _t151) * _t152
             + _t118 * _t153
-            + (_t37 + _t121 * _u_z + _t127 * _t49 + _u_x * (_t132 - _t154)) * _t23;
+            + (_t22 + _t121 * _u_z + _t127 * _t83 + _u_x * (_t132 - _t154)) * _t9;
         let _t159 = _t149
-            + (_t158 + _t138 * _t44 + _t144 * _t63 + _t123 * _t155 - _t134 * _t71
-                - _t157) * self._h0;
-        let _t160 = _u_z + _t108;
-        let _t161 = _t55 * S::ratio(2.0, 1.0);
-        let _t162 = (_t26 * S::ratio(3.0, 1.0) + _t29) * S::ratio(2.0, 1.0);
-        let _t163 = _t4 * S::ratio(4.0, 1.0);
-        let _t164 = _t17 * _u_z * (S::ratio(6.0, 1.0) * _t83);
-        let _t165 = _t48 * (_t64 + _t59) - _t15 * _t79;
-        let _t166 = _t132 * _t59 + _t127 * _t76
+            + (_t158 + _t138 * _t29 + _t144 * _t86 + _t123 * _t155 - _t134 * _t89
+                - _t157) * self._h1;
+        let _t160 = _u_z + _t109;
+        let _t161 = _t2 * self._h2;
+        let _t162 = _t58 * S::ratio(2.0, 1.0);
+        let _t163 = S::ratio(2.0, 1.0) * (_t45 * S::ratio(3.0, 1.0) + _t20);
+        let _t164 = _t4 * S::ratio(4.0, 1.0);
+        let _t165 = _t65 * (_t36 * S::ratio(6.0, 1.0));
+        let _t166 = _t39 * (_t68 + _t26) - _t27 * _t54;
+        let _t167 = _t132 * _t26 + _t127 * _t41
             + _u_y
-                * (_t121 * _u_y - _t144 * _t78 + _t161
-                    + (_t138 + _t62 * S::ratio(2.0, 1.0)) * _t34 + _t124 * _t135
-                    - _t68 * _t6);
-        let _t167 = self._h1 * _t2;
-        let _t168 = (_t166 + _t2 * _t162 + _t123 * _t150 + (_t141 + _t151) * _t163
-            - _t134 * _t88 - _t125 * _t164 - _t165) * self._h0 + _t167;
-        let _t169 = _u_y - _t106;
-        let _t170 = _t100 * _t73;
-        let _t171 = _t5 * S::ratio(1.0, 4.0) + _u_x * _t36;
-        let _t172 = _t171 * S::ratio(4.0, 1.0);
-        let _t173 = _u_x * _t23;
-        let _t174 = _t173 * S::ratio(4.0, 1.0);
-        let _t175 = _t136 + _t111 * _t119 + _t117 * _t172 + _t114 * _t174;
-        let _t176 = _t49 * _t23;
-        let _t177 = _u_x * _t44 - _t12 - _t2 * _t31;
-        let _t178 = _t177 * _u_y;
-        let _t179 = S::ratio(3.0, 1.0) * _t3 - S::ratio(1.0, 4.0) * _t70;
-        let _t180 = _t179 * _u_y;
-        let _t181 = _t50 * S::ratio(1.0, 8.0) + _t176 * _t44
-            + ((_t17 + _t178) * _t34 + (_t10 + _t180) * _t36);
-        let _t182 = _t181 + _t181;
-        let _t183 = _t4 * _t152;
-        let _t184 = _t183 + _t114 * _t119 + _t130 * _t172 + _t131 * _t174;
-        let _t185 = _u_y * (_t178 + _t18 + _t176 * _t36) - (_t179 * _t64 - _t66);
-        let _t186 = _t185 + _t185;
-        let _t187 = _t27 * S::ratio(2.0, 1.0) + _t130 * _t174;
-        let _t188 = _t28 * S::ratio(6.0, 1.0) + _t137 * _t172 + _t120 + _t187;
-        let _t189 = _u_x * S::ratio(4.0, 1.0);
-        let _t190 = _t4 * _t173;
-        let _t191 = _t25 * _t171;
-        let _t192 = S::ratio(2.0, 1.0) * _t92;
-        let _t193 = _u_y * (_t180 + _t21 + _t176 * _t34) + (_t177 * _t59 + _t60);
-        let _t194 = _t193 + _t193;
-        let _t195 = _u_y
-            * (_t184 * _u_y + _t186 * _t95 + _t37 * S::ratio(2.0, 1.0) + _t188 * _t36
-                - _t48 * _t189 + _t177 * _t135) - _t175 * _t64 - _t182 * _t93
-            + _t176 * _t140;
-        let _t196 = _t149
-            + (_t195 + (_t190 + _t191) * _t128 + _t118 * _t139 - _t179 * _t192
-                + _t194 * _t98 - _t157) * self._h0;
-        let _t197 = _t14 * _t118;
-        let _t198 = _t10 * _t17 * S::ratio(4.0, 1.0) + _t179 * _t140 + _t177 * _t150
-            + (_t190 + _t197) * _t152 + _t171 * _t153 + _t37 * _t34 + _t42 * _t36
-            + _t49 * _t154;
-        let _t199 = _t198 + (_t175 * _u_z + _t184 * _u_x + _t182 * _t49) * _t23
-            + _t62 * (_u_x * _t5 - S::ratio(48.0, 1.0) * _t75) * S::ratio(1.0, 8.0)
-            - _t68 * (_u_z * _t5 - S::ratio(48.0, 1.0) * _t7) * S::ratio(1.0, 8.0);
-        let _t200 = (_t199 + _t176 * _t155 + _t188 * _t44 + _t194 * _t63 - _t186 * _t71
-            + _t5 * (_t15 * _t15 + _t161) * S::ratio(1.0, 16.0)) * self._h0
-            + _t43 * self._h3;
-        let _t201 = self.h * _t7;
-        let _t202 = _t62 * (_t156 - _t77) - _t80
-            - (_t10 * _t135
-                - _t68 * S::ratio(1.0, 4.0) * (_t5 - _t69 + _t6 * (_t58 + _t189)));
-        let _t203 = _t184 * _t59 + _t182 * _t76
+                * (_t121 * _u_y - _t144 * _t53 + _t162
+                    + (_t138 + _t51 * S::ratio(2.0, 1.0)) * _t16 + _t124 * _t135
+                    - _t73 * _t30);
+        let _t168 = _t161
+            + (_t167 + _t2 * _t163 + _t123 * _t150 + (_t141 + _t151) * _t164
+                - _t134 * _t76 - _t125 * _t165 - _t166) * self._h1;
+        let _t169 = _t101 * _t91;
+        let _t170 = _t7 * S::ratio(1.0, 4.0) + _u_x * _t21;
+        let _t171 = _t170 * S::ratio(4.0, 1.0);
+        let _t172 = _u_x * _t9;
+        let _t173 = _t172 * S::ratio(4.0, 1.0);
+        let _t174 = _t136 + _t111 * _t119 + _t117 * _t171 + _t114 * _t173;
+        let _t175 = _t83 * _t9;
+        let _t176 = _u_x * _t29 - _t13 - S::ratio(3.0, 1.0) * _t14;
+        let _t177 = _t176 * _u_y;
+        let _t178 = S::ratio(3.0, 1.0) * _t3 - S::ratio(1.0, 4.0) * _t88;
+        let _t179 = _t178 * _u_y;
+        let _t180 = _t84 * S::ratio(1.0, 8.0) + _t175 * _t29
+            + ((_t36 + _t177) * _t16 + (_t34 + _t179) * _t21);
+        let _t181 = _t180 + _t180;
+        let _t182 = _t4 * _t152;
+        let _t183 = _t182 + _t114 * _t119 + _t130 * _t171 + _t131 * _t173;
+        let _t184 = _u_y * (_t177 + _t80 + _t175 * _t21) - (_t178 * _t68 - _t71);
+        let _t185 = _t184 + _t184;
+        let _t186 = S::ratio(2.0, 1.0) * _t18 + _t130 * _t173;
+        let _t187 = _t19 * S::ratio(6.0, 1.0) + _t137 * _t171 + _t120 + _t186;
+        let _t188 = _u_x * S::ratio(4.0, 1.0);
+        let _t189 = _t4 * _t172;
+        let _t190 = _t11 * _t170;
+        let _t191 = S::ratio(2.0, 1.0) * _t93;
+        let _t192 = _u_y * (_t179 + _t82 + _t175 * _t16) + (_t176 * _t26 + _t49);
+        let _t193 = _t192 + _t192;
+        let _t194 = _u_y
+            * (_t183 * _u_y + _t185 * _t96 + _t22 * S::ratio(2.0, 1.0) + _t187 * _t21
+                - _t39 * _t188 + _t176 * _t135) - _t174 * _t68 - _t181 * _t94
+            + _t175 * _t140;
+        let _t195 = _t149
+            + (_t194 + (_t189 + _t190) * _t128 + _t118 * _t139 - _t178 * _t191
+                + _t193 * _t99 - _t157) * self._h1;
+        let _t196 = _t15 * _t118;
+        let _t197 = _t34 * _t36 * S::ratio(4.0, 1.0) + _t178 * _t140 + _t176 * _t150
+            + (_t189 + _t196) * _t152 + _t47 * _t21 + _t170 * _t153 + _t22 * _t16
+            + _t83 * _t154;
+        let _t198 = _t197 + (_t174 * _u_z + _t183 * _u_x + _t181 * _t83) * _t9
+            + _t51 * (_u_x * _t7 - S::ratio(48.0, 1.0) * _t40) * S::ratio(1.0, 8.0)
+            - _t73 * (_u_z * _t7 - S::ratio(48.0, 1.0) * _t31) * S::ratio(1.0, 8.0);
+        let _t199 = _t28 * self._h3
+            + (_t198 + _t175 * _t155 + _t187 * _t29 + _t193 * _t86 - _t185 * _t89
+                + _t7 * (_t27 * _t27 + _t162) * S::ratio(1.0, 16.0)) * self._h1;
+        let _t200 = self.h * _t31;
+        let _t201 = _t51 * (_t156 - _t52) - _t59
+            - (_t34 * _t135
+                - _t73 * S::ratio(1.0, 4.0) * (_t7 - _t87 + _t30 * (_t25 + _t188)));
+        let _t202 = _t183 * _t26 + _t181 * _t41
             + _u_y
-                * (_t175 * _u_y - _t194 * _t78 + _t42 * S::ratio(2.0, 1.0) + _t188 * _t34
-                    + _t48 * _t6 + _t179 * _t135) + _t176 * _t150;
-        let _t204 = _t201
-            + (_t203 + (_t191 + _t197) * _t163 + _t173 * _t162 - _t177 * _t164
-                - _t186 * _t88 - _t202) * self._h0;
-        let _t205 = _t100 * _t90;
-        let _t206 = _t59 * S::ratio(4.0, 1.0);
-        let _t207 = _t129 + _t111 * _t115 + _t117 * _t174 + _t114 * _t206;
-        let _t208 = -(_u_y * _t78);
-        let _t209 = _u_y * _t87 - _t22;
-        let _t210 = _t76 * _t44 + (_t60 + (_t10 + _t208 * _u_x + _t209 * _u_z) * _t23);
-        let _t211 = _t210 + _t210;
-        let _t212 = _t26 * S::ratio(6.0, 1.0) + _t131 * _t206 + _t116 + _t187;
-        let _t213 = _t209 * _t64 - _u_y * (_t79 + _t208 * _u_y + _t76 * _t36);
-        let _t214 = -_t213 - _t213;
-        let _t215 = _t183 + _t117 * _t115 + _t137 * _t174 + _t130 * _t206;
-        let _t216 = _t25 * _t173;
-        let _t217 = _t4 * _t59;
-        let _t218 = _t85 - (_t208 * _t59 + _u_y * (_t209 * _u_y + _t76 * _t34));
-        let _t219 = -_t218 - _t218;
-        let _t220 = _u_y
-            * (_t161 + _t212 * _u_y + _t214 * _t95
-                + (_t215 - _t68 * S::ratio(2.0, 1.0)) * _t36 + _t62 * _t189
-                + _t208 * _t135) - _t207 * _t64 - _t211 * _t93;
-        let _t221 = _t167
-            + (_t220 + _t2 * _t139 - _t209 * _t192 + _t76 * _t140
-                + (_t216 + _t217) * _t128 + _t219 * _t98 - _t165) * self._h0;
-        let _t222 = _t14 * _t2;
-        let _t223 = _t209 * _t140 + _t208 * _t150 + (_t217 + _t222) * _t152
-            + _t173 * _t153
-            + (_t42 + _t212 * _u_x + _t211 * _t49 + _u_z * (_t207 + _t154)) * _t23;
-        let _t224 = _t201
-            + (_t223 + _t76 * _t155 + _t215 * _t44 + _t219 * _t63 - _t214 * _t71 - _t202)
-                * self._h0;
-        let _t225 = _t212 * _t59 + _t211 * _t76 + _t48 * (_t122 + _u_x * _t84)
+                * (_t174 * _u_y - _t193 * _t53 + _t47 * S::ratio(2.0, 1.0) + _t187 * _t16
+                    + _t39 * _t30 + _t178 * _t135) + _t175 * _t150;
+        let _t203 = _t200
+            + (_t202 + (_t190 + _t196) * _t164 + _t172 * _t163 - _t176 * _t165
+                - _t185 * _t76 - _t201) * self._h1;
+        let _t204 = _t101 * _t78;
+        let _t205 = _t26 * S::ratio(4.0, 1.0);
+        let _t206 = _t129 + _t111 * _t115 + _t117 * _t173 + _t114 * _t205;
+        let _t207 = -(_u_y * _t53);
+        let _t208 = _u_y * _t75 - _t8;
+        let _t209 = _t41 * _t29 + (_t49 + (_t34 + _t207 * _u_x + _t208 * _u_z) * _t9);
+        let _t210 = _t209 + _t209;
+        let _t211 = _t45 * S::ratio(6.0, 1.0) + _t131 * _t205 + _t116 + _t186;
+        let _t212 = _t208 * _t68 - _u_y * (_t54 + _t207 * _u_y + _t41 * _t21);
+        let _t213 = -_t212 - _t212;
+        let _t214 = _t182 + _t117 * _t115 + _t137 * _t173 + _t130 * _t205;
+        let _t215 = _t11 * _t172;
+        let _t216 = _t4 * _t26;
+        let _t217 = _t67 - (_t207 * _t26 + _u_y * (_t208 * _u_y + _t41 * _t16));
+        let _t218 = -_t217 - _t217;
+        let _t219 = _u_y
+            * (_t162 + _t211 * _u_y + _t213 * _t96
+                + (_t214 - _t73 * S::ratio(2.0, 1.0)) * _t21 + _t51 * _t188
+                + _t207 * _t135) - _t206 * _t68 - _t210 * _t94;
+        let _t220 = _t161
+            + (_t219 + _t2 * _t139 - _t208 * _t191 + _t41 * _t140
+                + (_t215 + _t216) * _t128 + _t218 * _t99 - _t166) * self._h1;
+        let _t221 = _t15 * _t2;
+        let _t222 = _t208 * _t140 + _t207 * _t150 + (_t216 + _t221) * _t152
+            + _t172 * _t153
+            + (_t47 + _t211 * _u_x + _t210 * _t83 + _u_z * (_t206 + _t154)) * _t9;
+        let _t223 = _t200
+            + (_t222 + _t41 * _t155 + _t214 * _t29 + _t218 * _t86 - _t213 * _t89 - _t201)
+                * self._h1;
+        let _t224 = _t211 * _t26 + _t210 * _t41 + _t39 * (_t122 + _u_x * _t66)
             - _u_y
-                * (_t68 * (_t189 + _t84) - _t207 * _u_y + _t219 * _t78 - _t209 * _t135
-                    - _t215 * _t34);
-        let _t226 = _t225 + _t59 * _t162 + _t76 * _t150 + (_t216 + _t222) * _t163
-            - _t37 * _t84
-            - _t17 * S::ratio(3.0, 1.0)
-                * (_t17
-                    * (_t81
+                * (_t73 * (_t188 + _t66) - _t206 * _u_y + _t218 * _t53 - _t208 * _t135
+                    - _t214 * _t16);
+        let _t225 = _t224 + _t26 * _t163 + _t41 * _t150 + (_t215 + _t221) * _t164
+            - _t22 * _t66
+            - _t36 * S::ratio(3.0, 1.0)
+                * (_t36
+                    * (_t62
                         - _t0
-                            * (S::ratio(6.0, 1.0) * _t56 * _t81
-                                - S::ratio(5.0, 1.0) * _t56 * _t82)) + _t208 * _t83 * _t36);
-        let _t227 = (_t226 - _t214 * _t88) * self._h0 + _t59 * self._h1;
-        let _t228 = _t73 * _t23 + _t104;
-        let _t229 = _u_x + _t74;
-        let _t230 = _t73 * _t90;
-        let _t231 = _t102 + _t101 + _t90 * _t36;
-        residual[0] = _t74 - x + _t91 + _t100 * _t105;
-        residual[1] = _t107 - y - _t106 + _t73 * _t105;
-        residual[2] = _t108 - z + _t109 + _t90 * _t105;
-        matrix[(0, 0)] = S::one() + _t100 * _t100 + _t147 * _t148 + _t159 * _t160
-            - _t168 * _t169;
-        matrix[(0, 1)] = _t170 - _t90 + _t196 * _t148 + _t200 * _t160 - _t204 * _t169;
-        matrix[(0, 2)] = _t73 + _t205 + _t221 * _t148 + _t224 * _t160 - _t227 * _t169;
-        matrix[(1, 0)] = _t90 + _t170 - _t147 * _t109 + _t159 * _t228 + _t168 * _t229;
-        matrix[(1, 1)] = S::one() + _t73 * _t73 - _t196 * _t109 + _t200 * _t228
-            + _t204 * _t229;
-        matrix[(1, 2)] = _t230 - _t100 - _t221 * _t109 + _t224 * _t228 + _t227 * _t229;
-        matrix[(2, 0)] = _t205 - _t73 + _t147 * _t107 - _t159 * _t91 + _t168 * _t231;
-        matrix[(2, 1)] = _t100 + _t230 + _t196 * _t107 - _t200 * _t91 + _t204 * _t231;
-        matrix[(2, 2)] = S::one() + _t90 * _t90 + _t221 * _t107 - _t224 * _t91
-            + _t227 * _t231;
+                            * (S::ratio(6.0, 1.0) * _t23 * _t62
+                                - S::ratio(5.0, 1.0) * _t23 * _t63)) + _t207 * _t64 * _t21);
+        let _t226 = _t26 * self._h2 + (_t225 - _t213 * _t76) * self._h1;
+        let _t227 = _t103 + _t102 + _t91 * _t9;
+        let _t228 = _t91 * _t78;
+        let _t229 = _u_y + _t107;
+        let _t230 = _u_x - _t79;
+        let _t231 = _t78 * _t21 + _t105;
+        residual[0] = _t92 - x - _t79 + _t101 * _t106;
+        residual[1] = _t107 - y + _t108 + _t91 * _t106;
+        residual[2] = _t109 - z + _t110 + _t78 * _t106;
+        matrix[(0, 0)] = S::one() + _t101 * _t101 + _t147 * _t148 + _t159 * _t160
+            - _t168 * _t108;
+        matrix[(0, 1)] = _t169 - _t78 + _t195 * _t148 + _t199 * _t160 - _t203 * _t108;
+        matrix[(0, 2)] = _t91 + _t204 + _t220 * _t148 + _t223 * _t160 - _t226 * _t108;
+        matrix[(1, 0)] = _t78 + _t169 - _t147 * _t110 + _t159 * _t227 + _t168 * _t92;
+        matrix[(1, 1)] = S::one() + _t91 * _t91 - _t195 * _t110 + _t199 * _t227
+            + _t203 * _t92;
+        matrix[(1, 2)] = _t228 - _t101 - _t220 * _t110 + _t223 * _t227 + _t226 * _t92;
+        matrix[(2, 0)] = _t204 - _t91 + _t147 * _t229 - _t159 * _t230 + _t168 * _t231;
+        matrix[(2, 1)] = _t101 + _t228 + _t195 * _t229 - _t199 * _t230 + _t203 * _t231;
+        matrix[(2, 2)] = S::one() + _t78 * _t78 + _t220 * _t229 - _t223 * _t230
+            + _t226 * _t231;
     }
 
     /// `mu1 = mu + 2 ad*_y p`
@@ -2796,89 +2842,98 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let _t0 = _u_z * _u_z;
-        let _t1 = S::one() / (S::one() + _t0).sqrt();
-        let _t2 = _u_z * _t1;
-        let _t3 = _u_y * _u_y;
-        let _t4 = _u_x * _t3;
-        let _t5 = _t2 + _t4;
-        let _t6 = (_u_y * S::ratio(1.0, 2.0)).exp();
-        let _t7 = _u_y * S::ratio(2.0, 1.0);
-        let _t8 = _u_x * _u_z;
-        let _t9 = S::ratio(1.0, 2.0) * _t6 + _t7 * _t8;
-        let _t10 = _t9 * _t7;
-        let _t11 = _u_x.cos();
-        let _t12 = _u_z * _t3;
-        let _t13 = _t11 + _t12;
-        let _t14 = _u_x * S::ratio(2.0, 1.0);
-        let _t15 = _t13 * _t14;
-        let _t16 = _u_z * S::ratio(3.0, 1.0);
-        let _t17 = _t13 * _t13;
-        let _t18 = _t9 * _t9;
-        let _t19 = _t17 + _t18;
-        let _t20 = _u_z * S::ratio(2.0, 1.0);
-        let _t21 = _t5 * S::ratio(2.0, 1.0) * (_t10 + _t15 + _t5 * _t16) + _t19 * _t20;
-        let _t22 = _t1 * _t2;
-        let _t23 = _t1 - _t2 * _t22;
-        let _t24 = _u_z * _t13 - _u_x * _t5;
-        let _t25 = _t6 + S::ratio(8.0, 1.0) * _t8;
-        let _t26 = _t25 * S::ratio(1.0, 4.0);
-        let _t27 = S::ratio(4.0, 1.0) * _t8;
-        let _t28 = _t6 + _u_y * _t27;
-        let _t29 = S::ratio(1.0, 2.0) * _t28;
-        let _t30 = _u_y * _t5 - _u_z * _t29;
-        let _t31 = _t30 * _u_z;
-        let _t32 = _u_x * _t29 - _u_y * _t13;
-        let _t33 = _t32 * _u_x;
-        let _t34 = _t24 * _t26 + (_t31 + _t33) * _t7;
-        let _t35 = _t34 + _t34;
-        let _t36 = _u_y * _t7;
-        let _t37 = _t5 * _t20;
-        let _t38 = _t5 * _t5;
-        let _t39 = _t13 * S::ratio(2.0, 1.0)
-            * (_t10 + _t37 + _t13 * _u_x * S::ratio(3.0, 1.0)) + (_t18 + _t38) * _t14;
-        let _t40 = _t30 * _u_y;
-        let _t41 = _t32 * _t23 + _u_y * (_t40 + _t24 * _t14);
-        let _t42 = _t41 + _t41;
-        let _t43 = _t24 * S::ratio(2.0, 1.0);
-        let _t44 = _t9 * S::ratio(2.0, 1.0)
-            * (_t15 + _t9 * _u_y * S::ratio(3.0, 1.0) + _t37) + (_t17 + _t38) * _t7;
-        let _t45 = _t40 + _t24 * _u_x;
-        let _t46 = S::ratio(2.0, 1.0) * (_t38 + _t19);
+        let _t0 = (_u_y * S::ratio(1.0, 2.0)).exp();
+        let _t1 = _u_x * _u_z;
+        let _t2 = S::ratio(4.0, 1.0) * _t1;
+        let _t3 = _t0 + _u_y * _t2;
+        let _t4 = _u_x.cos();
+        let _t5 = _u_y * _u_y;
+        let _t6 = _u_z * _t5;
+        let _t7 = _t4 + _t6;
+        let _t8 = S::ratio(1.0, 2.0) * _t3;
+        let _t9 = _u_x * _t8 - _u_y * _t7;
+        let _t10 = _u_z * _u_z;
+        let _t11 = S::one() / (S::one() + _t10).sqrt();
+        let _t12 = _u_z * _t11;
+        let _t13 = _u_x * _t5;
+        let _t14 = _t12 + _t13;
+        let _t15 = _u_y * _t14 - _u_z * _t8;
+        let _t16 = _t15 * _u_y;
+        let _t17 = _u_z * _t7 - _u_x * _t14;
+        let _t18 = _t16 + _t17 * _u_x;
+        let _t19 = _t9 * _u_y;
+        let _t20 = _t17 * _u_z + _t19;
+        let _t21 = _u_y * S::ratio(2.0, 1.0);
+        let _t22 = S::ratio(1.0, 2.0) * _t0 + _t21 * _t1;
+        let _t23 = _t14 * _t14;
+        let _t24 = _t7 * _t7;
+        let _t25 = _t22 * _t22;
+        let _t26 = _t24 + _t25;
+        let _t27 = S::ratio(2.0, 1.0) * (_t23 + _t26);
+        let _t28 = _t22 * _t21;
+        let _t29 = _u_z * S::ratio(2.0, 1.0);
+        let _t30 = _t14 * _t29;
+        let _t31 = _u_x * S::ratio(2.0, 1.0);
+        let _t32 = _t7 * S::ratio(2.0, 1.0)
+            * (_t28 + _t30 + _t7 * _u_x * S::ratio(3.0, 1.0)) + (_t25 + _t23) * _t31;
+        let _t33 = _t7 * _t31;
+        let _t34 = _u_z * S::ratio(3.0, 1.0);
+        let _t35 = _t14 * S::ratio(2.0, 1.0) * (_t28 + _t33 + _t14 * _t34) + _t26 * _t29;
+        let _t36 = _t0 + S::ratio(8.0, 1.0) * _t1;
+        let _t37 = _t36 * S::ratio(1.0, 4.0);
+        let _t38 = _t15 * _u_z;
+        let _t39 = _t9 * _u_x;
+        let _t40 = _t17 * _t37 + (_t38 + _t39) * _t21;
+        let _t41 = _t40 + _t40;
+        let _t42 = _t22 * S::ratio(2.0, 1.0)
+            * (_t33 + _t22 * _u_y * S::ratio(3.0, 1.0) + _t30) + (_t24 + _t23) * _t21;
+        let _t43 = _t11 * _t12;
+        let _t44 = _t11 - _t12 * _t43;
+        let _t45 = _t9 * _t44 + _u_y * (_t16 + _t17 * _t31);
+        let _t46 = _t45 + _t45;
         let _t47 = _u_x.sin();
-        let _t48 = _t32 * _u_y;
-        let _t49 = _t30 * _t47 - _u_y * (_t48 + _t24 * _t20);
-        let _t50 = -_t49 - _t49;
-        let _t51 = _t21 * _t23 + _t35 * (_t11 - _u_x * _t23 + _u_z * _t36)
-            + _u_y
-                * (_t39 * _u_y - _t42 * (_t3 - _u_x * _t14) + _t30 * _t43 + _t44 * _t14);
-        let _t52 = _t51 + _t45 * _t43 + _t5 * _t46
-            - _t32 * _t32 * (_t1 * _t1 * _t1 - _t1 * _t22 * _t22) * _t16
-            - _t50 * S::ratio(1.0, 2.0) * (_t6 - (_t23 - _t27) * _t7);
-        let _t53 = _t52 * self._h0 + _t5 * self._h1;
-        let _t54 = _t24 * _u_z + _t48;
-        let _t55 = _t32 * S::ratio(2.0, 1.0) * _t45 + _t30 * S::ratio(2.0, 1.0) * _t54
-            + _t9 * _t46 + (_t21 * _u_x + _t39 * _u_z + _t35 * (_t0 - _u_x * _u_x)) * _t7
-            + _t24
-                * (_t24 * _t6 + _t31 * S::ratio(16.0, 1.0) + _t33 * S::ratio(16.0, 1.0))
+        let _t48 = _t15 * _t47 - _u_y * (_t19 + _t17 * _t29);
+        let _t49 = -_t48 - _t48;
+        let _t50 = _t9 * S::ratio(2.0, 1.0) * _t18 + _t15 * S::ratio(2.0, 1.0) * _t20
+            + _t22 * _t27
+            + (_t32 * _u_z + _t35 * _u_x + _t41 * (_t10 - _u_x * _u_x)) * _t21
+            + _t17
+                * (_t17 * _t0 + _t38 * S::ratio(16.0, 1.0) + _t39 * S::ratio(16.0, 1.0))
                 * S::ratio(1.0, 8.0);
-        let _t56 = _t55 + _t44 * _t26
-            + _t42
-                * (_u_x * _t25 - S::ratio(4.0, 1.0) * _t11 - S::ratio(12.0, 1.0) * _t12)
+        let _t51 = _t50 + _t42 * _t37
+            + _t46 * (_u_x * _t36 - _t4 * S::ratio(4.0, 1.0) - S::ratio(12.0, 1.0) * _t6)
                 * S::ratio(1.0, 4.0)
-            - _t50 * S::ratio(1.0, 4.0)
-                * (_u_z * (_t25 - _t1 * S::ratio(4.0, 1.0)) - S::ratio(12.0, 1.0) * _t4);
-        let _t57 = _t56 * self._h0 + _t28 * self._h2;
+            - _t49 * S::ratio(1.0, 4.0)
+                * (_u_z * (_t36 - _t11 * S::ratio(4.0, 1.0))
+                    - S::ratio(12.0, 1.0) * _t13);
+        let _t52 = _t3 * self._h0 + _t51 * self._h1;
+        let _t53 = _u_y * _t21;
+        let _t54 = _t17 * S::ratio(2.0, 1.0);
+        let _t55 = _t35 * _t44 + _t41 * (_t4 - _u_x * _t44 + _u_z * _t53)
+            + _u_y
+                * (_t32 * _u_y - _t46 * (_t5 - _u_x * _t31) + _t15 * _t54 + _t42 * _t31);
+        let _t56 = _t55 + _t18 * _t54 + _t14 * _t27
+            - _t9 * _t9 * (_t11 * _t11 * _t11 - _t11 * _t43 * _t43) * _t34
+            - _t49 * S::ratio(1.0, 2.0) * (_t0 - (_t44 - _t2) * _t21);
+        let _t57 = _t14 * self._h2 + _t56 * self._h1;
         let _t58 = _u_y
-            * (_t21 * _u_y + _t50 * (_t3 - _u_z * _t20) + _t32 * _t43 + _t44 * _t20)
-            - _t30 * _t30 * _t11 - _t39 * _t47
-            - _t35 * (_u_z * (_t1 + _t47) + _u_x * _t36);
-        let _t59 = (_t58 + _t54 * _t43 + _t13 * _t46
-            + _t42 * S::ratio(1.0, 2.0) * (_t6 + (_t47 + _t27) * _t7)) * self._h0
-            + _t13 * self._h1;
-        mu[0] = x + _t53 * _t7 - _t57 * _t20;
-        mu[1] = y - _t53 * _t14 + _t59 * _t20;
-        mu[2] = z + _t57 * _t14 - _t59 * _t7;
+            * (_t35 * _u_y + _t49 * (_t5 - _u_z * _t29) + _t9 * _t54 + _t42 * _t29)
+            - _t15 * _t15 * _t4 - _t32 * _t47
+            - _t41 * (_u_z * (_t11 + _t47) + _u_x * _t53);
+        let _t59 = _t7 * self._h2
+            + (_t58 + _t20 * _t54 + _t7 * _t27
+                + _t46 * S::ratio(1.0, 2.0) * (_t0 + (_t47 + _t2) * _t21)) * self._h1;
+        mu[0] = x - _t52 * _t29 + _t57 * _t21;
+        mu[1] = y + _t59 * _t29 - _t57 * _t31;
+        mu[2] = z + _t52 * _t31 - _t59 * _t21;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.

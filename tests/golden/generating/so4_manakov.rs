@@ -3088,10 +3088,12 @@ impl<
     }
 }
 
-/// The generating function `S = h H + h^2 S2` in coordinates of the second kind.
+/// The generating-function method in coordinates of the second kind, unknown p, with
+/// `S = h H + h^2 S2`: the actions `exp(xi_i ad*_(e_i))`, `xi = grad S(p)`, in closed form.
 #[derive(Clone, Debug)]
-pub struct ManakovTopSecondKind2<'a, S: ::lie_runtime::Scalar> {
+pub struct ManakovTopSecondKind2Equation<'a, S: ::lie_runtime::Scalar> {
     system: &'a ManakovTopSystem<S>,
+    base: ::lie_runtime::__private::SVector<S, 6>,
     h: S,
     /// `h/(J1 + J2)`
     _h0: S,
@@ -3115,218 +3117,403 @@ pub struct ManakovTopSecondKind2<'a, S: ::lie_runtime::Scalar> {
     _h9: S,
     /// `h^2/(2*(J2 + J4))`
     _h10: S,
-    /// `h/(J3 + J4)`
+    /// `-h/(J1 + J2)`
     _h11: S,
     /// `h^2/(2*(J3 + J4))`
     _h12: S,
+    /// `h/(J3 + J4)`
+    _h13: S,
 }
 
-impl<'a, S: ::lie_runtime::Scalar> ManakovTopSecondKind2<'a, S> {
-    /// The function of a step of size h; what depends on h alone is computed here, once.
+impl<'a, S: ::lie_runtime::Scalar> ManakovTopSecondKind2Equation<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a ManakovTopSystem<S>, h: S) -> Self {
         let _t0 = S::one() / (system._parameters.J1 + system._parameters.J2);
-        let _t1 = S::ratio(1.0, 2.0) * (h * h);
-        let _t2 = S::one() / (system._parameters.J1 + system._parameters.J3);
-        let _t3 = S::one() / (system._parameters.J1 + system._parameters.J4);
-        let _t4 = S::one() / (system._parameters.J2 + system._parameters.J3);
-        let _t5 = S::one() / (system._parameters.J2 + system._parameters.J4);
-        let _t6 = S::one() / (system._parameters.J3 + system._parameters.J4);
+        let _t1 = h * _t0;
+        let _t2 = S::ratio(1.0, 2.0) * (h * h);
+        let _t3 = S::one() / (system._parameters.J1 + system._parameters.J3);
+        let _t4 = S::one() / (system._parameters.J1 + system._parameters.J4);
+        let _t5 = S::one() / (system._parameters.J2 + system._parameters.J3);
+        let _t6 = S::one() / (system._parameters.J2 + system._parameters.J4);
+        let _t7 = S::one() / (system._parameters.J3 + system._parameters.J4);
         Self {
             system,
+            base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * _t0,
-            _h1: _t1,
-            _h2: _t0 * _t1,
-            _h3: h * _t2,
-            _h4: _t2 * _t1,
-            _h5: h * _t3,
-            _h6: _t3 * _t1,
-            _h7: h * _t4,
-            _h8: _t4 * _t1,
-            _h9: h * _t5,
-            _h10: _t5 * _t1,
-            _h11: h * _t6,
-            _h12: _t6 * _t1,
+            _h0: _t1,
+            _h1: _t2,
+            _h2: _t0 * _t2,
+            _h3: h * _t3,
+            _h4: _t3 * _t2,
+            _h5: h * _t4,
+            _h6: _t4 * _t2,
+            _h7: h * _t5,
+            _h8: _t5 * _t2,
+            _h9: h * _t6,
+            _h10: _t6 * _t2,
+            _h11: -_t1,
+            _h12: _t7 * _t2,
+            _h13: h * _t7,
         }
     }
 }
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::GeneratingFunction<S>
-for ManakovTopSecondKind2<'_, S> {
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for ManakovTopSecondKind2Equation<'_, S> {
     type State = ::lie_runtime::__private::SVector<S, 6>;
-    type Jacobian = ::lie_runtime::__private::SMatrix<S, 6, 6>;
-    /// `xi = grad S(p)`
-    ///
-    /// 37 additions, 58 multiplications.
-    #[inline]
-    fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
-        let [[m12, m13, m14, m23, m24, m34]] = p.data.0;
-        let _t0 = m23 * self.system._k9;
-        let _t1 = m13 * self.system._k7;
-        let _t2 = _t1 * self._h1;
-        let _t3 = m14 * self.system._k8;
-        let _t4 = m24 * self.system._k10;
-        let _t5 = _t4 * self._h1;
-        let _t6 = m12 * self.system._k6;
-        let _t7 = _t6 * self._h1;
-        let _t8 = m34 * self.system._k11;
-        let _t9 = _t8 * self._h1;
-        xi[0] = m12 * self._h0 - _t0 * _t2 - _t3 * _t5
-            + (m13 * _t0 - m23 * _t1 - m24 * _t3 + m14 * _t4) * self._h2;
-        xi[1] = m13 * self._h3 + _t0 * _t7 - _t3 * _t9
-            + (m14 * _t8 - m23 * _t6 - m34 * _t3 - m12 * _t0) * self._h4;
-        xi[2] = m14 * self._h5 + _t4 * _t7 + _t1 * _t9
-            + (-(m24 * _t6) - m34 * _t1 - m12 * _t4 - m13 * _t8) * self._h6;
-        xi[3] = m23 * self._h7 - _t1 * _t7 - _t4 * _t9
-            + (m13 * _t6 - m12 * _t1 - m34 * _t4 + m24 * _t8) * self._h8;
-        xi[4] = m24 * self._h9 - _t3 * _t7 + _t0 * _t9
-            + (m14 * _t6 - m12 * _t3 - m34 * _t0 - m23 * _t8) * self._h10;
-        xi[5] = m34 * self._h11 - _t3 * _t2 - _t0 * _t5
-            + (m14 * _t1 - m13 * _t3 + m24 * _t0 - m23 * _t4) * self._h12;
-    }
-
-    /// `xi = grad S(p)` and the Hessian of S
-    ///
-    /// 65 additions, 94 multiplications.
-    #[inline]
-    fn linearize(
-        &mut self,
-        p: &Self::State,
-        xi: &mut Self::State,
-        hessian: &mut Self::Jacobian,
-    ) {
-        let [[m12, m13, m14, m23, m24, m34]] = p.data.0;
-        let _t0 = m23 * self.system._k9;
-        let _t1 = m13 * self.system._k7;
-        let _t2 = _t1 * self._h1;
-        let _t3 = m14 * self.system._k8;
-        let _t4 = m24 * self.system._k10;
-        let _t5 = _t4 * self._h1;
-        let _t6 = m12 * self.system._k6;
-        let _t7 = _t6 * self._h1;
-        let _t8 = m34 * self.system._k11;
-        let _t9 = _t8 * self._h1;
-        let _t10 = (_t0 - m23 * self.system._k7) * self._h2 - _t0 * self._h4;
-        let _t11 = (_t4 - m24 * self.system._k8) * self._h2 - _t4 * self._h6;
-        let _t12 = (m13 * self.system._k9 - _t1) * self._h2 - _t1 * self._h8;
-        let _t13 = (m14 * self.system._k10 - _t3) * self._h2 - _t3 * self._h10;
-        let _t14 = (_t8 - m34 * self.system._k8) * self._h4 - _t8 * self._h6;
-        let _t15 = _t6 * self._h8 + (-(m12 * self.system._k9) - _t6) * self._h4;
-        let _t16 = (m14 * self.system._k11 - _t3) * self._h4 - _t3 * self._h12;
-        let _t17 = _t6 * self._h10 + (-(m12 * self.system._k10) - _t6) * self._h6;
-        let _t18 = _t1 * self._h12 + (-(m13 * self.system._k11) - _t1) * self._h6;
-        let _t19 = (_t8 - m34 * self.system._k10) * self._h8 - _t8 * self._h10;
-        let _t20 = (m24 * self.system._k11 - _t4) * self._h8 - _t4 * self._h12;
-        let _t21 = _t0 * self._h12 + (-(m23 * self.system._k11) - _t0) * self._h10;
-        xi[0] = m12 * self._h0 - _t0 * _t2 - _t3 * _t5
-            + (m13 * _t0 - m23 * _t1 - m24 * _t3 + m14 * _t4) * self._h2;
-        xi[1] = m13 * self._h3 + _t0 * _t7 - _t3 * _t9
-            + (m14 * _t8 - m23 * _t6 - m34 * _t3 - m12 * _t0) * self._h4;
-        xi[2] = m14 * self._h5 + _t4 * _t7 + _t1 * _t9
-            + (-(m24 * _t6) - m34 * _t1 - m12 * _t4 - m13 * _t8) * self._h6;
-        xi[3] = m23 * self._h7 - _t1 * _t7 - _t4 * _t9
-            + (m13 * _t6 - m12 * _t1 - m34 * _t4 + m24 * _t8) * self._h8;
-        xi[4] = m24 * self._h9 - _t3 * _t7 + _t0 * _t9
-            + (m14 * _t6 - m12 * _t3 - m34 * _t0 - m23 * _t8) * self._h10;
-        xi[5] = m34 * self._h11 - _t3 * _t2 - _t0 * _t5
-            + (m14 * _t1 - m13 * _t3 + m24 * _t0 - m23 * _t4) * self._h12;
-        hessian.fill(S::zero());
-        hessian[(0, 0)] = self._h0;
-        hessian[(0, 1)] = _t10;
-        hessian[(0, 2)] = _t11;
-        hessian[(0, 3)] = _t12;
-        hessian[(0, 4)] = _t13;
-        hessian[(1, 0)] = _t10;
-        hessian[(1, 1)] = self._h3;
-        hessian[(1, 2)] = _t14;
-        hessian[(1, 3)] = _t15;
-        hessian[(1, 5)] = _t16;
-        hessian[(2, 0)] = _t11;
-        hessian[(2, 1)] = _t14;
-        hessian[(2, 2)] = self._h5;
-        hessian[(2, 4)] = _t17;
-        hessian[(2, 5)] = _t18;
-        hessian[(3, 0)] = _t12;
-        hessian[(3, 1)] = _t15;
-        hessian[(3, 3)] = self._h7;
-        hessian[(3, 4)] = _t19;
-        hessian[(3, 5)] = _t20;
-        hessian[(4, 0)] = _t13;
-        hessian[(4, 2)] = _t17;
-        hessian[(4, 3)] = _t19;
-        hessian[(4, 4)] = self._h9;
-        hessian[(4, 5)] = _t21;
-        hessian[(5, 1)] = _t16;
-        hessian[(5, 2)] = _t18;
-        hessian[(5, 3)] = _t20;
-        hessian[(5, 4)] = _t21;
-        hessian[(5, 5)] = self._h11;
-    }
-}
-
-/// The method of `S = h H + h^2 S2` in coordinates of the second kind, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct ManakovTopSecondKind2Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopSecondKind2<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for ManakovTopSecondKind2Equation<'a, S> {
-    type State = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::SecondKind<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopSecondKind2<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private::SMatrix<S, 6, 6>;
     fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
+        Self::State::repeat(S::zero())
     }
 
     fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+        Self::Matrix::repeat(S::zero())
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
     }
 
-    /// Elimination in a fixed order, 0 entries of fill-in: 64 multiplications with the solution.
+    /// `p_i = (m_(i-1))_i` with `xi = grad S(mu)`
+    ///
+    /// 67 additions, 96 multiplications, 5 divisions, 5 function calls.
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let [[m12, m13, m14, m23, m24, m34]] = self.base.data.0;
+        let _t0 = m23 * self.system._k9;
+        let _t1 = m13 * self.system._k7;
+        let _t2 = m14 * self.system._k8;
+        let _t3 = m24 * self.system._k10;
+        let _t4 = (m12 * self._h0 - _t0 * (_t1 * self._h1) - _t2 * (_t3 * self._h1)
+            + (m13 * _t0 - m23 * _t1 - m24 * _t2 + m14 * _t3) * self._h2)
+            * S::ratio(1.0, 2.0);
+        let _t5 = _t4.tan();
+        let _t6 = _t5 * S::ratio(2.0, 1.0) / (S::one() + _t5 * _t5);
+        let _t7 = _t5 * _t6;
+        let _t8 = m13 + (m23 * _t6 - m13 * _t7);
+        let _t9 = m14 + (m24 * _t6 - m14 * _t7);
+        let _t10 = m12 * self.system._k6;
+        let _t11 = _t10 * self._h1;
+        let _t12 = m34 * self.system._k11;
+        let _t13 = _t12 * self._h1;
+        let _t14 = ((m13 * self._h3 + _t0 * _t11 - _t2 * _t13
+            + (m14 * _t12 - m23 * _t10 - m34 * _t2 - m12 * _t0) * self._h4)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t15 = S::ratio(2.0, 1.0) * _t14 / (S::one() + _t14 * _t14);
+        let _t16 = _t14 * _t15;
+        let _t17 = m23 + (-(m13 * _t6) - m23 * _t7);
+        let _t18 = _t17 + (m12 * _t15 - _t16 * _t17);
+        let _t19 = m24 + (-(m14 * _t6) - m24 * _t7);
+        let _t20 = ((m14 * self._h5 + _t3 * _t11 + _t1 * _t13
+            + (-(m24 * _t10) - m34 * _t1 - m12 * _t3 - m13 * _t12) * self._h6)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t21 = S::ratio(2.0, 1.0) * _t20 / (S::one() + _t20 * _t20);
+        let _t22 = _t20 * _t21;
+        let _t23 = _t19 + (_t21 * (m12 + (-(_t15 * _t17) - m12 * _t16)) - _t22 * _t19);
+        let _t24 = ((m23 * self._h7 - _t1 * _t11 - _t3 * _t13
+            + (m13 * _t10 - m12 * _t1 - m34 * _t3 + m24 * _t12) * self._h8)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t25 = S::ratio(2.0, 1.0) * _t24 / (S::one() + _t24 * _t24);
+        let _t26 = m34 + (-(_t15 * _t9) - m34 * _t16);
+        let _t27 = _t26 + (_t21 * _t8 - _t22 * _t26);
+        let _t28 = _t24 * _t25;
+        let _t29 = _t27 + (-(_t25 * _t23) - _t28 * _t27);
+        let _t30 = ((m24 * self._h9 - _t2 * _t11 + _t0 * _t13
+            + (m14 * _t10 - m12 * _t2 - m34 * _t0 - m23 * _t12) * self._h10)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t31 = S::ratio(2.0, 1.0) * _t30 / (S::one() + _t30 * _t30);
+        unknown[0] = m12;
+        unknown[1] = _t8;
+        unknown[2] = _t9 + (m34 * _t15 - _t16 * _t9);
+        unknown[3] = _t18;
+        unknown[4] = _t23 + (_t25 * _t27 - _t28 * _t23);
+        unknown[5] = _t29 + (_t31 * _t18 - _t30 * _t31 * _t29);
+    }
+
+    /// `r_i = p_i - (m_(i-1))_i`, `m_i = exp(xi_i ad*_(e_i)) m_(i-1)`, `xi = grad S(p)`
+    ///
+    /// 73 additions, 96 multiplications, 5 divisions, 5 function calls.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[m12, m13, m14, m23, m24, m34]] = self.base.data.0;
+        let [[_u_m12, _u_m13, _u_m14, _u_m23, _u_m24, _u_m34]] = unknown.data.0;
+        let _t0 = _u_m23 * self.system._k9;
+        let _t1 = _u_m13 * self.system._k7;
+        let _t2 = _u_m14 * self.system._k8;
+        let _t3 = _u_m24 * self.system._k10;
+        let _t4 = (_u_m12 * self._h0 - _t0 * (_t1 * self._h1) - _t2 * (_t3 * self._h1)
+            + (_t0 * _u_m13 - _t1 * _u_m23 - _t2 * _u_m24 + _t3 * _u_m14) * self._h2)
+            * S::ratio(1.0, 2.0);
+        let _t5 = _t4.tan();
+        let _t6 = _t5 * S::ratio(2.0, 1.0) / (S::one() + _t5 * _t5);
+        let _t7 = _t5 * _t6;
+        let _t8 = m13 + (m23 * _t6 - m13 * _t7);
+        let _t9 = m14 + (m24 * _t6 - m14 * _t7);
+        let _t10 = _u_m12 * self.system._k6;
+        let _t11 = _t10 * self._h1;
+        let _t12 = _u_m34 * self.system._k11;
+        let _t13 = _t12 * self._h1;
+        let _t14 = ((_u_m13 * self._h3 + _t0 * _t11 - _t2 * _t13
+            + (_t12 * _u_m14 - _t10 * _u_m23 - _t2 * _u_m34 - _t0 * _u_m12) * self._h4)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t15 = S::ratio(2.0, 1.0) * _t14 / (S::one() + _t14 * _t14);
+        let _t16 = _t14 * _t15;
+        let _t17 = m23 + (-(m13 * _t6) - m23 * _t7);
+        let _t18 = _t17 + (m12 * _t15 - _t16 * _t17);
+        let _t19 = m24 + (-(m14 * _t6) - m24 * _t7);
+        let _t20 = ((_u_m14 * self._h5 + _t3 * _t11 + _t1 * _t13
+            + (-(_t10 * _u_m24) - _t1 * _u_m34 - _t3 * _u_m12 - _t12 * _u_m13)
+                * self._h6) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t21 = S::ratio(2.0, 1.0) * _t20 / (S::one() + _t20 * _t20);
+        let _t22 = _t20 * _t21;
+        let _t23 = _t19 + (_t21 * (m12 + (-(_t15 * _t17) - m12 * _t16)) - _t22 * _t19);
+        let _t24 = ((_u_m23 * self._h7 - _t1 * _t11 - _t3 * _t13
+            + (_t10 * _u_m13 - _t1 * _u_m12 - _t3 * _u_m34 + _t12 * _u_m24) * self._h8)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t25 = S::ratio(2.0, 1.0) * _t24 / (S::one() + _t24 * _t24);
+        let _t26 = m34 + (-(_t15 * _t9) - m34 * _t16);
+        let _t27 = _t26 + (_t21 * _t8 - _t22 * _t26);
+        let _t28 = _t24 * _t25;
+        let _t29 = _t27 + (-(_t25 * _t23) - _t28 * _t27);
+        let _t30 = ((_u_m24 * self._h9 - _t2 * _t11 + _t0 * _t13
+            + (_t10 * _u_m14 - _t2 * _u_m12 - _t0 * _u_m34 - _t12 * _u_m23) * self._h10)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t31 = S::ratio(2.0, 1.0) * _t30 / (S::one() + _t30 * _t30);
+        residual[0] = _u_m12 - m12;
+        residual[1] = _u_m13 - _t8;
+        residual[2] = _u_m14 - (_t9 + (m34 * _t15 - _t16 * _t9));
+        residual[3] = _u_m23 - _t18;
+        residual[4] = _u_m24 - (_t23 + (_t25 * _t27 - _t28 * _t23));
+        residual[5] = _u_m34 - (_t29 + (_t31 * _t18 - _t30 * _t31 * _t29));
+    }
+
+    /// `r_i = p_i - (m_(i-1))_i` and `dr/dp`, by `dm_i/dxi_i = ad*_(e_i) m_i`
+    ///
+    /// 207 additions, 236 multiplications, 5 divisions, 5 function calls.
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::State,
+        residual: &mut Self::State,
+        matrix: &mut Self::Matrix,
+    ) {
+        let [[m12, m13, m14, m23, m24, m34]] = self.base.data.0;
+        let [[_u_m12, _u_m13, _u_m14, _u_m23, _u_m24, _u_m34]] = unknown.data.0;
+        let _t0 = _u_m23 * self.system._k9;
+        let _t1 = _u_m13 * self.system._k7;
+        let _t2 = _u_m14 * self.system._k8;
+        let _t3 = _u_m24 * self.system._k10;
+        let _t4 = ((_t0 * _u_m13 - _t1 * _u_m23 - _t2 * _u_m24 + _t3 * _u_m14) * self._h2
+            - _u_m12 * self._h11 - _t0 * (_t1 * self._h1) - _t2 * (_t3 * self._h1))
+            * S::ratio(1.0, 2.0);
+        let _t5 = _t4.tan();
+        let _t6 = _t5 * S::ratio(2.0, 1.0) / (S::one() + _t5 * _t5);
+        let _t7 = _t5 * _t6;
+        let _t8 = m13 + (m23 * _t6 - m13 * _t7);
+        let _t9 = m14 + (m24 * _t6 - m14 * _t7);
+        let _t10 = _u_m12 * self.system._k6;
+        let _t11 = _t10 * self._h1;
+        let _t12 = _u_m34 * self.system._k11;
+        let _t13 = _t12 * self._h1;
+        let _t14 = ((_u_m13 * self._h3 + _t0 * _t11 - _t2 * _t13
+            + (_t12 * _u_m14 - _t10 * _u_m23 - _t2 * _u_m34 - _t0 * _u_m12) * self._h4)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t15 = S::ratio(2.0, 1.0) * _t14 / (S::one() + _t14 * _t14);
+        let _t16 = _t14 * _t15;
+        let _t17 = _t9 + (m34 * _t15 - _t16 * _t9);
+        let _t18 = m23 + (-(m13 * _t6) - m23 * _t7);
+        let _t19 = _t18 + (m12 * _t15 - _t16 * _t18);
+        let _t20 = m24 + (-(m14 * _t6) - m24 * _t7);
+        let _t21 = ((_u_m14 * self._h5 + _t3 * _t11 + _t1 * _t13
+            + (-(_t10 * _u_m24) - _t1 * _u_m34 - _t3 * _u_m12 - _t12 * _u_m13)
+                * self._h6) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t22 = S::ratio(2.0, 1.0) * _t21 / (S::one() + _t21 * _t21);
+        let _t23 = m12 + (-(_t15 * _t18) - m12 * _t16);
+        let _t24 = _t21 * _t22;
+        let _t25 = _t20 + (_t22 * _t23 - _t24 * _t20);
+        let _t26 = ((_u_m23 * self._h7 - _t1 * _t11 - _t3 * _t13
+            + (_t10 * _u_m13 - _t1 * _u_m12 - _t3 * _u_m34 + _t12 * _u_m24) * self._h8)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t27 = S::ratio(2.0, 1.0) * _t26 / (S::one() + _t26 * _t26);
+        let _t28 = m34 + (-(_t15 * _t9) - m34 * _t16);
+        let _t29 = _t28 + (_t22 * _t8 - _t24 * _t28);
+        let _t30 = _t26 * _t27;
+        let _t31 = _t25 + (_t27 * _t29 - _t30 * _t25);
+        let _t32 = _t29 + -(_t27 * _t25 + _t30 * _t29);
+        let _t33 = ((_u_m24 * self._h9 - _t2 * _t11 + _t0 * _t13
+            + (_t10 * _u_m14 - _t2 * _u_m12 - _t0 * _u_m34 - _t12 * _u_m23) * self._h10)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t34 = S::ratio(2.0, 1.0) * _t33 / (S::one() + _t33 * _t33);
+        let _t35 = _t33 * _t34;
+        let _t36 = (_t0 - _u_m23 * self.system._k7) * self._h2 - _t0 * self._h4;
+        let _t37 = (_t3 - _u_m24 * self.system._k8) * self._h2 - _t3 * self._h6;
+        let _t38 = (_u_m13 * self.system._k9 - _t1) * self._h2 - _t1 * self._h8;
+        let _t39 = (_u_m14 * self.system._k10 - _t2) * self._h2 - _t2 * self._h10;
+        let _t40 = _t20 + -(_t16 * _t20);
+        let _t41 = (_t12 - _u_m34 * self.system._k8) * self._h4 - _t12 * self._h6;
+        let _t42 = -_t10;
+        let _t43 = _t10 * self._h8 + (_t42 - _u_m12 * self.system._k9) * self._h4;
+        let _t44 = (_u_m14 * self.system._k11 - _t2) * self._h4 - _t2 * self._h12;
+        let _t45 = _t16 * _t8 - _t8;
+        let _t46 = -_t9;
+        let _t47 = _t46 + (_t22 * (_t15 * _t8) - _t24 * _t46);
+        let _t48 = -(_t15 * _t20);
+        let _t49 = _t48 + (_t22 * _t18 - _t24 * _t48);
+        let _t50 = _t47 + (_t27 * _t49 - _t30 * _t47);
+        let _t51 = -(_t22 * _t19);
+        let _t52 = _t24 * _t17 - _t17;
+        let _t53 = _t51 + (_t27 * _t52 - _t30 * _t51);
+        let _t54 = _t23 + (-(_t22 * _t20) - _t24 * _t23);
+        let _t55 = _t8 + (-(_t22 * _t28) - _t24 * _t8);
+        let _t56 = _t54 + (_t27 * _t55 - _t30 * _t54);
+        let _t57 = _t10 * self._h10 + (_t42 - _u_m12 * self.system._k10) * self._h6;
+        let _t58 = (_t12 - _u_m34 * self.system._k10) * self._h8 - _t12 * self._h10;
+        let _t59 = _t1 * self._h12 + (-_t1 - _u_m13 * self.system._k11) * self._h6;
+        let _t60 = (_u_m24 * self.system._k11 - _t3) * self._h8 - _t3 * self._h12;
+        let _t61 = _t49 + (-(_t27 * _t47) - _t30 * _t49);
+        let _t62 = _t61 + (_t34 * _t45 - _t35 * _t61);
+        let _t63 = _t52 + (-(_t27 * _t51) - _t30 * _t52);
+        let _t64 = _t63 + (_t34 * _t23 - _t35 * _t63);
+        let _t65 = _t55 + (-(_t27 * _t54) - _t30 * _t55);
+        let _t66 = _t65 + -(_t35 * _t65);
+        let _t67 = _t35 * _t31 - _t31;
+        let _t68 = _t19 + (-(_t34 * _t32) - _t35 * _t19);
+        residual[0] = _u_m12 - m12;
+        residual[1] = _u_m13 - _t8;
+        residual[2] = _u_m14 - _t17;
+        residual[3] = _u_m23 - _t19;
+        residual[4] = _u_m24 - _t31;
+        residual[5] = _u_m34 - (_t32 + (_t34 * _t19 - _t35 * _t32));
+        matrix[(0, 0)] = S::one();
+        matrix[(1, 0)] = _t18 * self._h11;
+        matrix[(1, 1)] = S::one() - _t36 * _t18;
+        matrix[(1, 2)] = -(_t37 * _t18);
+        matrix[(1, 3)] = -(_t38 * _t18);
+        matrix[(1, 4)] = -(_t39 * _t18);
+        matrix[(2, 0)] = self._h11 * _t40 - _t36 * _t28;
+        matrix[(2, 1)] = -(_t36 * _t40) - _t28 * self._h3;
+        matrix[(2, 2)] = S::one() - _t37 * _t40 - _t41 * _t28;
+        matrix[(2, 3)] = -(_t38 * _t40) - _t43 * _t28;
+        matrix[(2, 4)] = -(_t39 * _t40);
+        matrix[(2, 5)] = -(_t44 * _t28);
+        matrix[(3, 0)] = self._h11 * _t45 - _t36 * _t23;
+        matrix[(3, 1)] = -(_t36 * _t45) - _t23 * self._h3;
+        matrix[(3, 2)] = -(_t37 * _t45) - _t41 * _t23;
+        matrix[(3, 3)] = S::one() - _t38 * _t45 - _t43 * _t23;
+        matrix[(3, 4)] = -(_t39 * _t45);
+        matrix[(3, 5)] = -(_t44 * _t23);
+        matrix[(4, 0)] = self._h11 * _t50 - _t36 * _t53 - _t37 * _t56 - _t38 * _t32;
+        matrix[(4, 1)] = -(_t36 * _t50) - self._h3 * _t53 - _t41 * _t56 - _t43 * _t32;
+        matrix[(4, 2)] = -(_t37 * _t50) - _t41 * _t53 - _t56 * self._h5;
+        matrix[(4, 3)] = -(_t38 * _t50) - _t43 * _t53 - _t32 * self._h7;
+        matrix[(4, 4)] = S::one() - _t39 * _t50 - _t57 * _t56 - _t58 * _t32;
+        matrix[(4, 5)] = -(_t44 * _t53) - _t59 * _t56 - _t60 * _t32;
+        matrix[(5, 0)] = self._h11 * _t62 - _t36 * _t64 - _t37 * _t66 - _t38 * _t67
+            - _t39 * _t68;
+        matrix[(5, 1)] = -(_t36 * _t62) - self._h3 * _t64 - _t41 * _t66 - _t43 * _t67;
+        matrix[(5, 2)] = -(_t37 * _t62) - _t41 * _t64 - self._h5 * _t66 - _t57 * _t68;
+        matrix[(5, 3)] = -(_t38 * _t62) - _t43 * _t64 - self._h7 * _t67 - _t58 * _t68;
+        matrix[(5, 4)] = -(_t39 * _t62) - _t57 * _t66 - _t58 * _t67 - _t68 * self._h9;
+        matrix[(5, 5)] = S::one() - _t44 * _t64 - _t59 * _t66 - _t60 * _t67
+            - (_t0 * self._h12 + (-_t0 - _u_m23 * self.system._k11) * self._h10) * _t68;
+    }
+
+    /// `mu1 = m_n`
+    ///
+    /// 103 additions, 130 multiplications, 6 divisions, 6 function calls.
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        let [[m12, m13, m14, m23, m24, m34]] = self.base.data.0;
+        let [[_u_m12, _u_m13, _u_m14, _u_m23, _u_m24, _u_m34]] = unknown.data.0;
+        let _t0 = _u_m23 * self.system._k9;
+        let _t1 = _u_m12 * self.system._k6;
+        let _t2 = _t1 * self._h1;
+        let _t3 = _u_m14 * self.system._k8;
+        let _t4 = _u_m34 * self.system._k11;
+        let _t5 = _t4 * self._h1;
+        let _t6 = ((_u_m13 * self._h3 + _t0 * _t2 - _t3 * _t5
+            + (_t4 * _u_m14 - _t1 * _u_m23 - _t3 * _u_m34 - _t0 * _u_m12) * self._h4)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t7 = S::ratio(2.0, 1.0) * _t6 / (S::one() + _t6 * _t6);
+        let _t8 = _u_m13 * self.system._k7;
+        let _t9 = _t8 * self._h1;
+        let _t10 = _u_m24 * self.system._k10;
+        let _t11 = _t10 * self._h1;
+        let _t12 = ((_u_m12 * self._h0 - _t0 * _t9 - _t3 * _t11
+            + (_t0 * _u_m13 - _t8 * _u_m23 - _t3 * _u_m24 + _t10 * _u_m14) * self._h2)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t13 = _t12 * S::ratio(2.0, 1.0) / (S::one() + _t12 * _t12);
+        let _t14 = _t12 * _t13;
+        let _t15 = m23 + (-(m13 * _t13) - m23 * _t14);
+        let _t16 = _t6 * _t7;
+        let _t17 = m12 + (-(_t7 * _t15) - m12 * _t16);
+        let _t18 = ((_u_m14 * self._h5 + _t10 * _t2 + _t8 * _t5
+            + (-(_t1 * _u_m24) - _t8 * _u_m34 - _t10 * _u_m12 - _t4 * _u_m13) * self._h6)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t19 = S::ratio(2.0, 1.0) * _t18 / (S::one() + _t18 * _t18);
+        let _t20 = m24 + (-(m14 * _t13) - m24 * _t14);
+        let _t21 = _t18 * _t19;
+        let _t22 = _t17 + (-(_t19 * _t20) - _t21 * _t17);
+        let _t23 = ((_u_m23 * self._h7 - _t8 * _t2 - _t10 * _t5
+            + (_t1 * _u_m13 - _t8 * _u_m12 - _t10 * _u_m34 + _t4 * _u_m24) * self._h8)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t24 = S::ratio(2.0, 1.0) * _t23 / (S::one() + _t23 * _t23);
+        let _t25 = m13 + (m23 * _t13 - m13 * _t14);
+        let _t26 = m14 + (m24 * _t13 - m14 * _t14);
+        let _t27 = m34 + (-(_t7 * _t26) - m34 * _t16);
+        let _t28 = _t25 + (-(_t19 * _t27) - _t21 * _t25);
+        let _t29 = _t23 * _t24;
+        let _t30 = _t22 + (_t24 * _t28 - _t29 * _t22);
+        let _t31 = ((_u_m24 * self._h9 - _t3 * _t2 + _t0 * _t5
+            + (_t1 * _u_m14 - _t3 * _u_m12 - _t0 * _u_m34 - _t4 * _u_m23) * self._h10)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t32 = S::ratio(2.0, 1.0) * _t31 / (S::one() + _t31 * _t31);
+        let _t33 = _t26 + (m34 * _t7 - _t16 * _t26);
+        let _t34 = _t31 * _t32;
+        let _t35 = _t28 + (-(_t24 * _t22) - _t29 * _t28);
+        let _t36 = ((_u_m34 * self._h13 - _t3 * _t9 - _t0 * _t11
+            + (_t8 * _u_m14 - _t3 * _u_m13 + _t0 * _u_m24 - _t10 * _u_m23) * self._h12)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t37 = S::ratio(2.0, 1.0) * _t36 / (S::one() + _t36 * _t36);
+        let _t38 = _t33 + (-(_t32 * _t30) - _t34 * _t33);
+        let _t39 = _t36 * _t37;
+        let _t40 = _t15 + (m12 * _t7 - _t16 * _t15);
+        let _t41 = _t27 + (_t19 * _t25 - _t21 * _t27);
+        let _t42 = _t20 + (_t19 * _t17 - _t21 * _t20);
+        let _t43 = _t41 + (-(_t24 * _t42) - _t29 * _t41);
+        let _t44 = _t40 + (-(_t32 * _t43) - _t34 * _t40);
+        let _t45 = _t42 + (_t24 * _t41 - _t29 * _t42);
+        mu[0] = _t30 + (_t32 * _t33 - _t34 * _t30);
+        mu[1] = _t35 + (_t37 * _t38 - _t39 * _t35);
+        mu[2] = _t38 + (-(_t37 * _t35) - _t39 * _t38);
+        mu[3] = _t44 + (_t37 * _t45 - _t39 * _t44);
+        mu[4] = _t45 + (-(_t37 * _t44) - _t39 * _t45);
+        mu[5] = _t43 + (_t32 * _t40 - _t34 * _t43);
+    }
+
+    /// Sparse elimination in the order [0, 5, 1, 2, 3, 4], 0 entries of fill-in: 64 multiplications with the solution.
     #[inline]
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
         let _a5_5 = matrix[(5, 5)];
@@ -3447,16 +3634,14 @@ for ManakovTopSecondKind2Equation<'a, S> {
         residual[5] = _b5;
     }
 
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
     fn group_factor(
         &mut self,
-        unknown: &Self::Unknown,
+        unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
+        let mut function = ::lie_runtime::generic::SecondKind2::new(self.system, self.h);
+        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
+        ::core::option::Option::Some(::lie_runtime::methods::Retraction::SecondKind)
     }
 }
 
@@ -3470,12 +3655,7 @@ for ManakovTopSystem<S> {
         _method: &::lie_runtime::methods::GeneratingSecondKind2,
         h: S,
     ) -> ManakovTopSecondKind2Equation<'a, S> {
-        ManakovTopSecondKind2Equation(
-            ::lie_runtime::generic::SecondKind::with_function(
-                self,
-                ManakovTopSecondKind2::new(self, h),
-            ),
-        )
+        ManakovTopSecondKind2Equation::new(self, h)
     }
 }
 
@@ -3487,9 +3667,9 @@ pub struct ManakovTopCayleyGenerating4<'a, S: ::lie_runtime::Scalar> {
     system: &'a ManakovTopSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 6>,
     h: S,
-    /// `h^3/48`
-    _h0: S,
     /// `h/(2*(J2 + J4))`
+    _h0: S,
+    /// `h^3/48`
     _h1: S,
     /// `h/(2*(J1 + J2))`
     _h2: S,
@@ -3512,8 +3692,8 @@ impl<'a, S: ::lie_runtime::Scalar> ManakovTopCayleyGenerating4<'a, S> {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * h * h * S::ratio(1.0, 48.0),
-            _h1: _t0 / (system._parameters.J2 + system._parameters.J4),
+            _h0: _t0 / (system._parameters.J2 + system._parameters.J4),
+            _h1: h * h * h * S::ratio(1.0, 48.0),
             _h2: _t0 / (system._parameters.J1 + system._parameters.J2),
             _h3: _t0 / (system._parameters.J1 + system._parameters.J3),
             _h4: _t0 / (system._parameters.J1 + system._parameters.J4),
@@ -3540,14 +3720,6 @@ for ManakovTopCayleyGenerating4<'_, S> {
     #[inline]
     fn set_base(&mut self, mu: &Self::State) {
         self.base = *mu;
-    }
-
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`
@@ -3607,10 +3779,10 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t40 = self.system._k10
             * (S::ratio(2.0, 1.0)
                 * (_t0 * (_t11 + _t12 * S::ratio(3.0, 1.0)) + _t13 * _t16 + _u_m24 * _t23
-                    + _t26 * _u_m13)) - _u_m23 * _t29 - _u_m34 * _t32 + _u_m12 * _t35;
-        let _t41 = (_t40 - _u_m14 * _t38
-            + S::ratio(2.0, 1.0) * (_t13 * _t26 + _t0 * (_t39 + _t23))) * self._h0
-            + _u_m24 * self._h1;
+                    + _u_m13 * _t26)) - _u_m23 * _t29 - _u_m34 * _t32 + _u_m12 * _t35;
+        let _t41 = _u_m24 * self._h0
+            + (_t40 - _u_m14 * _t38
+                + S::ratio(2.0, 1.0) * (_t13 * _t26 + _t0 * (_t39 + _t23))) * self._h1;
         let _t42 = _t41 * _u_m14;
         let _t43 = _t13 * _u_m13;
         let _t44 = _t43 + _t12;
@@ -3634,10 +3806,10 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t60 = self.system._k6
             * (S::ratio(2.0, 1.0)
                 * (_t8 * (_t45 + _t9 * S::ratio(3.0, 1.0)) + _t6 * _t47 + _u_m12 * _t50
-                    + _t52 * _u_m34)) - _u_m14 * _t55 - _u_m13 * _t56 + _u_m24 * _t35;
-        let _t61 = (_t60 + _u_m23 * _t59
-            + S::ratio(2.0, 1.0) * (_t6 * _t52 + _t8 * (_t17 + _t50))) * self._h0
-            + _u_m12 * self._h2;
+                    + _u_m34 * _t52)) - _u_m14 * _t55 - _u_m13 * _t56 + _u_m24 * _t35;
+        let _t61 = _u_m12 * self._h2
+            + (_t60 + _u_m23 * _t59
+                + S::ratio(2.0, 1.0) * (_t6 * _t52 + _t8 * (_t17 + _t50))) * self._h1;
         let _t62 = _t41 * _u_m24;
         let _t63 = _t61 * _u_m12;
         let _t64 = self.system._k22 * _t28;
@@ -3646,10 +3818,10 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t67 = self.system._k7
             * (S::ratio(2.0, 1.0)
                 * (_t13 * (_t11 + _t43 * S::ratio(3.0, 1.0)) + _t0 * _t16 + _u_m13 * _t23
-                    + _t26 * _u_m24)) - _u_m14 * _t64 - _u_m12 * _t56 + _u_m34 * _t65;
-        let _t68 = (_t67 - _u_m23 * _t66
-            + S::ratio(2.0, 1.0) * (_t0 * _t26 + _t13 * (_t48 + _t23))) * self._h0
-            + _u_m13 * self._h3;
+                    + _u_m24 * _t26)) - _u_m14 * _t64 - _u_m12 * _t56 + _u_m34 * _t65;
+        let _t68 = _u_m13 * self._h3
+            + (_t67 - _u_m23 * _t66
+                + S::ratio(2.0, 1.0) * (_t0 * _t26 + _t13 * (_t48 + _t23))) * self._h1;
         let _t69 = _t68 * _u_m13;
         let _t70 = _t63 + _t69;
         let _t71 = S::ratio(2.0, 1.0) * (_t44 + _t10);
@@ -3660,19 +3832,19 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t76 = self.system._k8
             * (S::ratio(2.0, 1.0)
                 * (_t1 * (_t71 + _t2 * S::ratio(3.0, 1.0)) + _t3 * _t72 + _u_m14 * _t73
-                    + _t74 * _u_m23)) - _u_m13 * _t64 - _u_m12 * _t55 - _u_m34 * _t75;
-        let _t77 = (_t76 - _u_m24 * _t38
-            + S::ratio(2.0, 1.0) * (_t3 * _t74 + _t1 * (_t20 + _t73))) * self._h0
-            + _u_m14 * self._h4;
+                    + _u_m23 * _t74)) - _u_m13 * _t64 - _u_m12 * _t55 - _u_m34 * _t75;
+        let _t77 = _u_m14 * self._h4
+            + (_t76 - _u_m24 * _t38
+                + S::ratio(2.0, 1.0) * (_t3 * _t74 + _t1 * (_t20 + _t73))) * self._h1;
         let _t78 = _t77 * _u_m14;
         let _t79 = self.system._k21 * _t54;
         let _t80 = self.system._k9
             * (S::ratio(2.0, 1.0)
                 * (_t3 * (_t71 + _t4 * S::ratio(3.0, 1.0)) + _t1 * _t72 + _u_m23 * _t73
-                    + _t74 * _u_m14)) - _u_m24 * _t29 + _u_m34 * _t79 + _u_m12 * _t59;
-        let _t81 = (_t80 - _u_m13 * _t66
-            + S::ratio(2.0, 1.0) * (_t1 * _t74 + _t3 * (_t21 + _t73))) * self._h0
-            + _u_m23 * self._h5;
+                    + _u_m14 * _t74)) - _u_m24 * _t29 + _u_m34 * _t79 + _u_m12 * _t59;
+        let _t81 = _u_m23 * self._h5
+            + (_t80 - _u_m13 * _t66
+                + S::ratio(2.0, 1.0) * (_t1 * _t74 + _t3 * (_t21 + _t73))) * self._h1;
         let _t82 = _t81 * _u_m23;
         let _t83 = _t78 + _t82;
         let _t84 = _t70 + _t83;
@@ -3682,10 +3854,10 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t88 = self.system._k11
             * (S::ratio(2.0, 1.0)
                 * (_t6 * (_t45 + _t7 * S::ratio(3.0, 1.0)) + _t8 * _t47 + _u_m34 * _t50
-                    + _t52 * _u_m12)) + _u_m23 * _t79 - _u_m24 * _t32 + _u_m13 * _t65;
-        let _t89 = (_t88 - _u_m14 * _t75
-            + S::ratio(2.0, 1.0) * (_t8 * _t52 + _t6 * (_t18 + _t50))) * self._h0
-            + _u_m34 * self._h6;
+                    + _u_m12 * _t52)) + _u_m23 * _t79 - _u_m24 * _t32 + _u_m13 * _t65;
+        let _t89 = _u_m34 * self._h6
+            + (_t88 - _u_m14 * _t75
+                + S::ratio(2.0, 1.0) * (_t8 * _t52 + _t6 * (_t18 + _t50))) * self._h1;
         let _t90 = _t89 * _u_m14;
         let _t91 = _t89 * _u_m34;
         let _t92 = _t89 * _u_m24;
@@ -3789,9 +3961,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * (S::ratio(2.0, 1.0)
                 * (_t0 * _t4 + _t5 * _t8 + _t9 * (_t11 + _t21) + _t12 * (_t22 + _t25)
                     - _t16 * (_t29 - _t26))) + _t33 * _t34 + _t38 * _t39;
-        let _t62 = (_t61 + _t43 * _t44 + _t48 * _t49
-            + S::ratio(2.0, 1.0) * (_t2 * _t52 + _t9 * (_t53 + _t60))) * self._h0
-            + _u_m12 * self._h2;
+        let _t62 = _u_m12 * self._h2
+            + (_t61 + _t43 * _t44 + _t48 * _t49
+                + S::ratio(2.0, 1.0) * (_t2 * _t52 + _t9 * (_t53 + _t60))) * self._h1;
         let _t63 = _t62 * _u_m12;
         let _t64 = _t0 * _u_m13;
         let _t65 = _t5 * _u_m14;
@@ -3826,9 +3998,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * (S::ratio(2.0, 1.0)
                 * (_t0 * _t66 + _t2 * _t8 + _t12 * (_t67 + _t71) + _t9 * (_t72 + _t25)
                     + _t16 * (_t73 + _t76))) + _t80 * _t81 + _t38 * _t35;
-        let _t94 = (_t93 + _t43 * _t82 + _t86 * _t87
-            + S::ratio(2.0, 1.0) * (_t5 * _t89 + _t12 * (_t54 + _t92))) * self._h0
-            + _u_m13 * self._h3;
+        let _t94 = _u_m13 * self._h3
+            + (_t93 + _t43 * _t82 + _t86 * _t87
+                + S::ratio(2.0, 1.0) * (_t5 * _t89 + _t12 * (_t54 + _t92))) * self._h1;
         let _t95 = _t94 * _u_m13;
         let _t96 = _t12 * _u_m14;
         let _t97 = S::ratio(3.0, 1.0) * _t14;
@@ -3843,9 +4015,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * (S::ratio(2.0, 1.0)
                 * (_t0 * (_t96 + _t74) + _t2 * (_t22 + _t24) + _t5 * (_t97 + _t71)
                     + _t9 * (_t98 + _t100) + _t16 * (_t101 + _t103))) + _t80 * _t78;
-        let _t106 = (_t105 + _t38 * _t104 + _t43 * _t40 + _t86 * _t84
-            + S::ratio(2.0, 1.0) * (_t12 * _t89 + _t5 * (_t55 + _t92))) * self._h0
-            + _u_m24 * self._h1;
+        let _t106 = _u_m24 * self._h0
+            + (_t105 + _t38 * _t104 + _t43 * _t40 + _t86 * _t84
+                + S::ratio(2.0, 1.0) * (_t12 * _t89 + _t5 * (_t55 + _t92))) * self._h1;
         let _t107 = _t106 * _u_m24;
         let _t108 = _t95 + _t107;
         let _t109 = S::ratio(3.0, 1.0) * _t17;
@@ -3860,9 +4032,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * (S::ratio(2.0, 1.0)
                 * (_t5 * _t66 - _t2 * _t4 + _t16 * (_t109 + _t111) + _t9 * (_t112 - _t29)
                     + _t12 * (_t96 + _t76))) + _t80 * _t77 + _t33 * _t30;
-        let _t118 = (_t117 + _t48 * _t113 + _t86 * _t114
-            + S::ratio(2.0, 1.0) * (_t0 * _t115 + _t16 * (_t57 + _t116))) * self._h0
-            + _u_m14 * self._h4;
+        let _t118 = _u_m14 * self._h4
+            + (_t117 + _t48 * _t113 + _t86 * _t114
+                + S::ratio(2.0, 1.0) * (_t0 * _t115 + _t16 * (_t57 + _t116))) * self._h1;
         let _t119 = _t118 * _u_m14;
         let _t120 = S::ratio(3.0, 1.0) * _t18;
         let _t121 = _t9 * _u_m23;
@@ -3875,9 +4047,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * (S::ratio(2.0, 1.0)
                 * (_t5 * (_t73 + _t75) - _t2 * (_t26 - _t28) + _t0 * (_t120 + _t111)
                     + _t9 * (_t121 - _t123) + _t12 * (_t102 + _t124))) + _t80 * _t125;
-        let _t128 = (_t127 + _t33 * _t126 + _t48 * _t45 + _t86 * _t83
-            + S::ratio(2.0, 1.0) * (_t16 * _t115 + _t0 * (_t58 + _t116))) * self._h0
-            + _u_m23 * self._h5;
+        let _t128 = _u_m23 * self._h5
+            + (_t127 + _t33 * _t126 + _t48 * _t45 + _t86 * _t83
+                + S::ratio(2.0, 1.0) * (_t16 * _t115 + _t0 * (_t58 + _t116))) * self._h1;
         let _t129 = _t128 * _u_m23;
         let _t130 = _t119 + _t129;
         let _t131 = _t108 + _t130;
@@ -3893,9 +4065,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * ((_t0 * (_t112 - _t27) - _t5 * (_t72 + _t23) - _t2 * (_t137 + _t21)
                 - _t12 * (_t99 + _t138) + _t16 * (_t139 - _t122)) * S::ratio(-2.0, 1.0))
             + _t33 * _t31;
-        let _t141 = (_t140 + _t38 * _t36 + _t43 * _t41 + _t48 * _t46
-            + S::ratio(2.0, 1.0) * (_t9 * _t52 + _t2 * (_t90 + _t60))) * self._h0
-            + _u_m34 * self._h6;
+        let _t141 = _u_m34 * self._h6
+            + (_t140 + _t38 * _t36 + _t43 * _t41 + _t48 * _t46
+                + S::ratio(2.0, 1.0) * (_t9 * _t52 + _t2 * (_t90 + _t60))) * self._h1;
         let _t142 = _t141 * _u_m34;
         let _t143 = _t63 + _t142;
         let _t144 = _t143 + _t130;
@@ -3926,7 +4098,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * (_t53 * S::ratio(6.0, 1.0) + _t159 + (_t11 + _t20) * self.system._k54)
             + _t161 * _t34 + _t163 * _t39 + _t165 * _t44 + _t167 * _t49
             + (_t53 * S::ratio(3.0, 1.0) + _t60) * self.system._k55;
-        let _t169 = _t168 * self._h0 + self._h2;
+        let _t169 = _t168 * self._h1 + self._h2;
         let _t170 = S::ratio(2.0, 1.0) * _t63 + _t131;
         let _t171 = _t72 + _t22;
         let _t172 = S::ratio(2.0, 1.0) * _t171 + _t25;
@@ -3939,7 +4111,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t179 = _t5 * _t2 + _t178;
         let _t180 = (self.system._k7 * (self.system._k55 * _t172 + _t176) + _t165 * _t82
             + self.system._k27 * (_t38 + _t163 * _u_m12) + _t179 * self.system._k55)
-            * self._h0;
+            * self._h1;
         let _t181 = _t62 * _u_m13 + _t132;
         let _t182 = _t112 + _t26;
         let _t183 = _t29 - S::ratio(2.0, 1.0) * _t182;
@@ -3949,7 +4121,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t187 = _t0 * _t2 - _t186;
         let _t188 = (self.system._k8 * (-(self.system._k55 * _t183) - _t185)
             + _t167 * _t113 + self.system._k29 * (_t33 + _t161 * _u_m12)
-            - _t187 * self.system._k55) * self._h0;
+            - _t187 * self.system._k55) * self._h1;
         let _t189 = _t62 * _u_m14 + _t133;
         let _t190 = _t123 - S::ratio(2.0, 1.0) * _t139;
         let _t191 = _t16 * _t173;
@@ -3958,7 +4130,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t194 = _t16 * _t2 - _t193;
         let _t195 = (self.system._k9 * (-(self.system._k55 * _t190) - _t192)
             + _t161 * _t126 + self.system._k14 * (_t48 + _t167 * _u_m12)
-            - _t194 * self.system._k55) * self._h0;
+            - _t194 * self.system._k55) * self._h1;
         let _t196 = _u_m13 - _t62 * _u_m23 + _t118 * _u_m34;
         let _t197 = S::ratio(2.0, 1.0) * _t138 + _t100;
         let _t198 = _t12 * _t173;
@@ -3967,7 +4139,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t201 = _t12 * _t2 + _t200;
         let _t202 = (self.system._k10 * (self.system._k55 * _t197 + _t199)
             + _t163 * _t104 + self.system._k16 * (_t43 + _t165 * _u_m12)
-            + _t201 * self.system._k55) * self._h0;
+            + _t201 * self.system._k55) * self._h1;
         let _t203 = _u_m14 - _t62 * _u_m24 - _t94 * _u_m34;
         let _t204 = _t62 * _t94;
         let _t205 = self.system._k8 * _t82;
@@ -3976,7 +4148,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t208 = _t207 + _t207;
         let _t209 = (self.system._k6 * (_t172 * self.system._k56 + _t176) + _t206 * _t44
             + self.system._k27 * (_t38 + _t208 * _u_m13) + _t179 * self.system._k56)
-            * self._h0;
+            * self._h1;
         let _t210 = S::ratio(2.0, 1.0) * _t92;
         let _t211 = self.system._k11 * _t81;
         let _t212 = _t211 + _t211;
@@ -3986,7 +4158,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * (_t210 + _t54 * S::ratio(6.0, 1.0) + (_t67 + _t70) * self.system._k57)
             + _t212 * _t81 + _t208 * _t35 + _t206 * _t82 + _t214 * _t87
             + (_t54 * S::ratio(3.0, 1.0) + _t92) * self.system._k56;
-        let _t216 = _t215 * self._h0 + self._h3;
+        let _t216 = _t215 * self._h1 + self._h3;
         let _t217 = _t96 + _t73;
         let _t218 = S::ratio(2.0, 1.0) * _t217 + _t76;
         let _t219 = _t0 * _t5;
@@ -3997,7 +4169,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t224 = _t219 + _t223;
         let _t225 = (self.system._k8 * (self.system._k56 * _t218 + _t222) + _t214 * _t114
             + self.system._k30 * (_t80 + _t212 * _u_m13) + _t224 * self.system._k56)
-            * self._h0;
+            * self._h1;
         let _t226 = S::ratio(2.0, 1.0) * _t103 + _t124;
         let _t227 = _t16 * _t5;
         let _t228 = _t227 * S::ratio(2.0, 1.0);
@@ -4007,14 +4179,14 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t232 = _t227 + _t231;
         let _t233 = (self.system._k9 * (self.system._k56 * _t226 + _t230) + _t212 * _t125
             + self.system._k24 * (_t86 + _t214 * _u_m13) + _t232 * self.system._k56)
-            * self._h0;
+            * self._h1;
         let _t234 = _t89 * S::ratio(2.0, 1.0);
         let _t235 = _t16 * _u_m23 + _t0 * _u_m14;
         let _t236 = _t9 * _u_m34 + _t2 * _u_m12;
         let _t237 = _t235 + _t236;
         let _t238 = (self.system._k10 * (_t234 + self.system._k56 * _t237) + _t212 * _t78
             + _t208 * _t104 + _t206 * _t40 + _t214 * _t84 + _t89 * self.system._k56)
-            * self._h0;
+            * self._h1;
         let _t239 = _t62 * _t118;
         let _t240 = self.system._k7 * _t113;
         let _t241 = _t240 + _t240;
@@ -4022,32 +4194,32 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t243 = _t242 + _t242;
         let _t244 = (self.system._k6 * (-(_t183 * self.system._k58) - _t185)
             + _t241 * _t49 + self.system._k29 * (_t33 + _t243 * _u_m14)
-            - _t187 * self.system._k58) * self._h0;
+            - _t187 * self.system._k58) * self._h1;
         let _t245 = self.system._k6 * _t114;
         let _t246 = _t245 + _t245;
         let _t247 = self.system._k11 * _t77;
         let _t248 = _t247 + _t247;
         let _t249 = (self.system._k7 * (_t218 * self.system._k58 + _t222) + _t246 * _t87
             + self.system._k30 * (_t80 + _t248 * _u_m14) + _t224 * self.system._k58)
-            * self._h0;
+            * self._h1;
         let _t250 = S::ratio(2.0, 1.0) * _t116;
         let _t251 = self.system._k8
             * (_t250 + _t57 * S::ratio(6.0, 1.0) + (_t109 + _t110) * self.system._k59)
             + _t248 * _t77 + _t243 * _t30 + _t241 * _t113 + _t246 * _t114
             + (_t57 * S::ratio(3.0, 1.0) + _t116) * self.system._k58;
-        let _t252 = _t251 * self._h0 + self._h4;
+        let _t252 = _t251 * self._h1 + self._h4;
         let _t253 = _t115 * S::ratio(2.0, 1.0);
         let _t254 = _t12 * _u_m24 + _t5 * _u_m13;
         let _t255 = _t254 - _t236;
         let _t256 = (self.system._k9 * (_t253 + self.system._k58 * _t255) + _t248 * _t125
             + _t243 * _t126 + _t241 * _t45 + _t246 * _t83 + _t115 * self.system._k58)
-            * self._h0;
+            * self._h1;
         let _t257 = _t103 + S::ratio(2.0, 1.0) * _t124;
         let _t258 = _t231 + _t227 * S::ratio(4.0, 1.0);
         let _t259 = _t229 + _t228;
         let _t260 = (self.system._k10 * (self.system._k58 * _t257 + _t258) + _t248 * _t78
             + self.system._k25 * (_t86 + _t246 * _u_m14) + _t259 * self.system._k58)
-            * self._h0;
+            * self._h1;
         let _t261 = _t62 * _t128;
         let _t262 = self.system._k10 * _t126;
         let _t263 = _t262 + _t262;
@@ -4055,28 +4227,28 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t265 = _t264 + _t264;
         let _t266 = (self.system._k6 * (-(_t190 * self.system._k60) - _t192)
             + _t263 * _t34 + self.system._k14 * (_t48 + _t265 * _u_m23)
-            - _t194 * self.system._k60) * self._h0;
+            - _t194 * self.system._k60) * self._h1;
         let _t267 = self.system._k11 * _t125;
         let _t268 = _t267 + _t267;
         let _t269 = self.system._k6 * _t83;
         let _t270 = _t269 + _t269;
         let _t271 = (self.system._k7 * (_t226 * self.system._k60 + _t230) + _t268 * _t81
             + self.system._k24 * (_t86 + _t270 * _u_m23) + _t232 * self.system._k60)
-            * self._h0;
+            * self._h1;
         let _t272 = (self.system._k8 * (_t253 + _t255 * self.system._k60) + _t268 * _t77
             + _t263 * _t30 + _t265 * _t113 + _t270 * _t114 + _t115 * self.system._k60)
-            * self._h0;
+            * self._h1;
         let _t273 = self.system._k9
             * (_t250 + _t58 * S::ratio(6.0, 1.0) + (_t120 + _t110) * self.system._k61)
             + _t268 * _t125 + _t263 * _t126 + _t265 * _t45 + _t270 * _t83
             + (_t58 * S::ratio(3.0, 1.0) + _t116) * self.system._k60;
-        let _t274 = _t273 * self._h0 + self._h5;
+        let _t274 = _t273 * self._h1 + self._h5;
         let _t275 = _t217 + S::ratio(2.0, 1.0) * _t76;
         let _t276 = _t223 + _t219 * S::ratio(4.0, 1.0);
         let _t277 = _t221 + _t220;
         let _t278 = (self.system._k10 * (self.system._k60 * _t275 + _t276) + _t270 * _t84
             + self.system._k31 * (_t80 + _t268 * _u_m23) + _t277 * self.system._k60)
-            * self._h0;
+            * self._h1;
         let _t279 = _t62 * _t106;
         let _t280 = self.system._k9 * _t104;
         let _t281 = _t280 + _t280;
@@ -4084,25 +4256,25 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t283 = _t282 + _t282;
         let _t284 = (self.system._k6 * (_t197 * self.system._k62 + _t199) + _t281 * _t39
             + self.system._k16 * (_t43 + _t283 * _u_m24) + _t201 * self.system._k62)
-            * self._h0;
+            * self._h1;
         let _t285 = self.system._k11 * _t78;
         let _t286 = _t285 + _t285;
         let _t287 = self.system._k6 * _t84;
         let _t288 = _t287 + _t287;
         let _t289 = (self.system._k7 * (_t234 + _t237 * self.system._k62) + _t286 * _t81
             + _t281 * _t35 + _t283 * _t82 + _t288 * _t87 + _t89 * self.system._k62)
-            * self._h0;
+            * self._h1;
         let _t290 = (self.system._k8 * (_t257 * self.system._k62 + _t258) + _t286 * _t77
             + self.system._k25 * (_t86 + _t288 * _u_m24) + _t259 * self.system._k62)
-            * self._h0;
+            * self._h1;
         let _t291 = (self.system._k9 * (_t275 * self.system._k62 + _t276) + _t288 * _t83
             + self.system._k31 * (_t80 + _t286 * _u_m24) + _t277 * self.system._k62)
-            * self._h0;
+            * self._h1;
         let _t292 = self.system._k10
             * (_t210 + _t55 * S::ratio(6.0, 1.0) + (_t97 + _t70) * self.system._k63)
             + _t286 * _t78 + _t281 * _t104 + _t283 * _t40 + _t288 * _t84
             + (_t55 * S::ratio(3.0, 1.0) + _t92) * self.system._k62;
-        let _t293 = _t292 * self._h0 + self._h1;
+        let _t293 = _t292 * self._h1 + self._h0;
         let _t294 = _t52 * S::ratio(2.0, 1.0);
         let _t295 = _t254 - _t235;
         let _t296 = self.system._k10 * _t31;
@@ -4115,32 +4287,32 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t303 = _t302 + _t302;
         let _t304 = (self.system._k6 * (_t294 + _t295 * self.system._k64) + _t297 * _t34
             + _t299 * _t39 + _t301 * _t44 + _t303 * _t49 + _t52 * self.system._k64)
-            * self._h0;
+            * self._h1;
         let _t305 = _t138 + S::ratio(2.0, 1.0) * _t100;
         let _t306 = _t2 * S::ratio(4.0, 1.0);
         let _t307 = _t200 + _t12 * _t306;
         let _t308 = _t9 * _t5 + _t198;
         let _t309 = (self.system._k7 * (_t305 * self.system._k64 + _t307) + _t299 * _t35
             + self.system._k17 * (_t43 + _t301 * _u_m34) + _t308 * self.system._k64)
-            * self._h0;
+            * self._h1;
         let _t310 = _t139 - S::ratio(2.0, 1.0) * _t123;
         let _t311 = _t193 - _t16 * _t306;
         let _t312 = _t9 * _t0 - _t191;
         let _t313 = (self.system._k8 * (-(_t310 * self.system._k64) - _t311)
             + _t297 * _t30 + self.system._k26 * (_t48 + _t303 * _u_m34)
-            - _t312 * self.system._k64) * self._h0;
+            - _t312 * self.system._k64) * self._h1;
         let _t314 = _t182 - S::ratio(2.0, 1.0) * _t29;
         let _t315 = _t186 - _t0 * _t306;
         let _t316 = _t9 * _t16 - _t184;
         let _t317 = (self.system._k9 * (-(_t314 * self.system._k64) - _t315)
             + _t303 * _t45 + self.system._k21 * (_t33 + _t297 * _u_m34)
-            - _t316 * self.system._k64) * self._h0;
+            - _t316 * self.system._k64) * self._h1;
         let _t318 = _t171 + S::ratio(2.0, 1.0) * _t25;
         let _t319 = _t178 + _t5 * _t306;
         let _t320 = _t9 * _t12 + _t174;
         let _t321 = (self.system._k10 * (_t318 * self.system._k64 + _t319) + _t301 * _t40
             + self.system._k28 * (_t38 + _t299 * _u_m34) + _t320 * self.system._k64)
-            * self._h0;
+            * self._h1;
         let _t322 = _t94 * _t106;
         let _t323 = _t118 * _t128;
         let _t324 = _t322 - _t323;
@@ -4150,21 +4322,21 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t328 = _u_m12 + _t94 * _u_m23 + _t118 * _u_m24;
         let _t329 = (self.system._k11 * (_t294 + _t295 * self.system._k55) + _t161 * _t31
             + _t163 * _t36 + _t165 * _t41 + _t167 * _t46 + _t52 * self.system._k55)
-            * self._h0;
+            * self._h1;
         let _t330 = (self.system._k11 * (_t305 * self.system._k56 + _t307) + _t208 * _t36
             + self.system._k17 * (_t43 + _t206 * _u_m13) + _t308 * self.system._k56)
-            * self._h0;
+            * self._h1;
         let _t331 = _t94 * _t118;
         let _t332 = (self.system._k11 * (-(_t310 * self.system._k58) - _t311)
             + _t243 * _t31 + self.system._k26 * (_t48 + _t241 * _u_m14)
-            - _t312 * self.system._k58) * self._h0;
+            - _t312 * self.system._k58) * self._h1;
         let _t333 = _t94 * _t128;
         let _t334 = (self.system._k11 * (-(_t314 * self.system._k60) - _t315)
             + _t265 * _t46 + self.system._k21 * (_t33 + _t263 * _u_m23)
-            - _t316 * self.system._k60) * self._h0;
+            - _t316 * self.system._k60) * self._h1;
         let _t335 = (self.system._k11 * (_t318 * self.system._k62 + _t319) + _t283 * _t41
             + self.system._k28 * (_t38 + _t281 * _u_m24) + _t320 * self.system._k62)
-            * self._h0;
+            * self._h1;
         let _t336 = _t62 * _t141;
         let _t337 = _t323 + _t336;
         let _t338 = _t94 * _t141;
@@ -4172,7 +4344,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * (_t159 + _t90 * S::ratio(6.0, 1.0) + (_t137 + _t20) * self.system._k65)
             + _t297 * _t31 + _t299 * _t36 + _t301 * _t41 + _t303 * _t46
             + (_t90 * S::ratio(3.0, 1.0) + _t60) * self.system._k64;
-        let _t340 = _t339 * self._h0 + self._h6;
+        let _t340 = _t339 * self._h1 + self._h6;
         let _t341 = _t153 - _t118 * _u_m12;
         let _t342 = _t155 - _t118 * _u_m13;
         let _t343 = S::ratio(2.0, 1.0) * _t119 + _t151;
@@ -4332,8 +4504,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * ((_t0 * _u_m13 * S::ratio(3.0, 1.0) + _t11) * _t12 + _t15 * _t17
                 + _t24 * _t25 + _t28 * _t29) - _u_m14 * _t32 - _u_m12 * _t35
             + _u_m34 * _t38;
-        let _t44 = (_t43 - _u_m23 * _t41 + _t28 * _t17 + (_t42 + _t24) * _t12) * self._h0
-            + _u_m13 * self._h3;
+        let _t44 = _u_m13 * self._h3
+            + (_t43 - _u_m23 * _t41 + _t28 * _t17 + (_t42 + _t24) * _t12) * self._h1;
         let _t45 = _t0 * _t25 + _t16 * _t29;
         let _t46 = _t45 + _t10;
         let _t47 = _t1 * S::ratio(2.0, 1.0);
@@ -4358,8 +4530,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * ((_t1 * _u_m14 * S::ratio(3.0, 1.0) + _t46) * _t47 + _t49 * _t50
                 + _t53 * _t2 + _t55 * _t4) - _u_m13 * _t32 - _u_m12 * _t58
             - _u_m34 * _t61;
-        let _t64 = (_t63 - _u_m24 * _t62 + _t55 * _t50 + (_t21 + _t53) * _t47) * self._h0
-            + _u_m14 * self._h4;
+        let _t64 = _u_m14 * self._h4
+            + (_t63 - _u_m24 * _t62 + _t55 * _t50 + (_t21 + _t53) * _t47) * self._h1;
         let _t65 = self.system._k23 * _t31;
         let _t66 = self.system._k21 * _t57;
         let _t67 = self.system._k14 * _t60;
@@ -4367,16 +4539,16 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * ((_t3 * _u_m23 * S::ratio(3.0, 1.0) + _t46) * _t50 + _t49 * _t47
                 + _t53 * _t4 + _t55 * _t2) - _u_m24 * _t65 + _u_m34 * _t66
             + _u_m12 * _t67;
-        let _t69 = (_t68 - _u_m13 * _t41 + _t55 * _t47 + (_t22 + _t53) * _t50) * self._h0
-            + _u_m23 * self._h5;
+        let _t69 = _u_m23 * self._h5
+            + (_t68 - _u_m13 * _t41 + _t55 * _t47 + (_t22 + _t53) * _t50) * self._h1;
         let _t70 = self.system._k19 * _t34;
         let _t71 = self.system._k16 * _t37;
         let _t72 = self.system._k10
             * ((_t16 * _u_m24 * S::ratio(3.0, 1.0) + _t11) * _t17 + _t15 * _t12
                 + _t24 * _t29 + _t28 * _t25) - _u_m23 * _t65 - _u_m34 * _t70
             + _u_m12 * _t71;
-        let _t73 = (_t72 - _u_m14 * _t62 + _t28 * _t12 + (_t51 + _t24) * _t17) * self._h0
-            + _u_m24 * self._h1;
+        let _t73 = _u_m24 * self._h0
+            + (_t72 - _u_m14 * _t62 + _t28 * _t12 + (_t51 + _t24) * _t17) * self._h1;
         let _t74 = _t45 + _t5;
         let _t75 = _t8 * S::ratio(2.0, 1.0);
         let _t76 = _t48 - _t13;
@@ -4387,20 +4559,28 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * ((_t8 * _u_m12 * S::ratio(3.0, 1.0) + _t74) * _t75 + _t76 * _t77
                 + _t78 * _t9 + _t79 * _t7) - _u_m14 * _t58 - _u_m13 * _t35
             + _u_m24 * _t71;
-        let _t81 = (_t80 + _u_m23 * _t67 + _t79 * _t77 + (_t18 + _t78) * _t75) * self._h0
-            + _u_m12 * self._h2;
+        let _t81 = _u_m12 * self._h2
+            + (_t80 + _u_m23 * _t67 + _t79 * _t77 + (_t18 + _t78) * _t75) * self._h1;
         let _t82 = self.system._k11
             * ((_t6 * _u_m34 * S::ratio(3.0, 1.0) + _t74) * _t77 + _t76 * _t75
                 + _t78 * _t7 + _t79 * _t9) + _u_m23 * _t66 - _u_m24 * _t70
             + _u_m13 * _t38;
-        let _t83 = (_t82 - _u_m14 * _t61 + _t79 * _t75 + (_t19 + _t78) * _t77) * self._h0
-            + _u_m34 * self._h6;
+        let _t83 = _u_m34 * self._h6
+            + (_t82 - _u_m14 * _t61 + _t79 * _t75 + (_t19 + _t78) * _t77) * self._h1;
         mu[0] = m12 - _t44 * _t4 - _t64 * _t29 + _t69 * _t25 + _t73 * _t2;
         mu[1] = m13 + _t81 * _t4 - _t64 * _t7 - _t69 * _t9 + _t83 * _t2;
         mu[2] = m14 + _t81 * _t29 + _t44 * _t7 - _t73 * _t9 - _t83 * _t25;
         mu[3] = m23 - _t81 * _t25 + _t44 * _t9 - _t73 * _t7 + _t83 * _t29;
         mu[4] = m24 - _t81 * _t2 + _t64 * _t9 + _t69 * _t7 - _t83 * _t4;
         mu[5] = m34 - _t44 * _t2 + _t64 * _t25 - _t69 * _t29 + _t73 * _t4;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2, 3, 4, 5], 0 entries of fill-in: 106 multiplications with the solution.
