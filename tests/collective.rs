@@ -5,10 +5,19 @@
 #[macro_use]
 #[path = "common/systems.rs"]
 mod systems;
+#[allow(dead_code)]
+#[path = "common/equations.rs"]
+mod equations;
+#[allow(dead_code)]
+#[path = "common/errors.rs"]
+mod errors;
 #[path = "common/vectors.rs"]
 mod vectors;
 
 use lie_runtime::diagnostics::{order_of_convergence, poisson_defect};
+use lie_runtime::generic::{
+    DiscreteBody, DiscreteTop, MatrixStages, QuaternionStages, Spherical, StageMomenta,
+};
 use lie_runtime::methods::{
     Collective2, Collective4, Collective6, Gauss6, ImplicitMidpoint, Isospectral2, Isospectral4,
     Isospectral6, LieMidpoint, Method, MoserVeselov, Representation, Rk4, SphericalMidpoint,
@@ -532,4 +541,65 @@ fn lanes_have_the_digits_of_scalars() {
     check::<FreeRigidBody, _>(SphericalMidpoint);
     check::<NonpolynomialSpin, _>(Collective4::hopf());
     check::<NonpolynomialSpin, _>(SphericalMidpoint);
+}
+
+/// Generated equations against the generic ones; with a nudge, the same comparisons must fail.
+#[test]
+fn fused_equals_generic() {
+    fn check<D: Declared>(compare: impl Fn(&D::System<f64>, f64) -> errors::Errors) {
+        let system = D::declared::<f64>();
+        let errors = compare(&system, 0.0);
+        let (largest, name) = errors.largest();
+        println!("{}: largest error {largest:.1e} ({name})", D::FILE);
+        assert_eq!(errors.beyond_round_off(), Vec::<&str>::new(), "{}", D::FILE);
+        let nudged = compare(&system, 1e-9);
+        assert_eq!(nudged.beyond_round_off().len(), nudged.names().len());
+    }
+    macro_rules! compare {
+        ($system:ident: $($name:literal, $method:expr, $generic:ty);+ $(;)?) => {
+            check::<$system>(|system, nudge| {
+                let mut errors = errors::Errors::new(nudge);
+                let mut random = systems::Random(2018);
+                for _ in 0..20 {
+                    let mut mu = $system::initial::<f64>();
+                    for entry in mu.as_mut_slice() {
+                        *entry += 0.2 * random.number();
+                    }
+                    $(
+                        let mut fused = Implicit::equation(system, &$method, 0.13);
+                        let mut generic = <$generic>::new(system, 0.13);
+                        equations::equation($name, &mut fused, &mut generic, &mu, &mut random, &mut errors);
+                    )+
+                }
+                errors
+            });
+        };
+    }
+    compare!(Su3Quadratic:
+        "isospectral2", Isospectral2::new(), StageMomenta<_, _, MatrixStages<_, _, 1>, 1>;
+        "isospectral4", Isospectral4::new(), StageMomenta<_, _, MatrixStages<_, _, 2>, 2>;
+        "isospectral6", Isospectral6::new(), StageMomenta<_, _, MatrixStages<_, _, 3>, 3>);
+    compare!(HeavyTop:
+        "isospectral4", Isospectral4::new(), StageMomenta<_, _, MatrixStages<_, _, 2>, 2>);
+    compare!(ManakovTop:
+        "isospectral4", Isospectral4::new(), StageMomenta<_, _, MatrixStages<_, _, 2>, 2>;
+        "moser-veselov", MoserVeselov, DiscreteBody<_, _>);
+    compare!(FreeRigidBody:
+        "isospectral6", Isospectral6::new(), StageMomenta<_, _, MatrixStages<_, _, 3>, 3>;
+        "spherical-midpoint", SphericalMidpoint, Spherical<_, _>;
+        "moser-veselov", MoserVeselov, DiscreteTop<_, _>);
+    compare!(NonpolynomialSpin:
+        "collective2", Collective2::hopf(), StageMomenta<_, _, QuaternionStages<_, 1>, 1>;
+        "collective4", Collective4::hopf(), StageMomenta<_, _, QuaternionStages<_, 2>, 2>;
+        "collective6", Collective6::hopf(), StageMomenta<_, _, QuaternionStages<_, 3>, 3>;
+        "spherical-midpoint", SphericalMidpoint, Spherical<_, _>);
+}
+
+/// Where a spin is 0 its ratio is not 0/0.
+#[test]
+fn a_spin_at_rest_stays_in_fused_code() {
+    let system = NonpolynomialSpin::declared::<f64>();
+    let mut mu = system.zero_state();
+    advance(&system, &SphericalMidpoint, 0.1, 3, &mut mu);
+    assert_eq!(mu, system.zero_state());
 }

@@ -8,7 +8,7 @@ use lie_codegen::golden::Golden;
 use std::path::PathBuf;
 
 /// Every family of methods with fused code; of `lie-midpoint` both retractions where they apply.
-const METHODS: [&str; 12] = [
+const METHODS: [&str; 17] = [
     "midpoint",
     "gauss4",
     "gauss6",
@@ -21,6 +21,11 @@ const METHODS: [&str; 12] = [
     "cohen-hairer2",
     "cohen-hairer4",
     "cohen-hairer6",
+    "collective2",
+    "collective4",
+    "collective6",
+    "spherical-midpoint",
+    "moser-veselov",
 ];
 
 /// Methods whose code is much: for some systems only, in a folder of their own.

@@ -2399,8 +2399,329 @@ for KirchhoffBodySystem<S> {
     }
 }
 
+/// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
+#[derive(Debug)]
+pub struct KirchhoffBodyIsospectral4<'a, S: ::lie_runtime::Scalar>(
+    ::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        KirchhoffBodySystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <KirchhoffBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    >,
+);
+impl<S: ::lie_runtime::Scalar> KirchhoffBodyIsospectral4<'_, S> {
+    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11],
+        below: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11],
+            &[2, 3, 4, 5, 6, 7, 8, 9, 10, 11],
+            &[3, 4, 5, 6, 7, 8, 9, 10, 11],
+            &[4, 5, 6, 7, 8, 9, 10, 11],
+            &[5, 6, 7, 8, 9, 10, 11],
+            &[6, 7, 8, 9, 10, 11],
+            &[7, 8, 9, 10, 11],
+            &[8, 9, 10, 11],
+            &[9, 10, 11],
+            &[10, 11],
+            &[11],
+            &[],
+        ],
+        right: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11],
+            &[2, 3, 4, 5, 6, 7, 8, 9, 10, 11],
+            &[3, 4, 5, 6, 7, 8, 9, 10, 11],
+            &[4, 5, 6, 7, 8, 9, 10, 11],
+            &[5, 6, 7, 8, 9, 10, 11],
+            &[6, 7, 8, 9, 10, 11],
+            &[7, 8, 9, 10, 11],
+            &[8, 9, 10, 11],
+            &[9, 10, 11],
+            &[10, 11],
+            &[11],
+            &[],
+        ],
+    };
+}
+
+impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for KirchhoffBodyIsospectral4<'a, S> {
+    type State = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        KirchhoffBodySystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <KirchhoffBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    > as ::lie_runtime::Equation<S>>::State;
+    type Unknown = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        KirchhoffBodySystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <KirchhoffBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    > as ::lie_runtime::Equation<S>>::Unknown;
+    type Matrix = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        KirchhoffBodySystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <KirchhoffBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    > as ::lie_runtime::Equation<S>>::Matrix;
+    fn zero_unknown(&self) -> Self::Unknown {
+        self.0.zero_unknown()
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        self.0.zero_matrix()
+    }
+
+    fn set_base(&mut self, mu: &Self::State) {
+        self.0.set_base(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        self.0.initial_guess(unknown);
+    }
+
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        self.0.residual(unknown, residual);
+    }
+
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        self.0.linearize(unknown, residual, matrix);
+    }
+
+    /// Elimination in a fixed order, 0 entries of fill-in: 716 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        Self::ELIMINATION.factor(matrix)
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        Self::ELIMINATION.solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
+        self.0.result(unknown, mu);
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<2>>
+for KirchhoffBodySystem<S> {
+    type Equation<'a> = KirchhoffBodyIsospectral4<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Isospectral<2>,
+        h: S,
+    ) -> KirchhoffBodyIsospectral4<'a, S> {
+        KirchhoffBodyIsospectral4(::lie_runtime::generic::StageMomenta::new(self, h))
+    }
+}
+
+::lie_runtime::generic_equations!(
+    @ collective[S : ::lie_runtime::Scalar] KirchhoffBodySystem < S >, S, 2
+);
+/// The collective Gauss method of order 6, elimination specialised to the pattern of the system.
+#[derive(Debug)]
+pub struct KirchhoffBodyIsospectral6<'a, S: ::lie_runtime::Scalar>(
+    ::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        KirchhoffBodySystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <KirchhoffBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    >,
+);
+impl<S: ::lie_runtime::Scalar> KirchhoffBodyIsospectral6<'_, S> {
+    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+        below: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[10, 11, 12, 13, 14, 15, 16, 17],
+            &[11, 12, 13, 14, 15, 16, 17],
+            &[12, 13, 14, 15, 16, 17],
+            &[13, 14, 15, 16, 17],
+            &[14, 15, 16, 17],
+            &[15, 16, 17],
+            &[16, 17],
+            &[17],
+            &[],
+        ],
+        right: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[8, 9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[9, 10, 11, 12, 13, 14, 15, 16, 17],
+            &[10, 11, 12, 13, 14, 15, 16, 17],
+            &[11, 12, 13, 14, 15, 16, 17],
+            &[12, 13, 14, 15, 16, 17],
+            &[13, 14, 15, 16, 17],
+            &[14, 15, 16, 17],
+            &[15, 16, 17],
+            &[16, 17],
+            &[17],
+            &[],
+        ],
+    };
+}
+
+impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for KirchhoffBodyIsospectral6<'a, S> {
+    type State = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        KirchhoffBodySystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <KirchhoffBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    > as ::lie_runtime::Equation<S>>::State;
+    type Unknown = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        KirchhoffBodySystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <KirchhoffBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    > as ::lie_runtime::Equation<S>>::Unknown;
+    type Matrix = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        KirchhoffBodySystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <KirchhoffBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    > as ::lie_runtime::Equation<S>>::Matrix;
+    fn zero_unknown(&self) -> Self::Unknown {
+        self.0.zero_unknown()
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        self.0.zero_matrix()
+    }
+
+    fn set_base(&mut self, mu: &Self::State) {
+        self.0.set_base(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        self.0.initial_guess(unknown);
+    }
+
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        self.0.residual(unknown, residual);
+    }
+
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        self.0.linearize(unknown, residual, matrix);
+    }
+
+    /// Elimination in a fixed order, 0 entries of fill-in: 2262 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        Self::ELIMINATION.factor(matrix)
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        Self::ELIMINATION.solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
+        self.0.result(unknown, mu);
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<3>>
+for KirchhoffBodySystem<S> {
+    type Equation<'a> = KirchhoffBodyIsospectral6<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Isospectral<3>,
+        h: S,
+    ) -> KirchhoffBodyIsospectral6<'a, S> {
+        KirchhoffBodyIsospectral6(::lie_runtime::generic::StageMomenta::new(self, h))
+    }
+}
+
+::lie_runtime::generic_equations!(
+    @ collective[S : ::lie_runtime::Scalar] KirchhoffBodySystem < S >, S, 3
+);
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] KirchhoffBodySystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley,
-    isospectral2_cayley, isospectral4, isospectral6
+    generating6, second_kind, generating2_cayley, generating4_cayley, isospectral2_cayley
 );

@@ -1570,8 +1570,457 @@ for Sl2QuadraticSystem<S> {
     }
 }
 
+/// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
+#[derive(Debug)]
+pub struct Sl2QuadraticIsospectral4<'a, S: ::lie_runtime::Scalar>(
+    ::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Sl2QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    >,
+);
+impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for Sl2QuadraticIsospectral4<'a, S> {
+    type State = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Sl2QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    > as ::lie_runtime::Equation<S>>::State;
+    type Unknown = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Sl2QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    > as ::lie_runtime::Equation<S>>::Unknown;
+    type Matrix = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Sl2QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    > as ::lie_runtime::Equation<S>>::Matrix;
+    fn zero_unknown(&self) -> Self::Unknown {
+        self.0.zero_unknown()
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        self.0.zero_matrix()
+    }
+
+    fn set_base(&mut self, mu: &Self::State) {
+        self.0.set_base(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        self.0.initial_guess(unknown);
+    }
+
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        self.0.residual(unknown, residual);
+    }
+
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        self.0.linearize(unknown, residual, matrix);
+    }
+
+    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        let _a0_0 = matrix.0[0][0][(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix.0[0][0][(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix.0[0][0][(0, 1)];
+        let _a1_1 = matrix.0[0][0][(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix.0[0][0][(0, 2)];
+        let _a1_2 = matrix.0[0][0][(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a0_3 = matrix.0[0][1][(0, 0)];
+        let _a1_3 = matrix.0[0][1][(1, 0)];
+        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
+        let _a0_4 = matrix.0[0][1][(0, 1)];
+        let _a1_4 = matrix.0[0][1][(1, 1)];
+        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
+        let _a0_5 = matrix.0[0][1][(0, 2)];
+        let _a1_5 = matrix.0[0][1][(1, 2)];
+        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
+        let _a2_0 = matrix.0[0][0][(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix.0[0][0][(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix.0[0][0][(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a2_3 = matrix.0[0][1][(2, 0)];
+        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
+        let _a2_4 = matrix.0[0][1][(2, 1)];
+        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
+        let _a2_5 = matrix.0[0][1][(2, 2)];
+        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
+        let _a3_0 = matrix.0[1][0][(0, 0)];
+        let _a3_0 = _a3_0 * _a0_0;
+        let _a3_1 = matrix.0[1][0][(0, 1)];
+        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
+        let _a3_2 = matrix.0[1][0][(0, 2)];
+        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
+        let _a3_3 = matrix.0[1][1][(0, 0)];
+        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
+        let _a3_4 = matrix.0[1][1][(0, 1)];
+        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
+        let _a3_5 = matrix.0[1][1][(0, 2)];
+        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
+        let _a4_0 = matrix.0[1][0][(1, 0)];
+        let _a4_0 = _a4_0 * _a0_0;
+        let _a4_1 = matrix.0[1][0][(1, 1)];
+        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
+        let _a4_2 = matrix.0[1][0][(1, 2)];
+        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
+        let _a4_3 = matrix.0[1][1][(1, 0)];
+        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
+        let _a4_4 = matrix.0[1][1][(1, 1)];
+        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
+        let _a4_5 = matrix.0[1][1][(1, 2)];
+        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
+        let _a5_0 = matrix.0[1][0][(2, 0)];
+        let _a5_0 = _a5_0 * _a0_0;
+        let _a5_1 = matrix.0[1][0][(2, 1)];
+        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
+        let _a5_2 = matrix.0[1][0][(2, 2)];
+        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
+        let _a5_3 = matrix.0[1][1][(2, 0)];
+        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
+        let _a5_4 = matrix.0[1][1][(2, 1)];
+        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
+        let _a5_5 = matrix.0[1][1][(2, 2)];
+        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
+        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
+        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
+        let _a3_1 = _a3_1 * _a1_1;
+        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
+        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
+        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
+        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
+        let _a4_1 = _a4_1 * _a1_1;
+        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
+        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
+        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
+        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
+        let _a5_1 = _a5_1 * _a1_1;
+        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
+        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
+        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
+        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
+        let _a2_2 = S::one() / _a2_2;
+        let _a3_2 = _a3_2 * _a2_2;
+        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
+        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
+        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
+        let _a4_2 = _a4_2 * _a2_2;
+        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
+        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
+        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
+        let _a5_2 = _a5_2 * _a2_2;
+        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
+        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
+        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
+        let _a3_3 = S::one() / _a3_3;
+        let _a4_3 = _a4_3 * _a3_3;
+        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
+        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
+        let _a5_3 = _a5_3 * _a3_3;
+        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
+        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
+        let _a4_4 = S::one() / _a4_4;
+        let _a5_4 = _a5_4 * _a4_4;
+        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
+        let _a5_5 = S::one() / _a5_5;
+        matrix.0[0][0][(0, 0)] = _a0_0;
+        matrix.0[0][0][(1, 0)] = _a1_0;
+        matrix.0[0][0][(1, 1)] = _a1_1;
+        matrix.0[0][0][(1, 2)] = _a1_2;
+        matrix.0[0][1][(1, 0)] = _a1_3;
+        matrix.0[0][1][(1, 1)] = _a1_4;
+        matrix.0[0][1][(1, 2)] = _a1_5;
+        matrix.0[0][0][(2, 0)] = _a2_0;
+        matrix.0[0][0][(2, 1)] = _a2_1;
+        matrix.0[0][0][(2, 2)] = _a2_2;
+        matrix.0[0][1][(2, 0)] = _a2_3;
+        matrix.0[0][1][(2, 1)] = _a2_4;
+        matrix.0[0][1][(2, 2)] = _a2_5;
+        matrix.0[1][0][(0, 0)] = _a3_0;
+        matrix.0[1][0][(0, 1)] = _a3_1;
+        matrix.0[1][0][(0, 2)] = _a3_2;
+        matrix.0[1][1][(0, 0)] = _a3_3;
+        matrix.0[1][1][(0, 1)] = _a3_4;
+        matrix.0[1][1][(0, 2)] = _a3_5;
+        matrix.0[1][0][(1, 0)] = _a4_0;
+        matrix.0[1][0][(1, 1)] = _a4_1;
+        matrix.0[1][0][(1, 2)] = _a4_2;
+        matrix.0[1][1][(1, 0)] = _a4_3;
+        matrix.0[1][1][(1, 1)] = _a4_4;
+        matrix.0[1][1][(1, 2)] = _a4_5;
+        matrix.0[1][0][(2, 0)] = _a5_0;
+        matrix.0[1][0][(2, 1)] = _a5_1;
+        matrix.0[1][0][(2, 2)] = _a5_2;
+        matrix.0[1][1][(2, 0)] = _a5_3;
+        matrix.0[1][1][(2, 1)] = _a5_4;
+        matrix.0[1][1][(2, 2)] = _a5_5;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a0_0
+                .abs()
+                .max(_a1_1.abs())
+                .max(_a2_2.abs())
+                .max(_a3_3.abs())
+                .max(_a4_4.abs())
+                .max(_a5_5.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        let _b0 = residual.0[0][0];
+        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
+        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+            - factors.0[0][0][(2, 1)] * _b1;
+        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 0)] * _b0
+            - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
+        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
+            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
+            - factors.0[1][1][(1, 0)] * _b3;
+        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
+            - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
+            - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
+        let _b5 = _b5 * factors.0[1][1][(2, 2)];
+        let _b4 = (_b4 - factors.0[1][1][(1, 2)] * _b5) * factors.0[1][1][(1, 1)];
+        let _b3 = (_b3 - factors.0[1][1][(0, 1)] * _b4 - factors.0[1][1][(0, 2)] * _b5)
+            * factors.0[1][1][(0, 0)];
+        let _b2 = (_b2 - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][1][(2, 1)] * _b4
+            - factors.0[0][1][(2, 2)] * _b5) * factors.0[0][0][(2, 2)];
+        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][1][(1, 0)] * _b3
+            - factors.0[0][1][(1, 1)] * _b4 - factors.0[0][1][(1, 2)] * _b5)
+            * factors.0[0][0][(1, 1)];
+        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
+            - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
+            - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
+        residual.0[0][0] = _b0;
+        residual.0[0][1] = _b1;
+        residual.0[0][2] = _b2;
+        residual.0[1][0] = _b3;
+        residual.0[1][1] = _b4;
+        residual.0[1][2] = _b5;
+    }
+
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
+        self.0.result(unknown, mu);
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<2>>
+for Sl2QuadraticSystem<S> {
+    type Equation<'a> = Sl2QuadraticIsospectral4<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Isospectral<2>,
+        h: S,
+    ) -> Sl2QuadraticIsospectral4<'a, S> {
+        Sl2QuadraticIsospectral4(::lie_runtime::generic::StageMomenta::new(self, h))
+    }
+}
+
+::lie_runtime::generic_equations!(
+    @ collective[S : ::lie_runtime::Scalar] Sl2QuadraticSystem < S >, S, 2
+);
+/// The collective Gauss method of order 6, elimination specialised to the pattern of the system.
+#[derive(Debug)]
+pub struct Sl2QuadraticIsospectral6<'a, S: ::lie_runtime::Scalar>(
+    ::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Sl2QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    >,
+);
+impl<S: ::lie_runtime::Scalar> Sl2QuadraticIsospectral6<'_, S> {
+    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
+        below: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8],
+            &[2, 3, 4, 5, 6, 7, 8],
+            &[3, 4, 5, 6, 7, 8],
+            &[4, 5, 6, 7, 8],
+            &[5, 6, 7, 8],
+            &[6, 7, 8],
+            &[7, 8],
+            &[8],
+            &[],
+        ],
+        right: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8],
+            &[2, 3, 4, 5, 6, 7, 8],
+            &[3, 4, 5, 6, 7, 8],
+            &[4, 5, 6, 7, 8],
+            &[5, 6, 7, 8],
+            &[6, 7, 8],
+            &[7, 8],
+            &[8],
+            &[],
+        ],
+    };
+}
+
+impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for Sl2QuadraticIsospectral6<'a, S> {
+    type State = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Sl2QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    > as ::lie_runtime::Equation<S>>::State;
+    type Unknown = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Sl2QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    > as ::lie_runtime::Equation<S>>::Unknown;
+    type Matrix = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Sl2QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    > as ::lie_runtime::Equation<S>>::Matrix;
+    fn zero_unknown(&self) -> Self::Unknown {
+        self.0.zero_unknown()
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        self.0.zero_matrix()
+    }
+
+    fn set_base(&mut self, mu: &Self::State) {
+        self.0.set_base(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        self.0.initial_guess(unknown);
+    }
+
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        self.0.residual(unknown, residual);
+    }
+
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        self.0.linearize(unknown, residual, matrix);
+    }
+
+    /// Elimination in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        Self::ELIMINATION.factor(matrix)
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        Self::ELIMINATION.solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
+        self.0.result(unknown, mu);
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<3>>
+for Sl2QuadraticSystem<S> {
+    type Equation<'a> = Sl2QuadraticIsospectral6<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Isospectral<3>,
+        h: S,
+    ) -> Sl2QuadraticIsospectral6<'a, S> {
+        Sl2QuadraticIsospectral6(::lie_runtime::generic::StageMomenta::new(self, h))
+    }
+}
+
+::lie_runtime::generic_equations!(
+    @ collective[S : ::lie_runtime::Scalar] Sl2QuadraticSystem < S >, S, 3
+);
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] Sl2QuadraticSystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley,
-    isospectral2_cayley, isospectral4, isospectral6
+    generating6, second_kind, generating2_cayley, generating4_cayley, isospectral2_cayley
 );

@@ -2742,7 +2742,845 @@ for Su3QuadraticSystem<S> {
     }
 }
 
+/// The collective Gauss method of order 2, elimination specialised to the pattern of the system.
+#[derive(Debug)]
+pub struct Su3QuadraticIsospectral2<'a, S: ::lie_runtime::Scalar>(
+    ::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            1,
+        >,
+        1,
+    >,
+);
+impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for Su3QuadraticIsospectral2<'a, S> {
+    type State = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            1,
+        >,
+        1,
+    > as ::lie_runtime::Equation<S>>::State;
+    type Unknown = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            1,
+        >,
+        1,
+    > as ::lie_runtime::Equation<S>>::Unknown;
+    type Matrix = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            1,
+        >,
+        1,
+    > as ::lie_runtime::Equation<S>>::Matrix;
+    fn zero_unknown(&self) -> Self::Unknown {
+        self.0.zero_unknown()
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        self.0.zero_matrix()
+    }
+
+    fn set_base(&mut self, mu: &Self::State) {
+        self.0.set_base(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        self.0.initial_guess(unknown);
+    }
+
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        self.0.residual(unknown, residual);
+    }
+
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        self.0.linearize(unknown, residual, matrix);
+    }
+
+    /// Elimination in a fixed order, 0 entries of fill-in: 232 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        let _a0_0 = matrix.0[0][0][(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix.0[0][0][(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix.0[0][0][(0, 1)];
+        let _a1_1 = matrix.0[0][0][(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix.0[0][0][(0, 2)];
+        let _a1_2 = matrix.0[0][0][(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a0_3 = matrix.0[0][0][(0, 3)];
+        let _a1_3 = matrix.0[0][0][(1, 3)];
+        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
+        let _a0_4 = matrix.0[0][0][(0, 4)];
+        let _a1_4 = matrix.0[0][0][(1, 4)];
+        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
+        let _a0_5 = matrix.0[0][0][(0, 5)];
+        let _a1_5 = matrix.0[0][0][(1, 5)];
+        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
+        let _a0_6 = matrix.0[0][0][(0, 6)];
+        let _a1_6 = matrix.0[0][0][(1, 6)];
+        let _a1_6 = _a1_6 - _a1_0 * _a0_6;
+        let _a0_7 = matrix.0[0][0][(0, 7)];
+        let _a1_7 = matrix.0[0][0][(1, 7)];
+        let _a1_7 = _a1_7 - _a1_0 * _a0_7;
+        let _a2_0 = matrix.0[0][0][(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix.0[0][0][(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix.0[0][0][(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a2_3 = matrix.0[0][0][(2, 3)];
+        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
+        let _a2_4 = matrix.0[0][0][(2, 4)];
+        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
+        let _a2_5 = matrix.0[0][0][(2, 5)];
+        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
+        let _a2_6 = matrix.0[0][0][(2, 6)];
+        let _a2_6 = _a2_6 - _a2_0 * _a0_6;
+        let _a2_7 = matrix.0[0][0][(2, 7)];
+        let _a2_7 = _a2_7 - _a2_0 * _a0_7;
+        let _a3_0 = matrix.0[0][0][(3, 0)];
+        let _a3_0 = _a3_0 * _a0_0;
+        let _a3_1 = matrix.0[0][0][(3, 1)];
+        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
+        let _a3_2 = matrix.0[0][0][(3, 2)];
+        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
+        let _a3_3 = matrix.0[0][0][(3, 3)];
+        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
+        let _a3_4 = matrix.0[0][0][(3, 4)];
+        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
+        let _a3_5 = matrix.0[0][0][(3, 5)];
+        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
+        let _a3_6 = matrix.0[0][0][(3, 6)];
+        let _a3_6 = _a3_6 - _a3_0 * _a0_6;
+        let _a3_7 = matrix.0[0][0][(3, 7)];
+        let _a3_7 = _a3_7 - _a3_0 * _a0_7;
+        let _a4_0 = matrix.0[0][0][(4, 0)];
+        let _a4_0 = _a4_0 * _a0_0;
+        let _a4_1 = matrix.0[0][0][(4, 1)];
+        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
+        let _a4_2 = matrix.0[0][0][(4, 2)];
+        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
+        let _a4_3 = matrix.0[0][0][(4, 3)];
+        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
+        let _a4_4 = matrix.0[0][0][(4, 4)];
+        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
+        let _a4_5 = matrix.0[0][0][(4, 5)];
+        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
+        let _a4_6 = matrix.0[0][0][(4, 6)];
+        let _a4_6 = _a4_6 - _a4_0 * _a0_6;
+        let _a4_7 = matrix.0[0][0][(4, 7)];
+        let _a4_7 = _a4_7 - _a4_0 * _a0_7;
+        let _a5_0 = matrix.0[0][0][(5, 0)];
+        let _a5_0 = _a5_0 * _a0_0;
+        let _a5_1 = matrix.0[0][0][(5, 1)];
+        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
+        let _a5_2 = matrix.0[0][0][(5, 2)];
+        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
+        let _a5_3 = matrix.0[0][0][(5, 3)];
+        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
+        let _a5_4 = matrix.0[0][0][(5, 4)];
+        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
+        let _a5_5 = matrix.0[0][0][(5, 5)];
+        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
+        let _a5_6 = matrix.0[0][0][(5, 6)];
+        let _a5_6 = _a5_6 - _a5_0 * _a0_6;
+        let _a5_7 = matrix.0[0][0][(5, 7)];
+        let _a5_7 = _a5_7 - _a5_0 * _a0_7;
+        let _a6_0 = matrix.0[0][0][(6, 0)];
+        let _a6_0 = _a6_0 * _a0_0;
+        let _a6_1 = matrix.0[0][0][(6, 1)];
+        let _a6_1 = _a6_1 - _a6_0 * _a0_1;
+        let _a6_2 = matrix.0[0][0][(6, 2)];
+        let _a6_2 = _a6_2 - _a6_0 * _a0_2;
+        let _a6_3 = matrix.0[0][0][(6, 3)];
+        let _a6_3 = _a6_3 - _a6_0 * _a0_3;
+        let _a6_4 = matrix.0[0][0][(6, 4)];
+        let _a6_4 = _a6_4 - _a6_0 * _a0_4;
+        let _a6_5 = matrix.0[0][0][(6, 5)];
+        let _a6_5 = _a6_5 - _a6_0 * _a0_5;
+        let _a6_6 = matrix.0[0][0][(6, 6)];
+        let _a6_6 = _a6_6 - _a6_0 * _a0_6;
+        let _a6_7 = matrix.0[0][0][(6, 7)];
+        let _a6_7 = _a6_7 - _a6_0 * _a0_7;
+        let _a7_0 = matrix.0[0][0][(7, 0)];
+        let _a7_0 = _a7_0 * _a0_0;
+        let _a7_1 = matrix.0[0][0][(7, 1)];
+        let _a7_1 = _a7_1 - _a7_0 * _a0_1;
+        let _a7_2 = matrix.0[0][0][(7, 2)];
+        let _a7_2 = _a7_2 - _a7_0 * _a0_2;
+        let _a7_3 = matrix.0[0][0][(7, 3)];
+        let _a7_3 = _a7_3 - _a7_0 * _a0_3;
+        let _a7_4 = matrix.0[0][0][(7, 4)];
+        let _a7_4 = _a7_4 - _a7_0 * _a0_4;
+        let _a7_5 = matrix.0[0][0][(7, 5)];
+        let _a7_5 = _a7_5 - _a7_0 * _a0_5;
+        let _a7_6 = matrix.0[0][0][(7, 6)];
+        let _a7_6 = _a7_6 - _a7_0 * _a0_6;
+        let _a7_7 = matrix.0[0][0][(7, 7)];
+        let _a7_7 = _a7_7 - _a7_0 * _a0_7;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
+        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
+        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
+        let _a2_6 = _a2_6 - _a2_1 * _a1_6;
+        let _a2_7 = _a2_7 - _a2_1 * _a1_7;
+        let _a3_1 = _a3_1 * _a1_1;
+        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
+        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
+        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
+        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
+        let _a3_6 = _a3_6 - _a3_1 * _a1_6;
+        let _a3_7 = _a3_7 - _a3_1 * _a1_7;
+        let _a4_1 = _a4_1 * _a1_1;
+        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
+        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
+        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
+        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
+        let _a4_6 = _a4_6 - _a4_1 * _a1_6;
+        let _a4_7 = _a4_7 - _a4_1 * _a1_7;
+        let _a5_1 = _a5_1 * _a1_1;
+        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
+        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
+        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
+        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
+        let _a5_6 = _a5_6 - _a5_1 * _a1_6;
+        let _a5_7 = _a5_7 - _a5_1 * _a1_7;
+        let _a6_1 = _a6_1 * _a1_1;
+        let _a6_2 = _a6_2 - _a6_1 * _a1_2;
+        let _a6_3 = _a6_3 - _a6_1 * _a1_3;
+        let _a6_4 = _a6_4 - _a6_1 * _a1_4;
+        let _a6_5 = _a6_5 - _a6_1 * _a1_5;
+        let _a6_6 = _a6_6 - _a6_1 * _a1_6;
+        let _a6_7 = _a6_7 - _a6_1 * _a1_7;
+        let _a7_1 = _a7_1 * _a1_1;
+        let _a7_2 = _a7_2 - _a7_1 * _a1_2;
+        let _a7_3 = _a7_3 - _a7_1 * _a1_3;
+        let _a7_4 = _a7_4 - _a7_1 * _a1_4;
+        let _a7_5 = _a7_5 - _a7_1 * _a1_5;
+        let _a7_6 = _a7_6 - _a7_1 * _a1_6;
+        let _a7_7 = _a7_7 - _a7_1 * _a1_7;
+        let _a2_2 = S::one() / _a2_2;
+        let _a3_2 = _a3_2 * _a2_2;
+        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
+        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
+        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
+        let _a3_6 = _a3_6 - _a3_2 * _a2_6;
+        let _a3_7 = _a3_7 - _a3_2 * _a2_7;
+        let _a4_2 = _a4_2 * _a2_2;
+        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
+        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
+        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
+        let _a4_6 = _a4_6 - _a4_2 * _a2_6;
+        let _a4_7 = _a4_7 - _a4_2 * _a2_7;
+        let _a5_2 = _a5_2 * _a2_2;
+        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
+        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
+        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
+        let _a5_6 = _a5_6 - _a5_2 * _a2_6;
+        let _a5_7 = _a5_7 - _a5_2 * _a2_7;
+        let _a6_2 = _a6_2 * _a2_2;
+        let _a6_3 = _a6_3 - _a6_2 * _a2_3;
+        let _a6_4 = _a6_4 - _a6_2 * _a2_4;
+        let _a6_5 = _a6_5 - _a6_2 * _a2_5;
+        let _a6_6 = _a6_6 - _a6_2 * _a2_6;
+        let _a6_7 = _a6_7 - _a6_2 * _a2_7;
+        let _a7_2 = _a7_2 * _a2_2;
+        let _a7_3 = _a7_3 - _a7_2 * _a2_3;
+        let _a7_4 = _a7_4 - _a7_2 * _a2_4;
+        let _a7_5 = _a7_5 - _a7_2 * _a2_5;
+        let _a7_6 = _a7_6 - _a7_2 * _a2_6;
+        let _a7_7 = _a7_7 - _a7_2 * _a2_7;
+        let _a3_3 = S::one() / _a3_3;
+        let _a4_3 = _a4_3 * _a3_3;
+        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
+        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
+        let _a4_6 = _a4_6 - _a4_3 * _a3_6;
+        let _a4_7 = _a4_7 - _a4_3 * _a3_7;
+        let _a5_3 = _a5_3 * _a3_3;
+        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
+        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
+        let _a5_6 = _a5_6 - _a5_3 * _a3_6;
+        let _a5_7 = _a5_7 - _a5_3 * _a3_7;
+        let _a6_3 = _a6_3 * _a3_3;
+        let _a6_4 = _a6_4 - _a6_3 * _a3_4;
+        let _a6_5 = _a6_5 - _a6_3 * _a3_5;
+        let _a6_6 = _a6_6 - _a6_3 * _a3_6;
+        let _a6_7 = _a6_7 - _a6_3 * _a3_7;
+        let _a7_3 = _a7_3 * _a3_3;
+        let _a7_4 = _a7_4 - _a7_3 * _a3_4;
+        let _a7_5 = _a7_5 - _a7_3 * _a3_5;
+        let _a7_6 = _a7_6 - _a7_3 * _a3_6;
+        let _a7_7 = _a7_7 - _a7_3 * _a3_7;
+        let _a4_4 = S::one() / _a4_4;
+        let _a5_4 = _a5_4 * _a4_4;
+        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
+        let _a5_6 = _a5_6 - _a5_4 * _a4_6;
+        let _a5_7 = _a5_7 - _a5_4 * _a4_7;
+        let _a6_4 = _a6_4 * _a4_4;
+        let _a6_5 = _a6_5 - _a6_4 * _a4_5;
+        let _a6_6 = _a6_6 - _a6_4 * _a4_6;
+        let _a6_7 = _a6_7 - _a6_4 * _a4_7;
+        let _a7_4 = _a7_4 * _a4_4;
+        let _a7_5 = _a7_5 - _a7_4 * _a4_5;
+        let _a7_6 = _a7_6 - _a7_4 * _a4_6;
+        let _a7_7 = _a7_7 - _a7_4 * _a4_7;
+        let _a5_5 = S::one() / _a5_5;
+        let _a6_5 = _a6_5 * _a5_5;
+        let _a6_6 = _a6_6 - _a6_5 * _a5_6;
+        let _a6_7 = _a6_7 - _a6_5 * _a5_7;
+        let _a7_5 = _a7_5 * _a5_5;
+        let _a7_6 = _a7_6 - _a7_5 * _a5_6;
+        let _a7_7 = _a7_7 - _a7_5 * _a5_7;
+        let _a6_6 = S::one() / _a6_6;
+        let _a7_6 = _a7_6 * _a6_6;
+        let _a7_7 = _a7_7 - _a7_6 * _a6_7;
+        let _a7_7 = S::one() / _a7_7;
+        matrix.0[0][0][(0, 0)] = _a0_0;
+        matrix.0[0][0][(1, 0)] = _a1_0;
+        matrix.0[0][0][(1, 1)] = _a1_1;
+        matrix.0[0][0][(1, 2)] = _a1_2;
+        matrix.0[0][0][(1, 3)] = _a1_3;
+        matrix.0[0][0][(1, 4)] = _a1_4;
+        matrix.0[0][0][(1, 5)] = _a1_5;
+        matrix.0[0][0][(1, 6)] = _a1_6;
+        matrix.0[0][0][(1, 7)] = _a1_7;
+        matrix.0[0][0][(2, 0)] = _a2_0;
+        matrix.0[0][0][(2, 1)] = _a2_1;
+        matrix.0[0][0][(2, 2)] = _a2_2;
+        matrix.0[0][0][(2, 3)] = _a2_3;
+        matrix.0[0][0][(2, 4)] = _a2_4;
+        matrix.0[0][0][(2, 5)] = _a2_5;
+        matrix.0[0][0][(2, 6)] = _a2_6;
+        matrix.0[0][0][(2, 7)] = _a2_7;
+        matrix.0[0][0][(3, 0)] = _a3_0;
+        matrix.0[0][0][(3, 1)] = _a3_1;
+        matrix.0[0][0][(3, 2)] = _a3_2;
+        matrix.0[0][0][(3, 3)] = _a3_3;
+        matrix.0[0][0][(3, 4)] = _a3_4;
+        matrix.0[0][0][(3, 5)] = _a3_5;
+        matrix.0[0][0][(3, 6)] = _a3_6;
+        matrix.0[0][0][(3, 7)] = _a3_7;
+        matrix.0[0][0][(4, 0)] = _a4_0;
+        matrix.0[0][0][(4, 1)] = _a4_1;
+        matrix.0[0][0][(4, 2)] = _a4_2;
+        matrix.0[0][0][(4, 3)] = _a4_3;
+        matrix.0[0][0][(4, 4)] = _a4_4;
+        matrix.0[0][0][(4, 5)] = _a4_5;
+        matrix.0[0][0][(4, 6)] = _a4_6;
+        matrix.0[0][0][(4, 7)] = _a4_7;
+        matrix.0[0][0][(5, 0)] = _a5_0;
+        matrix.0[0][0][(5, 1)] = _a5_1;
+        matrix.0[0][0][(5, 2)] = _a5_2;
+        matrix.0[0][0][(5, 3)] = _a5_3;
+        matrix.0[0][0][(5, 4)] = _a5_4;
+        matrix.0[0][0][(5, 5)] = _a5_5;
+        matrix.0[0][0][(5, 6)] = _a5_6;
+        matrix.0[0][0][(5, 7)] = _a5_7;
+        matrix.0[0][0][(6, 0)] = _a6_0;
+        matrix.0[0][0][(6, 1)] = _a6_1;
+        matrix.0[0][0][(6, 2)] = _a6_2;
+        matrix.0[0][0][(6, 3)] = _a6_3;
+        matrix.0[0][0][(6, 4)] = _a6_4;
+        matrix.0[0][0][(6, 5)] = _a6_5;
+        matrix.0[0][0][(6, 6)] = _a6_6;
+        matrix.0[0][0][(6, 7)] = _a6_7;
+        matrix.0[0][0][(7, 0)] = _a7_0;
+        matrix.0[0][0][(7, 1)] = _a7_1;
+        matrix.0[0][0][(7, 2)] = _a7_2;
+        matrix.0[0][0][(7, 3)] = _a7_3;
+        matrix.0[0][0][(7, 4)] = _a7_4;
+        matrix.0[0][0][(7, 5)] = _a7_5;
+        matrix.0[0][0][(7, 6)] = _a7_6;
+        matrix.0[0][0][(7, 7)] = _a7_7;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a0_0
+                .abs()
+                .max(_a1_1.abs())
+                .max(_a2_2.abs())
+                .max(_a3_3.abs())
+                .max(_a4_4.abs())
+                .max(_a5_5.abs())
+                .max(_a6_6.abs())
+                .max(_a7_7.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        let _b0 = residual.0[0][0];
+        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
+        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+            - factors.0[0][0][(2, 1)] * _b1;
+        let _b3 = residual.0[0][3] - factors.0[0][0][(3, 0)] * _b0
+            - factors.0[0][0][(3, 1)] * _b1 - factors.0[0][0][(3, 2)] * _b2;
+        let _b4 = residual.0[0][4] - factors.0[0][0][(4, 0)] * _b0
+            - factors.0[0][0][(4, 1)] * _b1 - factors.0[0][0][(4, 2)] * _b2
+            - factors.0[0][0][(4, 3)] * _b3;
+        let _b5 = residual.0[0][5] - factors.0[0][0][(5, 0)] * _b0
+            - factors.0[0][0][(5, 1)] * _b1 - factors.0[0][0][(5, 2)] * _b2
+            - factors.0[0][0][(5, 3)] * _b3 - factors.0[0][0][(5, 4)] * _b4;
+        let _b6 = residual.0[0][6] - factors.0[0][0][(6, 0)] * _b0
+            - factors.0[0][0][(6, 1)] * _b1 - factors.0[0][0][(6, 2)] * _b2
+            - factors.0[0][0][(6, 3)] * _b3 - factors.0[0][0][(6, 4)] * _b4
+            - factors.0[0][0][(6, 5)] * _b5;
+        let _b7 = residual.0[0][7] - factors.0[0][0][(7, 0)] * _b0
+            - factors.0[0][0][(7, 1)] * _b1 - factors.0[0][0][(7, 2)] * _b2
+            - factors.0[0][0][(7, 3)] * _b3 - factors.0[0][0][(7, 4)] * _b4
+            - factors.0[0][0][(7, 5)] * _b5 - factors.0[0][0][(7, 6)] * _b6;
+        let _b7 = _b7 * factors.0[0][0][(7, 7)];
+        let _b6 = (_b6 - factors.0[0][0][(6, 7)] * _b7) * factors.0[0][0][(6, 6)];
+        let _b5 = (_b5 - factors.0[0][0][(5, 6)] * _b6 - factors.0[0][0][(5, 7)] * _b7)
+            * factors.0[0][0][(5, 5)];
+        let _b4 = (_b4 - factors.0[0][0][(4, 5)] * _b5 - factors.0[0][0][(4, 6)] * _b6
+            - factors.0[0][0][(4, 7)] * _b7) * factors.0[0][0][(4, 4)];
+        let _b3 = (_b3 - factors.0[0][0][(3, 4)] * _b4 - factors.0[0][0][(3, 5)] * _b5
+            - factors.0[0][0][(3, 6)] * _b6 - factors.0[0][0][(3, 7)] * _b7)
+            * factors.0[0][0][(3, 3)];
+        let _b2 = (_b2 - factors.0[0][0][(2, 3)] * _b3 - factors.0[0][0][(2, 4)] * _b4
+            - factors.0[0][0][(2, 5)] * _b5 - factors.0[0][0][(2, 6)] * _b6
+            - factors.0[0][0][(2, 7)] * _b7) * factors.0[0][0][(2, 2)];
+        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][0][(1, 3)] * _b3
+            - factors.0[0][0][(1, 4)] * _b4 - factors.0[0][0][(1, 5)] * _b5
+            - factors.0[0][0][(1, 6)] * _b6 - factors.0[0][0][(1, 7)] * _b7)
+            * factors.0[0][0][(1, 1)];
+        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
+            - factors.0[0][0][(0, 3)] * _b3 - factors.0[0][0][(0, 4)] * _b4
+            - factors.0[0][0][(0, 5)] * _b5 - factors.0[0][0][(0, 6)] * _b6
+            - factors.0[0][0][(0, 7)] * _b7) * factors.0[0][0][(0, 0)];
+        residual.0[0][0] = _b0;
+        residual.0[0][1] = _b1;
+        residual.0[0][2] = _b2;
+        residual.0[0][3] = _b3;
+        residual.0[0][4] = _b4;
+        residual.0[0][5] = _b5;
+        residual.0[0][6] = _b6;
+        residual.0[0][7] = _b7;
+    }
+
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
+        self.0.result(unknown, mu);
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<1>>
+for Su3QuadraticSystem<S> {
+    type Equation<'a> = Su3QuadraticIsospectral2<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Isospectral<1>,
+        h: S,
+    ) -> Su3QuadraticIsospectral2<'a, S> {
+        Su3QuadraticIsospectral2(::lie_runtime::generic::StageMomenta::new(self, h))
+    }
+}
+
+::lie_runtime::generic_equations!(
+    @ collective[S : ::lie_runtime::Scalar] Su3QuadraticSystem < S >, S, 1
+);
+/// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
+#[derive(Debug)]
+pub struct Su3QuadraticIsospectral4<'a, S: ::lie_runtime::Scalar>(
+    ::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    >,
+);
+impl<S: ::lie_runtime::Scalar> Su3QuadraticIsospectral4<'_, S> {
+    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+        below: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[8, 9, 10, 11, 12, 13, 14, 15],
+            &[9, 10, 11, 12, 13, 14, 15],
+            &[10, 11, 12, 13, 14, 15],
+            &[11, 12, 13, 14, 15],
+            &[12, 13, 14, 15],
+            &[13, 14, 15],
+            &[14, 15],
+            &[15],
+            &[],
+        ],
+        right: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[7, 8, 9, 10, 11, 12, 13, 14, 15],
+            &[8, 9, 10, 11, 12, 13, 14, 15],
+            &[9, 10, 11, 12, 13, 14, 15],
+            &[10, 11, 12, 13, 14, 15],
+            &[11, 12, 13, 14, 15],
+            &[12, 13, 14, 15],
+            &[13, 14, 15],
+            &[14, 15],
+            &[15],
+            &[],
+        ],
+    };
+}
+
+impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for Su3QuadraticIsospectral4<'a, S> {
+    type State = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    > as ::lie_runtime::Equation<S>>::State;
+    type Unknown = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    > as ::lie_runtime::Equation<S>>::Unknown;
+    type Matrix = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            2,
+        >,
+        2,
+    > as ::lie_runtime::Equation<S>>::Matrix;
+    fn zero_unknown(&self) -> Self::Unknown {
+        self.0.zero_unknown()
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        self.0.zero_matrix()
+    }
+
+    fn set_base(&mut self, mu: &Self::State) {
+        self.0.set_base(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        self.0.initial_guess(unknown);
+    }
+
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        self.0.residual(unknown, residual);
+    }
+
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        self.0.linearize(unknown, residual, matrix);
+    }
+
+    /// Elimination in a fixed order, 0 entries of fill-in: 1616 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        Self::ELIMINATION.factor(matrix)
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        Self::ELIMINATION.solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
+        self.0.result(unknown, mu);
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<2>>
+for Su3QuadraticSystem<S> {
+    type Equation<'a> = Su3QuadraticIsospectral4<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Isospectral<2>,
+        h: S,
+    ) -> Su3QuadraticIsospectral4<'a, S> {
+        Su3QuadraticIsospectral4(::lie_runtime::generic::StageMomenta::new(self, h))
+    }
+}
+
+::lie_runtime::generic_equations!(
+    @ collective[S : ::lie_runtime::Scalar] Su3QuadraticSystem < S >, S, 2
+);
+/// The collective Gauss method of order 6, elimination specialised to the pattern of the system.
+#[derive(Debug)]
+pub struct Su3QuadraticIsospectral6<'a, S: ::lie_runtime::Scalar>(
+    ::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    >,
+);
+impl<S: ::lie_runtime::Scalar> Su3QuadraticIsospectral6<'_, S> {
+    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+        order: &[
+            0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+            22, 23,
+        ],
+        below: &[
+            &[
+                1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20,
+                21, 22, 23,
+            ],
+            &[
+                2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+                22, 23,
+            ],
+            &[
+                3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22,
+                23,
+            ],
+            &[4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[16, 17, 18, 19, 20, 21, 22, 23],
+            &[17, 18, 19, 20, 21, 22, 23],
+            &[18, 19, 20, 21, 22, 23],
+            &[19, 20, 21, 22, 23],
+            &[20, 21, 22, 23],
+            &[21, 22, 23],
+            &[22, 23],
+            &[23],
+            &[],
+        ],
+        right: &[
+            &[
+                1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20,
+                21, 22, 23,
+            ],
+            &[
+                2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+                22, 23,
+            ],
+            &[
+                3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22,
+                23,
+            ],
+            &[4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[14, 15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[15, 16, 17, 18, 19, 20, 21, 22, 23],
+            &[16, 17, 18, 19, 20, 21, 22, 23],
+            &[17, 18, 19, 20, 21, 22, 23],
+            &[18, 19, 20, 21, 22, 23],
+            &[19, 20, 21, 22, 23],
+            &[20, 21, 22, 23],
+            &[21, 22, 23],
+            &[22, 23],
+            &[23],
+            &[],
+        ],
+    };
+}
+
+impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for Su3QuadraticIsospectral6<'a, S> {
+    type State = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    > as ::lie_runtime::Equation<S>>::State;
+    type Unknown = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    > as ::lie_runtime::Equation<S>>::Unknown;
+    type Matrix = <::lie_runtime::generic::StageMomenta<
+        'a,
+        S,
+        Su3QuadraticSystem<S>,
+        ::lie_runtime::generic::MatrixStages<
+            S,
+            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+            3,
+        >,
+        3,
+    > as ::lie_runtime::Equation<S>>::Matrix;
+    fn zero_unknown(&self) -> Self::Unknown {
+        self.0.zero_unknown()
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        self.0.zero_matrix()
+    }
+
+    fn set_base(&mut self, mu: &Self::State) {
+        self.0.set_base(mu);
+    }
+
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        self.0.initial_guess(unknown);
+    }
+
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        self.0.residual(unknown, residual);
+    }
+
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        self.0.linearize(unknown, residual, matrix);
+    }
+
+    /// Elimination in a fixed order, 0 entries of fill-in: 5176 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        Self::ELIMINATION.factor(matrix)
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        Self::ELIMINATION.solve(factors, residual);
+    }
+
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
+        self.0.result(unknown, mu);
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::Unknown,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        self.0.group_factor(unknown, xi)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<3>>
+for Su3QuadraticSystem<S> {
+    type Equation<'a> = Su3QuadraticIsospectral6<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Isospectral<3>,
+        h: S,
+    ) -> Su3QuadraticIsospectral6<'a, S> {
+        Su3QuadraticIsospectral6(::lie_runtime::generic::StageMomenta::new(self, h))
+    }
+}
+
+::lie_runtime::generic_equations!(
+    @ collective[S : ::lie_runtime::Scalar] Su3QuadraticSystem < S >, S, 3
+);
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] Su3QuadraticSystem < S >, S : generating2, generating4,
-    generating6, second_kind, isospectral2, isospectral4, isospectral6
+    generating6, second_kind
 );

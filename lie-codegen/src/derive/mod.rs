@@ -2,12 +2,14 @@
 
 mod cayley;
 mod coadjoint;
+mod discrete_body;
 mod discrete_gradient;
 mod field;
 mod generating;
 mod kernel;
 mod midpoint;
 mod second_kind;
+mod spherical;
 mod splitting;
 mod tape;
 
@@ -172,6 +174,16 @@ impl Source {
     /// Residual, Jacobian and result of the Poisson midpoint rule.
     pub fn midpoint_kernels(&mut self) -> Vec<Kernel> {
         midpoint::kernels(self)
+    }
+
+    /// Residual and Jacobian of the spherical midpoint method.
+    pub fn spherical_kernels(&mut self) -> Option<Vec<Kernel>> {
+        spherical::kernels(self)
+    }
+
+    /// Residual and Jacobian of the discrete rigid body.
+    pub fn discrete_body_kernels(&mut self) -> Option<Vec<Kernel>> {
+        discrete_body::kernels(self)
     }
 
     /// Residual, Jacobian and result of the retraction method with the Cayley map.

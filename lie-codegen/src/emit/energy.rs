@@ -338,6 +338,7 @@ impl Writer<'_> {
                     guess: quote! { self.h },
                     retraction: None,
                     function: "",
+                    result: None,
                 };
                 shared.tokens.extend(writer.fused(&form, &kernels));
                 return Known::fused(&format_ident!("{}{}", writer.blueprint.name, names.method));

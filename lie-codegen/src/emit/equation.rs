@@ -27,6 +27,8 @@ pub(super) struct Form {
     pub(super) retraction: Option<&'static str>,
     /// The generic function whose gradient at the unknown is the group factor of such a method.
     pub(super) function: &'static str,
+    /// Statements that write the state at the end to `mu`, where no kernel does and it is not `unknown`.
+    pub(super) result: Option<TokenStream>,
 }
 
 impl Writer<'_> {
@@ -127,6 +129,7 @@ impl Writer<'_> {
             guess: quote! { self.h },
             retraction: None,
             function: "",
+            result: None,
         };
         let equation = self.fused(&form, &kernels);
         (equation, format_ident!("{}Midpoint", self.blueprint.name))
@@ -146,6 +149,7 @@ impl Writer<'_> {
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
             retraction: Some("Cayley"),
             function: "Generating2",
+            result: None,
         };
         let equation = self.fused(&form, &kernels);
         let name = format_ident!("{}CayleyMidpoint", self.blueprint.name);
@@ -162,10 +166,14 @@ impl Writer<'_> {
         let n = self.source.dimension;
         let unknown = self.argument("unknown");
         let start = unknown.clone();
+        let ratios = index(2 * self.source.spins.as_ref().map_or(0, Vec::len));
         let place = move |name: &str| match name {
             "mu" => quote! { self.base },
             "inverse" => {
                 quote! { ::lie_runtime::generic::inverse_length(&self.base, #start) }
+            }
+            "ratios" => {
+                quote! { ::lie_runtime::generic::sphere_ratios::<S, _, #ratios>(self.system, &self.base, #start) }
             }
             _ => quote! { #start },
         };
@@ -232,10 +240,12 @@ impl Writer<'_> {
             methods.extend(method);
         }
         if !has_result {
+            let unchanged = quote! { *mu = *unknown; };
+            let body = form.result.as_ref().unwrap_or(&unchanged);
             methods.extend(quote! {
                 #[inline]
                 fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
-                    *mu = *unknown;
+                    #body
                 }
             });
         }

@@ -180,7 +180,7 @@ impl Writer<'_> {
     }
 
     /// The methods of a wrapper around a generic equation with its own elimination.
-    fn specialised(
+    pub(super) fn specialised(
         &mut self,
         label: &str,
         elimination: &Elimination,

@@ -272,6 +272,7 @@ impl Writer<'_> {
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
             retraction: Some("Cayley"),
             function: "CayleyGenerating4",
+            result: None,
         };
         let equation = self.fused(&form, &kernels);
         let name = format_ident!("{}CayleyGenerating4", self.blueprint.name);

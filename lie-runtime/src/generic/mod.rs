@@ -50,6 +50,6 @@ pub use quaternion_stages::QuaternionStages;
 pub use second_kind::SecondKind;
 pub(crate) use series::{Scratch, coadjoint_action_in};
 pub use series::{coadjoint_action, dexp_dual};
-pub use spherical::{Spherical, sphere_ratio};
+pub use spherical::{Spherical, sphere_ratio, sphere_ratios};
 pub use stage_momenta::{StageMap, StageMomenta};
 pub use tableau::{Tableau, gauss_tableau};

@@ -6,6 +6,7 @@ use crate::newton::dense;
 use crate::scalar::Scalar;
 use crate::state::State;
 use crate::structure::SpinPoisson;
+use nalgebra::SVector;
 
 /// `|mu| / |s|` for the momentum mu of a spin and the sum s of its ends, and `1 / s.s`; 1 and 0 where the sum
 /// is zero and mu is, and not a number where only the sum is.
@@ -21,6 +22,23 @@ pub fn sphere_ratio<S: Scalar>(mu: [S; 3], sum: [S; 3]) -> (S, S) {
         S::select(resting, antipodal, ratio),
         S::select(resting, zero, S::one() / divisor),
     )
+}
+
+/// [`sphere_ratio`] of all spins, one after the other; K is twice their number.
+pub fn sphere_ratios<S: Scalar, P: SpinPoisson<S>, const K: usize>(
+    _system: &P,
+    mu: &P::State,
+    unknown: &P::State,
+) -> SVector<S, K> {
+    let (mu, unknown) = (mu.as_slice(), unknown.as_slice());
+    let mut ratios = SVector::<S, K>::repeat(S::zero());
+    for (index, spin) in P::SPINS.iter().enumerate() {
+        let sum = spin.map(|k| mu[k] + unknown[k]);
+        let (ratio, inverse) = sphere_ratio(spin.map(|k| mu[k]), sum);
+        ratios[2 * index] = ratio;
+        ratios[2 * index + 1] = inverse;
+    }
+    ratios
 }
 
 /// The spherical midpoint method for a direct sum of algebras so(3).

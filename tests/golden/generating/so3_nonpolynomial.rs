@@ -3018,5 +3018,6 @@ impl<
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] NonpolynomialSpinSystem < S >, S : midpoint, gauss4,
     gauss6, exp, cayley, discrete_gradients, orbit_energy, cohen_hairer, generating2,
-    generating2_cayley, isospectral2_cayley, isospectral4, isospectral6, hopf, spherical
+    generating2_cayley, isospectral2_cayley, isospectral4, isospectral6, hopf2, hopf4,
+    hopf6, spherical
 );
