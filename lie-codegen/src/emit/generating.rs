@@ -240,6 +240,7 @@ impl Writer<'_> {
             guess: TokenStream::new(),
             retraction: Some("SecondKind"),
             function: "SecondKind2",
+            result: None,
         };
         let equation = self.fused(&form, &kernels);
         let name = format_ident!("{}{}", self.blueprint.name, named.equation);
