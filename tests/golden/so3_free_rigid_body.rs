@@ -3007,14 +3007,6 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h, &field);
-    }
-
     /// `r = u - mu - h f(w)`, `w = rho s`, `s = mu + u`
     ///
     /// 9 additions, 9 multiplications.
@@ -3094,6 +3086,14 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         *mu = *unknown;
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h, &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.
@@ -3222,14 +3222,6 @@ for FreeRigidBodyMoserVeselov<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
-    }
-
     /// `r = q0 u - (h/2) f(u) - mu`, `q0 = sqrt(1 - v.v)`, `v = (c h/2) grad H(u)`
     ///
     /// 9 additions, 15 multiplications, 1 function call.
@@ -3288,6 +3280,14 @@ for FreeRigidBodyMoserVeselov<'_, S> {
         let mut equation = ::lie_runtime::generic::DiscreteTop::new(self.system, self.h);
         ::lie_runtime::Equation::set_base(&mut equation, &self.base);
         ::lie_runtime::Equation::result(&mut equation, unknown, mu);
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.

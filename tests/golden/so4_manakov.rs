@@ -3057,14 +3057,6 @@ for ManakovTopMoserVeselov<'_, S> {
         self.base = *mu;
     }
 
-    #[inline]
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        let mut field = self.base;
-        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
-        *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
-    }
-
     /// `r = U - (1 - X/2) M (1 + X/2)`, `X = h grad H(U)`
     ///
     /// 52 additions, 48 multiplications.
@@ -3190,6 +3182,14 @@ for ManakovTopMoserVeselov<'_, S> {
         );
         ::lie_runtime::Equation::set_base(&mut equation, &self.base);
         ::lie_runtime::Equation::result(&mut equation, unknown, mu);
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2, 3, 4, 5], 4 entries of fill-in: 94 multiplications with the solution.
