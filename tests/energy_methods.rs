@@ -181,11 +181,11 @@ where
     }) + check_steps::<D, _, _>(
         "orbit_energy_gonzalez",
         &OrbitEnergy::gonzalez(),
-        |system, h| Orbit::<_, MidpointGradient<D>>::new(system, h),
+        Orbit::<_, MidpointGradient<D>>::new,
     ) + check_steps::<D, _, _>(
         "orbit_energy_mean_value",
         &OrbitEnergy::mean_value(),
-        |system, h| Orbit::<_, Mean<D>>::new(system, h),
+        Orbit::<_, Mean<D>>::new,
     ) + check_steps::<D, _, _>("cohen_hairer_2", &CohenHairer4::new(), |system, h| {
         generic::CohenHairerStep::<_, _, 2>::new(system, h)
     })
