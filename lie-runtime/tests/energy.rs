@@ -392,6 +392,32 @@ fn lanes_have_the_digits_of_the_scalar_run() {
     each_method!(check);
 }
 
+/// Steps far too long fail with a message, or keep energy and orbit all the same.
+#[test]
+fn no_step_loses_what_is_kept_without_a_message() {
+    let mut failures = 0;
+    for h in [1.4, 3.0, 5.7, 22.8, 1e3] {
+        for seed in 0..20 {
+            let start = BODY.map(|entry| entry * (1.0 + 0.05 * f64::from(seed)));
+            let mut mu = SVector::from(start);
+            let energy = Nonpolynomial.hamiltonian(&mu);
+            let size = mu.norm();
+            let method = OrbitEnergy::gonzalez();
+            let mut stepper = method.stepper(&Nonpolynomial, h, &NewtonOptions::default());
+            for _ in 0..20 {
+                if stepper.step(&mut mu, &mut ()).is_err() {
+                    failures += 1;
+                    break;
+                }
+                let error = (Nonpolynomial.hamiltonian(&mu) - energy).abs();
+                assert!(error < 1e-11, "h = {h}, start {start:?}: {error:e}");
+                assert!((mu.norm() - size).abs() < 1e-12);
+            }
+        }
+    }
+    assert!(failures > 10, "{failures}");
+}
+
 /// In single precision, short and long steps.
 #[test]
 fn single_precision() {

@@ -16,13 +16,16 @@ const MAX_TERMS: usize = 60;
 /// Jacobian leaves e times the last update, which itself is below the root of round-off: 2^-30
 /// costs no iteration.
 const TOLERANCE: f64 = 1.0 / 1_073_741_824.0;
+/// A series whose terms rise beyond that many times the first has lost too many digits.
+const MAX_RISE: f64 = 1_048_576.0;
 
 /// Coadjoint motion along a discrete gradient, for any Lie algebra.
 ///
 /// Unknown: the new state u. Equation: `r(u) = u - exp(ad*_x) mu` with `x = h g(mu, u)` and the discrete
 /// gradient g. New state: `exp(ad*_x) mu`, on the coadjoint orbit of mu to round-off whatever the
 /// error of u. Jacobian: `1 - h Pi(mu1) dexp_(-x) dg/du` with `mu1 = exp(ad*_x) mu` and
-/// `dexp_(-x) = sum_k (-ad_x)^k/(k + 1)!`. Start: `mu + h f(mu)`.
+/// `dexp_(-x) = sum_k (-ad_x)^k/(k + 1)!`; where x is so large that this series has no digits left, 1,
+/// which makes the iteration one of fixed point. Start: `mu + h f(mu)`.
 #[derive(Debug)]
 pub struct OrbitEnergyStep<'a, S: Scalar, P: LiePoisson<S>, G> {
     system: &'a P,
@@ -72,16 +75,19 @@ impl<'a, S: Scalar, P: LiePoisson<S>, G: DiscreteGradient<S, P>> OrbitEnergyStep
         }
     }
 
-    /// Replaces the first column by `dexp_(-x)` of it.
-    fn apply_dexp(&mut self) {
+    /// Replaces the first column by `dexp_(-x)` of it; returns the lanes in which the series has kept
+    /// its digits.
+    fn apply_dexp(&mut self) -> S::Mask {
         let [sum, term, next] = &mut self.columns;
-        let end = sum.max_norm() * S::from_f64(TOLERANCE);
-        if end.less_equal(S::zero()).all() {
-            return;
-        }
+        let size = sum.max_norm();
+        let end = size * S::from_f64(TOLERANCE);
+        let mut active = !end.less_equal(S::zero());
+        let mut peak = size;
         term.copy_from(sum);
-        let mut active = S::Mask::splat(true);
         for index in 1..MAX_TERMS {
+            if !active.any() {
+                break;
+            }
             self.system.ad(&self.direction, term, next);
             let weight = S::ratio(-1.0, (index + 1) as f64);
             let pairs = term.as_mut_slice().iter_mut().zip(next.as_slice());
@@ -89,11 +95,11 @@ impl<'a, S: Scalar, P: LiePoisson<S>, G: DiscreteGradient<S, P>> OrbitEnergyStep
                 *term = weight * next;
                 *sum = S::select(active, *sum + *term, *sum);
             }
-            active = active & end.less(term.max_norm());
-            if !active.any() {
-                return;
-            }
+            let norm = term.max_norm();
+            peak = S::select(active, peak.max(norm), peak);
+            active = active & !norm.less_equal(end);
         }
+        !active & peak.less_equal(size * S::from_f64(MAX_RISE))
     }
 }
 
@@ -139,16 +145,27 @@ where
             *entry *= self.step;
         }
         self.write_residual(unknown, residual);
+        let mut kept = S::Mask::splat(true);
         for column in 0..P::DIM {
             for (row, entry) in self.columns[0].as_mut_slice().iter_mut().enumerate() {
                 *entry = self.step * self.derivative.get(row, column);
             }
-            self.apply_dexp();
+            kept = kept & self.apply_dexp();
             let [along, change, _] = &mut self.columns;
             self.system.ad_star(along, &self.moved, change);
             for (row, &entry) in change.as_slice().iter().enumerate() {
                 let identity = if row == column { S::one() } else { S::zero() };
                 matrix.set(row, column, identity - entry);
+            }
+        }
+        if kept.all() {
+            return;
+        }
+        for row in 0..P::DIM {
+            for column in 0..P::DIM {
+                let identity = if row == column { S::one() } else { S::zero() };
+                let entry = S::select(kept, matrix.get(row, column), identity);
+                matrix.set(row, column, entry);
             }
         }
     }
