@@ -6,7 +6,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Writer;
-use super::elimination::Elimination;
+use super::elimination::{Elimination, UNROLLED};
 use super::equation::Form;
 use super::names::{ident, index};
 use crate::methods::{Choice, Lift};
@@ -27,20 +27,21 @@ impl Writer<'_> {
                 let order = 2 * stages as u32;
                 let asked = self.asked(&Choice::Isospectral(order))
                     || self.asked(&Choice::Collective(order, Lift::Representation));
-                if asked {
-                    tokens.extend(self.fused_stages(stages, Lift::Representation));
-                } else {
-                    generic.push(format_ident!("isospectral{order}"));
+                let fused = asked.then(|| self.fused_stages(stages, Lift::Representation));
+                match fused.flatten() {
+                    Some(equation) => tokens.extend(equation),
+                    None => generic.push(format_ident!("isospectral{order}")),
                 }
             }
         }
         if self.source.spins.is_some() {
             for stages in 1..=3 {
                 let order = 2 * stages as u32;
-                if self.asked(&Choice::Collective(order, Lift::Hopf)) {
-                    tokens.extend(self.fused_stages(stages, Lift::Hopf));
-                } else {
-                    generic.push(format_ident!("hopf{order}"));
+                let asked = self.asked(&Choice::Collective(order, Lift::Hopf));
+                let fused = asked.then(|| self.fused_stages(stages, Lift::Hopf));
+                match fused.flatten() {
+                    Some(equation) => tokens.extend(equation),
+                    None => generic.push(format_ident!("hopf{order}")),
                 }
             }
             if self.asked(&Choice::SphericalMidpoint) {
@@ -111,11 +112,18 @@ impl Writer<'_> {
         Some(quote! { #equation #hook })
     }
 
-    /// A collective method: the generic equation with elimination specialised to the pattern.
-    fn fused_stages(&mut self, stages: usize, lift: Lift) -> TokenStream {
+    /// A collective method: the generic equation with elimination specialised to the pattern, where that
+    /// pays: a long one of a full pattern is cheaper without index lists.
+    fn fused_stages(&mut self, stages: usize, lift: Lift) -> Option<TokenStream> {
         let n = self.source.dimension;
         let (pattern, unit) = self.stage_pattern(stages, lift);
         let elimination = Elimination::new(stages * n, &pattern, &unit);
+        let size = stages * n;
+        let full = size * size * size / 3 + size * size;
+        let multiplications = elimination.multiplications();
+        if multiplications > UNROLLED && 2 * multiplications > full {
+            return None;
+        }
         let (system, count, order) = (self.system_name(), index(stages), 2 * stages);
         let (suffix, label, map, method) = match lift {
             Lift::Representation => (
@@ -171,7 +179,7 @@ impl Writer<'_> {
                 );
             }
         });
-        quote! {
+        Some(quote! {
             #[doc = #doc]
             #[derive(Debug)]
             #visibility struct #name<'a, S: ::lie_runtime::Scalar>(#inner);
@@ -187,7 +195,7 @@ impl Writer<'_> {
 
             #hook
             #collective
-        }
+        })
     }
 
     /// Where `delta_ij - (dM_i/dx_j) h H''(m_j)` can differ from the identity: the columns on which a

@@ -3,7 +3,7 @@
 use super::stage_momenta::StageMap;
 use super::tableau::Tableau;
 use crate::matrix::{SquareMatrix, StageMatrix};
-use crate::newton::dense;
+use crate::newton::inverse_pivots_are_safe;
 use crate::scalar::Scalar;
 use crate::state::{Stages, State};
 use crate::structure::{Entry, MatrixPoisson};
@@ -41,9 +41,9 @@ pub struct MatrixStages<S, M, const STAGES: usize> {
     position: [M; STAGES],
     /// `T_i^T`
     covector: [M; STAGES],
-    /// G
+    /// G, columns first
     forward: StageMatrix<M, STAGES>,
-    /// F
+    /// F, columns first
     backward: StageMatrix<M, STAGES>,
     /// `Q_j W T_i` in block (j, i)
     paired: StageMatrix<M, STAGES>,
@@ -93,23 +93,26 @@ impl<S: Scalar, M: SquareMatrix<S>, const STAGES: usize> MatrixStages<S, M, STAG
                 }
             }
         }
-        dense::factor(&mut self.factors)
+        factor(&mut self.factors)
     }
 
     /// Q, T, and with `derivatives` G and F.
     fn solve(&mut self, skew: bool, derivatives: bool) {
+        let ones = [S::one(); STAGES];
         let mut safe = self.factor(false);
-        solve_unit(&self.factors, &mut self.position);
+        set_units(ones, &mut self.position);
+        solve(&self.factors, &mut self.position);
         if derivatives {
-            solve_weights(&self.factors, &self.tableau.a, &mut self.forward);
+            solve_weights(&self.tableau, &self.factors, &mut self.forward);
         }
         if skew {
             self.covector.clone_from_slice(&self.position);
         } else {
             safe = safe & self.factor(true);
-            solve_unit(&self.factors, &mut self.covector);
+            set_units(ones, &mut self.covector);
+            solve(&self.factors, &mut self.covector);
             if derivatives {
-                solve_weights(&self.factors, &self.tableau.a, &mut self.backward);
+                solve_weights(&self.tableau, &self.factors, &mut self.backward);
             }
         }
         let poison = S::select(safe, S::zero(), S::from_f64(f64::NAN));
@@ -171,7 +174,7 @@ impl<S: Scalar, M: SquareMatrix<S>, const STAGES: usize> MatrixStages<S, M, STAG
 
     /// `dM_i[k]/dx_j[c]`
     fn slope(&self, [i, j]: [usize; 2], c: &[Entry], k: &[Entry], skew: bool) -> S {
-        let (forward, paired) = (&self.forward.0[i][j], &self.paired.0[j][i]);
+        let (forward, paired) = (&self.forward.0[j][i], &self.paired.0[j][i]);
         let mut first = S::zero();
         for left in c {
             let (p, q) = left.place();
@@ -185,7 +188,7 @@ impl<S: Scalar, M: SquareMatrix<S>, const STAGES: usize> MatrixStages<S, M, STAG
         if skew {
             return -(first + first);
         }
-        let (backward, paired) = (&self.backward.0[i][j], &self.paired.0[i][j]);
+        let (backward, paired) = (&self.backward.0[j][i], &self.paired.0[i][j]);
         let mut second = S::zero();
         for left in c {
             let (p, q) = left.place();
@@ -277,80 +280,96 @@ fn multiply<S: Scalar, M: SquareMatrix<S>>(size: usize, a: &M, b: &M, out: &mut 
     }
 }
 
-/// Solves `K X = (1, ..., 1)^T`, one unit matrix per stage, by the factors of K.
-fn solve_unit<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
-    factors: &StageMatrix<M, STAGES>,
-    out: &mut [M; STAGES],
-) {
-    let size = out[0].dimension();
-    for block in out.iter_mut() {
-        for r in 0..size {
-            for c in 0..size {
-                block.set(r, c, if r == c { S::one() } else { S::zero() });
+/// [`dense::factor`](crate::newton::dense::factor) block by block, without an index that is to be divided.
+fn factor<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
+    matrix: &mut StageMatrix<M, STAGES>,
+) -> S::Mask {
+    let size = matrix.0[0][0].dimension();
+    let mut largest = S::zero();
+    for pivot in 0..STAGES {
+        for k in 0..size {
+            let inverse = S::one() / matrix.0[pivot][pivot].get(k, k);
+            largest = largest.max(inverse.abs());
+            matrix.0[pivot][pivot].set(k, k, inverse);
+            for i in pivot..STAGES {
+                for r in if i == pivot { k + 1 } else { 0 }..size {
+                    let multiplier = matrix.0[i][pivot].get(r, k) * inverse;
+                    matrix.0[i][pivot].set(r, k, multiplier);
+                    for j in pivot..STAGES {
+                        for c in if j == pivot { k + 1 } else { 0 }..size {
+                            let product = multiplier * matrix.0[pivot][j].get(k, c);
+                            let entry = matrix.0[i][j].get(r, c) - product;
+                            matrix.0[i][j].set(r, c, entry);
+                        }
+                    }
+                }
             }
         }
     }
-    let rows = STAGES * size;
+    inverse_pivots_are_safe(largest)
+}
+
+/// Solves `K X = B` for a column of blocks in place of B, by the factors of K.
+fn solve<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
+    factors: &StageMatrix<M, STAGES>,
+    blocks: &mut [M; STAGES],
+) {
+    let size = blocks[0].dimension();
     for column in 0..size {
-        for row in 1..rows {
-            let (i, r) = (row / size, row % size);
-            let mut sum = out[i].get(r, column);
-            // the right-hand side is zero above the unit of the first block
-            for k in column..row {
-                sum -=
-                    factors.0[i][k / size].get(r, k % size) * out[k / size].get(k % size, column);
+        for i in 0..STAGES {
+            for r in 0..size {
+                let mut sum = blocks[i].get(r, column);
+                for j in 0..i {
+                    for k in 0..size {
+                        sum -= factors.0[i][j].get(r, k) * blocks[j].get(k, column);
+                    }
+                }
+                for k in 0..r {
+                    sum -= factors.0[i][i].get(r, k) * blocks[i].get(k, column);
+                }
+                blocks[i].set(r, column, sum);
             }
-            out[i].set(r, column, sum);
         }
-        for row in (0..rows).rev() {
-            let (i, r) = (row / size, row % size);
-            let mut sum = out[i].get(r, column);
-            for k in row + 1..rows {
-                sum -=
-                    factors.0[i][k / size].get(r, k % size) * out[k / size].get(k % size, column);
+        for i in (0..STAGES).rev() {
+            for r in (0..size).rev() {
+                let mut sum = blocks[i].get(r, column);
+                for k in r + 1..size {
+                    sum -= factors.0[i][i].get(r, k) * blocks[i].get(k, column);
+                }
+                for j in i + 1..STAGES {
+                    for k in 0..size {
+                        sum -= factors.0[i][j].get(r, k) * blocks[j].get(k, column);
+                    }
+                }
+                blocks[i].set(r, column, sum * factors.0[i][i].get(r, r));
             }
-            out[i].set(r, column, sum * factors.0[i][i].get(r, r));
         }
     }
 }
 
-/// Solves `K X = A`, each weight times the unit matrix, by the factors of K.
-fn solve_weights<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
-    factors: &StageMatrix<M, STAGES>,
-    weights: &[[S; STAGES]; STAGES],
-    out: &mut StageMatrix<M, STAGES>,
+/// Sets each block to a number times the unit matrix.
+fn set_units<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
+    factors: [S; STAGES],
+    blocks: &mut [M; STAGES],
 ) {
-    let size = out.0[0][0].dimension();
-    for (row, weights) in out.0.iter_mut().zip(weights) {
-        for (block, &weight) in row.iter_mut().zip(weights) {
-            for r in 0..size {
-                for c in 0..size {
-                    block.set(r, c, if r == c { weight } else { S::zero() });
-                }
+    for (block, factor) in blocks.iter_mut().zip(factors) {
+        for r in 0..block.dimension() {
+            for c in 0..block.dimension() {
+                block.set(r, c, if r == c { factor } else { S::zero() });
             }
         }
     }
-    let rows = STAGES * size;
-    for stage in 0..STAGES {
-        for column in 0..size {
-            for row in 1..rows {
-                let (i, r) = (row / size, row % size);
-                let mut sum = out.0[i][stage].get(r, column);
-                for k in column..row {
-                    sum -= factors.0[i][k / size].get(r, k % size)
-                        * out.0[k / size][stage].get(k % size, column);
-                }
-                out.0[i][stage].set(r, column, sum);
-            }
-            for row in (0..rows).rev() {
-                let (i, r) = (row / size, row % size);
-                let mut sum = out.0[i][stage].get(r, column);
-                for k in row + 1..rows {
-                    sum -= factors.0[i][k / size].get(r, k % size)
-                        * out.0[k / size][stage].get(k % size, column);
-                }
-                out.0[i][stage].set(r, column, sum * factors.0[i][i].get(r, r));
-            }
-        }
+}
+
+/// Solves `K X = A`, each weight times the unit matrix, by the factors of K; block (j, i) of the result
+/// stands in row i and column j.
+fn solve_weights<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
+    tableau: &Tableau<S, STAGES>,
+    factors: &StageMatrix<M, STAGES>,
+    out: &mut StageMatrix<M, STAGES>,
+) {
+    for (j, column) in out.0.iter_mut().enumerate() {
+        set_units(core::array::from_fn(|i| tableau.a[i][j]), column);
+        solve(factors, column);
     }
 }
