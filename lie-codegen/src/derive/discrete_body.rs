@@ -31,7 +31,7 @@ fn arguments(source: &Source) -> Vec<Argument> {
 }
 
 fn three(source: &mut Source, scale: ExprId, half: &Rational) -> Vec<Kernel> {
-    let mut tape = Tape::new(4 * source.dimension);
+    let mut tape = Tape::new(source, 4 * source.dimension);
     let (start, unknown) = (source.coordinates(), source.block(Block::Unknown));
     let h = source.graph.symbol(Symbol::Step);
     let half_step = source.graph.scale(h, half);
@@ -105,7 +105,7 @@ fn three(source: &mut Source, scale: ExprId, half: &Rational) -> Vec<Kernel> {
 fn many(source: &mut Source, planes: &[(usize, usize)], half: &Rational) -> Vec<Kernel> {
     let n = source.dimension;
     let size = planes.iter().map(|(i, j)| 1 + i.max(j)).max().unwrap_or(0);
-    let mut tape = Tape::new(4 * n);
+    let mut tape = Tape::new(source, 4 * n);
     let (start, unknown) = (source.coordinates(), source.block(Block::Unknown));
     let h = source.graph.symbol(Symbol::Step);
     let half_step = source.graph.scale(h, half);

@@ -75,7 +75,7 @@ fn power_of_step(source: &mut Source, power: i64, denominator: i64) -> ExprId {
 pub(super) fn slope(source: &mut Source, generating: Generating) -> Slope {
     let n = source.dimension;
     // vectors of the algebra, the unknown and the midpoint have symbols of their own
-    let mut tape = Tape::new(4 * n);
+    let mut tape = Tape::new(source, 4 * n);
     let gradient = source.gradient_of_h();
     let mut weighted: Vec<(ExprId, Vec<ExprId>)> = Vec::new();
     let h = source.graph.symbol(Symbol::Step);
@@ -192,20 +192,20 @@ pub struct Function {
     pub pattern: Vec<Vec<bool>>,
 }
 
-/// The largest arena from which a Hessian is written out, nodes and operands together; su(3) with
-/// the function of order 6 takes a third of it.
-const MOST_SCHEDULED: usize = 120_000;
+/// The arena of a function that is written out, nodes and operands together: seconds of scheduling,
+/// not minutes. Order 6 on su(3) takes 40 000.
+const MOST_SCHEDULED: usize = 60_000;
 
 /// Whether what was derived is no good, or too much to be written out.
 pub(super) fn too_large(source: &Source, tape: &Tape) -> bool {
-    tape.is_swollen() || source.graph.size() > MOST_SCHEDULED
+    tape.is_beyond(source, MOST_SCHEDULED)
 }
 
 /// `grad S` and the Hessian of S; `None` where already the gradient swells.
 pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Function> {
     let n = source.dimension;
     let Slope { mut tape, entries } = slope(source, generating);
-    if tape.is_swollen() {
+    if too_large(source, &tape) {
         return None;
     }
     let p = Argument {

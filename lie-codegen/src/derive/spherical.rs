@@ -25,7 +25,7 @@ pub(super) fn kernels(source: &mut Source) -> Option<Vec<Kernel>> {
             symbols: ratios.clone(),
         },
     ];
-    let mut tape = Tape::new(first + 2 * spins.len());
+    let mut tape = Tape::new(source, first + 2 * spins.len());
     let (start, unknown) = (source.coordinates(), source.block(Block::Unknown));
     let h = source.graph.symbol(Symbol::Step);
     let mut sums = Vec::new();

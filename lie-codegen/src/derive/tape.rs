@@ -16,16 +16,18 @@ pub struct Tape {
     definitions: Vec<(Symbol, ExprId)>,
     known: HashMap<ExprId, ExprId>,
     next: usize,
+    start: usize,
     swollen: bool,
 }
 
-/// The largest arena that a list may fill, nodes and operands together.
+/// By how much the arena may grow for a list, nodes and operands together.
 const MOST_DERIVED: usize = 300_000;
 
 impl Tape {
     /// An empty list; `first` is the first symbol that no argument uses.
-    pub fn new(first: usize) -> Self {
+    pub fn new(source: &Source, first: usize) -> Self {
         Self {
+            start: source.graph.size(),
             definitions: Vec::new(),
             known: HashMap::new(),
             next: first,
@@ -33,14 +35,17 @@ impl Tape {
         }
     }
 
-    /// Whether a derivative was too large; the list then is of no use.
-    pub fn is_swollen(&self) -> bool {
-        self.swollen
+    /// Whether a derivative was too large, in which case the list is of no use, or the arena has grown by
+    /// more than so many nodes and operands since the list was begun.
+    pub fn is_beyond(&self, source: &Source, most: usize) -> bool {
+        self.swollen || source.graph.size() - self.start > most
     }
 
     /// The partial derivative of an expression; 0 and a note if it is too large.
     pub fn slope(&mut self, source: &mut Source, value: ExprId, symbol: Symbol) -> ExprId {
-        let slope = source.graph.derivative_within(value, symbol, MOST_DERIVED);
+        let slope = source
+            .graph
+            .derivative_within(value, symbol, self.start + MOST_DERIVED);
         self.swollen |= slope.is_none();
         slope.unwrap_or_else(|| source.graph.integer(0))
     }
@@ -134,6 +139,7 @@ impl Tape {
                 definitions: self.definitions[..count].to_vec(),
                 known: std::mem::take(&mut self.known),
                 next: self.next,
+                start: self.start,
                 swollen: self.swollen,
             };
             let column = direction.tangents(source, values, j);
