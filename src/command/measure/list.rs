@@ -98,7 +98,8 @@ pub fn all(model: &Model) -> Vec<Choice> {
     all
 }
 
-/// The same without the schemes of compositions and splittings that are not the default ones.
+/// The same with the default schemes of compositions and splittings alone, and of the bases of compositions one
+/// for each set of invariants that they keep.
 pub fn fewer(model: &Model) -> Vec<Choice> {
     let scheme = |choice: &Choice| {
         let options = choice.options();
@@ -109,5 +110,19 @@ pub fn fewer(model: &Model) -> Vec<Choice> {
     all.retain(|choice| {
         Choice::from_id(&choice.id()).is_ok_and(|default| scheme(&default) == scheme(choice))
     });
+    let mut bases: Vec<Choice> = Vec::new();
+    for choice in &all {
+        let base = choice.solved();
+        let kept = |choice: &Choice| {
+            choice
+                .entry()
+                .map(|method| (method.explicit, method.preserves))
+        };
+        let known = bases.iter().any(|known| kept(known) == kept(base));
+        if base != choice && !known {
+            bases.push(base.clone());
+        }
+    }
+    all.retain(|choice| choice.solved() == choice || bases.contains(choice.solved()));
     all
 }

@@ -202,5 +202,20 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
         format!("at round-off at once, at most {most} iterations")
     };
     let newton = Finding::at_least("Newton", true, slowest, 2.0, 1.25).note(note);
-    vec![explicit, newton]
+    vec![explicit, newton, residual(system, ground, subject)]
+}
+
+/// Whether the iteration that evaluates residuals alone, after one Jacobian, comes to the same state: the
+/// residual and the one that comes with the Jacobian are separate code.
+fn residual<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
+    let bound = 4.0 * PER_STEP * f64::EPSILON;
+    worst(ground, "residual", true, bound, |h, mu| {
+        let step = |newton: &NewtonOptions| {
+            let mut end = mu.clone();
+            let mut stepper = subject.method.any_stepper(system, h, newton);
+            stepper.step(&mut end).map(|_| end)
+        };
+        let end = step(&NewtonOptions::default())?;
+        Ok(relative_error(&step(&NewtonOptions::simplified())?, &end))
+    })
 }

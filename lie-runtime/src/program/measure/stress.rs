@@ -34,12 +34,13 @@ const PER_STEP: f64 = 16.0;
 const WINDOWS: usize = 10;
 
 type Made<P> = Box<dyn AnyMethod<f64, P>>;
+type SharedBuild<P> = dyn Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync;
 type Make<P> = Box<dyn Fn() -> Made<P> + Send + Sync>;
 
 /// A program that takes methods to their limits.
 pub struct Stress<P: Poisson<f64>> {
     defaults: Vec<f64>,
-    build: Box<dyn Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync>,
+    build: Box<SharedBuild<P>>,
     methods: Vec<(&'static str, Make<P>)>,
 }
 

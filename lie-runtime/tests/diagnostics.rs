@@ -1,0 +1,53 @@
+//! Diagnostics against values that are known.
+
+mod systems;
+
+use lie_runtime::diagnostics::{act_by_exp, integrals, orbit_distance, symmetry_defect};
+use lie_runtime::methods::{LieMidpoint, Rk4};
+use lie_runtime::newton::NewtonOptions;
+use systems::rigid_body::RigidBody;
+
+#[test]
+fn the_distance_from_a_sphere() {
+    let body = RigidBody::<f64>::default();
+    let start = [1.0, 2.0, 2.0].into();
+    // anywhere on the sphere of radius 3, also far away
+    for end in [[2.0, 1.0, 2.0], [0.0, 0.0, 3.0], [-2.0, 2.0, 1.0]] {
+        let distance = orbit_distance(&body, &start, &end.into());
+        assert!(distance < 1e-14, "{end:?}: {distance:e}");
+    }
+    let distance = orbit_distance(&body, &start, &[2.002, 1.001, 2.002].into());
+    assert!((distance - 0.002).abs() < 2e-4, "{distance:e}");
+}
+
+#[test]
+fn a_rotation_by_exp() {
+    let body = RigidBody::<f64>::default();
+    let mut mu = [1.0, 0.0, 0.0].into();
+    // mu' = ad*_xi mu = mu x xi
+    act_by_exp(&body, &[0.0, 0.0, 2.0].into(), &mut mu);
+    let expected = [2.0_f64.cos(), -(2.0_f64.sin()), 0.0];
+    for (value, expected) in mu.iter().zip(expected) {
+        assert!((value - expected).abs() < 1e-14, "{mu:?}");
+    }
+}
+
+#[test]
+fn the_integrals_of_the_rigid_body() {
+    let body = RigidBody::<f64>::default();
+    let states = [[0.9, 0.3, 0.4].into()];
+    assert!(integrals(&body, &states, false).is_empty());
+    // the energy and the Casimir
+    assert_eq!(integrals(&body, &states, true).len(), 2);
+}
+
+#[test]
+fn symmetric_or_not() {
+    let body = RigidBody::<f64>::default();
+    let mu = [0.9, 0.3, 0.4].into();
+    let newton = NewtonOptions::default();
+    let defect = symmetry_defect(&body, &LieMidpoint::exp(), 0.2, &mu, &newton);
+    assert!(defect.expect("a step") < 1e-15);
+    let defect = symmetry_defect(&body, &Rk4, 0.2, &mu, &newton);
+    assert!(defect.expect("a step") > 1e-9);
+}
