@@ -217,9 +217,10 @@ impl Writer<'_> {
         let mut places = BTreeSet::new();
         for row in 0..n {
             for column in 0..n {
-                let depends = (0..n).any(|through| {
-                    moves(row, through) && !self.source.graph.is_zero(hessian[through][column])
-                });
+                let graph = &self.source.graph;
+                let mut slopes = hessian.iter().map(|slopes| slopes[column]).enumerate();
+                let depends =
+                    slopes.any(|(through, slope)| moves(row, through) && !graph.is_zero(slope));
                 if depends {
                     places.insert((row, column));
                 }

@@ -25,9 +25,13 @@ impl Writer<'_> {
         let dual = representation.dual.as_ref()?;
         let system = self.system_name();
         let size = index(representation.dimension);
-        let skew = representation.matrices.iter().chain(dual).all(is_skew);
-        let matrices = representation.matrices.iter().map(entries);
-        let dual = dual.iter().map(entries);
+        let skew = representation
+            .matrices
+            .iter()
+            .chain(dual)
+            .all(|matrix| is_skew(matrix));
+        let matrices = representation.matrices.iter().map(|matrix| entries(matrix));
+        let dual = dual.iter().map(|matrix| entries(matrix));
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for #system<S> {
                 type Matrix = ::lie_runtime::__private::SMatrix<S, #size, #size>;
@@ -126,7 +130,7 @@ impl Writer<'_> {
     }
 }
 
-fn is_skew(matrix: &Vec<Vec<Rational>>) -> bool {
+fn is_skew(matrix: &[Vec<Rational>]) -> bool {
     matrix.iter().enumerate().all(|(i, row)| {
         row.iter()
             .enumerate()
@@ -135,7 +139,7 @@ fn is_skew(matrix: &Vec<Vec<Rational>>) -> bool {
 }
 
 /// The nonzero entries of a matrix.
-fn entries(matrix: &Vec<Vec<Rational>>) -> TokenStream {
+fn entries(matrix: &[Vec<Rational>]) -> TokenStream {
     let mut tokens = Vec::new();
     for (i, row) in matrix.iter().enumerate() {
         for (j, entry) in row.iter().enumerate().filter(|(_, v)| !v.is_zero()) {

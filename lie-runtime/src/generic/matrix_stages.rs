@@ -281,7 +281,7 @@ fn multiply<S: Scalar, M: SquareMatrix<S>>(size: usize, a: &M, b: &M, out: &mut 
 }
 
 /// [`dense::factor`](crate::newton::dense::factor) block by block, without an index that is to be divided.
-fn factor<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
+pub(super) fn factor<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
     matrix: &mut StageMatrix<M, STAGES>,
 ) -> S::Mask {
     let size = matrix.0[0][0].dimension();
@@ -319,9 +319,9 @@ fn solve<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
         for i in 0..STAGES {
             for r in 0..size {
                 let mut sum = blocks[i].get(r, column);
-                for j in 0..i {
+                for (factor, block) in factors.0[i].iter().zip(&*blocks).take(i) {
                     for k in 0..size {
-                        sum -= factors.0[i][j].get(r, k) * blocks[j].get(k, column);
+                        sum -= factor.get(r, k) * block.get(k, column);
                     }
                 }
                 for k in 0..r {
@@ -336,9 +336,9 @@ fn solve<S: Scalar, M: SquareMatrix<S>, const STAGES: usize>(
                 for k in r + 1..size {
                     sum -= factors.0[i][i].get(r, k) * blocks[i].get(k, column);
                 }
-                for j in i + 1..STAGES {
+                for (factor, block) in factors.0[i].iter().zip(&*blocks).skip(i + 1) {
                     for k in 0..size {
-                        sum -= factors.0[i][j].get(r, k) * blocks[j].get(k, column);
+                        sum -= factor.get(r, k) * block.get(k, column);
                     }
                 }
                 blocks[i].set(r, column, sum * factors.0[i][i].get(r, r));

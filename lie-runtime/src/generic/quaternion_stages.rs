@@ -89,15 +89,16 @@ impl<S: Scalar, const STAGES: usize> QuaternionStages<S, STAGES> {
         self.forward = self.tableau.a.map(|row| row.map(real));
         for k in 0..STAGES {
             let pivot = inverse(matrix[k][k]);
-            for j in k + 1..STAGES {
-                matrix[k][j] = product(pivot, matrix[k][j]);
+            for entry in matrix[k].iter_mut().skip(k + 1) {
+                *entry = product(pivot, *entry);
             }
+            let above = matrix[k];
             self.position[k] = product(pivot, self.position[k]);
             self.forward[k] = self.forward[k].map(|entry| product(pivot, entry));
             for i in (0..STAGES).filter(|&i| i != k) {
                 let multiplier = matrix[i][k];
-                for j in k + 1..STAGES {
-                    matrix[i][j] = minus_product(matrix[i][j], multiplier, matrix[k][j]);
+                for (entry, above) in matrix[i].iter_mut().zip(above).skip(k + 1) {
+                    *entry = minus_product(*entry, multiplier, above);
                 }
                 self.position[i] = minus_product(self.position[i], multiplier, self.position[k]);
                 for j in 0..STAGES {

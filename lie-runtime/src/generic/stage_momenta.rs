@@ -1,5 +1,6 @@
 //! The equation of collective symplectic Runge–Kutta methods in the momenta of their stages.
 
+use super::matrix_stages::factor;
 use super::tableau::{Tableau, gauss_tableau};
 use crate::equation::Equation;
 use crate::matrix::{SquareMatrix, StageMatrix};
@@ -198,7 +199,7 @@ where
     }
 
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        dense::factor(matrix)
+        factor(matrix)
     }
 
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
