@@ -249,17 +249,33 @@ fn family(label: &str) -> String {
     id.chars().filter(|c| !c.is_ascii_digit()).collect()
 }
 
+/// What a method keeps, in a few words; compositions keep what their base keeps.
+fn class(choice: Option<&Choice>) -> String {
+    let Some(method) = choice.and_then(|choice| choice.solved().entry()) else {
+        return "controls".to_owned();
+    };
+    let kept = method.preserves;
+    let words = match (kept.poisson, kept.orbit, kept.energy) {
+        (true, _, true) => "Poisson and energy",
+        (true, _, false) if method.explicit => "Poisson, explicit",
+        (true, _, false) => "Poisson",
+        (false, true, true) => "orbit and energy",
+        (false, true, false) => "orbit",
+        (false, false, true) => "energy, quadratic Casimirs",
+        (false, false, false) if kept.quadratic_invariants => "quadratic invariants",
+        _ => "controls",
+    };
+    words.to_owned()
+}
+
 fn picture(bed: &Bed, until: f64, points: &[Point], reference: [f64; 2]) -> String {
     let curves = by_method(points).into_iter().map(|(method, points)| {
         let choice = bed.choices.iter().find(|choice| choice.label() == method);
-        let control = choice.is_none_or(|choice| matches!(choice, Choice::Rk4 | Choice::Dopri5));
+        let control = class(choice) == "controls";
         Curve {
             name: choice.map_or(method.to_owned(), Choice::title),
-            family: if control {
-                "control".to_owned()
-            } else {
-                family(method)
-            },
+            class: class(choice),
+            family: family(method),
             order: choice
                 .and_then(Choice::entry)
                 .map_or(if method.ends_with("853") { 8 } else { 5 }, |m| m.order),
@@ -270,7 +286,8 @@ fn picture(bed: &Bed, until: f64, points: &[Point], reference: [f64; 2]) -> Stri
     Frontier {
         title: format!("{}: error against run time", bed.spec.model.name),
         subtitle: format!(
-            "relative error of the state at t = {until} over run time per unit of time, one core"
+            "relative error at t = {until} against run time per unit of time; bold: fastest in the panel at some error; band: \
+             fastest of the catalogue"
         ),
         floor: reference[0].max(reference[1]),
         curves: curves.collect(),
