@@ -68,7 +68,11 @@ impl<P: Poisson<f64>> Ground<P> {
         let states = states(system, initial, seed)?;
         let rate = states.iter().map(|mu| rate(system, mu)).fold(0.0, f64::max);
         if rate <= 0.0 || !rate.is_finite() {
-            return Err("the Jacobian of the vector field is zero or not finite".to_owned());
+            return Err(
+                "the vector field does not change with the state (its Jacobian is zero or not \
+                 finite), and every method makes the same step"
+                    .to_owned(),
+            );
         }
         let step = step.unwrap_or(0.3 / rate);
         let first = Exact::new(system, &states, SPANS[0] * step)
@@ -84,8 +88,11 @@ impl<P: Poisson<f64>> Ground<P> {
             let longer = Exact::new(system, &states, span * step);
             exact.extend(longer.filter(|longer| longer.error <= RELIABLE));
         }
-        let linear = integrals(system, &states, false);
-        let quadratic = integrals(system, &states, true);
+        let kept = |integral: &Integral| holds(integral, &states, &exact);
+        let mut linear = integrals(system, &states, false);
+        linear.retain(kept);
+        let mut quadratic = integrals(system, &states, true);
+        quadratic.retain(kept);
         let structure = structure(system, &states[states.len() - 1]);
         Ok(Self {
             states,
@@ -98,11 +105,28 @@ impl<P: Poisson<f64>> Ground<P> {
     }
 }
 
+/// Whether a first integral that was found near the states holds along the solutions, which may lead
+/// far away: round-off in its coefficients counts there.
+fn holds<V: State<f64>>(integral: &Integral, states: &[V], exact: &[Exact<V>]) -> bool {
+    exact.iter().all(|exact| {
+        states.iter().zip(&exact.ends).all(|(mu, end)| {
+            let (mu, end) = (mu.as_slice(), end.as_slice());
+            let change = (integral.value(end) - integral.value(mu)).abs();
+            change <= (100.0 * exact.error).max(1e-13) * integral.size(mu)
+        })
+    })
+}
+
 fn states<P: Poisson<f64>>(
     system: &P,
     initial: &P::State,
     seed: u64,
 ) -> Result<Vec<P::State>, String> {
+    // nothing moves at the origin of g*, and nothing is relative to it
+    let mut other = initial.clone();
+    other.fill(1.0);
+    let at_origin = initial.max_norm() <= 0.0;
+    let initial = if at_origin { &other } else { initial };
     if !usable(system, initial) {
         return Err("H or the vector field is not finite at the initial state".to_owned());
     }

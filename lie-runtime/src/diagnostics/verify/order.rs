@@ -17,6 +17,8 @@ const STEPS: [u64; 31] = [
 const POINTS: usize = 9;
 /// As few may do, where the next step is at round-off already.
 const LEAST: usize = 4;
+/// An error that is below this at the largest steps is at round-off before an order shows.
+const NEGLIGIBLE: f64 = 1e-9;
 /// How much smaller than the order a slope may be at the end of the ladder.
 const SLACK: f64 = 0.3;
 
@@ -28,6 +30,7 @@ pub(super) fn finding<P: Lift<f64>>(
     let order = subject.method.claims().order;
     let (bound, claim) = (f64::from(order) - SLACK, f64::from(order));
     let mut exact_everywhere = true;
+    let mut largest = f64::NAN;
     let mut best: Vec<(f64, f64)> = Vec::new();
     for exact in &ground.exact {
         let floor = (20.0 * exact.error).max(100.0 * f64::EPSILON);
@@ -37,6 +40,9 @@ pub(super) fn finding<P: Lift<f64>>(
         };
         let above: Vec<(f64, f64)> = measured.iter().filter(|p| p.1 > floor).copied().collect();
         exact_everywhere &= measured.len() >= 3 && above.is_empty();
+        for (_, error) in &measured {
+            largest = largest.max(*error);
+        }
         if above.len() > best.len() {
             best = above;
         }
@@ -47,6 +53,11 @@ pub(super) fn finding<P: Lift<f64>>(
     if exact_everywhere {
         return Finding::at_least("order", true, f64::INFINITY, claim, bound)
             .note("exact to round-off".to_owned());
+    }
+    if best.len() < LEAST && largest < NEGLIGIBLE {
+        return Finding::at_least("order", true, f64::INFINITY, claim, bound).note(format!(
+            "at round-off from the largest step on, {largest:.1e}"
+        ));
     }
     if best.len() < LEAST {
         return Finding::at_least("order", true, f64::NAN, claim, bound)
@@ -142,6 +153,9 @@ pub(crate) fn relative_error<V: State<f64>>(state: &V, exact: &V) -> f64 {
         let d = (a - b).abs();
         if d.is_nan() { d } else { f64::max(m, d) }
     });
+    if largest == 0.0 {
+        return 0.0;
+    }
     largest / exact.max_norm()
 }
 
