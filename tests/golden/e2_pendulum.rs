@@ -1587,6 +1587,7 @@ for PendulumSystem<S> {
 
 /// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct PendulumIsospectral4<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,
@@ -1760,6 +1761,7 @@ for PendulumSystem<S> {
 );
 /// The collective Gauss method of order 6, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct PendulumIsospectral6<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,

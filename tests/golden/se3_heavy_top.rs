@@ -2190,6 +2190,7 @@ for HeavyTopSystem<S> {
 
 /// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct HeavyTopIsospectral4<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,
@@ -2551,6 +2552,7 @@ for HeavyTopSystem<S> {
 );
 /// The collective Gauss method of order 6, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct HeavyTopIsospectral6<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,

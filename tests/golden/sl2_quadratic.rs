@@ -1572,6 +1572,7 @@ for Sl2QuadraticSystem<S> {
 
 /// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct Sl2QuadraticIsospectral4<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,

@@ -1948,6 +1948,7 @@ for FreeRigidBodySystem<S> {
 
 /// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct FreeRigidBodyIsospectral4<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,
@@ -2249,6 +2250,7 @@ for FreeRigidBodySystem<S> {
 );
 /// The collective Gauss method of order 2, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct FreeRigidBodyHopf2<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,
@@ -2392,6 +2394,7 @@ impl<
 
 /// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct FreeRigidBodyHopf4<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,

@@ -1989,6 +1989,7 @@ for NonpolynomialSpinSystem<S> {
 
 /// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct NonpolynomialSpinIsospectral4<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,
@@ -2290,6 +2291,7 @@ for NonpolynomialSpinSystem<S> {
 );
 /// The collective Gauss method of order 2, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct NonpolynomialSpinHopf2<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,
@@ -2433,6 +2435,7 @@ impl<
 
 /// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct NonpolynomialSpinHopf4<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,

@@ -2744,6 +2744,7 @@ for Su3QuadraticSystem<S> {
 
 /// The collective Gauss method of order 2, elimination specialised to the pattern of the system.
 #[derive(Debug)]
+#[allow(clippy::type_complexity)]
 pub struct Su3QuadraticIsospectral2<'a, S: ::lie_runtime::Scalar>(
     ::lie_runtime::generic::StageMomenta<
         'a,

@@ -182,6 +182,7 @@ impl Writer<'_> {
         Some(quote! {
             #[doc = #doc]
             #[derive(Debug)]
+            #[allow(clippy::type_complexity)]
             #visibility struct #name<'a, S: ::lie_runtime::Scalar>(#inner);
 
             #table
