@@ -2,6 +2,9 @@
 //! the systems of `specs/`: single steps against reference values, orders, what is kept over long
 //! runs, the Poisson structure, lanes; each beside a control that must fail the same assertion.
 
+// reference values have more digits than a double
+#![allow(clippy::excessive_precision)]
+
 #[macro_use]
 #[path = "common/systems.rs"]
 mod systems;
