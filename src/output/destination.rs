@@ -8,6 +8,9 @@ use std::time::{Duration, Instant};
 /// The first bytes of a growing file are brought up to date this often.
 const PATCH: Duration = Duration::from_millis(200);
 
+/// The smallest size of a page, and what a pipe takes at once.
+const PAGE: usize = 4096;
+
 /// Where rows go.
 pub struct Destination {
     to: To,
@@ -89,6 +92,11 @@ impl Destination {
             self.spool = Some(tempfile::tempfile()?);
         }
         Ok(())
+    }
+
+    /// Bytes until the next page of the file begins.
+    pub(super) fn room_in_page(&self) -> usize {
+        PAGE - (self.good % PAGE as u64) as usize
     }
 
     pub(super) fn send(&mut self, bytes: &[u8]) -> io::Result<()> {

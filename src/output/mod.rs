@@ -15,8 +15,10 @@ use crate::command::args::Format;
 
 /// The rows of one run on their way out.
 ///
-/// Every batch leaves with one call of the system and ends with a whole row, so that a kill at
-/// any moment leaves a file of whole rows; where the disk is full, the file is cut back to them.
+/// A kill interrupts a call of the system between two pages of a file. So every call writes whole
+/// rows within one page; the row across the end of a page goes alone, and only a kill in the
+/// nanoseconds between its two parts leaves a part of it. Where the disk is full, the file is cut
+/// back to whole rows.
 pub struct Rows {
     destination: Destination,
     form: Box<dyn Form>,
@@ -56,7 +58,12 @@ impl Rows {
     /// The destination cannot be written; the rows before these are kept.
     pub fn push(&mut self, numbers: &[f64]) -> io::Result<()> {
         for row in numbers.chunks_exact(self.width) {
+            let whole = self.buffer.len();
             self.form.row(row, &mut self.buffer);
+            if whole > 0 && self.destination.room_in_page() < self.buffer.len() {
+                self.destination.send(&self.buffer[..whole])?;
+                self.buffer.drain(..whole);
+            }
             self.count += 1;
         }
         self.send()?;
