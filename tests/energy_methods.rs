@@ -22,8 +22,8 @@ use lie_runtime::generic::{
     OrbitEnergyStep,
 };
 use lie_runtime::methods::{
-    CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6, Gonzalez, ImplicitMidpoint,
-    ImplicitStepper, ItohAbe, MeanValue, Method, OrbitEnergy, Rk4, Stepper,
+    CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6, Gonzalez, ImplicitStepper, ItohAbe,
+    MeanValue, Method, OrbitEnergy, Rk4, Stepper,
 };
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
@@ -213,7 +213,7 @@ where
     let degrees = <D::System<f64> as Poisson<f64>>::CASIMIR_DEGREES;
     macro_rules! check {
         ($method:expr, $orbit:expr) => {
-            let drift = drift::<D>($method, 0.05, 5000);
+            let drift = drift::<D>($method, 0.05, 1000);
             assert!(drift.energy.max < BOUND, "{}: {:?}", D::FILE, drift.energy);
             for (index, casimir) in drift.casimirs.iter().enumerate() {
                 let quadratic = degrees
@@ -234,7 +234,7 @@ where
     check!(OrbitEnergy::itoh_abe(), true);
     check!(CohenHairer4::new(), false);
     check!(CohenHairer6::new(), false);
-    assert!(drift::<D>(Rk4, 0.05, 5000).energy.max > 100.0 * BOUND);
+    assert!(drift::<D>(Rk4, 0.05, 1000).energy.max > 100.0 * BOUND);
 }
 
 /// Steps in lanes from eight states against steps of each alone, to the bit.
@@ -344,30 +344,4 @@ fn every_comparison_notices_another_state() {
         noticed.sort_unstable();
         assert_eq!(noticed, errors.names());
     }
-}
-
-/// On su(3) one Casimir is cubic: orbits keep it, the midpoint rule does not, nor do discrete gradients.
-#[test]
-fn orbits_keep_the_cubic_casimir_of_su3() {
-    const STEPS: u32 = 100_000;
-    let relative = |drift: &Drift| -> Vec<f64> {
-        let values = drift.casimirs.iter().chain([&drift.energy]);
-        values
-            .map(|invariant| invariant.relative().expect("not zero"))
-            .collect()
-    };
-    for kept in [
-        relative(&drift::<Su3Quadratic>(OrbitEnergy::gonzalez(), 0.1, STEPS)),
-        relative(&drift::<Su3Quadratic>(OrbitEnergy::itoh_abe(), 0.1, 10_000)),
-    ] {
-        println!("orbit-energy: {kept:?}");
-        assert!(kept.iter().all(|error| *error < 1e-12), "{kept:?}");
-    }
-    let lost = relative(&drift::<Su3Quadratic>(ImplicitMidpoint, 0.1, STEPS));
-    println!("midpoint: {lost:?}");
-    assert!(
-        lost[0] < 1e-12 && lost[2] < 1e-12,
-        "quadratic ones: {lost:?}"
-    );
-    assert!(lost[1] > 1e-5, "the cubic one: {lost:?}");
 }

@@ -2,7 +2,7 @@
 //!
 //! `LIE_UPDATE_GOLDEN=1 cargo test --test golden` writes `tests/golden/` anew. This file does not
 //! compile what it compares, so that it can repair it; `vectors`, `fused_equals_generic`,
-//! `orders_and_drift` and `lanes` compile and run the golden files.
+//! `orders_and_symmetry` and `lanes` compile and run the golden files.
 
 use lie_codegen::golden::Golden;
 use std::path::PathBuf;

@@ -1,5 +1,5 @@
-//! What the constants of each method promise, measured with golden code: order, symmetry, Casimirs
-//! over long runs, the Poisson structure; each beside a control that must fail the same assertion.
+//! What the constants of each method promise, measured with golden code: order, symmetry, the Poisson
+//! structure; each beside a control that must fail the same assertion. Drifts are in `long-runs`.
 
 #[macro_use]
 #[path = "common/systems.rs"]
@@ -7,8 +7,7 @@ mod systems;
 #[path = "common/vectors.rs"]
 mod vectors;
 
-use lie_runtime::diagnostics::{Drift, DriftMonitor, order_of_convergence, poisson_defect};
-use lie_runtime::driver::integrate;
+use lie_runtime::diagnostics::{order_of_convergence, poisson_defect};
 use lie_runtime::methods::{Facts, Method, Stepper};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
@@ -133,99 +132,6 @@ macro_rules! symmetry {
 #[test]
 fn symmetric_methods_undo_themselves() {
     each_system!(symmetry);
-}
-
-/// Drift over every step.
-fn drift<D: Declared>(method: impl Method<f64, D::System<f64>>, h: f64, steps: u32) -> Drift {
-    let problem = Problem {
-        system: D::declared::<f64>(),
-        mu0: D::initial::<f64>(),
-        span: (0.0, h * f64::from(steps)),
-    };
-    let mut monitor = DriftMonitor::<f64>::new::<D::System<f64>>();
-    let options = Options::new(h).save(Save::Ends);
-    integrate(&problem, method, &options, &mut monitor).expect("every step converges");
-    monitor.drift().clone()
-}
-
-/// All Casimirs within 1e-11 over 10^6 steps of 0.05; returns the largest drift.
-fn casimirs_over_a_million_steps<D: Declared>(
-    name: &str,
-    method: impl Method<f64, D::System<f64>>,
-) -> f64 {
-    let drift = drift::<D>(method, 0.05, 1_000_000);
-    for casimir in &drift.casimirs {
-        let windows: Vec<String> = casimir
-            .windows
-            .iter()
-            .map(|window| format!("{window:.1e}"))
-            .collect();
-        println!(
-            "{} {name}, {}: {:.1e}, growth {:.1}, tenths {}",
-            D::FILE,
-            casimir.name,
-            casimir.max,
-            casimir.growth().unwrap_or(1.0),
-            windows.join(" ")
-        );
-    }
-    println!(
-        "{} {name}, energy: {:.1e}, growth {:.2}",
-        D::FILE,
-        drift.energy.max,
-        drift.energy.growth().unwrap_or(1.0)
-    );
-    drift
-        .casimirs
-        .iter()
-        .fold(0.0, |largest, casimir| Scalar::max(largest, casimir.max))
-}
-
-const CASIMIR_BOUND: f64 = 1e-11;
-
-#[test]
-fn lie_midpoint_keeps_the_casimirs_of_the_heavy_top() {
-    assert!(casimirs_over_a_million_steps::<HeavyTop>("exp", LieMidpoint::exp()) < CASIMIR_BOUND);
-    assert!(casimirs_over_a_million_steps::<HeavyTop>("rk4", Rk4) > CASIMIR_BOUND);
-}
-
-#[test]
-fn lie_midpoint_with_cayley_keeps_the_casimirs_of_the_heavy_top() {
-    let drift = casimirs_over_a_million_steps::<HeavyTop>("cayley", LieMidpoint::cayley());
-    assert!(drift < CASIMIR_BOUND);
-}
-
-#[test]
-fn lie_midpoint_keeps_the_casimirs_of_the_kirchhoff_body() {
-    assert!(
-        casimirs_over_a_million_steps::<KirchhoffBody>("exp", LieMidpoint::exp()) < CASIMIR_BOUND
-    );
-    assert!(casimirs_over_a_million_steps::<KirchhoffBody>("rk4", Rk4) > CASIMIR_BOUND);
-}
-
-#[test]
-fn lie_midpoint_with_cayley_keeps_the_casimirs_of_the_kirchhoff_body() {
-    let drift = casimirs_over_a_million_steps::<KirchhoffBody>("cayley", LieMidpoint::cayley());
-    assert!(drift < CASIMIR_BOUND);
-}
-
-/// The energy of a Poisson map oscillates; that of the control drifts.
-#[test]
-fn energy_does_not_drift() {
-    for drift in [
-        drift::<HeavyTop>(LieMidpoint::exp(), 0.05, 100_000),
-        drift::<KirchhoffBody>(LieMidpoint::exp(), 0.05, 100_000),
-        drift::<NonpolynomialSpin>(LieMidpoint::exp(), 0.05, 100_000),
-    ] {
-        let growth = drift.energy.growth().expect("an error");
-        assert!(growth < 1.2, "{:?}", drift.energy);
-    }
-    let control = drift::<HeavyTop>(Rk4, 0.05, 100_000);
-    assert!(
-        control.energy.growth().expect("an error") > 5.0,
-        "{:?}",
-        control.energy
-    );
 }
 
 fn defect<P: Poisson<Dual<f64>>>(
