@@ -25,7 +25,7 @@ use lie_runtime::methods::{
     CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6, Gonzalez, ImplicitStepper, ItohAbe,
     MeanValue, Method, OrbitEnergy, Rk4, Stepper,
 };
-use lie_runtime::newton::NewtonOptions;
+use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::prelude::*;
 use lie_runtime::{Equation, Implicit, LiePoisson, Poisson, State};
 use systems::{
@@ -344,4 +344,54 @@ fn every_comparison_notices_another_state() {
         noticed.sort_unstable();
         assert_eq!(noticed, errors.names());
     }
+}
+
+/// Where H is no polynomial the integrals are quadratures: a step that they do not resolve is refused,
+/// and no accepted one loses the energy.
+#[test]
+fn steps_that_a_quadrature_does_not_resolve_are_refused() {
+    fn largest_error<M>(method: M, h: f64) -> (f64, Option<FailureReason>)
+    where
+        M: Method<f64, <NonpolynomialSpin as Declared>::System<f64>>,
+    {
+        let system = NonpolynomialSpin::declared::<f64>();
+        let mut mu = NonpolynomialSpin::initial::<f64>();
+        let energy = system.hamiltonian(&mu);
+        let mut stepper = method.stepper(&system, h, &NewtonOptions::default());
+        let mut largest = 0.0;
+        for _ in 0..200 {
+            if let Err(failure) = stepper.step(&mut mu, &mut ()) {
+                return (largest, Some(failure.reason));
+            }
+            largest = Scalar::max(largest, (system.hamiltonian(&mu) - energy).abs());
+        }
+        (largest, None)
+    }
+    fn check<M>(name: &str, method: M)
+    where
+        M: Copy + Method<f64, <NonpolynomialSpin as Declared>::System<f64>>,
+    {
+        let ladder = (0..20).map(|k| 0.1 * 1.4_f64.powi(k));
+        let outcomes: Vec<_> = ladder.map(|h| (h, largest_error(method, h))).collect();
+        println!("{name}: {outcomes:?}");
+        assert!(
+            outcomes.iter().all(|(_, (error, _))| *error < 1e-12),
+            "{name}: {outcomes:?}"
+        );
+        assert!(
+            outcomes[..5]
+                .iter()
+                .all(|(_, (_, reason))| reason.is_none()),
+            "{name}: {outcomes:?}"
+        );
+        let refused = |(_, (_, reason)): &(f64, (f64, Option<FailureReason>))| {
+            *reason == Some(FailureReason::Unresolved)
+        };
+        assert!(outcomes.iter().any(refused), "{name}: {outcomes:?}");
+    }
+    check("mean-value", MeanValue);
+    check("cohen-hairer2", CohenHairer2::new());
+    check("cohen-hairer4", CohenHairer4::new());
+    check("cohen-hairer6", CohenHairer6::new());
+    check("orbit-energy", OrbitEnergy::mean_value());
 }

@@ -168,6 +168,10 @@ where
         self.equation.result(unknown, mu);
     }
 
+    fn resolved(&mut self, unknown: &Self::Unknown, end: &Self::State) -> S::Mask {
+        self.equation.resolved(unknown, end)
+    }
+
     fn group_factor(
         &mut self,
         unknown: &Self::Unknown,

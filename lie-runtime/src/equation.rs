@@ -3,7 +3,7 @@
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::poisson::Poisson;
-use crate::scalar::Scalar;
+use crate::scalar::{Mask as _, Scalar};
 use crate::state::{State, Unknown};
 
 /// One implicit step of fixed size as an equation `r(u) = 0`.
@@ -46,6 +46,11 @@ pub trait Equation<S: Scalar> {
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown);
     /// The state at the end of the step for a solution u.
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State);
+    /// The lanes in which the step is what the method promises, for a solution u and the state at its
+    /// end. Others are refused: a quadrature may not resolve the Hamiltonian along the step.
+    fn resolved(&mut self, _unknown: &Self::Unknown, _end: &Self::State) -> S::Mask {
+        S::Mask::splat(true)
+    }
     /// For a solution u of a method of coadjoint form, `mu1 = Ad*_(tau(xi)) mu`: writes xi and
     /// returns the retraction tau. None of other methods.
     fn group_factor(

@@ -190,33 +190,55 @@ impl Report {
         }
         let apply = self.methods.iter().filter(|(_, reason)| reason.is_none());
         let apply: Vec<&str> = apply.map(|(id, _)| *id).collect();
-        writeln!(text, "  methods that apply: {}", apply.join(", "))?;
-        for (id, reason) in &self.methods {
-            if let Some(reason) = reason
-                .as_deref()
-                .filter(|reason| *reason != "not built yet")
-            {
-                writeln!(text, "    not {id}: {reason}")?;
-            }
-        }
-        let built = self.methods.iter().filter(|(_, reason)| reason.is_none());
-        let variants = built
-            .filter_map(|(id, _)| Choice::from_id(id).ok())
-            .flat_map(|choice| choice.variants().into_iter().skip(1));
-        for choice in variants {
-            match refusal(model, &choice) {
-                None => writeln!(text, "    also {}", choice.label())?,
-                Some((reason, _)) => writeln!(text, "    not {}: {reason}", choice.label())?,
-            }
-        }
-        let planned = self
-            .methods
+        let options = apply
             .iter()
-            .filter(|(_, r)| r.as_deref() == Some("not built yet"));
-        writeln!(
-            text,
-            "  {} methods are not built yet, see `lie methods`",
-            planned.count()
-        )
+            .filter_map(|id| Choice::from_id(id).ok())
+            .flat_map(|choice| choice.variants().into_iter().skip(1))
+            .map(|choice| (choice.label(), refusal(model, &choice).map(|(why, _)| why)));
+        let options: Vec<(String, Option<String>)> = options.collect();
+        list(text, "  methods that apply: ", &apply)?;
+        let also = options.iter().filter(|(_, reason)| reason.is_none());
+        let also: Vec<&str> = also.map(|(label, _)| label.as_str()).collect();
+        if !also.is_empty() {
+            list(text, "  and with options: ", &also)?;
+        }
+        // what has the same reason stands together
+        let mut refused: Vec<(&str, Vec<&str>)> = Vec::new();
+        let plain = self.methods.iter().map(|(id, reason)| (*id, reason));
+        let with_options = options.iter().map(|(label, reason)| (&**label, reason));
+        for (name, reason) in plain.chain(with_options) {
+            let Some(reason) = reason.as_deref().filter(|reason| *reason != NOT_BUILT) else {
+                continue;
+            };
+            match refused.iter_mut().find(|(known, _)| *known == reason) {
+                Some((_, names)) => names.push(name),
+                None => refused.push((reason, vec![name])),
+            }
+        }
+        for (reason, names) in refused {
+            writeln!(text, "    not {}: {reason}", names.join(", "))?;
+        }
+        Ok(())
     }
+}
+
+/// The reason of methods whose names are only kept.
+const NOT_BUILT: &str = "not built yet";
+
+/// A title and what it lists, in lines of at most 100 characters.
+fn list(text: &mut String, title: &str, items: &[&str]) -> std::fmt::Result {
+    let mut width = title.len();
+    write!(text, "{title}")?;
+    for (index, item) in items.iter().enumerate() {
+        let comma = if index + 1 < items.len() { "," } else { "" };
+        let space = if index > 0 { " " } else { "" };
+        if index > 0 && width + space.len() + item.len() + comma.len() > 100 {
+            write!(text, "\n    {item}{comma}")?;
+            width = 4 + item.len() + comma.len();
+        } else {
+            write!(text, "{space}{item}{comma}")?;
+            width += space.len() + item.len() + comma.len();
+        }
+    }
+    writeln!(text)
 }

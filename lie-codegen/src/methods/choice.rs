@@ -86,6 +86,12 @@ impl Choice {
         if entry.is_some() || RESERVED.contains(&id) {
             return Err(not_built(id));
         }
+        if id.contains('(') {
+            return Err(Unusable {
+                message: format!("`{id}` has no `)` at its end"),
+                help: format!("write `{id})`"),
+            });
+        }
         let known = CATALOGUE.iter().map(|m| m.id);
         Err(Unusable {
             message: format!("there is no method `{id}`"),

@@ -1,13 +1,13 @@
 //! The equation of energy-preserving collocation.
 
 use super::kernels::multiply;
-use super::quadrature::{MAX_NODES, Quadrature};
+use super::quadrature::{EnergyBalance, MAX_NODES, Quadrature};
 use super::tableau::{Tableau, gauss_tableau};
 use crate::equation::Equation;
 use crate::matrix::{SquareMatrix, StageMatrix};
 use crate::newton::dense;
 use crate::poisson::Poisson;
-use crate::scalar::Scalar;
+use crate::scalar::{Mask as _, Scalar};
 use crate::state::{Stages, State};
 
 /// The method of Cohen and Hairer with 1, 2 or 3 stages for any Poisson system.
@@ -24,7 +24,7 @@ pub struct CohenHairerStep<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> {
     system: &'a P,
     step: S,
     tableau: Tableau<S, STAGES>,
-    nodes: usize,
+    rule: Quadrature<S>,
     /// `w_q l_i(t_q)/b_i`
     means: [[S; STAGES]; MAX_NODES],
     /// `L_i(t_q)`
@@ -62,7 +62,7 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
             system,
             step: h,
             tableau,
-            nodes: rule.len(),
+            rule,
             means,
             curve,
             base: zero.clone(),
@@ -164,7 +164,7 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
         for gradient in &mut self.gradients {
             gradient.fill(S::zero());
         }
-        for node in 0..self.nodes {
+        for node in 0..self.rule.len() {
             self.set_point(&{ self.curve[node] }, unknown);
             self.add_gradient(node);
         }
@@ -189,7 +189,7 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
             }
         }
         // the blocks first collect the means of the Hessian
-        for node in 0..self.nodes {
+        for node in 0..self.rule.len() {
             self.set_point(&{ self.curve[node] }, unknown);
             self.add_gradient(node);
             self.system.hessian(&self.point, &mut self.hessian);
@@ -231,6 +231,33 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
 
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
         dense::solve(factors, residual);
+    }
+
+    fn resolved(&mut self, unknown: &Self::Unknown, end: &P::State) -> S::Mask {
+        if self.rule.is_exact() {
+            return S::Mask::splat(true);
+        }
+        let before = self.system.hamiltonian(&self.base);
+        let mut balance = EnergyBalance::new(before, self.system.hamiltonian(end));
+        if balance.is_even().all() {
+            return S::Mask::splat(true);
+        }
+        for node in 0..self.rule.len() {
+            self.set_point(&{ self.curve[node] }, unknown);
+            self.system.gradient(&self.point, &mut self.field);
+            let (means, weight) = (&self.means[node], self.rule.node(node).1);
+            let here = self.field.as_slice().iter().zip(self.point.as_slice());
+            let coordinates = here.enumerate().map(|(k, (&gradient, &at))| {
+                let mut velocity = S::zero();
+                for stage in 0..STAGES {
+                    let lagrange = means[stage] * self.tableau.b[stage] / weight;
+                    velocity += lagrange * unknown.0[stage].as_slice()[k];
+                }
+                (gradient, at, velocity)
+            });
+            balance.add(&self.rule, node, coordinates);
+        }
+        balance.holds()
     }
 
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut P::State) {

@@ -178,6 +178,10 @@ where
         dense::solve(factors, residual);
     }
 
+    fn resolved(&mut self, unknown: &P::State, _end: &P::State) -> S::Mask {
+        self.gradient.resolved(self.system, unknown)
+    }
+
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         self.set_direction(unknown);
         let scratch = &mut self.scratch;

@@ -72,6 +72,87 @@ impl<S: Scalar> Quadrature<S> {
     }
 }
 
+/// The Legendre polynomial of a degree.
+pub(super) fn legendre_polynomial<S: Scalar>(degree: usize, t: S) -> S {
+    let (mut before, mut value) = (S::zero(), S::one());
+    for k in 0..degree {
+        let next = S::ratio((2 * k + 1) as f64, (k + 1) as f64) * t * value
+            - S::ratio(k as f64, (k + 1) as f64) * before;
+        (before, value) = (value, next);
+    }
+    value
+}
+
+/// Whether a rule that is not exact keeps the energy over a step, for which it integrates the slope
+/// `<grad H(u(t)), u'(t)>` along a curve u.
+///
+/// It does where the values of H at both ends agree to round-off: that of H itself, and that of the
+/// state in it, `epsilon sum_k |dH/dmu_k mu_k|`. Where they do not, H may have lost digits by
+/// cancellation, which is no fault of the rule; then the slope decides. Its Legendre coefficients fall,
+/// and the error of m nodes is of the size of that of degree 2m: the last two that the nodes determine,
+/// of degrees m - 1 and m - 2, have to be round-off. Two, since one may vanish by parity; round-off,
+/// since a part that is small may fall slowly.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EnergyBalance<S> {
+    change: S,
+    energy: S,
+    reach: S,
+    slope: S,
+    tails: [S; 2],
+}
+
+impl<S: Scalar> EnergyBalance<S> {
+    /// Units of round-off that are allowed.
+    const UNITS: f64 = 16.0;
+
+    /// For the energies at both ends.
+    pub(super) fn new(start: S, end: S) -> Self {
+        Self {
+            change: (end - start).abs(),
+            energy: start.abs().max(end.abs()),
+            reach: S::zero(),
+            slope: S::zero(),
+            tails: [S::zero(); 2],
+        }
+    }
+
+    /// The lanes in which there is nothing else to ask.
+    pub(super) fn is_even(&self) -> S::Mask {
+        let unit = S::epsilon() * S::from_f64(Self::UNITS);
+        self.change.less_equal(unit * (self.energy + self.reach))
+    }
+
+    /// Adds a node: for each coordinate `dH/dmu_k`, `u_k` and `u'_k`.
+    pub(super) fn add(
+        &mut self,
+        rule: &Quadrature<S>,
+        node: usize,
+        coordinates: impl Iterator<Item = (S, S, S)>,
+    ) {
+        let (mut slope, mut size, mut reach) = (S::zero(), S::zero(), S::zero());
+        for (gradient, place, velocity) in coordinates {
+            slope += gradient * velocity;
+            size += (gradient * velocity).abs();
+            reach += (gradient * place).abs();
+        }
+        self.slope = self.slope.max(size);
+        self.reach = self.reach.max(reach);
+        let (offset, weight) = rule.node(node);
+        for (tail, back) in self.tails.iter_mut().zip(1..) {
+            let degree = rule.len().saturating_sub(back);
+            let norm = S::from_f64((2 * degree + 1) as f64);
+            *tail += norm * weight * slope * legendre_polynomial(degree, offset + offset);
+        }
+    }
+
+    /// The lanes in which the energy is kept.
+    pub(super) fn holds(&self) -> S::Mask {
+        let bound = S::epsilon() * S::from_f64(Self::UNITS) * self.slope;
+        let [last, before] = self.tails.map(|tail| tail.abs().less_equal(bound));
+        self.is_even() | (last & before)
+    }
+}
+
 /// A positive zero t of the Legendre polynomial of degree n, counted from the largest, and the weight
 /// `1/((1 - t^2) P_n'(t)^2)` on the segment of length 1.
 fn node(n: usize, index: usize) -> (f64, f64) {

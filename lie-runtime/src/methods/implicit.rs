@@ -1,8 +1,8 @@
 //! The stepper of every method whose step is one nonlinear equation.
 
-use super::stepper::{FactorSink, StepFailure, StepReport, Stepper, not_finite};
+use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
-use crate::newton::{Newton, NewtonOptions};
+use crate::newton::{FailureReason, Newton, NewtonOptions};
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
 
@@ -49,11 +49,21 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         let good = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
         self.equation.result(&self.unknown, &mut self.next);
         let finite = self.next.finite();
-        mu.assign_where(good & finite, &self.next);
-        let infinite = (good & !finite).bits();
-        if infinite != 0 {
-            let known = failure.get_or_insert(not_finite(0, report));
-            known.lanes |= infinite;
+        let resolved = self.equation.resolved(&self.unknown, &self.next);
+        mu.assign_where(good & finite & resolved, &self.next);
+        for (bad, reason) in [
+            (good & !finite, FailureReason::NotFinite),
+            (good & finite & !resolved, FailureReason::Unresolved),
+        ] {
+            if bad.any() {
+                let lanes = bad.bits();
+                let first = StepFailure {
+                    reason,
+                    lanes: 0,
+                    report,
+                };
+                failure.get_or_insert(first).lanes |= lanes;
+            }
         }
         failure.map_or(Ok(report), Err)
     }

@@ -10,7 +10,8 @@
 //! midpoint rule.
 //!
 //! The integral is exact for a polynomial H of known degree; otherwise it is Gauss quadrature with 10
-//! nodes, and the energy is kept as far as they resolve the gradient along a step.
+//! nodes: a step that they do not resolve, so that the energy would change by more than round-off, is
+//! refused ([`FailureReason::Unresolved`](crate::newton::FailureReason::Unresolved)).
 //!
 //! Needs: gradient and Hessian of H, the Poisson matrix; any [`Poisson`](crate::Poisson) system.
 //!

@@ -35,6 +35,9 @@ pub enum FailureReason {
     /// [`MoserVeselov`](crate::methods::MoserVeselov).
     #[error("no rotation near the identity solves the discrete rigid body")]
     RotationTooLarge,
+    /// A quadrature does not resolve the gradient of H along the step: the energy would not be kept.
+    #[error("the nodes of the method do not resolve the Hamiltonian along the step")]
+    Unresolved,
     /// An adaptive method would need a step below round-off of the interval.
     #[error("the adaptive step size fell below round-off")]
     StepTooSmall,
@@ -56,6 +59,9 @@ impl FailureReason {
             }
             Self::RotationTooLarge => {
                 "take a smaller step: h times the angular momentum must be below the moments of inertia"
+            }
+            Self::Unresolved => {
+                "take a smaller step, or `gonzalez`, which keeps the energy without a quadrature"
             }
             Self::StepTooSmall => {
                 "the solution has a singularity or the tolerances are below round-off: loosen rtol and atol or end earlier"

@@ -1,10 +1,10 @@
 //! The mean-value discrete gradient.
 
 use super::DiscreteGradient;
-use crate::generic::quadrature::Quadrature;
+use crate::generic::quadrature::{EnergyBalance, Quadrature};
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;
-use crate::scalar::Scalar;
+use crate::scalar::{Mask as _, Scalar};
 use crate::state::State;
 
 /// The mean of the gradient along the segment,
@@ -84,5 +84,26 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for MeanValueGradient<S, P
                 }
             }
         }
+    }
+
+    fn resolved(&mut self, system: &P, end: &P::State) -> S::Mask {
+        if self.rule.is_exact() {
+            return S::Mask::splat(true);
+        }
+        let (before, after) = (system.hamiltonian(&self.start), system.hamiltonian(end));
+        let mut balance = EnergyBalance::new(before, after);
+        if balance.is_even().all() {
+            return S::Mask::splat(true);
+        }
+        for node in 0..self.rule.len() {
+            self.set_point(end, self.rule.node(node).0);
+            system.gradient(&self.point, &mut self.gradient);
+            let pairs = self.start.as_slice().iter().zip(end.as_slice());
+            let here = self.gradient.as_slice().iter().zip(self.point.as_slice());
+            let coordinates = here.zip(pairs);
+            let coordinates = coordinates.map(|((&gradient, &at), (&x, &y))| (gradient, at, y - x));
+            balance.add(&self.rule, node, coordinates);
+        }
+        balance.holds()
     }
 }

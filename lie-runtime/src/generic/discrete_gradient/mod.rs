@@ -10,7 +10,7 @@ pub use itoh_abe::ItohAbeGradient;
 pub use mean_value::MeanValueGradient;
 
 use crate::poisson::Poisson;
-use crate::scalar::Scalar;
+use crate::scalar::{Mask as _, Scalar};
 use nalgebra::SVector;
 
 /// A discrete gradient of the Hamiltonian of a system, with its derivative in the second argument.
@@ -31,6 +31,10 @@ pub trait DiscreteGradient<S: Scalar, P: Poisson<S>> {
         out: &mut P::State,
         derivative: &mut P::Jacobian,
     );
+    /// The lanes in which `<g(x, y), y - x> = H(y) - H(x)` holds; others need a shorter step.
+    fn resolved(&mut self, _system: &P, _end: &P::State) -> S::Mask {
+        S::Mask::splat(true)
+    }
 }
 
 /// `1/|d|` with `d = end - start`, and 0 where d is 0: what a fused discrete gradient multiplies by

@@ -6,12 +6,12 @@
 //!
 //! - H is a polynomial of known degree: always the integral, by the quadrature that is exact.
 //! - Otherwise the difference where its round-off stays near that of the gradient. Where it does not,
-//!   the integral by 10 nodes, if they resolve the integrand and the two forms agree to round-off; if not, y is not close to x on the scale on which H varies, and the difference is
-//!   taken after all.
+//!   the integral by 10 nodes, if they resolve the integrand and the two forms agree to round-off; if not,
+//!   y is not close to x on the scale on which H varies, and the difference is taken after all.
 //!
 //! All thresholds are ratios of like quantities: there is no absolute scale.
 
-use crate::generic::quadrature::{MAX_NODES, Quadrature};
+use crate::generic::quadrature::{MAX_NODES, Quadrature, legendre_polynomial};
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
 
@@ -45,7 +45,7 @@ impl<S: Scalar> Rule<S> {
         let mut tails = [[S::zero(); 2]; MAX_NODES];
         for (node, tails) in tails.iter_mut().enumerate().take(count) {
             let (offset, weight) = quadrature.node(node);
-            *tails = degrees.map(|degree| weight * legendre(degree, offset + offset));
+            *tails = degrees.map(|degree| weight * legendre_polynomial(degree, offset + offset));
         }
         let exact = quadrature.is_exact();
         Self {
@@ -70,17 +70,6 @@ impl<S: Scalar> Rule<S> {
     pub(super) fn offset(&self, node: usize) -> S {
         self.quadrature.node(node).0
     }
-}
-
-/// The Legendre polynomial of a degree.
-fn legendre<S: Scalar>(degree: usize, t: S) -> S {
-    let (mut before, mut value) = (S::zero(), S::one());
-    for k in 0..degree {
-        let next = S::ratio((2 * k + 1) as f64, (k + 1) as f64) * t * value
-            - S::ratio(k as f64, (k + 1) as f64) * before;
-        (before, value) = (value, next);
-    }
-    value
 }
 
 /// The lanes in which the difference of two values of H, of round-off `epsilon * energy`, serves as
