@@ -249,9 +249,9 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
             let here = self.field.as_slice().iter().zip(self.point.as_slice());
             let coordinates = here.enumerate().map(|(k, (&gradient, &at))| {
                 let mut velocity = S::zero();
-                for stage in 0..STAGES {
-                    let lagrange = means[stage] * self.tableau.b[stage] / weight;
-                    velocity += lagrange * unknown.0[stage].as_slice()[k];
+                let bases = means.iter().zip(&self.tableau.b);
+                for ((&mean, &b), increment) in bases.zip(&unknown.0) {
+                    velocity += mean * b / weight * increment.as_slice()[k];
                 }
                 (gradient, at, velocity)
             });
