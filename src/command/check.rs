@@ -190,12 +190,19 @@ impl Report {
         }
         let apply = self.methods.iter().filter(|(_, reason)| reason.is_none());
         let apply: Vec<&str> = apply.map(|(id, _)| *id).collect();
-        let options = apply
-            .iter()
-            .filter_map(|id| Choice::from_id(id).ok())
-            .flat_map(|choice| choice.variants().into_iter().skip(1))
-            .map(|choice| (choice.label(), refusal(model, &choice).map(|(why, _)| why)));
-        let options: Vec<(String, Option<String>)> = options.collect();
+        let mut options: Vec<(String, Option<String>)> = Vec::new();
+        for (id, default) in &self.methods {
+            let Ok(choice) = Choice::from_id(id) else {
+                continue;
+            };
+            for choice in choice.variants().into_iter().skip(1) {
+                let reason = refusal(model, &choice).map(|(why, _)| why);
+                // what is refused without options for the same reason is said already
+                if reason.is_none() || reason != *default {
+                    options.push((choice.label(), reason));
+                }
+            }
+        }
         list(text, "  methods that apply: ", &apply)?;
         let also = options.iter().filter(|(_, reason)| reason.is_none());
         let also: Vec<&str> = also.map(|(label, _)| label.as_str()).collect();

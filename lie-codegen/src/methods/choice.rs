@@ -86,6 +86,15 @@ impl Choice {
         if entry.is_some() || RESERVED.contains(&id) {
             return Err(not_built(id));
         }
+        if let Some((id, option)) = id.split_once(" --") {
+            return Err(Unusable {
+                message: format!("`--{option}` is not a part of the id"),
+                help: format!(
+                    "write `{}` and give the option as a flag of its own",
+                    id.trim()
+                ),
+            });
+        }
         if id.contains('(') {
             return Err(Unusable {
                 message: format!("`{id}` has no `)` at its end"),
@@ -205,8 +214,9 @@ impl Choice {
                 .map_err(|error| match error {
                     OptionError::Value(message, help) => Unusable { message, help },
                     OptionError::Foreign => Unusable {
-                        message: format!("`{name}` is not an option of {id}"),
-                        help: "`lie methods` lists the options of each method".into(),
+                        message: format!("`{name}` does not choose a variant of {id}"),
+                        help: "`lie methods` lists the options of each method; tolerances are flags of `lie run`"
+                            .into(),
                     },
                 })?;
         }

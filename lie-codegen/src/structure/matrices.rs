@@ -17,10 +17,10 @@ pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
     match &model.representation {
         None => {
             let spins = super::spins::spins(model).is_some();
-            let hopf = ", or the same method with `--lift hopf`";
+            let hopf = format!(", or `collective{order} --lift hopf`");
             Some((
                 "it needs a matrix representation, and the algebra declares no `matrices`".into(),
-                nearest(if spins { hopf } else { "" }),
+                nearest(if spins { &hopf } else { "" }),
             ))
         }
         Some(representation) if representation.dual.is_none() => Some((

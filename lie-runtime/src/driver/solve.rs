@@ -129,10 +129,13 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
                 Place::After(_, rest) => {
                     between.copy_from(&mu);
                     let mut shorter = method.stepper(system, S::from_f64(rest), &options.newton);
-                    match shorter.step(&mut between, &mut ()) {
-                        Ok(report) => stats.add(&report),
+                    let report = match shorter.step(&mut between, &mut ()) {
+                        Ok(report) => report,
                         Err(failure) => return Err(fail(stats, index, failure).into()),
-                    }
+                    };
+                    check_domain(system, &between, report)
+                        .map_err(|failure| fail(stats, index, failure))?;
+                    stats.add(&report);
                     &between
                 }
             };
@@ -143,15 +146,37 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         if index == grid.steps() {
             return Ok((stats, Status::Finished));
         }
-        match stepper.step(&mut mu, &mut ()) {
-            Ok(report) => stats.add(&report),
+        let report = match stepper.step(&mut mu, &mut ()) {
+            Ok(report) => report,
             Err(failure) => return Err(fail(stats, index, failure).into()),
-        }
+        };
+        check_domain(system, &mu, report).map_err(|failure| fail(stats, index, failure))?;
+        stats.add(&report);
         index += 1;
         if observer.step(system, progress(index), &mu).is_break() {
             return Ok((stats, Status::Stopped));
         }
     }
+}
+
+/// The energy must be finite after a step, where H is no polynomial: a step may jump over a singularity.
+fn check_domain<S: Scalar, P: Poisson<S>>(
+    system: &P,
+    mu: &P::State,
+    report: StepReport,
+) -> Result<(), StepFailure> {
+    if P::HAMILTONIAN_DEGREE.is_some() {
+        return Ok(());
+    }
+    let finite = system.hamiltonian(mu).finite();
+    if finite.all() {
+        return Ok(());
+    }
+    Err(StepFailure {
+        reason: FailureReason::OutsideDomain,
+        lanes: (!finite).bits(),
+        report,
+    })
 }
 
 /// The state, its energy and its velocity must be finite before the first step.

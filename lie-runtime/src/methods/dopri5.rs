@@ -160,9 +160,9 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
         self.system.vector_field(&self.point, &mut self.slopes[1]);
         let change = |index| self.slopes[1].as_slice()[index] - self.slopes[0].as_slice()[index];
         let curvature = self.measure(change, None) / trial;
-        let rate = slope.max(curvature * self.length) / self.length;
-        let step =
-            (S::from_f64(0.01) / (rate * self.length)).powf(S::ratio(1.0, 5.0)) * self.length;
+        // in units of the grid's step, so that the unit of time does not matter
+        let change = slope.max(curvature * self.length) * self.length;
+        let step = (S::from_f64(0.01) / change).powf(S::ratio(1.0, 5.0)) * self.length;
         let step = S::select(step.finite(), step, self.length);
         minimum(minimum(trial * S::from_f64(100.0), step), self.length)
     }

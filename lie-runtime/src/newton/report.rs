@@ -22,6 +22,9 @@ pub enum FailureReason {
     /// A number became infinite or not a number.
     #[error("a number is not finite")]
     NotFinite,
+    /// The Hamiltonian is not finite at the end of a step.
+    #[error("the Hamiltonian is not finite at the end of the step")]
+    OutsideDomain,
     /// The Jacobian of the step's equation has no inverse.
     #[error("the Jacobian of the step is singular")]
     Singular,
@@ -51,11 +54,14 @@ impl FailureReason {
     pub fn remedy(self) -> &'static str {
         match self {
             Self::NotFinite => {
-                "the state leaves the domain of the Hamiltonian or grows without bound: take a smaller step or end earlier"
+                "take a smaller step; where a small one stops as well, the solution grows without bound or leaves the domain of the Hamiltonian: end earlier"
+            }
+            Self::OutsideDomain => {
+                "the step jumps over a singularity of the Hamiltonian or the solution reaches one: take a smaller step or end earlier"
             }
             Self::Singular | Self::Diverged => "take a smaller step",
             Self::NotConverged => {
-                "take a smaller step, or Newton's method if another iteration was chosen"
+                "take a smaller step; a simplified iteration can also be replaced by Newton's"
             }
             Self::RotationTooLarge => {
                 "take a smaller step: h times the angular momentum must be below the moments of inertia"

@@ -76,9 +76,16 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
             _ => {}
         },
     )?;
-    if let Ended::Said(_, text) = &ended {
+    if let Ended::Said(word, text) = &ended {
         files::write(out, None, None)?;
         files::write(plot, None, None)?;
+        if word == "still" {
+            let text = format!("nothing can be compared on {}: {text}", bed.spec.model.name);
+            let message = Message::new(Kind::Domain, text).at_option("--initial");
+            return Err(message
+                .help("give an initial state that is no equilibrium with `--initial`")
+                .into());
+        }
         let text = format!("the reference solution is not confirmed: {text}");
         let message = Message::new(Kind::Domain, text).at_option("--until");
         return Err(Failure {

@@ -12,6 +12,9 @@ use crate::output::Destination;
 /// `io`, with exit code 1; `option` if it is the spec.
 pub fn open(flag: &str, path: Option<&Path>, spec: &Path) -> Result<Option<Destination>, Failure> {
     let Some(path) = path else { return Ok(None) };
+    if flag == "--plot" {
+        crate::command::run::outputs::picture(flag, Some(path))?;
+    }
     let same = |a: &Path, b: &Path| {
         a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
     };

@@ -83,6 +83,13 @@ impl Cell {
     fn text(&self) -> String {
         let place = format!("{} {} {}", self.experiment, self.name, short(self.value));
         match self.word.as_str() {
+            "lost" if self.claimed <= 1.0 => format!(
+                "{}, {place}, step {}: {} after {} steps",
+                self.method,
+                short(self.step),
+                self.what,
+                self.steps
+            ),
             "lost" => format!(
                 "{}, {place}, step {}: {} beyond {} times its round-off bound after {} steps",
                 self.method,
@@ -116,7 +123,11 @@ impl Cell {
 /// Invalid input, or surroundings that fail.
 pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let flags = &arguments.measured;
-    let steps = Given::flag("--steps", &arguments.steps).count()?;
+    let steps = Given::flag("--steps", &arguments.steps)
+        .count()
+        .map_err(|message| {
+            message.help("give the number of steps of the long run, such as 1000000")
+        })?;
     let bed = bed(flags, |spec| list::fewer(&spec.model))?;
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
@@ -297,6 +308,14 @@ fn report(bed: &Bed, cells: &[Cell], step: f64, steps: u64) -> String {
         short(step),
         table::text(&rows),
     );
+    let model = &bed.spec.model;
+    let independent = model.dimension() - model.generic_rank;
+    if model.casimirs.len() < independent {
+        text.push_str(&format!(
+            "{} of {independent} Casimirs declared: the others are not looked at, declare them in the spec\n",
+            model.casimirs.len()
+        ));
+    }
     let stopped: Vec<&Cell> = cells.iter().filter(|cell| cell.word == "stopped").collect();
     if !stopped.is_empty() {
         text.push_str(&format!("\n{} stopped with a message:\n", stopped.len()));

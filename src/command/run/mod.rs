@@ -1,7 +1,7 @@
 //! `lie run`: integrates a spec with its generated, compiled code.
 
 pub mod bar;
-mod outputs;
+pub mod outputs;
 pub mod plan;
 mod summary;
 pub mod values;

@@ -27,6 +27,7 @@ pub fn format(flags: &args::Run, spec: &Path) -> Result<Format, Failure> {
         let message = Message::option("--plot", "rows and picture cannot go to the same file");
         return Err(message.help("give another file").into());
     }
+    picture("--plot", flags.plot.as_deref())?;
     let by_name = |path: &Path| match path.extension()?.to_str()? {
         "json" => Some(Format::Json),
         "npy" => Some(Format::Npy),
@@ -46,6 +47,26 @@ pub fn format(flags: &args::Run, spec: &Path) -> Result<Format, Failure> {
             .into());
     }
     Ok(format)
+}
+
+/// Pictures are SVG, whatever the name says.
+///
+/// # Errors
+/// `option` for a name of another format.
+pub fn picture(flag: &str, path: Option<&Path>) -> Result<(), Failure> {
+    let Some(path) = path else { return Ok(()) };
+    match path.extension() {
+        Some(extension) if !extension.eq_ignore_ascii_case("svg") => {
+            let text = format!(
+                "`{}` names no SVG file, and pictures are SVG",
+                path.display()
+            );
+            let name = path.with_extension("svg");
+            let message = Message::option(flag, text);
+            Err(message.help(format!("write `{}`", name.display())).into())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Opened before anything runs, so that a long run does not end in front of a closed door.

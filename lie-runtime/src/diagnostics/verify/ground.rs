@@ -74,6 +74,17 @@ impl<P: Poisson<f64>> Ground<P> {
                     .to_owned(),
             );
         }
+        let moves = |mu: &P::State| {
+            let mut field = system.zero_state();
+            system.vector_field(mu, &mut field);
+            field.max_norm() > f64::MIN_POSITIVE
+        };
+        if !states.iter().any(moves) {
+            return Err(
+                "the vector field is zero, or below the smallest number, near the initial state"
+                    .to_owned(),
+            );
+        }
         let step = step.unwrap_or(0.3 / rate);
         let first = Exact::new(system, &states, SPANS[0] * step)
             .ok_or("no reference solution: a number becomes infinite or the steps too small")?;

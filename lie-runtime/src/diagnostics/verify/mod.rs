@@ -45,6 +45,8 @@ pub struct Subject<P: Lift<f64>> {
 /// Round-off of one step, in units of epsilon times the size of what is measured: the state after a step is
 /// exact to a few units per component, whatever the method does inside.
 const PER_STEP: f64 = 16.0;
+/// The least order of a Newton iteration: between 1, of a wrong Jacobian, and 2.
+const NEWTON: f64 = 1.25;
 
 /// Measures everything that `subject` claims.
 pub fn verify<P: Lift<f64>>(
@@ -172,8 +174,8 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
     let claims = subject.method.claims();
     let mut most = 0;
     let mut slowest = f64::INFINITY;
-    let measured = smaller_steps(3.0 * ground.step, |h| {
-        (most, slowest) = (0, f64::INFINITY);
+    let at = |h: f64| {
+        let (mut most, mut slowest) = (0, f64::INFINITY);
         for mu in &ground.states {
             for h in [h, -h] {
                 let (residuals, iterations) = residuals(system, &*subject.method, h, mu)?;
@@ -183,7 +185,18 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
                 }
             }
         }
-        Ok(())
+        Ok((most, slowest))
+    };
+    let measured = smaller_steps(3.0 * ground.step, |h| at(h)).map(|((all, order), mut h)| {
+        (most, slowest) = (all, order);
+        // far from the solution no iteration has its order yet
+        while slowest < NEWTON && h.abs() > 0.1 * ground.step.abs() {
+            h *= 0.5;
+            match at(h) {
+                Ok((_, order)) if order.is_finite() => slowest = order,
+                _ => break,
+            }
+        }
     });
     if let Err(failure) = measured {
         return vec![Finding::unmeasured("explicit", claims.explicit, &failure)];
@@ -201,7 +214,7 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
     } else {
         format!("at round-off at once, at most {most} iterations")
     };
-    let newton = Finding::at_least("Newton", true, slowest, 2.0, 1.25).note(note);
+    let newton = Finding::at_least("Newton", true, slowest, 2.0, NEWTON).note(note);
     vec![explicit, newton, residual(system, ground, subject)]
 }
 

@@ -21,6 +21,8 @@ const LEAST: usize = 4;
 const NEGLIGIBLE: f64 = 1e-9;
 /// How much smaller than the order a slope may be at the end of the ladder.
 const SLACK: f64 = 0.3;
+/// The same as a part of the order: methods of high order have few steps between failure and round-off.
+const RELATIVE_SLACK: f64 = 0.05;
 
 pub(super) fn finding<P: Lift<f64>>(
     system: &P,
@@ -28,7 +30,8 @@ pub(super) fn finding<P: Lift<f64>>(
     subject: &Subject<P>,
 ) -> Finding {
     let order = subject.method.claims().order;
-    let (bound, claim) = (f64::from(order) - SLACK, f64::from(order));
+    let claim = f64::from(order);
+    let bound = claim - f64::max(SLACK, RELATIVE_SLACK * claim);
     let mut exact_everywhere = true;
     let mut largest = f64::NAN;
     let mut best: Vec<(f64, f64)> = Vec::new();
@@ -81,7 +84,7 @@ fn by_step<P: Poisson<f64>>(
     for steps in STEPS {
         let h = exact.span / steps as f64;
         if let Some((error, _)) = error(system, ground, exact, method, h, steps) {
-            points.push((h, error));
+            points.push((h.abs(), error));
             below += u32::from(error <= floor);
         }
         if below == 2 {
@@ -107,7 +110,7 @@ fn by_tolerance<P: Poisson<f64>>(
         else {
             continue;
         };
-        let mean = exact.span * ground.states.len() as f64 / stats.accepted as f64;
+        let mean = exact.span.abs() * ground.states.len() as f64 / stats.accepted as f64;
         if points.last().is_none_or(|last| mean < 0.9 * last.0) {
             points.push((mean, error));
         }

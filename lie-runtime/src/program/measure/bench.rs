@@ -149,6 +149,12 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
             "reference a number becomes infinite, or the steps too small".to_owned(),
         ))?;
         let own = exact.error / exact.mu.max_norm();
+        let moved = exact.mu.as_slice().iter().zip(mu.as_slice());
+        let moved = moved.fold(0.0, |largest, (a, b)| f64::max(largest, (a - b).abs()));
+        if own.is_nan() || moved <= 4.0 * f64::EPSILON * mu.max_norm() {
+            let text = format!("still the state does not move until t = {until:?}");
+            return Err((2, text));
+        }
         let difference = confirm(&system, &mu, until, &exact.mu);
         session.line(&[
             "reference",
