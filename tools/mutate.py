@@ -66,12 +66,12 @@ METHODS = [
     ("collective4", TOP, ["generic/matrix_stages.rs", "generic/stage_momenta.rs"]),
     ("collective4 --lift hopf", SPIN, ["generic/quaternion_stages.rs"]),
     ("isospectral4", SPIN, ["generic/stage_momenta.rs"]),
-    ("spherical-midpoint", SPIN, ["generic/spherical.rs"]),
+    ("spherical-midpoint", SPIN, []),
     ("gonzalez", SPIN, ["generic/discrete_gradient_step.rs"]),
     ("mean-value", SPIN, ["generic/quadrature.rs"]),
     ("itoh-abe", SPIN, ["generic/discrete_gradient_step.rs"]),
     ("orbit-energy", SPIN, ["generic/orbit_energy.rs"]),
-    ("cohen-hairer2", SPIN, ["generic/cohen_hairer.rs"]),
+    ("cohen-hairer2", QUARTIC, []),
     ("cohen-hairer4", SPIN, ["generic/cohen_hairer.rs"]),
     ("cohen-hairer6", SPIN, ["generic/cohen_hairer.rs"]),
     ("gonzalez", QUARTIC, []),
@@ -81,6 +81,10 @@ METHODS = [
     ("orbit-energy --gradient mean-value", QUARTIC, []),
     ("cohen-hairer4", QUARTIC, []),
 ]
+
+# options by what the names of their equations contain, and methods that are solved by those of others
+VARIANTS = {"Cayley": "cayley", "Hopf": "hopf", "MeanValue": "mean-value", "ItohAbe": "itoh-abe"}
+ALSO = {"collective2": {"Cayley"}, "cohen-hairer2": {"MeanValue"}}
 
 # functions of an equation in which no claim lies
 NO_CLAIM = ("initial_guess", "zero_", "set_base", "new(")
@@ -154,9 +158,11 @@ def fused_regions(text, label):
     lift = next(k for k, line in enumerate(lines) if "::lie_runtime::Lift<" in line)
     starts = [k for k in range(lift, len(lines)) if re.match(r"    pub struct ", lines[k])]
     ends = [*starts[1:], next(k for k, line in enumerate(lines) if line.startswith("fn main"))]
-    # fused code is there for every value of an option
-    other = "Exp" if "cayley" in label else "Cayley"
-    return [(start, end) for start, end in zip(starts, ends) if other not in lines[start]]
+    # fused code is there for every value of an option: that of the label is wanted
+    wanted = {word for word, option in VARIANTS.items() if option in label} | ALSO.get(label, set())
+    def of(line):
+        return {word for word in VARIANTS if word in line}
+    return [(start, end) for start, end in zip(starts, ends) if of(lines[start]) == wanted]
 
 
 def spread(items, count):

@@ -187,7 +187,7 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
         }
         Ok((most, slowest))
     };
-    let measured = smaller_steps(3.0 * ground.step, |h| at(h)).map(|((all, order), mut h)| {
+    let measured = smaller_steps(3.0 * ground.step, at).map(|((all, order), mut h)| {
         (most, slowest) = (all, order);
         // far from the solution no iteration has its order yet
         while slowest < NEWTON && h.abs() > 0.1 * ground.step.abs() {
