@@ -18,8 +18,10 @@ const RELIABLE: f64 = 1e-9;
 pub struct Ground<P: Poisson<f64>> {
     /// The states at which everything is measured: the initial one, then seeded ones near it.
     pub states: Vec<P::State>,
-    /// The step of the measurements: about a third of the shortest time in which the system changes.
+    /// The step of the measurements.
     pub step: f64,
+    /// About a third of the shortest time in which the system changes: the step where none is given.
+    pub natural_step: f64,
     /// Exact solutions, over a short span and over longer ones: a method of high order is at round-off
     /// after a short one.
     pub exact: Vec<Exact<P::State>>,
@@ -85,7 +87,8 @@ impl<P: Poisson<f64>> Ground<P> {
                     .to_owned(),
             );
         }
-        let step = step.unwrap_or(0.3 / rate);
+        let natural_step = 0.3 / rate;
+        let step = step.unwrap_or(natural_step);
         let first = Exact::new(system, &states, SPANS[0] * step)
             .ok_or("no reference solution: a number becomes infinite or the steps too small")?;
         if first.error > RELIABLE {
@@ -108,6 +111,7 @@ impl<P: Poisson<f64>> Ground<P> {
         Ok(Self {
             states,
             step,
+            natural_step,
             exact,
             linear,
             quadratic,

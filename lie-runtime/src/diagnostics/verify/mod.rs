@@ -174,8 +174,10 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
     let claims = subject.method.claims();
     let mut most = 0;
     let mut slowest = f64::INFINITY;
-    let at = |h: f64| {
-        let (mut most, mut slowest) = (0, f64::INFINITY);
+    // far from the solution no iteration has its order yet: never beyond the system's own step
+    let step = ground.step.abs().min(ground.natural_step);
+    let measured = smaller_steps(3.0 * step, |h| {
+        (most, slowest) = (0, f64::INFINITY);
         for mu in &ground.states {
             for h in [h, -h] {
                 let (residuals, iterations) = residuals(system, &*subject.method, h, mu)?;
@@ -185,18 +187,7 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
                 }
             }
         }
-        Ok((most, slowest))
-    };
-    let measured = smaller_steps(3.0 * ground.step, at).map(|((all, order), mut h)| {
-        (most, slowest) = (all, order);
-        // far from the solution no iteration has its order yet
-        while slowest < NEWTON && h.abs() > 0.1 * ground.step.abs() {
-            h *= 0.5;
-            match at(h) {
-                Ok((_, order)) if order.is_finite() => slowest = order,
-                _ => break,
-            }
-        }
+        Ok(())
     });
     if let Err(failure) = measured {
         return vec![Finding::unmeasured("explicit", claims.explicit, &failure)];
