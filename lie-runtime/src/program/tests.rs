@@ -103,7 +103,10 @@ fn what_is_wrong_is_said() {
     assert!(
         messages.starts_with("failed step=1 time=0.0 iterations=0 residual=0.0 reason=a number")
     );
-    assert!(messages.contains(" remedy=take a smaller step"), "{messages}");
+    assert!(
+        messages.contains(" remedy=take a smaller step"),
+        "{messages}"
+    );
 }
 
 #[test]
