@@ -135,6 +135,37 @@ pub struct Casimir {
     pub value: Expr,
 }
 
+/// The function that gives the equations of motion.
+#[derive(Clone, Debug)]
+pub enum Energy {
+    /// H(mu).
+    Hamiltonian(Expr),
+    /// The reduced Lagrangian l(xi) and the names of the components of the velocity xi.
+    Lagrangian {
+        /// One name for each basis element.
+        velocity: Vec<Name>,
+        /// The function.
+        value: Expr,
+    },
+}
+
+impl Energy {
+    /// The function.
+    pub fn expression(&self) -> &Expr {
+        match self {
+            Self::Hamiltonian(value) | Self::Lagrangian { value, .. } => value,
+        }
+    }
+
+    /// The names of the velocity of a Lagrangian; none of a Hamiltonian.
+    pub fn velocity(&self) -> &[Name] {
+        match self {
+            Self::Hamiltonian(_) => &[],
+            Self::Lagrangian { velocity, .. } => velocity,
+        }
+    }
+}
+
 /// Which invariance the system has; the right-invariant one has the opposite sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Invariance {
@@ -173,8 +204,8 @@ pub struct Declaration {
     pub parameters: Vec<Parameter>,
     /// Abbreviations, each may use the earlier ones.
     pub lets: Vec<(Name, Expr)>,
-    /// The Hamiltonian.
-    pub hamiltonian: Expr,
+    /// The Hamiltonian or the Lagrangian.
+    pub energy: Energy,
     /// Declared Casimirs.
     pub casimirs: Vec<Casimir>,
     /// Methods that get fused code.

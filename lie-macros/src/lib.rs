@@ -23,6 +23,16 @@ use proc_macro::TokenStream;
 ///     methods = [lie-midpoint];
 /// }
 ///
+/// lie_poisson! {
+///     /// The same by its reduced Lagrangian: the Legendre transform is found at compile time.
+///     pub system ByLagrangian;
+///     algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+///     state x, y, z;
+///     velocity w1, w2, w3;
+///     parameters { I1 = 2.0; I2 = 1.0; I3 = 2/3; }
+///     lagrangian = (I1*w1^2 + I2*w2^2 + I3*w3^2)/2;
+/// }
+///
 /// lie_poisson! { pub spec = "specs/se3_heavy_top.json"; }
 /// ```
 #[proc_macro]

@@ -27,7 +27,11 @@ pub enum Allowed {
     Constants,
     /// Parameters.
     Parameters,
-    /// Coordinates too.
+    /// Coordinates of mu too.
+    State,
+    /// Components of the velocity, but no coordinates of mu.
+    Velocity,
+    /// Both: an abbreviation may serve either.
     Everything,
 }
 
@@ -35,6 +39,18 @@ pub enum Allowed {
 #[derive(Debug, Default)]
 pub struct Environment<'a> {
     bindings: HashMap<&'a str, Binding>,
+}
+
+impl Allowed {
+    /// Whether a symbol may stand.
+    pub fn permits(self, symbol: Symbol) -> bool {
+        match symbol {
+            Symbol::Parameter(_) => self != Self::Constants,
+            Symbol::Coordinate(_) => matches!(self, Self::State | Self::Everything),
+            Symbol::Input(_) => matches!(self, Self::Velocity | Self::Everything),
+            _ => false,
+        }
+    }
 }
 
 impl<'a> Environment<'a> {
@@ -46,6 +62,11 @@ impl<'a> Environment<'a> {
             bindings
                 .entry(name.text.as_str())
                 .or_insert(Binding::Symbol(Symbol::Coordinate(i)));
+        }
+        for (i, name) in declaration.energy.velocity().iter().enumerate() {
+            bindings
+                .entry(name.text.as_str())
+                .or_insert(Binding::Symbol(Symbol::Input(i)));
         }
         for (i, parameter) in declaration.parameters.iter().enumerate() {
             bindings
@@ -75,7 +96,8 @@ impl<'a> Environment<'a> {
 
     /// The error for a name that may not stand here.
     pub fn unknown(&self, name: &str, origin: Origin, allowed: Allowed) -> Diagnostic {
-        if name == "t" && allowed == Allowed::Everything {
+        let function = !matches!(allowed, Allowed::Constants | Allowed::Parameters);
+        if name == "t" && function {
             return Diagnostic::new(
                 Kind::ReservedName,
                 origin,
@@ -85,8 +107,8 @@ impl<'a> Environment<'a> {
         }
         let diagnostic = |message: String| Diagnostic::new(Kind::UnknownSymbol, origin, message);
         let usable = |binding: &Binding| match binding {
-            Binding::Symbol(Symbol::Coordinate(_)) => allowed == Allowed::Everything,
-            Binding::Symbol(_) | Binding::Let(_) => allowed != Allowed::Constants,
+            Binding::Symbol(symbol) => allowed.permits(*symbol),
+            Binding::Let(_) => allowed != Allowed::Constants,
             Binding::Later | Binding::Basis => false,
         };
         match self.get(name) {
@@ -96,18 +118,28 @@ impl<'a> Environment<'a> {
                 ))
                 .help("change the order of the abbreviations; none may use itself");
             }
-            Some(Binding::Basis) if allowed == Allowed::Everything => {
+            Some(Binding::Basis) if allowed == Allowed::Velocity => {
+                return diagnostic(format!("`{name}` is a basis element; a Lagrangian is written in the components of the velocity"))
+                    .help("use the velocity name of the same position");
+            }
+            Some(Binding::Basis) if function => {
                 return diagnostic(format!("`{name}` is a basis element; functions are written in the coordinates of the state"))
                     .help("use the state name of the same position");
             }
             Some(Binding::Symbol(_) | Binding::Let(_)) => {
-                let rule = if allowed == Allowed::Constants {
-                    "only constants may"
-                } else {
-                    "only constants and parameters may"
+                let (rule, help) = match allowed {
+                    Allowed::Constants => ("only constants may", "write its value"),
+                    Allowed::Velocity => (
+                        "a reduced Lagrangian depends on the velocity, not on mu",
+                        "use the velocity names; mu is the derivative of the Lagrangian",
+                    ),
+                    Allowed::State => (
+                        "it depends on the velocity, and this is a function of mu",
+                        "use the state names",
+                    ),
+                    _ => ("only constants and parameters may", "write its value"),
                 };
-                return diagnostic(format!("`{name}` cannot stand here: {rule}"))
-                    .help("write its value");
+                return diagnostic(format!("`{name}` cannot stand here: {rule}")).help(help);
             }
             _ => {}
         }

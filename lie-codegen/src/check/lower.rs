@@ -176,16 +176,10 @@ impl<'a, 'b> Lowering<'a, 'b> {
     }
 
     fn permitted(&self, id: ExprId) -> bool {
-        use crate::symbolic::Symbol;
-        match self.allowed {
-            Allowed::Everything => true,
-            Allowed::Parameters => self
-                .graph
-                .symbols(id)
-                .iter()
-                .all(|s| matches!(s, Symbol::Parameter(_))),
-            Allowed::Constants => false,
-        }
+        let symbols = self.graph.symbols(id);
+        symbols
+            .into_iter()
+            .all(|symbol| self.allowed.permits(symbol))
     }
 
     /// Whether the constants of the operands together are of reasonable length.

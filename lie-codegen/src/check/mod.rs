@@ -12,6 +12,7 @@ pub mod domain;
 mod environment;
 mod independence;
 mod initial;
+mod legendre;
 mod lets;
 mod lower;
 mod methods;
@@ -27,7 +28,7 @@ mod tests;
 use std::collections::HashSet;
 
 use crate::algebra::{StructureConstants, rank};
-use crate::ast::{Declaration, Invariance};
+use crate::ast::{Declaration, Energy, Invariance};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Fraction, Rational};
 use crate::model::{Casimir, Model};
@@ -36,6 +37,7 @@ use crate::symbolic::{ExprId, Graph, Symbol};
 use casimirs::Candidate;
 use environment::{Allowed, Environment};
 use independence::Standing;
+use legendre::Lagrangian;
 use lower::Lowering;
 
 pub use constant::constant;
@@ -69,12 +71,18 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     let parameters = parameters::check(declaration, &mut graph, &environment, report);
     lets::check(declaration, &mut graph, &mut environment, report);
     let mut lower =
-        |expr| Lowering::new(&mut graph, &environment, report, Allowed::Everything).lower(expr);
-    let hamiltonian = lower(&declaration.hamiltonian);
+        |expr, allowed| Lowering::new(&mut graph, &environment, report, allowed).lower(expr);
+    let energy = lower(
+        declaration.energy.expression(),
+        match declaration.energy {
+            Energy::Hamiltonian(_) => Allowed::State,
+            Energy::Lagrangian { .. } => Allowed::Velocity,
+        },
+    );
     let lowered: Vec<Option<ExprId>> = declaration
         .casimirs
         .iter()
-        .map(|c| lower(&c.value))
+        .map(|c| lower(&c.value, Allowed::State))
         .collect();
     let initial = initial::check(declaration, &mut graph, &environment, report);
     if report.has_errors() {
@@ -110,9 +118,20 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         declaration,
         &lowered.into_iter().collect::<Option<Vec<_>>>()?,
     );
-    let hamiltonian = hamiltonian?;
+    let hamiltonian = match &declaration.energy {
+        Energy::Hamiltonian(_) => energy?,
+        Energy::Lagrangian { velocity, value } => {
+            let lagrangian = Lagrangian {
+                value: energy?,
+                velocity,
+                origin: value.origin,
+                parameters: &parameters,
+            };
+            legendre::hamiltonian(&mut graph, &lagrangian, report)?
+        }
+    };
     let functions: Vec<_> = candidates.iter().map(|c| (c.expr, c.origin)).collect();
-    let energy = (hamiltonian, declaration.hamiltonian.origin);
+    let energy = (hamiltonian, declaration.energy.expression().origin);
     size::derived(&graph, &constants, energy, &functions, report);
     if report.has_errors() {
         return None;

@@ -30,6 +30,7 @@ const WORDS: &[&str] = &["pi", "t", "energy", "sum", "sqrt"];
 pub fn check(declaration: &Declaration, report: &mut Report) {
     let basis = &declaration.algebra.basis;
     let state = &declaration.state;
+    let velocity = declaration.energy.velocity();
     let parameters = declaration.parameters.iter().map(|p| &p.name);
     let lets = declaration.lets.iter().map(|(name, _)| name);
     let casimirs = declaration.casimirs.iter().filter_map(|c| c.name.as_ref());
@@ -37,6 +38,7 @@ pub fn check(declaration: &Declaration, report: &mut Report) {
         .into_iter()
         .chain(basis)
         .chain(state)
+        .chain(velocity)
         .chain(parameters.clone())
         .chain(lets.clone())
         .chain(casimirs.clone())
@@ -60,6 +62,9 @@ pub fn check(declaration: &Declaration, report: &mut Report) {
     }
     for name in state {
         declare(&mut [&mut dual], name, "coordinate", report);
+    }
+    for name in velocity {
+        declare(&mut [&mut dual], name, "component of the velocity", report);
     }
     // A Casimir is a column beside the coordinates, but no expression refers to it.
     let mut columns = dual.clone();

@@ -39,6 +39,22 @@ pub fn check(declaration: &Declaration, report: &mut Report) -> bool {
         );
         return false;
     }
+    let velocity = declaration.energy.velocity();
+    if let (Some(name), true) = (velocity.last(), velocity.len() != dimension) {
+        let place = velocity.get(dimension).unwrap_or(name).origin;
+        let (count, names) = (velocity.len(), plural(velocity.len(), "name"));
+        let elements = plural(dimension, "element");
+        report.push(
+            Diagnostic::new(
+                Kind::StateLength,
+                place,
+                format!(
+                    "the velocity has {count} {names}, but the basis has {dimension} {elements}"
+                ),
+            )
+            .help("the velocity xi has one component for every basis element"),
+        );
+    }
     if state != dimension {
         let place = match declaration
             .state

@@ -180,7 +180,9 @@ fn system(parts: &Parts<'_>, report: &mut Report) -> Parsed {
         report,
     );
     parts.missing("state", "state x, y;", place, report);
-    parts.missing("hamiltonian", "hamiltonian = x^2/2;", place, report);
+    if parts.first("lagrangian").is_none() {
+        parts.missing("hamiltonian", "hamiltonian = x^2/2;", place, report);
+    }
     parsed.state = parts
         .first("state")
         .map(|s| names(s.rest, s.origin, report))
@@ -218,8 +220,14 @@ fn remainder(
         .all("let")
         .filter_map(|s| s.rest.first()?.identifier())
         .map(str::to_owned);
+    let velocity = parts.first("velocity");
+    let place = velocity.map(|s| s.origin);
+    let velocity = velocity
+        .map(|s| names(s.rest, s.origin, report))
+        .unwrap_or_default();
     let names: Names = texts(&parsed.state)
         .into_iter()
+        .chain(texts(&velocity))
         .chain(constants.iter().cloned())
         .chain(lets)
         .collect();
@@ -232,14 +240,11 @@ fn remainder(
         ))
     });
     let lets = lets.collect();
-    let hamiltonian = parts.first("hamiltonian").and_then(|s| {
-        let value = s.value(report)?;
-        if value.is_empty() {
-            report.push(item::empty_hamiltonian(s.origin));
-            return None;
-        }
-        expression::parse(value, &names, report)
+    let functions = ["hamiltonian", "lagrangian"].map(|keyword| {
+        let statement = parts.first(keyword)?;
+        Some((statement.origin, function(statement, &names, report)))
     });
+    let energy = item::energy(functions, (place, velocity), Kind::Syntax, report);
     let casimirs = parts
         .all("casimir")
         .filter_map(|s| item::casimir(s.rest, s.origin, &names, report))
@@ -272,7 +277,7 @@ fn remainder(
         state: parsed.state.clone(),
         parameters,
         lets,
-        hamiltonian: hamiltonian?,
+        energy: energy?,
         casimirs,
         methods,
         invariance: invariance?,
@@ -280,6 +285,16 @@ fn remainder(
         initial: initial.map(|(values, _)| values),
         run: Vec::new(),
     })
+}
+
+/// `= H` or `= l`.
+fn function(statement: &Statement<'_>, names: &Names, report: &mut Report) -> Option<Expr> {
+    let value = statement.value(report)?;
+    if value.is_empty() {
+        report.push(item::empty_function(statement.keyword, statement.origin));
+        return None;
+    }
+    expression::parse(value, names, report)
 }
 
 /// The parts of `= [a, b]`.

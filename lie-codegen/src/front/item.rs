@@ -5,7 +5,7 @@ use super::mistakes;
 use super::names::Names;
 use super::token::{Cursor, Delimiter, Token, TokenKind, render, span};
 use super::{expression, token};
-use crate::ast::{Bracket, Casimir, Expr, ExprKind, Invariance, Name};
+use crate::ast::{Bracket, Casimir, Energy, Expr, ExprKind, Invariance, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// A name and nothing else. `whole` is the place of an empty text.
@@ -168,9 +168,56 @@ pub fn constant(tokens: &[Token], report: &mut Report) -> Option<Expr> {
 }
 
 /// A Hamiltonian of blanks.
-pub fn empty_hamiltonian(place: Origin) -> Diagnostic {
-    Diagnostic::new(Kind::EmptyHamiltonian, place, "the Hamiltonian is empty")
-        .help("write an expression in the state names; a constant is allowed")
+pub fn empty_function(keyword: &str, place: Origin) -> Diagnostic {
+    let (name, help) = match keyword {
+        "lagrangian" => ("Lagrangian", "write an expression in the velocity names"),
+        _ => (
+            "Hamiltonian",
+            "write an expression in the state names; a constant is allowed",
+        ),
+    };
+    Diagnostic::new(
+        Kind::EmptyHamiltonian,
+        place,
+        format!("the {name} is empty"),
+    )
+    .help(help)
+}
+
+/// The Hamiltonian, or the Lagrangian with the names of the velocity: places and what was read. That
+/// there is one is checked elsewhere.
+pub fn energy(
+    [hamiltonian, lagrangian]: [Option<(Origin, Option<Expr>)>; 2],
+    (place, velocity): (Option<Origin>, Vec<Name>),
+    kind: Kind,
+    report: &mut Report,
+) -> Option<Energy> {
+    let mut fails = |place, message: &str, help: &str| {
+        report.push(Diagnostic::new(kind, place, message).help(help));
+    };
+    match (hamiltonian, lagrangian, place) {
+        (Some(_), Some((second, _)), _) => fails(
+            second,
+            "`lagrangian` beside `hamiltonian`: either gives the system",
+            "remove one of the two",
+        ),
+        (_, Some((lagrangian, _)), None) => fails(
+            lagrangian,
+            "the Lagrangian has no `velocity`",
+            "name the components of the velocity xi, one for each basis element",
+        ),
+        (Some(_), None, Some(velocity)) => fails(
+            velocity,
+            "`velocity` beside `hamiltonian`: a Hamiltonian is a function of mu",
+            "remove it, or give a `lagrangian`",
+        ),
+        (Some((_, value)), None, None) => return value.map(Energy::Hamiltonian),
+        (None, Some((_, value)), Some(_)) => {
+            return value.map(|value| Energy::Lagrangian { velocity, value });
+        }
+        (None, None, _) => {}
+    }
+    None
 }
 
 /// `left` or `right`.

@@ -14,9 +14,7 @@ pub struct Object<'a> {
 
 /// Keys that the format keeps for what is not built yet, and the keys that they would replace.
 pub const NOT_BUILT: &[(&str, &[&str])] = &[
-    ("lagrangian", &["hamiltonian"]),
     ("discrete_lagrangian", &["hamiltonian"]),
-    ("velocity", &[]),
     ("poisson", &["algebra"]),
     ("cocycle", &[]),
     ("group", &[]),

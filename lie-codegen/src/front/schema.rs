@@ -30,7 +30,7 @@ macro_rules! objects {
 
 objects! {
     /// A Lie–Poisson system: a Lie algebra by its structure constants and a Hamiltonian on its dual.
-    struct Spec requires ["name", "algebra", "state", "hamiltonian"] {
+    struct Spec requires ["name", "algebra", "state"] {
         /// Path of this schema, for editors.
         "$schema" schema: Option<String>,
         /// Version of the format.
@@ -51,7 +51,12 @@ objects! {
         /// Abbreviations `NAME = expression`, each may use the earlier ones.
         "let" lets: Option<Vec<String>>,
         /// The Hamiltonian, an expression in state, parameters and abbreviations.
-        "hamiltonian" hamiltonian: String,
+        "hamiltonian" hamiltonian: Option<String>,
+        /// Instead of the Hamiltonian: the reduced Lagrangian, an expression in velocity, parameters and
+        /// abbreviations.
+        "lagrangian" lagrangian: Option<String>,
+        /// Names of the components of the velocity xi, one for each basis element; for a Lagrangian.
+        "velocity" velocity: Option<Vec<String>>,
         /// Casimirs, `NAME = expression` or an expression; each is verified exactly.
         "casimirs" casimirs: Option<Vec<String>>,
         /// Ids of the methods that get fused code.
@@ -168,6 +173,10 @@ pub enum Invariance {
 pub fn schema() -> Value {
     let mut schema = schemars::schema_for!(Spec).to_value();
     forbid_null(&mut schema);
+    schema["oneOf"] = serde_json::json!([
+        { "required": ["hamiltonian"] },
+        { "required": ["lagrangian", "velocity"] },
+    ]);
     schema
 }
 

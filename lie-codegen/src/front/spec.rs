@@ -11,7 +11,7 @@ use super::object::{NOT_BUILT, Object, list, string, strings, wrong_type};
 use super::schema::Spec;
 use super::token::Token;
 use super::{Body, Names, Parsed, expression, item, number};
-use crate::ast::{Declaration, Expr, ExprKind, Invariance, Name, Parameter};
+use crate::ast::{Declaration, Energy, Expr, ExprKind, Invariance, Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The only version of the format.
@@ -46,6 +46,9 @@ fn document(text: &str, report: &mut Report) -> Parsed {
     };
     let Some(spec) = spec else { return parsed };
     spec.require("a spec", Spec::REQUIRED, report);
+    if spec.get("lagrangian").is_none() {
+        spec.require("a spec", &["hamiltonian"], report);
+    }
     headers(&spec, report);
     parsed.name = spec.get("name").and_then(|v| name_of(v, "`name`", report));
     parsed.state = spec
@@ -108,8 +111,13 @@ impl Remainder<'_, '_> {
         let defined = lets
             .iter()
             .filter_map(|line| line.tokens.first()?.identifier());
+        let velocity = spec
+            .get("velocity")
+            .map(|v| name_list(v, "`velocity`", report))
+            .unwrap_or_default();
         let names: Names = texts(&self.parsed.state)
             .into_iter()
+            .chain(texts(&velocity))
             .chain(parameters.iter().cloned())
             .chain(defined.map(str::to_owned))
             .collect();
@@ -125,9 +133,7 @@ impl Remainder<'_, '_> {
             ))
         });
         let lets = lets.collect();
-        let hamiltonian = spec
-            .get("hamiltonian")
-            .and_then(|v| hamiltonian(v, &names, report));
+        let energy = self.energy(velocity, &names, report);
         let casimirs = lines(spec, "casimirs", report)
             .iter()
             .filter_map(|line| item::casimir(&line.tokens, line.place, &names, report))
@@ -166,7 +172,7 @@ impl Remainder<'_, '_> {
             state: self.parsed.state.clone(),
             parameters: self.parameters,
             lets,
-            hamiltonian: hamiltonian?,
+            energy: energy?,
             casimirs,
             methods: methods
                 .into_iter()
@@ -180,6 +186,19 @@ impl Remainder<'_, '_> {
             initial: initial.map(|(values, _)| values),
             run,
         })
+    }
+}
+
+impl Remainder<'_, '_> {
+    /// `hamiltonian`, or `lagrangian` with `velocity`.
+    fn energy(&self, velocity: Vec<Name>, names: &Names, report: &mut Report) -> Option<Energy> {
+        let spec = self.spec;
+        let functions = ["hamiltonian", "lagrangian"].map(|key| {
+            let value = spec.get(key)?;
+            Some((value.origin(), function(value, key, names, report)))
+        });
+        let place = spec.get("velocity").map(|value| value.origin());
+        item::energy(functions, (place, velocity), Kind::Schema, report)
     }
 }
 
@@ -224,10 +243,10 @@ fn name_list(value: Value<'_>, what: &str, report: &mut Report) -> Vec<Name> {
         .collect()
 }
 
-fn hamiltonian(value: Value<'_>, names: &Names, report: &mut Report) -> Option<Expr> {
-    let line = line(value, "`hamiltonian`", report)?;
+fn function(value: Value<'_>, key: &str, names: &Names, report: &mut Report) -> Option<Expr> {
+    let line = line(value, &format!("`{key}`"), report)?;
     if line.tokens.is_empty() {
-        report.push(item::empty_hamiltonian(line.place));
+        report.push(item::empty_function(key, line.place));
         return None;
     }
     expression::parse(&line.tokens, names, report)

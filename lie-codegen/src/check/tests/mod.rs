@@ -1,6 +1,7 @@
 mod algebra;
 mod casimirs;
 mod domain;
+mod legendre;
 mod limits;
 mod names;
 mod random;

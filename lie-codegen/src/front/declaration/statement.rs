@@ -14,6 +14,8 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("parameters", Follows::Block),
     ("let", Follows::Name),
     ("hamiltonian", Follows::Equals),
+    ("lagrangian", Follows::Equals),
+    ("velocity", Follows::Name),
     ("casimir", Follows::Name),
     ("methods", Follows::Equals),
     ("invariance", Follows::Equals),

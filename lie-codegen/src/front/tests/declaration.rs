@@ -106,7 +106,10 @@ fn everything_is_read() {
         (d.lets[0].0.text.as_str(), explicit(&d.lets[0].1)),
         ("w2", "(y/I2)".into())
     );
-    assert_eq!(explicit(&d.hamiltonian), "(((x^2)/(2*I1))+(y*w2/2)+(z^2))");
+    assert_eq!(
+        explicit(d.energy.expression()),
+        "(((x^2)/(2*I1))+(y*w2/2)+(z^2))"
+    );
     assert_eq!(d.casimirs[0].name.as_ref().unwrap().text, "C");
     assert!(d.casimirs[1].name.is_none());
     assert_eq!(
@@ -247,8 +250,8 @@ fn missing_statements() {
         one(Syntax, "/// Free rigid body in the body frame.")
     );
     assert_eq!(
-        changed("hamiltonian =", "lagrangian ="),
-        one(Syntax, "lagrangian")
+        changed("hamiltonian =", "discrete_lagrangian ="),
+        one(Syntax, "discrete_lagrangian")
     );
     assert_eq!(mistakes("#").len(), 6);
     assert_eq!(mistakes("/// only words").len(), 5);
@@ -291,7 +294,7 @@ fn invisible_groups_are_parentheses() {
     let Some(Body::Declaration(d)) = declaration::parse(tokens, &mut report).body else {
         panic!("{report:?}")
     };
-    assert_eq!(explicit(&d.hamiltonian), "(2*(x+y)*x)");
+    assert_eq!(explicit(d.energy.expression()), "(2*(x+y)*x)");
     assert_eq!(d.visibility.to_string().replace(' ', ""), "pub(crate)");
 }
 
@@ -322,7 +325,7 @@ fn both_front_ends_read_the_same() {
                     ..
                 },
                 _,
-            ) => explicit(&d.hamiltonian),
+            ) => explicit(d.energy.expression()),
             (_, diagnostics) => diagnostics[0].message.clone(),
         };
         assert_eq!(ours, rusts, "{text}");

@@ -1,0 +1,302 @@
+//! The Legendre transform of a reduced Lagrangian: `mu = dl/dxi`, `H(mu) = <mu, xi> - l(xi)`.
+//!
+//! For `l = <A xi, xi>/2 + <b, xi> + c` with a symmetric matrix A it is
+//! `H = <A^-1 (mu - b), mu - b>/2 - c`, by elimination in the order `A = L D L^T`: a sum of squares over
+//! pivots. Where the diagonal is zero, as in `l = xi1 xi2`, a pivot is a block of two rows.
+
+use super::normal::{NormalForm, Verdict};
+use crate::ast::Name;
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::exact::{Budget, Rational};
+use crate::model::Parameter;
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// Work allowed for one decision of the normal form.
+const WORK: u64 = 2_000_000;
+/// A pivot below that part of the largest entry at the default parameters is none.
+const SINGULAR: f64 = 1e-13;
+/// A pivot that is that much smaller than the largest may stand for it, if it causes less fill-in.
+const THRESHOLD: f64 = 0.1;
+
+/// A lowered Lagrangian; the components of the velocity are [`Symbol::Input`].
+pub struct Lagrangian<'a> {
+    /// The function.
+    pub value: ExprId,
+    /// Names of the components of the velocity.
+    pub velocity: &'a [Name],
+    /// Where the function stands.
+    pub origin: Origin,
+    /// The parameters with their defaults.
+    pub parameters: &'a [Parameter],
+}
+
+/// The Hamiltonian in the coordinates of mu.
+///
+/// # Errors
+/// `legendre`, reported, for a Lagrangian that is singular or not quadratic.
+pub fn hamiltonian(
+    graph: &mut Graph,
+    lagrangian: &Lagrangian<'_>,
+    report: &mut Report,
+) -> Option<ExprId> {
+    let mut form = match Quadratic::of(graph, lagrangian) {
+        Ok(form) => form,
+        Err(diagnostic) => {
+            report.push(*diagnostic);
+            return None;
+        }
+    };
+    let mut terms = Vec::new();
+    while !form.rest.is_empty() {
+        let Some(pivot) = form.pivot(graph) else {
+            report.push(form.singular(lagrangian));
+            return None;
+        };
+        terms.push(form.eliminate(graph, &pivot));
+    }
+    let constant = graph.neg(form.constant);
+    terms.push(constant);
+    Some(graph.sum(&terms))
+}
+
+/// `<A xi, xi>/2 + <b, xi> + c`, partly eliminated.
+struct Quadratic {
+    matrix: Vec<Vec<ExprId>>,
+    /// `mu - b`, later `L^-1` of it.
+    momenta: Vec<ExprId>,
+    constant: ExprId,
+    /// Rows that are not eliminated.
+    rest: Vec<usize>,
+    defaults: Vec<f64>,
+    /// The largest entry at the default parameters.
+    size: f64,
+}
+
+/// One row, or two whose block is inverted.
+enum Pivot {
+    One(usize),
+    Two(usize, usize),
+}
+
+impl Quadratic {
+    fn of(graph: &mut Graph, lagrangian: &Lagrangian<'_>) -> Result<Self, Box<Diagnostic>> {
+        let count = lagrangian.velocity.len();
+        let zero = graph.integer(0);
+        let at_rest = |symbol| matches!(symbol, Symbol::Input(_)).then_some(zero);
+        let slopes: Vec<ExprId> = (0..count)
+            .map(|i| graph.derivative(lagrangian.value, Symbol::Input(i)))
+            .collect();
+        let mut matrix = Vec::new();
+        for (i, &slope) in slopes.iter().enumerate() {
+            let row: Vec<ExprId> = (0..count)
+                .map(|j| graph.derivative(slope, Symbol::Input(j)))
+                .collect();
+            for (j, &entry) in row.iter().enumerate().skip(i) {
+                for k in j..count {
+                    let third = graph.derivative(entry, Symbol::Input(k));
+                    if !graph.is_zero(third) && !vanishes(graph, third) {
+                        return Err(Box::new(not_quadratic(lagrangian, [i, j, k])));
+                    }
+                }
+            }
+            matrix.push(graph.substitute(&row, &at_rest));
+        }
+        let mut roots = slopes;
+        roots.push(lagrangian.value);
+        let mut values = graph.substitute(&roots, &at_rest);
+        let constant = values.pop().unwrap_or(zero);
+        let momenta = values.into_iter().enumerate().map(|(i, linear)| {
+            let mu = graph.symbol(Symbol::Coordinate(i));
+            graph.sub(mu, linear)
+        });
+        let momenta = momenta.collect();
+        let mut form = Self {
+            matrix,
+            momenta,
+            constant,
+            rest: (0..count).collect(),
+            defaults: lagrangian
+                .parameters
+                .iter()
+                .map(|p| p.default_value)
+                .collect(),
+            size: 0.0,
+        };
+        let entries = form.matrix.iter().flatten();
+        let all = entries.clone().chain(&form.momenta).chain([&form.constant]);
+        let finite = |&entry: &ExprId| {
+            graph.evaluate(entry, &|symbol| match symbol {
+                Symbol::Parameter(p) => form.defaults[p],
+                _ => 0.0,
+            })
+        };
+        if !all.map(finite).all(f64::is_finite) {
+            return Err(Box::new(not_at_rest(lagrangian)));
+        }
+        form.size = entries
+            .map(|&entry| form.value(graph, entry).abs())
+            .fold(0.0, f64::max);
+        Ok(form)
+    }
+
+    /// An entry at the default parameters.
+    fn value(&self, graph: &Graph, entry: ExprId) -> f64 {
+        graph.evaluate(entry, &|symbol| match symbol {
+            Symbol::Parameter(p) => self.defaults[p],
+            _ => f64::NAN,
+        })
+    }
+
+    fn is_pivot(&self, value: f64) -> bool {
+        value.is_finite() && value.abs() > SINGULAR * self.size
+    }
+
+    /// Where to go on; `None` if the rest of the matrix is singular.
+    fn pivot(&self, graph: &Graph) -> Option<Pivot> {
+        let diagonal = |i: usize| self.value(graph, self.matrix[i][i]);
+        let largest = self.rest.iter().map(|&i| diagonal(i).abs());
+        let largest = largest.fold(0.0, f64::max);
+        let fill = |i: usize| {
+            let others = self.rest.iter().filter(|&&j| j != i);
+            others
+                .filter(|&&j| !graph.is_zero(self.matrix[i][j]))
+                .count()
+        };
+        let one = self
+            .rest
+            .iter()
+            .copied()
+            .filter(|&i| {
+                let value = diagonal(i);
+                self.is_pivot(value) && value.abs() >= THRESHOLD * largest
+            })
+            .min_by_key(|&i| fill(i));
+        if let Some(i) = one {
+            return Some(Pivot::One(i));
+        }
+        let pairs = self.rest.iter().enumerate().flat_map(|(place, &i)| {
+            let later = self.rest[place + 1..].iter();
+            later.map(move |&j| (i, j))
+        });
+        pairs
+            .filter(|&(i, j)| self.is_pivot(self.value(graph, self.matrix[i][j])))
+            .min_by_key(|&(i, j)| fill(i) + fill(j))
+            .map(|(i, j)| Pivot::Two(i, j))
+    }
+
+    /// Takes a pivot out of the rest; returns its part of H.
+    fn eliminate(&mut self, graph: &mut Graph, pivot: &Pivot) -> ExprId {
+        let rows = match *pivot {
+            Pivot::One(i) => vec![i],
+            Pivot::Two(i, j) => vec![i, j],
+        };
+        self.rest.retain(|i| !rows.contains(i));
+        let inverse = self.inverse(graph, &rows);
+        let momenta: Vec<ExprId> = rows.iter().map(|&i| self.momenta[i]).collect();
+        for place in 0..self.rest.len() {
+            let i = self.rest[place];
+            let left: Vec<ExprId> = rows.iter().map(|&p| self.matrix[i][p]).collect();
+            if left.iter().all(|&entry| graph.is_zero(entry)) {
+                continue;
+            }
+            let change = form(graph, &left, &inverse, &momenta);
+            self.momenta[i] = graph.sub(self.momenta[i], change);
+            for &j in &self.rest[place..] {
+                let right: Vec<ExprId> = rows.iter().map(|&p| self.matrix[p][j]).collect();
+                let change = form(graph, &left, &inverse, &right);
+                if graph.is_zero(change) {
+                    continue;
+                }
+                let mut entry = graph.sub(self.matrix[i][j], change);
+                if vanishes(graph, entry) {
+                    entry = graph.integer(0);
+                }
+                self.matrix[i][j] = entry;
+                self.matrix[j][i] = entry;
+            }
+        }
+        let value = form(graph, &momenta, &inverse, &momenta);
+        graph.scale(value, &(&Rational::ONE / &Rational::from(2)))
+    }
+
+    /// The inverse of the block of one or two rows.
+    fn inverse(&self, graph: &mut Graph, rows: &[usize]) -> Vec<Vec<ExprId>> {
+        let power = Rational::MINUS_ONE;
+        match *rows {
+            [i, j] => {
+                let (a, b, d) = (self.matrix[i][i], self.matrix[i][j], self.matrix[j][j]);
+                let (diagonal, square) = (graph.mul(a, d), graph.mul(b, b));
+                let determinant = graph.sub(diagonal, square);
+                let inverse = graph.pow(determinant, &power);
+                let minus = graph.neg(b);
+                [[d, minus], [minus, a]]
+                    .map(|row| row.map(|entry| graph.mul(entry, inverse)).to_vec())
+                    .to_vec()
+            }
+            _ => rows
+                .iter()
+                .map(|&i| vec![graph.pow(self.matrix[i][i], &power)])
+                .collect(),
+        }
+    }
+
+    fn singular(&self, lagrangian: &Lagrangian<'_>) -> Diagnostic {
+        let names: Vec<String> = self
+            .rest
+            .iter()
+            .map(|&i| format!("`{}`", lagrangian.velocity[i].text))
+            .collect();
+        let all = lagrangian.velocity.len();
+        Diagnostic::new(
+            Kind::Legendre,
+            lagrangian.origin,
+            format!(
+                "the Lagrangian is singular at the default parameters: its Hessian has rank {} of {all}, \
+                 and the momenta do not determine {}",
+                all - self.rest.len(),
+                names.join(", ")
+            ),
+        )
+        .help("every component of the velocity needs a kinetic term; a degenerate system can be given by its Hamiltonian")
+    }
+}
+
+/// `sum_pq left_p inverse_pq right_q`
+fn form(graph: &mut Graph, left: &[ExprId], inverse: &[Vec<ExprId>], right: &[ExprId]) -> ExprId {
+    let mut terms = Vec::new();
+    for (&left, row) in left.iter().zip(inverse) {
+        for (&right, &entry) in right.iter().zip(row) {
+            terms.push(graph.product(&[left, entry, right]));
+        }
+    }
+    graph.sum(&terms)
+}
+
+/// Whether an expression is shown to be zero.
+fn vanishes(graph: &Graph, expression: ExprId) -> bool {
+    let budget = Budget::new(WORK);
+    let verdict = NormalForm::new(graph, &budget).verdict(expression);
+    matches!(verdict, Verdict::Zero)
+}
+
+fn not_at_rest(lagrangian: &Lagrangian<'_>) -> Diagnostic {
+    Diagnostic::new(
+        Kind::Legendre,
+        lagrangian.origin,
+        "the Lagrangian is not finite at rest with the default parameters, where its coefficients are taken",
+    )
+    .help("write it as a polynomial in the velocity")
+}
+
+fn not_quadratic(lagrangian: &Lagrangian<'_>, indices: [usize; 3]) -> Diagnostic {
+    let [a, b, c] = indices.map(|i| &lagrangian.velocity[i].text);
+    Diagnostic::new(
+        Kind::Legendre,
+        lagrangian.origin,
+        format!(
+            "the Lagrangian is not quadratic in the velocity: its derivative by `{a}`, `{b}` and `{c}` is not zero, \
+             or could not be shown to be"
+        ),
+    )
+    .help("the Legendre transform of other Lagrangians is not built yet; give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
+}

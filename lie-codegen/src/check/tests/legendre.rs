@@ -1,0 +1,209 @@
+use super::*;
+
+/// so(3) with a Lagrangian in the velocity w1, w2, w3.
+fn lagrangian(value: &str, extra: &[(&str, &str)]) -> String {
+    let algebra = r#"{"basis": ["e1", "e2", "e3"], "brackets": ["[e1, e2] = e3", "[e2, e3] = e1", "[e3, e1] = e2"]}"#;
+    let value = format!("{value:?}");
+    system(
+        &[
+            ("algebra", algebra),
+            ("state", r#"["x", "y", "z"]"#),
+            ("velocity", r#"["w1", "w2", "w3"]"#),
+            ("lagrangian", &value),
+            ("parameters", r#"{"a": 2, "b": "1/3", "c": "-3/2"}"#),
+        ],
+        extra,
+    )
+}
+
+#[test]
+fn a_diagonal_lagrangian_gives_the_hamiltonian_that_one_writes() {
+    let model = model(&lagrangian("a*w1^2/2 + b*w2^2/2 + w3^2", &[]));
+    let text = model.display(model.hamiltonian);
+    let expected = so3(&[
+        ("parameters", r#"{"a": 2, "b": "1/3"}"#),
+        ("hamiltonian", r#""x^2/(2*a) + y^2/(2*b) + z^2/4""#),
+    ]);
+    let expected = super::model(&expected);
+    assert_eq!(text, expected.display(expected.hamiltonian));
+    assert_eq!(model.hamiltonian_degree, Some(2));
+    assert_eq!(model.pieces, Ok(vec![0, 1, 2]));
+}
+
+/// `l = <A w, w>/2 + <b, w> + c` as text and as numbers at a = 2, b = 1/3, c = -3/2.
+type Form = (&'static str, [[f64; 3]; 3], [f64; 3], f64);
+const FORMS: [Form; 6] = [
+    (
+        "w1^2 + a*w1*w2/2 + w2^2 + w3^2/2 + b*w2*w3 + c*w1 - w3 + a*b",
+        [
+            [2.0, 1.0, 0.0],
+            [1.0, 2.0, 1.0 / 3.0],
+            [0.0, 1.0 / 3.0, 1.0],
+        ],
+        [-1.5, 0.0, -1.0],
+        2.0 / 3.0,
+    ),
+    // no diagonal to begin with
+    (
+        "a*w1*w2 + w3^2/2 + c",
+        [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
+        [0.0; 3],
+        -1.5,
+    ),
+    (
+        "w1*w2 + w2*w3 + w1*w3 + b*w2",
+        [[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]],
+        [0.0, 1.0 / 3.0, 0.0],
+        0.0,
+    ),
+    // indefinite
+    (
+        "c*w1^2/2 + (w1 + w2)^2/2 - w3^2",
+        [[-0.5, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, -2.0]],
+        [0.0; 3],
+        0.0,
+    ),
+    // quadratic, but not at first sight
+    (
+        "w1^2*(sin(w2)^2 + cos(w2)^2) + (w2 + w3)^2 - 2*w2*w3",
+        [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]],
+        [0.0; 3],
+        0.0,
+    ),
+    // the pivot that the order of the names suggests is 1e-9
+    (
+        "w1^2/2000000000 + w1*w2 + w2^2/2 + w3^2/2",
+        [[1e-9, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [0.0; 3],
+        0.0,
+    ),
+];
+
+/// `mu = l'(w)` has the energy `<mu, w> - l(w)`, and `grad H(mu)` is w.
+#[test]
+fn the_gradient_of_h_inverts_the_legendre_map() {
+    let w = [0.7, -0.4, 1.1];
+    for (text, matrix, linear, constant) in FORMS {
+        let model = model(&lagrangian(text, &[]));
+        let times = |i: usize| (0..3).map(|j| matrix[i][j] * w[j]).sum::<f64>();
+        let mu: Vec<f64> = (0..3).map(|i| times(i) + linear[i]).collect();
+        let kinetic = 0.5 * (0..3).map(|i| times(i) * w[i]).sum::<f64>();
+        let mut graph = model.graph.clone();
+        let mut roots = vec![model.hamiltonian];
+        roots.extend((0..3).map(|i| graph.derivative(model.hamiltonian, Symbol::Coordinate(i))));
+        let values = graph.evaluate_all(&roots, &|symbol| match symbol {
+            Symbol::Coordinate(i) => mu[i],
+            Symbol::Parameter(p) => [2.0, 1.0 / 3.0, -1.5][p],
+            _ => f64::NAN,
+        });
+        let expected = [kinetic - constant, w[0], w[1], w[2]];
+        for (value, expected) in values.iter().zip(expected) {
+            assert!(
+                (value - expected).abs() < 1e-13,
+                "{text}: {values:?}, expected {expected}, H = {}",
+                model.display(model.hamiltonian)
+            );
+        }
+    }
+}
+
+#[test]
+fn abbreviations_serve_lagrangians() {
+    let extra = [("let", r#"["turn = w1 + w2"]"#)];
+    let model = model(&lagrangian("turn^2/2 + w2^2/2 + w3^2/2", &extra));
+    assert_eq!(model.hamiltonian_degree, Some(2));
+}
+
+#[test]
+fn what_has_no_transform_is_refused() {
+    let refused = |value: &str, message: &str| {
+        let found = errors(&lagrangian(value, &[]));
+        let expected = format!("legendre at {value}: {message}");
+        assert!(
+            found.len() == 1 && found[0].starts_with(&expected),
+            "{found:#?}\n{expected}"
+        );
+    };
+    let singular = |rank: usize, names: &str| {
+        format!(
+            "the Lagrangian is singular at the default parameters: its Hessian has rank {rank} of 3, \
+             and the momenta do not determine {names}"
+        )
+    };
+    refused("w1^2 + w2^2", &singular(2, "`w3`"));
+    refused("(w1 + a*w2)^2 + w3^2", &singular(2, "`w2`"));
+    refused("b*(w1/3 + w2/7 + w3/11)^2", &singular(1, "`w2`, `w3`"));
+    refused("w1^2 + (a - 2)*w2^2 + w3^2", &singular(2, "`w2`"));
+    refused("c", &singular(0, "`w1`, `w2`, `w3`"));
+    refused(
+        "w1^2 + w2^3 + w3^2",
+        "the Lagrangian is not quadratic in the velocity: its derivative by `w2`, `w2` and `w2` is not zero",
+    );
+    refused(
+        "sqrt(1 + w1^2) + w2^2 + w3^2",
+        "the Lagrangian is not quadratic in the velocity",
+    );
+}
+
+#[test]
+fn a_lagrangian_is_defined_at_rest() {
+    expect(
+        &lagrangian("w1^2 + w2^4/w2^2 + w3^2 + log(a - 2)", &[]),
+        &["legendre at w1^2 + w2^4/w2^2 + w3^2 + log(a - 2): the Lagrangian is not finite"],
+    );
+}
+
+#[test]
+fn momenta_and_velocities_do_not_mix() {
+    let l = "w1^2 + w2^2 + w3^2";
+    expect(
+        &lagrangian("w1^2 + w2^2 + w3^2 + x", &[]),
+        &["unknown-symbol at x"],
+    );
+    expect(
+        &lagrangian(l, &[("casimirs", r#"["w1^2"]"#)]),
+        &["unknown-symbol at w1"],
+    );
+    expect(
+        &lagrangian(l, &[("velocity", r#"["w1", "w2"]"#)]),
+        &["unknown-symbol at w3", "state-length at w2"],
+    );
+    expect(
+        &lagrangian(l, &[("velocity", r#"["w1", "w2", "w3", "w4"]"#)]),
+        &["state-length at w4"],
+    );
+    expect(
+        &lagrangian("w2^2", &[("velocity", r#"["x", "w2", "w3"]"#)]),
+        &["duplicate-name"],
+    );
+    expect(&lagrangian(" ", &[]), &["empty-hamiltonian"]);
+}
+
+#[test]
+fn one_function_gives_the_system() {
+    let l = "w1^2 + w2^2 + w3^2";
+    expect(
+        &lagrangian(l, &[("hamiltonian", r#""x^2""#)]),
+        &["schema at \"w1^2 + w2^2 + w3^2\": `lagrangian` beside `hamiltonian`"],
+    );
+    expect(
+        &so3(&[("velocity", r#"["w1", "w2", "w3"]"#)]),
+        &["schema at [\"w1\", \"w2\", \"w3\"]: `velocity` beside `hamiltonian`"],
+    );
+    expect(
+        &so3(&[("lagrangian", r#""x^2""#)]),
+        &["schema at \"x^2\": `lagrangian` beside"],
+    );
+    let alone = system(
+        &[
+            ("algebra", r#"{"basis": ["e1"], "brackets": []}"#),
+            ("state", r#"["x"]"#),
+            ("lagrangian", r#""1""#),
+        ],
+        &[],
+    );
+    expect(
+        &alone,
+        &["schema at \"1\": the Lagrangian has no `velocity`"],
+    );
+}

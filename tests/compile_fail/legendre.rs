@@ -1,0 +1,27 @@
+//! A Lagrangian whose velocity the momenta do not determine.
+
+use lie_runtime::prelude::*;
+
+lie_poisson! {
+    pub system Body;
+    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    state x, y, z;
+    parameters { I1 = 2; I2 = 1; I3 = 2/3; }
+    velocity u, v, w;
+    lagrangian = I1*u^2/2 + I2*(v + w)^2/2 + 0*I3;
+    casimir C = x^2 + y^2 + z^2;
+    methods = [lie-midpoint];
+}
+
+// Whoever uses the type hears of nothing else.
+fn main() {
+    let mut body = Body::new();
+    body.I1 = 3.0;
+    let system = body.system().expect("finite constants");
+    let problem = Problem::new(system, [1.0, 0.0, 0.5], (0.0, 1.0));
+    let solution = solve(&problem, LieMidpoint::exp(), &Options::new(0.1)).expect("a solution");
+    let single = Body::<f32>::default().system().expect("finite constants");
+    let mut velocity = single.zero_state();
+    single.vector_field(&single.zero_state(), &mut velocity);
+    println!("{} {:?} {:?}", body.I2, solution.last(), solution.drift());
+}
