@@ -216,6 +216,27 @@ fn an_integration_that_stops_keeps_its_rows() {
     assert!(!rows.is_empty() && rows.iter().all(|row| row.len() == header.len()));
 }
 
+/// A flow of a splitting jumps from x > 0 to x < 0, where log(x) is none.
+#[test]
+fn a_step_over_a_singularity_stops_the_run() {
+    let folder = folder();
+    let out = folder.path().join("rows.csv");
+    let path = spec(folder.path(), |spec| {
+        spec["hamiltonian"] = "log(x) + y^2 + z^4".into();
+        spec["initial"] = serde_json::json!([0.3, 0.7, 0.4]);
+    });
+    let run = lie(&format!(
+        "run {} --method splitting2 --step 0.3 --until 30 --out {}",
+        path.display(),
+        out.display()
+    ));
+    assert_eq!(run.code, Some(3), "{}", run.stderr);
+    let reason = "the Hamiltonian is not finite at the end of the step";
+    assert!(run.stderr.contains(reason), "{}", run.stderr);
+    let (_, rows) = csv(&std::fs::read_to_string(out).expect("the rows are there"));
+    assert!(rows.len() > 10 && rows.iter().flatten().all(|value| value.is_finite()));
+}
+
 #[test]
 fn the_processor_of_this_machine_gives_the_same_bits() {
     let flags = "--method gauss4 --step 0.05 --until 2";

@@ -138,3 +138,10 @@ fn a_claim_that_fails_is_exit_code_1() {
         run.stdout
     );
 }
+
+#[test]
+fn steps_backwards_have_the_same_orders() {
+    let run =
+        lie("verify specs/so3_free_rigid_body.json --step -0.1 --methods rk4,midpoint --quiet");
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+}
