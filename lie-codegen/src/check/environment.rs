@@ -76,7 +76,7 @@ impl<'a> Environment<'a> {
         for (name, _) in &declaration.lets {
             bindings.entry(name.text.as_str()).or_insert(Binding::Later);
         }
-        for name in &declaration.algebra.basis {
+        for name in declaration.basis() {
             bindings.entry(name.text.as_str()).or_insert(Binding::Basis);
         }
         Self { bindings }

@@ -300,34 +300,26 @@ impl Source {
                 g[i] = closed.value[i];
             }
         }
+        let (moved, slopes) = if self.is_lie() {
+            self.moved_on_algebra(&g, &closed.slopes)
+        } else {
+            self.moved(&g, &closed.slopes)
+        };
         let (start, unknown) = (self.coordinates(), self.block(Block::Unknown));
-        let sums = self.block(Block::Middle);
-        let h = self.graph.symbol(Symbol::Step);
-        let half_step = self
-            .graph
-            .scale(h, &Rational::new(1, 2).unwrap_or(Rational::ONE));
-        let field = self.ad_star_of(&g, &sums);
         let residual: Vec<ExprId> = (0..n)
             .map(|i| {
-                let moved = self.graph.mul(half_step, field[i]);
                 self.graph.linear(&[
                     (unknown[i], Rational::ONE),
                     (start[i], Rational::MINUS_ONE),
-                    (moved, Rational::MINUS_ONE),
+                    (moved[i], Rational::MINUS_ONE),
                 ])
             })
             .collect();
-        let zero = self.graph.integer(0);
-        let mut rows = vec![vec![zero; n]; n];
-        for j in 0..n {
-            let mut unit = vec![zero; n];
-            unit[j] = self.graph.integer(1);
-            let along: Vec<ExprId> = closed.slopes.iter().map(|row| row[j]).collect();
-            let (turned, bent) = (self.ad_star_of(&g, &unit), self.ad_star_of(&along, &sums));
-            for i in 0..n {
-                let sum = self.graph.add(turned[i], bent[i]);
-                let moved = self.graph.mul(half_step, sum);
-                rows[i][j] = self.graph.sub(unit[i], moved);
+        let mut rows = slopes;
+        for (i, row) in rows.iter_mut().enumerate() {
+            for (j, slope) in row.iter_mut().enumerate() {
+                let unit = self.graph.integer(i64::from(i == j));
+                *slope = self.graph.sub(unit, *slope);
             }
         }
         let graph = &self.graph;
@@ -350,5 +342,58 @@ impl Source {
             .into_iter()
             .map(|kernel| self.complete(kernel, &closed.definitions, true))
             .collect()
+    }
+
+    /// `h Pi(m) g` and its derivative in u for `Pi(m) g = ad*_g m`, linear in `m = s/2`; row by row.
+    fn moved_on_algebra(
+        &mut self,
+        g: &[ExprId],
+        slopes: &[Vec<ExprId>],
+    ) -> (Vec<ExprId>, Vec<Vec<ExprId>>) {
+        let n = self.dimension;
+        let sums = self.block(Block::Middle);
+        let h = self.graph.symbol(Symbol::Step);
+        let half_step = self
+            .graph
+            .scale(h, &Rational::new(1, 2).unwrap_or(Rational::ONE));
+        let field = self.ad_star_of(g, &sums);
+        let moved = field
+            .iter()
+            .map(|f| self.graph.mul(half_step, *f))
+            .collect();
+        let zero = self.graph.integer(0);
+        let mut rows = vec![vec![zero; n]; n];
+        for j in 0..n {
+            let mut unit = vec![zero; n];
+            unit[j] = self.graph.integer(1);
+            let along: Vec<ExprId> = slopes.iter().map(|row| row[j]).collect();
+            let (turned, bent) = (self.ad_star_of(g, &unit), self.ad_star_of(&along, &sums));
+            for i in 0..n {
+                let sum = self.graph.add(turned[i], bent[i]);
+                rows[i][j] = self.graph.mul(half_step, sum);
+            }
+        }
+        (moved, rows)
+    }
+
+    /// The same for any Poisson matrix.
+    fn moved(&mut self, g: &[ExprId], slopes: &[Vec<ExprId>]) -> (Vec<ExprId>, Vec<Vec<ExprId>>) {
+        let n = self.dimension;
+        let middle = self.middle();
+        let h = self.graph.symbol(Symbol::Step);
+        let field = self.poisson_times(g, &middle);
+        let moved = field.iter().map(|f| self.graph.mul(h, *f)).collect();
+        let zero = self.graph.integer(0);
+        let mut rows = vec![vec![zero; n]; n];
+        for j in 0..n {
+            let along: Vec<ExprId> = slopes.iter().map(|row| row[j]).collect();
+            let bent = self.poisson_times(&along, &middle);
+            for i in 0..n {
+                let turned = self.slope_in_end(field[i], j);
+                let sum = self.graph.add(turned, bent[i]);
+                rows[i][j] = self.graph.mul(h, sum);
+            }
+        }
+        (moved, rows)
     }
 }

@@ -15,8 +15,6 @@ pub struct Object<'a> {
 /// Keys that the format keeps for what is not built yet, and the keys that they would replace.
 pub const NOT_BUILT: &[(&str, &[&str])] = &[
     ("discrete_lagrangian", &["hamiltonian"]),
-    ("poisson", &["algebra"]),
-    ("cocycle", &[]),
     ("group", &[]),
     ("realization", &[]),
 ];
@@ -52,7 +50,7 @@ impl<'a> Object<'a> {
             } else if reserved.iter().any(|(word, _)| *word == key) {
                 error(
                     format!("the key `{key}` is reserved: what it declares is not built yet"),
-                    "remove it; systems are declared by `algebra` and `hamiltonian`".into(),
+                    "remove it; systems are declared by `algebra` or `poisson`, and `hamiltonian` or `lagrangian`".into(),
                 );
                 members.push(member);
             } else {

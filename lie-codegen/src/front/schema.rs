@@ -29,8 +29,9 @@ macro_rules! objects {
 }
 
 objects! {
-    /// A Lie–Poisson system: a Lie algebra by its structure constants and a Hamiltonian on its dual.
-    struct Spec requires ["name", "algebra", "state"] {
+    /// A Hamiltonian system: a Lie algebra by its structure constants and a Hamiltonian on its dual, or
+    /// the Poisson brackets of the coordinates and a Hamiltonian.
+    struct Spec requires ["name", "state"] {
         /// Path of this schema, for editors.
         "$schema" schema: Option<String>,
         /// Version of the format.
@@ -43,8 +44,14 @@ objects! {
         /// Where the system comes from, for people.
         "references" references: Option<Vec<String>>,
         /// The Lie algebra.
-        "algebra" algebra: Algebra,
-        /// Names of the coordinates of mu, one for each basis element.
+        "algebra" algebra: Option<Algebra>,
+        /// Beside the algebra: brackets `{x, y} = value` of coordinates that are added to the
+        /// Lie–Poisson bracket, constants that satisfy the cocycle identity.
+        "cocycle" cocycle: Option<Vec<String>>,
+        /// Instead of the algebra: the Poisson brackets `{x, y} = value` of the coordinates, expressions
+        /// in state, parameters and abbreviations. Antisymmetry is implied and absent brackets are zero.
+        "poisson" poisson: Option<Vec<String>>,
+        /// Names of the coordinates, one for each basis element where there is an algebra.
         "state" state: Vec<String>,
         /// Parameters and their defaults.
         "parameters" parameters: Option<BTreeMap<String, Parameter>>,
@@ -114,6 +121,8 @@ objects! {
         "lift" lift: Option<String>,
         /// Discrete gradient.
         "gradient" gradient: Option<String>,
+        /// Poisson tensor of a discrete gradient method.
+        "tensor" tensor: Option<String>,
         /// Relative tolerance.
         "rtol" rtol: Option<Constant>,
         /// Absolute tolerance.
@@ -177,6 +186,10 @@ pub fn schema() -> Value {
         { "required": ["hamiltonian"] },
         { "required": ["lagrangian", "velocity"] },
     ]);
+    schema["allOf"] = serde_json::json!([
+        { "oneOf": [{ "required": ["algebra"] }, { "required": ["poisson"] }] },
+    ]);
+    schema["dependentRequired"] = serde_json::json!({ "cocycle": ["algebra"] });
     schema
 }
 

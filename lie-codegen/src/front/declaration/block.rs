@@ -1,8 +1,8 @@
-//! The blocks `algebra` and `parameters`, and lists of names.
+//! The blocks `algebra`, `poisson`, `cocycle` and `parameters`, and lists of names.
 
 use super::entry::Entry;
 use super::statement::Statement;
-use crate::ast::{Algebra, Name, Parameter};
+use crate::ast::{Algebra, Bracket, Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::front::token::{Token, span, split_commas};
 use crate::front::{Names, item};
@@ -75,6 +75,13 @@ pub fn algebra(
         matrices: Vec::new(),
         origin: statement.origin,
     })
+}
+
+/// `{ {x, y} = …; }`
+pub fn poisson(statement: &Statement<'_>, names: &Names, report: &mut Report) -> Vec<Bracket> {
+    let entries = statement.block(report).unwrap_or_default();
+    let bracket = |entry: &Entry<'_>| item::poisson(entry.tokens, entry.origin(), names, report);
+    entries.iter().filter_map(bracket).collect()
 }
 
 /// `{ I1 = 2.0; exact k = 1/3; }`: the names that could be read, and the parameters without mistakes.

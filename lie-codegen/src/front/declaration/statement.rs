@@ -10,6 +10,8 @@ use crate::suggest::did_you_mean;
 const KEYWORDS: &[(&str, Follows)] = &[
     ("system", Follows::Name),
     ("algebra", Follows::Block),
+    ("poisson", Follows::Block),
+    ("cocycle", Follows::Block),
     ("state", Follows::Name),
     ("parameters", Follows::Block),
     ("let", Follows::Name),
@@ -124,7 +126,7 @@ pub fn statements<'a>(tokens: &'a [Token], report: &mut Report) -> Vec<Statement
                         token.origin,
                         format!("`{keyword}` is reserved: what it declares is not built yet"),
                     )
-                    .help("remove it; systems are declared by `algebra` and `hamiltonian`"),
+                    .help("remove it; systems are declared by `algebra` or `poisson`, and `hamiltonian` or `lagrangian`"),
                 );
                 let rest = rest(&mut cursor, keyword, report);
                 statements.push(Statement {
