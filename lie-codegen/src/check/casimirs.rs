@@ -36,9 +36,9 @@ pub fn check(
     let budget = Budget::new(WORK);
     let mut normal = NormalForm::new(scratch, &budget);
     let mut undecided = None;
-    for (i, terms, bracket) in &brackets {
+    for (i, bracket) in &brackets {
         let coordinate = name(Symbol::Coordinate(*i));
-        let shown = match examine(&mut normal, scratch, (terms, *bracket), name) {
+        let shown = match examine(&mut normal, scratch, *bracket, name) {
             Proof::Zero => continue,
             Proof::Nonzero(shown) => shown,
             Proof::Unproven(shown) => {
@@ -84,12 +84,8 @@ pub fn degree(graph: &Graph, function: ExprId) -> Option<u32> {
     NormalForm::new(graph, &budget).degree(function)
 }
 
-/// The brackets with all coordinates that are not trivially zero: their terms and their sum.
-fn brackets(
-    graph: &mut Graph,
-    function: ExprId,
-    poisson: &PoissonMatrix,
-) -> Vec<(usize, Vec<ExprId>, ExprId)> {
+/// The brackets with all coordinates that are not trivially zero.
+fn brackets(graph: &mut Graph, function: ExprId, poisson: &PoissonMatrix) -> Vec<(usize, ExprId)> {
     let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); poisson.dimension];
     // {C, x_i} = sum_j dC/dx_j Pi_ji
     for (j, i, entry) in &poisson.entries {
@@ -105,7 +101,7 @@ fn brackets(
     for (i, terms) in terms.into_iter().enumerate() {
         let sum = graph.sum(&terms);
         if !graph.is_zero(sum) {
-            result.push((i, terms, sum));
+            result.push((i, sum));
         }
     }
     result

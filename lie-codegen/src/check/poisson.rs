@@ -194,9 +194,9 @@ pub fn jacobi(
     let budget = Budget::new(WORK);
     let mut normal = NormalForm::new(scratch, &budget);
     let mut first: Option<(Diagnostic, usize)> = None;
-    for (triple, terms, sum) in &sums {
+    for (triple, sum) in &sums {
         let name = |symbol| symbol_name(declaration, symbol);
-        let proof = examine(&mut normal, scratch, (terms, *sum), &name);
+        let proof = examine(&mut normal, scratch, *sum, &name);
         let (what, shown) = match proof {
             Proof::Zero => continue,
             Proof::Nonzero(shown) => ("fails", shown),
@@ -244,10 +244,8 @@ pub fn jacobi(
     }
 }
 
-type Sum = ([usize; 3], Vec<ExprId>, ExprId);
-
-/// The sums of the identity that are not trivially zero, with their terms.
-fn jacobiator(dimension: usize, entries: &[Entry], graph: &mut Graph) -> Vec<Sum> {
+/// The sums of the identity that are not trivially zero.
+fn jacobiator(dimension: usize, entries: &[Entry], graph: &mut Graph) -> Vec<([usize; 3], ExprId)> {
     let zero = graph.integer(0);
     let mut matrix = vec![vec![zero; dimension]; dimension];
     for entry in entries {
@@ -282,7 +280,7 @@ fn jacobiator(dimension: usize, entries: &[Entry], graph: &mut Graph) -> Vec<Sum
                 }
                 let sum = graph.sum(&terms);
                 if !graph.is_zero(sum) {
-                    sums.push(([i, j, k], terms, sum));
+                    sums.push(([i, j, k], sum));
                 }
             }
         }

@@ -50,7 +50,7 @@ impl<'a> Object<'a> {
             } else if reserved.iter().any(|(word, _)| *word == key) {
                 error(
                     format!("the key `{key}` is reserved: what it declares is not built yet"),
-                    "remove it; systems are declared by `algebra` or `poisson`, and `hamiltonian` or `lagrangian`".into(),
+                    "remove it; systems are declared by `algebra` and `hamiltonian`".into(),
                 );
                 members.push(member);
             } else {

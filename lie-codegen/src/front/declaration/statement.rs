@@ -126,7 +126,7 @@ pub fn statements<'a>(tokens: &'a [Token], report: &mut Report) -> Vec<Statement
                         token.origin,
                         format!("`{keyword}` is reserved: what it declares is not built yet"),
                     )
-                    .help("remove it; systems are declared by `algebra` or `poisson`, and `hamiltonian` or `lagrangian`"),
+                    .help("remove it; systems are declared by `algebra` and `hamiltonian`"),
                 );
                 let rest = rest(&mut cursor, keyword, report);
                 statements.push(Statement {
