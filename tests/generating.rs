@@ -35,6 +35,7 @@ const STEP: f64 = 1e-15;
 /// What every system has.
 trait Methods<S: Scalar>:
     Lift<S>
+    + LiePoisson<S>
     + Implicit<S, LieMidpoint<Exp>>
     + Implicit<S, Generating<Exp, 2>>
     + Implicit<S, Generating<Exp, 4>>
@@ -45,6 +46,7 @@ trait Methods<S: Scalar>:
 
 impl<S: Scalar, P> Methods<S> for P where
     P: Lift<S>
+        + LiePoisson<S>
         + Implicit<S, LieMidpoint<Exp>>
         + Implicit<S, Generating<Exp, 2>>
         + Implicit<S, Generating<Exp, 4>>

@@ -4,7 +4,7 @@ use lie_runtime::prelude::*;
 
 lie_poisson! {
     pub system Body;
-    poisson { [x, y] = 1; {x, v} = z^2; {y, z} = z; {z, y} = z; }
+    poisson { [x, y] = 1; {y, z} = z; }
     cocycle { {x, y} = 1; }
     state x, y, z, w;
     parameters { I1 = 2; I2 = 1; I3 = 2/3; }

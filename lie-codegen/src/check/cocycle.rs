@@ -127,7 +127,7 @@ pub fn check(
         let place = found.map_or(declaration.place(), |entry| entry.origin);
         report.push(
             Diagnostic::new(Kind::Cocycle, place, message).help(
-                "correct the constants; every choice is a cocycle only where [[a, b], c] vanishes for all elements",
+                "correct the constants; S(a, b) is what is added to the bracket of the coordinates of a and b",
             ),
         );
         return;

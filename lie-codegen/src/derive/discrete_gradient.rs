@@ -300,26 +300,30 @@ impl Source {
                 g[i] = closed.value[i];
             }
         }
-        let (moved, slopes) = if self.is_lie() {
-            self.moved_on_algebra(&g, &closed.slopes)
-        } else {
-            self.moved(&g, &closed.slopes)
-        };
         let (start, unknown) = (self.coordinates(), self.block(Block::Unknown));
+        let (factor, field) = self.field_along(&g);
         let residual: Vec<ExprId> = (0..n)
             .map(|i| {
+                let moved = self.graph.mul(factor, field[i]);
                 self.graph.linear(&[
                     (unknown[i], Rational::ONE),
                     (start[i], Rational::MINUS_ONE),
-                    (moved[i], Rational::MINUS_ONE),
+                    (moved, Rational::MINUS_ONE),
                 ])
             })
             .collect();
-        let mut rows = slopes;
-        for (i, row) in rows.iter_mut().enumerate() {
-            for (j, slope) in row.iter_mut().enumerate() {
-                let unit = self.graph.integer(i64::from(i == j));
-                *slope = self.graph.sub(unit, *slope);
+        let zero = self.graph.integer(0);
+        let mut rows = vec![vec![zero; n]; n];
+        for j in 0..n {
+            let mut unit = vec![zero; n];
+            unit[j] = self.graph.integer(1);
+            let along: Vec<ExprId> = closed.slopes.iter().map(|row| row[j]).collect();
+            let turned = self.turned(&g, &field, &unit, j);
+            let bent = self.bent(&along);
+            for i in 0..n {
+                let sum = self.graph.add(turned[i], bent[i]);
+                let moved = self.graph.mul(factor, sum);
+                rows[i][j] = self.graph.sub(unit[i], moved);
             }
         }
         let graph = &self.graph;
@@ -344,56 +348,32 @@ impl Source {
             .collect()
     }
 
-    /// `h Pi(m) g` and its derivative in u for `Pi(m) g = ad*_g m`, linear in `m = s/2`; row by row.
-    fn moved_on_algebra(
-        &mut self,
-        g: &[ExprId],
-        slopes: &[Vec<ExprId>],
-    ) -> (Vec<ExprId>, Vec<Vec<ExprId>>) {
-        let n = self.dimension;
-        let sums = self.block(Block::Middle);
+    /// The factor h/2 and `ad*_g s`, whose product is `h Pi(s/2) g`; of another Poisson matrix h and
+    /// `Pi(s/2) g`.
+    fn field_along(&mut self, g: &[ExprId]) -> (ExprId, Vec<ExprId>) {
         let h = self.graph.symbol(Symbol::Step);
+        if !self.is_lie() {
+            let middle = self.middle();
+            return (h, self.poisson_times(g, &middle));
+        }
+        let sums = self.block(Block::Middle);
         let half_step = self
             .graph
             .scale(h, &Rational::new(1, 2).unwrap_or(Rational::ONE));
-        let field = self.ad_star_of(g, &sums);
-        let moved = field
-            .iter()
-            .map(|f| self.graph.mul(half_step, *f))
-            .collect();
-        let zero = self.graph.integer(0);
-        let mut rows = vec![vec![zero; n]; n];
-        for j in 0..n {
-            let mut unit = vec![zero; n];
-            unit[j] = self.graph.integer(1);
-            let along: Vec<ExprId> = slopes.iter().map(|row| row[j]).collect();
-            let (turned, bent) = (self.ad_star_of(g, &unit), self.ad_star_of(&along, &sums));
-            for i in 0..n {
-                let sum = self.graph.add(turned[i], bent[i]);
-                rows[i][j] = self.graph.mul(half_step, sum);
-            }
-        }
-        (moved, rows)
+        (half_step, self.ad_star_of(g, &sums))
     }
 
-    /// The same for any Poisson matrix.
-    fn moved(&mut self, g: &[ExprId], slopes: &[Vec<ExprId>]) -> (Vec<ExprId>, Vec<Vec<ExprId>>) {
-        let n = self.dimension;
-        let middle = self.middle();
-        let h = self.graph.symbol(Symbol::Step);
-        let field = self.poisson_times(g, &middle);
-        let moved = field.iter().map(|f| self.graph.mul(h, *f)).collect();
-        let zero = self.graph.integer(0);
-        let mut rows = vec![vec![zero; n]; n];
-        for j in 0..n {
-            let along: Vec<ExprId> = slopes.iter().map(|row| row[j]).collect();
-            let bent = self.poisson_times(&along, &middle);
-            for i in 0..n {
-                let turned = self.slope_in_end(field[i], j);
-                let sum = self.graph.add(turned, bent[i]);
-                rows[i][j] = self.graph.mul(h, sum);
-            }
+    /// The derivative of that field in `u_j`, g fixed.
+    fn turned(&mut self, g: &[ExprId], field: &[ExprId], unit: &[ExprId], j: usize) -> Vec<ExprId> {
+        if self.is_lie() {
+            return self.ad_star_of(g, unit);
         }
-        (moved, rows)
+        let entries = field.iter();
+        entries.map(|entry| self.slope_in_end(*entry, j)).collect()
+    }
+
+    /// That field with another vector in place of g.
+    fn bent(&mut self, along: &[ExprId]) -> Vec<ExprId> {
+        self.field_along(along).1
     }
 }
