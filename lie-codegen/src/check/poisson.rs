@@ -7,7 +7,7 @@ use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use super::normal::{NormalForm, Verdict};
 use super::proof::{Proof, examine};
-use crate::ast::{Bracket, Declaration, Structure};
+use crate::ast::{Bracket, Declaration, Name, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Budget;
 use crate::suggest::did_you_mean;
@@ -45,9 +45,16 @@ pub fn check(
     };
     let mut known: BTreeMap<(usize, usize), (ExprId, &Bracket)> = BTreeMap::new();
     let mut complete = true;
+    let position = |name: &Name| declaration.state.iter().position(|c| c.text == name.text);
+    // The order in the arena, and with it the code, is that of the coordinates, not that of the text.
+    let mut brackets: Vec<&Bracket> = brackets.iter().collect();
+    brackets.sort_by_key(|bracket| {
+        let (a, b) = (position(&bracket.left), position(&bracket.right));
+        (a.min(b), a.max(b))
+    });
     for bracket in brackets {
         let ends = [&bracket.left, &bracket.right].map(|name| {
-            let index = declaration.state.iter().position(|c| c.text == name.text);
+            let index = position(name);
             if index.is_none() {
                 report.push(unknown(declaration, name));
             }
@@ -100,7 +107,7 @@ pub fn check(
     })
 }
 
-fn unknown(declaration: &Declaration, name: &crate::ast::Name) -> Diagnostic {
+fn unknown(declaration: &Declaration, name: &Name) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Kind::UnknownSymbol,
         name.origin,

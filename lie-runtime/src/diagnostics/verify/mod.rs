@@ -128,7 +128,11 @@ fn symmetry<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) 
 fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
     let claimed = subject.method.claims().preserves.orbit;
     let Some(orbit_distance) = ground.orbit else {
-        return Finding::absent("orbit", "no algebra");
+        return if claimed {
+            Finding::zero("orbit", claimed, f64::NAN, 0.0).note("no algebra is known".to_owned())
+        } else {
+            Finding::absent("orbit", "no algebra")
+        };
     };
     let newton = NewtonOptions::default();
     worst(
