@@ -161,6 +161,11 @@ pub fn source(model: &Model) -> Source {
         dimension: model.dimension(),
         constants: model.constants.entries().to_vec(),
         hamiltonian: model.hamiltonian,
+        energy: model.energy,
+        momenta: model
+            .configuration
+            .as_ref()
+            .and_then(|c| c.group.as_ref().map(|_| c.momenta)),
         casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
         pieces: separable::pieces(model),
         actions: None,
@@ -178,7 +183,7 @@ fn docs(model: &Model) -> Vec<String> {
     docs.push(String::new());
     docs.push(format!(
         "`H = {}` on the dual of a Lie algebra of dimension {},",
-        model.display(model.hamiltonian),
+        model.display(model.energy),
         model.dimension()
     ));
     docs.push(format!(
@@ -186,6 +191,9 @@ fn docs(model: &Model) -> Vec<String> {
         names.join(", "),
         model.generic_rank
     ));
+    if let Some(configuration) = &model.configuration {
+        docs.push(format!("Coordinates: {}.", configuration.description()));
+    }
     if !model.casimirs.is_empty() {
         let casimirs: Vec<String> = model
             .casimirs

@@ -6,6 +6,7 @@
 
 mod algebra;
 mod casimirs;
+pub mod configuration;
 mod constant;
 mod defaults;
 pub mod domain;
@@ -35,6 +36,7 @@ use crate::model::{Casimir, Model};
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
 use casimirs::Candidate;
+use configuration::Configuration;
 use environment::{Allowed, Environment};
 use independence::Standing;
 use legendre::Lagrangian;
@@ -65,6 +67,21 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     if !size::check(declaration, report) {
         return None;
     }
+    match configuration::of(declaration, report) {
+        Some(configuration) => {
+            let whole = configuration::extended(declaration, &configuration, report);
+            system(&whole, Some(&configuration), report)
+        }
+        None => system(declaration, None, report),
+    }
+}
+
+/// Everything behind names and sizes; of a system on `T*G` the declaration is the one with all coordinates.
+fn system(
+    declaration: &Declaration,
+    configuration: Option<&Configuration>,
+    report: &mut Report,
+) -> Option<Model> {
     let algebra = algebra::check(declaration, report);
     let mut graph = Graph::new();
     let mut environment = Environment::new(declaration);
@@ -76,7 +93,9 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         declaration.energy.expression(),
         match declaration.energy {
             Energy::Hamiltonian(_) => Allowed::State,
-            Energy::Lagrangian { .. } => Allowed::Velocity,
+            Energy::Lagrangian { .. } => {
+                Allowed::Velocity(configuration.map_or(usize::MAX, |c| c.momenta))
+            }
         },
     );
     let lowered: Vec<Option<ExprId>> = declaration
@@ -126,9 +145,18 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
                 velocity,
                 origin: value.origin,
                 parameters: &parameters,
+                configuration,
             };
             legendre::hamiltonian(&mut graph, &lagrangian, report)?
         }
+    };
+    let autonomous = hamiltonian;
+    let hamiltonian = match configuration {
+        Some(configuration) if configuration.time => {
+            let momentum = graph.symbol(Symbol::Coordinate(configuration.momenta - 1));
+            graph.add(hamiltonian, momentum)
+        }
+        _ => hamiltonian,
     };
     let functions: Vec<_> = candidates.iter().map(|c| (c.expr, c.origin)).collect();
     let energy = (hamiltonian, declaration.energy.expression().origin);
@@ -167,6 +195,8 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         exact_constants,
         invariance: declaration.invariance,
         hamiltonian,
+        energy: autonomous,
+        configuration: configuration.cloned(),
         hamiltonian_degree,
         pieces,
         casimirs,

@@ -35,6 +35,10 @@ pub struct Source {
     pub constants: Vec<(usize, usize, usize, ExprId)>,
     /// The Hamiltonian.
     pub hamiltonian: ExprId,
+    /// The energy: the Hamiltonian, of a system that depends on the time without the momentum of the time.
+    pub energy: ExprId,
+    /// The number of momenta of a system on `T*G`, which are its first coordinates.
+    pub momenta: Option<usize>,
     /// The Casimirs.
     pub casimirs: Vec<ExprId>,
     /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
