@@ -20,6 +20,7 @@ mod midpoint;
 mod orbit_energy;
 mod quadrature;
 mod quaternion_stages;
+mod rotation;
 mod second_kind;
 mod series;
 mod spherical;
@@ -41,6 +42,7 @@ pub use gauss::Gauss;
 pub use generating::{
     CayleyGenerating4, Generating2, Generating4, Generating6, SecondKind2, linearize_by_duals,
 };
+pub(crate) use kernels::direction;
 pub use kernels::{
     ad_star, ad_star_matrix, jacobian, linearize, multiply, poisson_slope, vector_field,
 };
