@@ -217,6 +217,8 @@ pub struct Declaration {
     pub references: Vec<String>,
     /// The algebra, or the brackets of the coordinates.
     pub structure: Structure,
+    /// The name of the group element, where functions may use its entries.
+    pub group: Option<Name>,
     /// Names of the coordinates of `mu`.
     pub state: Vec<Name>,
     /// The parameters.

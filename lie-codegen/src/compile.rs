@@ -10,7 +10,7 @@ use crate::emit::{Blueprint, Emitted, Parameter, emit};
 use crate::front::{Body, spec};
 use crate::methods::{Choice, refusal};
 use crate::model::{Model, Structure};
-use crate::structure::{inertia, separable, spins};
+use crate::structure::{group, inertia, separable, spins};
 
 /// Reads and checks a spec file.
 ///
@@ -161,6 +161,7 @@ pub fn source(model: &Model) -> Source {
             dimension: model.dimension(),
             poisson: Some(model.poisson.entries.clone()),
             hamiltonian: model.hamiltonian,
+            energy: model.energy,
             casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
             ..Source::empty(graph)
         };
@@ -172,10 +173,16 @@ pub fn source(model: &Model) -> Source {
         constants: model.constants.entries().to_vec(),
         poisson: None,
         hamiltonian: model.hamiltonian,
+        energy: model.energy,
+        momenta: model
+            .configuration
+            .as_ref()
+            .and_then(|c| c.group.as_ref().map(|_| c.momenta)),
         casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
         pieces: separable::pieces(model),
         actions: None,
         triple: model.representation.as_ref().and_then(|r| r.triple.clone()),
+        group: group::group(model),
         matrices: model.representation.clone().filter(|r| r.dual.is_some()),
         spins: spins::spins(model),
         body,
@@ -219,7 +226,7 @@ fn docs(model: &Model) -> Vec<String> {
     docs.push(String::new());
     docs.push(format!(
         "`H = {}` {},",
-        model.display(model.hamiltonian),
+        model.display(model.energy),
         bracket_in_words(model)
     ));
     docs.push(format!(
@@ -227,6 +234,9 @@ fn docs(model: &Model) -> Vec<String> {
         names.join(", "),
         model.generic_rank
     ));
+    if let Some(configuration) = &model.configuration {
+        docs.push(format!("Coordinates: {}.", configuration.description()));
+    }
     if !model.casimirs.is_empty() {
         let casimirs: Vec<String> = model
             .casimirs

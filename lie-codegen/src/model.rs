@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 
 use crate::algebra::{Representation, StructureConstants};
 use crate::ast::{Invariance, Name, RunOption};
+use crate::check::configuration::Configuration;
 use crate::diagnostic::{Diagnostic, Origin};
 use crate::exact::{Fraction, Rational};
 use crate::symbolic::{ExprId, Graph, Symbol};
@@ -109,8 +110,12 @@ pub struct Model {
     pub exact_constants: StructureConstants<Fraction>,
     /// How it was declared.
     pub invariance: Invariance,
-    /// The Hamiltonian.
+    /// The Hamiltonian; of a system that depends on the time, that of the extended phase space.
     pub hamiltonian: ExprId,
+    /// The energy: the Hamiltonian as it was declared.
+    pub energy: ExprId,
+    /// What the coordinates beside mu are, of a system on `T*G` or one that depends on the time.
+    pub configuration: Option<Configuration>,
     /// Its total degree in the coordinates, where it is a polynomial in them.
     pub hamiltonian_degree: Option<u32>,
     /// The coordinates on which H depends, if H is a sum of functions of one of them each; else two
@@ -145,6 +150,21 @@ impl Model {
     /// Whether the bracket is the Lie–Poisson bracket of an algebra and nothing else.
     pub fn is_lie_poisson(&self) -> bool {
         self.structure == Structure::Lie
+    }
+
+    /// The coordinates that are shown: all but those that carry the time.
+    pub fn shown_coordinates(&self) -> Vec<usize> {
+        let hidden = |i: &usize| self.configuration.as_ref().is_some_and(|c| c.is_hidden(*i));
+        (0..self.dimension()).filter(|i| !hidden(i)).collect()
+    }
+
+    /// The state for the values that a user gives: all coordinates, or of a system on `T*G` the momenta alone,
+    /// at the identity. `None` where the number of values is another.
+    pub fn complete_state(&self, given: &[f64]) -> Option<Vec<f64>> {
+        match &self.configuration {
+            Some(configuration) => configuration.complete(given, |value| value as f64),
+            None => (given.len() == self.dimension()).then(|| given.to_vec()),
+        }
     }
 
     /// The name of a symbol.

@@ -26,6 +26,11 @@ pub trait Equation<S: Scalar> {
 
     /// Sets the state from which the step starts. Everything below refers to it.
     fn set_base(&mut self, mu: &Self::State);
+    /// The size that errors of the unknown are measured against, for the base mu; that of the unknown itself
+    /// counts too.
+    fn scale(&self, mu: &Self::State) -> S {
+        mu.max_norm()
+    }
     /// The unknown with which the iteration starts.
     fn initial_guess(&mut self, unknown: &mut Self::Unknown);
     /// The residual r(u).
@@ -59,6 +64,16 @@ pub trait Equation<S: Scalar> {
         _xi: &mut Self::State,
     ) -> Option<Retraction> {
         None
+    }
+    /// For a solution u of any other method: `h xi` of a stage, where the step applied to `g' = g xi(t)` is
+    /// that of the Gauss method with as many stages as are returned; 0 where it is not known.
+    fn velocity(
+        &mut self,
+        _unknown: &Self::Unknown,
+        _stage: usize,
+        _xi: &mut Self::State,
+    ) -> usize {
+        0
     }
 }
 

@@ -4,6 +4,7 @@
 use crate::matrix::SquareMatrix;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
+use crate::state::State;
 
 /// A nonzero entry of a constant matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +53,29 @@ impl Entry {
     }
 }
 
+/// A Hamiltonian system on `T*G`: the Hamiltonian `H(g, mu)` is not invariant under the group, and the state
+/// is mu with the coordinates of the configuration, the entries of g.
+///
+/// It is the Lie–Poisson system of a semidirect product: the first [`CotangentPoisson::MOMENTA`] basis
+/// elements span the algebra of the group, which acts on the span of the others; these commute. The time and
+/// its momentum take part where H depends on it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no system on T*G over the scalar `{S}`",
+    note = "declare the group element (`group R;`), whose entries may stand in the Hamiltonian"
+)]
+pub trait CotangentPoisson<S: Scalar>: LiePoisson<S> {
+    /// The momenta alone.
+    type Momentum: State<S>;
+    /// A square matrix of their number.
+    type MomentumMatrix: SquareMatrix<S>;
+    /// How many coordinates, the first ones, are momenta.
+    const MOMENTA: usize;
+    /// Momenta, all 0.
+    fn zero_momentum(&self) -> Self::Momentum;
+    /// A matrix, all entries 0.
+    fn zero_momentum_matrix(&self) -> Self::MomentumMatrix;
+}
+
 /// The matrices of a representation `rho` and of its dual, by their nonzero entries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Representation {
@@ -61,6 +85,24 @@ pub struct Representation {
     pub dual: &'static [&'static [Entry]],
     /// Whether all these matrices are antisymmetric.
     pub skew: bool,
+}
+
+/// A Lie–Poisson system whose algebra has declared matrices, and with them a group of matrices.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no matrices over the scalar `{S}`, and so no group element",
+    note = "declare `matrices` beside the brackets"
+)]
+pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
+    /// The size of the matrices.
+    const SIZE: usize;
+    /// `rho(e_k)`, one list per basis element.
+    const MATRICES: &'static [&'static [Entry]];
+    /// Whether Gauss methods applied to `g' = g rho(xi)` stay in the group, up to matrices that commute with it: the
+    /// span is closed under `(abc + cba)/2`.
+    const CLOSED: bool;
+    /// Whether the system is right-invariant, `g' = xi g`: its structure constants and matrices then are those
+    /// of the opposite algebra, the negative ones.
+    const RIGHT: bool = false;
 }
 
 /// A Lie–Poisson system with a matrix representation that carries a reduction of `T*V` to g*.

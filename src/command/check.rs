@@ -155,7 +155,10 @@ impl Report {
             Some(rank) => writeln!(text, ", rank {rank} at the initial state")?,
             None => writeln!(text, ", no initial state")?,
         }
-        writeln!(text, "  H = {}", model.display(model.hamiltonian))?;
+        if let Some(configuration) = &model.configuration {
+            writeln!(text, "  {}", configuration.description())?;
+        }
+        writeln!(text, "  H = {}", model.display(model.energy))?;
         let independent = dimension - model.generic_rank;
         writeln!(
             text,

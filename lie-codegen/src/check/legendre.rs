@@ -4,6 +4,7 @@
 //! `H = <A^-1 (mu - b), mu - b>/2 - c`, by elimination in the order `A = L D L^T`: a sum of squares over
 //! pivots. Where the diagonal is zero, as in `l = xi1 xi2`, a pivot is a block of two rows.
 
+use super::configuration::Configuration;
 use super::normal::{NormalForm, Verdict};
 use crate::ast::Name;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -28,6 +29,16 @@ pub struct Lagrangian<'a> {
     pub origin: Origin,
     /// The parameters with their defaults.
     pub parameters: &'a [Parameter],
+    /// The group element and the time, where the Lagrangian depends on them.
+    pub configuration: Option<&'a Configuration>,
+}
+
+impl Lagrangian<'_> {
+    /// A coordinate at rest, where the coefficients are looked at: mu is 0, the group element 1.
+    fn at_rest(&self, coordinate: usize) -> f64 {
+        self.configuration
+            .map_or(0.0, |configuration| configuration.at_rest(coordinate))
+    }
 }
 
 /// The Hamiltonian in the coordinates of mu.
@@ -68,6 +79,8 @@ struct Quadratic {
     /// Rows that are not eliminated.
     rest: Vec<usize>,
     defaults: Vec<f64>,
+    /// The coordinates at rest, as far as any are beside mu.
+    at_rest: Vec<f64>,
     /// The largest entry at the default parameters.
     size: f64,
 }
@@ -120,6 +133,9 @@ impl Quadratic {
                 .iter()
                 .map(|p| p.default_value)
                 .collect(),
+            at_rest: (0..lagrangian.configuration.map_or(0, Configuration::dimension))
+                .map(|coordinate| lagrangian.at_rest(coordinate))
+                .collect(),
             size: 0.0,
         };
         let entries = form.matrix.iter().flatten();
@@ -127,6 +143,7 @@ impl Quadratic {
         let finite = |&entry: &ExprId| {
             graph.evaluate(entry, &|symbol| match symbol {
                 Symbol::Parameter(p) => form.defaults[p],
+                Symbol::Coordinate(i) => form.at_rest.get(i).copied().unwrap_or(0.0),
                 _ => 0.0,
             })
         };
@@ -143,6 +160,7 @@ impl Quadratic {
     fn value(&self, graph: &Graph, entry: ExprId) -> f64 {
         graph.evaluate(entry, &|symbol| match symbol {
             Symbol::Parameter(p) => self.defaults[p],
+            Symbol::Coordinate(i) => self.at_rest.get(i).copied().unwrap_or(f64::NAN),
             _ => f64::NAN,
         })
     }

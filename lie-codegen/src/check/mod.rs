@@ -7,6 +7,7 @@
 mod algebra;
 mod casimirs;
 mod cocycle;
+pub mod configuration;
 mod constant;
 mod defaults;
 pub mod domain;
@@ -40,6 +41,7 @@ use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
 use algebra::Algebra;
 use casimirs::Candidate;
+use configuration::Configuration;
 use environment::{Allowed, Environment};
 use independence::Standing;
 use legendre::Lagrangian;
@@ -70,6 +72,21 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     if !size::check(declaration, report) {
         return None;
     }
+    match configuration::of(declaration, report) {
+        Some(configuration) => {
+            let whole = configuration::extended(declaration, &configuration, report);
+            system(&whole, Some(&configuration), report)
+        }
+        None => system(declaration, None, report),
+    }
+}
+
+/// Everything behind names and sizes; of a system on `T*G` the declaration is the one with all coordinates.
+fn system(
+    declaration: &Declaration,
+    configuration: Option<&Configuration>,
+    report: &mut Report,
+) -> Option<Model> {
     let algebra = match declaration.algebra() {
         Some(algebra) => algebra::check(declaration, algebra, report),
         None => Some(Algebra::none(declaration.dimension())),
@@ -86,7 +103,9 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         declaration.energy.expression(),
         match declaration.energy {
             Energy::Hamiltonian(_) => Allowed::State,
-            Energy::Lagrangian { .. } => Allowed::Velocity,
+            Energy::Lagrangian { .. } => {
+                Allowed::Velocity(configuration.map_or(usize::MAX, |c| c.momenta))
+            }
         },
     );
     let lowered: Vec<Option<ExprId>> = declaration
@@ -139,9 +158,18 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
                 velocity,
                 origin: value.origin,
                 parameters: &parameters,
+                configuration,
             };
             legendre::hamiltonian(&mut graph, &lagrangian, report)?
         }
+    };
+    let autonomous = hamiltonian;
+    let hamiltonian = match configuration {
+        Some(configuration) if configuration.time => {
+            let momentum = graph.symbol(Symbol::Coordinate(configuration.momenta - 1));
+            graph.add(hamiltonian, momentum)
+        }
+        _ => hamiltonian,
     };
     let functions: Vec<_> = candidates.iter().map(|c| (c.expr, c.origin)).collect();
     let energy = (hamiltonian, declaration.energy.expression().origin);
@@ -203,6 +231,8 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         exact_constants,
         invariance: declaration.invariance,
         hamiltonian,
+        energy: autonomous,
+        configuration: configuration.cloned(),
         hamiltonian_degree,
         pieces,
         casimirs,

@@ -46,6 +46,10 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
         ),
         Kernel::fused(graph, "linearize", of_both, arguments(), &field, &jacobian),
     ];
+    if source.energy != source.hamiltonian {
+        let energy = "`H(t, mu)`, without the momentum of the time";
+        kernels.push(Kernel::scalar("energy", energy, arguments(), source.energy));
+    }
     let values = source.casimirs.clone();
     kernels.push(Kernel::vector(
         graph,

@@ -19,6 +19,7 @@ pub use kernel::{Argument, Kernel, Shape};
 pub use splitting::{PieceKernel, Update};
 
 use crate::algebra::{Representation, TripleEntry};
+use crate::structure::group::Group;
 use crate::structure::inertia::Body;
 use crate::structure::one_parameter::Block as OneParameter;
 use crate::structure::separable::Piece;
@@ -38,6 +39,10 @@ pub struct Source {
     pub poisson: Option<Vec<(usize, usize, ExprId)>>,
     /// The Hamiltonian.
     pub hamiltonian: ExprId,
+    /// The energy: the Hamiltonian, of a system that depends on the time without the momentum of the time.
+    pub energy: ExprId,
+    /// The number of momenta of a system on `T*G`, which are its first coordinates.
+    pub momenta: Option<usize>,
     /// The Casimirs.
     pub casimirs: Vec<ExprId>,
     /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
@@ -47,6 +52,8 @@ pub struct Source {
     pub pieces: Option<Vec<Piece>>,
     /// The representation, where it carries collective methods.
     pub matrices: Option<Representation>,
+    /// The group of the declared matrices, where it is not part of the state.
+    pub group: Option<Group>,
     /// The summands of a direct sum of algebras so(3).
     pub spins: Option<Vec<Spin>>,
     /// The free rigid body that the system is.
@@ -88,6 +95,9 @@ impl Source {
             constants: Vec::new(),
             poisson: None,
             hamiltonian,
+            energy: hamiltonian,
+            momenta: None,
+            group: None,
             casimirs: Vec::new(),
             triple: None,
             pieces: None,

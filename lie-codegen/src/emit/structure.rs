@@ -17,7 +17,9 @@ impl Writer<'_> {
         let matrices = self.matrix_poisson();
         let spins = self.spin_poisson();
         let inertia = self.inertia_poisson();
-        quote! { #matrices #spins #inertia }
+        let cotangent = self.cotangent_poisson();
+        let group = self.matrix_group();
+        quote! { #group #matrices #spins #inertia #cotangent }
     }
 
     fn matrix_poisson(&self) -> Option<TokenStream> {
@@ -43,6 +45,43 @@ impl Writer<'_> {
 
                 fn zero_matrix(&self) -> Self::Matrix {
                     Self::Matrix::repeat(S::zero())
+                }
+            }
+        })
+    }
+
+    fn matrix_group(&self) -> Option<TokenStream> {
+        let group = self.source.group.as_ref()?;
+        let system = self.system_name();
+        let size = index(group.size);
+        let (closed, right) = (group.closed, group.right);
+        let right = right.then(|| quote! { const RIGHT: bool = true; });
+        let matrices = group.matrices.iter().map(|matrix| entries(matrix));
+        Some(quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for #system<S> {
+                const SIZE: usize = #size;
+                const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[#(#matrices),*];
+                const CLOSED: bool = #closed;
+                #right
+            }
+        })
+    }
+
+    fn cotangent_poisson(&self) -> Option<TokenStream> {
+        let momenta = index(self.source.momenta?);
+        let system = self.system_name();
+        Some(quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::CotangentPoisson<S> for #system<S> {
+                type Momentum = ::lie_runtime::__private::SVector<S, #momenta>;
+                type MomentumMatrix = ::lie_runtime::__private::SMatrix<S, #momenta, #momenta>;
+                const MOMENTA: usize = #momenta;
+
+                fn zero_momentum(&self) -> Self::Momentum {
+                    Self::Momentum::repeat(S::zero())
+                }
+
+                fn zero_momentum_matrix(&self) -> Self::MomentumMatrix {
+                    Self::MomentumMatrix::repeat(S::zero())
                 }
             }
         })

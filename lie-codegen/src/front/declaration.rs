@@ -235,7 +235,7 @@ fn remainder(
         let statement = parts.first(keyword)?;
         Some((statement.origin, poisson(statement, &names, report)))
     });
-    let of_algebra = ["lagrangian", "invariance"].map(|keyword| {
+    let of_algebra = ["lagrangian", "invariance", "group"].map(|keyword| {
         let statement = parts.first(keyword)?;
         Some((statement.origin, keyword))
     });
@@ -269,6 +269,9 @@ fn remainder(
         .first("methods")
         .map(|s| methods(s, report))
         .unwrap_or_default();
+    let group = parts
+        .first("group")
+        .map(|s| item::name(s.rest, s.origin, report));
     let invariance = parts
         .first("invariance")
         .map_or(Some(Invariance::Left), |s| {
@@ -290,6 +293,7 @@ fn remainder(
         description: parts.first("system")?.description(),
         references: Vec::new(),
         structure: structure?,
+        group: group.map_or(Some(None), |name| name.map(Some))?,
         state: parsed.state.clone(),
         parameters,
         lets,

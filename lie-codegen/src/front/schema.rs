@@ -51,6 +51,9 @@ objects! {
         /// Instead of the algebra: the Poisson brackets `{x, y} = value` of the coordinates, expressions
         /// in state, parameters and abbreviations. Antisymmetry is implied and absent brackets are zero.
         "poisson" poisson: Option<Vec<String>>,
+        /// Name of the group element g, a matrix of the size of `matrices`: its entries, for `R` these are `R11`,
+        /// `R12`, …, may stand in the functions, and are coordinates of the state beside mu.
+        "group" group: Option<String>,
         /// Names of the coordinates, one for each basis element where there is an algebra.
         "state" state: Vec<String>,
         /// Parameters and their defaults.
@@ -123,6 +126,8 @@ objects! {
         "gradient" gradient: Option<String>,
         /// Poisson tensor of a discrete gradient method.
         "tensor" tensor: Option<String>,
+        /// How the group element is written beside mu, if it is: `matrix` or `quaternion`.
+        "group" group: Option<String>,
         /// Relative tolerance.
         "rtol" rtol: Option<Constant>,
         /// Absolute tolerance.

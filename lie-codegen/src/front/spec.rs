@@ -142,7 +142,7 @@ impl Remainder<'_, '_> {
             Some((place, poisson(spec, key, &names, report)))
         });
         let of_algebra =
-            ["lagrangian", "invariance"].map(|key| Some((spec.get(key)?.origin(), key)));
+            ["lagrangian", "invariance", "group"].map(|key| Some((spec.get(key)?.origin(), key)));
         let of_algebra: Vec<_> = of_algebra.into_iter().flatten().collect();
         let structure =
             item::structure(algebra, poisson, cocycle, &of_algebra, Kind::Schema, report);
@@ -155,6 +155,7 @@ impl Remainder<'_, '_> {
             .get("methods")
             .map(|v| strings(v, "`methods`", report))
             .unwrap_or_default();
+        let group = spec.get("group").map(|v| name_of(v, "`group`", report));
         let invariance = spec
             .get("invariance")
             .map_or(Some(Invariance::Left), |v| invariance(v, report));
@@ -182,6 +183,7 @@ impl Remainder<'_, '_> {
                 .map(|r| r.text.into_owned())
                 .collect(),
             structure: structure?,
+            group: group.map_or(Some(None), |name| name.map(Some))?,
             state: self.parsed.state.clone(),
             parameters: self.parameters,
             lets,

@@ -10,6 +10,7 @@ mod discrete_body;
 mod discrete_gradient;
 mod discrete_gradient_step;
 mod discrete_top;
+mod euler_arnold;
 mod exp_midpoint;
 mod gauss;
 mod generating;
@@ -19,6 +20,7 @@ mod midpoint;
 mod orbit_energy;
 mod quadrature;
 mod quaternion_stages;
+mod rotation;
 mod second_kind;
 mod series;
 mod spherical;
@@ -35,11 +37,13 @@ pub use discrete_gradient::{
 };
 pub use discrete_gradient_step::DiscreteGradientStep;
 pub use discrete_top::DiscreteTop;
+pub use euler_arnold::{EulerArnoldHalf, Half};
 pub use exp_midpoint::{ExpMidpoint, ExpRetraction};
 pub use gauss::Gauss;
 pub use generating::{
     CayleyGenerating4, Generating2, Generating4, Generating6, SecondKind2, linearize_by_duals,
 };
+pub(crate) use kernels::direction;
 pub use kernels::{
     ad_star, ad_star_matrix, jacobian, linearize, multiply, poisson_slope, vector_field,
 };

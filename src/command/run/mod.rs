@@ -1,6 +1,7 @@
 //! `lie run`: integrates a spec with its generated, compiled code.
 
 pub mod bar;
+mod layout;
 pub mod outputs;
 pub mod plan;
 mod summary;
@@ -24,6 +25,7 @@ use crate::message::{Failure, INTERRUPTED, Message, STOPPED, SURROUNDINGS};
 use crate::output::{Header, Rows};
 use crate::render;
 use bar::Bar;
+use layout::Layout;
 use outputs::Outputs;
 use plan::Plan;
 use summary::Drift;
@@ -46,16 +48,13 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     }
     let outputs = Outputs::open(flags)?;
     let interrupt = Interrupt::install();
+    let purpose = plan.chart.map_or(Purpose::Run, Purpose::OnGroup);
     let request = Request {
         name: &spec.model.name,
-        source: &program(
-            &spec.model,
-            std::slice::from_ref(&plan.method),
-            Purpose::Run,
-        ),
+        source: &program(&spec.model, std::slice::from_ref(&plan.method), purpose),
         native: flags.cpu == Some(Cpu::Native),
         quiet: flags.quiet,
-        purpose: Purpose::Run,
+        purpose,
     };
     match build::program(&request) {
         Ok(program) => integrate(&spec, &plan, flags, format, outputs, &program, &interrupt),
@@ -76,14 +75,8 @@ fn integrate(
     interrupt: &Interrupt,
 ) -> Result<u8, Failure> {
     let model = &spec.model;
-    let states = model.coordinates.iter().map(|name| name.text.clone());
-    let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
-    let columns: Vec<String> = std::iter::once("t".to_owned())
-        .chain(states)
-        .chain(["energy".to_owned()])
-        .chain(casimirs)
-        .collect();
-    let width = columns.len();
+    let layout = Layout::new(model, plan.chart);
+    let columns = layout.columns(model);
     let header = Header {
         system: model.name.clone(),
         method: plan.method.id().to_owned(),
@@ -97,7 +90,7 @@ fn integrate(
         && times.first() != Some(&0.0)
     {
         times.insert(0, 0.0);
-        hidden = width;
+        hidden = columns.len();
     }
     let job = Job {
         method: plan.method.label(),
@@ -116,9 +109,15 @@ fn integrate(
     let mut rows = Rows::start(outputs.rows, format, &header).map_err(lost)?;
     let mut plot = outputs.plot.as_ref().map(|_| {
         let subtitle = format!("{}, h = {}", plan.method.title(), plan.step.1.trim());
-        Plot::new(&*model.name, &columns, model.dimension(), (0.0, plan.end())).subtitle(subtitle)
+        Plot::new(
+            &*model.name,
+            &columns,
+            layout.states.len(),
+            (0.0, plan.end()),
+        )
+        .subtitle(subtitle)
     });
-    let mut drift = Drift::new(&columns[model.dimension() + 1..]);
+    let mut drift = Drift::new(&columns[layout.invariants.clone()]);
     // Rows that scroll by on the same terminal say enough.
     let scrolls = flags.out.is_none() && io::stdout().is_terminal();
     let bar = Bar::new(!flags.quiet && !scrolls);
@@ -127,11 +126,12 @@ fn integrate(
     let end = protocol::run(
         Command::new(program),
         &job,
-        width,
+        layout.width,
         interrupt,
         &mut |numbers| {
-            for row in numbers.chunks_exact(width) {
-                drift.push(row);
+            let numbers = layout.shown(numbers);
+            for row in numbers.chunks_exact(columns.len()) {
+                drift.push(&row[..layout.invariants.end], layout.invariants.start);
                 if let Some(plot) = &mut plot {
                     plot.push(row);
                 }

@@ -12,6 +12,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("algebra", Follows::Block),
     ("poisson", Follows::Block),
     ("cocycle", Follows::Block),
+    ("group", Follows::Name),
     ("state", Follows::Name),
     ("parameters", Follows::Block),
     ("let", Follows::Name),

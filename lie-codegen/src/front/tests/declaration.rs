@@ -216,7 +216,7 @@ fn statements() {
         ("[e1, e2] = e3;", "matrices = 1;", "matrices"),
         ("basis e1, e2, e3;", "basis e1, e2, e3; basis e1;", "basis"),
         ("[e3, e1] = e2; }", "[e3, e1] = e2 }", "e2"),
-        ("state x, y, z;", "group = 3; state x, y, z;", "group"),
+        ("state x, y, z;", "realization = 3; state x, y, z;", "realization"),
         ("state x, y, z;", "#[derive(Debug)] state x, y, z;", "#"),
         ("state x, y, z;", "state x, y, z", "z"),
         ("let w2 = y/I2;", "let w2 = y/I2", "I2"),
