@@ -35,9 +35,15 @@ pub mod sl2_quadratic;
 #[path = "../golden/so3_cotangent_euler_arnold.rs"]
 #[rustfmt::skip]
 pub mod so3_cotangent_euler_arnold;
+#[path = "../golden/so3_cotangent_group.rs"]
+#[rustfmt::skip]
+pub mod so3_cotangent_group;
 #[path = "../golden/so3_free_rigid_body.rs"]
 #[rustfmt::skip]
 pub mod so3_free_rigid_body;
+#[path = "../golden/so3_gravity_gradient.rs"]
+#[rustfmt::skip]
+pub mod so3_gravity_gradient;
 #[path = "../golden/so3_nonpolynomial.rs"]
 #[rustfmt::skip]
 pub mod so3_nonpolynomial;
@@ -60,7 +66,9 @@ pub use se3_heavy_top::HeavyTop;
 pub use se3_kirchhoff::KirchhoffBody;
 pub use sl2_quadratic::Sl2Quadratic;
 pub use so3_cotangent_euler_arnold::CotangentEulerArnold;
+pub use so3_cotangent_group::CotangentBody;
 pub use so3_free_rigid_body::FreeRigidBody;
+pub use so3_gravity_gradient::Satellite;
 pub use so3_nonpolynomial::NonpolynomialSpin;
 pub use so4_manakov::ManakovTop;
 pub use su3_quadratic::Su3Quadratic;
@@ -111,6 +119,8 @@ declared!(
     CotangentEulerArnold,
     CotangentEulerArnoldSystem
 );
+declared!(so3_cotangent_group, CotangentBody, CotangentBodySystem);
+declared!(so3_gravity_gradient, Satellite, SatelliteSystem);
 declared!(so3_free_rigid_body, FreeRigidBody, FreeRigidBodySystem);
 declared!(
     so3_nonpolynomial,
@@ -135,6 +145,14 @@ macro_rules! each_system {
         $check!(so4_manakov, ManakovTop, cayley);
         $check!(su3_quadratic, Su3Quadratic, exp);
         $check!(toda3_solvable, TodaLattice, exp);
+    };
+}
+
+/// The same for the systems without reference values of their own, on which that of Cayley is not checked.
+macro_rules! each_further_system {
+    ($check:ident) => {
+        $check!(so3_cotangent_group, CotangentBody, exp);
+        $check!(so3_gravity_gradient, Satellite, exp);
     };
 }
 
