@@ -57,7 +57,8 @@ pub enum Structure {
 pub struct PoissonMatrix {
     /// Number of coordinates n.
     pub dimension: usize,
-    /// The entries `(i, j, Pi_ij)` above the diagonal, `i < j`, ascending, those that are not zero.
+    /// The entries `(i, j, Pi_ij)` above the diagonal, `i < j`, ascending, those that are not zero; none
+    /// where the structure constants of the model say it all.
     pub entries: Vec<(usize, usize, ExprId)>,
     /// The largest total degree of an entry in the coordinates, where all are polynomials in them.
     pub degree: Option<u32>,

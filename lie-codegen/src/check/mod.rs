@@ -144,7 +144,6 @@ fn system(
         ast::Structure::Lie { .. } if brackets.is_empty() => Structure::Lie,
         ast::Structure::Lie { .. } => Structure::Extended,
     };
-    let mut poisson = poisson_matrix(&mut graph, structure, &constants, &brackets);
     let symbol_name = |symbol| poisson::symbol_name(declaration, symbol);
     let candidates: Vec<Candidate> = named(
         declaration,
@@ -171,13 +170,22 @@ fn system(
         }
         _ => hamiltonian,
     };
+    // The matrix of an algebra is looked at here and no more: it leaves the arena as it is.
+    let mut scratch = graph.clone();
+    let arena = match structure {
+        Structure::Lie => &mut scratch,
+        _ => &mut graph,
+    };
+    let mut poisson = poisson_matrix(arena, structure, &constants, &brackets);
+    if structure != Structure::Lie {
+        scratch = graph.clone();
+    }
     let functions: Vec<_> = candidates.iter().map(|c| (c.expr, c.origin)).collect();
     let energy = (hamiltonian, declaration.energy.expression().origin);
-    size::derived(&graph, &poisson, energy, &functions, report);
+    size::derived(&scratch, &poisson, energy, &functions, report);
     if report.has_errors() {
         return None;
     }
-    let mut scratch = graph.clone();
     match structure {
         Structure::Lie => {}
         Structure::Extended => {
@@ -213,6 +221,9 @@ fn system(
             ranks::generic(&scratch, &rows, bound).unwrap_or(bound)
         }
     };
+    if structure == Structure::Lie {
+        poisson.entries.clear();
+    }
     let pieces = separable::coordinates(&mut scratch, hamiltonian, dimension);
     let hamiltonian_degree = casimirs::degree(&scratch, hamiltonian);
     let mut model = Model {
