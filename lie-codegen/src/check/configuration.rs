@@ -235,10 +235,10 @@ pub fn extended(
             origin,
         }),
     }
-    if let Some(initial) = &declaration.initial {
-        if let Some(complete) = configuration.complete(initial, number) {
-            whole.initial = Some(complete);
-        }
+    if let Some(initial) = &declaration.initial
+        && let Some(complete) = configuration.complete(initial, number)
+    {
+        whole.initial = Some(complete);
     }
     whole
 }
