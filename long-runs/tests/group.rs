@@ -5,7 +5,6 @@
 #[path = "../../tests/common/systems.rs"]
 mod systems;
 
-use lie_runtime::State;
 use lie_runtime::driver::{Chart, Reconstruction};
 use lie_runtime::methods::Method;
 use lie_runtime::prelude::*;
