@@ -63,6 +63,7 @@ pub mod elimination;
 pub mod equation;
 pub mod generating;
 pub mod generic;
+pub mod lagrangian;
 pub mod matrix;
 pub mod methods;
 pub mod newton;
@@ -81,6 +82,7 @@ mod test_systems;
 
 pub use equation::{Equation, Implicit};
 pub use generating::GeneratingFunction;
+pub use lagrangian::{DiscreteLagrangian, LagrangianPoisson};
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
 pub use matrix::{SquareMatrix, StageMatrix};
@@ -107,13 +109,14 @@ pub mod prelude {
         Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue,
         Method, MoserVeselov, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme,
         SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper,
+        Variational2, Variational4, Variational6,
     };
     pub use crate::newton::{Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]
     pub use crate::scalar::{F32x8, F64x4, F64x8};
     pub use crate::{
-        CayleyPoisson, Dual, LiePoisson, Lift, Mask, ParameterError, Poisson, Scalar, SquareMatrix,
-        State,
+        CayleyPoisson, DiscreteLagrangian, Dual, LagrangianPoisson, LiePoisson, Lift, Mask,
+        ParameterError, Poisson, Scalar, SquareMatrix, State,
     };
     #[cfg(feature = "macros")]
     pub use lie_macros::lie_poisson;
@@ -127,6 +130,7 @@ pub mod __private {
     pub use crate::equation::{Equation, Implicit};
     pub use crate::generating::GeneratingFunction;
     pub use crate::generic;
+    pub use crate::lagrangian::{LagrangianPoisson, legendre};
     pub use crate::matrix::{SquareMatrix, StageMatrix};
     pub use crate::newton::{dense, inverse_pivots_are_safe};
     pub use crate::parameter::{ParameterError, all_finite};

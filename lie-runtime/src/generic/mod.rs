@@ -4,15 +4,20 @@
 //! form given here.
 
 mod cayley_midpoint;
+mod cayley_variational;
 mod cohen_hairer;
 mod coordinate_flows;
+mod dexp_slope;
 mod discrete_body;
 mod discrete_gradient;
 mod discrete_gradient_step;
 mod discrete_top;
 mod exp_midpoint;
+mod exp_variational;
+mod galerkin;
 mod gauss;
 mod generating;
+mod inverse_tangent;
 mod kernels;
 mod matrix_stages;
 mod midpoint;
@@ -26,6 +31,7 @@ mod stage_momenta;
 mod tableau;
 
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
+pub use cayley_variational::CayleyVariational;
 pub use cohen_hairer::CohenHairerStep;
 pub use coordinate_flows::{CoordinateFlows, piece_direction};
 pub use discrete_body::DiscreteBody;
@@ -35,12 +41,16 @@ pub use discrete_gradient::{
 pub use discrete_gradient_step::DiscreteGradientStep;
 pub use discrete_top::DiscreteTop;
 pub use exp_midpoint::{ExpMidpoint, ExpRetraction};
+pub use exp_variational::ExpVariational;
+pub use galerkin::GalerkinStep;
 pub use gauss::Gauss;
 pub use generating::{
     CayleyGenerating4, Generating2, Generating4, Generating6, SecondKind2, linearize_by_duals,
 };
+pub use inverse_tangent::{dcay_inverse_dual, dexp_inverse_dual};
 pub use kernels::{
-    ad_star, ad_star_matrix, jacobian, linearize, multiply, poisson_slope, vector_field,
+    ad_star, ad_star_matrix, euler_poincare, jacobian, linearize, multiply, poisson_slope,
+    vector_field,
 };
 pub use matrix_stages::MatrixStages;
 pub use midpoint::Midpoint;

@@ -17,6 +17,7 @@
 //! | [`Isospectral2`], [`Isospectral4`], [`Isospectral6`] | Gauss on `T*V` of a representation V, reduced to g*; also [`Collective`] | 2, 4, 6 |
 //! | [`Collective::hopf`] | Gauss on `T*R^2` by the Hopf map, reduced to so(3)* | 2, 4, 6 |
 //! | [`SphericalMidpoint`] | `$\mu_1 = \mu + h f(w)$`, w the midpoint on the sphere of each spin | 2 |
+//! | [`Variational2`], [`Variational4`], [`Variational6`] | `$F^+(g) = \mu, \quad \mu_1 = F^-(g)$` of a discrete Lagrangian `$l_d(g)$` | 2, 4, 6 |
 //! | [`MoserVeselov`] | `$h M = g J - J g^T, \quad M_1 = g^T M g$`, keeps the energy too | 2 |
 //!
 //! Explicit, by exponentials: [`LieEuler`], [`Rkmk2`], [`Rkmk3`], [`Rkmk4`], [`Rkmk6`], [`CrouchGrossman3`]
@@ -54,6 +55,7 @@ pub mod rkmk;
 pub mod spherical_midpoint;
 pub mod splitting;
 mod stepper;
+pub mod variational;
 
 pub use coefficients::Scheme;
 pub use cohen_hairer::{CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6};
@@ -83,3 +85,4 @@ pub use splitting::{
     Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, SplittingStepper,
 };
 pub use stepper::{FactorSink, Method, Retraction, StepFailure, StepReport, Stepper};
+pub use variational::{Variational, Variational2, Variational4, Variational6};
