@@ -7,7 +7,8 @@ use lie_runtime::methods::{
     Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint,
     Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue,
     MoserVeselov, OrbitEnergy, Preserves, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint,
-    Splitting1, Splitting2, Splitting4, Splitting6, Splitting8,
+    Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Variational2, Variational4,
+    Variational6,
 };
 
 fn agrees<F: Facts>(_: &F) -> &'static str {
@@ -102,6 +103,9 @@ fn facts_are_those_of_the_runtime() {
         agrees(&Isospectral6::new()),
         agrees(&SphericalMidpoint),
         agrees(&MoserVeselov),
+        agrees(&Variational2::exp()),
+        agrees(&Variational4::exp()),
+        agrees(&Variational6::exp()),
         composition(&Compose4::new(LieMidpoint::exp())),
         composition(&Compose6::new(ImplicitMidpoint)),
         composition(&Compose8::new(LieMidpoint::cayley())),
@@ -109,6 +113,7 @@ fn facts_are_those_of_the_runtime() {
     assert_eq!(agrees(&LieMidpoint::cayley()), "lie-midpoint");
     assert_eq!(agrees(&OrbitEnergy::mean_value()), "orbit-energy");
     assert_eq!(agrees(&OrbitEnergy::itoh_abe()), "orbit-energy");
+    assert_eq!(agrees(&Variational2::cayley()), "variational2");
     assert_eq!(agrees(&Generating2::cayley()), "generating2");
     assert_eq!(agrees(&Generating4::cayley()), "generating4");
     built.sort_unstable();

@@ -146,7 +146,12 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
         casimir_names: model.casimirs.iter().map(|c| c.name.clone()).collect(),
         initial: model.initial.clone(),
         source,
-        methods: choices.iter().map(|c| c.solved().clone()).collect(),
+        // without an expression of H there is nothing to fuse
+        methods: choices
+            .iter()
+            .filter(|_| model.has_expression())
+            .map(|c| c.solved().clone())
+            .collect(),
         hamiltonian_degree: model.hamiltonian_degree,
         casimir_degrees: model.casimirs.iter().map(|c| c.degree).collect(),
     }
@@ -160,7 +165,8 @@ pub fn source(model: &Model) -> Source {
         graph,
         dimension: model.dimension(),
         constants: model.constants.entries().to_vec(),
-        hamiltonian: model.hamiltonian,
+        hamiltonian: model.has_expression().then_some(model.hamiltonian),
+        lagrangian: model.lagrangian.as_ref().map(|l| l.value),
         casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
         pieces: separable::pieces(model),
         actions: None,
@@ -176,9 +182,25 @@ fn docs(model: &Model) -> Vec<String> {
     let mut docs = model.description.clone();
     let names: Vec<&str> = model.coordinates.iter().map(|c| c.text.as_str()).collect();
     docs.push(String::new());
+    let energy = if model.has_expression() {
+        format!("`H = {}`", model.display(model.hamiltonian))
+    } else {
+        "The Legendre transform of its Lagrangian, by Newton's iteration,".to_owned()
+    };
+    if let Some(lagrangian) = &model.lagrangian {
+        let velocity: Vec<&str> = lagrangian
+            .velocity
+            .iter()
+            .map(|v| v.text.as_str())
+            .collect();
+        docs.push(format!(
+            "Lagrangian `l = {}` of the velocity `{}`.",
+            model.display(lagrangian.value),
+            velocity.join(", ")
+        ));
+    }
     docs.push(format!(
-        "`H = {}` on the dual of a Lie algebra of dimension {},",
-        model.display(model.hamiltonian),
+        "{energy} on the dual of a Lie algebra of dimension {},",
         model.dimension()
     ));
     docs.push(format!(

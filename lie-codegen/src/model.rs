@@ -40,6 +40,26 @@ pub struct Casimir {
     pub degree: Option<u32>,
 }
 
+/// The reduced Lagrangian of a system that was declared by one.
+#[derive(Clone, Debug)]
+pub struct Lagrangian {
+    /// The function l(xi); component i of the velocity is [`Symbol::Input`] i.
+    pub value: ExprId,
+    /// Names of the components of the velocity.
+    pub velocity: Vec<Name>,
+    /// How the Hamiltonian comes from it.
+    pub transform: Transform,
+}
+
+/// How the Legendre transform of a Lagrangian is had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transform {
+    /// The Hamiltonian is an expression in mu.
+    Exact,
+    /// The velocity of a momentum is found by Newton's iteration when it is needed.
+    Newton,
+}
+
 /// A checked system.
 ///
 /// The right-invariant sign is already in `constants` and `representation` (both negated), so that
@@ -70,8 +90,11 @@ pub struct Model {
     pub exact_constants: StructureConstants<Fraction>,
     /// How it was declared.
     pub invariance: Invariance,
-    /// The Hamiltonian.
+    /// The Hamiltonian. Where [`Model::has_expression`] is false it is `<mu, xi> - l(xi)` in mu and the
+    /// velocity xi of mu, so that its derivative by a coordinate is a component of xi.
     pub hamiltonian: ExprId,
+    /// The Lagrangian, if the system was declared by one.
+    pub lagrangian: Option<Lagrangian>,
     /// Its total degree in the coordinates, where it is a polynomial in them.
     pub hamiltonian_degree: Option<u32>,
     /// The coordinates on which H depends, if H is a sum of functions of one of them each; else two
@@ -103,6 +126,15 @@ impl Model {
         self.basis.len()
     }
 
+    /// Whether the Hamiltonian is an expression in mu alone, which methods can take apart.
+    pub fn has_expression(&self) -> bool {
+        let transform = self
+            .lagrangian
+            .as_ref()
+            .map(|lagrangian| lagrangian.transform);
+        transform != Some(Transform::Newton)
+    }
+
     /// The name of a symbol.
     pub fn symbol_name(&self, symbol: Symbol) -> String {
         match symbol {
@@ -110,7 +142,10 @@ impl Model {
             Symbol::Parameter(i) => self.parameters[i].name.clone(),
             Symbol::Step => "h".into(),
             Symbol::Time => "t".into(),
-            Symbol::Input(i) => format!("input{i}"),
+            Symbol::Input(i) => match &self.lagrangian {
+                Some(lagrangian) => lagrangian.velocity[i].text.clone(),
+                None => format!("input{i}"),
+            },
         }
     }
 

@@ -130,7 +130,6 @@ pub mod __private {
     pub use crate::equation::{Equation, Implicit};
     pub use crate::generating::GeneratingFunction;
     pub use crate::generic;
-    pub use crate::lagrangian::{LagrangianPoisson, legendre};
     pub use crate::matrix::{SquareMatrix, StageMatrix};
     pub use crate::newton::{dense, inverse_pivots_are_safe};
     pub use crate::parameter::{ParameterError, all_finite};

@@ -155,7 +155,17 @@ impl Report {
             Some(rank) => writeln!(text, ", rank {rank} at the initial state")?,
             None => writeln!(text, ", no initial state")?,
         }
-        writeln!(text, "  H = {}", model.display(model.hamiltonian))?;
+        if let Some(lagrangian) = &model.lagrangian {
+            writeln!(text, "  l = {}", model.display(lagrangian.value))?;
+        }
+        if model.has_expression() {
+            writeln!(text, "  H = {}", model.display(model.hamiltonian))?;
+        } else {
+            writeln!(
+                text,
+                "  H = Legendre transform of l, solved by Newton's iteration"
+            )?;
+        }
         let independent = dimension - model.generic_rank;
         writeln!(
             text,

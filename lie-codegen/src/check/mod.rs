@@ -21,6 +21,7 @@ pub(crate) mod normal;
 mod parameters;
 mod sample;
 mod size;
+mod velocity;
 
 #[cfg(test)]
 mod tests;
@@ -31,7 +32,7 @@ use crate::algebra::{StructureConstants, rank};
 use crate::ast::{Declaration, Energy, Invariance};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Fraction, Rational};
-use crate::model::{Casimir, Model};
+use crate::model::{self, Casimir, Model, Transform};
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
 use casimirs::Candidate;
@@ -118,8 +119,8 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         declaration,
         &lowered.into_iter().collect::<Option<Vec<_>>>()?,
     );
-    let hamiltonian = match &declaration.energy {
-        Energy::Hamiltonian(_) => energy?,
+    let (hamiltonian, lagrangian) = match &declaration.energy {
+        Energy::Hamiltonian(_) => (energy?, None),
         Energy::Lagrangian { velocity, value } => {
             let lagrangian = Lagrangian {
                 value: energy?,
@@ -127,9 +128,27 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
                 origin: value.origin,
                 parameters: &parameters,
             };
-            legendre::hamiltonian(&mut graph, &lagrangian, report)?
+            if !size::lagrangian(
+                &graph,
+                lagrangian.value,
+                velocity.len(),
+                value.origin,
+                report,
+            ) {
+                return None;
+            }
+            let (hamiltonian, transform) = legendre::hamiltonian(&mut graph, &lagrangian, report)?;
+            let lagrangian = model::Lagrangian {
+                value: lagrangian.value,
+                velocity: velocity.clone(),
+                transform,
+            };
+            (hamiltonian, Some(lagrangian))
         }
     };
+    let exact = lagrangian
+        .as_ref()
+        .is_none_or(|lagrangian| lagrangian.transform == Transform::Exact);
     let functions: Vec<_> = candidates.iter().map(|c| (c.expr, c.origin)).collect();
     let energy = (hamiltonian, declaration.energy.expression().origin);
     size::derived(&graph, &constants, energy, &functions, report);
@@ -151,8 +170,12 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     let casimirs = independent(declaration, &graph, candidates, &degrees, report);
     let dimension = declaration.algebra.basis.len();
     let generic_rank = rank::generic(&exact_constants, dimension - casimirs.len().min(dimension));
-    let pieces = separable::coordinates(&mut scratch, hamiltonian, dimension);
-    let hamiltonian_degree = casimirs::degree(&scratch, hamiltonian);
+    let (pieces, hamiltonian_degree) = if exact {
+        let pieces = separable::coordinates(&mut scratch, hamiltonian, dimension);
+        (pieces, casimirs::degree(&scratch, hamiltonian))
+    } else {
+        (Err((0, dimension - 1)), None)
+    };
     let mut model = Model {
         name: declaration.name.text.clone(),
         name_origin: declaration.name.origin,
@@ -167,6 +190,7 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         exact_constants,
         invariance: declaration.invariance,
         hamiltonian,
+        lagrangian,
         hamiltonian_degree,
         pieces,
         casimirs,

@@ -11,59 +11,22 @@ pub(super) fn mu(source: &Source) -> Argument {
 }
 
 pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
-    let gradient = source.gradient_of_h();
-    let hessian = source.hessian_of_h();
-    let field = source.field_of_h();
-    let jacobian = jacobian(source, &field);
+    let mut kernels = Vec::new();
+    if let Some(hamiltonian) = source.hamiltonian {
+        kernels.extend(motion(source, hamiltonian));
+    }
     let matrix = poisson_matrix(source);
-    let arguments = || vec![mu(source)];
+    let arguments = vec![mu(source)];
+    let poisson_matrix = Kernel::matrix(
+        &source.graph,
+        "poisson_matrix",
+        "`out_ij = {mu_i, mu_j} = -C_ij^k mu_k`",
+        arguments,
+        &matrix,
+    );
+    kernels.insert(kernels.len().min(3), poisson_matrix);
     let graph = &source.graph;
-    let mut kernels = vec![
-        Kernel::scalar("hamiltonian", "`H(mu)`", arguments(), source.hamiltonian),
-        Kernel::vector(
-            graph,
-            "gradient",
-            "`out_i = dH/dmu_i`",
-            arguments(),
-            &gradient,
-        ),
-        Kernel::matrix(
-            graph,
-            "hessian",
-            "`out_ij = d^2H/dmu_i dmu_j`",
-            arguments(),
-            &hessian,
-        ),
-        Kernel::matrix(
-            graph,
-            "poisson_matrix",
-            "`out_ij = {mu_i, mu_j} = -C_ij^k mu_k`",
-            arguments(),
-            &matrix,
-        ),
-        Kernel::vector(
-            graph,
-            "vector_field",
-            "`f_j = C_ij^k (dH/dmu_i) mu_k`",
-            arguments(),
-            &field,
-        ),
-        Kernel::matrix(
-            graph,
-            "jacobian",
-            "`out_ij = df_i/dmu_j`",
-            arguments(),
-            &jacobian,
-        ),
-        Kernel::fused(
-            graph,
-            "linearize",
-            "`f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`",
-            arguments(),
-            &field,
-            &jacobian,
-        ),
-    ];
+    let arguments = || vec![mu(source)];
     let values = source.casimirs.clone();
     kernels.push(Kernel::vector(
         graph,
@@ -91,6 +54,55 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
         ));
     }
     kernels
+}
+
+/// What comes from an expression of H.
+fn motion(source: &mut Source, hamiltonian: ExprId) -> Vec<Kernel> {
+    let gradient = source.gradient_of_h();
+    let hessian = source.hessian_of_h();
+    let field = source.field_of_h();
+    let jacobian = jacobian(source, &field);
+    let arguments = || vec![mu(source)];
+    let graph = &source.graph;
+    vec![
+        Kernel::scalar("hamiltonian", "`H(mu)`", arguments(), hamiltonian),
+        Kernel::vector(
+            graph,
+            "gradient",
+            "`out_i = dH/dmu_i`",
+            arguments(),
+            &gradient,
+        ),
+        Kernel::matrix(
+            graph,
+            "hessian",
+            "`out_ij = d^2H/dmu_i dmu_j`",
+            arguments(),
+            &hessian,
+        ),
+        Kernel::vector(
+            graph,
+            "vector_field",
+            "`f_j = C_ij^k (dH/dmu_i) mu_k`",
+            arguments(),
+            &field,
+        ),
+        Kernel::matrix(
+            graph,
+            "jacobian",
+            "`out_ij = df_i/dmu_j`",
+            arguments(),
+            &jacobian,
+        ),
+        Kernel::fused(
+            graph,
+            "linearize",
+            "`f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`",
+            arguments(),
+            &field,
+            &jacobian,
+        ),
+    ]
 }
 
 /// `df_i/dmu_j`

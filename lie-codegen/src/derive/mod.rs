@@ -7,6 +7,7 @@ mod discrete_gradient;
 mod field;
 mod generating;
 mod kernel;
+mod lagrangian;
 mod midpoint;
 mod second_kind;
 mod spherical;
@@ -33,8 +34,10 @@ pub struct Source {
     pub dimension: usize,
     /// Structure constants `(i, j, k, C_ij^k)` with `i < j`.
     pub constants: Vec<(usize, usize, usize, ExprId)>,
-    /// The Hamiltonian.
-    pub hamiltonian: ExprId,
+    /// The Hamiltonian, if it is an expression in mu; else that of the Lagrangian, by Newton's iteration.
+    pub hamiltonian: Option<ExprId>,
+    /// The Lagrangian, in the symbols of an element of the algebra.
+    pub lagrangian: Option<ExprId>,
     /// The Casimirs.
     pub casimirs: Vec<ExprId>,
     /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
@@ -118,13 +121,16 @@ impl Source {
             .collect()
     }
 
+    /// H, and 0 where it has no expression: nothing is derived from it then.
+    pub(crate) fn energy(&mut self) -> ExprId {
+        self.hamiltonian.unwrap_or_else(|| self.graph.integer(0))
+    }
+
     /// `dH/dmu_i`
     pub(crate) fn gradient_of_h(&mut self) -> Vec<ExprId> {
+        let energy = self.energy();
         (0..self.dimension)
-            .map(|i| {
-                self.graph
-                    .derivative(self.hamiltonian, Symbol::Coordinate(i))
-            })
+            .map(|i| self.graph.derivative(energy, Symbol::Coordinate(i)))
             .collect()
     }
 
@@ -169,6 +175,12 @@ impl Source {
             kernels.push(cayley::triple(self));
         }
         kernels
+    }
+
+    /// The kernels of a Lagrangian, if there is one.
+    pub fn lagrangian_kernels(&mut self) -> Option<Vec<Kernel>> {
+        let value = self.lagrangian?;
+        Some(lagrangian::kernels(self, value))
     }
 
     /// Residual, Jacobian and result of the Poisson midpoint rule.

@@ -66,6 +66,12 @@ impl Writer<'_> {
         tokens.extend(self.energy(&mut generic));
         tokens.extend(self.generating(&mut generic));
         tokens.extend(self.collective(&mut generic));
+        if self.source.lagrangian.is_some() {
+            generic.push(ident("variational"));
+            if self.source.triple.is_some() {
+                generic.push(ident("variational_cayley"));
+            }
+        }
         if !generic.is_empty() {
             let system = self.system_name();
             tokens.extend(quote! {

@@ -19,7 +19,16 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
             "use `generating6` with `--retraction exp`, or `generating4` with `--retraction cayley`"
                 .into(),
         )),
-        Choice::LieMidpoint(Retraction::Cayley) | Choice::Generating(_, Retraction::Cayley) => {
+        Choice::Variational(order, _) if model.lagrangian.is_none() => Some((
+            "the method needs a system by its Lagrangian, and this one is given by its Hamiltonian".into(),
+            format!(
+                "declare `velocity` and `lagrangian` instead of `hamiltonian`, or use `generating{order}`, which is a \
+                 Poisson map of the same order"
+            ),
+        )),
+        Choice::LieMidpoint(Retraction::Cayley)
+        | Choice::Generating(_, Retraction::Cayley)
+        | Choice::Variational(_, Retraction::Cayley) => {
             cayley(model).map(|reason| {
                 let help = format!(
                     "use `{}` with `--retraction exp`, which works for every Lie algebra",

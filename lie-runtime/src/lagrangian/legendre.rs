@@ -26,6 +26,8 @@ use crate::state::State;
 const MAX_ITERATIONS: usize = 100;
 /// The smallest step is 2^-MAX_HALVINGS of Newton's.
 const MAX_HALVINGS: usize = 40;
+/// The last step with damping, in units of round-off.
+const NEAR: f64 = 1024.0;
 
 /// The velocity of a momentum: `l'(out) = mu`.
 pub fn velocity<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State, out: &mut P::State) {
@@ -97,7 +99,7 @@ pub fn solve<S, V, M>(
         let round_off = S::from_f64(16.0) * S::epsilon() * (size(mu) + largest(matrix) * size(xi));
         step.copy_from(&defect);
         exchanging::solve(matrix, &mut step);
-        let near = size(&step).less_equal(half * S::epsilon().sqrt() * size(xi))
+        let near = size(&step).less_equal(S::from_f64(NEAR) * S::epsilon() * size(xi))
             | size(&defect).less_equal(round_off);
         active = active & !near;
         if !active.any() {
@@ -122,7 +124,9 @@ pub fn solve<S, V, M>(
             }
             factor *= half;
         }
-        failed = failed | open;
+        // where not even a small step shrinks the defect it is round-off, or there is no solution
+        let small = size(&step).less_equal(S::epsilon().sqrt() * size(xi));
+        failed = failed | (open & !small);
         active = active & !open;
     }
     failed = failed | active;
