@@ -301,7 +301,6 @@ fn the_mistakes_of_a_stage_are_reported_together() {
         "number 8:35",
         "unknown-symbol 9:20",
         "unknown-symbol 10:25",
-        "reserved-name 10:29",
         "number 10:35",
         "number 11:19",
         "state-length 11:14",

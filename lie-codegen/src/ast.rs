@@ -198,6 +198,8 @@ pub struct Declaration {
     pub references: Vec<String>,
     /// The algebra.
     pub algebra: Algebra,
+    /// The name of the group element, where functions may use its entries.
+    pub group: Option<Name>,
     /// Names of the coordinates of `mu`.
     pub state: Vec<Name>,
     /// The parameters.

@@ -167,6 +167,11 @@ pub fn source(model: &Model) -> Source {
         constants: model.constants.entries().to_vec(),
         hamiltonian: model.has_expression().then_some(model.hamiltonian),
         lagrangian: model.lagrangian.as_ref().map(|l| l.value),
+        energy: model.energy,
+        momenta: model
+            .configuration
+            .as_ref()
+            .and_then(|c| c.group.as_ref().map(|_| c.momenta)),
         casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
         pieces: separable::pieces(model),
         actions: None,
@@ -183,7 +188,7 @@ fn docs(model: &Model) -> Vec<String> {
     let names: Vec<&str> = model.coordinates.iter().map(|c| c.text.as_str()).collect();
     docs.push(String::new());
     let energy = if model.has_expression() {
-        format!("`H = {}`", model.display(model.hamiltonian))
+        format!("`H = {}`", model.display(model.energy))
     } else {
         "The Legendre transform of its Lagrangian, by Newton's iteration,".to_owned()
     };
@@ -208,6 +213,9 @@ fn docs(model: &Model) -> Vec<String> {
         names.join(", "),
         model.generic_rank
     ));
+    if let Some(configuration) = &model.configuration {
+        docs.push(format!("Coordinates: {}.", configuration.description()));
+    }
     if !model.casimirs.is_empty() {
         let casimirs: Vec<String> = model
             .casimirs

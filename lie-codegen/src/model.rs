@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 
 use crate::algebra::{Representation, StructureConstants};
 use crate::ast::{Invariance, Name, RunOption};
+use crate::check::configuration::Configuration;
 use crate::diagnostic::{Diagnostic, Origin};
 use crate::exact::{Fraction, Rational};
 use crate::symbolic::{ExprId, Graph, Symbol};
@@ -90,11 +91,15 @@ pub struct Model {
     pub exact_constants: StructureConstants<Fraction>,
     /// How it was declared.
     pub invariance: Invariance,
-    /// The Hamiltonian. Where [`Model::has_expression`] is false it is `<mu, xi> - l(xi)` in mu and the
+    /// The Hamiltonian; of a system that depends on the time, that of the extended phase space. Where [`Model::has_expression`] is false it is `<mu, xi> - l(xi)` in mu and the
     /// velocity xi of mu, so that its derivative by a coordinate is a component of xi.
     pub hamiltonian: ExprId,
     /// The Lagrangian, if the system was declared by one.
     pub lagrangian: Option<Lagrangian>,
+    /// The energy: the Hamiltonian as it was declared.
+    pub energy: ExprId,
+    /// What the coordinates beside mu are, of a system on `T*G` or one that depends on the time.
+    pub configuration: Option<Configuration>,
     /// Its total degree in the coordinates, where it is a polynomial in them.
     pub hamiltonian_degree: Option<u32>,
     /// The coordinates on which H depends, if H is a sum of functions of one of them each; else two
@@ -133,6 +138,21 @@ impl Model {
             .as_ref()
             .map(|lagrangian| lagrangian.transform);
         transform != Some(Transform::Newton)
+    }
+
+    /// The coordinates that are shown: all but those that carry the time.
+    pub fn shown_coordinates(&self) -> Vec<usize> {
+        let hidden = |i: &usize| self.configuration.as_ref().is_some_and(|c| c.is_hidden(*i));
+        (0..self.dimension()).filter(|i| !hidden(i)).collect()
+    }
+
+    /// The state for the values that a user gives: all coordinates, or of a system on `T*G` the momenta alone,
+    /// at the identity. `None` where the number of values is another.
+    pub fn complete_state(&self, given: &[f64]) -> Option<Vec<f64>> {
+        match &self.configuration {
+            Some(configuration) => configuration.complete(given, |value| value as f64),
+            None => (given.len() == self.dimension()).then(|| given.to_vec()),
+        }
     }
 
     /// The name of a symbol.

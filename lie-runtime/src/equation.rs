@@ -26,6 +26,11 @@ pub trait Equation<S: Scalar> {
 
     /// Sets the state from which the step starts. Everything below refers to it.
     fn set_base(&mut self, mu: &Self::State);
+    /// The size that errors of the unknown are measured against, for the base mu; that of the unknown itself
+    /// counts too.
+    fn scale(&self, mu: &Self::State) -> S {
+        mu.max_norm()
+    }
     /// The unknown with which the iteration starts.
     fn initial_guess(&mut self, unknown: &mut Self::Unknown);
     /// The residual r(u).

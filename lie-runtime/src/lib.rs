@@ -91,7 +91,7 @@ pub use pieces::{PieceFlows, SeparablePoisson};
 pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
-pub use structure::{InertiaPoisson, MatrixPoisson, SpinPoisson};
+pub use structure::{CotangentPoisson, InertiaPoisson, MatrixPoisson, SpinPoisson};
 
 /// What a program usually needs.
 pub mod prelude {
@@ -104,10 +104,10 @@ pub mod prelude {
     };
     pub use crate::methods::{
         CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6,
-        CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, Dopri5, Gauss4, Gauss6,
-        Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint,
-        Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue,
-        Method, MoserVeselov, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme,
+        CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, Dopri5, EulerArnold2,
+        Gauss4, Gauss6, Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez,
+        ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler, LieMidpoint,
+        MeanValue, Method, MoserVeselov, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme,
         SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper,
         Variational2, Variational4, Variational6,
     };
@@ -138,7 +138,7 @@ pub mod __private {
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};
     pub use crate::structure::{
-        Entry, InertiaPoisson, MatrixPoisson, Plane, Representation, SpinPoisson,
+        CotangentPoisson, Entry, InertiaPoisson, MatrixPoisson, Plane, Representation, SpinPoisson,
     };
     pub use core::marker::PhantomData;
     pub use nalgebra::{SMatrix, SVector};

@@ -53,6 +53,12 @@ pub trait Poisson<S: Scalar>: Sized {
 
     /// The energy H(mu).
     fn hamiltonian(&self, mu: &Self::State) -> S;
+    /// The energy as it is shown and followed: H, except where H depends on the time. There
+    /// [`Poisson::hamiltonian`] is that of the extended phase space, with the momentum of the time added, and
+    /// the energy varies.
+    fn energy(&self, mu: &Self::State) -> S {
+        self.hamiltonian(mu)
+    }
     /// The gradient of H: `out_i = dH/dmu_i`.
     fn gradient(&self, mu: &Self::State, out: &mut Self::State);
     /// The Hessian of H: `out_ij = d^2H/dmu_i dmu_j`.

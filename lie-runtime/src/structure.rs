@@ -4,6 +4,7 @@
 use crate::matrix::SquareMatrix;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
+use crate::state::State;
 
 /// A nonzero entry of a constant matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +51,29 @@ impl Entry {
     pub(crate) fn value<S: Scalar>(&self) -> S {
         S::constant(self.high, self.low)
     }
+}
+
+/// A Hamiltonian system on `T*G`: the Hamiltonian `H(g, mu)` is not invariant under the group, and the state
+/// is mu with the coordinates of the configuration, the entries of g.
+///
+/// It is the Lie–Poisson system of a semidirect product: the first [`CotangentPoisson::MOMENTA`] basis
+/// elements span the algebra of the group, which acts on the span of the others; these commute. The time and
+/// its momentum take part where H depends on it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no system on T*G over the scalar `{S}`",
+    note = "declare the group element (`group R;`), whose entries may stand in the Hamiltonian"
+)]
+pub trait CotangentPoisson<S: Scalar>: LiePoisson<S> {
+    /// The momenta alone.
+    type Momentum: State<S>;
+    /// A square matrix of their number.
+    type MomentumMatrix: SquareMatrix<S>;
+    /// How many coordinates, the first ones, are momenta.
+    const MOMENTA: usize;
+    /// Momenta, all 0.
+    fn zero_momentum(&self) -> Self::Momentum;
+    /// A matrix, all entries 0.
+    fn zero_momentum_matrix(&self) -> Self::MomentumMatrix;
 }
 
 /// The matrices of a representation `rho` and of its dual, by their nonzero entries.

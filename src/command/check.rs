@@ -155,11 +155,14 @@ impl Report {
             Some(rank) => writeln!(text, ", rank {rank} at the initial state")?,
             None => writeln!(text, ", no initial state")?,
         }
+        if let Some(configuration) = &model.configuration {
+            writeln!(text, "  {}", configuration.description())?;
+        }
         if let Some(lagrangian) = &model.lagrangian {
             writeln!(text, "  l = {}", model.display(lagrangian.value))?;
         }
         if model.has_expression() {
-            writeln!(text, "  H = {}", model.display(model.hamiltonian))?;
+            writeln!(text, "  H = {}", model.display(model.energy))?;
         } else {
             writeln!(
                 text,

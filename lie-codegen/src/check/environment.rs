@@ -29,8 +29,9 @@ pub enum Allowed {
     Parameters,
     /// Coordinates of mu too.
     State,
-    /// Components of the velocity, but no coordinates of mu.
-    Velocity,
+    /// Components of the velocity, and of the coordinates those from this one on: a Lagrangian may depend on
+    /// the group element and the time, but not on mu.
+    Velocity(usize),
     /// Both: an abbreviation may serve either.
     Everything,
 }
@@ -46,8 +47,12 @@ impl Allowed {
     pub fn permits(self, symbol: Symbol) -> bool {
         match symbol {
             Symbol::Parameter(_) => self != Self::Constants,
-            Symbol::Coordinate(_) => matches!(self, Self::State | Self::Everything),
-            Symbol::Input(_) => matches!(self, Self::Velocity | Self::Everything),
+            Symbol::Coordinate(i) => match self {
+                Self::State | Self::Everything => true,
+                Self::Velocity(first) => i >= first,
+                Self::Constants | Self::Parameters => false,
+            },
+            Symbol::Input(_) => matches!(self, Self::Velocity(_) | Self::Everything),
             _ => false,
         }
     }
@@ -101,9 +106,9 @@ impl<'a> Environment<'a> {
             return Diagnostic::new(
                 Kind::ReservedName,
                 origin,
-                "`t` is the time, which the Hamiltonian cannot depend on yet",
+                "`t` is the time, on which only the Hamiltonian or the Lagrangian may depend",
             )
-            .help("a constant takes the place of a frozen time; declare a parameter");
+            .help("remove it; a parameter takes the place of a frozen time");
         }
         let diagnostic = |message: String| Diagnostic::new(Kind::UnknownSymbol, origin, message);
         let usable = |binding: &Binding| match binding {
@@ -118,7 +123,7 @@ impl<'a> Environment<'a> {
                 ))
                 .help("change the order of the abbreviations; none may use itself");
             }
-            Some(Binding::Basis) if allowed == Allowed::Velocity => {
+            Some(Binding::Basis) if matches!(allowed, Allowed::Velocity(_)) => {
                 return diagnostic(format!("`{name}` is a basis element; a Lagrangian is written in the components of the velocity"))
                     .help("use the velocity name of the same position");
             }
@@ -129,7 +134,7 @@ impl<'a> Environment<'a> {
             Some(Binding::Symbol(_) | Binding::Let(_)) => {
                 let (rule, help) = match allowed {
                     Allowed::Constants => ("only constants may", "write its value"),
-                    Allowed::Velocity => (
+                    Allowed::Velocity(_) => (
                         "a reduced Lagrangian depends on the velocity, not on mu",
                         "use the velocity names; mu is the derivative of the Lagrangian",
                     ),

@@ -8,6 +8,7 @@
 //! found by Newton's iteration, here ([`super::velocity`]) and in generated code. The iteration begins at rest,
 //! where l must be finite and regular.
 
+use super::configuration::Configuration;
 use super::normal::{NormalForm, Verdict};
 use crate::ast::Name;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -32,6 +33,16 @@ pub struct Lagrangian<'a> {
     pub origin: Origin,
     /// The parameters with their defaults.
     pub parameters: &'a [Parameter],
+    /// The group element and the time, where the Lagrangian depends on them.
+    pub configuration: Option<&'a Configuration>,
+}
+
+impl Lagrangian<'_> {
+    /// A coordinate at rest, where the coefficients are looked at: mu is 0, the group element 1.
+    fn at_rest(&self, coordinate: usize) -> f64 {
+        self.configuration
+            .map_or(0.0, |configuration| configuration.at_rest(coordinate))
+    }
 }
 
 /// The Hamiltonian in the coordinates of mu; of a Lagrangian that is not quadratic, in mu and its velocity.
@@ -51,6 +62,10 @@ pub fn hamiltonian(
         }
     };
     if !quadratic {
+        if lagrangian.configuration.is_some() {
+            report.push(not_quadratic(lagrangian));
+            return None;
+        }
         if let Some(rank) = form.rank_at_rest(graph) {
             report.push(singular_at_rest(lagrangian, rank));
             return None;
@@ -90,6 +105,8 @@ struct Quadratic {
     /// Rows that are not eliminated.
     rest: Vec<usize>,
     defaults: Vec<f64>,
+    /// The coordinates at rest, as far as any are beside mu.
+    at_rest: Vec<f64>,
     /// The largest entry at the default parameters.
     size: f64,
 }
@@ -144,6 +161,9 @@ impl Quadratic {
                 .iter()
                 .map(|p| p.default_value)
                 .collect(),
+            at_rest: (0..lagrangian.configuration.map_or(0, Configuration::dimension))
+                .map(|coordinate| lagrangian.at_rest(coordinate))
+                .collect(),
             size: 0.0,
         };
         let entries = form.matrix.iter().flatten();
@@ -151,6 +171,7 @@ impl Quadratic {
         let finite = |&entry: &ExprId| {
             graph.evaluate(entry, &|symbol| match symbol {
                 Symbol::Parameter(p) => form.defaults[p],
+                Symbol::Coordinate(i) => form.at_rest.get(i).copied().unwrap_or(0.0),
                 _ => 0.0,
             })
         };
@@ -193,6 +214,7 @@ impl Quadratic {
     fn value(&self, graph: &Graph, entry: ExprId) -> f64 {
         graph.evaluate(entry, &|symbol| match symbol {
             Symbol::Parameter(p) => self.defaults[p],
+            Symbol::Coordinate(i) => self.at_rest.get(i).copied().unwrap_or(f64::NAN),
             _ => f64::NAN,
         })
     }
@@ -350,4 +372,14 @@ fn singular_at_rest(lagrangian: &Lagrangian<'_>, rank: usize) -> Diagnostic {
         ),
     )
     .help("every component of the velocity needs a quadratic kinetic term; else give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
+}
+
+fn not_quadratic(lagrangian: &Lagrangian<'_>) -> Diagnostic {
+    Diagnostic::new(
+        Kind::Legendre,
+        lagrangian.origin,
+        "the Lagrangian is not quadratic in the velocity, or could not be shown to be, and it depends on the group \
+         element or the time",
+    )
+    .help("the Legendre transform of such Lagrangians is not built yet; give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
 }

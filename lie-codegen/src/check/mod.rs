@@ -6,6 +6,7 @@
 
 mod algebra;
 mod casimirs;
+pub mod configuration;
 mod constant;
 mod defaults;
 pub mod domain;
@@ -36,6 +37,7 @@ use crate::model::{self, Casimir, Model, Transform};
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
 use casimirs::Candidate;
+use configuration::Configuration;
 use environment::{Allowed, Environment};
 use independence::Standing;
 use legendre::Lagrangian;
@@ -66,6 +68,21 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     if !size::check(declaration, report) {
         return None;
     }
+    match configuration::of(declaration, report) {
+        Some(configuration) => {
+            let whole = configuration::extended(declaration, &configuration, report);
+            system(&whole, Some(&configuration), report)
+        }
+        None => system(declaration, None, report),
+    }
+}
+
+/// Everything behind names and sizes; of a system on `T*G` the declaration is the one with all coordinates.
+fn system(
+    declaration: &Declaration,
+    configuration: Option<&Configuration>,
+    report: &mut Report,
+) -> Option<Model> {
     let algebra = algebra::check(declaration, report);
     let mut graph = Graph::new();
     let mut environment = Environment::new(declaration);
@@ -77,7 +94,9 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         declaration.energy.expression(),
         match declaration.energy {
             Energy::Hamiltonian(_) => Allowed::State,
-            Energy::Lagrangian { .. } => Allowed::Velocity,
+            Energy::Lagrangian { .. } => {
+                Allowed::Velocity(configuration.map_or(usize::MAX, |c| c.momenta))
+            }
         },
     );
     let lowered: Vec<Option<ExprId>> = declaration
@@ -127,6 +146,7 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
                 velocity,
                 origin: value.origin,
                 parameters: &parameters,
+                configuration,
             };
             if !size::lagrangian(
                 &graph,
@@ -138,17 +158,26 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
                 return None;
             }
             let (hamiltonian, transform) = legendre::hamiltonian(&mut graph, &lagrangian, report)?;
-            let lagrangian = model::Lagrangian {
+            // one that depends on the group element or the time is none on the algebra alone
+            let reduced = configuration.is_none().then(|| model::Lagrangian {
                 value: lagrangian.value,
                 velocity: velocity.clone(),
                 transform,
-            };
-            (hamiltonian, Some(lagrangian))
+            });
+            (hamiltonian, reduced)
         }
     };
     let exact = lagrangian
         .as_ref()
         .is_none_or(|lagrangian| lagrangian.transform == Transform::Exact);
+    let autonomous = hamiltonian;
+    let hamiltonian = match configuration {
+        Some(configuration) if configuration.time => {
+            let momentum = graph.symbol(Symbol::Coordinate(configuration.momenta - 1));
+            graph.add(hamiltonian, momentum)
+        }
+        _ => hamiltonian,
+    };
     let functions: Vec<_> = candidates.iter().map(|c| (c.expr, c.origin)).collect();
     let energy = (hamiltonian, declaration.energy.expression().origin);
     size::derived(&graph, &constants, energy, &functions, report);
@@ -191,6 +220,8 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
         invariance: declaration.invariance,
         hamiltonian,
         lagrangian,
+        energy: autonomous,
+        configuration: configuration.cloned(),
         hamiltonian_degree,
         pieces,
         casimirs,

@@ -39,6 +39,7 @@ pub fn check(declaration: &Declaration, report: &mut Report) {
         .chain(basis)
         .chain(state)
         .chain(velocity)
+        .chain(&declaration.group)
         .chain(parameters.clone())
         .chain(lets.clone())
         .chain(casimirs.clone())

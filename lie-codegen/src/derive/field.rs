@@ -27,6 +27,13 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
     kernels.insert(kernels.len().min(3), poisson_matrix);
     let graph = &source.graph;
     let arguments = || vec![mu(source)];
+    if source
+        .hamiltonian
+        .is_some_and(|hamiltonian| hamiltonian != source.energy)
+    {
+        let energy = "`H(t, mu)`, without the momentum of the time";
+        kernels.push(Kernel::scalar("energy", energy, arguments(), source.energy));
+    }
     let values = source.casimirs.clone();
     kernels.push(Kernel::vector(
         graph,

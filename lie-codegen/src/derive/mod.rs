@@ -38,6 +38,10 @@ pub struct Source {
     pub hamiltonian: Option<ExprId>,
     /// The Lagrangian, in the symbols of an element of the algebra.
     pub lagrangian: Option<ExprId>,
+    /// The energy: the Hamiltonian, of a system that depends on the time without the momentum of the time.
+    pub energy: ExprId,
+    /// The number of momenta of a system on `T*G`, which are its first coordinates.
+    pub momenta: Option<usize>,
     /// The Casimirs.
     pub casimirs: Vec<ExprId>,
     /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
@@ -122,15 +126,15 @@ impl Source {
     }
 
     /// H, and 0 where it has no expression: nothing is derived from it then.
-    pub(crate) fn energy(&mut self) -> ExprId {
+    pub(crate) fn function(&mut self) -> ExprId {
         self.hamiltonian.unwrap_or_else(|| self.graph.integer(0))
     }
 
     /// `dH/dmu_i`
     pub(crate) fn gradient_of_h(&mut self) -> Vec<ExprId> {
-        let energy = self.energy();
+        let function = self.function();
         (0..self.dimension)
-            .map(|i| self.graph.derivative(energy, Symbol::Coordinate(i)))
+            .map(|i| self.graph.derivative(function, Symbol::Coordinate(i)))
             .collect()
     }
 

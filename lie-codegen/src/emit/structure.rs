@@ -17,7 +17,8 @@ impl Writer<'_> {
         let matrices = self.matrix_poisson();
         let spins = self.spin_poisson();
         let inertia = self.inertia_poisson();
-        quote! { #matrices #spins #inertia }
+        let cotangent = self.cotangent_poisson();
+        quote! { #matrices #spins #inertia #cotangent }
     }
 
     fn matrix_poisson(&self) -> Option<TokenStream> {
@@ -43,6 +44,26 @@ impl Writer<'_> {
 
                 fn zero_matrix(&self) -> Self::Matrix {
                     Self::Matrix::repeat(S::zero())
+                }
+            }
+        })
+    }
+
+    fn cotangent_poisson(&self) -> Option<TokenStream> {
+        let momenta = index(self.source.momenta?);
+        let system = self.system_name();
+        Some(quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::CotangentPoisson<S> for #system<S> {
+                type Momentum = ::lie_runtime::__private::SVector<S, #momenta>;
+                type MomentumMatrix = ::lie_runtime::__private::SMatrix<S, #momenta, #momenta>;
+                const MOMENTA: usize = #momenta;
+
+                fn zero_momentum(&self) -> Self::Momentum {
+                    Self::Momentum::repeat(S::zero())
+                }
+
+                fn zero_momentum_matrix(&self) -> Self::MomentumMatrix {
+                    Self::MomentumMatrix::repeat(S::zero())
                 }
             }
         })

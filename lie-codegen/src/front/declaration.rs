@@ -253,6 +253,9 @@ fn remainder(
         .first("methods")
         .map(|s| methods(s, report))
         .unwrap_or_default();
+    let group = parts
+        .first("group")
+        .map(|s| item::name(s.rest, s.origin, report));
     let invariance = parts
         .first("invariance")
         .map_or(Some(Invariance::Left), |s| {
@@ -274,6 +277,7 @@ fn remainder(
         description: parts.first("system")?.description(),
         references: Vec::new(),
         algebra: algebra?,
+        group: group.map_or(Some(None), |name| name.map(Some))?,
         state: parsed.state.clone(),
         parameters,
         lets,

@@ -17,7 +17,6 @@ pub const NOT_BUILT: &[(&str, &[&str])] = &[
     ("discrete_lagrangian", &["hamiltonian"]),
     ("poisson", &["algebra"]),
     ("cocycle", &[]),
-    ("group", &[]),
     ("realization", &[]),
 ];
 

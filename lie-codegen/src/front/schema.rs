@@ -44,6 +44,9 @@ objects! {
         "references" references: Option<Vec<String>>,
         /// The Lie algebra.
         "algebra" algebra: Algebra,
+        /// Name of the group element g, a matrix of the size of `matrices`: its entries, for `R` these are `R11`,
+        /// `R12`, …, may stand in the functions, and are coordinates of the state beside mu.
+        "group" group: Option<String>,
         /// Names of the coordinates of mu, one for each basis element.
         "state" state: Vec<String>,
         /// Parameters and their defaults.

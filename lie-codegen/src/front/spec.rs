@@ -142,6 +142,7 @@ impl Remainder<'_, '_> {
             .get("methods")
             .map(|v| strings(v, "`methods`", report))
             .unwrap_or_default();
+        let group = spec.get("group").map(|v| name_of(v, "`group`", report));
         let invariance = spec
             .get("invariance")
             .map_or(Some(Invariance::Left), |v| invariance(v, report));
@@ -169,6 +170,7 @@ impl Remainder<'_, '_> {
                 .map(|r| r.text.into_owned())
                 .collect(),
             algebra: algebra?,
+            group: group.map_or(Some(None), |name| name.map(Some))?,
             state: self.parsed.state.clone(),
             parameters: self.parameters,
             lets,

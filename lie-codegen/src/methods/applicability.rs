@@ -41,10 +41,22 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
             matrices::refusal(model, *order)
         }
         Choice::Collective(order, Lift::Hopf) => spins::refusal(model, Some(*order)),
+        Choice::EulerArnold2 => cotangent(model),
         Choice::SphericalMidpoint => spins::refusal(model, None),
         Choice::MoserVeselov => inertia::refusal(model),
         _ => None,
     }
+}
+
+/// Why a system is none on `T*G`.
+fn cotangent(model: &Model) -> Option<(String, String)> {
+    let group = model.configuration.as_ref().and_then(|c| c.group.as_ref());
+    group.is_none().then(|| {
+        (
+            "the method is for systems on T*G, and no group element is declared".into(),
+            "declare `group` beside `matrices`, or use `lie-midpoint`".into(),
+        )
+    })
 }
 
 /// Why a system has no Cayley map.

@@ -37,6 +37,8 @@ pub enum Choice {
     Collective(u32, Lift),
     /// `isospectral2`, `isospectral4`, `isospectral6`
     Isospectral(u32),
+    /// `euler-arnold2`
+    EulerArnold2,
     /// `spherical-midpoint`
     SphericalMidpoint,
     /// `splitting1`, `splitting2`, `splitting4`, `splitting6`, `splitting8`; below order 4 the
@@ -181,6 +183,7 @@ impl Choice {
             "isospectral2" => Self::Isospectral(2),
             "isospectral4" => Self::Isospectral(4),
             "isospectral6" => Self::Isospectral(6),
+            "euler-arnold2" => Self::EulerArnold2,
             "spherical-midpoint" => Self::SphericalMidpoint,
             "splitting1" => splitting(1),
             "splitting2" => splitting(2),
@@ -253,6 +256,7 @@ impl Choice {
             Self::GeneratingSecondKind2 => "generating-second-kind2".into(),
             Self::Collective(order, _) => format!("collective{order}"),
             Self::Isospectral(order) => format!("isospectral{order}"),
+            Self::EulerArnold2 => "euler-arnold2".into(),
             Self::SphericalMidpoint => "spherical-midpoint".into(),
             Self::Splitting(order, _) => format!("splitting{order}"),
             Self::DiscreteGradient(gradient) => gradient.name().into(),

@@ -52,6 +52,7 @@ impl Choice {
                 let isospectral = method(format_ident!("Isospectral{order}"));
                 quote! { #isospectral::new() }
             }
+            Self::EulerArnold2 => named("EulerArnold2"),
             Self::SphericalMidpoint => named("SphericalMidpoint"),
             Self::Splitting(order, scheme) => {
                 let splitting = method(format_ident!("Splitting{order}"));

@@ -48,6 +48,7 @@ const HLW: &str =
     "Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), 10.1007/3-540-30666-8";
 const MPS: &str = "Marsden, Pekarsky, Shkoller (1999), 10.1088/0951-7715/12/6/314; Bou-Rabee, Marsden (2009), 10.1007/s10208-008-9030-4";
 const LEOK: &str = "Marsden, Pekarsky, Shkoller (1999), 10.1088/0951-7715/12/6/314; Hall, Leok (2017), 10.1007/s10208-015-9287-3";
+const BRM: &str = "Bou-Rabee, Marsden (2009), 10.1007/s10208-008-9030-4";
 const MK: &str = "Munthe-Kaas (1999), 10.1016/S0168-9274(98)00030-0";
 const CROUCH: &str = "Crouch, Grossman (1993), 10.1007/BF02429858";
 const CMO: &str = "Celledoni, Marthinsen, Owren (2003), 10.1016/S0167-739X(02)00161-9";
@@ -499,11 +500,20 @@ pub const CATALOGUE: &[Method] = &[
         CH,
     )
     .built(),
+    planned(
+        "euler-arnold2",
+        "symplectic method on T*G",
+        2,
+        [true, false],
+        Preserves::POISSON,
+        "a system on T*G: a group element is declared",
+        BRM,
+    )
+    .built(),
 ];
 
 /// Ids that are kept for later and have no row in the table yet.
 pub const RESERVED: &[&str] = &[
-    "euler-arnold2",
     "taylor",
     "exact",
     "gauss8",

@@ -98,7 +98,7 @@ impl<S: Scalar> DriftMonitor<S> {
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
     fn start(&mut self, system: &P, _progress: Progress, mu: &P::State) {
         *self = Self::new::<P>();
-        self.energy = system.hamiltonian(mu);
+        self.energy = system.energy(mu);
         self.drift.energy.initial = self.energy.to_f64();
         system.casimirs(mu, &mut self.casimirs);
         for (drift, value) in self.drift.casimirs.iter_mut().zip(&self.casimirs) {
@@ -108,7 +108,7 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
 
     fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
         let Progress { step, steps, .. } = progress;
-        let change = (system.hamiltonian(mu) - self.energy).abs();
+        let change = (system.energy(mu) - self.energy).abs();
         self.drift.energy.record(largest(change), step, steps);
         system.casimirs(mu, &mut self.values);
         let pairs = self.values.iter().zip(&self.casimirs);

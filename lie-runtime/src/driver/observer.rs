@@ -103,7 +103,7 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Recorder<S, P::State> {
         let mut casimirs = vec![S::zero(); P::CASIMIRS];
         system.casimirs(mu, &mut casimirs);
         self.solution.t.push(time);
-        self.solution.energy.push(system.hamiltonian(mu));
+        self.solution.energy.push(system.energy(mu));
         self.solution.casimirs.push(casimirs);
         self.solution.mu.push(mu.clone());
         ControlFlow::Continue(())

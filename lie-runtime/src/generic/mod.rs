@@ -12,6 +12,7 @@ mod discrete_body;
 mod discrete_gradient;
 mod discrete_gradient_step;
 mod discrete_top;
+mod euler_arnold;
 mod exp_midpoint;
 mod exp_variational;
 mod galerkin;
@@ -40,6 +41,7 @@ pub use discrete_gradient::{
 };
 pub use discrete_gradient_step::DiscreteGradientStep;
 pub use discrete_top::DiscreteTop;
+pub use euler_arnold::{EulerArnoldHalf, Half};
 pub use exp_midpoint::{ExpMidpoint, ExpRetraction};
 pub use exp_variational::ExpVariational;
 pub use galerkin::GalerkinStep;

@@ -32,13 +32,22 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         &self.unknown
     }
 
+    /// Looks at the equation with the solution of the last step.
+    pub(super) fn with_solution<'s, T>(
+        &'s mut self,
+        look: impl FnOnce(&'s mut E, &'s E::Unknown) -> T,
+    ) -> T {
+        look(&mut self.equation, &self.unknown)
+    }
+
     /// Advances one step without a sink.
     fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
         self.equation.set_base(mu);
         self.equation.initial_guess(&mut self.unknown);
+        let scale = self.equation.scale(mu);
         let solved = self
             .newton
-            .solve(&mut self.equation, &mut self.unknown, mu.max_norm());
+            .solve(&mut self.equation, &mut self.unknown, scale);
         let (report, mut failure) = match solved {
             Ok(report) => (StepReport::implicit(&report), None),
             Err(failure) => {

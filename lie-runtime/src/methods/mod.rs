@@ -19,6 +19,7 @@
 //! | [`SphericalMidpoint`] | `$\mu_1 = \mu + h f(w)$`, w the midpoint on the sphere of each spin | 2 |
 //! | [`Variational2`], [`Variational4`], [`Variational6`] | `$F^+(g) = \mu, \quad \mu_1 = F^-(g)$` of a discrete Lagrangian `$l_d(g)$` | 2, 4, 6 |
 //! | [`MoserVeselov`] | `$h M = g J - J g^T, \quad M_1 = g^T M g$`, keeps the energy too | 2 |
+//! | [`EulerArnold2`] | on `T*G`, for a Hamiltonian of g and mu: `$B_{h/2} \circ A_{h/2}$`, symplectic | 2 |
 //!
 //! Explicit, by exponentials: [`LieEuler`], [`Rkmk2`], [`Rkmk3`], [`Rkmk4`], [`Rkmk6`], [`CrouchGrossman3`]
 //! and [`CommutatorFree4`] for any Lie algebra; [`Splitting`] for a Hamiltonian that is a sum of functions
@@ -35,6 +36,7 @@ pub mod commutator_free;
 pub mod compose;
 pub mod crouch_grossman;
 pub mod dopri5;
+pub mod euler_arnold;
 mod explicit;
 mod facts;
 pub mod gauss;
@@ -64,6 +66,7 @@ pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
 pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};
 pub use crouch_grossman::{CrouchGrossman3, CrouchGrossmanStepper};
 pub use dopri5::{Dopri5, Dopri5Stepper};
+pub use euler_arnold::{EulerArnold2, EulerArnoldStepper};
 pub use facts::{Facts, Preserves};
 pub use gauss::{Gauss4, Gauss6};
 pub use generating::{Generating, Generating2, Generating4, Generating6};

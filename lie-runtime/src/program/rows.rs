@@ -113,7 +113,7 @@ impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_> {
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
         let mut casimirs = core::mem::take(&mut self.casimirs);
         system.casimirs(mu, &mut casimirs);
-        let energy = system.hamiltonian(mu);
+        let energy = system.energy(mu);
         let numbers = [time].into_iter().chain(mu.as_slice().iter().copied());
         let mut result = Ok(());
         for number in numbers.chain([energy]).chain(casimirs.iter().copied()) {

@@ -76,14 +76,26 @@ fn integrate(
     interrupt: &Interrupt,
 ) -> Result<u8, Failure> {
     let model = &spec.model;
-    let states = model.coordinates.iter().map(|name| name.text.clone());
+    let states = model.shown_coordinates();
+    let dimension = states.len();
+    // The program writes all coordinates; those that carry the time are not shown.
+    let (all, width) = (
+        model.dimension(),
+        model.dimension() + 2 + model.casimirs.len(),
+    );
+    let picked: Vec<usize> = std::iter::once(0)
+        .chain(states.iter().map(|coordinate| coordinate + 1))
+        .chain(all + 1..width)
+        .collect();
+    let states = states
+        .into_iter()
+        .map(|i| model.coordinates[i].text.clone());
     let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
     let columns: Vec<String> = std::iter::once("t".to_owned())
         .chain(states)
         .chain(["energy".to_owned()])
         .chain(casimirs)
         .collect();
-    let width = columns.len();
     let header = Header {
         system: model.name.clone(),
         method: plan.method.id().to_owned(),
@@ -97,7 +109,7 @@ fn integrate(
         && times.first() != Some(&0.0)
     {
         times.insert(0, 0.0);
-        hidden = width;
+        hidden = columns.len();
     }
     let job = Job {
         method: plan.method.label(),
@@ -116,9 +128,11 @@ fn integrate(
     let mut rows = Rows::start(outputs.rows, format, &header).map_err(lost)?;
     let mut plot = outputs.plot.as_ref().map(|_| {
         let subtitle = format!("{}, h = {}", plan.method.title(), plan.step.1.trim());
-        Plot::new(&*model.name, &columns, model.dimension(), (0.0, plan.end())).subtitle(subtitle)
+        Plot::new(&*model.name, &columns, dimension, (0.0, plan.end())).subtitle(subtitle)
     });
-    let mut drift = Drift::new(&columns[model.dimension() + 1..]);
+    // The energy of a system that depends on the time is no invariant.
+    let varies = model.configuration.as_ref().is_some_and(|c| c.time);
+    let mut drift = Drift::new(&columns[dimension + 1 + usize::from(varies)..]);
     // Rows that scroll by on the same terminal say enough.
     let scrolls = flags.out.is_none() && io::stdout().is_terminal();
     let bar = Bar::new(!flags.quiet && !scrolls);
@@ -130,7 +144,11 @@ fn integrate(
         width,
         interrupt,
         &mut |numbers| {
-            for row in numbers.chunks_exact(width) {
+            let numbers: Vec<f64> = numbers
+                .chunks_exact(width)
+                .flat_map(|row| picked.iter().map(|&column| row[column]))
+                .collect();
+            for row in numbers.chunks_exact(picked.len()) {
                 drift.push(row);
                 if let Some(plot) = &mut plot {
                     plot.push(row);

@@ -1,5 +1,6 @@
 mod algebra;
 mod casimirs;
+mod configuration;
 mod domain;
 mod legendre;
 mod limits;

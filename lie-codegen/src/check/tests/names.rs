@@ -109,8 +109,8 @@ fn symbols_in_the_wrong_place() {
         &["unknown-symbol at e1: `e1` is a basis element"],
     );
     expect(
-        &so3(&[("hamiltonian", r#""t*x""#)]),
-        &["reserved-name at t"],
+        &so3(&[("casimirs", r#"["t*x"]"#)]),
+        &["reserved-name at t: `t` is the time, on which only the Hamiltonian"],
     );
     expect(
         &so3(&[

@@ -10,6 +10,7 @@ use crate::suggest::did_you_mean;
 const KEYWORDS: &[(&str, Follows)] = &[
     ("system", Follows::Name),
     ("algebra", Follows::Block),
+    ("group", Follows::Name),
     ("state", Follows::Name),
     ("parameters", Follows::Block),
     ("let", Follows::Name),

@@ -52,11 +52,11 @@ impl Planner<'_> {
 
     pub(super) fn initial(&mut self, parameters: &[f64]) -> Option<Vec<f64>> {
         let model = &self.spec.model;
-        let dimension = model.dimension();
+        let dimension = model.shown_coordinates().len();
         let values = if let Some(text) = &self.flags.initial {
             let given = Given::flag("--initial", text);
             let parts = given.split();
-            if parts.len() != dimension {
+            if model.complete_state(&vec![0.0; parts.len()]).is_none() {
                 let text = format!("{} values for a state of {dimension}", parts.len());
                 let mut message = given.wrong(text);
                 message.kind = Kind::StateLength;
@@ -68,7 +68,10 @@ impl Planner<'_> {
                 .iter()
                 .filter_map(|part| self.keep(part.number()))
                 .collect();
-            (self.mistakes.len() == before).then_some(values)?
+            if self.mistakes.len() > before {
+                return None;
+            }
+            model.complete_state(&values)?
         } else if let Some(values) = model.initial_values(parameters) {
             values
         } else {
@@ -84,9 +87,9 @@ impl Planner<'_> {
         let names: Vec<&str> = self
             .spec
             .model
-            .coordinates
-            .iter()
-            .map(|c| c.text.as_str())
+            .shown_coordinates()
+            .into_iter()
+            .map(|i| self.spec.model.coordinates[i].text.as_str())
             .collect();
         let zeros: Vec<String> = (1..=names.len()).map(|k| format!("0.{k}")).collect();
         let zeros = zeros.join(",");

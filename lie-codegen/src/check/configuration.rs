@@ -1,0 +1,391 @@
+//! Systems on T*G and systems that depend on the time, as Lie–Poisson systems of a larger algebra.
+//!
+//! The equations `g' = g xi`, `mu' = ad*_xi mu - F`, `xi = dH/dmu`, `F = L_g^* dH/dg` of a Hamiltonian
+//! `H(g, mu)` are those of the semidirect product of the algebra with the matrices: the entries `g_ab` are
+//! coordinates beside mu, and `g' = g rho(xi)` is the coadjoint action when
+//! `[e_i, E_ab] = sum_c rho(e_i)_cb E_ac`. For `H(t, mu)` the time and its momentum are a canonical pair
+//! beside mu: `K = H + p`, `t' = dK/dp = 1`, `p' = -dH/dt`, in the Heisenberg algebra `[P, T] = Z`.
+//!
+//! Both are written into the declaration, so that all checks see one algebra. The order of the coordinates
+//! is mu, p, the entries of g row by row, t, and the central one, whose value is 1.
+
+use crate::ast::{Algebra, Bracket, Declaration, Expr, ExprKind, Invariance, Matrix, Name};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::exact::Rational;
+
+/// The name of the momentum of the time. A user's name does not begin with an underscore.
+pub const TIME_MOMENTUM: &str = "_p";
+/// The name of the central coordinate.
+pub const UNIT: &str = "_one";
+/// The time in expressions.
+pub const TIME: &str = "t";
+
+/// How the coordinates of a system on `T*G`, or on `T*(G x R)`, are ordered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Configuration {
+    /// The momenta come first: this many, with that of the time.
+    pub momenta: usize,
+    /// Name and size of the group element, whose entries follow.
+    pub group: Option<(String, usize)>,
+    /// Whether the Hamiltonian depends on the time.
+    pub time: bool,
+}
+
+impl Configuration {
+    /// Whether a coordinate is one of the three that carry the time, which no user named.
+    pub fn is_hidden(&self, coordinate: usize) -> bool {
+        let entries = self.group.as_ref().map_or(0, |(_, size)| size * size);
+        self.time && (coordinate + 1 == self.momenta || coordinate >= self.momenta + entries)
+    }
+
+    /// What the coordinates are.
+    pub fn description(&self) -> String {
+        let own = self.momenta - usize::from(self.time);
+        let mut parts = vec![format!("{own} momenta")];
+        if let Some((name, size)) = &self.group {
+            parts.push(format!(
+                "the {size} x {size} entries of the group element {name}"
+            ));
+        }
+        if self.time {
+            parts.push("the time with its momentum and a unit".into());
+        }
+        parts.join(", ")
+    }
+
+    /// The number of coordinates.
+    pub fn dimension(&self) -> usize {
+        let size = self.group.as_ref().map_or(0, |(_, size)| *size);
+        self.momenta + size * size + 2 * usize::from(self.time)
+    }
+
+    /// A coordinate of the state at rest at the identity, at time 0.
+    pub fn at_rest(&self, coordinate: usize) -> f64 {
+        let size = self.group.as_ref().map_or(0, |(_, size)| *size);
+        let unit = self.time && coordinate + 1 == self.dimension();
+        let diagonal = coordinate
+            .checked_sub(self.momenta)
+            .is_some_and(|place| place < size * size && place % (size + 1) == 0);
+        f64::from(u8::from(unit || diagonal))
+    }
+
+    /// The names of the entries of the group element, row by row.
+    fn entries(&self) -> Vec<String> {
+        let Some((name, size)) = &self.group else {
+            return Vec::new();
+        };
+        let pairs = (1..=*size).flat_map(|row| (1..=*size).map(move |column| (row, column)));
+        pairs
+            .map(|(row, column)| entry(name, *size, row, column))
+            .collect()
+    }
+
+    /// A state from the one that the user gives: the momenta alone (the group element is 1 then), or with
+    /// the entries of g. `None` where the number of values is neither.
+    pub fn complete<T: Clone>(&self, given: &[T], number: impl Fn(i64) -> T) -> Option<Vec<T>> {
+        let own = self.momenta - usize::from(self.time);
+        let size = self.group.as_ref().map_or(0, |(_, size)| *size);
+        let all = own + size * size + 3 * usize::from(self.time);
+        if given.len() == all {
+            return Some(given.to_vec());
+        }
+        if given.len() != own && given.len() != own + size * size {
+            return None;
+        }
+        let mut state = given[..own].to_vec();
+        if self.time {
+            state.push(number(0));
+        }
+        if given.len() > own {
+            state.extend_from_slice(&given[own..]);
+        } else {
+            let identity = (0..size * size).map(|k| number(i64::from(k % (size + 1) == 0)));
+            state.extend(identity);
+        }
+        if self.time {
+            state.extend([number(0), number(1)]);
+        }
+        Some(state)
+    }
+}
+
+/// `R12`, from size 10 on `R_1_12`.
+fn entry(name: &str, size: usize, row: usize, column: usize) -> String {
+    if size < 10 {
+        format!("{name}{row}{column}")
+    } else {
+        format!("{name}_{row}_{column}")
+    }
+}
+
+/// The configuration of a declaration; `None` where it has neither a group element nor the time.
+pub fn of(declaration: &Declaration, report: &mut Report) -> Option<Configuration> {
+    let group = declaration.group.as_ref().and_then(|name| {
+        let size = declaration.algebra.matrices.first().map(|m| m.rows.len());
+        if size.is_none() {
+            report.push(
+                Diagnostic::new(
+                    Kind::Representation,
+                    name.origin,
+                    "a group element needs the matrices of the algebra, and none are declared",
+                )
+                .help("declare `matrices`: the group element is a matrix of their size"),
+            );
+        }
+        Some((name.text.clone(), size?))
+    });
+    let time = uses_time(declaration);
+    if group.is_none() && !time {
+        return None;
+    }
+    Some(Configuration {
+        momenta: declaration.algebra.basis.len() + usize::from(time),
+        group,
+        time,
+    })
+}
+
+fn uses_time(declaration: &Declaration) -> bool {
+    let lets = declaration.lets.iter().map(|(_, value)| value);
+    let mut open: Vec<&Expr> = lets.chain([declaration.energy.expression()]).collect();
+    while let Some(expr) = open.pop() {
+        match &expr.kind {
+            ExprKind::Name { name, index: None } if name == TIME => return true,
+            ExprKind::Number(_) | ExprKind::Name { .. } => {}
+            ExprKind::Negative(inner) => open.push(inner),
+            ExprKind::Sum(terms) | ExprKind::Product(terms) => {
+                open.extend(terms.iter().map(|(_, term)| term));
+            }
+            ExprKind::Power(base, exponent) => open.extend([&**base, &**exponent]),
+            ExprKind::Call { arguments, .. } => open.extend(arguments),
+            ExprKind::IndexedSum { from, to, body, .. } => open.extend([&**from, &**to, &**body]),
+        }
+    }
+    false
+}
+
+/// The declaration with all coordinates, basis elements, brackets and matrices.
+pub fn extended(
+    declaration: &Declaration,
+    configuration: &Configuration,
+    report: &mut Report,
+) -> Declaration {
+    let origin = declaration
+        .group
+        .as_ref()
+        .map_or(declaration.energy.expression().origin, |name| name.origin);
+    let name = |text: &str| Name {
+        text: text.to_owned(),
+        origin,
+    };
+    let entries = configuration.entries();
+    clashes(declaration, &entries, origin, report);
+    let mut whole = declaration.clone();
+    for names in [&mut whole.algebra.basis, &mut whole.state] {
+        if configuration.time {
+            names.push(name(TIME_MOMENTUM));
+        }
+        names.extend(entries.iter().map(|text| name(text)));
+        if configuration.time {
+            names.extend([name(TIME), name(UNIT)]);
+        }
+    }
+    let builder = Builder {
+        algebra: &declaration.algebra,
+        invariance: declaration.invariance,
+        configuration,
+        origin,
+    };
+    if let Some(brackets) = &mut whole.algebra.brackets {
+        builder.add_brackets(brackets);
+    }
+    if !declaration.algebra.matrices.is_empty() {
+        whole.algebra.matrices = builder.matrices();
+    }
+    if let Some(initial) = &declaration.initial {
+        let number = |value| builder.number(Rational::from(value));
+        if let Some(complete) = configuration.complete(initial, number) {
+            whole.initial = Some(complete);
+        }
+    }
+    whole
+}
+
+/// Reports names of the user that the entries of the group element take.
+fn clashes(declaration: &Declaration, entries: &[String], origin: Origin, report: &mut Report) {
+    let own = declaration.state.iter().chain(&declaration.algebra.basis);
+    let others = declaration.parameters.iter().map(|p| &p.name);
+    let lets = declaration.lets.iter().map(|(name, _)| name);
+    let velocity = declaration.energy.velocity();
+    let casimirs = declaration.casimirs.iter().filter_map(|c| c.name.as_ref());
+    let taken = own
+        .chain(others)
+        .chain(lets)
+        .chain(velocity)
+        .chain(casimirs);
+    for name in taken.filter(|name| entries.contains(&name.text)) {
+        report.push(
+            Diagnostic::new(
+                Kind::DuplicateName,
+                name.origin,
+                format!("`{}` is an entry of the group element", name.text),
+            )
+            .help("choose another name, here or for the group element"),
+        );
+    }
+    let size = entries.len();
+    let letters = |c: char| c == '_' || unicode_ident::is_xid_continue(c);
+    if entries.iter().any(|entry| !entry.chars().all(letters)) || size > super::MAX_DIMENSION {
+        report.push(
+            Diagnostic::new(
+                Kind::Limit,
+                origin,
+                format!("the group element has {size} entries, too many coordinates"),
+            )
+            .help("choose a smaller representation"),
+        );
+    }
+}
+
+struct Builder<'a> {
+    algebra: &'a Algebra,
+    invariance: Invariance,
+    configuration: &'a Configuration,
+    origin: Origin,
+}
+
+impl Builder<'_> {
+    fn expr(&self, kind: ExprKind) -> Expr {
+        Expr {
+            kind,
+            origin: self.origin,
+        }
+    }
+
+    fn number(&self, value: Rational) -> Expr {
+        self.expr(ExprKind::Number(value))
+    }
+
+    fn name(&self, text: String) -> Name {
+        Name {
+            text,
+            origin: self.origin,
+        }
+    }
+
+    fn basis(&self, text: String) -> Expr {
+        self.expr(ExprKind::Name {
+            name: text,
+            index: None,
+        })
+    }
+
+    /// `[e_i, E_ab] = sum_c rho(e_i)_cb E_ac`. For a right-invariant system, whose constants change their
+    /// sign later, `g' = rho(xi) g`: `[e_i, E_ab] = -sum_c rho(e_i)_ac E_cb`.
+    fn add_brackets(&self, brackets: &mut Vec<Bracket>) {
+        let mut add = |left: &Name, right: String, terms: Vec<(bool, Expr)>| {
+            if !terms.is_empty() {
+                brackets.push(Bracket {
+                    left: left.clone(),
+                    right: self.name(right),
+                    value: self.expr(ExprKind::Sum(terms)),
+                    origin: self.origin,
+                });
+            }
+        };
+        if let Some((group, size)) = &self.configuration.group {
+            let entry = |row, column| entry(group, *size, row, column);
+            for matrix in &self.algebra.matrices {
+                for (a, b) in (0..*size).flat_map(|a| (0..*size).map(move |b| (a, b))) {
+                    let left = self.invariance == Invariance::Left;
+                    let terms = (0..*size).filter_map(|c| {
+                        let (row, column) = if left { (c, b) } else { (a, c) };
+                        let value = matrix.rows.get(row)?.get(column)?;
+                        if matches!(&value.kind, ExprKind::Number(zero) if zero.is_zero()) {
+                            return None;
+                        }
+                        let target = if left {
+                            entry(a + 1, c + 1)
+                        } else {
+                            entry(c + 1, b + 1)
+                        };
+                        let factors = vec![(false, value.clone()), (false, self.basis(target))];
+                        Some((!left, self.expr(ExprKind::Product(factors))))
+                    });
+                    add(&matrix.name, entry(a + 1, b + 1), terms.collect());
+                }
+            }
+        }
+        if self.configuration.time {
+            let unit = (
+                self.invariance == Invariance::Right,
+                self.basis(UNIT.into()),
+            );
+            add(&self.name(TIME_MOMENTUM.into()), TIME.into(), vec![unit]);
+        }
+    }
+
+    /// The matrices of the larger algebra: blocks `(-rho^T, 0; A, 0)` of the semidirect product, those of
+    /// the opposite order for a right-invariant system, and the Heisenberg algebra beside them.
+    fn matrices(&self) -> Vec<Matrix> {
+        let declared = &self.algebra.matrices;
+        let size = declared.first().map_or(0, |m| m.rows.len());
+        let group = self.configuration.group.is_some();
+        let blocks = if group { 2 * size } else { size };
+        let whole = blocks + 3 * usize::from(self.configuration.time);
+        let left = self.invariance == Invariance::Left;
+        let zero = || vec![vec![self.number(Rational::ZERO); whole]; whole];
+        let mut matrices = Vec::new();
+        for matrix in declared {
+            let mut rows = zero();
+            let mut misshapen = false;
+            for (i, row) in matrix.rows.iter().enumerate() {
+                for (j, value) in row.iter().enumerate() {
+                    misshapen |= i >= size || j >= size;
+                    if misshapen {
+                        continue;
+                    }
+                    if group {
+                        let negative = ExprKind::Negative(Box::new(value.clone()));
+                        rows[j][i] = Expr {
+                            kind: negative,
+                            origin: value.origin,
+                        };
+                    } else {
+                        rows[i][j] = value.clone();
+                    }
+                }
+            }
+            misshapen |= matrix.rows.len() != size || matrix.rows.iter().any(|r| r.len() != size);
+            // one of another shape is reported as it was written
+            let rows = if misshapen { matrix.rows.clone() } else { rows };
+            matrices.push(Matrix {
+                name: matrix.name.clone(),
+                rows,
+                origin: matrix.origin,
+            });
+        }
+        let mut unit = |name: String, row: usize, column: usize| {
+            let mut rows = zero();
+            rows[row][column] = self.number(Rational::ONE);
+            matrices.push(Matrix {
+                name: self.name(name),
+                rows,
+                origin: self.origin,
+            });
+        };
+        if let Some((group, _)) = &self.configuration.group {
+            for (a, b) in (0..size).flat_map(|a| (0..size).map(move |b| (a, b))) {
+                let (row, column) = if left { (size + a, b) } else { (a, size + b) };
+                unit(entry(group, size, a + 1, b + 1), row, column);
+            }
+        }
+        if self.configuration.time {
+            let [first, second] = if left { [0, 1] } else { [1, 0] };
+            unit(TIME_MOMENTUM.into(), blocks + first, blocks + first + 1);
+            unit(TIME.into(), blocks + second, blocks + second + 1);
+            unit(UNIT.into(), blocks, blocks + 2);
+        }
+        matrices
+    }
+}

@@ -1,0 +1,127 @@
+//! The symplectic method for systems on `T*G`, whose Hamiltonian depends on the group element too.
+//!
+//! ```math
+//! \dot g = g\, \xi, \qquad \dot\mu = \mathrm{ad}^*_\xi \mu - F, \qquad \xi = \frac{\partial H}{\partial \mu}(g, \mu),
+//! \qquad F = L_g^* \frac{\partial H}{\partial g}(g, \mu)
+//! ```
+//!
+//! A step is a first half with `h/2`, then a second one:
+//!
+//! ```math
+//! \begin{aligned}
+//! A_h:\quad& \mu_0 = (\mathrm{d}\tau_{h\xi}^{-1})^* m + h F(g_0, m), \quad \xi = H_\mu(g_0, m), \quad
+//! g_1 = g_0\, \tau(h\xi), \quad \mu_1 = (\mathrm{d}\tau_{-h\xi}^{-1})^* m \\
+//! B_h:\quad& \mu_0 = (\mathrm{d}\tau_{h\xi}^{-1})^* m, \quad \xi = H_\mu(g_1, m), \quad
+//! g_1 = g_0\, \tau(h\xi), \quad \mu_1 = (\mathrm{d}\tau_{-h\xi}^{-1})^* m - h F(g_1, m)
+//! \end{aligned}
+//! ```
+//!
+//! with `$\tau = \exp$`; `$B_h = A_{-h}^{-1}$`. The step `$B_{h/2} \circ A_{h/2}$` has order 2, is symmetric, and keeps the
+//! symplectic form of `T*G` (the Poisson structure of the semidirect product) for every Hamiltonian; g stays in
+//! the group. Where H is the sum of a function of mu and one of g it is the Störmer–Verlet method.
+//!
+//! Needs: a system on `T*G` ([`CotangentPoisson`]), declared with a group element.
+//!
+//! References: N. Bou-Rabee, J. E. Marsden, "Hamilton–Pontryagin integrators on Lie groups", Foundations of
+//! Computational Mathematics 9 (2009) 197–219,
+//! [doi:10.1007/s10208-008-9030-4](https://doi.org/10.1007/s10208-008-9030-4);
+//! D. Martín de Diego, "Lie–Poisson integrators" (2018), section 3.
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
+
+use super::facts::{Facts, Preserves};
+use super::implicit::ImplicitStepper;
+use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper};
+use crate::generic::{EulerArnoldHalf, Half};
+use crate::newton::NewtonOptions;
+use crate::scalar::{Mask, Scalar};
+use crate::state::{State, Unknown};
+use crate::structure::CotangentPoisson;
+
+/// The symplectic method on `T*G`, order 2; see the [module's text](self).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EulerArnold2;
+
+impl Facts for EulerArnold2 {
+    const ID: &'static str = "euler-arnold2";
+    const ORDER: u32 = 2;
+    const SYMMETRIC: bool = true;
+    const EXPLICIT: bool = false;
+    const PRESERVES: Preserves = Preserves::POISSON;
+}
+
+impl<S: Scalar, P: CotangentPoisson<S>> Method<S, P> for EulerArnold2 {
+    type Stepper<'a>
+        = EulerArnoldStepper<'a, S, P>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+        let half = h * S::ratio(1.0, 2.0);
+        let stepper = |which| {
+            let equation = EulerArnoldHalf::new(system, which, half);
+            ImplicitStepper::new(equation, system.zero_state(), newton)
+        };
+        EulerArnoldStepper {
+            halves: [stepper(Half::First), stepper(Half::Second)],
+            next: system.zero_state(),
+            factor: system.zero_state(),
+        }
+    }
+}
+
+/// The stepper of [`EulerArnold2`].
+pub struct EulerArnoldStepper<'a, S: Scalar, P: CotangentPoisson<S>> {
+    halves: [ImplicitStepper<S, EulerArnoldHalf<'a, S, P>>; 2],
+    next: P::State,
+    factor: P::State,
+}
+
+impl<S: Scalar, P: CotangentPoisson<S>> Stepper<S> for EulerArnoldStepper<'_, S, P> {
+    type State = P::State;
+
+    fn step<K: FactorSink<P::State>>(
+        &mut self,
+        mu: &mut P::State,
+        sink: &mut K,
+    ) -> Result<StepReport, StepFailure> {
+        self.next.copy_from(mu);
+        let mut report = StepReport {
+            substeps: 1,
+            ..StepReport::default()
+        };
+        let mut failure: Option<StepFailure> = None;
+        for half in &mut self.halves {
+            let outcome = half.step(&mut self.next, &mut ());
+            let part = match outcome {
+                Ok(part) => part,
+                Err(new) => {
+                    let known = failure.get_or_insert(StepFailure { lanes: 0, ..new });
+                    known.lanes |= new.lanes;
+                    new.report
+                }
+            };
+            report.evaluations += part.evaluations;
+            report.iterations += part.iterations;
+            report.factorizations += part.factorizations;
+            report.residual = Scalar::max(report.residual, part.residual);
+            report.pivoted |= part.pivoted;
+        }
+        let failed = S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
+        mu.assign_where(!failed, &self.next);
+        if K::ACTIVE && !failed.all() {
+            for half in &mut self.halves {
+                for (retraction, xi) in half.with_solution(EulerArnoldHalf::factors) {
+                    let pairs = self.factor.as_mut_slice().iter_mut().zip(xi.as_slice());
+                    for (entry, &value) in pairs {
+                        *entry = S::select(failed, S::zero(), value);
+                    }
+                    sink.push(retraction, &self.factor);
+                }
+            }
+        }
+        match failure {
+            None => Ok(report),
+            Some(failure) => Err(StepFailure { report, ..failure }),
+        }
+    }
+}
