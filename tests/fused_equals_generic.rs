@@ -25,8 +25,9 @@ use lie_runtime::methods::{Cayley, LieMidpoint};
 use lie_runtime::{CayleyPoisson, Dual, Implicit, Poisson, State};
 use representation::Representation;
 use systems::{
-    CotangentEulerArnold, Declared, FreeRigidBody, HeavyTop, Heisenberg, KirchhoffBody, ManakovTop,
-    NonpolynomialSpin, Pendulum, Random, Sl2Quadratic, Su3Quadratic, TodaLattice, state,
+    CotangentEulerArnold, Declared, FreeRigidBody, Gyrostat, HeavyTop, Heisenberg, KirchhoffBody,
+    ManakovTop, NonpolynomialSpin, Pendulum, QuarticBody, Random, Sl2Quadratic, Su3Quadratic,
+    TodaLattice, state,
 };
 
 /// Random states per system.
@@ -141,6 +142,7 @@ macro_rules! tests {
 }
 
 each_system!(tests);
+each_lagrangian!(tests);
 
 /// States that differ by 1e-9 are noticed by every comparison.
 #[test]

@@ -14,7 +14,8 @@ use lie_runtime::prelude::*;
 use systems::{
     Declared, HeavyTop, KirchhoffBody, NonpolynomialSpin, distance, e2_pendulum, heisenberg_h3,
     relative_distance, se3_heavy_top, se3_kirchhoff, sl2_quadratic, so3_cotangent_euler_arnold,
-    so3_free_rigid_body, so3_nonpolynomial, so4_manakov, state, su3_quadratic, toda3_solvable,
+    so3_free_rigid_body, so3_gyrostat_lagrangian, so3_nonpolynomial, so3_quartic_lagrangian,
+    so4_manakov, state, su3_quadratic, toda3_solvable,
 };
 use vectors::Reference;
 
@@ -132,6 +133,7 @@ macro_rules! symmetry {
 #[test]
 fn symmetric_methods_undo_themselves() {
     each_system!(symmetry);
+    each_lagrangian!(symmetry);
 }
 
 fn defect<P: Poisson<Dual<f64>>>(
@@ -168,6 +170,7 @@ macro_rules! poisson_map {
 #[test]
 fn lie_midpoint_is_a_poisson_map() {
     each_system!(poisson_map);
+    each_lagrangian!(poisson_map);
 }
 
 #[test]

@@ -27,9 +27,15 @@ pub mod so3_cotangent_euler_arnold;
 #[path = "../golden/so3_free_rigid_body.rs"]
 #[rustfmt::skip]
 pub mod so3_free_rigid_body;
+#[path = "../golden/so3_gyrostat_lagrangian.rs"]
+#[rustfmt::skip]
+pub mod so3_gyrostat_lagrangian;
 #[path = "../golden/so3_nonpolynomial.rs"]
 #[rustfmt::skip]
 pub mod so3_nonpolynomial;
+#[path = "../golden/so3_quartic_lagrangian.rs"]
+#[rustfmt::skip]
+pub mod so3_quartic_lagrangian;
 #[path = "../golden/so4_manakov.rs"]
 #[rustfmt::skip]
 pub mod so4_manakov;
@@ -47,7 +53,9 @@ pub use se3_kirchhoff::KirchhoffBody;
 pub use sl2_quadratic::Sl2Quadratic;
 pub use so3_cotangent_euler_arnold::CotangentEulerArnold;
 pub use so3_free_rigid_body::FreeRigidBody;
+pub use so3_gyrostat_lagrangian::Gyrostat;
 pub use so3_nonpolynomial::NonpolynomialSpin;
+pub use so3_quartic_lagrangian::QuarticBody;
 pub use so4_manakov::ManakovTop;
 pub use su3_quadratic::Su3Quadratic;
 pub use toda3_solvable::TodaLattice;
@@ -100,6 +108,8 @@ declared!(
     NonpolynomialSpin,
     NonpolynomialSpinSystem
 );
+declared!(so3_gyrostat_lagrangian, Gyrostat, GyrostatSystem);
+declared!(so3_quartic_lagrangian, QuarticBody, QuarticBodySystem);
 declared!(so4_manakov, ManakovTop, ManakovTopSystem);
 declared!(su3_quadratic, Su3Quadratic, Su3QuadraticSystem);
 declared!(toda3_solvable, TodaLattice, TodaLatticeSystem);
@@ -118,6 +128,15 @@ macro_rules! each_system {
         $check!(so4_manakov, ManakovTop, cayley);
         $check!(su3_quadratic, Su3Quadratic, exp);
         $check!(toda3_solvable, TodaLattice, exp);
+    };
+}
+
+/// The same for the systems by a Lagrangian, without the Cayley map: they have no public reference values of
+/// representations.
+macro_rules! each_lagrangian {
+    ($check:ident) => {
+        $check!(so3_gyrostat_lagrangian, Gyrostat, exp);
+        $check!(so3_quartic_lagrangian, QuarticBody, exp);
     };
 }
 

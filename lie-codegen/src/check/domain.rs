@@ -57,7 +57,7 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
             None => {
                 return Some(Fault {
                     coordinate: None,
-                    message: "no velocity was found whose momentum is the state".into(),
+                    message: "the Hamiltonian is not finite because no velocity with this momentum was found".into(),
                 });
             }
         }
