@@ -10,7 +10,7 @@ use crate::emit::{Blueprint, Emitted, Parameter, emit};
 use crate::front::{Body, spec};
 use crate::methods::{Choice, refusal};
 use crate::model::Model;
-use crate::structure::{inertia, separable, spins};
+use crate::structure::{group, inertia, separable, spins};
 
 /// Reads and checks a spec file.
 ///
@@ -176,6 +176,7 @@ pub fn source(model: &Model) -> Source {
         pieces: separable::pieces(model),
         actions: None,
         triple: model.representation.as_ref().and_then(|r| r.triple.clone()),
+        group: group::group(model),
         matrices: model.representation.clone().filter(|r| r.dual.is_some()),
         spins: spins::spins(model),
         body,

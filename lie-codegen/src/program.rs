@@ -12,12 +12,33 @@ use crate::model::Model;
 pub enum Purpose {
     /// `lie run`: one trajectory.
     Run,
+    /// `lie run --group`: one trajectory with the group element.
+    OnGroup(Chart),
     /// `lie verify`: everything that the methods claim, also over dual numbers.
     Verify,
     /// `lie bench`: errors and times.
     Bench,
     /// `lie stress`: the limits of each method.
     Stress,
+}
+
+/// How the group element is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Chart {
+    /// As a matrix of the declared representation.
+    Matrix,
+    /// As a unit quaternion.
+    Quaternion,
+}
+
+impl Chart {
+    /// The names of the columns.
+    pub fn columns(self, size: usize) -> Vec<String> {
+        match self {
+            Self::Matrix => crate::check::configuration::entries_of("g", size),
+            Self::Quaternion => (0..4).map(|k| format!("q{k}")).collect(),
+        }
+    }
 }
 
 /// The text of a program for these methods. The entries bear the labels of the choices.
@@ -31,7 +52,7 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
     let count = model.parameters.len();
     let defaults = model.parameters.iter().map(|p| p.default_value);
     let (kind, modules, end) = match purpose {
-        Purpose::Run => (quote! { Program }, None, None),
+        Purpose::Run | Purpose::OnGroup(_) => (quote! { Program }, None, None),
         Purpose::Verify => (quote! { measure::Verify }, None, None),
         Purpose::Bench => (
             quote! { measure::Bench },
@@ -68,6 +89,12 @@ fn entry(choice: &Choice, purpose: Purpose) -> TokenStream {
         quote! { _ }
     };
     let composed = choice.solved() != choice;
+    if let Purpose::OnGroup(chart) = purpose {
+        let chart = format_ident!("{chart:?}");
+        return quote! {
+            .on_group(#label, ::lie_runtime::driver::Chart::#chart, |#argument| #constructor)
+        };
+    }
     let function = match purpose {
         Purpose::Verify if composed => format_ident!("composed"),
         Purpose::Run => format_ident!("method"),

@@ -179,6 +179,10 @@ where
     ) -> Option<Retraction> {
         self.equation.group_factor(unknown, xi)
     }
+
+    fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut Self::State) -> usize {
+        self.equation.velocity(unknown, stage, xi)
+    }
 }
 
 #[cfg(test)]

@@ -65,6 +65,16 @@ pub trait Equation<S: Scalar> {
     ) -> Option<Retraction> {
         None
     }
+    /// For a solution u of any other method: `h xi` of a stage, where the step applied to `g' = g xi(t)` is
+    /// that of the Gauss method with as many stages as are returned; 0 where it is not known.
+    fn velocity(
+        &mut self,
+        _unknown: &Self::Unknown,
+        _stage: usize,
+        _xi: &mut Self::State,
+    ) -> usize {
+        0
+    }
 }
 
 /// The equation of one step of the implicit method M for a system.

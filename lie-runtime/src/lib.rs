@@ -91,7 +91,7 @@ pub use pieces::{PieceFlows, SeparablePoisson};
 pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
-pub use structure::{CotangentPoisson, InertiaPoisson, MatrixPoisson, SpinPoisson};
+pub use structure::{CotangentPoisson, InertiaPoisson, MatrixGroup, MatrixPoisson, SpinPoisson};
 
 /// What a program usually needs.
 pub mod prelude {
@@ -138,7 +138,8 @@ pub mod __private {
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};
     pub use crate::structure::{
-        CotangentPoisson, Entry, InertiaPoisson, MatrixPoisson, Plane, Representation, SpinPoisson,
+        CotangentPoisson, Entry, InertiaPoisson, MatrixGroup, MatrixPoisson, Plane, Representation,
+        SpinPoisson,
     };
     pub use core::marker::PhantomData;
     pub use nalgebra::{SMatrix, SVector};

@@ -87,6 +87,24 @@ pub struct Representation {
     pub skew: bool,
 }
 
+/// A Lie–Poisson system whose algebra has declared matrices, and with them a group of matrices.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no matrices over the scalar `{S}`, and so no group element",
+    note = "declare `matrices` beside the brackets"
+)]
+pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
+    /// The size of the matrices.
+    const SIZE: usize;
+    /// `rho(e_k)`, one list per basis element.
+    const MATRICES: &'static [&'static [Entry]];
+    /// Whether Gauss methods applied to `g' = g rho(xi)` stay in the group, up to matrices that commute with it: the
+    /// span is closed under `(abc + cba)/2`.
+    const CLOSED: bool;
+    /// Whether the system is right-invariant, `g' = xi g`: its structure constants and matrices then are those
+    /// of the opposite algebra, the negative ones.
+    const RIGHT: bool = false;
+}
+
 /// A Lie–Poisson system with a matrix representation that carries a reduction of `T*V` to g*.
 ///
 /// The words `T rho(e_k) Q` that the method of the module [`crate::methods::isospectral`] forms must lie in

@@ -49,7 +49,7 @@ impl Template {
     fn of(purpose: Purpose) -> &'static Self {
         match purpose {
             Purpose::Bench => &BENCH,
-            Purpose::Run | Purpose::Verify | Purpose::Stress => &PLAIN,
+            Purpose::Run | Purpose::OnGroup(_) | Purpose::Verify | Purpose::Stress => &PLAIN,
         }
     }
 }

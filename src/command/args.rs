@@ -142,6 +142,9 @@ pub struct Run {
     pub initial: Option<String>,
     #[command(flatten)]
     pub method_options: MethodOptions,
+    /// Writes the group element beside mu, from the identity on: matrix, or quaternion for rotations
+    #[arg(long, value_name = "CHART")]
+    pub group: Option<String>,
     /// Relative tolerance of dopri5 (default 1e-6)
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     pub rtol: Option<String>,

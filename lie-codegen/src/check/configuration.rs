@@ -71,13 +71,9 @@ impl Configuration {
 
     /// The names of the entries of the group element, row by row.
     fn entries(&self) -> Vec<String> {
-        let Some((name, size)) = &self.group else {
-            return Vec::new();
-        };
-        let pairs = (1..=*size).flat_map(|row| (1..=*size).map(move |column| (row, column)));
-        pairs
-            .map(|(row, column)| entry(name, *size, row, column))
-            .collect()
+        self.group
+            .as_ref()
+            .map_or_else(Vec::new, |(name, size)| entries_of(name, *size))
     }
 
     /// A state from the one that the user gives: the momenta alone (the group element is 1 then), or with
@@ -107,6 +103,14 @@ impl Configuration {
         }
         Some(state)
     }
+}
+
+/// The names of the entries of a matrix, row by row.
+pub fn entries_of(name: &str, size: usize) -> Vec<String> {
+    let pairs = (1..=size).flat_map(|row| (1..=size).map(move |column| (row, column)));
+    pairs
+        .map(|(row, column)| entry(name, size, row, column))
+        .collect()
 }
 
 /// `R12`, from size 10 on `R_1_12`.

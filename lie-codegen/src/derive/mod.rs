@@ -19,6 +19,7 @@ pub use kernel::{Argument, Kernel, Shape};
 pub use splitting::{PieceKernel, Update};
 
 use crate::algebra::{Representation, TripleEntry};
+use crate::structure::group::Group;
 use crate::structure::inertia::Body;
 use crate::structure::one_parameter::Block as OneParameter;
 use crate::structure::separable::Piece;
@@ -51,6 +52,8 @@ pub struct Source {
     pub pieces: Option<Vec<Piece>>,
     /// The representation, where it carries collective methods.
     pub matrices: Option<Representation>,
+    /// The group of the declared matrices, where it is not part of the state.
+    pub group: Option<Group>,
     /// The summands of a direct sum of algebras so(3).
     pub spins: Option<Vec<Spin>>,
     /// The free rigid body that the system is.

@@ -75,8 +75,8 @@ impl Writer<'_> {
                 "`w = |mu| s/|s|` with `s = mu + u` for each spin.",
             ],
             guess: quote! { self.h },
-            retraction: None,
-            function: "",
+            generic: quote! { ::lie_runtime::generic::Spherical::new(self.system, self.h) },
+            coadjoint: true,
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -97,8 +97,8 @@ impl Writer<'_> {
                 "equation.",
             ],
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
-            retraction: None,
-            function: "",
+            generic: quote! { ::lie_runtime::generic::#generic::new(self.system, self.h) },
+            coadjoint: true,
             result: Some(quote! {
                 let mut equation = ::lie_runtime::generic::#generic::new(self.system, self.h);
                 ::lie_runtime::Equation::set_base(&mut equation, &self.base);

@@ -336,8 +336,15 @@ impl Writer<'_> {
                     label: gradient.name(),
                     docs: names.docs,
                     guess: quote! { self.h },
-                    retraction: None,
-                    function: "",
+                    generic: {
+                        let of = ident(names.suffixes[0]);
+                        quote! {
+                            ::lie_runtime::generic::DiscreteGradientStep::<
+                                S, _, ::lie_runtime::generic::#of<S, _>,
+                            >::new(self.system, self.h)
+                        }
+                    },
+                    coadjoint: false,
                     result: None,
                 };
                 shared.tokens.extend(writer.fused(&form, &kernels));

@@ -23,10 +23,11 @@ pub(super) struct Form {
     pub(super) docs: &'static [&'static str],
     /// The factor of `h f(mu)` in the initial guess.
     pub(super) guess: TokenStream,
-    /// The retraction of a method of coadjoint form.
-    pub(super) retraction: Option<&'static str>,
-    /// The generic function whose gradient at the unknown is the group factor of such a method.
-    pub(super) function: &'static str,
+    /// The generic equation, made from `self.system` and `self.h`: it says how a solved step moves the
+    /// group element.
+    pub(super) generic: TokenStream,
+    /// Whether the method is of coadjoint form.
+    pub(super) coadjoint: bool,
     /// Statements that write the state at the end to `mu`, where no kernel does and it is not `unknown`.
     pub(super) result: Option<TokenStream>,
 }
@@ -133,8 +134,8 @@ impl Writer<'_> {
                 "The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.",
             ],
             guess: quote! { self.h },
-            retraction: None,
-            function: "",
+            generic: quote! { ::lie_runtime::generic::Midpoint::new(self.system, self.h) },
+            coadjoint: false,
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -153,8 +154,8 @@ impl Writer<'_> {
                 "`m - ad*_x m/2 - Q_x m/4 - mu = 0` with `x = h grad H(m)`, then `mu1 = mu + ad*_x m`.",
             ],
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
-            retraction: Some("Cayley"),
-            function: "Generating2",
+            generic: quote! { ::lie_runtime::generic::CayleyMidpoint::new(self.system, self.h) },
+            coadjoint: true,
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -268,16 +269,24 @@ impl Writer<'_> {
             });
         }
         methods.extend(self.elimination_methods(&elimination));
-        if let Some(retraction) = form.retraction.map(ident) {
-            let function = ident(form.function);
-            methods.extend(quote! {
+        let generic = &form.generic;
+        methods.extend(if form.coadjoint {
+            quote! {
                 fn group_factor(&mut self, unknown: &Self::State, xi: &mut Self::State) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-                    let mut function = ::lie_runtime::generic::#function::new(self.system, self.h);
-                    ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
-                    ::core::option::Option::Some(::lie_runtime::methods::Retraction::#retraction)
+                    let mut equation = #generic;
+                    ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+                    ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
                 }
-            });
-        }
+            }
+        } else {
+            quote! {
+                fn velocity(&mut self, unknown: &Self::State, stage: usize, xi: &mut Self::State) -> usize {
+                    let mut equation = #generic;
+                    ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+                    ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
+                }
+            }
+        });
         let table = super::fixed_order::table(
             &format_ident!("{}{}", self.blueprint.name, form.suffix),
             &elimination,

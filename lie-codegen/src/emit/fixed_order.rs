@@ -255,6 +255,10 @@ impl Writer<'_> {
             fn group_factor(&mut self, unknown: &Self::Unknown, xi: &mut Self::State) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
                 self.0.group_factor(unknown, xi)
             }
+
+            fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut Self::State) -> usize {
+                self.0.velocity(unknown, stage, xi)
+            }
         }
     }
 }

@@ -238,8 +238,8 @@ impl Writer<'_> {
                 "`S = h H + h^2 S2`: the actions `exp(xi_i ad*_(e_i))`, `xi = grad S(p)`, in closed form.",
             ],
             guess: TokenStream::new(),
-            retraction: Some("SecondKind"),
-            function: "SecondKind2",
+            generic: quote! { ::lie_runtime::generic::SecondKind::new(self.system, self.h) },
+            coadjoint: true,
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -271,8 +271,14 @@ impl Writer<'_> {
                 "`mu1 = mu + ad*_xi p`.",
             ],
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
-            retraction: Some("Cayley"),
-            function: "CayleyGenerating4",
+            generic: quote! {
+                ::lie_runtime::generic::CayleyRetraction::with_function(
+                    self.system,
+                    ::lie_runtime::generic::CayleyGenerating4::new(self.system, self.h),
+                    self.h,
+                )
+            },
+            coadjoint: true,
             result: None,
         };
         let equation = self.fused(&form, &kernels);

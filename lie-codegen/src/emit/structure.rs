@@ -18,7 +18,8 @@ impl Writer<'_> {
         let spins = self.spin_poisson();
         let inertia = self.inertia_poisson();
         let cotangent = self.cotangent_poisson();
-        quote! { #matrices #spins #inertia #cotangent }
+        let group = self.matrix_group();
+        quote! { #group #matrices #spins #inertia #cotangent }
     }
 
     fn matrix_poisson(&self) -> Option<TokenStream> {
@@ -45,6 +46,23 @@ impl Writer<'_> {
                 fn zero_matrix(&self) -> Self::Matrix {
                     Self::Matrix::repeat(S::zero())
                 }
+            }
+        })
+    }
+
+    fn matrix_group(&self) -> Option<TokenStream> {
+        let group = self.source.group.as_ref()?;
+        let system = self.system_name();
+        let size = index(group.size);
+        let (closed, right) = (group.closed, group.right);
+        let right = right.then(|| quote! { const RIGHT: bool = true; });
+        let matrices = group.matrices.iter().map(|matrix| entries(matrix));
+        Some(quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for #system<S> {
+                const SIZE: usize = #size;
+                const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[#(#matrices),*];
+                const CLOSED: bool = #closed;
+                #right
             }
         })
     }

@@ -117,6 +117,8 @@ objects! {
         "lift" lift: Option<String>,
         /// Discrete gradient.
         "gradient" gradient: Option<String>,
+        /// How the group element is written beside mu, if it is: `matrix` or `quaternion`.
+        "group" group: Option<String>,
         /// Relative tolerance.
         "rtol" rtol: Option<Constant>,
         /// Absolute tolerance.

@@ -2,18 +2,21 @@
 
 mod error;
 mod grid;
+mod group_matrix;
 mod observer;
 mod options;
 mod problem;
+pub mod reconstruction;
 mod solution;
 mod solve;
 mod stats;
 
 pub use error::{SolveError, StepError};
 pub use grid::{Grid, Place};
-pub use observer::{EveryStep, Observer, Progress, Recorder};
+pub use observer::{EveryStep, Motion, Observer, Progress, Recorder};
 pub use options::{OptionError, Options, Save};
 pub use problem::Problem;
+pub use reconstruction::{Chart, Reconstruction};
 pub use solution::Solution;
 pub use solve::{IntegrateError, integrate, solve, solve_observed};
 pub use stats::{Stats, Status};

@@ -1,8 +1,10 @@
 //! Who looks on while a run goes.
 
 use super::solution::Solution;
+use crate::methods::{FactorSink, Retraction, RungeKutta, Stage};
 use crate::poisson::Poisson;
 use crate::scalar::Scalar;
+use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 /// How far a run has come.
@@ -20,6 +22,9 @@ pub struct Progress {
 ///
 /// Two observers make one as a pair. A closure becomes one by [`EveryStep`].
 pub trait Observer<S: Scalar, P: Poisson<S>> {
+    /// Whether it wants to see the motion on the group; steppers skip the work otherwise.
+    const MOTION: bool = false;
+
     /// Sees the state before the first step.
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         let _ = (system, progress, mu);
@@ -34,12 +39,72 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
         let _ = (system, time, mu);
         ControlFlow::Continue(())
     }
+    /// Sees how a step moves the group element, in one or several parts, if it asks for it by
+    /// [`Observer::MOTION`]; before it sees the state.
+    fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
+        let _ = (system, motion);
+    }
+    /// The next motion is that of a shorter step to a saved time off the grid, …
+    fn leave_grid(&mut self) {}
+    /// … which is not continued from: the group element is where it was before.
+    fn return_to_grid(&mut self) {}
+}
+
+/// A part of the motion on the group.
+#[derive(Clone, Copy, Debug)]
+pub enum Motion<'a, V> {
+    /// `g1 = g tau(xi)`
+    Factor(Retraction, &'a V),
+    /// `h xi` at a stage of a Runge–Kutta method on `g' = g xi(t)`; g moves after the last stage.
+    Velocity(RungeKutta, Stage, &'a V),
+}
+
+/// Shows the motion of a stepper to an observer.
+pub(super) struct Shown<'a, S, P, O> {
+    system: &'a P,
+    observer: &'a mut O,
+    scalar: PhantomData<S>,
+}
+
+impl<'a, S, P, O> Shown<'a, S, P, O> {
+    pub(super) fn to(observer: &'a mut O, system: &'a P) -> Self {
+        Self {
+            system,
+            observer,
+            scalar: PhantomData,
+        }
+    }
+}
+
+impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> FactorSink<P::State> for Shown<'_, S, P, O> {
+    const ACTIVE: bool = O::MOTION;
+
+    fn push(&mut self, retraction: Retraction, xi: &P::State) {
+        let motion = Motion::Factor(retraction, xi);
+        self.observer.motion(self.system, &motion);
+    }
+
+    fn push_velocity(&mut self, method: RungeKutta, stage: Stage, xi: &P::State) {
+        let motion = Motion::Velocity(method, stage, xi);
+        self.observer.motion(self.system, &motion);
+    }
 }
 
 /// Nobody looks on.
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for () {}
 
 impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
+    const MOTION: bool = O::MOTION;
+
+    fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
+        (**self).motion(system, motion);
+    }
+    fn leave_grid(&mut self) {
+        (**self).leave_grid();
+    }
+    fn return_to_grid(&mut self) {
+        (**self).return_to_grid();
+    }
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         (**self).start(system, progress, mu);
     }
@@ -53,6 +118,20 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
 
 /// Both look on; either may end the run.
 impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S, P> for (A, B) {
+    const MOTION: bool = A::MOTION || B::MOTION;
+
+    fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
+        self.0.motion(system, motion);
+        self.1.motion(system, motion);
+    }
+    fn leave_grid(&mut self) {
+        self.0.leave_grid();
+        self.1.leave_grid();
+    }
+    fn return_to_grid(&mut self) {
+        self.0.return_to_grid();
+        self.1.return_to_grid();
+    }
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         self.0.start(system, progress, mu);
         self.1.start(system, progress, mu);

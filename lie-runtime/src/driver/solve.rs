@@ -2,7 +2,7 @@
 
 use super::error::{SolveError, StepError};
 use super::grid::{Grid, Place};
-use super::observer::{Observer, Progress, Recorder};
+use super::observer::{Observer, Progress, Recorder, Shown};
 use super::options::{OptionError, Options};
 use super::problem::Problem;
 use super::solution::Solution;
@@ -129,7 +129,9 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
                 Place::After(_, rest) => {
                     between.copy_from(&mu);
                     let mut shorter = method.stepper(system, S::from_f64(rest), &options.newton);
-                    let report = match shorter.step(&mut between, &mut ()) {
+                    observer.leave_grid();
+                    let mut shown = Shown::to(observer, system);
+                    let report = match shorter.step(&mut between, &mut shown) {
                         Ok(report) => report,
                         Err(failure) => return Err(fail(stats, index, failure).into()),
                     };
@@ -139,14 +141,18 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
                     &between
                 }
             };
-            if observer.row(system, row.time, saved).is_break() {
+            let looked = observer.row(system, row.time, saved);
+            if matches!(row.place, Place::After(..)) {
+                observer.return_to_grid();
+            }
+            if looked.is_break() {
                 return Ok((stats, Status::Stopped));
             }
         }
         if index == grid.steps() {
             return Ok((stats, Status::Finished));
         }
-        let report = match stepper.step(&mut mu, &mut ()) {
+        let report = match stepper.step(&mut mu, &mut Shown::to(observer, system)) {
             Ok(report) => report,
             Err(failure) => return Err(fail(stats, index, failure).into()),
         };

@@ -93,6 +93,17 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
         }
     }
 
+    /// Sets the means of the gradient.
+    fn set_gradients(&mut self, unknown: &Stages<P::State, STAGES>) {
+        for gradient in &mut self.gradients {
+            gradient.fill(S::zero());
+        }
+        for node in 0..self.rule.len() {
+            self.set_point(&{ self.curve[node] }, unknown);
+            self.add_gradient(node);
+        }
+    }
+
     /// `r_i = D_i - h Pi(Y_i) g_i`; leaves `Y_i` in the point and `Pi(Y_i)` in the matrix.
     fn write_residual(
         &mut self,
@@ -161,13 +172,7 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
     }
 
     fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        for gradient in &mut self.gradients {
-            gradient.fill(S::zero());
-        }
-        for node in 0..self.rule.len() {
-            self.set_point(&{ self.curve[node] }, unknown);
-            self.add_gradient(node);
-        }
+        self.set_gradients(unknown);
         for (stage, residual) in residual.0.iter_mut().enumerate() {
             self.write_residual(stage, unknown, residual);
         }
@@ -258,6 +263,13 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
             balance.add(&self.rule, node, coordinates);
         }
         balance.holds()
+    }
+
+    fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut P::State) -> usize {
+        self.set_gradients(unknown);
+        xi.fill(S::zero());
+        xi.axpy(self.step, &self.gradients[stage]);
+        STAGES
     }
 
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut P::State) {

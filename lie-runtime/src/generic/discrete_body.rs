@@ -2,10 +2,14 @@
 
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
+use crate::methods::Retraction;
 use crate::newton::dense;
 use crate::scalar::{Mask, Scalar};
-use crate::state::State;
+use crate::state::{State, Unknown};
 use crate::structure::{InertiaPoisson, Plane};
+
+/// Terms of the logarithm; it converges where `|X| < 2`.
+const LOGARITHM: usize = 200;
 
 /// The discrete rigid body on so(n)* for `H = sum_(i<j) M_ij^2/(2 (J_i + J_j))`.
 ///
@@ -89,6 +93,51 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
         for (out, (plane, &u)) in residual.as_mut_slice().iter_mut().zip(planes) {
             let (from, to) = axes(plane);
             *out = u - self.transformed.get(to, from);
+        }
+    }
+
+    /// The logarithm of `(1 - X/2)^-1 (1 + X/2)`, `2 artanh(X/2) = X + X^3/12 + X^5/80 + ...`, by its series;
+    /// not a number where that does not converge.
+    fn logarithm(&mut self, xi: &mut P::State) {
+        let size = self.momentum.dimension();
+        let quarter = S::ratio(1.0, 4.0);
+        copy(&self.rotation, &mut self.product);
+        xi.fill(S::zero());
+        let mut settled = S::Mask::splat(false);
+        for term in 0..LOGARITHM {
+            let weight = S::ratio(1.0, (2 * term + 1) as f64);
+            let mut largest = S::zero();
+            for (out, plane) in xi.as_mut_slice().iter_mut().zip(P::PLANES) {
+                let (from, to) = axes(plane);
+                let part = weight * self.product.get(to, from);
+                largest = largest.max(part.magnitude());
+                *out += part;
+            }
+            settled = largest.less_equal(S::epsilon() * xi.max_norm());
+            if settled.all() {
+                break;
+            }
+            // X^(2 k + 1) to X^(2 k + 3)/4
+            for _ in 0..2 {
+                for r in 0..size {
+                    for c in 0..size {
+                        let mut sum = S::zero();
+                        for k in 0..size {
+                            sum += self.rotation.get(r, k) * self.product.get(k, c);
+                        }
+                        self.transformed.set(r, c, sum);
+                    }
+                }
+                copy(&self.transformed, &mut self.product);
+            }
+            for r in 0..size {
+                for c in 0..size {
+                    self.product.set(r, c, quarter * self.product.get(r, c));
+                }
+            }
+        }
+        for entry in xi.as_mut_slice() {
+            *entry = S::select(settled, *entry, S::from_f64(f64::NAN));
         }
     }
 
@@ -183,6 +232,12 @@ impl<S: Scalar, P: InertiaPoisson<S>> Equation<S> for DiscreteBody<'_, S, P> {
 
     fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
         dense::solve(factors, residual);
+    }
+
+    fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
+        self.set(unknown);
+        self.logarithm(xi);
+        Some(Retraction::Exp)
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {

@@ -127,6 +127,14 @@ where
         self.gradient.resolved(self.system, unknown)
     }
 
+    fn velocity(&mut self, unknown: &P::State, _stage: usize, xi: &mut P::State) -> usize {
+        self.gradient.value(self.system, unknown, xi);
+        for entry in xi.as_mut_slice() {
+            *entry *= self.step;
+        }
+        1
+    }
+
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         mu.copy_from(unknown);
     }

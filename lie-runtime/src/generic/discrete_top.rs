@@ -1,7 +1,9 @@
 //! The equation of Moser and Veselov's discrete rigid body on SO(3), by unit quaternions.
 
+use super::rotation::rotation_vector;
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
+use crate::methods::Retraction;
 use crate::newton::dense;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -120,6 +122,19 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for DiscreteTop<'_, S, P> {
 
     fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
         dense::solve(factors, residual);
+    }
+
+    fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
+        let real = self.set_direction(unknown);
+        let axis = core::array::from_fn(|k| self.direction.as_slice()[k]);
+        for (out, entry) in xi
+            .as_mut_slice()
+            .iter_mut()
+            .zip(rotation_vector(real, axis))
+        {
+            *out = entry / self.system.scale(0);
+        }
+        Some(Retraction::Exp)
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {

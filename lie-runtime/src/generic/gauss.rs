@@ -1,5 +1,6 @@
 //! The equation of Gauss collocation.
 
+use super::kernels::direction;
 use super::tableau::{Tableau, gauss_tableau};
 use crate::equation::Equation;
 use crate::matrix::{SquareMatrix, StageMatrix};
@@ -137,6 +138,12 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S> for Gauss<'_, S,
 
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
         dense::solve(factors, residual);
+    }
+
+    fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut P::State) -> usize {
+        self.set_point(stage, unknown);
+        direction(self.system, self.step, &self.point, xi);
+        STAGES
     }
 
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut P::State) {

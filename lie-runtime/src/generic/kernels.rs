@@ -19,6 +19,19 @@ pub fn multiply<S: Scalar, M: SquareMatrix<S>, V: State<S>>(matrix: &M, vector: 
     }
 }
 
+/// `out = h grad H(mu)`.
+pub(crate) fn direction<S: Scalar, P: Poisson<S>>(
+    system: &P,
+    h: S,
+    mu: &P::State,
+    out: &mut P::State,
+) {
+    system.gradient(mu, out);
+    for entry in out.as_mut_slice() {
+        *entry *= h;
+    }
+}
+
 /// The vector field `f = Pi(mu) grad H(mu)`.
 pub fn vector_field<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State, out: &mut P::State) {
     let mut gradient = system.zero_state();

@@ -1,5 +1,6 @@
 //! The equation of the implicit midpoint rule.
 
+use super::kernels::direction;
 use crate::equation::Equation;
 use crate::newton::dense;
 use crate::poisson::Poisson;
@@ -92,6 +93,12 @@ impl<S: Scalar, P: Poisson<S>> Equation<S> for Midpoint<'_, S, P> {
 
     fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
         dense::solve(factors, residual);
+    }
+
+    fn velocity(&mut self, unknown: &P::State, _stage: usize, xi: &mut P::State) -> usize {
+        self.set_middle(unknown);
+        direction(self.system, self.step, &self.middle, xi);
+        1
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {

@@ -25,6 +25,7 @@ mod midpoint;
 mod orbit_energy;
 mod quadrature;
 mod quaternion_stages;
+mod rotation;
 mod second_kind;
 mod series;
 mod spherical;
@@ -50,6 +51,7 @@ pub use generating::{
     CayleyGenerating4, Generating2, Generating4, Generating6, SecondKind2, linearize_by_duals,
 };
 pub use inverse_tangent::{dcay_inverse_dual, dexp_inverse_dual};
+pub(crate) use kernels::direction;
 pub use kernels::{
     ad_star, ad_star_matrix, euler_poincare, jacobian, linearize, multiply, poisson_slope,
     vector_field,

@@ -1,8 +1,10 @@
 //! The momenta of the stages over the Hopf map, for spins.
 
+use super::rotation::rotation_vector;
 use super::stage_momenta::StageMap;
 use super::tableau::Tableau;
 use crate::matrix::{SquareMatrix, StageMatrix};
+use crate::methods::Retraction;
 use crate::scalar::Scalar;
 use crate::state::{Stages, State};
 use crate::structure::SpinPoisson;
@@ -180,6 +182,31 @@ where
                 }
             }
         }
+    }
+
+    fn group_factor(
+        &mut self,
+        system: &P,
+        x: &Stages<P::State, STAGES>,
+        xi: &mut P::State,
+    ) -> Option<Retraction> {
+        for (index, spin) in P::SPINS.iter().enumerate() {
+            let scale = system.scale(index);
+            self.solve(scale, spin, x);
+            // Q = 1 + sum_i b_i B_i Q_i turns the momentum, its conjugate the group element
+            let mut end = real(S::one());
+            let minus = -scale * S::ratio(1.0, 2.0);
+            for ((stage, &weight), x) in self.position.iter().zip(&self.tableau.b).zip(&x.0) {
+                let motion = at(spin, x.as_slice()).map(|entry| minus * weight * entry);
+                let moved = product(motion, *stage);
+                end = core::array::from_fn(|k| end[k] + moved[k]);
+            }
+            let axis = [-end[1], -end[2], -end[3]];
+            for (&k, entry) in spin.iter().zip(rotation_vector(end[0], axis)) {
+                xi.as_mut_slice()[k] = entry / scale;
+            }
+        }
+        Some(Retraction::Exp)
     }
 }
 

@@ -1,7 +1,9 @@
 //! The equation of the spherical midpoint method.
 
+use super::rotation::rotation_vector;
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
+use crate::methods::Retraction;
 use crate::newton::dense;
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -152,6 +154,21 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
 
     fn solve(&self, factors: &P::Jacobian, residual: &mut P::State) {
         dense::solve(factors, residual);
+    }
+
+    fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
+        self.set_point(unknown);
+        self.system.gradient(&self.point, &mut self.field);
+        for (index, spin) in P::SPINS.iter().enumerate() {
+            // u - mu = ad*_x (u + mu)/2 with x = 2 h (|mu|/|s|) grad H: the rotation of the quaternion (1, c x/2)
+            let (scale, (_, ratio, _)) = (self.system.scale(index), self.sum(spin, unknown));
+            let factor = scale * self.step * ratio;
+            let axis = spin.map(|k| factor * self.field.as_slice()[k]);
+            for (&k, entry) in spin.iter().zip(rotation_vector(S::one(), axis)) {
+                xi.as_mut_slice()[k] = entry / scale;
+            }
+        }
+        Some(Retraction::Exp)
     }
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {

@@ -1,9 +1,11 @@
 //! The equation of collective symplectic Runge–Kutta methods in the momenta of their stages.
 
+use super::kernels::direction;
 use super::matrix_stages::factor;
 use super::tableau::{Tableau, gauss_tableau};
 use crate::equation::Equation;
 use crate::matrix::{SquareMatrix, StageMatrix};
+use crate::methods::Retraction;
 use crate::newton::dense;
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
@@ -31,6 +33,16 @@ pub trait StageMap<S: Scalar, P: LiePoisson<S>, const STAGES: usize> {
         out: &mut Stages<P::State, STAGES>,
         slopes: &mut StageMatrix<P::Jacobian, STAGES>,
     );
+    /// The element along which a step moves the group element, where it is not that of the Gauss method
+    /// applied to the entries of the declared matrices.
+    fn group_factor(
+        &mut self,
+        _system: &P,
+        _x: &Stages<P::State, STAGES>,
+        _xi: &mut P::State,
+    ) -> Option<Retraction> {
+        None
+    }
 }
 
 /// Gauss methods on a space over g*, reduced to g*.
@@ -204,6 +216,16 @@ where
 
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
         dense::solve(factors, residual);
+    }
+
+    fn group_factor(&mut self, unknown: &Self::Unknown, xi: &mut P::State) -> Option<Retraction> {
+        self.set_directions(unknown);
+        self.map.group_factor(self.system, &self.x, xi)
+    }
+
+    fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut P::State) -> usize {
+        direction(self.system, self.step, &unknown.0[stage], xi);
+        STAGES
     }
 
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut P::State) {

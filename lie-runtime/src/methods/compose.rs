@@ -25,7 +25,10 @@
 
 use super::coefficients::{Parts, Scheme};
 use super::facts::{Facts, Preserves};
-use super::stepper::{FactorSink, Method, Retraction, StepFailure, StepReport, Stepper};
+use super::implicit::clear;
+use super::stepper::{
+    FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper,
+};
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
@@ -181,11 +184,15 @@ impl<S: Scalar, V: State<S>, K: FactorSink<V>> FactorSink<V> for Masked<'_, S, V
     const ACTIVE: bool = K::ACTIVE;
 
     fn push(&mut self, retraction: Retraction, xi: &V) {
-        let pairs = self.factor.as_mut_slice().iter_mut().zip(xi.as_slice());
-        for (entry, &value) in pairs {
-            *entry = S::select(self.failed, S::zero(), value);
-        }
+        self.factor.copy_from(xi);
+        clear(self.factor, self.failed);
         self.sink.push(retraction, self.factor);
+    }
+
+    fn push_velocity(&mut self, method: RungeKutta, stage: Stage, xi: &V) {
+        self.factor.copy_from(xi);
+        clear(self.factor, self.failed);
+        self.sink.push_velocity(method, stage, self.factor);
     }
 }
 

@@ -17,8 +17,10 @@
 //! edition, Springer 1993, sections II.4 and IV.2,
 //! [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
 
+use super::explicit::direction;
 use super::facts::{Facts, Preserves};
-use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper};
+use super::implicit::clear;
+use super::stepper::{FactorSink, Method, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
@@ -28,7 +30,7 @@ use crate::state::{State, Unknown};
 const MAX_ATTEMPTS: u32 = 1_000_000;
 
 /// Rows of the tableau below the first stage, and numerators over denominators.
-const A: [&[(f64, f64)]; 6] = [
+static A: [&[(f64, f64)]; 6] = [
     &[(1.0, 5.0)],
     &[(3.0, 40.0), (9.0, 40.0)],
     &[(44.0, 45.0), (-56.0, 15.0), (32.0, 9.0)],
@@ -188,6 +190,25 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
         self.measure(error, Some(&self.point))
     }
 
+    /// Gives away `h grad H` at the stages of an accepted step, which are formed again from their slopes.
+    fn give_velocities<K: FactorSink<P::State>>(&mut self, h: S, accepted: S::Mask, sink: &mut K) {
+        let (stages, weights) = (&A[..5], A[5]);
+        let method = RungeKutta::Explicit { stages, weights };
+        let count = weights.len();
+        let mut place = self.current.clone();
+        let mut xi = self.current.clone();
+        for index in 0..count {
+            place.copy_from(&self.current);
+            let row = index.checked_sub(1).map_or(&[][..], |row| stages[row]);
+            for (slope, &(numerator, denominator)) in self.slopes.iter().zip(row) {
+                place.axpy(h * S::ratio(numerator, denominator), slope);
+            }
+            direction(self.system, h, &place, &mut xi);
+            clear(&mut xi, !accepted);
+            sink.push_velocity(method, Stage { index, count }, &xi);
+        }
+    }
+
     /// The factor by which the next step is divided after an error.
     fn divisor(&self, error: S, accepted: S::Mask) -> S {
         let plain = error.powf(S::from_f64(0.17));
@@ -213,7 +234,7 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
     fn step<K: FactorSink<P::State>>(
         &mut self,
         mu: &mut P::State,
-        _sink: &mut K,
+        sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
         let mut report = StepReport {
             evaluations: 1,
@@ -268,6 +289,9 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
             after_rejection = rejected;
 
             covered = S::select(accepted, covered + size, covered);
+            if K::ACTIVE && accepted.any() {
+                self.give_velocities(self.sign * size, accepted, sink);
+            }
             self.current.assign_where(accepted, &self.point);
             let [first, .., end] = &mut self.slopes;
             first.assign_where(accepted, end);

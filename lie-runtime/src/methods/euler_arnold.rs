@@ -29,7 +29,7 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
-use super::implicit::ImplicitStepper;
+use super::implicit::{ImplicitStepper, clear};
 use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper};
 use crate::generic::{EulerArnoldHalf, Half};
 use crate::newton::NewtonOptions;
@@ -111,10 +111,8 @@ impl<S: Scalar, P: CotangentPoisson<S>> Stepper<S> for EulerArnoldStepper<'_, S,
         if K::ACTIVE && !failed.all() {
             for half in &mut self.halves {
                 for (retraction, xi) in half.with_solution(EulerArnoldHalf::factors) {
-                    let pairs = self.factor.as_mut_slice().iter_mut().zip(xi.as_slice());
-                    for (entry, &value) in pairs {
-                        *entry = S::select(failed, S::zero(), value);
-                    }
+                    self.factor.copy_from(xi);
+                    clear(&mut self.factor, failed);
                     sink.push(retraction, &self.factor);
                 }
             }

@@ -1,6 +1,7 @@
 //! What the explicit methods of coadjoint form share.
 
 use super::stepper::{FactorSink, Retraction, StepFailure, StepReport, not_finite};
+pub(super) use crate::generic::direction;
 use crate::scalar::{Mask, Scalar};
 use crate::state::State;
 
@@ -32,19 +33,6 @@ pub(super) fn accept<S: Scalar, V: State<S>, K: FactorSink<V>>(
         Ok(report)
     } else {
         Err(not_finite((!finite).bits(), report))
-    }
-}
-
-/// `out = h grad H(mu)`.
-pub(super) fn direction<S: Scalar, P: crate::Poisson<S>>(
-    system: &P,
-    h: S,
-    mu: &P::State,
-    out: &mut P::State,
-) {
-    system.gradient(mu, out);
-    for entry in out.as_mut_slice() {
-        *entry *= h;
     }
 }
 

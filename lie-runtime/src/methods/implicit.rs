@@ -1,6 +1,6 @@
 //! The stepper of every method whose step is one nonlinear equation.
 
-use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
+use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
 use crate::newton::{FailureReason, Newton, NewtonOptions};
 use crate::scalar::{Mask, Scalar};
@@ -91,15 +91,35 @@ impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
             let failed = S::Mask::from_bits(outcome.map_or_else(|failure| failure.lanes, |_| 0));
             // the state at the end has been taken over: its place is free
             let factor = &mut self.next;
-            if let Some(retraction) = self.equation.group_factor(&self.unknown, factor)
-                && !failed.all()
-            {
-                for entry in factor.as_mut_slice() {
-                    *entry = S::select(failed, S::zero(), *entry);
-                }
+            if failed.all() {
+                return outcome;
+            }
+            if let Some(retraction) = self.equation.group_factor(&self.unknown, factor) {
+                clear(factor, failed);
                 sink.push(retraction, factor);
+                return outcome;
+            }
+            let mut index = 0;
+            loop {
+                let count = self.equation.velocity(&self.unknown, index, factor);
+                if index >= count {
+                    break;
+                }
+                clear(factor, failed);
+                sink.push_velocity(RungeKutta::Gauss, Stage { index, count }, factor);
+                index += 1;
+                if index == count {
+                    break;
+                }
             }
         }
         outcome
+    }
+}
+
+/// Sets the lanes of a mask to 0.
+pub(super) fn clear<S: Scalar, V: State<S>>(xi: &mut V, failed: S::Mask) {
+    for entry in xi.as_mut_slice() {
+        *entry = S::select(failed, S::zero(), *entry);
     }
 }

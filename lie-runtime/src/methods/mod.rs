@@ -87,5 +87,7 @@ pub use spherical_midpoint::SphericalMidpoint;
 pub use splitting::{
     Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, SplittingStepper,
 };
-pub use stepper::{FactorSink, Method, Retraction, StepFailure, StepReport, Stepper};
+pub use stepper::{
+    FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper,
+};
 pub use variational::{Variational, Variational2, Variational4, Variational6};

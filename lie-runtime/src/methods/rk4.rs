@@ -14,8 +14,12 @@
 //! [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+use super::explicit::direction;
 use super::facts::{Facts, Preserves};
-use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper, not_finite};
+use super::implicit::clear;
+use super::stepper::{
+    FactorSink, Method, RungeKutta, Stage, StepFailure, StepReport, Stepper, not_finite,
+};
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
@@ -60,13 +64,42 @@ pub struct Rk4Stepper<'a, S: Scalar, P: Poisson<S>> {
     point: P::State,
 }
 
+/// The coefficients of the stages after the first, and the weights.
+const STAGES: [&[(f64, f64)]; 3] = [
+    &[(1.0, 2.0)],
+    &[(0.0, 1.0), (1.0, 2.0)],
+    &[(0.0, 1.0), (0.0, 1.0), (1.0, 1.0)],
+];
+const WEIGHTS: [(f64, f64); 4] = [(1.0, 6.0), (1.0, 3.0), (1.0, 3.0), (1.0, 6.0)];
+
+impl<S: Scalar, P: Poisson<S>> Rk4Stepper<'_, S, P> {
+    /// Goes through the stages of the step from mu again, for `h grad H` at each; the new state is in `point`.
+    fn give_velocities<K: FactorSink<P::State>>(&mut self, mu: &P::State, sink: &mut K) {
+        let failed = !self.point.finite();
+        let method = RungeKutta::Explicit {
+            stages: &STAGES,
+            weights: &WEIGHTS,
+        };
+        let half = self.step * S::ratio(1.0, 2.0);
+        self.sum.copy_from(mu);
+        for (index, advance) in [half, half, self.step, S::zero()].into_iter().enumerate() {
+            direction(self.system, self.step, &self.sum, &mut self.slope);
+            clear(&mut self.slope, failed);
+            sink.push_velocity(method, Stage { index, count: 4 }, &self.slope);
+            self.system.vector_field(&self.sum, &mut self.slope);
+            self.sum.copy_from(mu);
+            self.sum.axpy(advance, &self.slope);
+        }
+    }
+}
+
 impl<S: Scalar, P: Poisson<S>> Stepper<S> for Rk4Stepper<'_, S, P> {
     type State = P::State;
 
     fn step<K: FactorSink<P::State>>(
         &mut self,
         mu: &mut P::State,
-        _sink: &mut K,
+        sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
         let half = self.step * S::ratio(1.0, 2.0);
         self.system.vector_field(mu, &mut self.slope);
@@ -79,6 +112,9 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Rk4Stepper<'_, S, P> {
         }
         self.point.copy_from(mu);
         self.point.axpy(self.step * S::ratio(1.0, 6.0), &self.sum);
+        if K::ACTIVE {
+            self.give_velocities(mu, sink);
+        }
         let finite = self.point.finite();
         mu.assign_where(finite, &self.point);
         let report = StepReport {

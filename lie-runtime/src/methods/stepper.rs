@@ -83,6 +83,32 @@ pub trait FactorSink<V> {
     const ACTIVE: bool = true;
     /// Takes one factor `tau(xi)`. In lanes whose step failed, xi is 0.
     fn push(&mut self, retraction: Retraction, xi: &V);
+    /// Takes `h xi` at one stage of a step that is of no coadjoint form: the stages come in order, and after
+    /// the last of them g moves by that Runge–Kutta method applied to `g' = g xi(t)`.
+    fn push_velocity(&mut self, _method: RungeKutta, _stage: Stage, _xi: &V) {}
+}
+
+/// Which Runge–Kutta method a step applies to the group element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RungeKutta {
+    /// The Gauss method with the number of stages that come.
+    Gauss,
+    /// An explicit method.
+    Explicit {
+        /// The coefficients of each stage after the first, as numerators and denominators.
+        stages: &'static [&'static [(f64, f64)]],
+        /// The weights.
+        weights: &'static [(f64, f64)],
+    },
+}
+
+/// A stage of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stage {
+    /// From 0.
+    pub index: usize,
+    /// How many there are.
+    pub count: usize,
 }
 
 /// Nothing is listening.

@@ -5,7 +5,8 @@
 //! `parameter <index> <value>`, `initial <v1> <v2> …`, `rtol <r>`, `atol <a>`, then `run`. When the
 //! input ends after `run`, the run stops at the next step and keeps its rows.
 //!
-//! Rows are little-endian f64: t, the coordinates, the energy, the Casimirs; they are flushed at
+//! Rows are little-endian f64: t, the coordinates, the energy, the Casimirs, and the group element where a
+//! method reconstructs it; they are flushed at
 //! least every 0.2 s while steps are being done. Messages are lines on standard error:
 //!
 //! | line | exit code |
@@ -21,14 +22,17 @@ pub mod measure;
 mod request;
 mod rows;
 
-use crate::driver::{IntegrateError, Options, Problem, Stats, Status, integrate};
+use crate::driver::{
+    Chart, IntegrateError, Options, Problem, Reconstruction, Stats, Status, integrate,
+};
 use crate::methods::Method;
 use crate::parameter::ParameterError;
 use crate::poisson::Poisson;
 use crate::state::State;
+use crate::structure::MatrixGroup;
 pub use request::Tolerances;
 use request::{Request, RequestError};
-use rows::RowWriter;
+use rows::{OnGroup, RowWriter};
 use std::io::{self, BufRead, Write};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -72,6 +76,29 @@ impl<P: Poisson<f64>> Program<P> {
     ) -> Self {
         let run: Box<Run<P>> = Box::new(move |tolerances, problem, options, rows| {
             integrate(problem, make(tolerances), options, rows)
+        });
+        self.methods.push((id, run));
+        self
+    }
+
+    /// Adds a method that also moves the group element, whose entries follow in each row.
+    #[must_use]
+    pub fn on_group<M: Method<f64, P>>(
+        mut self,
+        id: &'static str,
+        chart: Chart,
+        make: impl Fn(&Tolerances) -> M + 'static,
+    ) -> Self
+    where
+        P: MatrixGroup<f64>,
+    {
+        let run: Box<Run<P>> = Box::new(move |tolerances, problem, options, rows| {
+            let reconstruction = Reconstruction::new(&problem.system, chart);
+            let mut rows = OnGroup {
+                reconstruction,
+                rows,
+            };
+            integrate(problem, make(tolerances), options, &mut rows)
         });
         self.methods.push((id, run));
         self

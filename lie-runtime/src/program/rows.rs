@@ -1,8 +1,9 @@
 //! The rows of a run as they come, with progress, and the wish to stop.
 
-use crate::driver::{Observer, Progress};
+use crate::driver::{Motion, Observer, Progress, Reconstruction};
 use crate::poisson::Poisson;
 use crate::state::State;
+use crate::structure::MatrixGroup;
 use core::ops::ControlFlow;
 use std::io::{self, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -111,12 +112,59 @@ impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_> {
     }
 
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
+        self.write(system, time, mu, &[])
+    }
+}
+
+/// Writes rows that end with the group element.
+pub(super) struct OnGroup<'r, 'a, V> {
+    pub(super) reconstruction: Reconstruction<f64, V>,
+    pub(super) rows: &'r mut RowWriter<'a>,
+}
+
+impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, P::State> {
+    const MOTION: bool = true;
+
+    fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
+        self.rows.step(system, progress, mu)
+    }
+
+    fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
+        let element = self.reconstruction.element();
+        self.rows.write(system, time, mu, element)
+    }
+
+    fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
+        self.reconstruction.motion(system, motion);
+    }
+
+    fn leave_grid(&mut self) {
+        Observer::<f64, P>::leave_grid(&mut self.reconstruction);
+    }
+
+    fn return_to_grid(&mut self) {
+        Observer::<f64, P>::return_to_grid(&mut self.reconstruction);
+    }
+}
+
+impl RowWriter<'_> {
+    /// One row, `more` at its end.
+    fn write<P: Poisson<f64>>(
+        &mut self,
+        system: &P,
+        time: f64,
+        mu: &P::State,
+        more: &[f64],
+    ) -> ControlFlow<()> {
         let mut casimirs = core::mem::take(&mut self.casimirs);
         system.casimirs(mu, &mut casimirs);
         let energy = system.energy(mu);
         let numbers = [time].into_iter().chain(mu.as_slice().iter().copied());
         let mut result = Ok(());
-        for number in numbers.chain([energy]).chain(casimirs.iter().copied()) {
+        for number in numbers
+            .chain([energy])
+            .chain(casimirs.iter().chain(more).copied())
+        {
             result = result.and_then(|()| self.output.write_all(&number.to_le_bytes()));
         }
         self.casimirs = casimirs;

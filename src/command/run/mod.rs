@@ -1,6 +1,7 @@
 //! `lie run`: integrates a spec with its generated, compiled code.
 
 pub mod bar;
+mod layout;
 pub mod outputs;
 pub mod plan;
 mod summary;
@@ -24,6 +25,7 @@ use crate::message::{Failure, INTERRUPTED, Message, STOPPED, SURROUNDINGS};
 use crate::output::{Header, Rows};
 use crate::render;
 use bar::Bar;
+use layout::Layout;
 use outputs::Outputs;
 use plan::Plan;
 use summary::Drift;
@@ -46,16 +48,13 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     }
     let outputs = Outputs::open(flags)?;
     let interrupt = Interrupt::install();
+    let purpose = plan.chart.map_or(Purpose::Run, Purpose::OnGroup);
     let request = Request {
         name: &spec.model.name,
-        source: &program(
-            &spec.model,
-            std::slice::from_ref(&plan.method),
-            Purpose::Run,
-        ),
+        source: &program(&spec.model, std::slice::from_ref(&plan.method), purpose),
         native: flags.cpu == Some(Cpu::Native),
         quiet: flags.quiet,
-        purpose: Purpose::Run,
+        purpose,
     };
     match build::program(&request) {
         Ok(program) => integrate(&spec, &plan, flags, format, outputs, &program, &interrupt),
@@ -76,26 +75,8 @@ fn integrate(
     interrupt: &Interrupt,
 ) -> Result<u8, Failure> {
     let model = &spec.model;
-    let states = model.shown_coordinates();
-    let dimension = states.len();
-    // The program writes all coordinates; those that carry the time are not shown.
-    let (all, width) = (
-        model.dimension(),
-        model.dimension() + 2 + model.casimirs.len(),
-    );
-    let picked: Vec<usize> = std::iter::once(0)
-        .chain(states.iter().map(|coordinate| coordinate + 1))
-        .chain(all + 1..width)
-        .collect();
-    let states = states
-        .into_iter()
-        .map(|i| model.coordinates[i].text.clone());
-    let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
-    let columns: Vec<String> = std::iter::once("t".to_owned())
-        .chain(states)
-        .chain(["energy".to_owned()])
-        .chain(casimirs)
-        .collect();
+    let layout = Layout::new(model, plan.chart);
+    let columns = layout.columns(model);
     let header = Header {
         system: model.name.clone(),
         method: plan.method.id().to_owned(),
@@ -128,11 +109,15 @@ fn integrate(
     let mut rows = Rows::start(outputs.rows, format, &header).map_err(lost)?;
     let mut plot = outputs.plot.as_ref().map(|_| {
         let subtitle = format!("{}, h = {}", plan.method.title(), plan.step.1.trim());
-        Plot::new(&*model.name, &columns, dimension, (0.0, plan.end())).subtitle(subtitle)
+        Plot::new(
+            &*model.name,
+            &columns,
+            layout.states.len(),
+            (0.0, plan.end()),
+        )
+        .subtitle(subtitle)
     });
-    // The energy of a system that depends on the time is no invariant.
-    let varies = model.configuration.as_ref().is_some_and(|c| c.time);
-    let mut drift = Drift::new(&columns[dimension + 1 + usize::from(varies)..]);
+    let mut drift = Drift::new(&columns[layout.invariants.clone()]);
     // Rows that scroll by on the same terminal say enough.
     let scrolls = flags.out.is_none() && io::stdout().is_terminal();
     let bar = Bar::new(!flags.quiet && !scrolls);
@@ -141,15 +126,12 @@ fn integrate(
     let end = protocol::run(
         Command::new(program),
         &job,
-        width,
+        layout.width,
         interrupt,
         &mut |numbers| {
-            let numbers: Vec<f64> = numbers
-                .chunks_exact(width)
-                .flat_map(|row| picked.iter().map(|&column| row[column]))
-                .collect();
-            for row in numbers.chunks_exact(picked.len()) {
-                drift.push(row);
+            let numbers = layout.shown(numbers);
+            for row in numbers.chunks_exact(columns.len()) {
+                drift.push(&row[..layout.invariants.end], layout.invariants.start);
                 if let Some(plot) = &mut plot {
                     plot.push(row);
                 }

@@ -4,6 +4,8 @@ mod state;
 mod times;
 
 use lie_codegen::methods::{Choice, OptionError};
+use lie_codegen::program::Chart;
+use lie_codegen::structure::group;
 
 use super::values::Given;
 use crate::build::protocol::Times;
@@ -27,6 +29,8 @@ pub struct Plan {
     pub parameters: Vec<f64>,
     /// The initial state.
     pub initial: Vec<f64>,
+    /// How the group element is written, if it is.
+    pub chart: Option<Chart>,
     /// Tolerances that were given.
     pub tolerances: Vec<(&'static str, f64)>,
 }
@@ -58,6 +62,7 @@ pub fn plan(spec: &Spec, flags: &args::Run) -> Result<Plan, Vec<Message>> {
         .as_ref()
         .map(|method| planner.tolerances(method))
         .unwrap_or_default();
+    let chart = planner.chart();
     let parameters = planner.parameters();
     let initial = parameters
         .as_ref()
@@ -73,6 +78,7 @@ pub fn plan(spec: &Spec, flags: &args::Run) -> Result<Plan, Vec<Message>> {
                 times,
                 parameters,
                 initial,
+                chart,
                 tolerances,
             })
         }
@@ -172,6 +178,26 @@ impl Planner<'_> {
         }
         let applies = method::applies(choice, &self.spec.model);
         self.keep(applies.map_err(|message| message.at(place)))
+    }
+
+    fn chart(&mut self) -> Option<Chart> {
+        let given = self.given("--group", self.flags.group.as_ref())?;
+        let chart = match given.text.trim() {
+            "matrix" => Chart::Matrix,
+            "quaternion" => Chart::Quaternion,
+            other => {
+                let message = given.wrong(format!("`{other}` is no way to write a group element"));
+                self.mistakes
+                    .push(message.help("write `matrix` or `quaternion`"));
+                return None;
+            }
+        };
+        let quaternion = chart == Chart::Quaternion;
+        if let Some((reason, help)) = group::refusal(&self.spec.model, quaternion) {
+            self.mistakes.push(given.wrong(reason).help(help));
+            return None;
+        }
+        Some(chart)
     }
 
     fn foreign(&mut self, name: &str, given: &Given, choice: &Choice) {

@@ -17,7 +17,7 @@ pub struct Drift {
 }
 
 impl Drift {
-    /// Invariants by name; they are the last columns of a row.
+    /// Invariants by name.
     pub fn new(names: &[String]) -> Self {
         let largest = vec![0.0; names.len()];
         Self {
@@ -29,9 +29,9 @@ impl Drift {
         }
     }
 
-    /// Takes a row.
-    pub fn push(&mut self, row: &[f64]) {
-        let (state, invariants) = row.split_at(row.len() - self.names.len());
+    /// Takes a row: time, state, and the invariants from a column on.
+    pub fn push(&mut self, row: &[f64], invariants: usize) {
+        let (state, invariants) = row.split_at(invariants);
         if self.first.is_empty() {
             self.first = invariants.to_vec();
         }

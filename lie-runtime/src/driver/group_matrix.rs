@@ -1,0 +1,155 @@
+//! Matrices of the group, of a size that is known at run time.
+
+use crate::matrix::SquareMatrix;
+use crate::newton::dense;
+use crate::scalar::{Mask, Scalar, largest};
+
+/// A square matrix on the heap, by rows.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct GroupMatrix<S> {
+    size: usize,
+    entries: Vec<S>,
+}
+
+impl<S: Scalar> GroupMatrix<S> {
+    pub(super) fn zero(size: usize) -> Self {
+        let entries = vec![S::zero(); size * size];
+        Self { size, entries }
+    }
+
+    pub(super) fn identity(size: usize) -> Self {
+        let mut matrix = Self::zero(size);
+        for k in 0..size {
+            matrix.set_at(k, k, S::one());
+        }
+        matrix
+    }
+
+    pub(super) fn entries(&self) -> &[S] {
+        &self.entries
+    }
+
+    pub(super) fn at(&self, row: usize, column: usize) -> S {
+        self.entries[row * self.size + column]
+    }
+
+    pub(super) fn set_at(&mut self, row: usize, column: usize, value: S) {
+        self.entries[row * self.size + column] = value;
+    }
+
+    pub(super) fn times(&self, other: &Self) -> Self {
+        let mut product = Self::zero(self.size);
+        for row in 0..self.size {
+            for k in 0..self.size {
+                let entry = self.at(row, k);
+                for column in 0..self.size {
+                    product.entries[row * self.size + column] += entry * other.at(k, column);
+                }
+            }
+        }
+        product
+    }
+
+    fn scaled(&self, factor: S) -> Self {
+        let entries = self.entries.iter().map(|&entry| factor * entry).collect();
+        Self {
+            size: self.size,
+            entries,
+        }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        let pairs = self.entries.iter().zip(&other.entries);
+        Self {
+            size: self.size,
+            entries: pairs.map(|(&a, &b)| a + b).collect(),
+        }
+    }
+
+    /// The largest sum of absolute values in a row, in any lane.
+    fn norm(&self) -> f64 {
+        let rows = self.entries.chunks(self.size);
+        let sums = rows.map(|row| row.iter().fold(S::zero(), |sum, &x| sum + x.magnitude()));
+        sums.map(largest).fold(0.0, f64::max)
+    }
+
+    /// The inverse of a matrix near 1; not a number where a pivot is small.
+    pub(super) fn inverse(&self) -> Self {
+        let Some(columns) = self.clone().solve_identities(self.size) else {
+            return Self::identity(self.size).scaled(S::from_f64(f64::NAN));
+        };
+        let mut inverse = Self::zero(self.size);
+        for (column, values) in columns.iter().enumerate() {
+            for (row, &value) in values.iter().enumerate() {
+                inverse.set_at(row, column, value);
+            }
+        }
+        inverse
+    }
+
+    /// The columns of `A^-1 (1, …, 1)^T`, identities of a size on top of each other; none where a pivot is small.
+    pub(super) fn solve_identities(mut self, size: usize) -> Option<Vec<Vec<S>>> {
+        if !dense::factor(&mut self).all() {
+            return None;
+        }
+        let columns = (0..size).map(|column| {
+            let mut vector = vec![S::zero(); self.size];
+            for row in (column..self.size).step_by(size) {
+                vector[row] = S::one();
+            }
+            dense::solve(&self, &mut vector);
+            vector
+        });
+        Some(columns.collect())
+    }
+}
+
+impl<S: Scalar> SquareMatrix<S> for GroupMatrix<S> {
+    fn dimension(&self) -> usize {
+        self.size
+    }
+    fn get(&self, row: usize, column: usize) -> S {
+        self.at(row, column)
+    }
+    fn set(&mut self, row: usize, column: usize, value: S) {
+        self.set_at(row, column, value);
+    }
+}
+
+/// No motion is that large: `|A|` below 2^63.
+const MAX_HALVINGS: u32 = 64;
+
+/// `exp A`, by the series of a part of A that is small, squared as often as it takes.
+pub(super) fn exponential<S: Scalar>(matrix: &GroupMatrix<S>) -> GroupMatrix<S> {
+    let norm = matrix.norm();
+    let (mut halvings, mut factor) = (0, 1.0);
+    while norm * factor > 0.5 && halvings < MAX_HALVINGS {
+        factor *= 0.5;
+        halvings += 1;
+    }
+    let small = matrix.scaled(S::from_f64(factor));
+    // exp A - 1, so that the squares of what is near 1 keep their digits: (1 + D)^2 - 1 = 2 D + D^2
+    let mut rest = small.clone();
+    let mut term = small.clone();
+    let bound = small.norm() * largest(S::epsilon()) / 8.0;
+    for k in 2..30 {
+        term = term.times(&small).scaled(S::ratio(1.0, f64::from(k)));
+        rest = rest.plus(&term);
+        if term.norm() <= bound {
+            break;
+        }
+    }
+    for _ in 0..halvings {
+        rest = rest.plus(&rest).plus(&rest.times(&rest));
+    }
+    rest.plus(&GroupMatrix::identity(matrix.size))
+}
+
+/// The Cayley map `(1 - A/2)^-1 (1 + A/2)`; not a number where a pivot is small.
+pub(super) fn rational<S: Scalar>(matrix: &GroupMatrix<S>) -> GroupMatrix<S> {
+    let size = matrix.size;
+    let half = matrix.scaled(S::ratio(1.0, 2.0));
+    let left = GroupMatrix::identity(size).plus(&half.scaled(-S::one()));
+    left.inverse()
+        .times(&GroupMatrix::identity(size).plus(&half))
+}

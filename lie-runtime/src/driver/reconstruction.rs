@@ -1,0 +1,374 @@
+//! The motion on the group beside the motion of mu.
+//!
+//! ```math
+//! \dot g = g\, \xi, \quad \xi = \nabla H(\mu), \qquad g_{k+1} = g_k\, \tau(h \xi_k), \qquad
+//! \mu_{k+1} = \mathrm{Ad}^*_{\tau(h \xi_k)}\, \mu_k
+//! ```
+//!
+//! A method of coadjoint form says by which factors it went, and then the spatial momentum
+//! `$\mathrm{Ad}^*_{g^{-1}} \mu$` is constant to round-off. Any other method gives its velocities `h grad H` at its
+//! stages, and the same Runge–Kutta method is applied to `$\dot g = g\, \xi(t)$`: in the entries of the matrices
+//! where these are closed under `(abc + cba)/2`, for then Gauss methods stay in the group; elsewhere in
+//! exponential coordinates, `$\dot\theta = \mathrm{dexp}_{-\theta}^{-1} \xi$`. The order is that of the method.
+//!
+//! References: J. E. Marsden, S. Pekarsky, S. Shkoller, "Discrete Euler–Poincaré and Lie–Poisson equations",
+//! Nonlinearity 12 (1999) 1647–1662,
+//! [doi:10.1088/0951-7715/12/6/314](https://doi.org/10.1088/0951-7715/12/6/314);
+//! E. Hairer, G. Vilmart, "Preprocessed discrete Moser–Veselov algorithm for the full dynamics of a rigid
+//! body", Journal of Physics A 39 (2006) 13225–13235,
+//! [doi:10.1088/0305-4470/39/42/006](https://doi.org/10.1088/0305-4470/39/42/006).
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
+
+use super::group_matrix::{GroupMatrix, exponential, rational};
+use super::observer::{Motion, Observer, Progress};
+use crate::generic::gauss_tableau;
+use crate::methods::{Retraction, RungeKutta};
+use crate::scalar::{Scalar, largest};
+use crate::state::State;
+use crate::structure::MatrixGroup;
+use core::ops::ControlFlow;
+
+/// `B_k/k!` of the even Bernoulli numbers from `B_2` on: the series of `dexp^-1` beyond `1 - ad/2`.
+const BERNOULLI: [(f64, f64); 5] = [
+    (1.0, 12.0),
+    (-1.0, 720.0),
+    (1.0, 30_240.0),
+    (-1.0, 1_209_600.0),
+    (1.0, 47_900_160.0),
+];
+/// Sweeps of the implicit equations in exponential coordinates.
+const SWEEPS: usize = 60;
+
+/// How the group element is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Chart {
+    /// As a matrix of the declared representation, by rows.
+    #[default]
+    Matrix,
+    /// As a unit quaternion `(q0, q1, q2, q3)`, the real part first, where the matrices are rotations in three
+    /// dimensions. It is normalised after every step; its sign changes continuously.
+    Quaternion,
+}
+
+/// Looks on and keeps the group element; see the [module's text](self).
+///
+/// ```
+/// use lie_runtime::driver::{Chart, Reconstruction};
+/// use lie_runtime::prelude::*;
+/// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/systems/rigid_body.rs"));
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let system = RigidBody::<f64>::default();
+/// let mut attitude = Reconstruction::new(&system, Chart::Quaternion);
+/// let problem = Problem::new(system, [0.8, 0.1, 0.6], (0.0, 10.0));
+/// solve_observed(&problem, LieMidpoint::exp(), &Options::new(0.1), &mut attitude)?;
+/// let q = attitude.rows().last().unwrap();
+/// assert!((q.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-15);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Reconstruction<S, V> {
+    chart: Chart,
+    matrix: GroupMatrix<S>,
+    quaternion: [S; 4],
+    /// Where a shorter step to a row off the grid began.
+    kept: Option<(GroupMatrix<S>, [S; 4])>,
+    velocities: Vec<V>,
+    rows: Vec<Vec<S>>,
+}
+
+impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
+    /// Beginning at the identity.
+    pub fn new<P: MatrixGroup<S, State = V>>(_system: &P, chart: Chart) -> Self {
+        let mut quaternion = [S::zero(); 4];
+        quaternion[0] = S::one();
+        Self {
+            chart,
+            matrix: GroupMatrix::identity(P::SIZE),
+            quaternion,
+            kept: None,
+            velocities: Vec::new(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// The group element where the run is, in the chart.
+    pub fn element(&self) -> &[S] {
+        match self.chart {
+            Chart::Matrix => self.matrix.entries(),
+            Chart::Quaternion => &self.quaternion,
+        }
+    }
+
+    /// The group element at each saved state, in the chart.
+    pub fn rows(&self) -> &[Vec<S>] {
+        &self.rows
+    }
+
+    /// `g F` in place of g, or `F^-1 g` of a right-invariant system.
+    fn advance(&mut self, factor: &GroupMatrix<S>, right: bool) {
+        match self.chart {
+            Chart::Matrix if right => self.matrix = factor.inverse().times(&self.matrix),
+            Chart::Matrix => self.matrix = self.matrix.times(factor),
+            Chart::Quaternion => {
+                let [real, x, y, z] = quaternion_of(factor);
+                let moved = if right {
+                    product([real, -x, -y, -z], self.quaternion)
+                } else {
+                    product(self.quaternion, [real, x, y, z])
+                };
+                let square = moved.iter().fold(S::zero(), |sum, &q| sum + q * q);
+                let inverse = S::one() / square.sqrt();
+                self.quaternion = moved.map(|entry| entry * inverse);
+            }
+        }
+    }
+
+    fn take<P: MatrixGroup<S, State = V>>(&mut self, system: &P, motion: &Motion<'_, V>) {
+        match *motion {
+            Motion::Factor(retraction, xi) => {
+                let factor = match retraction {
+                    Retraction::Exp => exponential(&represent(system, xi)),
+                    Retraction::Cayley => rational(&represent(system, xi)),
+                    Retraction::SecondKind => {
+                        let mut single = xi.clone();
+                        let mut factor = GroupMatrix::identity(P::SIZE);
+                        for index in 0..P::DIM {
+                            single.fill(S::zero());
+                            single.as_mut_slice()[index] = xi.as_slice()[index];
+                            factor = factor.times(&exponential(&represent(system, &single)));
+                        }
+                        factor
+                    }
+                };
+                self.advance(&factor, P::RIGHT);
+            }
+            Motion::Velocity(method, stage, xi) => {
+                if stage.index == 0 {
+                    self.velocities.clear();
+                }
+                self.velocities.push(xi.clone());
+                if self.velocities.len() == stage.count {
+                    let factor = self.collocate(system, method);
+                    self.advance(&factor, P::RIGHT);
+                }
+            }
+        }
+    }
+
+    /// The factor of one step of a Runge–Kutta method with the velocities at its stages.
+    fn collocate<P>(&self, system: &P, method: RungeKutta) -> GroupMatrix<S>
+    where
+        P: MatrixGroup<S, State = V>,
+    {
+        let count = self.velocities.len();
+        let (a, b) = coefficients::<S>(method, count);
+        if method == RungeKutta::Gauss
+            && P::CLOSED
+            && let Some(factor) = self.in_entries(system, &a, &b)
+        {
+            return factor;
+        }
+        // K_i = dexp^-1_(-theta_i) xi_i, theta_i = sum_j a_ij K_j
+        let mut slopes = self.velocities.clone();
+        let mut theta = system.zero_state();
+        let sweeps = if method == RungeKutta::Gauss {
+            SWEEPS
+        } else {
+            1
+        };
+        for _ in 0..sweeps {
+            let mut change = S::zero();
+            let mut scale = S::zero();
+            for stage in 0..count {
+                combine(&a[stage], &slopes, &mut theta);
+                let slope = inverse_tangent(system, &theta, &self.velocities[stage]);
+                for (old, &new) in slopes[stage].as_slice().iter().zip(slope.as_slice()) {
+                    change = change.max((*old - new).magnitude());
+                    scale = scale.max(new.magnitude());
+                }
+                slopes[stage] = slope;
+            }
+            if largest(change) <= largest(S::epsilon() * scale) {
+                break;
+            }
+        }
+        combine(&b, &slopes, &mut theta);
+        exponential(&represent(system, &theta))
+    }
+
+    /// `X_i = 1 + sum_j a_ij X_j rho(xi_j)`, then `1 + sum_i b_i X_i rho(xi_i)`; none where a pivot is small.
+    fn in_entries<P>(&self, system: &P, a: &[Vec<S>], b: &[S]) -> Option<GroupMatrix<S>>
+    where
+        P: MatrixGroup<S, State = V>,
+    {
+        let (count, size) = (self.velocities.len(), P::SIZE);
+        let motions: Vec<GroupMatrix<S>> = self
+            .velocities
+            .iter()
+            .map(|xi| represent(system, xi))
+            .collect();
+        let mut whole = GroupMatrix::<S>::identity(count * size);
+        for (i, row) in a.iter().enumerate() {
+            for (j, motion) in motions.iter().enumerate() {
+                for r in 0..size {
+                    for c in 0..size {
+                        let (r, c, entry) = (i * size + r, j * size + c, motion.at(c, r));
+                        whole.set_at(r, c, whole.at(r, c) - row[j] * entry);
+                    }
+                }
+            }
+        }
+        let stages = whole.solve_identities(size)?;
+        let mut factor = GroupMatrix::identity(size);
+        for (i, motion) in motions.iter().enumerate() {
+            for r in 0..size {
+                for c in 0..size {
+                    let mut sum = S::zero();
+                    for k in 0..size {
+                        // the solution holds the transposes
+                        sum += stages[r][i * size + k] * motion.at(k, c);
+                    }
+                    factor.set_at(r, c, factor.at(r, c) + b[i] * sum);
+                }
+            }
+        }
+        Some(factor)
+    }
+}
+
+impl<S: Scalar, P: MatrixGroup<S>> Observer<S, P> for Reconstruction<S, P::State> {
+    const MOTION: bool = true;
+
+    fn start(&mut self, _system: &P, _progress: Progress, _mu: &P::State) {
+        self.rows.clear();
+    }
+
+    fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
+        self.take(system, motion);
+    }
+
+    fn leave_grid(&mut self) {
+        self.kept = Some((self.matrix.clone(), self.quaternion));
+    }
+
+    fn return_to_grid(&mut self) {
+        if let Some((matrix, quaternion)) = self.kept.take() {
+            self.matrix = matrix;
+            self.quaternion = quaternion;
+        }
+    }
+
+    fn row(&mut self, _system: &P, _time: f64, _mu: &P::State) -> ControlFlow<()> {
+        self.rows.push(self.element().to_vec());
+        ControlFlow::Continue(())
+    }
+}
+
+/// `rho(xi)`
+fn represent<S: Scalar, P: MatrixGroup<S>>(_system: &P, xi: &P::State) -> GroupMatrix<S> {
+    let mut matrix = GroupMatrix::zero(P::SIZE);
+    for (entries, &coordinate) in P::MATRICES.iter().zip(xi.as_slice()) {
+        for entry in *entries {
+            let (row, column) = entry.place();
+            let sum = matrix.at(row, column) + entry.value::<S>() * coordinate;
+            matrix.set_at(row, column, sum);
+        }
+    }
+    matrix
+}
+
+/// `dexp^-1_(-theta) xi = xi + [theta, xi]/2 + sum_k B_2k/(2k)! ad_theta^2k xi`
+fn inverse_tangent<S, P>(system: &P, theta: &P::State, xi: &P::State) -> P::State
+where
+    S: Scalar,
+    P: MatrixGroup<S>,
+{
+    let mut term = system.zero_state();
+    let mut next = system.zero_state();
+    let mut sum = xi.clone();
+    system.ad(theta, xi, &mut term);
+    sum.axpy(S::ratio(1.0, 2.0), &term);
+    for (numerator, denominator) in BERNOULLI {
+        system.ad(theta, &term, &mut next);
+        sum.axpy(S::ratio(numerator, denominator), &next);
+        system.ad(theta, &next, &mut term);
+    }
+    sum
+}
+
+fn coefficients<S: Scalar>(method: RungeKutta, count: usize) -> (Vec<Vec<S>>, Vec<S>) {
+    let number = |&(numerator, denominator): &(f64, f64)| S::ratio(numerator, denominator);
+    match method {
+        RungeKutta::Explicit { stages, weights } => {
+            let mut a = vec![vec![S::zero(); count]; count];
+            for (row, stage) in a.iter_mut().skip(1).zip(stages) {
+                for (entry, weight) in row.iter_mut().zip(*stage) {
+                    *entry = number(weight);
+                }
+            }
+            (a, weights.iter().map(number).collect())
+        }
+        RungeKutta::Gauss => match count {
+            1 => gauss::<S, 1>(),
+            2 => gauss::<S, 2>(),
+            _ => gauss::<S, 3>(),
+        },
+    }
+}
+
+fn gauss<S: Scalar, const STAGES: usize>() -> (Vec<Vec<S>>, Vec<S>) {
+    let tableau = gauss_tableau::<S, STAGES>();
+    let a = tableau.a.iter().map(|row| row.to_vec()).collect();
+    (a, tableau.b.to_vec())
+}
+
+fn combine<S: Scalar, V: State<S>>(weights: &[S], slopes: &[V], out: &mut V) {
+    out.fill(S::zero());
+    for (&weight, slope) in weights.iter().zip(slopes) {
+        out.axpy(weight, slope);
+    }
+}
+
+fn product<S: Scalar>(a: [S; 4], b: [S; 4]) -> [S; 4] {
+    [
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    ]
+}
+
+/// The unit quaternion of a rotation by less than half a turn, `q0 > 0`: of the columns of the matrix `4 q q^T`
+/// the one with the largest diagonal entry, divided by its length.
+fn quaternion_of<S: Scalar>(r: &GroupMatrix<S>) -> [S; 4] {
+    let [x, y, z] = [r.at(0, 0), r.at(1, 1), r.at(2, 2)];
+    let one = S::one();
+    let [a, b, c] = [
+        r.at(2, 1) - r.at(1, 2),
+        r.at(0, 2) - r.at(2, 0),
+        r.at(1, 0) - r.at(0, 1),
+    ];
+    let [p, q, s] = [
+        r.at(0, 1) + r.at(1, 0),
+        r.at(2, 0) + r.at(0, 2),
+        r.at(1, 2) + r.at(2, 1),
+    ];
+    let columns = [
+        [one + x + y + z, a, b, c],
+        [a, one + x - y - z, p, q],
+        [b, p, one - x + y - z, s],
+        [c, q, s, one - x - y + z],
+    ];
+    let mut best = columns[0];
+    let mut size = columns[0][0];
+    for (index, column) in columns.iter().enumerate().skip(1) {
+        let larger = size.less(column[index]);
+        size = S::select(larger, column[index], size);
+        best = core::array::from_fn(|k| S::select(larger, column[k], best[k]));
+    }
+    let square = best.iter().fold(S::zero(), |sum, &q| sum + q * q);
+    let sign = S::select(best[0].less(S::zero()), -one, one);
+    let inverse = sign / square.sqrt();
+    best.map(|entry| entry * inverse)
+}
