@@ -167,6 +167,7 @@ pub fn source(model: &Model) -> Source {
         constants: model.constants.entries().to_vec(),
         hamiltonian: model.has_expression().then_some(model.hamiltonian),
         lagrangian: model.lagrangian.as_ref().map(|l| l.value),
+        discrete: model.lagrangian.as_ref().and_then(|l| l.discrete),
         energy: model.energy,
         momenta: model
             .configuration
@@ -199,6 +200,13 @@ fn docs(model: &Model) -> Vec<String> {
             .iter()
             .map(|v| v.text.as_str())
             .collect();
+        if let Some(discrete) = lagrangian.discrete {
+            docs.push(format!(
+                "Discrete Lagrangian `l_d = {}` of a step with the coordinates `{}`.",
+                model.display(discrete),
+                velocity.join(", ")
+            ));
+        }
         docs.push(format!(
             "Lagrangian `l = {}` of the velocity `{}`.",
             model.display(lagrangian.value),

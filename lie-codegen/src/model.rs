@@ -50,6 +50,9 @@ pub struct Lagrangian {
     pub velocity: Vec<Name>,
     /// How the Hamiltonian comes from it.
     pub transform: Transform,
+    /// The discrete Lagrangian by which the system was declared, in the same symbols and the step size; l is the
+    /// Lagrangian that it approximates.
+    pub discrete: Option<ExprId>,
 }
 
 /// How the Legendre transform of a Lagrangian is had.

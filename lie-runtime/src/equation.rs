@@ -112,7 +112,8 @@ pub trait Implicit<S: Scalar, M>: Poisson<S> {
 /// (need [`crate::SpinPoisson`]), `moser_veselov` (the same with a diagonal quadratic H on so(3)) and
 /// `moser_veselov_n` (needs [`crate::InertiaPoisson`]); `variational` (`variational2`, `variational4`,
 /// `variational6`; need [`crate::LagrangianPoisson`], the last two also over [`crate::Lift::Lifted`]) and
-/// `variational_cayley` (needs [`crate::CayleyPoisson`] too). And `splitting` implements
+/// `variational_cayley` (needs [`crate::CayleyPoisson`] too); `discrete` and `discrete_cayley` (need
+/// [`crate::DiscreteLagrangianPoisson`]). And `splitting` implements
 /// [`crate::SeparablePoisson`], for a Hamiltonian that is a sum of functions of one coordinate each.
 #[macro_export]
 macro_rules! generic_equations {
@@ -253,6 +254,22 @@ macro_rules! generic_equations {
         $crate::generic_equations!(
             @impl $generics $system, $scalar, [Variational<$crate::methods::Cayley, 2>],
             $crate::generic::CayleyVariational<'a, $scalar, Self>
+        );
+    };
+    (@discrete $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [DiscreteEulerPoincare<$crate::methods::Exp>],
+            $crate::generic::ExpVariational<
+                'a, $scalar, Self, $crate::lagrangian::DeclaredDiscreteLagrangian<'a, $scalar, Self>,
+            >
+        );
+    };
+    (@discrete_cayley $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [DiscreteEulerPoincare<$crate::methods::Cayley>],
+            $crate::generic::CayleyVariational<
+                'a, $scalar, Self, $crate::lagrangian::DeclaredDiscreteLagrangian<'a, $scalar, Self>,
+            >
         );
     };
     // the equation of another method

@@ -159,6 +159,9 @@ impl Report {
             writeln!(text, "  {}", configuration.description())?;
         }
         if let Some(lagrangian) = &model.lagrangian {
+            if let Some(discrete) = lagrangian.discrete {
+                writeln!(text, "  l_d = {}", model.display(discrete))?;
+            }
             writeln!(text, "  l = {}", model.display(lagrangian.value))?;
         }
         if model.has_expression() {

@@ -10,7 +10,6 @@ lie_poisson! {
     hamiltonian = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3);
     casimir C = x^2 + y^2 + z^2;
     methods = [lie-midpoint];
-    discrete_lagrangian = x^2;
     realization = R;
 }
 

@@ -53,6 +53,7 @@ impl Allowed {
                 Self::Constants | Self::Parameters => false,
             },
             Symbol::Input(_) => matches!(self, Self::Velocity(_) | Self::Everything),
+            Symbol::Step => matches!(self, Self::Velocity(_) | Self::Everything),
             _ => false,
         }
     }
@@ -80,6 +81,9 @@ impl<'a> Environment<'a> {
         }
         for (name, _) in &declaration.lets {
             bindings.entry(name.text.as_str()).or_insert(Binding::Later);
+        }
+        if declaration.energy.has_step() {
+            bindings.entry("h").or_insert(Binding::Symbol(Symbol::Step));
         }
         for name in &declaration.algebra.basis {
             bindings.entry(name.text.as_str()).or_insert(Binding::Basis);

@@ -9,6 +9,7 @@ mod casimirs;
 pub mod configuration;
 mod constant;
 mod defaults;
+mod discrete;
 pub mod domain;
 mod environment;
 mod independence;
@@ -21,6 +22,7 @@ mod names;
 pub(crate) mod normal;
 mod parameters;
 mod sample;
+mod series;
 mod size;
 mod velocity;
 
@@ -94,7 +96,7 @@ fn system(
         declaration.energy.expression(),
         match declaration.energy {
             Energy::Hamiltonian(_) => Allowed::State,
-            Energy::Lagrangian { .. } => {
+            Energy::Lagrangian { .. } | Energy::DiscreteLagrangian { .. } => {
                 Allowed::Velocity(configuration.map_or(usize::MAX, |c| c.momenta))
             }
         },
@@ -140,29 +142,33 @@ fn system(
     );
     let (hamiltonian, lagrangian) = match &declaration.energy {
         Energy::Hamiltonian(_) => (energy?, None),
-        Energy::Lagrangian { velocity, value } => {
+        Energy::Lagrangian { velocity, value } | Energy::DiscreteLagrangian { velocity, value } => {
+            let declared = energy?;
+            if !size::lagrangian(&graph, declared, velocity.len(), value.origin, report) {
+                return None;
+            }
+            let discrete = declaration.energy.has_step().then_some(declared);
+            let reduced = match discrete {
+                Some(discrete) => {
+                    let count = velocity.len();
+                    discrete::lagrangian(&mut graph, discrete, count, value.origin, report)?
+                }
+                None => declared,
+            };
             let lagrangian = Lagrangian {
-                value: energy?,
+                value: reduced,
                 velocity,
                 origin: value.origin,
                 parameters: &parameters,
                 configuration,
             };
-            if !size::lagrangian(
-                &graph,
-                lagrangian.value,
-                velocity.len(),
-                value.origin,
-                report,
-            ) {
-                return None;
-            }
             let (hamiltonian, transform) = legendre::hamiltonian(&mut graph, &lagrangian, report)?;
             // one that depends on the group element or the time is none on the algebra alone
             let reduced = configuration.is_none().then(|| model::Lagrangian {
                 value: lagrangian.value,
                 velocity: velocity.clone(),
                 transform,
+                discrete,
             });
             (hamiltonian, reduced)
         }

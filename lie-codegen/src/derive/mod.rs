@@ -39,6 +39,8 @@ pub struct Source {
     pub hamiltonian: Option<ExprId>,
     /// The Lagrangian, in the symbols of an element of the algebra.
     pub lagrangian: Option<ExprId>,
+    /// The discrete Lagrangian, in the same symbols and the step size.
+    pub discrete: Option<ExprId>,
     /// The energy: the Hamiltonian, of a system that depends on the time without the momentum of the time.
     pub energy: ExprId,
     /// The number of momenta of a system on `T*G`, which are its first coordinates.
@@ -188,6 +190,12 @@ impl Source {
     pub fn lagrangian_kernels(&mut self) -> Option<Vec<Kernel>> {
         let value = self.lagrangian?;
         Some(lagrangian::kernels(self, value))
+    }
+
+    /// The kernels of a discrete Lagrangian, if there is one.
+    pub fn discrete_kernels(&mut self) -> Option<Vec<Kernel>> {
+        let value = self.discrete?;
+        Some(lagrangian::discrete_kernels(self, value))
     }
 
     /// Residual, Jacobian and result of the Poisson midpoint rule.

@@ -73,6 +73,12 @@ impl Writer<'_> {
                 generic.push(ident("variational_cayley"));
             }
         }
+        if self.source.discrete.is_some() {
+            generic.push(ident("discrete"));
+            if self.source.triple.is_some() {
+                generic.push(ident("discrete_cayley"));
+            }
+        }
         if !generic.is_empty() {
             let system = self.system_name();
             tokens.extend(quote! {

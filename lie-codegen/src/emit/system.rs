@@ -120,7 +120,7 @@ impl Writer<'_> {
         }
     }
 
-    fn system_body(
+    pub(super) fn system_body(
         &mut self,
         kernel: &Kernel,
         program: &crate::schedule::Program,

@@ -180,7 +180,10 @@ fn system(parts: &Parts<'_>, report: &mut Report) -> Parsed {
         report,
     );
     parts.missing("state", "state x, y;", place, report);
-    if parts.first("lagrangian").is_none() {
+    if item::FUNCTIONS[1..]
+        .iter()
+        .all(|f| parts.first(f).is_none())
+    {
         parts.missing("hamiltonian", "hamiltonian = x^2/2;", place, report);
     }
     parsed.state = parts
@@ -230,6 +233,7 @@ fn remainder(
         .chain(texts(&velocity))
         .chain(constants.iter().cloned())
         .chain(lets)
+        .chain(parts.first(item::FUNCTIONS[2]).map(|_| "h".to_owned()))
         .collect();
     let names = names.with_elsewhere(algebra.iter().flat_map(|a| texts(&a.basis)));
     let lets = parts.all("let").filter_map(|s| {
@@ -240,7 +244,7 @@ fn remainder(
         ))
     });
     let lets = lets.collect();
-    let functions = ["hamiltonian", "lagrangian"].map(|keyword| {
+    let functions = item::FUNCTIONS.map(|keyword| {
         let statement = parts.first(keyword)?;
         Some((statement.origin, function(statement, &names, report)))
     });

@@ -14,7 +14,6 @@ pub struct Object<'a> {
 
 /// Keys that the format keeps for what is not built yet, and the keys that they would replace.
 pub const NOT_BUILT: &[(&str, &[&str])] = &[
-    ("discrete_lagrangian", &["hamiltonian"]),
     ("poisson", &["algebra"]),
     ("cocycle", &[]),
     ("realization", &[]),

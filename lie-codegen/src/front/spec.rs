@@ -46,7 +46,7 @@ fn document(text: &str, report: &mut Report) -> Parsed {
     };
     let Some(spec) = spec else { return parsed };
     spec.require("a spec", Spec::REQUIRED, report);
-    if spec.get("lagrangian").is_none() {
+    if item::FUNCTIONS[1..].iter().all(|f| spec.get(f).is_none()) {
         spec.require("a spec", &["hamiltonian"], report);
     }
     headers(&spec, report);
@@ -120,6 +120,7 @@ impl Remainder<'_, '_> {
             .chain(texts(&velocity))
             .chain(parameters.iter().cloned())
             .chain(defined.map(str::to_owned))
+            .chain(spec.get(item::FUNCTIONS[2]).map(|_| "h".to_owned()))
             .collect();
         let names = names.with_elsewhere(algebra.iter().flat_map(|a| texts(&a.basis)));
         let constants: Names = parameters.iter().cloned().collect();
@@ -192,10 +193,10 @@ impl Remainder<'_, '_> {
 }
 
 impl Remainder<'_, '_> {
-    /// `hamiltonian`, or `lagrangian` with `velocity`.
+    /// `hamiltonian`, or one of the Lagrangians with `velocity`.
     fn energy(&self, velocity: Vec<Name>, names: &Names, report: &mut Report) -> Option<Energy> {
         let spec = self.spec;
-        let functions = ["hamiltonian", "lagrangian"].map(|key| {
+        let functions = item::FUNCTIONS.map(|key| {
             let value = spec.get(key)?;
             Some((value.origin(), function(value, key, names, report)))
         });

@@ -26,9 +26,17 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
                  Poisson map of the same order"
             ),
         )),
+        Choice::DiscreteEulerPoincare(_)
+            if model.lagrangian.as_ref().is_none_or(|l| l.discrete.is_none()) =>
+        {
+            let message = "the method needs a system by a discrete Lagrangian, and this one declares none";
+            let help = "declare `discrete_lagrangian`; a system by its `lagrangian` has `variational2`";
+            Some((message.into(), help.into()))
+        }
         Choice::LieMidpoint(Retraction::Cayley)
         | Choice::Generating(_, Retraction::Cayley)
-        | Choice::Variational(_, Retraction::Cayley) => {
+        | Choice::Variational(_, Retraction::Cayley)
+        | Choice::DiscreteEulerPoincare(Retraction::Cayley) => {
             cayley(model).map(|reason| {
                 let help = format!(
                     "use `{}` with `--retraction exp`, which works for every Lie algebra",

@@ -27,6 +27,10 @@ impl Choice {
                 let tau = function_of(*retraction);
                 quote! { #variational::#tau() }
             }
+            Self::DiscreteEulerPoincare(retraction) => {
+                let tau = function_of(*retraction);
+                quote! { ::lie_runtime::methods::DiscreteEulerPoincare::#tau() }
+            }
             Self::MoserVeselov => named("MoserVeselov"),
             Self::Compose(order, scheme, base) => {
                 let compose = method(format_ident!("Compose{order}"));

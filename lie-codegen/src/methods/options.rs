@@ -154,6 +154,9 @@ impl Choice {
             (Self::Variational(2, _), "retraction") => {
                 Self::Variational(2, pick(option, value, Retraction::ALL, Retraction::name)?)
             }
+            (Self::DiscreteEulerPoincare(_), "retraction") => {
+                Self::DiscreteEulerPoincare(pick(option, value, Retraction::ALL, Retraction::name)?)
+            }
             (Self::Generating(order, _), "retraction") => Self::Generating(
                 order,
                 pick(option, value, Retraction::ALL, Retraction::name)?,
@@ -200,7 +203,8 @@ impl Choice {
         match self {
             Self::LieMidpoint(retraction)
             | Self::Generating(_, retraction)
-            | Self::Variational(2, retraction) => {
+            | Self::Variational(2, retraction)
+            | Self::DiscreteEulerPoincare(retraction) => {
                 vec![("retraction", retraction.name())]
             }
             Self::Collective(_, lift) => vec![("lift", lift.name())],
@@ -229,6 +233,10 @@ impl Choice {
             Self::Variational(2, _) => Retraction::ALL
                 .iter()
                 .map(|r| Self::Variational(2, *r))
+                .collect(),
+            Self::DiscreteEulerPoincare(_) => Retraction::ALL
+                .iter()
+                .map(|r| Self::DiscreteEulerPoincare(*r))
                 .collect(),
             Self::Generating(order, _) => Retraction::ALL
                 .iter()

@@ -228,6 +228,16 @@ pub const CATALOGUE: &[Method] = &[
     )
     .built(),
     planned(
+        "discrete-euler-poincare",
+        "step of a declared discrete Lagrangian; its order is at least 1",
+        1,
+        [false, false],
+        Preserves::POISSON,
+        "a system by its discrete Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2",
+        MPS,
+    )
+    .built(),
+    planned(
         "moser-veselov",
         "discrete rigid body",
         2,

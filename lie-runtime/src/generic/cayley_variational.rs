@@ -3,7 +3,10 @@
 use super::inverse_tangent::dcay_inverse_dual;
 use super::kernels::multiply;
 use crate::equation::Equation;
-use crate::lagrangian::{DiscreteLagrangian, LagrangianOfStep, LagrangianPoisson};
+use crate::lagrangian::{
+    DeclaredDiscreteLagrangian, DiscreteLagrangian, DiscreteLagrangianPoisson, LagrangianOfStep,
+    LagrangianPoisson,
+};
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::newton::dense;
@@ -34,6 +37,17 @@ impl<'a, S: Scalar, P: LagrangianPoisson<S> + CayleyPoisson<S>> CayleyVariationa
     /// The equation of a step of size h of the Lagrangian.
     pub fn new(system: &'a P, h: S) -> Self {
         Self::with_discrete(system, LagrangianOfStep::new(system, h))
+    }
+}
+
+impl<'a, S, P> CayleyVariational<'a, S, P, DeclaredDiscreteLagrangian<'a, S, P>>
+where
+    S: Scalar,
+    P: DiscreteLagrangianPoisson<S> + CayleyPoisson<S>,
+{
+    /// The equation of a step of size h of the declared discrete Lagrangian.
+    pub fn new(system: &'a P, h: S) -> Self {
+        Self::with_discrete(system, DeclaredDiscreteLagrangian::new(system, h))
     }
 }
 

@@ -4,7 +4,10 @@ use super::dexp_slope::DexpSlope;
 use super::kernels::multiply;
 use super::series::coadjoint_action_in;
 use crate::equation::Equation;
-use crate::lagrangian::{DiscreteLagrangian, LagrangianOfStep, LagrangianPoisson};
+use crate::lagrangian::{
+    DeclaredDiscreteLagrangian, DiscreteLagrangian, DiscreteLagrangianPoisson, LagrangianOfStep,
+    LagrangianPoisson,
+};
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::newton::dense;
@@ -35,6 +38,17 @@ impl<'a, S: Scalar, P: LagrangianPoisson<S>> ExpVariational<'a, S, P> {
     /// The equation of a step of size h of the Lagrangian.
     pub fn new(system: &'a P, h: S) -> Self {
         Self::with_discrete(system, LagrangianOfStep::new(system, h))
+    }
+}
+
+impl<'a, S, P> ExpVariational<'a, S, P, DeclaredDiscreteLagrangian<'a, S, P>>
+where
+    S: Scalar,
+    P: DiscreteLagrangianPoisson<S>,
+{
+    /// The equation of a step of size h of the declared discrete Lagrangian.
+    pub fn new(system: &'a P, h: S) -> Self {
+        Self::with_discrete(system, DeclaredDiscreteLagrangian::new(system, h))
     }
 }
 

@@ -16,9 +16,11 @@
 //! chapter 13, [doi:10.1007/978-0-387-21792-5](https://doi.org/10.1007/978-0-387-21792-5).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+mod declared;
 mod discrete;
 pub mod legendre;
 
+pub use declared::{DeclaredDiscreteLagrangian, DiscreteLagrangianPoisson};
 pub use discrete::{
     DiscreteLagrangian, LagrangianOfStep, Trivialise, legendre_left, legendre_right,
 };

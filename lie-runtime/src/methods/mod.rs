@@ -18,6 +18,7 @@
 //! | [`Collective::hopf`] | Gauss on `T*R^2` by the Hopf map, reduced to so(3)* | 2, 4, 6 |
 //! | [`SphericalMidpoint`] | `$\mu_1 = \mu + h f(w)$`, w the midpoint on the sphere of each spin | 2 |
 //! | [`Variational2`], [`Variational4`], [`Variational6`] | `$F^+(g) = \mu, \quad \mu_1 = F^-(g)$` of a discrete Lagrangian `$l_d(g)$` | 2, 4, 6 |
+//! | [`DiscreteEulerPoincare`] | the same with a declared `$l_d$` | at least 1 |
 //! | [`MoserVeselov`] | `$h M = g J - J g^T, \quad M_1 = g^T M g$`, keeps the energy too | 2 |
 //! | [`EulerArnold2`] | on `T*G`, for a Hamiltonian of g and mu: `$B_{h/2} \circ A_{h/2}$`, symplectic | 2 |
 //!
@@ -35,6 +36,7 @@ pub mod collective;
 pub mod commutator_free;
 pub mod compose;
 pub mod crouch_grossman;
+pub mod discrete_euler_poincare;
 pub mod dopri5;
 pub mod euler_arnold;
 mod explicit;
@@ -65,6 +67,7 @@ pub use collective::{Collective, Collective2, Collective4, Collective6, Hopf, Re
 pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
 pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};
 pub use crouch_grossman::{CrouchGrossman3, CrouchGrossmanStepper};
+pub use discrete_euler_poincare::DiscreteEulerPoincare;
 pub use dopri5::{Dopri5, Dopri5Stepper};
 pub use euler_arnold::{EulerArnold2, EulerArnoldStepper};
 pub use facts::{Facts, Preserves};

@@ -284,3 +284,112 @@ fn one_function_gives_the_system() {
         &["schema at \"1\": the Lagrangian has no `velocity`"],
     );
 }
+
+/// so(3) with a discrete Lagrangian in the coordinates w1, w2, w3.
+fn discrete(value: &str) -> String {
+    lagrangian(value, &[]).replace("\"lagrangian\"", "\"discrete_lagrangian\"")
+}
+
+/// The Lagrangian that a discrete one approximates, and its Hamiltonian.
+#[test]
+fn discrete_lagrangians_have_their_limit() {
+    for (value, limit, hamiltonian) in [
+        (
+            "(w1^2 + w2^2/2)/(2*h) + w3^2/h - w1*w2*w3/h^2 + 3/h + 1",
+            "w1^2/2 + w2^2/4 + w3^2 - w1*w2*w3",
+            None,
+        ),
+        (
+            "h*(a*(w1/h)^2/2 + (w2/h)^2 + (w3/h)^2) + b*w1",
+            "w1*b + a*w1^2/2 + w2^2 + w3^2",
+            Some("(x - b)^2/(2*a) + y^2/4 + z^2/4"),
+        ),
+        // of higher order in h: no part of the limit
+        (
+            "(w1^2 + w2^2 + w3^2)/(2*h) + w1^3/h + h^3 + (w1/h)^2*w2^2",
+            "w1^2/2 + w2^2/2 + w3^2/2",
+            Some("x^2/2 + y^2/2 + z^2/2"),
+        ),
+        (
+            "((1 - cos(w1)) + log(1 + w2^2)/2)/h + sqrt(h^2 + w3^2) - h",
+            "w1^2/2 + w2^2/2 + (w3^2 + 1)^(1/2) - 1",
+            None,
+        ),
+        (
+            "2*(w1^2 + w2^2 + w3^2)/(h*(4 + w1^2 + w2^2 + w3^2))",
+            "w1^2/2 + w2^2/2 + w3^2/2",
+            Some("x^2/2 + y^2/2 + z^2/2"),
+        ),
+    ] {
+        let model = model(&discrete(value));
+        let found = model.lagrangian.clone().expect("it has one");
+        assert!(found.discrete.is_some());
+        let at = |value: ExprId, w: [f64; 3]| {
+            model.graph.evaluate(value, &|symbol| match symbol {
+                Symbol::Input(i) => w[i],
+                Symbol::Parameter(p) => model.defaults()[p],
+                _ => f64::NAN,
+            })
+        };
+        let expected = super::model(&lagrangian(limit, &[]));
+        let value_of_limit = expected.lagrangian.as_ref().expect("it has one").value;
+        for w in [[0.3, -0.7, 1.1], [2.0, 0.25, -0.5]] {
+            let (a, b) = (
+                at(found.value, w),
+                expected
+                    .graph
+                    .evaluate(value_of_limit, &|symbol| match symbol {
+                        Symbol::Input(i) => w[i],
+                        Symbol::Parameter(p) => model.defaults()[p],
+                        _ => f64::NAN,
+                    }),
+            );
+            assert!(
+                (a - b).abs() < 1e-14,
+                "{value}: {} is not {limit}: {a} {b}",
+                model.display(found.value)
+            );
+        }
+        if let Some(hamiltonian) = hamiltonian {
+            assert!(model.has_expression());
+            let expected = so3(&[
+                ("parameters", r#"{"a": 2, "b": "1/3", "c": "-3/2"}"#),
+                ("hamiltonian", &format!("{hamiltonian:?}")),
+            ]);
+            let expected = super::model(&expected);
+            let value = |model: &crate::model::Model| {
+                model
+                    .graph
+                    .evaluate(model.hamiltonian, &|symbol| match symbol {
+                        Symbol::Coordinate(i) => [0.3, 0.8, -1.2][i],
+                        Symbol::Parameter(p) => model.defaults()[p],
+                        _ => f64::NAN,
+                    })
+            };
+            assert!(
+                (value(&model) - value(&expected)).abs() < 1e-14,
+                "{hamiltonian}"
+            );
+        }
+    }
+}
+
+#[test]
+fn discrete_lagrangians_without_a_limit_are_refused() {
+    for value in [
+        "(w1^2 + w2^2 + w3^2)/(2*h^2)",
+        "w1 + w1^2 + w2^2 + w3^2",
+        "w1/h + (w1^2 + w2^2 + w3^2)/(2*h)",
+        "exp(1/h)*w1^2 + w2^2 + w3^2",
+        "atan2(w1, h) + (w2^2 + w3^2)/h",
+    ] {
+        let expected =
+            "legendre at ".to_owned() + value + ": the discrete Lagrangian is consistent with no";
+        if value.starts_with("w1 + ") {
+            // the limit is linear: nothing is left of the kinetic energy
+            expect(&discrete(value), &["legendre"]);
+        } else {
+            expect(&discrete(value), &[&expected]);
+        }
+    }
+}

@@ -16,6 +16,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("let", Follows::Name),
     ("hamiltonian", Follows::Equals),
     ("lagrangian", Follows::Equals),
+    ("discrete_lagrangian", Follows::Equals),
     ("velocity", Follows::Name),
     ("casimir", Follows::Name),
     ("methods", Follows::Equals),

@@ -189,9 +189,9 @@ fn keys() {
 fn what_later_versions_declare_is_reserved() {
     let found = changed(
         "\"hamiltonian\": \"Π1^2/(2*I1) + m*w3\"",
-        "\"discrete_lagrangian\": \"x\"",
+        "\"realization\": \"x\"",
     );
-    assert_eq!(found, one(Kind::Schema, "discrete_lagrangian"));
+    assert_eq!(found, one(Kind::Schema, "realization"));
     for key in ["poisson", "cocycle", "realization"] {
         assert_eq!(
             changed("\"let\":", &format!("\"{key}\": [], \"let\":")),
