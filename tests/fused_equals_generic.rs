@@ -25,9 +25,9 @@ use lie_runtime::methods::{Cayley, LieMidpoint};
 use lie_runtime::{CayleyPoisson, Dual, Implicit, Poisson, State};
 use representation::Representation;
 use systems::{
-    CotangentEulerArnold, Declared, FreeRigidBody, Gyrostat, HeavyTop, Heisenberg, KirchhoffBody,
-    ManakovTop, NonpolynomialSpin, Pendulum, QuarticBody, Random, Sl2Quadratic, Su3Quadratic,
-    TodaLattice, state,
+    CotangentBody, CotangentEulerArnold, Declared, DiscreteBody, FreeRigidBody, Gyrostat, HeavyTop,
+    Heisenberg, KirchhoffBody, ManakovTop, NonpolynomialSpin, Pendulum, QuarticBody, Random,
+    Satellite, Sl2Quadratic, Su3Quadratic, TodaLattice, state,
 };
 
 /// Random states per system.
@@ -142,7 +142,7 @@ macro_rules! tests {
 }
 
 each_system!(tests);
-each_lagrangian!(tests);
+each_further_system!(tests);
 
 /// States that differ by 1e-9 are noticed by every comparison.
 #[test]

@@ -117,7 +117,8 @@ macro_rules! same_digits {
 }
 
 each_system!(same_digits);
-each_lagrangian!(same_digits);
+same_digits!(so3_gyrostat_lagrangian, Gyrostat, cayley);
+same_digits!(so3_quartic_lagrangian, QuarticBody, cayley);
 
 /// Parameters may differ per lane.
 #[test]

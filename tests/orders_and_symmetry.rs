@@ -14,8 +14,9 @@ use lie_runtime::prelude::*;
 use systems::{
     Declared, HeavyTop, KirchhoffBody, NonpolynomialSpin, distance, e2_pendulum, heisenberg_h3,
     relative_distance, se3_heavy_top, se3_kirchhoff, sl2_quadratic, so3_cotangent_euler_arnold,
-    so3_free_rigid_body, so3_gyrostat_lagrangian, so3_nonpolynomial, so3_quartic_lagrangian,
-    so4_manakov, state, su3_quadratic, toda3_solvable,
+    so3_cotangent_group, so3_discrete_lagrangian, so3_free_rigid_body, so3_gravity_gradient,
+    so3_gyrostat_lagrangian, so3_nonpolynomial, so3_quartic_lagrangian, so4_manakov, state,
+    su3_quadratic, toda3_solvable,
 };
 use vectors::Reference;
 
@@ -133,7 +134,7 @@ macro_rules! symmetry {
 #[test]
 fn symmetric_methods_undo_themselves() {
     each_system!(symmetry);
-    each_lagrangian!(symmetry);
+    each_further_system!(symmetry);
 }
 
 fn defect<P: Poisson<Dual<f64>>>(
@@ -170,7 +171,7 @@ macro_rules! poisson_map {
 #[test]
 fn lie_midpoint_is_a_poisson_map() {
     each_system!(poisson_map);
-    each_lagrangian!(poisson_map);
+    each_further_system!(poisson_map);
 }
 
 #[test]

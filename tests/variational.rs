@@ -1,14 +1,43 @@
 //! Systems declared by a Lagrangian: their variational integrators make the steps of the Hamiltonian form, and the
 //! Legendre transform by Newton's iteration is the one in closed form.
 
-use lie_runtime::lagrangian::{LagrangianOfStep, legendre_left, legendre_right};
-use lie_runtime::methods::Exp;
+use lie_runtime::diagnostics::poisson_defect;
+use lie_runtime::lagrangian::{
+    DeclaredDiscreteLagrangian, LagrangianOfStep, legendre_left, legendre_right,
+};
+use lie_runtime::methods::{Cayley, Exp};
 use lie_runtime::prelude::*;
 use nalgebra::{SMatrix, SVector};
 
 // The same body by its Lagrangian, and by a Hamiltonian written by hand.
 lie_poisson! { spec = "tests/data/lagrangian/gyrostat_lagrangian.json"; }
 lie_poisson! { spec = "tests/data/lagrangian/gyrostat_hamiltonian.json"; }
+
+// Moser and Veselov's body in Cayley coordinates.
+lie_poisson! { spec = "specs/so3_discrete_lagrangian.json"; }
+
+// The action along one-parameter subgroups: what `variational2` takes by itself.
+lie_poisson! {
+    system DiscreteLine;
+    algebra { basis a, b; [a, b] = b; }
+    state p, q;
+    velocity x, y;
+    let u = x/h;
+    let v = y/h;
+    discrete_lagrangian = h*(u^2 + v^2/2 + u*v/3 + v^4/5);
+    initial = [11/15, 0.5512];
+}
+
+// One that is not symmetric in time: the cubic term has the order of its error.
+lie_poisson! {
+    system Skew;
+    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    state m1, m2, m3;
+    velocity x, y, z;
+    discrete_lagrangian = (2*x^2 + y^2 + z^2*2/3)/(2*h) + x*y*z/(3*h) + z^3/(5*h);
+    casimir C = m1^2 + m2^2 + m3^2;
+    initial = [0.6, -0.5, 0.7];
+}
 
 // `l = -c^2 sqrt(1 - <A xi, xi>/c^2)`, of which the Hamiltonian is `c^2 sqrt(1 + <A^-1 mu, mu>/c^2)`.
 lie_poisson! {
@@ -226,6 +255,124 @@ fn discrete_euler_poincare_equation() {
         }
         before = Some(left);
     }
+}
+
+#[test]
+fn moser_and_veselovs_body_is_an_instance() {
+    let system = DiscreteBody::new().system().expect("finite");
+    let start = DiscreteBody::new().initial_state();
+    for h in [0.05, 0.3, -0.2] {
+        let (single, both) = differences(
+            (&system, &DiscreteEulerPoincare::cayley()),
+            (&system, &MoserVeselov),
+            start,
+            h,
+            2000,
+        );
+        println!("Moser-Veselov, h = {h}: {single:.1e} in a step, {both:.1e} in 2000");
+        assert!(single < 1.5e-15 && both < 1e-11, "{h}: {single:e} {both:e}");
+    }
+    // read in exponential coordinates it is another method
+    let other = (&system, &DiscreteEulerPoincare::exp());
+    let (single, _) = differences(other, (&system, &MoserVeselov), start, 0.3, 20);
+    assert!(single > 1e-6, "{single:e}");
+}
+
+/// Both Legendre maps of a declared discrete Lagrangian, and the discrete Euler–Poincaré equation between steps.
+#[test]
+fn legendre_maps_of_a_declared_discrete_lagrangian() {
+    let system = DiscreteBody::new().system().expect("finite");
+    let h = 0.3;
+    let l_d = DeclaredDiscreteLagrangian::new(&system, h);
+    let method = DiscreteEulerPoincare::cayley();
+    let mut stepper = method.stepper(&system, h, &NewtonOptions::default());
+    let mut mu = DiscreteBody::new().initial_state();
+    let mut last: Option<V> = None;
+    for _ in 0..50 {
+        let before = mu;
+        stepper.step(&mut mu, &mut ()).expect("a step");
+        let (mut left, mut right) = (mu, mu);
+        legendre_right(&Cayley, &system, &l_d, stepper.unknown(), &mut right);
+        legendre_left(&Cayley, &system, &l_d, stepper.unknown(), &mut left);
+        assert!(
+            (right - before).amax() < 2e-15,
+            "{:e}",
+            (right - before).amax()
+        );
+        assert!((left - mu).amax() < 2e-15, "{:e}", (left - mu).amax());
+        if let Some(last) = last {
+            let error: V = last - right;
+            assert!(error.amax() < 4e-15, "{:e}", error.amax());
+        }
+        last = Some(left);
+        // (tr J - tr(g J))/h by the matrix itself
+        let [x, y, z] = stepper.unknown().data.0[0];
+        let hat = SMatrix::<f64, 3, 3>::new(0.0, -z, y, z, 0.0, -x, -y, x, 0.0) / 2.0;
+        let one = SMatrix::<f64, 3, 3>::identity();
+        let g = (one - hat).try_inverse().expect("an inverse") * (one + hat);
+        let moments = [0.25, 1.25, 0.75];
+        let action: f64 = (0..3).map(|k| moments[k] * (1.0 - g[(k, k)])).sum::<f64>() / h;
+        assert!((l_d.value(stepper.unknown()) - action).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn a_declared_action_of_subgroups_is_variational2() {
+    let (declared, reduced) = (DiscreteLine::new(), Line::new());
+    let (declared, reduced) = (
+        declared.system().expect("finite"),
+        reduced.system().expect("finite"),
+    );
+    let newton = NewtonOptions::default();
+    let mut discrete = DiscreteEulerPoincare::exp().stepper(&declared, 0.2, &newton);
+    let mut variational = Variational2::exp().stepper(&reduced, 0.2, &newton);
+    let mut of_the_limit = Variational2::exp().stepper(&declared, 0.2, &newton);
+    let mut mu = Line::new().initial_state();
+    for _ in 0..50 {
+        let (mut a, mut b) = (mu, mu);
+        discrete.step(&mut a, &mut ()).expect("a step");
+        of_the_limit.step(&mut b, &mut ()).expect("a step");
+        variational.step(&mut mu, &mut ()).expect("a step");
+        assert!(
+            (a - mu).amax() < 4e-16 && (b - mu).amax() < 4e-16,
+            "{a} {b} {mu}"
+        );
+    }
+}
+
+#[test]
+fn a_discrete_lagrangian_that_is_not_symmetric_has_order_one() {
+    let system = Skew::new().system().expect("finite");
+    let start = Skew::new().initial_state();
+    let run = |method: &dyn Fn(f64, u32) -> V, steps: u32| method(1.0 / f64::from(steps), steps);
+    let skew = |h: f64, steps: u32| {
+        let mut mu = start;
+        let mut stepper =
+            DiscreteEulerPoincare::exp().stepper(&system, h, &NewtonOptions::default());
+        (0..steps).for_each(|_| drop(stepper.step(&mut mu, &mut ()).expect("a step")));
+        mu
+    };
+    let reference = |h: f64, steps: u32| {
+        let mut mu = start;
+        let mut stepper = Gauss6.stepper(&system, h, &NewtonOptions::default());
+        (0..steps).for_each(|_| drop(stepper.step(&mut mu, &mut ()).expect("a step")));
+        mu
+    };
+    let exact = run(&reference, 200);
+    let errors = [32, 64, 128].map(|steps| (run(&skew, steps) - exact).amax());
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((order - 1.0).abs() < 0.1, "{errors:?}");
+    }
+    // a Poisson map all the same
+    let defect = poisson_defect(
+        &system.lift(),
+        &DiscreteEulerPoincare::exp(),
+        0.3,
+        start.as_slice(),
+        &NewtonOptions::default(),
+    );
+    assert!(defect.expect("a step") < 2e-15);
 }
 
 /// A step beyond the momenta that have a velocity is refused, and what was computed before is kept.

@@ -24,9 +24,18 @@ pub mod sl2_quadratic;
 #[path = "../golden/so3_cotangent_euler_arnold.rs"]
 #[rustfmt::skip]
 pub mod so3_cotangent_euler_arnold;
+#[path = "../golden/so3_cotangent_group.rs"]
+#[rustfmt::skip]
+pub mod so3_cotangent_group;
+#[path = "../golden/so3_discrete_lagrangian.rs"]
+#[rustfmt::skip]
+pub mod so3_discrete_lagrangian;
 #[path = "../golden/so3_free_rigid_body.rs"]
 #[rustfmt::skip]
 pub mod so3_free_rigid_body;
+#[path = "../golden/so3_gravity_gradient.rs"]
+#[rustfmt::skip]
+pub mod so3_gravity_gradient;
 #[path = "../golden/so3_gyrostat_lagrangian.rs"]
 #[rustfmt::skip]
 pub mod so3_gyrostat_lagrangian;
@@ -52,7 +61,10 @@ pub use se3_heavy_top::HeavyTop;
 pub use se3_kirchhoff::KirchhoffBody;
 pub use sl2_quadratic::Sl2Quadratic;
 pub use so3_cotangent_euler_arnold::CotangentEulerArnold;
+pub use so3_cotangent_group::CotangentBody;
+pub use so3_discrete_lagrangian::DiscreteBody;
 pub use so3_free_rigid_body::FreeRigidBody;
+pub use so3_gravity_gradient::Satellite;
 pub use so3_gyrostat_lagrangian::Gyrostat;
 pub use so3_nonpolynomial::NonpolynomialSpin;
 pub use so3_quartic_lagrangian::QuarticBody;
@@ -102,12 +114,15 @@ declared!(
     CotangentEulerArnold,
     CotangentEulerArnoldSystem
 );
+declared!(so3_cotangent_group, CotangentBody, CotangentBodySystem);
+declared!(so3_gravity_gradient, Satellite, SatelliteSystem);
 declared!(so3_free_rigid_body, FreeRigidBody, FreeRigidBodySystem);
 declared!(
     so3_nonpolynomial,
     NonpolynomialSpin,
     NonpolynomialSpinSystem
 );
+declared!(so3_discrete_lagrangian, DiscreteBody, DiscreteBodySystem);
 declared!(so3_gyrostat_lagrangian, Gyrostat, GyrostatSystem);
 declared!(so3_quartic_lagrangian, QuarticBody, QuarticBodySystem);
 declared!(so4_manakov, ManakovTop, ManakovTopSystem);
@@ -131,10 +146,12 @@ macro_rules! each_system {
     };
 }
 
-/// The same for the systems by a Lagrangian, without the Cayley map: they have no public reference values of
-/// representations.
-macro_rules! each_lagrangian {
+/// The same for the systems without reference values of their own, on which that of Cayley is not checked.
+macro_rules! each_further_system {
     ($check:ident) => {
+        $check!(so3_cotangent_group, CotangentBody, exp);
+        $check!(so3_discrete_lagrangian, DiscreteBody, exp);
+        $check!(so3_gravity_gradient, Satellite, exp);
         $check!(so3_gyrostat_lagrangian, Gyrostat, exp);
         $check!(so3_quartic_lagrangian, QuarticBody, exp);
     };

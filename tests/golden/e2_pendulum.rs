@@ -310,6 +310,19 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for PendulumSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for PendulumSystem<S> {
+    const SIZE: usize = 3;
+    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
+        &[
+            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+        ],
+        &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
+        &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
+    ];
+    const CLOSED: bool = true;
+}
+
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for PendulumSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
@@ -472,6 +485,17 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for PendulumMidpoint<'
         residual[0] = _b0;
         residual[1] = _b1;
         residual[2] = _b2;
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::Midpoint::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
     }
 }
 
@@ -685,6 +709,15 @@ impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for PendulumGauss4
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1053,6 +1086,15 @@ impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for PendulumGauss6
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
@@ -1159,6 +1201,15 @@ for PendulumExpMidpoint<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1355,9 +1406,12 @@ for PendulumCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
-        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
-        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+        let mut equation = ::lie_runtime::generic::CayleyMidpoint::new(
+            self.system,
+            self.h,
+        );
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
     }
 }
 
@@ -1740,6 +1794,15 @@ for PendulumIsospectral4<'a, S> {
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
+    }
 }
 
 impl<
@@ -1951,6 +2014,15 @@ for PendulumIsospectral6<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 

@@ -297,6 +297,16 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeisenbergSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeisenbergSystem<S> {
+    const SIZE: usize = 3;
+    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
+        &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+        &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
+        &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
+    ];
+    const CLOSED: bool = true;
+}
+
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeisenbergSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
@@ -447,6 +457,17 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergMidpoint
         residual[0] = _b0;
         residual[1] = _b1;
         residual[2] = _b2;
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::Midpoint::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
     }
 }
 
@@ -605,6 +626,15 @@ for HeisenbergGauss4<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -842,6 +872,15 @@ for HeisenbergGauss6<'a, S> {
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
@@ -947,6 +986,15 @@ for HeisenbergExpMidpoint<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1110,9 +1158,12 @@ for HeisenbergCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
-        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
-        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+        let mut equation = ::lie_runtime::generic::CayleyMidpoint::new(
+            self.system,
+            self.h,
+        );
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
     }
 }
 
@@ -1300,6 +1351,21 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergGonzalez
         residual[0] = _b0;
         residual[1] = _b1;
         residual[2] = _b2;
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::DiscreteGradientStep::<
+            S,
+            _,
+            ::lie_runtime::generic::GonzalezGradient<S, _>,
+        >::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
     }
 }
 
@@ -1585,6 +1651,21 @@ for HeisenbergMeanValue<'_, S> {
         residual[1] = _b1;
         residual[2] = _b2;
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::DiscreteGradientStep::<
+            S,
+            _,
+            ::lie_runtime::generic::MeanValueGradient<S, _>,
+        >::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
+    }
 }
 
 /// The discrete gradient `mean-value` in closed form.
@@ -1843,6 +1924,21 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergItohAbe<
         residual[0] = _b0;
         residual[1] = _b1;
         residual[2] = _b2;
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::DiscreteGradientStep::<
+            S,
+            _,
+            ::lie_runtime::generic::ItohAbeGradient<S, _>,
+        >::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
     }
 }
 
@@ -2663,6 +2759,15 @@ for HeisenbergIsospectral4<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 

@@ -605,6 +605,28 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeavyTopSystem<S> {
+    const SIZE: usize = 4;
+    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
+        &[
+            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+        ],
+        &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+        &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+        &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+    ];
+    const CLOSED: bool = true;
+}
+
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
     const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
@@ -1003,6 +1025,17 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopMidpoint<'
         residual[4] = _b4;
         residual[5] = _b5;
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::Midpoint::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
+    }
 }
 
 impl<
@@ -1128,6 +1161,15 @@ impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopGauss4
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1264,6 +1306,15 @@ impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopGauss6
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1417,6 +1468,15 @@ for HeavyTopExpMidpoint<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1912,9 +1972,12 @@ for HeavyTopCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
-        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
-        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+        let mut equation = ::lie_runtime::generic::CayleyMidpoint::new(
+            self.system,
+            self.h,
+        );
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
     }
 }
 
@@ -2531,6 +2594,15 @@ for HeavyTopIsospectral4<'a, S> {
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
+    }
 }
 
 impl<
@@ -2698,6 +2770,15 @@ for HeavyTopIsospectral6<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 

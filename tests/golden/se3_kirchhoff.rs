@@ -504,6 +504,28 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for KirchhoffBodySystem<S>
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for KirchhoffBodySystem<S> {
+    const SIZE: usize = 4;
+    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
+        &[
+            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+        ],
+        &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+        &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+        &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+    ];
+    const CLOSED: bool = true;
+}
+
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for KirchhoffBodySystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
@@ -941,6 +963,17 @@ for KirchhoffBodyMidpoint<'_, S> {
         residual[4] = _b4;
         residual[5] = _b5;
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::Midpoint::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
+    }
 }
 
 impl<
@@ -1067,6 +1100,15 @@ for KirchhoffBodyGauss4<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1204,6 +1246,15 @@ for KirchhoffBodyGauss6<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1468,6 +1519,15 @@ for KirchhoffBodyExpMidpoint<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -2009,9 +2069,12 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
-        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
-        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+        let mut equation = ::lie_runtime::generic::CayleyMidpoint::new(
+            self.system,
+            self.h,
+        );
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
     }
 }
 

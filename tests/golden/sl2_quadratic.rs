@@ -345,6 +345,19 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for Sl2QuadraticSystem<S> 
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for Sl2QuadraticSystem<S> {
+    const SIZE: usize = 2;
+    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
+        &[
+            ::lie_runtime::__private::Entry::new(0, 0, 1.0),
+            ::lie_runtime::__private::Entry::new(1, 1, -1.0),
+        ],
+        &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+        &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
+    ];
+    const CLOSED: bool = true;
+}
+
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for Sl2QuadraticSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 2, 2>;
@@ -546,6 +559,17 @@ for Sl2QuadraticMidpoint<'_, S> {
         residual[0] = _b0;
         residual[1] = _b1;
         residual[2] = _b2;
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::Midpoint::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
     }
 }
 
@@ -820,6 +844,15 @@ for Sl2QuadraticGauss4<'a, S> {
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
@@ -938,6 +971,15 @@ for Sl2QuadraticGauss6<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1064,6 +1106,15 @@ for Sl2QuadraticExpMidpoint<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1319,9 +1370,12 @@ for Sl2QuadraticCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
-        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
-        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+        let mut equation = ::lie_runtime::generic::CayleyMidpoint::new(
+            self.system,
+            self.h,
+        );
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
     }
 }
 
@@ -1852,6 +1906,15 @@ for Sl2QuadraticIsospectral4<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 

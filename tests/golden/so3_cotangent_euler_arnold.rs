@@ -1601,6 +1601,17 @@ for CotangentEulerArnoldMidpoint<'_, S> {
         residual[10] = _b10;
         residual[11] = _b11;
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::Midpoint::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
+    }
 }
 
 impl<
@@ -1754,6 +1765,15 @@ for CotangentEulerArnoldGauss4<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1930,6 +1950,15 @@ for CotangentEulerArnoldGauss6<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -2262,6 +2291,15 @@ for CotangentEulerArnoldExpMidpoint<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -2799,6 +2837,21 @@ for CotangentEulerArnoldGonzalez<'_, S> {
 
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
         Self::ELIMINATION.solve(factors, residual);
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::DiscreteGradientStep::<
+            S,
+            _,
+            ::lie_runtime::generic::GonzalezGradient<S, _>,
+        >::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
     }
 }
 
@@ -3907,6 +3960,21 @@ for CotangentEulerArnoldMeanValue<'_, S> {
         residual[10] = _b10;
         residual[11] = _b11;
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::DiscreteGradientStep::<
+            S,
+            _,
+            ::lie_runtime::generic::MeanValueGradient<S, _>,
+        >::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
+    }
 }
 
 /// The discrete gradient `mean-value` in closed form.
@@ -4979,6 +5047,21 @@ for CotangentEulerArnoldItohAbe<'_, S> {
         residual[9] = _b9;
         residual[10] = _b10;
         residual[11] = _b11;
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::DiscreteGradientStep::<
+            S,
+            _,
+            ::lie_runtime::generic::ItohAbeGradient<S, _>,
+        >::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
     }
 }
 

@@ -340,6 +340,25 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for QuarticBodySystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for QuarticBodySystem<S> {
+    const SIZE: usize = 3;
+    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
+        &[
+            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+        ],
+    ];
+    const CLOSED: bool = true;
+}
+
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for QuarticBodySystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {

@@ -749,6 +749,37 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for ManakovTopSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for ManakovTopSystem<S> {
+    const SIZE: usize = 4;
+    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
+        &[
+            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 2, -1.0),
+            ::lie_runtime::__private::Entry::new(2, 0, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+            ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+            ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+            ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+        ],
+    ];
+    const CLOSED: bool = true;
+}
+
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for ManakovTopSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
     const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
@@ -1194,6 +1225,17 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for ManakovTopMidpoint
         residual[4] = _b4;
         residual[5] = _b5;
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::Midpoint::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
+    }
 }
 
 impl<
@@ -1320,6 +1362,15 @@ for ManakovTopGauss4<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1457,6 +1508,15 @@ for ManakovTopGauss6<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1721,6 +1781,15 @@ for ManakovTopExpMidpoint<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -2269,9 +2338,12 @@ for ManakovTopCayleyMidpoint<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        let mut function = ::lie_runtime::generic::Generating2::new(self.system, self.h);
-        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
-        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+        let mut equation = ::lie_runtime::generic::CayleyMidpoint::new(
+            self.system,
+            self.h,
+        );
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
     }
 }
 
@@ -3036,6 +3108,19 @@ for ManakovTopMoserVeselov<'_, S> {
         residual[3] = _b3;
         residual[4] = _b4;
         residual[5] = _b5;
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::State,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        let mut equation = ::lie_runtime::generic::DiscreteBody::new(
+            self.system,
+            self.h,
+        );
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
     }
 }
 

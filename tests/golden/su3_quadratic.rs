@@ -697,6 +697,61 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for Su3QuadraticSystem<S> 
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for Su3QuadraticSystem<S> {
+    const SIZE: usize = 6;
+    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
+        &[
+            ::lie_runtime::__private::Entry::new(0, 1, 1.0),
+            ::lie_runtime::__private::Entry::new(1, 0, -1.0),
+            ::lie_runtime::__private::Entry::new(3, 4, 1.0),
+            ::lie_runtime::__private::Entry::new(4, 3, -1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 4, -1.0),
+            ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+            ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+            ::lie_runtime::__private::Entry::new(4, 0, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            ::lie_runtime::__private::Entry::new(3, 5, 1.0),
+            ::lie_runtime::__private::Entry::new(5, 3, -1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 5, -1.0),
+            ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+            ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+            ::lie_runtime::__private::Entry::new(5, 0, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(1, 2, 1.0),
+            ::lie_runtime::__private::Entry::new(2, 1, -1.0),
+            ::lie_runtime::__private::Entry::new(4, 5, 1.0),
+            ::lie_runtime::__private::Entry::new(5, 4, -1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(1, 5, -1.0),
+            ::lie_runtime::__private::Entry::new(2, 4, -1.0),
+            ::lie_runtime::__private::Entry::new(4, 2, 1.0),
+            ::lie_runtime::__private::Entry::new(5, 1, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+            ::lie_runtime::__private::Entry::new(1, 4, 1.0),
+            ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+            ::lie_runtime::__private::Entry::new(4, 1, -1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(1, 4, -1.0),
+            ::lie_runtime::__private::Entry::new(2, 5, 1.0),
+            ::lie_runtime::__private::Entry::new(4, 1, 1.0),
+            ::lie_runtime::__private::Entry::new(5, 2, -1.0),
+        ],
+    ];
+    const CLOSED: bool = true;
+}
+
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for Su3QuadraticSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 6, 6>;
@@ -1466,6 +1521,17 @@ for Su3QuadraticMidpoint<'_, S> {
         residual[6] = _b6;
         residual[7] = _b7;
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::State,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        let mut equation = ::lie_runtime::generic::Midpoint::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
+    }
 }
 
 impl<
@@ -1600,6 +1666,15 @@ for Su3QuadraticGauss4<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -1752,6 +1827,15 @@ for Su3QuadraticGauss6<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -2186,6 +2270,15 @@ for Su3QuadraticExpMidpoint<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -3198,6 +3291,15 @@ for Su3QuadraticIsospectral2<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use lie_runtime::structure::{Entry, Representation};
 use lie_runtime::{
-    CayleyPoisson, Dual, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar, SpinPoisson,
+    CayleyPoisson, Dual, LiePoisson, Lift, MatrixGroup, MatrixPoisson, Poisson, Scalar, SpinPoisson,
 };
 use nalgebra::{SMatrix, SVector};
 
@@ -167,6 +167,12 @@ impl<S: Scalar> MatrixPoisson<S> for RigidBody<S> {
     fn zero_matrix(&self) -> Self::Matrix {
         SMatrix::<S, 3, 3>::repeat(S::zero())
     }
+}
+
+impl<S: Scalar> MatrixGroup<S> for RigidBody<S> {
+    const SIZE: usize = 3;
+    const MATRICES: &'static [&'static [Entry]] = SO3.matrices;
+    const CLOSED: bool = true;
 }
 
 impl<S: Scalar> SpinPoisson<S> for RigidBody<S> {

@@ -891,6 +891,28 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeavyTopSystem<S> {
+    const SIZE: usize = 4;
+    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
+        &[
+            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+        ],
+        &[
+            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+        ],
+        &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+        &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+        &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+    ];
+    const CLOSED: bool = true;
+}
+
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
     const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
@@ -1388,6 +1410,15 @@ for HeavyTopGenerating4Equation<'a, S> {
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
+    }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -2567,6 +2598,15 @@ for HeavyTopGenerating6Equation<'a, S> {
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
         self.0.group_factor(unknown, xi)
     }
+
+    fn velocity(
+        &mut self,
+        unknown: &Self::Unknown,
+        stage: usize,
+        xi: &mut Self::State,
+    ) -> usize {
+        self.0.velocity(unknown, stage, xi)
+    }
 }
 
 impl<
@@ -3051,9 +3091,9 @@ for HeavyTopSecondKind2Equation<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        let mut function = ::lie_runtime::generic::SecondKind2::new(self.system, self.h);
-        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
-        ::core::option::Option::Some(::lie_runtime::methods::Retraction::SecondKind)
+        let mut equation = ::lie_runtime::generic::SecondKind::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
     }
 }
 
@@ -3825,12 +3865,13 @@ for HeavyTopCayleyGenerating4<'_, S> {
         unknown: &Self::State,
         xi: &mut Self::State,
     ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        let mut function = ::lie_runtime::generic::CayleyGenerating4::new(
+        let mut equation = ::lie_runtime::generic::CayleyRetraction::with_function(
             self.system,
+            ::lie_runtime::generic::CayleyGenerating4::new(self.system, self.h),
             self.h,
         );
-        ::lie_runtime::GeneratingFunction::gradient(&mut function, unknown, xi);
-        ::core::option::Option::Some(::lie_runtime::methods::Retraction::Cayley)
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
     }
 }
 

@@ -1,10 +1,10 @@
 //! The blocks `algebra` and `parameters`, and lists of names.
 
-use super::entry::Entry;
+use super::entry::{Entry, inside};
 use super::statement::Statement;
-use crate::ast::{Algebra, Name, Parameter};
+use crate::ast::{Algebra, Matrix, Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::front::token::{Token, span, split_commas};
+use crate::front::token::{Delimiter, Token, span, split_commas};
 use crate::front::{Names, item};
 
 /// Names with commas between them.
@@ -58,23 +58,54 @@ pub fn algebra(
         .map(|n| n.text.clone())
         .chain(parameters.iter().cloned())
         .collect();
-    let mut brackets = Vec::new();
+    let constants: Names = parameters.iter().cloned().collect();
+    let (mut brackets, mut matrices) = (Vec::new(), Vec::new());
+    let mut with_brackets = false;
     for entry in entries.iter().filter(|e| !e.is_word("basis")) {
-        if entry.is_word("matrices") || entry.is_word("matrix") {
-            report.push(
-                Diagnostic::new(Kind::Syntax, entry.origin(), "the macro has no matrices")
-                    .help("declare the system in a spec file and write `spec = \"path\";`"),
-            );
+        if entry.is_word("matrix") {
+            matrices.extend(matrix(entry, &constants, report));
         } else {
+            with_brackets = true;
             brackets.extend(item::bracket(entry.tokens, entry.origin(), &known, report));
         }
     }
+    let computed = !with_brackets && entries.iter().any(|e| e.is_word("matrix"));
     Some(Algebra {
         basis,
-        brackets: Some(brackets),
-        matrices: Vec::new(),
+        brackets: (!computed).then_some(brackets),
+        matrices,
         origin: statement.origin,
     })
+}
+
+/// `matrix NAME = [[a, b], [c, d]]`
+fn matrix(entry: &Entry<'_>, names: &Names, report: &mut Report) -> Option<Matrix> {
+    let (name, value) = item::definition(&entry.tokens[1..], "a matrix", entry.origin(), report)?;
+    let origin = span(value).unwrap_or(name.origin);
+    let mut list = |tokens, what: &str| {
+        let list = inside(tokens, Delimiter::Bracket);
+        if list.is_none() {
+            let place = span(tokens).unwrap_or(origin);
+            report.push(
+                Diagnostic::new(Kind::Syntax, place, format!("{what} is a list in brackets"))
+                    .help(format!("write `matrix {} = [[0, -1], [1, 0]];`", name.text)),
+            );
+        }
+        list.map(split_commas)
+    };
+    let rows: Vec<Vec<&[Token]>> = list(value, "a matrix")?
+        .into_iter()
+        .map(|row| list(row, "a row of a matrix"))
+        .collect::<Option<_>>()?;
+    let mut entry = |tokens| {
+        let what = ("an entry of the matrix", "-1/2");
+        item::formula(tokens, what, origin, names, report)
+    };
+    let rows = rows
+        .into_iter()
+        .map(|row| row.into_iter().map(&mut entry).collect::<Option<_>>())
+        .collect::<Option<_>>()?;
+    Some(Matrix { name, rows, origin })
 }
 
 /// `{ I1 = 2.0; exact k = 1/3; }`: the names that could be read, and the parameters without mistakes.

@@ -213,7 +213,6 @@ fn statements() {
         ("invariance = right;", "pub invariance = right;", "pub"),
         ("[e1, e2] = e3;", "[e1 e2] = e3;", "[e1 e2] = e3"),
         ("[e1, e2] = e3;", "[e1, e2] e3;", "[e1, e2] e3"),
-        ("[e1, e2] = e3;", "matrices = 1;", "matrices"),
         ("basis e1, e2, e3;", "basis e1, e2, e3; basis e1;", "basis"),
         ("[e3, e1] = e2; }", "[e3, e1] = e2 }", "e2"),
         ("state x, y, z;", "poisson = 3; state x, y, z;", "poisson"),
