@@ -16,6 +16,24 @@ lie_poisson! { spec = "tests/data/lagrangian/gyrostat_hamiltonian.json"; }
 // Moser and Veselov's body in Cayley coordinates.
 lie_poisson! { spec = "specs/so3_discrete_lagrangian.json"; }
 
+// The same, as it is written in the literature: `(tr J - tr(g J))/h`.
+lie_poisson! { spec = "tests/data/lagrangian/moser_veselov_entries.json"; }
+
+// A discrete Lagrangian on the affine group of the line, in the entries of its matrices.
+lie_poisson! {
+    system AffineByEntries;
+    algebra {
+        basis a, b; [a, b] = b;
+        matrix a = [[1, 0], [0, 0]];
+        matrix b = [[0, 1], [0, 0]];
+    }
+    group G;
+    state p, q;
+    velocity u, v;
+    discrete_lagrangian = ((G11 - 1)^2/G11 + G12^2/(2*G11))/h + (G11 - 1)*G12/(3*h);
+    initial = [11/15, 0.5512];
+}
+
 // The action along one-parameter subgroups: what `variational2` takes by itself.
 lie_poisson! {
     system DiscreteLine;
@@ -276,6 +294,45 @@ fn moser_and_veselovs_body_is_an_instance() {
     let other = (&system, &DiscreteEulerPoincare::exp());
     let (single, _) = differences(other, (&system, &MoserVeselov), start, 0.3, 20);
     assert!(single > 1e-6, "{single:e}");
+}
+
+/// In the entries of the group element, the discrete Lagrangian of Moser and Veselov is linear.
+#[test]
+fn discrete_lagrangians_in_the_entries_of_the_group_element() {
+    let system = BodyByEntries::new().system().expect("finite");
+    let start = BodyByEntries::new().initial_state();
+    let entries = (&system, &DiscreteEulerPoincare::cayley());
+    for h in [0.3, -0.2] {
+        let (single, both) = differences(entries, (&system, &MoserVeselov), start, h, 2000);
+        println!("by entries, h = {h}: {single:.1e} in a step, {both:.1e} in 2000");
+        assert!(single < 2e-15 && both < 1e-11, "{h}: {single:e} {both:e}");
+    }
+    let coordinates = DiscreteBody::new().system().expect("finite");
+    let other = (&coordinates, &DiscreteEulerPoincare::cayley());
+    let (single, _) = differences(entries, other, start, 0.3, 100);
+    assert!(single < 2e-15, "{single:e}");
+
+    // not on so(3): by the map `F-(g)_i = <dl_d/dg, g rho_i>` on the matrices themselves
+    let system = AffineByEntries::new().system().expect("finite");
+    let h = 0.2;
+    let method = DiscreteEulerPoincare::cayley();
+    let mut stepper = method.stepper(&system, h, &NewtonOptions::default());
+    let mut mu = AffineByEntries::new().initial_state();
+    for _ in 0..20 {
+        let before = mu;
+        stepper.step(&mut mu, &mut ()).expect("a step");
+        let [x, y] = stepper.unknown().data.0[0];
+        // (1 - X/2)^-1 (1 + X/2) for X = [[x, y], [0, 0]]
+        let (g, b) = ((1.0 + x / 2.0) / (1.0 - x / 2.0), y / (1.0 - x / 2.0));
+        let by_g = (1.0 - 1.0 / (g * g) - b * b / (2.0 * g * g) + b / 3.0) / h;
+        let by_b = (b / g + (g - 1.0) / 3.0) / h;
+        // g rho(a) = [[g, 0], [0, 0]], g rho(b) = [[0, g], [0, 0]]; rho(a) g = [[g, b], [0, 0]], rho(b) g = [[0, 1], [0, 0]]
+        let (after, start) = ([by_g * g, by_b * g], [by_g * g + by_b * b, by_b]);
+        for k in 0..2 {
+            assert!((mu[k] - after[k]).abs() < 2e-14, "{mu} {after:?}");
+            assert!((before[k] - start[k]).abs() < 2e-14, "{before} {start:?}");
+        }
+    }
 }
 
 /// Both Legendre maps of a declared discrete Lagrangian, and the discrete Euler–Poincaré equation between steps.

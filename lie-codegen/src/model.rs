@@ -53,6 +53,8 @@ pub struct Lagrangian {
     /// The discrete Lagrangian by which the system was declared, in the same symbols and the step size; l is the
     /// Lagrangian that it approximates.
     pub discrete: Option<ExprId>,
+    /// Whether that was written in the entries of the group element, and so in Cayley coordinates.
+    pub in_entries: bool,
 }
 
 /// How the Legendre transform of a Lagrangian is had.

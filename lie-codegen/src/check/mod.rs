@@ -11,6 +11,7 @@ mod constant;
 mod defaults;
 mod discrete;
 pub mod domain;
+mod entries;
 mod environment;
 mod independence;
 mod initial;
@@ -69,6 +70,9 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     names::check(declaration, report);
     if !size::check(declaration, report) {
         return None;
+    }
+    if declaration.energy.has_step() && declaration.group.is_some() {
+        return system(&entries::written_out(declaration, report)?, None, report);
     }
     match configuration::of(declaration, report) {
         Some(configuration) => {
@@ -169,6 +173,7 @@ fn system(
                 velocity: velocity.clone(),
                 transform,
                 discrete,
+                in_entries: declaration.group.is_some(),
             });
             (hamiltonian, reduced)
         }

@@ -33,6 +33,14 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
             let help = "declare `discrete_lagrangian`; a system by its `lagrangian` has `variational2`";
             Some((message.into(), help.into()))
         }
+        Choice::DiscreteEulerPoincare(Retraction::Exp)
+            if model.lagrangian.as_ref().is_some_and(|l| l.in_entries) =>
+        {
+            let message = "the discrete Lagrangian is written in the entries of the group element, which are functions \
+                           of the coordinates of the Cayley map";
+            let help = "use `--retraction cayley`";
+            Some((message.into(), help.into()))
+        }
         Choice::LieMidpoint(Retraction::Cayley)
         | Choice::Generating(_, Retraction::Cayley)
         | Choice::Variational(_, Retraction::Cayley)
