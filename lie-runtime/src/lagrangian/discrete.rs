@@ -77,7 +77,7 @@ impl<'a, S: Scalar, P: LagrangianPoisson<S>> LagrangianOfStep<'a, S, P> {
     fn velocity(&self, x: &P::State) -> P::State {
         let mut xi = x.clone();
         for entry in xi.as_mut_slice() {
-            *entry = *entry / self.step;
+            *entry /= self.step;
         }
         xi
     }
