@@ -238,9 +238,9 @@ fn generated_systems_make_the_steps_of_an_independent_computation() {
         }
     };
     for (order, expected) in [
-        (2, [0.6735900072713026882, 0.59148679826406918198]),
-        (4, [0.67348541621949134448, 0.59151065833861954564]),
-        (6, [0.67348539185655221196, 0.59151066950967888844]),
+        (2, [0.6735900072713027, 0.5914867982640691]),
+        (4, [0.6734854162194913, 0.5915106583386196]),
+        (6, [0.6734853918565522, 0.5915106695096789]),
     ] {
         let mut mu = Line::new().initial_state();
         step(&mut mu, order).expect("a step");
@@ -406,13 +406,17 @@ fn a_discrete_lagrangian_that_is_not_symmetric_has_order_one() {
         let mut mu = start;
         let mut stepper =
             DiscreteEulerPoincare::exp().stepper(&system, h, &NewtonOptions::default());
-        (0..steps).for_each(|_| drop(stepper.step(&mut mu, &mut ()).expect("a step")));
+        for _ in 0..steps {
+            stepper.step(&mut mu, &mut ()).expect("a step");
+        }
         mu
     };
     let reference = |h: f64, steps: u32| {
         let mut mu = start;
         let mut stepper = Gauss6.stepper(&system, h, &NewtonOptions::default());
-        (0..steps).for_each(|_| drop(stepper.step(&mut mu, &mut ()).expect("a step")));
+        for _ in 0..steps {
+            stepper.step(&mut mu, &mut ()).expect("a step");
+        }
         mu
     };
     let exact = run(&reference, 200);
