@@ -49,6 +49,12 @@ fn compare<F: Facts>(facts: Preserves) -> &'static str {
     assert_eq!(preserves.orbit, facts.orbit, "{}", F::ID);
     assert_eq!(preserves.poisson, facts.poisson, "{}", F::ID);
     assert_eq!(
+        preserves.constant_poisson,
+        facts.constant_poisson,
+        "{}",
+        F::ID
+    );
+    assert_eq!(
         preserves.quadratic_invariants,
         facts.quadratic_invariants,
         "{}",

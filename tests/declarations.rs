@@ -134,7 +134,7 @@ fn every_kind_is_covered() {
         .map(|line| line[1].clone())
         .collect();
     covered.extend(["io", "toolchain"].map(str::to_owned));
-    let later = [Kind::Cocycle, Kind::Checkpoint];
+    let later = [Kind::Checkpoint];
     for kind in Kind::ALL {
         let exists = covered.contains(kind.as_str());
         assert_eq!(exists, !later.contains(kind), "{kind}");

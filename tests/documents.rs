@@ -129,6 +129,10 @@ fn words(method: &Method) -> String {
     let kept = method.preserves;
     let words = [
         (kept.poisson, "Poisson"),
+        (
+            kept.constant_poisson && !kept.poisson,
+            "Poisson if constant",
+        ),
         (kept.orbit, "orbit"),
         (kept.energy, "energy"),
         (kept.quadratic_invariants, "quadratic invariants"),

@@ -34,7 +34,8 @@ const STEP: f64 = 1e-15;
 
 /// What every system has.
 trait Methods<S: Scalar>:
-    Lift<S>
+    Lift<S, Lifted: LiePoisson<Dual<S>> + Lift<Dual<S>, Lifted: LiePoisson<Dual<Dual<S>>>>>
+    + LiePoisson<S>
     + Implicit<S, LieMidpoint<Exp>>
     + Implicit<S, Generating<Exp, 2>>
     + Implicit<S, Generating<Exp, 4>>
@@ -44,7 +45,8 @@ trait Methods<S: Scalar>:
 }
 
 impl<S: Scalar, P> Methods<S> for P where
-    P: Lift<S>
+    P: Lift<S, Lifted: LiePoisson<Dual<S>> + Lift<Dual<S>, Lifted: LiePoisson<Dual<Dual<S>>>>>
+        + LiePoisson<S>
         + Implicit<S, LieMidpoint<Exp>>
         + Implicit<S, Generating<Exp, 2>>
         + Implicit<S, Generating<Exp, 4>>

@@ -1,10 +1,24 @@
 //! Methods that claim what they do not keep: the verification says so.
 
-use lie_runtime::methods::{Facts, Method, Preserves, Rk4};
+use lie_runtime::methods::{Facts, ImplicitMidpoint, Method, Preserves, Rk4};
 use lie_runtime::prelude::*;
 use lie_runtime::program::measure::Verify;
 
 lie_poisson! { pub spec = "specs/so3_nonpolynomial.json"; }
+
+lie_poisson! {
+    system Canonical;
+    poisson { {q, p} = 1; }
+    state q, p;
+    hamiltonian = p^2/2 - cos(q);
+}
+
+lie_poisson! {
+    system Quadratic;
+    poisson { {x, y} = x*y; }
+    state x, y;
+    hamiltonian = x + y - log(x) - 2*log(y);
+}
 
 /// The Runge–Kutta method under a false flag.
 #[derive(Clone, Copy)]
@@ -31,6 +45,7 @@ impl<const WHAT: usize> Facts for Lying<WHAT> {
         quadratic_casimirs: WHAT == 3,
         orbit: WHAT == 4,
         poisson: WHAT == 5,
+        constant_poisson: WHAT == 8,
         quadratic_invariants: WHAT == 6,
         ..Preserves::LINEAR
     };
@@ -73,7 +88,10 @@ impl<S: Scalar> Method<S, NonpolynomialSpinSystem<S>> for Implicit {
 
 /// The facts of each method that fail, as the program reports them.
 fn failing() -> Vec<(String, String)> {
+    let mut labels = CLAIMS.to_vec();
+    labels.push("explicit");
     let program = Verify::new(&[], |_: &[f64]| NonpolynomialSpin::new().system())
+        .with_orbits()
         .method("order", |_| Lying::<0>)
         .method("symmetric", |_| Lying::<1>)
         .method("energy", |_| Lying::<2>)
@@ -83,11 +101,20 @@ fn failing() -> Vec<(String, String)> {
         .method("quadratic integrals", |_| Lying::<6>)
         .method("nothing", |_| Lying::<7>)
         .method("explicit", |_| Implicit);
+    examine(&program, &labels, "0.6 -0.5 0.7")
+}
+
+/// What fails of these methods of a program.
+fn examine<P: Lift<f64> + 'static>(
+    program: &Verify<P>,
+    labels: &[&str],
+    initial: &str,
+) -> Vec<(String, String)> {
     let mut request = String::new();
-    for label in CLAIMS.iter().chain(&["explicit"]) {
+    for label in labels {
         request.push_str(&format!("method {label}\n"));
     }
-    request.push_str("initial 0.6 -0.5 0.7\nseed 3\nrun\n");
+    request.push_str(&format!("initial {initial}\nseed 3\nrun\n"));
     let (mut lines, mut messages) = (Vec::new(), Vec::new());
     // the input must not end before the program does
     let input = std::io::BufReader::new(std::io::Read::chain(
@@ -125,4 +152,32 @@ fn every_lie_is_found_and_nothing_else() {
     assert_eq!(expected("quadratic Casimirs"), ["quadratic Casimirs"]);
     assert_eq!(expected("quadratic integrals"), ["quadratic integrals"]);
     assert!(expected("nothing").is_empty());
+}
+
+/// Of brackets of coordinates, constant and quadratic ones: what is Poisson if they are constant, and orbits,
+/// which there are none.
+#[test]
+fn lies_about_brackets_of_coordinates() {
+    let labels = ["constant", "orbit", "midpoint", "nothing"];
+    let found = |failing: &[(String, String)], what: &str| {
+        let facts = failing.iter().filter(|(method, _)| method == what);
+        facts.map(|(_, fact)| fact.clone()).collect::<Vec<_>>()
+    };
+    let program = Verify::new(&[], |_: &[f64]| Canonical::new().system())
+        .method("constant", |_| Lying::<8>)
+        .method("orbit", |_| Lying::<4>)
+        .method("midpoint", |_| ImplicitMidpoint)
+        .method("nothing", |_| Lying::<7>);
+    let failing = examine(&program, &labels, "0.6 -0.5");
+    assert_eq!(found(&failing, "constant"), ["Poisson"]);
+    assert_eq!(found(&failing, "orbit"), ["orbit"]);
+    assert_eq!(failing.len(), 2, "{failing:?}");
+    let program = Verify::new(&[], |_: &[f64]| Quadratic::new().system())
+        .method("constant", |_| Lying::<8>)
+        .method("orbit", |_| Lying::<4>)
+        .method("midpoint", |_| ImplicitMidpoint)
+        .method("nothing", |_| Lying::<7>);
+    let failing = examine(&program, &labels, "1.6 0.5");
+    assert_eq!(found(&failing, "orbit"), ["orbit"]);
+    assert_eq!(failing.len(), 1, "{failing:?}");
 }

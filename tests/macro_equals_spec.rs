@@ -30,10 +30,12 @@ fn read(path: &Path) -> Map<String, Value> {
     let Ok(Value::Object(mut spec)) = serde_json::from_str(&text) else {
         panic!("{}: no object", path.display())
     };
-    if let Some(algebra) = spec["algebra"].as_object_mut() {
+    if let Some(algebra) = spec.get_mut("algebra").and_then(Value::as_object_mut) {
         algebra.remove("matrices");
     }
-    spec.insert("methods".into(), METHODS.to_vec().into());
+    let lie_poisson = spec.contains_key("algebra") && !spec.contains_key("cocycle");
+    let methods = METHODS[..if lie_poisson { 4 } else { 3 }].to_vec();
+    spec.insert("methods".into(), methods.into());
     spec.remove("run");
     spec
 }
@@ -66,16 +68,21 @@ fn list(value: &Value) -> String {
 /// The body of the macro that declares what a spec declares.
 fn declaration(spec: &Map<String, Value>) -> String {
     let text = |key: &str| spec[key].as_str().expect("a string");
-    let algebra = &spec["algebra"];
-    let mut body = format!(
-        "pub system {};\nalgebra {{ basis {};",
-        text("name"),
-        list(&algebra["basis"])
-    );
-    for bracket in strings(&algebra["brackets"]) {
-        body += &format!(" {bracket};");
+    let mut body = format!("pub system {};\n", text("name"));
+    if let Some(algebra) = spec.get("algebra") {
+        body += &format!("algebra {{ basis {};", list(&algebra["basis"]));
+        for bracket in strings(&algebra["brackets"]) {
+            body += &format!(" {bracket};");
+        }
+        body += " }\n";
     }
-    body += &format!(" }}\nstate {};\nparameters {{", list(&spec["state"]));
+    for key in ["poisson", "cocycle"] {
+        if let Some(brackets) = spec.get(key) {
+            let brackets: Vec<&str> = strings(brackets).collect();
+            body += &format!("{key} {{ {}; }}\n", brackets.join("; "));
+        }
+    }
+    body += &format!("state {};\nparameters {{", list(&spec["state"]));
     for (name, value) in spec
         .get("parameters")
         .and_then(Value::as_object)
@@ -287,19 +294,34 @@ fn the_order_of_what_is_unrelated_does_not_matter() {
         assert_eq!(code, from_text(&reversed).to_string(), "{}", path.display());
         // Brackets the other way round, and antisymmetry spelt out.
         let mut turned = spec.clone();
-        let brackets: Vec<String> = strings(&spec["algebra"]["brackets"])
-            .map(str::to_owned)
-            .collect();
-        let swapped = brackets.iter().rev().map(|bracket| {
+        let swapped = |bracket: &str| {
             let (pair, value) = bracket.split_once('=').expect("a bracket");
+            let pair = pair.trim();
             let (a, b) = pair
-                .trim()
-                .trim_matches(['[', ']'])
+                .trim_matches(['[', ']', '{', '}'])
                 .split_once(',')
                 .expect("a pair");
-            format!("[{}, {}] = -({})", b.trim(), a.trim(), value.trim())
-        });
-        turned["algebra"]["brackets"] = swapped.collect::<Vec<_>>().into();
+            let (open, close) = (&pair[..1], &pair[pair.len() - 1..]);
+            let (a, b, value) = (a.trim(), b.trim(), value.trim());
+            format!("{open}{b}, {a}{close} = -({value})")
+        };
+        let reverse = |brackets: &Value| -> Value {
+            let brackets: Vec<&str> = strings(brackets).collect();
+            brackets
+                .into_iter()
+                .rev()
+                .map(swapped)
+                .collect::<Vec<_>>()
+                .into()
+        };
+        for key in ["poisson", "cocycle"] {
+            if let Some(brackets) = turned.get_mut(key) {
+                *brackets = reverse(brackets);
+            }
+        }
+        if let Some(algebra) = turned.get_mut("algebra") {
+            algebra["brackets"] = reverse(&algebra["brackets"]);
+        }
         assert_eq!(code, from_spec(&turned).to_string(), "{}", path.display());
         // Blanks and superfluous parentheses.
         let mut spaced = spec.clone();

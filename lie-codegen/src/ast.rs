@@ -74,14 +74,14 @@ pub struct Index {
     pub offset: i64,
 }
 
-/// `[left, right] = value`.
+/// `[left, right] = value` of basis elements, or `{left, right} = value` of coordinates.
 #[derive(Clone, Debug)]
 pub struct Bracket {
-    /// First basis name.
+    /// First name.
     pub left: Name,
-    /// Second basis name.
+    /// Second name.
     pub right: Name,
-    /// Linear in basis names.
+    /// Linear in basis names; of coordinates a function of the state.
     pub value: Expr,
     /// The whole bracket.
     pub origin: Origin,
@@ -109,6 +109,25 @@ pub struct Algebra {
     pub matrices: Vec<Matrix>,
     /// The whole block.
     pub origin: Origin,
+}
+
+/// What gives the Poisson bracket of the coordinates.
+#[derive(Clone, Debug)]
+pub enum Structure {
+    /// The Lie–Poisson bracket of an algebra, and brackets of coordinates that are added to it.
+    Lie {
+        /// The algebra.
+        algebra: Algebra,
+        /// The constants that are added; none where the key is absent.
+        cocycle: Vec<Bracket>,
+    },
+    /// The brackets of the coordinates, one by one.
+    General {
+        /// The brackets.
+        brackets: Vec<Bracket>,
+        /// The whole block.
+        origin: Origin,
+    },
 }
 
 /// A parameter with its default.
@@ -212,8 +231,8 @@ pub struct Declaration {
     pub description: Vec<String>,
     /// References, for people.
     pub references: Vec<String>,
-    /// The algebra.
-    pub algebra: Algebra,
+    /// The algebra, or the brackets of the coordinates.
+    pub structure: Structure,
     /// The name of the group element, where functions may use its entries.
     pub group: Option<Name>,
     /// Names of the coordinates of `mu`.
@@ -236,4 +255,35 @@ pub struct Declaration {
     pub initial_origin: Option<Origin>,
     /// Defaults of `lie run`.
     pub run: Vec<RunOption>,
+}
+
+impl Declaration {
+    /// The algebra, if there is one.
+    pub fn algebra(&self) -> Option<&Algebra> {
+        match &self.structure {
+            Structure::Lie { algebra, .. } => Some(algebra),
+            Structure::General { .. } => None,
+        }
+    }
+
+    /// Names of the basis of the algebra; none where there is no algebra.
+    pub fn basis(&self) -> &[Name] {
+        self.algebra().map_or(&[], |algebra| &algebra.basis)
+    }
+
+    /// The number of coordinates that the bracket asks for.
+    pub fn dimension(&self) -> usize {
+        match &self.structure {
+            Structure::Lie { algebra, .. } => algebra.basis.len(),
+            Structure::General { .. } => self.state.len(),
+        }
+    }
+
+    /// Where the bracket is declared.
+    pub fn place(&self) -> Origin {
+        match &self.structure {
+            Structure::Lie { algebra, .. } => algebra.origin,
+            Structure::General { origin, .. } => *origin,
+        }
+    }
 }

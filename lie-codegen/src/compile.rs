@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Origin, Report};
 use crate::emit::{Blueprint, Emitted, Parameter, emit};
 use crate::front::{Body, spec};
 use crate::methods::{Choice, refusal};
-use crate::model::Model;
+use crate::model::{Model, Structure};
 use crate::structure::{group, inertia, separable, spins};
 
 /// Reads and checks a spec file.
@@ -141,7 +141,7 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
             .iter()
             .map(|c| identifier(&c.text, Some(c.origin)))
             .collect(),
-        basis: model.basis.iter().map(|b| b.text.clone()).collect(),
+        basis: covector_names(model),
         parameters,
         casimir_names: model.casimirs.iter().map(|c| c.name.clone()).collect(),
         initial: model.initial.clone(),
@@ -153,6 +153,7 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
             .map(|c| c.solved().clone())
             .collect(),
         hamiltonian_degree: model.hamiltonian_degree,
+        poisson_degree: model.poisson.degree,
         casimir_degrees: model.casimirs.iter().map(|c| c.degree).collect(),
     }
 }
@@ -160,11 +161,22 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
 /// What the kernels of a model are derived from.
 pub fn source(model: &Model) -> Source {
     let mut graph = model.graph.clone();
+    if !model.is_lie_poisson() {
+        return Source {
+            dimension: model.dimension(),
+            poisson: Some(model.poisson.entries.clone()),
+            hamiltonian: Some(model.hamiltonian),
+            energy: model.energy,
+            casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
+            ..Source::empty(graph)
+        };
+    }
     let body = inertia::body(model, &mut graph).ok();
     Source {
         graph,
         dimension: model.dimension(),
         constants: model.constants.entries().to_vec(),
+        poisson: None,
         hamiltonian: model.has_expression().then_some(model.hamiltonian),
         lagrangian: model.lagrangian.as_ref().map(|l| l.value),
         discrete: model.lagrangian.as_ref().and_then(|l| l.discrete),
@@ -181,6 +193,36 @@ pub fn source(model: &Model) -> Source {
         matrices: model.representation.clone().filter(|r| r.dual.is_some()),
         spins: spins::spins(model),
         body,
+    }
+}
+
+/// The names of the components of a velocity: the basis, or the coordinates where there is none.
+fn covector_names(model: &Model) -> Vec<String> {
+    let names = match model.structure {
+        Structure::General => &model.coordinates,
+        _ => &model.basis,
+    };
+    names.iter().map(|name| name.text.clone()).collect()
+}
+
+/// What the bracket is, in words.
+fn bracket_in_words(model: &Model) -> String {
+    let dimension = model.dimension();
+    let dual = format!("on the dual of a Lie algebra of dimension {dimension}");
+    match model.structure {
+        Structure::Lie => dual,
+        Structure::Extended => format!("{dual}, its bracket with a constant term"),
+        Structure::General => {
+            let brackets = model.poisson.entries.iter().map(|(i, j, value)| {
+                let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);
+                format!("`{{{a}, {b}}} = {}`", model.display(*value))
+            });
+            let brackets: Vec<String> = brackets.collect();
+            match brackets.as_slice() {
+                [] => "with the bracket that is zero".into(),
+                brackets => format!("with the brackets {}", brackets.join(", ")),
+            }
+        }
     }
 }
 
@@ -213,10 +255,7 @@ fn docs(model: &Model) -> Vec<String> {
             velocity.join(", ")
         ));
     }
-    docs.push(format!(
-        "{energy} on the dual of a Lie algebra of dimension {},",
-        model.dimension()
-    ));
+    docs.push(format!("{energy} {},", bracket_in_words(model)));
     docs.push(format!(
         "coordinates `{}`; the Poisson matrix has generic rank {}.",
         names.join(", "),

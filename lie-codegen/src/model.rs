@@ -66,10 +66,46 @@ pub enum Transform {
     Newton,
 }
 
+/// What the bracket of a system is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Structure {
+    /// The Lie–Poisson bracket of the algebra.
+    Lie,
+    /// The same with a constant term: a cocycle of the algebra.
+    Extended,
+    /// A Poisson matrix that was given entry by entry; there is no algebra.
+    General,
+}
+
+/// The Poisson matrix `Pi_ij = {x_i, x_j}`.
+#[derive(Clone, Debug)]
+pub struct PoissonMatrix {
+    /// Number of coordinates n.
+    pub dimension: usize,
+    /// The entries `(i, j, Pi_ij)` above the diagonal, `i < j`, ascending, those that are not zero; none
+    /// where the structure constants of the model say it all.
+    pub entries: Vec<(usize, usize, ExprId)>,
+    /// The largest total degree of an entry in the coordinates, where all are polynomials in them.
+    pub degree: Option<u32>,
+}
+
+impl PoissonMatrix {
+    /// All rows.
+    pub fn rows(&self, graph: &mut Graph) -> Vec<Vec<ExprId>> {
+        let zero = graph.integer(0);
+        let mut rows = vec![vec![zero; self.dimension]; self.dimension];
+        for (i, j, value) in &self.entries {
+            rows[*i][*j] = *value;
+            rows[*j][*i] = graph.neg(*value);
+        }
+        rows
+    }
+}
+
 /// A checked system.
 ///
-/// The right-invariant sign is already in `constants` and `representation` (both negated), so that
-/// `mu' = ad*_{grad H} mu` holds for every model.
+/// The right-invariant sign is already in `constants`, `representation` (both negated) and `poisson`, so
+/// that `mu' = Pi(mu) grad H(mu)`, of an algebra `mu' = ad*_{grad H} mu`, holds for every model.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// Name of the system.
@@ -84,13 +120,17 @@ pub struct Model {
     pub references: Vec<String>,
     /// The arena of all expressions.
     pub graph: Graph,
-    /// Names of the basis.
+    /// What the bracket is.
+    pub structure: Structure,
+    /// The Poisson matrix.
+    pub poisson: PoissonMatrix,
+    /// Names of the basis; none without an algebra.
     pub basis: Vec<Name>,
     /// Names of the coordinates.
     pub coordinates: Vec<Name>,
     /// The parameters.
     pub parameters: Vec<Parameter>,
-    /// Structure constants in the arena.
+    /// Structure constants in the arena; none without an algebra.
     pub constants: StructureConstants<ExprId>,
     /// The same as rational functions of the parameters (variable `p` is parameter `p`).
     pub exact_constants: StructureConstants<Fraction>,
@@ -131,9 +171,14 @@ pub struct Model {
 }
 
 impl Model {
-    /// Dimension of the algebra.
+    /// Number of coordinates.
     pub fn dimension(&self) -> usize {
-        self.basis.len()
+        self.coordinates.len()
+    }
+
+    /// Whether the bracket is the Lie–Poisson bracket of an algebra and nothing else.
+    pub fn is_lie_poisson(&self) -> bool {
+        self.structure == Structure::Lie
     }
 
     /// Whether the Hamiltonian is an expression in mu alone, which methods can take apart.

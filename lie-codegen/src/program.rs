@@ -53,7 +53,10 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
     let defaults = model.parameters.iter().map(|p| p.default_value);
     let (kind, modules, end) = match purpose {
         Purpose::Run | Purpose::OnGroup(_) => (quote! { Program }, None, None),
-        Purpose::Verify => (quote! { measure::Verify }, None, None),
+        Purpose::Verify => {
+            let orbits = model.is_lie_poisson().then(|| quote! { .with_orbits() });
+            (quote! { measure::Verify }, None, orbits)
+        }
         Purpose::Bench => (
             quote! { measure::Bench },
             Some(quote! { mod controls; }),

@@ -46,6 +46,11 @@ pub trait Poisson<S: Scalar>: Sized {
     /// the end of the list are of unknown degree.
     const CASIMIR_DEGREES: &'static [Option<u32>] = &[];
 
+    /// The largest total degree of an entry of the Poisson matrix in the coordinates, where all are
+    /// polynomials in them and that is known: 0 for a constant one, of which symplectic methods are
+    /// Poisson maps.
+    const POISSON_DEGREE: Option<u32> = None;
+
     /// A state of the right size, all coordinates 0.
     fn zero_state(&self) -> Self::State;
     /// A matrix of the right size, all entries 0.
@@ -63,7 +68,7 @@ pub trait Poisson<S: Scalar>: Sized {
     fn gradient(&self, mu: &Self::State, out: &mut Self::State);
     /// The Hessian of H: `out_ij = d^2H/dmu_i dmu_j`.
     fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian);
-    /// The Poisson matrix: `out_ij = {mu_i, mu_j} = -C_ij^k mu_k`.
+    /// The Poisson matrix: `out_ij = {mu_i, mu_j}`, of a Lie algebra `-C_ij^k mu_k`.
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian);
 
     /// The derivative of the Poisson matrix against a fixed vector: `out_ij = d(Pi(mu) xi)_i/dmu_j`.
@@ -111,7 +116,7 @@ pub trait LiePoisson<S: Scalar>: Poisson<S> {
 /// A system that can be had over dual numbers too, and so be differentiated by running it.
 ///
 /// Generated for every system; by hand, convert the constants with [`Dual::constant_of`].
-pub trait Lift<S: Scalar>: LiePoisson<S> {
+pub trait Lift<S: Scalar>: Poisson<S> {
     /// The same system over dual numbers.
     type Lifted: Lift<Dual<S>>;
     /// The system with all its constants as dual numbers without derivative.

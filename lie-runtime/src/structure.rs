@@ -100,6 +100,8 @@ pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
     /// Whether Gauss methods applied to `g' = g rho(xi)` stay in the group, up to matrices that commute with it: the
     /// span is closed under `(abc + cba)/2`.
     const CLOSED: bool;
+    /// Whether all matrices are antisymmetric: the group element is orthogonal.
+    const ORTHOGONAL: bool;
     /// Whether the system is right-invariant, `g' = xi g`: its structure constants and matrices then are those
     /// of the opposite algebra, the negative ones.
     const RIGHT: bool = false;

@@ -113,7 +113,8 @@ pub struct Methods {
 /// `lie run`.
 #[derive(Args, Debug, Default)]
 #[command(after_help = "Numbers may be exact constants: 1/7, -1/2, cos(11/10).
-Flags override the `run` keys of the spec; without either: --method lie-midpoint --step 0.01 --until 10.
+Flags override the `run` keys of the spec; without either: --method lie-midpoint (midpoint
+where the bracket is not that of an algebra) --step 0.01 --until 10.
 Exit codes: 0 done, 1 surroundings failed, 2 invalid input, 3 integration stopped early, 130 Ctrl-C.")]
 pub struct Run {
     /// The spec file
@@ -186,6 +187,9 @@ pub struct MethodOptions {
     /// Discrete gradient of orbit-energy: gonzalez, mean-value or itoh-abe
     #[arg(long, value_name = "NAME")]
     pub gradient: Option<String>,
+    /// Poisson tensor of gonzalez, mean-value, itoh-abe: midpoint or mean
+    #[arg(long, value_name = "NAME")]
+    pub tensor: Option<String>,
 }
 
 impl MethodOptions {
@@ -197,6 +201,7 @@ impl MethodOptions {
             "pieces" => ("--pieces", &self.pieces),
             "lift" => ("--lift", &self.lift),
             "gradient" => ("--gradient", &self.gradient),
+            "tensor" => ("--tensor", &self.tensor),
             _ => return None,
         };
         value.as_ref().map(|value| (flag, value))

@@ -7,7 +7,14 @@ use lie_codegen::model::Model;
 use crate::message::Message;
 
 /// The options by which a method is chosen; the others are numbers of a run.
-pub const OPTIONS: [&str; 5] = ["retraction", "composition", "pieces", "lift", "gradient"];
+pub const OPTIONS: [&str; 6] = [
+    "retraction",
+    "composition",
+    "pieces",
+    "lift",
+    "gradient",
+    "tensor",
+];
 
 /// The method of an id, with its default options.
 ///

@@ -28,6 +28,7 @@ fn kept(method: &Method) -> String {
         quadratic_casimirs,
         orbit,
         poisson,
+        constant_poisson,
         quadratic_invariants,
         linear_invariants,
     } = method.preserves;
@@ -36,6 +37,7 @@ fn kept(method: &Method) -> String {
     }
     let all = [
         (poisson, "Poisson"),
+        (constant_poisson && !poisson, "Poisson if constant"),
         (orbit, "orbit"),
         (casimirs && !orbit, "Casimirs"),
         (energy, "energy"),
@@ -60,6 +62,7 @@ fn as_json(method: &Method) -> Value {
         quadratic_casimirs,
         orbit,
         poisson,
+        constant_poisson,
         quadratic_invariants,
         linear_invariants,
     } = method.preserves;
@@ -80,6 +83,7 @@ fn as_json(method: &Method) -> Value {
             "quadratic_casimirs": quadratic_casimirs,
             "orbit": orbit,
             "poisson": poisson,
+            "constant_poisson": constant_poisson,
             "quadratic_invariants": quadratic_invariants,
             "linear_invariants": linear_invariants,
         },
@@ -138,7 +142,8 @@ fn table() -> String {
     }
     let mut text = aligned(&rows);
     text.push_str(
-        "\nOrbit: the coadjoint orbit, with it every Casimir. Poisson: each step is a Poisson map.\n",
+        "\nOrbit: the coadjoint orbit, with it every Casimir. Poisson: each step is a Poisson map; if \
+         constant: where the Poisson matrix is constant.\n",
     );
     text.push_str("\nOptions and their defaults (a composition takes those of its base, too):\n");
     for (option, takers) in &options {

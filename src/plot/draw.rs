@@ -12,7 +12,7 @@ const ZOOM: i32 = 4;
 const WIDTH: i32 = 960;
 const HEIGHT: i32 = 740;
 const HEAD: i32 = 72;
-/// Height of the panel of the trajectory.
+/// Height of the panels of the trajectory and of the group element.
 const UPPER: i32 = 350;
 
 /// Colours that stay apart for colour-blind readers on white (after Okabe and Ito, and Tol).
@@ -61,37 +61,47 @@ struct Panel {
 
 pub fn svg(plot: &Plot) -> Result<String, Box<dyn std::error::Error>> {
     let mut text = String::new();
+    let mut panels = vec![trajectory(plot)];
+    if !plot.element.is_empty() {
+        panels.push(element(plot));
+    }
+    panels.push(errors(plot));
+    let height = HEIGHT + UPPER * (panels.len() as i32 - 2);
     {
-        let size = ((WIDTH * ZOOM) as u32, (HEIGHT * ZOOM) as u32);
+        let size = ((WIDTH * ZOOM) as u32, (height * ZOOM) as u32);
         let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
         root.fill(&WHITE)?;
         write(&root, &plot.title, (20, 14), 22, INK)?;
         write(&root, &plot.subtitle, (20, 41), 15, FAINT)?;
-        let panels = [trajectory(plot), errors(plot)];
         let widest = panels
             .iter()
             .flat_map(|panel| &panel.lines)
             .map(|l| l.label.chars().count());
         let legend = (widest.max().unwrap_or(0) as i32 * 8 + 50).clamp(90, 260);
-        let (_, rest) = root.split_vertically(HEAD * ZOOM);
-        let (upper, lower) = rest.split_vertically(UPPER * ZOOM);
-        for (area, panel) in [upper, lower].iter().zip(&panels) {
+        let (_, mut rest) = root.split_vertically(HEAD * ZOOM);
+        for (place, panel) in panels.iter().enumerate() {
+            let (area, below) = if place + 1 < panels.len() {
+                rest.split_vertically(UPPER * ZOOM)
+            } else {
+                (rest.clone(), rest)
+            };
+            rest = below;
             let (chart, beside) = area.split_horizontally((WIDTH - legend) * ZOOM);
             draw(&chart, panel)?;
             draw_legend(&beside, panel)?;
         }
         root.present()?;
     }
-    Ok(scaled_down(&text, &plot.title))
+    Ok(scaled_down(&text, &plot.title, height))
 }
 
 /// The size on paper, round joints, and a name for readers that do not see.
-fn scaled_down(svg: &str, title: &str) -> String {
+fn scaled_down(svg: &str, title: &str, height: i32) -> String {
     let body = svg.split_once('>').map_or("", |(_, body)| body);
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
-    let (wide, high) = (WIDTH * ZOOM, HEIGHT * ZOOM);
+    let (wide, high) = (WIDTH * ZOOM, height * ZOOM);
     format!(
-        "<svg width=\"{WIDTH}\" height=\"{HEIGHT}\" viewBox=\"0 0 {wide} {high}\" \
+        "<svg width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {wide} {high}\" \
          stroke-linejoin=\"round\" xmlns=\"http://www.w3.org/2000/svg\">\n<title>{title}</title>{body}"
     )
 }
@@ -101,7 +111,15 @@ fn time_axis(plot: &Plot) -> Axis {
 }
 
 fn trajectory(plot: &Plot) -> Panel {
-    let bounds = plot.states.iter().filter_map(|curve| curve.bins.bounds());
+    components(plot, &plot.states, "Trajectory", "components of μ")
+}
+
+fn element(plot: &Plot) -> Panel {
+    components(plot, &plot.element, "Group element", "entries of g")
+}
+
+fn components(plot: &Plot, curves: &[Curve], title: &str, y_title: &'static str) -> Panel {
+    let bounds = curves.iter().filter_map(|curve| curve.bins.bounds());
     let (low, high) = bounds
         .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
         .unwrap_or((0.0, 0.0));
@@ -110,13 +128,13 @@ fn trajectory(plot: &Plot) -> Panel {
         pieces: curve.bins.pieces(),
     };
     Panel {
-        title: "Trajectory".to_owned(),
+        title: title.to_owned(),
         x: time_axis(plot),
         y: Axis::linear(low, high, 6.0, 0.05),
         x_title: "t",
-        y_title: "components of μ",
+        y_title,
         logarithmic: false,
-        lines: plot.states.iter().map(line).collect(),
+        lines: curves.iter().map(line).collect(),
         colour,
         markers: plot.rows <= 60,
     }

@@ -40,6 +40,8 @@ pub struct Plot {
     subtitle: String,
     states: Vec<Curve>,
     invariants: Vec<Curve>,
+    /// Entries of the group element, if there are any.
+    element: Vec<Curve>,
     range: (f64, f64),
     rows: u64,
     /// Largest absolute value of a state component.
@@ -66,24 +68,24 @@ impl Plot {
     ) -> Self {
         let names: Vec<&str> = columns.iter().skip(1).map(AsRef::as_ref).collect();
         let (states, invariants) = names.split_at(states.min(names.len()));
-        let curves = |names: &[&str], per_column: usize| -> Vec<Curve> {
-            let columns = (POINTS / (per_column * names.len().max(1))).clamp(50, COLUMNS);
-            let curve = |name: &&str| Curve {
-                name: (*name).to_owned(),
-                bins: Bins::new(range, columns),
-                first: f64::NAN,
-            };
-            names.iter().map(curve).collect()
-        };
         Self {
             title: title.into(),
             subtitle: String::new(),
-            states: curves(states, 4),
-            invariants: curves(invariants, 1),
+            states: curves(states, 4, range),
+            invariants: curves(invariants, 1, range),
+            element: Vec::new(),
             range,
             rows: 0,
             scale: 0.0,
         }
+    }
+
+    /// A panel for the entries of the group element, the last columns of a row.
+    #[must_use]
+    pub fn element(mut self, columns: &[impl AsRef<str>]) -> Self {
+        let names: Vec<&str> = columns.iter().map(AsRef::as_ref).collect();
+        self.element = curves(&names, 4, self.range);
+        self
     }
 
     /// A second line under the title, such as the method and the step.
@@ -99,7 +101,11 @@ impl Plot {
         let Some((&t, values)) = row.split_first() else {
             return;
         };
-        let (states, invariants) = values.split_at(self.states.len().min(values.len()));
+        let (states, rest) = values.split_at(self.states.len().min(values.len()));
+        let (invariants, element) = rest.split_at(self.invariants.len().min(rest.len()));
+        for (curve, &value) in self.element.iter_mut().zip(element) {
+            curve.bins.push(t, value);
+        }
         for (curve, &value) in self.states.iter_mut().zip(states) {
             if self.rows == 0 {
                 curve.first = value;
@@ -133,6 +139,17 @@ impl Plot {
     pub fn write_svg(&self, path: impl AsRef<Path>) -> io::Result<()> {
         std::fs::write(path, self.to_svg())
     }
+}
+
+/// Curves without points, `per_column` of them for each pixel column.
+fn curves(names: &[&str], per_column: usize, range: (f64, f64)) -> Vec<Curve> {
+    let columns = (POINTS / (per_column * names.len().max(1))).clamp(50, COLUMNS);
+    let curve = |name: &&str| Curve {
+        name: (*name).to_owned(),
+        bins: Bins::new(range, columns),
+        first: f64::NAN,
+    };
+    names.iter().map(curve).collect()
 }
 
 /// What the error of an invariant is divided by: |I₀|, or nothing where I₀ is only round-off

@@ -120,6 +120,26 @@ pub fn equations<P: Implicits<f64>>(
     random: &mut Random,
     errors: &mut Errors,
 ) {
+    of_field(fused, reference, mu, h, random, errors);
+    let mut compare = Comparison { mu, random, errors };
+    compare.run(
+        "exp",
+        fused.equation(&LieMidpoint::exp(), h),
+        generic::ExpMidpoint::new(reference, h),
+    );
+}
+
+/// The equations that every Poisson system has.
+pub fn of_field<P>(
+    fused: &P,
+    reference: &P,
+    mu: &P::State,
+    h: f64,
+    random: &mut Random,
+    errors: &mut Errors,
+) where
+    P: Implicit<f64, ImplicitMidpoint> + Implicit<f64, Gauss4> + Implicit<f64, Gauss6>,
+{
     let mut compare = Comparison { mu, random, errors };
     compare.run(
         "midpoint",
@@ -135,11 +155,6 @@ pub fn equations<P: Implicits<f64>>(
         "gauss6",
         fused.equation(&Gauss6, h),
         generic::Gauss::<_, _, 3>::new(reference, h),
-    );
-    compare.run(
-        "exp",
-        fused.equation(&LieMidpoint::exp(), h),
-        generic::ExpMidpoint::new(reference, h),
     );
 }
 

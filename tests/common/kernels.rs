@@ -40,6 +40,22 @@ pub fn kernels<P, Q>(
     P: LiePoisson<f64>,
     Q: LiePoisson<Dual<f64>>,
 {
+    of_poisson(fused, reference, dual, mu, random, errors);
+    of_algebra(fused, reference, mu, random, errors);
+}
+
+/// The kernels that every Poisson system has.
+pub fn of_poisson<P, Q>(
+    fused: &P,
+    reference: &P,
+    dual: &Q,
+    mu: &[f64],
+    random: &mut Random,
+    errors: &mut Errors,
+) where
+    P: Poisson<f64>,
+    Q: Poisson<Dual<f64>>,
+{
     let other = nudged(mu, errors);
     let (mu, nu) = (state(fused, mu), state(fused, &other));
     let mut vector = [fused.zero_state(), fused.zero_state()];
@@ -83,7 +99,32 @@ pub fn kernels<P, Q>(
         &entries(&matrix[1]),
     );
 
-    // the algebra
+    // the derivative of the Poisson matrix against a vector
+    let coordinates = random.numbers(P::DIM);
+    let xi = state(fused, &coordinates);
+    fused.poisson_slope(&mu, &xi, &mut matrix[0]);
+    let slope = derivatives(dual, &other, P::DIM, |mu, out| {
+        let (xi, mut image) = (state(dual, &coordinates), dual.zero_state());
+        generic::ad_star(dual, &xi, mu, &mut image);
+        out.copy_from_slice(image.as_slice());
+    });
+    errors.compare("poisson_slope", &entries(&matrix[0]), &slope);
+
+    casimirs(fused, dual, &mu, nu.as_slice(), errors);
+}
+
+/// The kernels of the algebra.
+fn of_algebra<P: LiePoisson<f64>>(
+    fused: &P,
+    reference: &P,
+    mu: &[f64],
+    random: &mut Random,
+    errors: &mut Errors,
+) {
+    let other = nudged(mu, errors);
+    let (mu, nu) = (state(fused, mu), state(fused, &other));
+    let mut vector = [fused.zero_state(), fused.zero_state()];
+    let mut matrix = [fused.zero_jacobian(), fused.zero_jacobian()];
     let coordinates = random.numbers(P::DIM);
     let (xi, other) = (
         state(fused, &coordinates),
@@ -124,15 +165,13 @@ pub fn kernels<P, Q>(
         }
     }
     errors.compare("poisson_matrix", &entries(&matrix[0]), &brackets);
-
-    casimirs(fused, dual, &mu, nu.as_slice(), errors);
 }
 
 /// Gradients of the Casimirs, which the Poisson matrix takes to zero.
 pub fn casimirs<P, Q>(fused: &P, dual: &Q, mu: &P::State, other: &[f64], errors: &mut Errors)
 where
-    P: LiePoisson<f64>,
-    Q: LiePoisson<Dual<f64>>,
+    P: Poisson<f64>,
+    Q: Poisson<Dual<f64>>,
 {
     let slopes = derivatives(dual, other, P::CASIMIRS, |mu, out| dual.casimirs(mu, out));
     let (mut gradient, mut image) = (fused.zero_state(), fused.zero_state());
@@ -143,7 +182,7 @@ where
             Unknown::<f64>::max_norm(&gradient) > 1e-3,
             "Casimir {index} is constant"
         );
-        fused.ad_star(&gradient, mu, &mut image);
+        generic::ad_star(fused, &gradient, mu, &mut image);
         let zero = vec![errors.nudge; P::DIM];
         errors.compare("bracket of a Casimir", image.as_slice(), &zero);
     }

@@ -3,15 +3,26 @@
 // Each test file uses its own part of this.
 #![allow(dead_code, unused_macros, unused_imports)]
 
-use lie_runtime::methods::{Exp, Gauss4, Gauss6, ImplicitMidpoint, LieMidpoint};
+use lie_runtime::methods::{
+    CohenHairer, Exp, Gauss4, Gauss6, Gonzalez, ImplicitMidpoint, ItohAbe, LieMidpoint, MeanValue,
+};
 use lie_runtime::{Implicit, LiePoisson, Lift, Poisson, Scalar, State};
 
+#[path = "../golden/canonical_pendulum.rs"]
+#[rustfmt::skip]
+pub mod canonical_pendulum;
 #[path = "../golden/e2_pendulum.rs"]
 #[rustfmt::skip]
 pub mod e2_pendulum;
 #[path = "../golden/heisenberg_h3.rs"]
 #[rustfmt::skip]
 pub mod heisenberg_h3;
+#[path = "../golden/lotka_volterra.rs"]
+#[rustfmt::skip]
+pub mod lotka_volterra;
+#[path = "../golden/se2_circulation.rs"]
+#[rustfmt::skip]
+pub mod se2_circulation;
 #[path = "../golden/se3_heavy_top.rs"]
 #[rustfmt::skip]
 pub mod se3_heavy_top;
@@ -55,8 +66,11 @@ pub mod su3_quadratic;
 #[rustfmt::skip]
 pub mod toda3_solvable;
 
+pub use canonical_pendulum::CanonicalPendulum;
 pub use e2_pendulum::Pendulum;
 pub use heisenberg_h3::Heisenberg;
+pub use lotka_volterra::LotkaVolterra;
+pub use se2_circulation::BodyWithCirculation;
 pub use se3_heavy_top::HeavyTop;
 pub use se3_kirchhoff::KirchhoffBody;
 pub use sl2_quadratic::Sl2Quadratic;
@@ -89,7 +103,10 @@ pub trait Declared {
 
 macro_rules! declared {
     ($file:ident, $name:ident, $system:ident) => {
-        impl Declared for $name {
+        declared!(Declared, $file, $name, $system);
+    };
+    ($trait:ident, $file:ident, $name:ident, $system:ident) => {
+        impl $trait for $name {
             const FILE: &'static str = stringify!($file);
             type System<S: Scalar> = $file::$system<S>;
             fn declared<S: Scalar>() -> Self::System<S> {
@@ -154,6 +171,73 @@ macro_rules! each_further_system {
         $check!(so3_gravity_gradient, Satellite, exp);
         $check!(so3_gyrostat_lagrangian, Gyrostat, exp);
         $check!(so3_quartic_lagrangian, QuarticBody, exp);
+    };
+}
+
+/// The methods that ask for nothing but a Poisson bracket.
+pub trait OfPoisson<S: Scalar>:
+    Lift<S>
+    + Implicit<S, ImplicitMidpoint>
+    + Implicit<S, Gauss4>
+    + Implicit<S, Gauss6>
+    + Implicit<S, Gonzalez>
+    + Implicit<S, MeanValue>
+    + Implicit<S, ItohAbe>
+    + Implicit<S, CohenHairer<1>>
+    + Implicit<S, CohenHairer<2>>
+    + Implicit<S, CohenHairer<3>>
+{
+}
+
+impl<S: Scalar, P> OfPoisson<S> for P where
+    P: Lift<S>
+        + Implicit<S, ImplicitMidpoint>
+        + Implicit<S, Gauss4>
+        + Implicit<S, Gauss6>
+        + Implicit<S, Gonzalez>
+        + Implicit<S, MeanValue>
+        + Implicit<S, ItohAbe>
+        + Implicit<S, CohenHairer<1>>
+        + Implicit<S, CohenHairer<2>>
+        + Implicit<S, CohenHairer<3>>
+{
+}
+
+/// A system of `specs/` whose bracket is not that of an algebra alone.
+pub trait Bracketed {
+    /// The name of its spec and golden file.
+    const FILE: &'static str;
+    type System<S: Scalar>: OfPoisson<S>;
+    fn declared<S: Scalar>() -> Self::System<S>;
+    /// The initial state of the declaration.
+    fn initial<S: Scalar>() -> <Self::System<S> as Poisson<S>>::State;
+}
+
+declared!(
+    Bracketed,
+    canonical_pendulum,
+    CanonicalPendulum,
+    CanonicalPendulumSystem
+);
+declared!(
+    Bracketed,
+    lotka_volterra,
+    LotkaVolterra,
+    LotkaVolterraSystem
+);
+declared!(
+    Bracketed,
+    se2_circulation,
+    BodyWithCirculation,
+    BodyWithCirculationSystem
+);
+
+/// Calls a macro once per system whose bracket is not that of an algebra alone: file and type.
+macro_rules! each_bracket {
+    ($check:ident) => {
+        $check!(canonical_pendulum, CanonicalPendulum);
+        $check!(lotka_volterra, LotkaVolterra);
+        $check!(se2_circulation, BodyWithCirculation);
     };
 }
 

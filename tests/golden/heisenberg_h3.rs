@@ -305,6 +305,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeisenbergSyste
         &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
     ];
     const CLOSED: bool = true;
+    const ORTHOGONAL: bool = false;
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeisenbergSystem<S> {

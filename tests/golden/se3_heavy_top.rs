@@ -625,6 +625,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeavyTopSystem<
         &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
     ];
     const CLOSED: bool = true;
+    const ORTHOGONAL: bool = false;
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSystem<S> {

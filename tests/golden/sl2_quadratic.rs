@@ -356,6 +356,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for Sl2QuadraticSys
         &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
     ];
     const CLOSED: bool = true;
+    const ORTHOGONAL: bool = false;
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>

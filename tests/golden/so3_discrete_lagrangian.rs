@@ -575,6 +575,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for DiscreteBodySys
         ],
     ];
     const CLOSED: bool = true;
+    const ORTHOGONAL: bool = true;
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>

@@ -530,6 +530,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for GyrostatSystem<
         ],
     ];
     const CLOSED: bool = true;
+    const ORTHOGONAL: bool = true;
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for GyrostatSystem<S> {

@@ -401,6 +401,7 @@ for NonpolynomialSpinSystem<S> {
         ],
     ];
     const CLOSED: bool = true;
+    const ORTHOGONAL: bool = true;
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>

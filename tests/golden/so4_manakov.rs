@@ -778,6 +778,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for ManakovTopSyste
         ],
     ];
     const CLOSED: bool = true;
+    const ORTHOGONAL: bool = true;
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for ManakovTopSystem<S> {

@@ -750,6 +750,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for Su3QuadraticSys
         ],
     ];
     const CLOSED: bool = true;
+    const ORTHOGONAL: bool = true;
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>

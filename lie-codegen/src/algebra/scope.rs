@@ -36,8 +36,7 @@ impl<'a> Scope<'a> {
     pub fn new(declaration: &'a Declaration) -> Self {
         let mut meanings = HashMap::new();
         let basis: Vec<&str> = declaration
-            .algebra
-            .basis
+            .basis()
             .iter()
             .map(|n| n.text.as_str())
             .collect();

@@ -3,7 +3,7 @@
 use crate::algebra::{
     Representation, Scope, StructureConstants, WORK, brackets, jacobi, representation,
 };
-use crate::ast::Declaration;
+use crate::ast::{self, Declaration};
 use crate::diagnostic::Report;
 use crate::exact::{Budget, Fraction};
 
@@ -15,10 +15,23 @@ pub struct Algebra {
     pub representation: Option<Representation>,
 }
 
+impl Algebra {
+    /// No structure at all, for brackets that belong to no algebra.
+    pub fn none(dimension: usize) -> Self {
+        Self {
+            constants: StructureConstants::new(dimension, Vec::new()),
+            representation: None,
+        }
+    }
+}
+
 /// Checks everything that does not depend on the functions, so that a slip in the Hamiltonian
 /// does not hide one in a bracket.
-pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Algebra> {
-    let algebra = &declaration.algebra;
+pub fn check(
+    declaration: &Declaration,
+    algebra: &ast::Algebra,
+    report: &mut Report,
+) -> Option<Algebra> {
     let scope = Scope::new(declaration);
     let budget = Budget::new(WORK);
     let with_matrices = !algebra.matrices.is_empty();

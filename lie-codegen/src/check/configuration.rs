@@ -4,12 +4,15 @@
 //! `H(g, mu)` are those of the semidirect product of the algebra with the matrices: the entries `g_ab` are
 //! coordinates beside mu, and `g' = g rho(xi)` is the coadjoint action when
 //! `[e_i, E_ab] = sum_c rho(e_i)_cb E_ac`. For `H(t, mu)` the time and its momentum are a canonical pair
-//! beside mu: `K = H + p`, `t' = dK/dp = 1`, `p' = -dH/dt`, in the Heisenberg algebra `[P, T] = Z`.
+//! beside mu: `K = H + p`, `t' = dK/dp = 1`, `p' = -dH/dt`, in the Heisenberg algebra `[P, T] = Z`; beside
+//! brackets of coordinates they have the bracket `{t, p} = 1`.
 //!
 //! Both are written into the declaration, so that all checks see one algebra. The order of the coordinates
 //! is mu, p, the entries of g row by row, t, and the central one, whose value is 1.
 
-use crate::ast::{Algebra, Bracket, Declaration, Expr, ExprKind, Invariance, Matrix, Name};
+use crate::ast::{
+    Algebra, Bracket, Declaration, Expr, ExprKind, Invariance, Matrix, Name, Structure,
+};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Rational;
 
@@ -41,7 +44,12 @@ impl Configuration {
     /// What the coordinates are.
     pub fn description(&self) -> String {
         let own = self.momenta - usize::from(self.time);
-        let mut parts = vec![format!("{own} momenta")];
+        // beside the time alone they may be any coordinates
+        let what = match self.group {
+            Some(_) => "momenta",
+            None => "coordinates",
+        };
+        let mut parts = vec![format!("{own} {what}")];
         if let Some((name, size)) = &self.group {
             parts.push(format!(
                 "the {size} x {size} entries of the group element {name}"
@@ -125,7 +133,10 @@ fn entry(name: &str, size: usize, row: usize, column: usize) -> String {
 /// The configuration of a declaration; `None` where it has neither a group element nor the time.
 pub fn of(declaration: &Declaration, report: &mut Report) -> Option<Configuration> {
     let group = declaration.group.as_ref().and_then(|name| {
-        let size = declaration.algebra.matrices.first().map(|m| m.rows.len());
+        let size = declaration
+            .algebra()
+            .and_then(|algebra| algebra.matrices.first())
+            .map(|m| m.rows.len());
         if size.is_none() {
             report.push(
                 Diagnostic::new(
@@ -143,7 +154,7 @@ pub fn of(declaration: &Declaration, report: &mut Report) -> Option<Configuratio
         return None;
     }
     Some(Configuration {
-        momenta: declaration.algebra.basis.len() + usize::from(time),
+        momenta: declaration.dimension() + usize::from(time),
         group,
         time,
     })
@@ -185,7 +196,7 @@ pub fn extended(
     let entries = configuration.entries();
     clashes(declaration, &entries, origin, report);
     let mut whole = declaration.clone();
-    for names in [&mut whole.algebra.basis, &mut whole.state] {
+    let add = |names: &mut Vec<Name>| {
         if configuration.time {
             names.push(name(TIME_MOMENTUM));
         }
@@ -193,31 +204,48 @@ pub fn extended(
         if configuration.time {
             names.extend([name(TIME), name(UNIT)]);
         }
-    }
-    let builder = Builder {
-        algebra: &declaration.algebra,
-        invariance: declaration.invariance,
-        configuration,
+    };
+    add(&mut whole.state);
+    let number = |value| Expr {
+        kind: ExprKind::Number(Rational::from(value)),
         origin,
     };
-    if let Some(brackets) = &mut whole.algebra.brackets {
-        builder.add_brackets(brackets);
-    }
-    if !declaration.algebra.matrices.is_empty() {
-        whole.algebra.matrices = builder.matrices();
-    }
-    if let Some(initial) = &declaration.initial {
-        let number = |value| builder.number(Rational::from(value));
-        if let Some(complete) = configuration.complete(initial, number) {
-            whole.initial = Some(complete);
+    match &mut whole.structure {
+        Structure::Lie { algebra, .. } => {
+            let declared = algebra.clone();
+            let builder = Builder {
+                algebra: &declared,
+                invariance: declaration.invariance,
+                configuration,
+                origin,
+            };
+            add(&mut algebra.basis);
+            if let Some(brackets) = &mut algebra.brackets {
+                builder.add_brackets(brackets);
+            }
+            if !declared.matrices.is_empty() {
+                algebra.matrices = builder.matrices();
+            }
         }
+        // the pair is canonical by itself; the central coordinate is there for the order of the others
+        Structure::General { brackets, .. } => brackets.push(Bracket {
+            left: name(TIME),
+            right: name(TIME_MOMENTUM),
+            value: number(1),
+            origin,
+        }),
+    }
+    if let Some(initial) = &declaration.initial
+        && let Some(complete) = configuration.complete(initial, number)
+    {
+        whole.initial = Some(complete);
     }
     whole
 }
 
 /// Reports names of the user that the entries of the group element take.
 pub fn clashes(declaration: &Declaration, entries: &[String], origin: Origin, report: &mut Report) {
-    let own = declaration.state.iter().chain(&declaration.algebra.basis);
+    let own = declaration.state.iter().chain(declaration.basis());
     let others = declaration.parameters.iter().map(|p| &p.name);
     let lets = declaration.lets.iter().map(|(name, _)| name);
     let velocity = declaration.energy.velocity();

@@ -24,7 +24,7 @@ pub fn check(
     let place = parameters
         .iter()
         .find(|p| p.exact.is_some())
-        .map_or(declaration.algebra.origin, |p| p.origin);
+        .map_or(declaration.place(), |p| p.origin);
     let bits = defaults
         .iter()
         .map(Rational::bits)
@@ -51,7 +51,7 @@ pub fn check(
         .iter()
         .find(|e| e.3.evaluate(&value).is_none())
     {
-        let [a, b] = [*i, *j].map(|index| &declaration.algebra.basis[index].text);
+        let [a, b] = [*i, *j].map(|index| &declaration.basis()[index].text);
         report.push(
             Diagnostic::new(
                 Kind::Number,

@@ -38,6 +38,16 @@ pub fn lagrangian(
     limit
 }
 
+/// The mistake of a discrete Lagrangian where there is no group alone to step on.
+pub fn elsewhere(origin: Origin) -> Diagnostic {
+    Diagnostic::new(
+        Kind::Legendre,
+        origin,
+        "a discrete Lagrangian needs the Lie–Poisson bracket of an algebra, and no dependence on the time",
+    )
+    .help("give the system by a `hamiltonian` or a `lagrangian`")
+}
+
 fn limit(graph: &mut Graph, series: &Series, count: usize) -> Option<ExprId> {
     let limit = series.coefficient(graph, 1)?;
     let mut divergent = Vec::new();

@@ -2,7 +2,7 @@
 
 use super::velocity::velocity;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::model::Model;
+use crate::model::{Model, Structure};
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
 
 /// Something that is not finite at a state.
@@ -29,14 +29,17 @@ pub fn check(model: &Model, origin: Option<Origin>, report: &mut Report) {
             format!("{} at the initial state", fault.message),
         );
         diagnostic.origin = entry.or(origin).or(model.initial_origins.first().copied());
-        report.push(
-            diagnostic.help("begin inside the domain of the Hamiltonian and of the Casimirs"),
-        );
+        report.push(diagnostic.help(match model.structure {
+            Structure::General => {
+                "begin inside the domain of the brackets, of the Hamiltonian and of the Casimirs"
+            }
+            _ => "begin inside the domain of the Hamiltonian and of the Casimirs",
+        }));
     }
 }
 
 /// The first thing that is not finite at a state: a coordinate, the Hamiltonian, a component of
-/// its gradient, a Casimir.
+/// its gradient, a Casimir, a bracket of a general Poisson matrix.
 pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
     if let Some(i) = mu.iter().position(|value| !value.is_finite()) {
         let message = format!("`{}` is not finite", model.coordinates[i].text);
@@ -81,6 +84,12 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
             .iter()
             .map(|c| (c.expr, format!("the Casimir `{}`", c.name))),
     );
+    if model.structure == Structure::General {
+        functions.extend(model.poisson.entries.iter().map(|(i, j, value)| {
+            let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);
+            (*value, format!("the bracket {{{a}, {b}}}"))
+        }));
+    }
     let value = |symbol| match symbol {
         Symbol::Coordinate(i) => mu[i],
         Symbol::Parameter(p) => parameters[p],

@@ -68,12 +68,12 @@ impl Build {
 
     /// The entries of g, row by row. What is wrong with the matrices or the velocity is reported elsewhere.
     fn cayley(&self, declaration: &Declaration, size: usize) -> Vec<Expr> {
-        let basis = &declaration.algebra.basis;
+        let basis = declaration.basis();
+        let all_matrices = declaration.algebra().map_or(&[][..], |a| &a.matrices[..]);
         let half = |row: usize, column: usize| -> Expr {
             let mut terms = vec![(false, self.number(i64::from(row == column)))];
             for (element, x) in basis.iter().zip(declaration.energy.velocity()) {
-                let matrices = declaration.algebra.matrices.iter();
-                let matrix = matrices.clone().find(|m| m.name.text == element.text);
+                let matrix = all_matrices.iter().find(|m| m.name.text == element.text);
                 let entry = matrix.and_then(|m| m.rows.get(row)?.get(column));
                 if let Some(entry) = entry {
                     let x = self.expr(ExprKind::Name {

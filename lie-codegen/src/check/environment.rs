@@ -85,7 +85,7 @@ impl<'a> Environment<'a> {
         if declaration.energy.has_step() {
             bindings.entry("h").or_insert(Binding::Symbol(Symbol::Step));
         }
-        for name in &declaration.algebra.basis {
+        for name in declaration.basis() {
             bindings.entry(name.text.as_str()).or_insert(Binding::Basis);
         }
         Self { bindings }

@@ -21,12 +21,12 @@ pub fn check(
         .iter()
         .map(|entry| Lowering::new(graph, environment, report, Allowed::Parameters).lower(entry))
         .collect();
-    let (count, dimension) = (entries.len(), declaration.algebra.basis.len());
+    let (count, dimension) = (entries.len(), declaration.dimension());
     if count != dimension {
         let place = declaration
             .initial_origin
             .or(entries.last().map(|e| e.origin))
-            .unwrap_or(declaration.algebra.origin);
+            .unwrap_or(declaration.place());
         report.push(
             Diagnostic::new(
                 Kind::StateLength,

@@ -35,6 +35,9 @@ pub struct Lagrangian<'a> {
     pub parameters: &'a [Parameter],
     /// The group element and the time, where the Lagrangian depends on them.
     pub configuration: Option<&'a Configuration>,
+    /// Whether the velocity is an element of an algebra and the bracket the Lie–Poisson one, so that a Newton
+    /// iteration for it can be generated.
+    pub on_algebra: bool,
 }
 
 impl Lagrangian<'_> {
@@ -62,7 +65,7 @@ pub fn hamiltonian(
         }
     };
     if !quadratic {
-        if lagrangian.configuration.is_some() {
+        if !lagrangian.on_algebra {
             report.push(not_quadratic(lagrangian));
             return None;
         }
@@ -379,7 +382,7 @@ fn not_quadratic(lagrangian: &Lagrangian<'_>) -> Diagnostic {
         Kind::Legendre,
         lagrangian.origin,
         "the Lagrangian is not quadratic in the velocity, or could not be shown to be, and it depends on the group \
-         element or the time",
+         element or the time, or the bracket is not that of an algebra",
     )
     .help("the Legendre transform of such Lagrangians is not built yet; give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
 }

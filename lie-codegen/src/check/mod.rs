@@ -1,11 +1,12 @@
 //! The checks: from the syntax tree to a model in which nothing is wrong.
 //!
 //! One module per check. The stages are: names, sizes, the algebra and the lowering of all
-//! expressions (their mistakes are reported together), then what needs a sound model: Casimirs
-//! and the domain.
+//! expressions (their mistakes are reported together), then what needs a sound model: the
+//! identities of other brackets, Casimirs and the domain.
 
 mod algebra;
 mod casimirs;
+mod cocycle;
 pub mod configuration;
 mod constant;
 mod defaults;
@@ -22,6 +23,9 @@ mod methods;
 mod names;
 pub(crate) mod normal;
 mod parameters;
+mod poisson;
+mod proof;
+mod ranks;
 mod sample;
 mod series;
 mod size;
@@ -30,15 +34,16 @@ mod velocity;
 #[cfg(test)]
 mod tests;
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use crate::algebra::{StructureConstants, rank};
-use crate::ast::{Declaration, Energy, Invariance};
+use crate::ast::{self, Declaration, Energy, Invariance};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Fraction, Rational};
-use crate::model::{self, Casimir, Model, Transform};
+use crate::model::{self, Casimir, Model, PoissonMatrix, Structure, Transform};
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
+use algebra::Algebra;
 use casimirs::Candidate;
 use configuration::Configuration;
 use environment::{Allowed, Environment};
@@ -89,11 +94,16 @@ fn system(
     configuration: Option<&Configuration>,
     report: &mut Report,
 ) -> Option<Model> {
-    let algebra = algebra::check(declaration, report);
+    let algebra = match declaration.algebra() {
+        Some(algebra) => algebra::check(declaration, algebra, report),
+        None => Some(Algebra::none(declaration.dimension())),
+    };
+    cocycle::parameters(declaration, report);
     let mut graph = Graph::new();
     let mut environment = Environment::new(declaration);
     let parameters = parameters::check(declaration, &mut graph, &environment, report);
     lets::check(declaration, &mut graph, &mut environment, report);
+    let brackets = poisson::check(declaration, &mut graph, &environment, report);
     let mut lower =
         |expr, allowed| Lowering::new(&mut graph, &environment, report, allowed).lower(expr);
     let energy = lower(
@@ -115,6 +125,7 @@ fn system(
         return None;
     }
     let (algebra, parameters, initial) = (algebra?, parameters?, initial?);
+    let brackets = brackets?;
     let constants = algebra.constants;
     let defaults = defaults::check(declaration, &constants, &parameters, report)?;
     // The right-invariant system is the left-invariant one of the opposite algebra.
@@ -135,11 +146,12 @@ fn system(
         ),
     };
     let constants = exact_constants.map(|value| expression(&mut graph, value));
-    let symbol_name = |symbol| match symbol {
-        Symbol::Coordinate(i) => declaration.state[i].text.clone(),
-        Symbol::Parameter(p) => declaration.parameters[p].name.text.clone(),
-        _ => String::new(),
+    let structure = match &declaration.structure {
+        ast::Structure::General { .. } => Structure::General,
+        ast::Structure::Lie { .. } if brackets.is_empty() => Structure::Lie,
+        ast::Structure::Lie { .. } => Structure::Extended,
     };
+    let symbol_name = |symbol| poisson::symbol_name(declaration, symbol);
     let candidates: Vec<Candidate> = named(
         declaration,
         &lowered.into_iter().collect::<Option<Vec<_>>>()?,
@@ -151,7 +163,13 @@ fn system(
             if !size::lagrangian(&graph, declared, velocity.len(), value.origin, report) {
                 return None;
             }
+            // one that depends on the group element or the time is none on the algebra alone
+            let on_algebra = configuration.is_none() && structure == Structure::Lie;
             let discrete = declaration.energy.has_step().then_some(declared);
+            if discrete.is_some() && !on_algebra {
+                report.push(discrete::elsewhere(value.origin));
+                return None;
+            }
             let reduced = match discrete {
                 Some(discrete) => {
                     let count = velocity.len();
@@ -165,10 +183,10 @@ fn system(
                 origin: value.origin,
                 parameters: &parameters,
                 configuration,
+                on_algebra,
             };
             let (hamiltonian, transform) = legendre::hamiltonian(&mut graph, &lagrangian, report)?;
-            // one that depends on the group element or the time is none on the algebra alone
-            let reduced = configuration.is_none().then(|| model::Lagrangian {
+            let reduced = on_algebra.then(|| model::Lagrangian {
                 value: lagrangian.value,
                 velocity: velocity.clone(),
                 transform,
@@ -189,27 +207,60 @@ fn system(
         }
         _ => hamiltonian,
     };
+    // The matrix of an algebra is looked at here and no more: it leaves the arena as it is.
+    let mut scratch = graph.clone();
+    let arena = match structure {
+        Structure::Lie => &mut scratch,
+        _ => &mut graph,
+    };
+    let mut poisson = poisson_matrix(arena, structure, &constants, &brackets);
+    if structure != Structure::Lie {
+        scratch = graph.clone();
+    }
     let functions: Vec<_> = candidates.iter().map(|c| (c.expr, c.origin)).collect();
     let energy = (hamiltonian, declaration.energy.expression().origin);
-    size::derived(&graph, &constants, energy, &functions, report);
+    size::derived(&scratch, &poisson, energy, &functions, report);
     if report.has_errors() {
         return None;
     }
-    let mut scratch = graph.clone();
+    match structure {
+        Structure::Lie => {}
+        Structure::Extended => {
+            cocycle::check(declaration, &brackets, &constants, &mut scratch, report);
+        }
+        Structure::General => {
+            poisson::jacobi(declaration, &brackets, &mut scratch, report);
+            let degrees = poisson.entries.iter();
+            let mut degrees = degrees.map(|(.., value)| casimirs::degree(&graph, *value));
+            poisson.degree = degrees.try_fold(0, |most, degree| Some(most.max(degree?)));
+        }
+    }
     let mut degrees = Vec::new();
     for candidate in &candidates {
         degrees.push(casimirs::check(
             candidate,
             &mut scratch,
-            &constants,
+            &poisson,
             &symbol_name,
             report,
         ));
     }
     let degrees: Vec<Option<u32>> = degrees.into_iter().collect::<Option<_>>()?;
     let casimirs = independent(declaration, &graph, candidates, &degrees, report);
-    let dimension = declaration.algebra.basis.len();
-    let generic_rank = rank::generic(&exact_constants, dimension - casimirs.len().min(dimension));
+    let dimension = declaration.dimension();
+    let bound = (dimension - casimirs.len().min(dimension)) & !1;
+    let generic_rank = match structure {
+        Structure::Lie => rank::generic(&exact_constants, bound),
+        _ => {
+            let rows = poisson.rows(&mut scratch);
+            let rows: Vec<&Vec<ExprId>> = rows.iter().collect();
+            // where no point is in the domain the initial state decides
+            ranks::generic(&scratch, &rows, bound).unwrap_or(bound)
+        }
+    };
+    if structure == Structure::Lie {
+        poisson.entries.clear();
+    }
     let (pieces, hamiltonian_degree) = if exact {
         let pieces = separable::coordinates(&mut scratch, hamiltonian, dimension);
         (pieces, casimirs::degree(&scratch, hamiltonian))
@@ -223,7 +274,9 @@ fn system(
         description: declaration.description.clone(),
         references: declaration.references.clone(),
         graph,
-        basis: declaration.algebra.basis.clone(),
+        structure,
+        poisson,
+        basis: declaration.basis().to_vec(),
         coordinates: declaration.state.clone(),
         parameters,
         constants,
@@ -256,10 +309,63 @@ fn system(
         return None;
     }
     model.initial_rank = model.initial_values(&model.defaults()).and_then(|mu| {
+        if structure != Structure::Lie {
+            return initial_rank(&model, &mut scratch, &mu);
+        }
         let mu: Option<Vec<Rational>> = mu.into_iter().map(Rational::from_f64).collect();
         rank::at(&model.exact_constants, &mu?, &defaults, generic_rank)
     });
     Some(model)
+}
+
+/// The entries of the Poisson matrix: `-C_ij^k x_k` of an algebra, and what is declared.
+fn poisson_matrix(
+    graph: &mut Graph,
+    structure: Structure,
+    constants: &StructureConstants<ExprId>,
+    brackets: &[poisson::Entry],
+) -> PoissonMatrix {
+    let mut terms: BTreeMap<(usize, usize), Vec<ExprId>> = BTreeMap::new();
+    for (i, j, k, value) in constants.entries() {
+        let x = graph.symbol(Symbol::Coordinate(*k));
+        let product = graph.mul(*value, x);
+        let term = graph.neg(product);
+        terms.entry((*i, *j)).or_default().push(term);
+    }
+    for entry in brackets {
+        let pair = (entry.row, entry.column);
+        terms.entry(pair).or_default().push(entry.value);
+    }
+    let entries = terms.into_iter();
+    let entries = entries.map(|((i, j), terms)| (i, j, graph.sum(&terms)));
+    let entries: Vec<_> = entries.collect();
+    PoissonMatrix {
+        dimension: constants.dimension(),
+        entries,
+        degree: (structure != Structure::General).then_some(1),
+    }
+}
+
+/// The rank of the Poisson matrix at the initial state, rounded to double precision.
+fn initial_rank(model: &Model, scratch: &mut Graph, mu: &[f64]) -> Option<usize> {
+    let rows = model.poisson.rows(scratch);
+    let rows: Vec<&Vec<ExprId>> = rows.iter().collect();
+    let exact = |symbol| match symbol {
+        Symbol::Coordinate(i) => Rational::from_f64(mu[i]),
+        Symbol::Parameter(p) => {
+            let parameter = &model.parameters[p];
+            let number = model.graph.as_number(parameter.default).cloned();
+            number.or_else(|| Rational::from_f64(parameter.default_value))
+        }
+        _ => None,
+    };
+    let number = |symbol| match symbol {
+        Symbol::Coordinate(i) => mu[i],
+        Symbol::Parameter(p) => model.parameters[p].default_value,
+        _ => f64::NAN,
+    };
+    ranks::at_rationals(scratch, &rows, &exact, model.generic_rank)
+        .or_else(|| ranks::at_numbers(scratch, &rows, &number))
 }
 
 /// The Casimirs with names: unnamed ones are C1, C2, …, skipping what is taken.
@@ -288,7 +394,7 @@ fn free_names(declaration: &Declaration) -> impl Iterator<Item = String> + use<>
     let names = declaration
         .state
         .iter()
-        .chain(&declaration.algebra.basis)
+        .chain(declaration.basis())
         .chain(declaration.lets.iter().map(|(n, _)| n));
     let names = names.chain(declaration.parameters.iter().map(|p| &p.name));
     let names = names.chain(declaration.casimirs.iter().filter_map(|c| c.name.as_ref()));
@@ -307,7 +413,7 @@ fn independent(
     report: &mut Report,
 ) -> Vec<Casimir> {
     let functions: Vec<ExprId> = candidates.iter().map(|c| c.expr).collect();
-    let standings = independence::check(graph, &functions, declaration.algebra.basis.len());
+    let standings = independence::check(graph, &functions, declaration.dimension());
     let mut free = free_names(declaration);
     let mut kept = Vec::new();
     for (((candidate, standing), degree), declared) in candidates

@@ -28,7 +28,7 @@ const WORDS: &[&str] = &["pi", "t", "energy", "sum", "sqrt"];
 /// Basis and state are separate name spaces, because elements of the algebra and coordinates of
 /// its dual never stand in one expression. Parameters and abbreviations can stand beside both.
 pub fn check(declaration: &Declaration, report: &mut Report) {
-    let basis = &declaration.algebra.basis;
+    let basis = declaration.basis();
     let state = &declaration.state;
     let velocity = declaration.energy.velocity();
     let parameters = declaration.parameters.iter().map(|p| &p.name);

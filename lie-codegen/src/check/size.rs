@@ -1,8 +1,8 @@
 //! Dimension, one coordinate for every basis element, and the size of what is derived.
 
-use crate::algebra::StructureConstants;
 use crate::ast::Declaration;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::model::PoissonMatrix;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Kernels are straight-line code; above this dimension no compiler gets through them.
@@ -15,24 +15,23 @@ const MOST_DERIVED: usize = 300_000;
 /// Checks that the basis is neither empty nor beyond every size, and that the state fits it;
 /// whether the other checks of the stage make sense.
 pub fn check(declaration: &Declaration, report: &mut Report) -> bool {
-    let dimension = declaration.algebra.basis.len();
+    let dimension = declaration.dimension();
     let state = declaration.state.len();
     if dimension == 0 {
-        report.push(
-            Diagnostic::new(
-                Kind::Basis,
-                declaration.algebra.origin,
-                "the basis is empty",
-            )
-            .help("name at least one basis element"),
-        );
+        let place = declaration.place();
+        report.push(match declaration.algebra() {
+            Some(_) => Diagnostic::new(Kind::Basis, place, "the basis is empty")
+                .help("name at least one basis element"),
+            None => Diagnostic::new(Kind::StateLength, place, "the state is empty")
+                .help("name at least one coordinate"),
+        });
         return false;
     }
     if dimension > MAX_DIMENSION {
         report.push(
             Diagnostic::new(
                 Kind::Limit,
-                declaration.algebra.origin,
+                declaration.place(),
                 format!("the dimension {dimension} is above the limit of {MAX_DIMENSION}"),
             )
             .help("kernels are straight-line code; declare a smaller system"),
@@ -62,7 +61,7 @@ pub fn check(declaration: &Declaration, report: &mut Report) -> bool {
             .or(declaration.state.last())
         {
             Some(name) => name.origin,
-            None => declaration.algebra.origin,
+            None => declaration.place(),
         };
         report.push(
             Diagnostic::new(
@@ -80,19 +79,19 @@ pub fn check(declaration: &Declaration, report: &mut Report) -> bool {
 /// compositions are short to write, but their derivatives swell.
 pub fn derived(
     graph: &Graph,
-    constants: &StructureConstants<ExprId>,
+    poisson: &PoissonMatrix,
     hamiltonian: (ExprId, Origin),
     casimirs: &[(ExprId, Origin)],
     report: &mut Report,
 ) {
     let mut scratch = graph.clone();
     let mut fails = |what: &str, origin: Origin| report.push(swollen(what, origin));
-    if field(&mut scratch, constants, hamiltonian.0).is_none() {
+    if field(&mut scratch, poisson, hamiltonian.0).is_none() {
         fails("the Hamiltonian", hamiltonian.1);
         return;
     }
     for (casimir, origin) in casimirs {
-        if gradient(&mut scratch, *casimir, constants.dimension()).is_none() {
+        if gradient(&mut scratch, *casimir, poisson.dimension).is_none() {
             fails("this Casimir", *origin);
             return;
         }
@@ -142,21 +141,16 @@ fn gradient(graph: &mut Graph, function: ExprId, dimension: usize) -> Option<Vec
 }
 
 /// Gradient, Hessian, field and Jacobian of the field: what all other kernels are made of.
-fn field(
-    graph: &mut Graph,
-    constants: &StructureConstants<ExprId>,
-    hamiltonian: ExprId,
-) -> Option<()> {
-    let dimension = constants.dimension();
+fn field(graph: &mut Graph, poisson: &PoissonMatrix, hamiltonian: ExprId) -> Option<()> {
+    let dimension = poisson.dimension;
     let slopes = gradient(graph, hamiltonian, dimension)?;
     for slope in &slopes {
         gradient(graph, *slope, dimension)?;
     }
     let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); dimension];
-    for (i, j, k, value) in constants.entries() {
+    for (i, j, value) in &poisson.entries {
         for (i, j) in [(*i, *j), (*j, *i)] {
-            let coordinate = graph.symbol(Symbol::Coordinate(*k));
-            terms[j].push(graph.product(&[*value, slopes[i], coordinate]));
+            terms[j].push(graph.mul(*value, slopes[i]));
             if graph.size() > MOST_DERIVED {
                 return None;
             }

@@ -301,15 +301,10 @@ impl Source {
             }
         }
         let (start, unknown) = (self.coordinates(), self.block(Block::Unknown));
-        let sums = self.block(Block::Middle);
-        let h = self.graph.symbol(Symbol::Step);
-        let half_step = self
-            .graph
-            .scale(h, &Rational::new(1, 2).unwrap_or(Rational::ONE));
-        let field = self.ad_star_of(&g, &sums);
+        let (factor, field) = self.field_along(&g);
         let residual: Vec<ExprId> = (0..n)
             .map(|i| {
-                let moved = self.graph.mul(half_step, field[i]);
+                let moved = self.graph.mul(factor, field[i]);
                 self.graph.linear(&[
                     (unknown[i], Rational::ONE),
                     (start[i], Rational::MINUS_ONE),
@@ -323,10 +318,11 @@ impl Source {
             let mut unit = vec![zero; n];
             unit[j] = self.graph.integer(1);
             let along: Vec<ExprId> = closed.slopes.iter().map(|row| row[j]).collect();
-            let (turned, bent) = (self.ad_star_of(&g, &unit), self.ad_star_of(&along, &sums));
+            let turned = self.turned(&g, &field, &unit, j);
+            let bent = self.bent(&along);
             for i in 0..n {
                 let sum = self.graph.add(turned[i], bent[i]);
-                let moved = self.graph.mul(half_step, sum);
+                let moved = self.graph.mul(factor, sum);
                 rows[i][j] = self.graph.sub(unit[i], moved);
             }
         }
@@ -350,5 +346,34 @@ impl Source {
             .into_iter()
             .map(|kernel| self.complete(kernel, &closed.definitions, true))
             .collect()
+    }
+
+    /// The factor h/2 and `ad*_g s`, whose product is `h Pi(s/2) g`; of another Poisson matrix h and
+    /// `Pi(s/2) g`.
+    fn field_along(&mut self, g: &[ExprId]) -> (ExprId, Vec<ExprId>) {
+        let h = self.graph.symbol(Symbol::Step);
+        if !self.is_lie() {
+            let middle = self.middle();
+            return (h, self.poisson_times(g, &middle));
+        }
+        let sums = self.block(Block::Middle);
+        let half_step = self
+            .graph
+            .scale(h, &Rational::new(1, 2).unwrap_or(Rational::ONE));
+        (half_step, self.ad_star_of(g, &sums))
+    }
+
+    /// The derivative of that field in `u_j`, g fixed.
+    fn turned(&mut self, g: &[ExprId], field: &[ExprId], unit: &[ExprId], j: usize) -> Vec<ExprId> {
+        if self.is_lie() {
+            return self.ad_star_of(g, unit);
+        }
+        let entries = field.iter();
+        entries.map(|entry| self.slope_in_end(*entry, j)).collect()
+    }
+
+    /// That field with another vector in place of g.
+    fn bent(&mut self, along: &[ExprId]) -> Vec<ExprId> {
+        self.field_along(along).1
     }
 }

@@ -16,11 +16,12 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
         kernels.extend(motion(source, hamiltonian));
     }
     let matrix = poisson_matrix(source);
+    let [of_matrix, ..] = formulas(source.is_lie());
     let arguments = vec![mu(source)];
     let poisson_matrix = Kernel::matrix(
         &source.graph,
         "poisson_matrix",
-        "`out_ij = {mu_i, mu_j} = -C_ij^k mu_k`",
+        of_matrix,
         arguments,
         &matrix,
     );
@@ -69,6 +70,7 @@ fn motion(source: &mut Source, hamiltonian: ExprId) -> Vec<Kernel> {
     let hessian = source.hessian_of_h();
     let field = source.field_of_h();
     let jacobian = jacobian(source, &field);
+    let [_, of_field, of_both] = formulas(source.is_lie());
     let arguments = || vec![mu(source)];
     let graph = &source.graph;
     vec![
@@ -87,13 +89,7 @@ fn motion(source: &mut Source, hamiltonian: ExprId) -> Vec<Kernel> {
             arguments(),
             &hessian,
         ),
-        Kernel::vector(
-            graph,
-            "vector_field",
-            "`f_j = C_ij^k (dH/dmu_i) mu_k`",
-            arguments(),
-            &field,
-        ),
+        Kernel::vector(graph, "vector_field", of_field, arguments(), &field),
         Kernel::matrix(
             graph,
             "jacobian",
@@ -101,15 +97,25 @@ fn motion(source: &mut Source, hamiltonian: ExprId) -> Vec<Kernel> {
             arguments(),
             &jacobian,
         ),
-        Kernel::fused(
-            graph,
-            "linearize",
-            "`f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`",
-            arguments(),
-            &field,
-            &jacobian,
-        ),
+        Kernel::fused(graph, "linearize", of_both, arguments(), &field, &jacobian),
     ]
+}
+
+/// The formulas of the Poisson matrix, of the field, and of the field with its Jacobian.
+fn formulas(is_lie: bool) -> [&'static str; 3] {
+    if is_lie {
+        [
+            "`out_ij = {mu_i, mu_j} = -C_ij^k mu_k`",
+            "`f_j = C_ij^k (dH/dmu_i) mu_k`",
+            "`f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`",
+        ]
+    } else {
+        [
+            "`out_ij = {mu_i, mu_j} = Pi_ij(mu)`",
+            "`f_i = Pi_ij(mu) (dH/dmu_j)`",
+            "`f_i = Pi_ij(mu) (dH/dmu_j)` and `df_i/dmu_j`",
+        ]
+    }
 }
 
 /// `df_i/dmu_j`
@@ -124,8 +130,11 @@ pub(super) fn jacobian(source: &mut Source, field: &[ExprId]) -> Vec<Vec<ExprId>
         .collect()
 }
 
-/// `Pi_ab = -C_ab^k mu_k`
+/// `Pi_ab`, of a Lie algebra `-C_ab^k mu_k`.
 fn poisson_matrix(source: &mut Source) -> Vec<Vec<ExprId>> {
+    if let Some(entries) = source.poisson.clone() {
+        return super::poisson::matrix(source, &entries);
+    }
     let n = source.dimension;
     let mu = source.coordinates();
     let zero = source.graph.integer(0);

@@ -9,6 +9,7 @@ mod generating;
 mod kernel;
 mod lagrangian;
 mod midpoint;
+mod poisson;
 mod second_kind;
 mod spherical;
 mod splitting;
@@ -33,8 +34,10 @@ pub struct Source {
     pub graph: Graph,
     /// Number of coordinates n.
     pub dimension: usize,
-    /// Structure constants `(i, j, k, C_ij^k)` with `i < j`.
+    /// Structure constants `(i, j, k, C_ij^k)` with `i < j`; none where the bracket is another one.
     pub constants: Vec<(usize, usize, usize, ExprId)>,
+    /// The entries `(i, j, Pi_ij)`, `i < j`, of a Poisson matrix that is not that of a Lie algebra alone.
+    pub poisson: Option<Vec<(usize, usize, ExprId)>>,
     /// The Hamiltonian, if it is an expression in mu; else that of the Lagrangian, by Newton's iteration.
     pub hamiltonian: Option<ExprId>,
     /// The Lagrangian, in the symbols of an element of the algebra.
@@ -88,6 +91,30 @@ pub(crate) enum Block {
 }
 
 impl Source {
+    /// A source without anything in it.
+    pub fn empty(mut graph: Graph) -> Self {
+        let hamiltonian = graph.integer(0);
+        Self {
+            graph,
+            dimension: 0,
+            constants: Vec::new(),
+            poisson: None,
+            hamiltonian: Some(hamiltonian),
+            lagrangian: None,
+            discrete: None,
+            energy: hamiltonian,
+            momenta: None,
+            group: None,
+            casimirs: Vec::new(),
+            triple: None,
+            pieces: None,
+            matrices: None,
+            spins: None,
+            body: None,
+            actions: None,
+        }
+    }
+
     pub(crate) fn coordinates(&mut self) -> Vec<ExprId> {
         (0..self.dimension)
             .map(|i| self.graph.symbol(Symbol::Coordinate(i)))
@@ -147,7 +174,7 @@ impl Source {
     pub(crate) fn field_of_h(&mut self) -> Vec<ExprId> {
         let gradient = self.gradient_of_h();
         let mu = self.coordinates();
-        self.ad_star_of(&gradient, &mu)
+        self.poisson_times(&gradient, &mu)
     }
 
     /// `df_i/dmu_j`
@@ -179,7 +206,11 @@ impl Source {
     /// The kernels of the basic traits.
     pub fn basic_kernels(&mut self) -> Vec<Kernel> {
         let mut kernels = field::kernels(self);
-        kernels.extend(coadjoint::kernels(self));
+        if self.is_lie() {
+            kernels.extend(coadjoint::kernels(self));
+        } else {
+            kernels.push(poisson::slope(self));
+        }
         if self.triple.is_some() {
             kernels.push(cayley::triple(self));
         }

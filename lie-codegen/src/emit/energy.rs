@@ -16,7 +16,8 @@ use super::equation::Form;
 use super::names::{ident, index};
 use super::prepared::{Owner, Prepared};
 use crate::derive::{Kernel, Shape};
-use crate::methods::{Choice, Gradient};
+use crate::methods::{Choice, Gradient, Tensor};
+use crate::symbolic::Symbol;
 
 /// Polynomials up to this degree have fused closed forms.
 const CLOSED: u32 = 6;
@@ -100,12 +101,15 @@ impl Writer<'_> {
         for gradient in Gradient::ALL.iter().copied() {
             let [plain, orbit] = names(gradient).generic;
             let method = ident(names(gradient).method);
-            if self.asked(&Choice::DiscreteGradient(gradient)) {
+            if self.asked(&Choice::DiscreteGradient(gradient, Tensor::Midpoint)) {
                 let known = self.discrete_gradient(gradient, &mut shared);
                 let method = quote! { ::lie_runtime::methods::#method };
                 hooks.extend(self.hook(&method, &known));
             } else {
                 steps.push(ident(plain));
+            }
+            if !self.source.is_lie() {
+                continue;
             }
             if self.asked(&Choice::OrbitEnergy(gradient)) {
                 let known = self.orbit_energy(gradient, &mut shared);
@@ -420,12 +424,26 @@ impl Writer<'_> {
             .collect()
     }
 
-    /// The pattern of `1 - (h/2) ad*_g - h Pi(m) dg/du`.
+    /// The pattern of `1 - (h/2) d/dm[Pi(m) g] - h Pi(m) dg/du`, of an algebra with `ad*_g` in the middle.
     fn step_pattern(&mut self, gradient: Gradient) -> Vec<(usize, usize)> {
         let n = self.source.dimension;
         let derivative = self.derivative_pattern(gradient);
         let of_h = self.source.gradient_of_h();
         let mut places = BTreeSet::new();
+        for (a, b, value) in self.source.poisson.clone().unwrap_or_default() {
+            let varies: Vec<usize> = (0..n)
+                .filter(|k| {
+                    let symbols = self.source.graph.symbols(value);
+                    symbols.contains(&Symbol::Coordinate(*k))
+                })
+                .collect();
+            for (row, column) in [(a, b), (b, a)] {
+                if gradient == Gradient::Gonzalez || !self.source.graph.is_zero(of_h[column]) {
+                    places.extend(varies.iter().map(|k| (row, *k)));
+                }
+                places.extend((0..n).filter(|j| derivative[column][*j]).map(|j| (row, j)));
+            }
+        }
         for (a, b, k, _) in self.source.all_constants() {
             if gradient == Gradient::Gonzalez || !self.source.graph.is_zero(of_h[a]) {
                 places.insert((b, k));

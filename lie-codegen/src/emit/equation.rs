@@ -45,7 +45,9 @@ impl Writer<'_> {
             (Choice::LieMidpoint(Retraction::Cayley), "cayley"),
         ];
         for (choice, name) in methods {
-            if choice == Choice::LieMidpoint(Retraction::Cayley) && self.source.triple.is_none() {
+            let of_algebra = matches!(choice, Choice::LieMidpoint(_)) && !self.source.is_lie();
+            let cayley = choice == Choice::LieMidpoint(Retraction::Cayley);
+            if of_algebra || (cayley && self.source.triple.is_none()) {
                 continue;
             }
             // generating functions of order 2 run on these equations, collective methods on the second
@@ -65,8 +67,10 @@ impl Writer<'_> {
             }
         }
         tokens.extend(self.energy(&mut generic));
-        tokens.extend(self.generating(&mut generic));
-        tokens.extend(self.collective(&mut generic));
+        if self.source.is_lie() {
+            tokens.extend(self.generating(&mut generic));
+            tokens.extend(self.collective(&mut generic));
+        }
         if self.source.lagrangian.is_some() {
             generic.push(ident("variational"));
             if self.source.triple.is_some() {

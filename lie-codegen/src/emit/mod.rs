@@ -51,6 +51,8 @@ pub struct Blueprint {
     pub methods: Vec<Choice>,
     /// The total degree of H, if it is a polynomial.
     pub hamiltonian_degree: Option<u32>,
+    /// The largest total degree of an entry of the Poisson matrix, if all are polynomials.
+    pub poisson_degree: Option<u32>,
     /// The total degree of each Casimir, if it is a polynomial.
     pub casimir_degrees: Vec<Option<u32>>,
 }

@@ -55,6 +55,7 @@ impl Writer<'_> {
         let system = self.system_name();
         let size = index(group.size);
         let (closed, right) = (group.closed, group.right);
+        let orthogonal = group.matrices.iter().all(|matrix| is_skew(matrix));
         let right = right.then(|| quote! { const RIGHT: bool = true; });
         let matrices = group.matrices.iter().map(|matrix| entries(matrix));
         Some(quote! {
@@ -62,6 +63,7 @@ impl Writer<'_> {
                 const SIZE: usize = #size;
                 const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[#(#matrices),*];
                 const CLOSED: bool = #closed;
+                const ORTHOGONAL: bool = #orthogonal;
                 #right
             }
         })

@@ -9,7 +9,7 @@ use super::prepared::{Owner, Prepared};
 use crate::derive::{Kernel, Shape};
 
 impl Writer<'_> {
-    /// The impls of `Poisson`, `LiePoisson` and, where it applies, `CayleyPoisson`.
+    /// The impls of `Poisson` and, where they apply, `LiePoisson` and `CayleyPoisson`.
     pub fn system_impls(&mut self) -> TokenStream {
         let kernels = self.source.basic_kernels();
         let (mut poisson, mut coadjoint, mut cayley, mut gradients) =
@@ -42,6 +42,19 @@ impl Writer<'_> {
         };
         let degree = option(&self.blueprint.hamiltonian_degree);
         let degrees = self.blueprint.casimir_degrees.iter().map(option);
+        // of an algebra nothing is said: its Poisson matrix is linear
+        let poisson_degree = (!self.source.is_lie()).then(|| {
+            let degree = option(&self.blueprint.poisson_degree);
+            quote! { const POISSON_DEGREE: ::core::option::Option<u32> = #degree; }
+        });
+        let coadjoint = self.source.is_lie().then(|| {
+            quote! {
+                #[allow(non_snake_case, clippy::many_single_char_names)]
+                impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for #system<S> {
+                    #coadjoint
+                }
+            }
+        });
         let cayley = cayley.map(|triple| {
             quote! {
                 #[allow(non_snake_case, clippy::many_single_char_names)]
@@ -63,6 +76,7 @@ impl Writer<'_> {
                 const CASIMIR_NAMES: &'static [&'static str] = &[#(#casimir_names),*];
                 const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = #degree;
                 const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[#(#degrees),*];
+                #poisson_degree
 
                 fn zero_state(&self) -> Self::State {
                     Self::State::repeat(S::zero())
@@ -75,10 +89,7 @@ impl Writer<'_> {
                 #poisson
             }
 
-            #[allow(non_snake_case, clippy::many_single_char_names)]
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for #system<S> {
-                #coadjoint
-            }
+            #coadjoint
 
             #cayley
         }

@@ -6,7 +6,7 @@ mod statement;
 
 use proc_macro2::{Span, TokenStream};
 
-use self::block::{algebra, names, parameters};
+use self::block::{algebra, names, parameters, poisson};
 use self::entry::{compact, inside};
 use self::statement::{Statement, statements};
 use super::object::NOT_BUILT;
@@ -173,12 +173,10 @@ fn system(parts: &Parts<'_>, report: &mut Report) -> Parsed {
     }
     let place = parsed.name.as_ref().map_or(parts.start, |name| name.origin);
     parts.missing("system", "pub system NAME;", parts.start, report);
-    parts.missing(
-        "algebra",
-        "algebra { basis e1, e2; [e1, e2] = e2; }",
-        place,
-        report,
-    );
+    if parts.first("poisson").is_none() {
+        let example = "algebra { basis e1, e2; [e1, e2] = e2; }";
+        parts.missing("algebra", example, place, report);
+    }
     parts.missing("state", "state x, y;", place, report);
     if item::FUNCTIONS[1..]
         .iter()
@@ -218,7 +216,7 @@ fn remainder(
     let constants = texts(&parsed.parameters);
     let algebra = parts
         .first("algebra")
-        .and_then(|s| algebra(s, &constants, report));
+        .map(|s| (s.origin, algebra(s, &constants, report)));
     let lets = parts
         .all("let")
         .filter_map(|s| s.rest.first()?.identifier())
@@ -235,7 +233,25 @@ fn remainder(
         .chain(lets)
         .chain(parts.first(item::FUNCTIONS[2]).map(|_| "h".to_owned()))
         .collect();
-    let names = names.with_elsewhere(algebra.iter().flat_map(|a| texts(&a.basis)));
+    let basis = algebra.iter().filter_map(|(_, algebra)| algebra.as_ref());
+    let names = names.with_elsewhere(basis.flat_map(|a| texts(&a.basis)));
+    let [brackets, cocycle] = ["poisson", "cocycle"].map(|keyword| {
+        let statement = parts.first(keyword)?;
+        Some((statement.origin, poisson(statement, &names, report)))
+    });
+    let of_algebra = ["lagrangian", "invariance", "group"].map(|keyword| {
+        let statement = parts.first(keyword)?;
+        Some((statement.origin, keyword))
+    });
+    let of_algebra: Vec<_> = of_algebra.into_iter().flatten().collect();
+    let structure = item::structure(
+        algebra,
+        brackets,
+        cocycle,
+        &of_algebra,
+        Kind::Syntax,
+        report,
+    );
     let lets = parts.all("let").filter_map(|s| {
         let (name, value) = item::definition(s.rest, "an abbreviation", s.origin, report)?;
         Some((
@@ -280,7 +296,7 @@ fn remainder(
         name: parsed.name.clone()?,
         description: parts.first("system")?.description(),
         references: Vec::new(),
-        algebra: algebra?,
+        structure: structure?,
         group: group.map_or(Some(None), |name| name.map(Some))?,
         state: parsed.state.clone(),
         parameters,

@@ -5,7 +5,7 @@ use super::mistakes;
 use super::names::Names;
 use super::token::{Cursor, Delimiter, Token, TokenKind, render, span};
 use super::{expression, token};
-use crate::ast::{Bracket, Casimir, Energy, Expr, ExprKind, Invariance, Name};
+use crate::ast::{Algebra, Bracket, Casimir, Energy, Expr, ExprKind, Invariance, Name, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// A name and nothing else. `whole` is the place of an empty text.
@@ -125,30 +125,49 @@ pub fn bracket(
     names: &Names,
     report: &mut Report,
 ) -> Option<Bracket> {
+    let help = "write `[a, b] = value` with two basis names and a value linear in basis names";
+    let form = (Delimiter::Bracket, "2*e1 - e2 (or 0)", help);
+    pair(tokens, form, whole, names, report)
+}
+
+/// `{x, y} = value`.
+pub fn poisson(
+    tokens: &[Token],
+    whole: Origin,
+    names: &Names,
+    report: &mut Report,
+) -> Option<Bracket> {
+    let help = "write `{x, y} = value` with two state names";
+    let form = (Delimiter::Brace, "z^2 (or 1)", help);
+    pair(tokens, form, whole, names, report)
+}
+
+/// Two names in delimiters and the value of their bracket; the example is one of a value.
+fn pair(
+    tokens: &[Token],
+    (delimiter, example, help): (Delimiter, &str, &str),
+    whole: Origin,
+    names: &Names,
+    report: &mut Report,
+) -> Option<Bracket> {
     let origin = span(tokens).unwrap_or(whole);
     let mut cursor = Cursor::new(tokens);
-    let open = cursor.eat_kind(&TokenKind::Open(Delimiter::Bracket));
+    let open = cursor.eat_kind(&TokenKind::Open(delimiter));
     let inside = cursor.take_until(|_| false);
-    let close = cursor.eat_kind(&TokenKind::Close(Delimiter::Bracket));
+    let close = cursor.eat_kind(&TokenKind::Close(delimiter));
     let equals = cursor.eat('=');
     let parts = token::split_commas(inside);
     let (Some(_), Some(_), Some(equals), [left, right]) = (open, close, equals, parts.as_slice())
     else {
-        report.push(
-            Diagnostic::new(
-                Kind::Syntax,
-                origin,
-                format!("`{}` is not a bracket", render(tokens)),
-            )
-            .help("write `[a, b] = value` with two basis names and a value linear in basis names"),
-        );
+        let message = format!("`{}` is not a bracket", render(tokens));
+        report.push(Diagnostic::new(Kind::Syntax, origin, message).help(help));
         return None;
     };
     let left = name(left, origin, report);
     let right = name(right, origin, report);
     let value = formula(
         cursor.rest(),
-        ("the value of the bracket", "2*e1 - e2 (or 0)"),
+        ("the value of the bracket", example),
         equals.origin,
         names,
         report,
@@ -165,6 +184,49 @@ pub fn bracket(
 pub fn constant(tokens: &[Token], report: &mut Report) -> Option<Expr> {
     let expression = expression::parse(tokens, &Names::default(), report)?;
     constant_expression(expression, report)
+}
+
+/// The algebra with its cocycle, or the brackets of the coordinates: places and what was read. That one
+/// of the two is there is checked elsewhere, and `other` is the place of a statement that only fits
+/// an algebra, with its name.
+pub fn structure(
+    algebra: Option<(Origin, Option<Algebra>)>,
+    poisson: Option<(Origin, Vec<Bracket>)>,
+    cocycle: Option<(Origin, Vec<Bracket>)>,
+    of_algebra: &[(Origin, &str)],
+    kind: Kind,
+    report: &mut Report,
+) -> Option<Structure> {
+    let mut fails = |place, message: &str, help: &str| {
+        report.push(Diagnostic::new(kind, place, message).help(help));
+    };
+    match (algebra, poisson, cocycle) {
+        (Some(_), Some((place, _)), _) => fails(
+            place,
+            "`poisson` beside `algebra`: either gives the bracket",
+            "remove one of the two; a constant term is added to the bracket of an algebra by `cocycle`",
+        ),
+        (None, _, Some((place, _))) => fails(
+            place,
+            "`cocycle` without `algebra`: it is added to a Lie–Poisson bracket",
+            "write the constants into the brackets of `poisson`",
+        ),
+        (None, Some((origin, brackets)), None) => {
+            for (place, name) in of_algebra {
+                let message = format!("`{name}` beside `poisson`: it needs a Lie algebra");
+                fails(*place, &message, "remove it, or declare an `algebra`");
+            }
+            if of_algebra.is_empty() {
+                return Some(Structure::General { brackets, origin });
+            }
+        }
+        (Some((_, algebra)), None, cocycle) => {
+            let cocycle = cocycle.map_or_else(Vec::new, |(_, brackets)| brackets);
+            return algebra.map(|algebra| Structure::Lie { algebra, cocycle });
+        }
+        (None, None, None) => {}
+    }
+    None
 }
 
 /// A Hamiltonian of blanks.

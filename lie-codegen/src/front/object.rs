@@ -13,11 +13,7 @@ pub struct Object<'a> {
 }
 
 /// Keys that the format keeps for what is not built yet, and the keys that they would replace.
-pub const NOT_BUILT: &[(&str, &[&str])] = &[
-    ("poisson", &["algebra"]),
-    ("cocycle", &[]),
-    ("realization", &[]),
-];
+pub const NOT_BUILT: &[(&str, &[&str])] = &[("realization", &[])];
 
 impl<'a> Object<'a> {
     /// Takes an object apart and reports every key that is not in `keys` or stands there twice.

@@ -29,8 +29,9 @@ macro_rules! objects {
 }
 
 objects! {
-    /// A Lie–Poisson system: a Lie algebra by its structure constants and a Hamiltonian on its dual.
-    struct Spec requires ["name", "algebra", "state"] {
+    /// A Hamiltonian system: a Lie algebra by its structure constants and a Hamiltonian on its dual, or
+    /// the Poisson brackets of the coordinates and a Hamiltonian.
+    struct Spec requires ["name", "state"] {
         /// Path of this schema, for editors.
         "$schema" schema: Option<String>,
         /// Version of the format.
@@ -43,11 +44,17 @@ objects! {
         /// Where the system comes from, for people.
         "references" references: Option<Vec<String>>,
         /// The Lie algebra.
-        "algebra" algebra: Algebra,
+        "algebra" algebra: Option<Algebra>,
+        /// Beside the algebra: brackets `{x, y} = value` of coordinates that are added to the
+        /// Lie–Poisson bracket, constants that satisfy the cocycle identity.
+        "cocycle" cocycle: Option<Vec<String>>,
+        /// Instead of the algebra: the Poisson brackets `{x, y} = value` of the coordinates, expressions
+        /// in state, parameters and abbreviations. Antisymmetry is implied and absent brackets are zero.
+        "poisson" poisson: Option<Vec<String>>,
         /// Name of the group element g, a matrix of the size of `matrices`: its entries, for `R` these are `R11`,
         /// `R12`, …, may stand in the functions, and are coordinates of the state beside mu.
         "group" group: Option<String>,
-        /// Names of the coordinates of mu, one for each basis element.
+        /// Names of the coordinates, one for each basis element where there is an algebra.
         "state" state: Vec<String>,
         /// Parameters and their defaults.
         "parameters" parameters: Option<BTreeMap<String, Parameter>>,
@@ -121,6 +128,8 @@ objects! {
         "lift" lift: Option<String>,
         /// Discrete gradient.
         "gradient" gradient: Option<String>,
+        /// Poisson tensor of a discrete gradient method.
+        "tensor" tensor: Option<String>,
         /// How the group element is written beside mu, if it is: `matrix` or `quaternion`.
         "group" group: Option<String>,
         /// Relative tolerance.
@@ -187,6 +196,10 @@ pub fn schema() -> Value {
         { "required": ["lagrangian", "velocity"] },
         { "required": ["discrete_lagrangian", "velocity"] },
     ]);
+    schema["allOf"] = serde_json::json!([
+        { "oneOf": [{ "required": ["algebra"] }, { "required": ["poisson"] }] },
+    ]);
+    schema["dependentRequired"] = serde_json::json!({ "cocycle": ["algebra"] });
     schema
 }
 

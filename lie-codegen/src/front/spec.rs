@@ -11,7 +11,7 @@ use super::object::{NOT_BUILT, Object, list, string, strings, wrong_type};
 use super::schema::Spec;
 use super::token::Token;
 use super::{Body, Names, Parsed, expression, item, number};
-use crate::ast::{Declaration, Energy, Expr, ExprKind, Invariance, Name, Parameter};
+use crate::ast::{Bracket, Declaration, Energy, Expr, ExprKind, Invariance, Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The only version of the format.
@@ -46,6 +46,9 @@ fn document(text: &str, report: &mut Report) -> Parsed {
     };
     let Some(spec) = spec else { return parsed };
     spec.require("a spec", Spec::REQUIRED, report);
+    if spec.get("poisson").is_none() {
+        spec.require("a spec", &["algebra"], report);
+    }
     if item::FUNCTIONS[1..].iter().all(|f| spec.get(f).is_none()) {
         spec.require("a spec", &["hamiltonian"], report);
     }
@@ -106,7 +109,7 @@ impl Remainder<'_, '_> {
         let parameters = texts(&self.parsed.parameters);
         let algebra = spec
             .get("algebra")
-            .and_then(|v| algebra::read(v, &parameters, report));
+            .map(|v| (v.origin(), algebra::read(v, &parameters, report)));
         let lets: Vec<Line> = lines(spec, "let", report);
         let defined = lets
             .iter()
@@ -122,7 +125,8 @@ impl Remainder<'_, '_> {
             .chain(defined.map(str::to_owned))
             .chain(spec.get(item::FUNCTIONS[2]).map(|_| "h".to_owned()))
             .collect();
-        let names = names.with_elsewhere(algebra.iter().flat_map(|a| texts(&a.basis)));
+        let basis = algebra.iter().filter_map(|(_, algebra)| algebra.as_ref());
+        let names = names.with_elsewhere(basis.flat_map(|a| texts(&a.basis)));
         let constants: Names = parameters.iter().cloned().collect();
 
         let lets = lets.iter().filter_map(|line| {
@@ -134,6 +138,15 @@ impl Remainder<'_, '_> {
             ))
         });
         let lets = lets.collect();
+        let [poisson, cocycle] = ["poisson", "cocycle"].map(|key| {
+            let place = spec.get(key)?.origin();
+            Some((place, poisson(spec, key, &names, report)))
+        });
+        let of_algebra =
+            ["lagrangian", "invariance", "group"].map(|key| Some((spec.get(key)?.origin(), key)));
+        let of_algebra: Vec<_> = of_algebra.into_iter().flatten().collect();
+        let structure =
+            item::structure(algebra, poisson, cocycle, &of_algebra, Kind::Schema, report);
         let energy = self.energy(velocity, &names, report);
         let casimirs = lines(spec, "casimirs", report)
             .iter()
@@ -170,7 +183,7 @@ impl Remainder<'_, '_> {
                 .into_iter()
                 .map(|r| r.text.into_owned())
                 .collect(),
-            algebra: algebra?,
+            structure: structure?,
             group: group.map_or(Some(None), |name| name.map(Some))?,
             state: self.parsed.state.clone(),
             parameters: self.parameters,
@@ -229,6 +242,14 @@ fn lines(spec: &Object<'_>, key: &str, report: &mut Report) -> Vec<Line> {
     elements
         .into_iter()
         .filter_map(|v| line(v, &element, report))
+        .collect()
+}
+
+/// Brackets of coordinates.
+fn poisson(spec: &Object<'_>, key: &str, names: &Names, report: &mut Report) -> Vec<Bracket> {
+    lines(spec, key, report)
+        .iter()
+        .filter_map(|line| item::poisson(&line.tokens, line.place, names, report))
         .collect()
 }
 

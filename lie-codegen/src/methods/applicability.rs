@@ -1,8 +1,8 @@
 //! Which methods a system can carry.
 
-use super::{Availability, CATALOGUE, Choice, Lift, Retraction};
+use super::{Availability, CATALOGUE, Choice, Lift, Retraction, Tensor};
 use crate::diagnostic::Kind;
-use crate::model::Model;
+use crate::model::{Model, Structure};
 use crate::structure::{inertia, matrices, separable, spins};
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
@@ -10,7 +10,11 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
     if let Choice::Compose(_, _, base) = choice {
         return refusal(model, base);
     }
+    if let Some(reason) = bracket(model, choice) {
+        return Some(reason);
+    }
     match choice {
+        Choice::DiscreteGradient(_, Tensor::Mean) => tensor(model, choice),
         Choice::Splitting(order, _) => separable::refusal(model, *order),
         Choice::Generating(6, Retraction::Cayley) => Some((
             "the generating function of order 6 is known in exponential coordinates, not in those \
@@ -62,6 +66,62 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
         Choice::MoserVeselov => inertia::refusal(model),
         _ => None,
     }
+}
+
+/// Whether a method moves along coadjoint orbits, and so needs the Lie–Poisson bracket of an algebra.
+fn needs_algebra(choice: &Choice) -> bool {
+    !matches!(
+        choice,
+        Choice::Midpoint
+            | Choice::Gauss(_)
+            | Choice::DiscreteGradient(..)
+            | Choice::CohenHairer(_)
+            | Choice::Rk4
+            | Choice::Dopri5
+    )
+}
+
+/// Why a method does not apply to the bracket of a system, whatever H is.
+fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
+    if !needs_algebra(choice) {
+        return None;
+    }
+    let order = choice.entry().map_or(2, |method| method.order);
+    let nearest = match order {
+        1 | 2 => "`midpoint` or `gonzalez`",
+        3 | 4 => "`gauss4` or `cohen-hairer4`",
+        5 | 6 => "`gauss6` or `cohen-hairer6`",
+        _ => "`compose8(midpoint)`",
+    };
+    let apply = format!("use {nearest}, which apply to every Poisson bracket");
+    match model.structure {
+        Structure::Lie => None,
+        Structure::General => Some((
+            "it needs a Lie algebra, and the system declares a general bracket".into(),
+            apply,
+        )),
+        Structure::Extended => Some((
+            "it needs the Lie–Poisson bracket of an algebra, and a cocycle is added to it".into(),
+            format!(
+                "{apply}; or declare the central extension as an algebra with one more basis element, \
+                 whose coordinate stays 1"
+            ),
+        )),
+    }
+}
+
+/// Why there is no choice of the tensor.
+fn tensor(model: &Model, choice: &Choice) -> Option<(String, String)> {
+    let affine = model.poisson.degree.is_some_and(|degree| degree <= 1);
+    affine.then(|| {
+        let id = choice.id();
+        (
+            "the Poisson matrix is affine in the coordinates, and its mean over the ends of a step is \
+             its value at the midpoint"
+                .into(),
+            format!("use `{id}` without the option: the steps are the same"),
+        )
+    })
 }
 
 /// Why a system is none on `T*G`.

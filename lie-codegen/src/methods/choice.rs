@@ -1,6 +1,6 @@
 //! A method with its options, as asked for.
 
-use super::options::{Gradient, Lift, OptionError, Retraction, Scheme};
+use super::options::{Gradient, Lift, OptionError, Retraction, Scheme, Tensor};
 use super::table::RESERVED;
 use super::{Availability, CATALOGUE, find};
 use crate::suggest::did_you_mean;
@@ -47,7 +47,7 @@ pub enum Choice {
     /// scheme means nothing.
     Splitting(u32, Scheme),
     /// `gonzalez`, `mean-value`, `itoh-abe`
-    DiscreteGradient(Gradient),
+    DiscreteGradient(Gradient, Tensor),
     /// `orbit-energy`
     OrbitEnergy(Gradient),
     /// `cohen-hairer2`, `cohen-hairer4`, `cohen-hairer6`
@@ -193,9 +193,9 @@ impl Choice {
             "splitting4" => splitting(4),
             "splitting6" => splitting(6),
             "splitting8" => splitting(8),
-            "gonzalez" => Self::DiscreteGradient(Gradient::Gonzalez),
-            "mean-value" => Self::DiscreteGradient(Gradient::MeanValue),
-            "itoh-abe" => Self::DiscreteGradient(Gradient::ItohAbe),
+            "gonzalez" => Self::DiscreteGradient(Gradient::Gonzalez, Tensor::Midpoint),
+            "mean-value" => Self::DiscreteGradient(Gradient::MeanValue, Tensor::Midpoint),
+            "itoh-abe" => Self::DiscreteGradient(Gradient::ItohAbe, Tensor::Midpoint),
             "orbit-energy" => Self::OrbitEnergy(Gradient::Gonzalez),
             "cohen-hairer2" => Self::CohenHairer(2),
             "cohen-hairer4" => Self::CohenHairer(4),
@@ -263,7 +263,7 @@ impl Choice {
             Self::EulerArnold2 => "euler-arnold2".into(),
             Self::SphericalMidpoint => "spherical-midpoint".into(),
             Self::Splitting(order, _) => format!("splitting{order}"),
-            Self::DiscreteGradient(gradient) => gradient.name().into(),
+            Self::DiscreteGradient(gradient, _) => gradient.name().into(),
             Self::OrbitEnergy(_) => "orbit-energy".into(),
             Self::CohenHairer(order) => format!("cohen-hairer{order}"),
             Self::Rk4 => "rk4".into(),

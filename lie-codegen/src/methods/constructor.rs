@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Choice;
-use super::options::{Gradient, Lift, Retraction, Scheme};
+use super::options::{Gradient, Lift, Retraction, Scheme, Tensor};
 
 impl Choice {
     /// The value of the method in the runtime, as Rust; `tolerances` is in scope.
@@ -66,7 +66,13 @@ impl Choice {
                     .then(|| with(*scheme));
                 quote! { #splitting::new() #scheme }
             }
-            Self::DiscreteGradient(gradient) => method(type_of(*gradient)),
+            Self::DiscreteGradient(gradient, Tensor::Midpoint) => method(type_of(*gradient)),
+            Self::DiscreteGradient(gradient, Tensor::Mean) => {
+                let gradient = method(type_of(*gradient));
+                quote! {
+                    ::lie_runtime::methods::WithTensor::new(#gradient, ::lie_runtime::methods::MeanTensor)
+                }
+            }
             Self::OrbitEnergy(gradient) => {
                 let gradient = match gradient {
                     Gradient::Gonzalez => format_ident!("gonzalez"),

@@ -9,7 +9,7 @@ mod table;
 
 pub use applicability::{applicability, kind_of_refusal, refusal};
 pub use choice::{Choice, Unusable};
-pub use options::{Gradient, Lift, OptionError, Retraction, Scheme};
+pub use options::{Gradient, Lift, OptionError, Retraction, Scheme, Tensor};
 pub use table::CATALOGUE;
 
 /// What a method preserves up to round-off.
@@ -25,6 +25,8 @@ pub struct Preserves {
     pub orbit: bool,
     /// The Poisson structure.
     pub poisson: bool,
+    /// The Poisson structure of a constant Poisson matrix, as that of canonical coordinates is.
+    pub constant_poisson: bool,
     /// Every quadratic invariant of the equation.
     pub quadratic_invariants: bool,
     /// Every linear invariant of the equation.
@@ -39,6 +41,7 @@ impl Preserves {
         quadratic_casimirs: false,
         orbit: false,
         poisson: false,
+        constant_poisson: false,
         quadratic_invariants: false,
         linear_invariants: false,
     };
@@ -47,10 +50,12 @@ impl Preserves {
         linear_invariants: true,
         ..Self::NOTHING
     };
-    /// Quadratic and linear invariants of the equation, and so quadratic Casimirs.
+    /// Quadratic and linear invariants of the equation, and so quadratic Casimirs and constant
+    /// Poisson matrices.
     pub const QUADRATIC: Self = Self {
         quadratic_casimirs: true,
         quadratic_invariants: true,
+        constant_poisson: true,
         ..Self::LINEAR
     };
     /// The coadjoint orbit and with it every Casimir.

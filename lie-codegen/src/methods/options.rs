@@ -68,6 +68,16 @@ named! {
 }
 
 named! {
+    /// The Poisson tensor of a discrete gradient method, `--tensor`.
+    Tensor, Midpoint {
+        /// `Pi((mu + mu1)/2)`.
+        Midpoint = "midpoint",
+        /// `(Pi(mu) + Pi(mu1))/2`.
+        Mean = "mean",
+    }
+}
+
+named! {
     /// The coefficients of a composition, `--composition`.
     Scheme, Suzuki {
         /// Five stages for each two orders.
@@ -170,6 +180,10 @@ impl Choice {
                 }
                 Self::Collective(order, pick(option, value, Lift::ALL, Lift::name)?)
             }
+            (Self::DiscreteGradient(gradient, _), "tensor") => {
+                let tensor = pick(option, value, Tensor::ALL, Tensor::name)?;
+                Self::DiscreteGradient(gradient, tensor)
+            }
             (Self::OrbitEnergy(_), "gradient") => {
                 Self::OrbitEnergy(pick(option, value, Gradient::ALL, Gradient::name)?)
             }
@@ -209,6 +223,7 @@ impl Choice {
             }
             Self::Collective(_, lift) => vec![("lift", lift.name())],
             Self::OrbitEnergy(gradient) => vec![("gradient", gradient.name())],
+            Self::DiscreteGradient(_, tensor) => vec![("tensor", tensor.name())],
             Self::Splitting(1 | 2, _) => vec![("pieces", "coordinate")],
             Self::Splitting(_, scheme) => {
                 vec![("composition", scheme.name()), ("pieces", "coordinate")]
@@ -245,6 +260,10 @@ impl Choice {
             Self::Collective(order, _) => Lift::ALL
                 .iter()
                 .map(|l| Self::Collective(*order, *l))
+                .collect(),
+            Self::DiscreteGradient(gradient, _) => Tensor::ALL
+                .iter()
+                .map(|tensor| Self::DiscreteGradient(*gradient, *tensor))
                 .collect(),
             Self::OrbitEnergy(_) => Gradient::ALL
                 .iter()

@@ -32,6 +32,9 @@ impl Group {
 /// The group of a system, if its algebra has matrices and the group element is no part of the state.
 pub fn group(model: &Model) -> Option<Group> {
     let representation = model.representation.as_ref()?;
+    if !model.is_lie_poisson() {
+        return None;
+    }
     let configuration = model.configuration.as_ref();
     if configuration.is_some_and(|c| c.group.is_some()) {
         return None;
@@ -53,7 +56,12 @@ pub fn group(model: &Model) -> Option<Group> {
 /// Why a chart of the group cannot be had, with a remedy.
 pub fn refusal(model: &Model, quaternion: bool) -> Option<(String, String)> {
     let Some(group) = group(model) else {
-        return Some(if model.representation.is_none() {
+        return Some(if !model.is_lie_poisson() {
+            (
+                "the bracket is not that of an algebra alone".into(),
+                "leave the option out".into(),
+            )
+        } else if model.representation.is_none() {
             (
                 "the algebra declares no `matrices`".into(),
                 "declare the matrix of each basis element: the group element is a matrix of their size".into(),

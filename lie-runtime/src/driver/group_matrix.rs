@@ -73,6 +73,23 @@ impl<S: Scalar> GroupMatrix<S> {
         sums.map(largest).fold(0.0, f64::max)
     }
 
+    /// One step of Newton's iteration to the nearest orthogonal matrix: `A (3 - A^T A)/2`.
+    pub(super) fn orthogonalize(&mut self) {
+        let size = self.size;
+        let mut correction = Self::zero(size);
+        for row in 0..size {
+            for column in 0..size {
+                let mut sum = S::zero();
+                for k in 0..size {
+                    sum += self.at(k, row) * self.at(k, column);
+                }
+                let identity = if row == column { S::one() } else { S::zero() };
+                correction.set_at(row, column, (identity - sum) * S::ratio(1.0, 2.0));
+            }
+        }
+        *self = self.plus(&self.times(&correction));
+    }
+
     /// The inverse of a matrix near 1; not a number where a pivot is small.
     pub(super) fn inverse(&self) -> Self {
         let Some(columns) = self.clone().solve_identities(self.size) else {

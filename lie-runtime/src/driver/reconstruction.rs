@@ -106,13 +106,22 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
     }
 
     /// `g F` in place of g, or `F^-1 g` of a right-invariant system.
-    fn advance(&mut self, factor: &GroupMatrix<S>, right: bool) {
+    fn advance<P: MatrixGroup<S, State = V>>(&mut self, factor: &GroupMatrix<S>) {
         match self.chart {
-            Chart::Matrix if right => self.matrix = factor.inverse().times(&self.matrix),
-            Chart::Matrix => self.matrix = self.matrix.times(factor),
+            Chart::Matrix => {
+                self.matrix = if P::RIGHT {
+                    factor.inverse().times(&self.matrix)
+                } else {
+                    self.matrix.times(factor)
+                };
+                if P::ORTHOGONAL {
+                    // else the round-off of a steady rotation would add up
+                    self.matrix.orthogonalize();
+                }
+            }
             Chart::Quaternion => {
                 let [real, x, y, z] = quaternion_of(factor);
-                let moved = if right {
+                let moved = if P::RIGHT {
                     product([real, -x, -y, -z], self.quaternion)
                 } else {
                     product(self.quaternion, [real, x, y, z])
@@ -141,7 +150,7 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                         factor
                     }
                 };
-                self.advance(&factor, P::RIGHT);
+                self.advance::<P>(&factor);
             }
             Motion::Velocity(method, stage, xi) => {
                 if stage.index == 0 {
@@ -150,7 +159,7 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                 self.velocities.push(xi.clone());
                 if self.velocities.len() == stage.count {
                     let factor = self.collocate(system, method);
-                    self.advance(&factor, P::RIGHT);
+                    self.advance::<P>(&factor);
                 }
             }
         }
@@ -222,12 +231,12 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
         let stages = whole.solve_identities(size)?;
         let mut factor = GroupMatrix::identity(size);
         for (i, motion) in motions.iter().enumerate() {
-            for r in 0..size {
+            // the solution holds the transposes
+            for (r, stages) in stages.iter().enumerate() {
                 for c in 0..size {
                     let mut sum = S::zero();
-                    for k in 0..size {
-                        // the solution holds the transposes
-                        sum += stages[r][i * size + k] * motion.at(k, c);
+                    for (k, &entry) in stages[i * size..][..size].iter().enumerate() {
+                        sum += entry * motion.at(k, c);
                     }
                     factor.set_at(r, c, factor.at(r, c) + b[i] * sum);
                 }

@@ -2,6 +2,7 @@
 
 use super::discrete_gradient::DiscreteGradient;
 use super::kernels::multiply;
+use super::tensor::{MidpointTensor, PoissonTensor};
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
 use crate::newton::dense;
@@ -11,16 +12,16 @@ use crate::state::State;
 
 /// A discrete gradient method for any Poisson system.
 ///
-/// Unknown: the new state u. Equation: `r(u) = u - mu - h Pi(m) g(mu, u)` with `m = (mu + u)/2` and the
-/// discrete gradient g. Jacobian: `1 - (h/2) d/dm[Pi(m) g] - h Pi(m) dg/du`.
-/// Start: `mu + h f(mu)`.
+/// Unknown: the new state u. Equation: `r(u) = u - mu - h T(mu, u) g(mu, u)` with the discrete gradient g
+/// and the tensor T, by default `Pi((mu + u)/2)`. Jacobian: `1 - h d/du[T g] - h T dg/du`, g fixed in the
+/// first derivative. Start: `mu + h f(mu)`.
 #[derive(Debug)]
-pub struct DiscreteGradientStep<'a, S: Scalar, P: Poisson<S>, G> {
+pub struct DiscreteGradientStep<'a, S: Scalar, P: Poisson<S>, G, T = MidpointTensor> {
     system: &'a P,
     gradient: G,
+    tensor: T,
     step: S,
     base: P::State,
-    middle: P::State,
     xi: P::State,
     field: P::State,
     poisson_matrix: P::Jacobian,
@@ -28,15 +29,28 @@ pub struct DiscreteGradientStep<'a, S: Scalar, P: Poisson<S>, G> {
 }
 
 impl<'a, S: Scalar, P: Poisson<S>, G: DiscreteGradient<S, P>> DiscreteGradientStep<'a, S, P, G> {
-    /// The equation of a step of size h.
+    /// The equation of a step of size h with the Poisson matrix at the midpoint.
     pub fn new(system: &'a P, h: S) -> Self {
+        Self::with_tensor(system, MidpointTensor, h)
+    }
+}
+
+impl<'a, S, P, G, T> DiscreteGradientStep<'a, S, P, G, T>
+where
+    S: Scalar,
+    P: Poisson<S>,
+    G: DiscreteGradient<S, P>,
+    T: PoissonTensor<S, P>,
+{
+    /// The equation of a step of size h with a tensor.
+    pub fn with_tensor(system: &'a P, tensor: T, h: S) -> Self {
         let zero = system.zero_state();
         Self {
             system,
             gradient: G::new(system),
+            tensor,
             step: h,
             base: zero.clone(),
-            middle: zero.clone(),
             xi: zero.clone(),
             field: zero,
             poisson_matrix: system.zero_jacobian(),
@@ -44,15 +58,11 @@ impl<'a, S: Scalar, P: Poisson<S>, G: DiscreteGradient<S, P>> DiscreteGradientSt
         }
     }
 
-    /// `r = u - mu - h Pi(m) g` with the discrete gradient already computed.
+    /// `r = u - mu - h T g` with the discrete gradient already computed.
     fn write_residual(&mut self, unknown: &P::State, residual: &mut P::State) {
-        let half = S::ratio(1.0, 2.0);
-        let pairs = self.base.as_slice().iter().zip(unknown.as_slice());
-        for (middle, (&mu, &u)) in self.middle.as_mut_slice().iter_mut().zip(pairs) {
-            *middle = half * (mu + u);
-        }
         let matrix = &mut self.poisson_matrix;
-        self.system.poisson_matrix(&self.middle, matrix);
+        self.tensor
+            .matrix(self.system, &self.base, unknown, self.step, matrix);
         multiply(matrix, &self.xi, &mut self.field);
         let (base, field) = (self.base.as_slice(), self.field.as_slice());
         for (index, out) in residual.as_mut_slice().iter_mut().enumerate() {
@@ -61,11 +71,12 @@ impl<'a, S: Scalar, P: Poisson<S>, G: DiscreteGradient<S, P>> DiscreteGradientSt
     }
 }
 
-impl<S, P, G> Equation<S> for DiscreteGradientStep<'_, S, P, G>
+impl<S, P, G, T> Equation<S> for DiscreteGradientStep<'_, S, P, G, T>
 where
     S: Scalar,
     P: Poisson<S>,
     G: DiscreteGradient<S, P>,
+    T: PoissonTensor<S, P>,
 {
     type State = P::State;
     type Unknown = P::State;
@@ -100,11 +111,17 @@ where
         self.gradient
             .linearize(self.system, unknown, &mut self.xi, derivative);
         self.write_residual(unknown, residual);
-        self.system.poisson_slope(&self.middle, &self.xi, matrix);
-        let half = S::ratio(1.0, 2.0);
+        self.tensor.slope(
+            self.system,
+            &self.base,
+            unknown,
+            self.step,
+            &self.xi,
+            matrix,
+        );
         for row in 0..P::DIM {
             for column in 0..P::DIM {
-                let mut sum = half * matrix.get(row, column);
+                let mut sum = matrix.get(row, column);
                 for inner in 0..P::DIM {
                     let slope = self.derivative.get(inner, column);
                     sum += self.poisson_matrix.get(row, inner) * slope;

@@ -41,11 +41,12 @@ pub fn vector_field<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State, out: &m
     multiply(&poisson_matrix, &gradient, out);
 }
 
-/// The Jacobian of the vector field, `Df = ad*_(grad H) + Pi(mu) H''(mu)`.
-pub fn jacobian<S: Scalar, P: LiePoisson<S>>(system: &P, mu: &P::State, out: &mut P::Jacobian) {
+/// The Jacobian of the vector field, `Df = D(Pi xi) + Pi(mu) H''(mu)` with `xi = grad H(mu)` fixed in the
+/// first term, which for a Lie algebra is `ad*_xi`.
+pub fn jacobian<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State, out: &mut P::Jacobian) {
     let mut gradient = system.zero_state();
     system.gradient(mu, &mut gradient);
-    system.ad_star_matrix(&gradient, out);
+    system.poisson_slope(mu, &gradient, out);
     let mut poisson_matrix = system.zero_jacobian();
     system.poisson_matrix(mu, &mut poisson_matrix);
     let mut hessian = system.zero_jacobian();
@@ -62,7 +63,7 @@ pub fn jacobian<S: Scalar, P: LiePoisson<S>>(system: &P, mu: &P::State, out: &mu
 }
 
 /// The vector field and its Jacobian together.
-pub fn linearize<S: Scalar, P: LiePoisson<S>>(
+pub fn linearize<S: Scalar, P: Poisson<S>>(
     system: &P,
     mu: &P::State,
     field: &mut P::State,

@@ -31,6 +31,7 @@ mod series;
 mod spherical;
 mod stage_momenta;
 mod tableau;
+mod tensor;
 
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
 pub use cayley_variational::CayleyVariational;
@@ -67,3 +68,4 @@ pub use series::{coadjoint_action, dexp_dual};
 pub use spherical::{Spherical, sphere_ratio, sphere_ratios};
 pub use stage_momenta::{StageMap, StageMomenta};
 pub use tableau::{Tableau, gauss_tableau};
+pub use tensor::{MeanTensor, MidpointTensor, PoissonTensor, TensorFacts};

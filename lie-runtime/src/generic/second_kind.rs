@@ -8,7 +8,7 @@ use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::newton::dense;
 use crate::poisson::{LiePoisson, Lift};
-use crate::scalar::Scalar;
+use crate::scalar::{Dual, Scalar};
 use crate::state::State;
 
 /// The method `mu1 = Ad*_g mu` with `g = exp(xi_1 e_1) … exp(xi_n e_n)`, `xi = grad S(p)`, for any
@@ -32,7 +32,12 @@ pub struct SecondKind<'a, S: Scalar, P: LiePoisson<S>, G> {
     columns: [P::State; 4],
 }
 
-impl<'a, S: Scalar, P: Lift<S>> SecondKind<'a, S, P, SecondKind2<'a, S, P>> {
+impl<'a, S, P> SecondKind<'a, S, P, SecondKind2<'a, S, P>>
+where
+    S: Scalar,
+    P: Lift<S> + LiePoisson<S>,
+    P::Lifted: LiePoisson<Dual<S>>,
+{
     /// The equation of a step of size h, order 2.
     pub fn new(system: &'a P, h: S) -> Self {
         Self::with_function(system, SecondKind2::new(system, h))

@@ -13,6 +13,8 @@ pub struct Preserves {
     pub orbit: bool,
     /// The Poisson structure: the step is a Poisson map.
     pub poisson: bool,
+    /// The Poisson structure of a constant Poisson matrix, as that of canonical coordinates is.
+    pub constant_poisson: bool,
     /// Every quadratic invariant of the equation, among them quadratic Casimirs and a quadratic H.
     pub quadratic_invariants: bool,
     /// Every linear invariant of the equation.
@@ -27,6 +29,7 @@ impl Preserves {
         quadratic_casimirs: false,
         orbit: false,
         poisson: false,
+        constant_poisson: false,
         quadratic_invariants: false,
         linear_invariants: false,
     };
@@ -35,10 +38,12 @@ impl Preserves {
         linear_invariants: true,
         ..Self::NOTHING
     };
-    /// Quadratic and linear invariants of the equation, and so quadratic Casimirs.
+    /// Quadratic and linear invariants of the equation, and so quadratic Casimirs and constant
+    /// Poisson matrices.
     pub const QUADRATIC: Self = Self {
         quadratic_casimirs: true,
         quadratic_invariants: true,
+        constant_poisson: true,
         ..Self::LINEAR
     };
     /// The coadjoint orbit, and so every Casimir.

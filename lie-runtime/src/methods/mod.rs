@@ -12,6 +12,7 @@
 //! | [`Generating2`], [`Generating4`], [`Generating6`] | the same with `$x = \nabla S(m)$`, `$S = h H + h^3 S_3 + h^5 S_5$` | 2, 4, 6 |
 //! | [`GeneratingSecondKind2`] | the same in coordinates `$\exp(x_1 e_1) \cdots \exp(x_n e_n)$` | 2 |
 //! | [`Gonzalez`], [`MeanValue`], [`ItohAbe`] | `$\mu_1 = \mu + h\, \Pi\!\left(\tfrac12(\mu + \mu_1)\right) \overline\nabla H(\mu, \mu_1)$` | 2 |
+//! | [`WithTensor`] | the same with another tensor, `$\tilde\Pi(\mu, \mu_1, h)$` | 2 and more |
 //! | [`OrbitEnergy`] | `$\mu_1 = \mathrm{Ad}^*_{\exp(h \overline\nabla H(\mu, \mu_1))}\, \mu$` | 2 |
 //! | [`CohenHairer`] | collocation with mean gradients, `$s$` stages | `$2s$` |
 //! | [`Isospectral2`], [`Isospectral4`], [`Isospectral6`] | Gauss on `T*V` of a representation V, reduced to g*; also [`Collective`] | 2, 4, 6 |
@@ -59,6 +60,7 @@ pub mod rkmk;
 pub mod spherical_midpoint;
 pub mod splitting;
 mod stepper;
+pub mod tensor;
 pub mod variational;
 
 pub use coefficients::Scheme;
@@ -92,5 +94,8 @@ pub use splitting::{
 };
 pub use stepper::{
     FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper,
+};
+pub use tensor::{
+    AlongGradient, MeanTensor, MidpointTensor, PoissonTensor, TensorFacts, WithTensor,
 };
 pub use variational::{Variational, Variational2, Variational4, Variational6};

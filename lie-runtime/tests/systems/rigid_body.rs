@@ -173,6 +173,7 @@ impl<S: Scalar> MatrixGroup<S> for RigidBody<S> {
     const SIZE: usize = 3;
     const MATRICES: &'static [&'static [Entry]] = SO3.matrices;
     const CLOSED: bool = true;
+    const ORTHOGONAL: bool = true;
 }
 
 impl<S: Scalar> SpinPoisson<S> for RigidBody<S> {

@@ -109,13 +109,11 @@ fn integrate(
     let mut rows = Rows::start(outputs.rows, format, &header).map_err(lost)?;
     let mut plot = outputs.plot.as_ref().map(|_| {
         let subtitle = format!("{}, h = {}", plan.method.title(), plan.step.1.trim());
-        Plot::new(
-            &*model.name,
-            &columns,
-            layout.states.len(),
-            (0.0, plan.end()),
-        )
-        .subtitle(subtitle)
+        let (own, element) = columns.split_at(layout.invariants.end);
+        let span = (0.0, plan.end());
+        Plot::new(&*model.name, own, layout.states.len(), span)
+            .subtitle(subtitle)
+            .element(element)
     });
     let mut drift = Drift::new(&columns[layout.invariants.clone()]);
     // Rows that scroll by on the same terminal say enough.

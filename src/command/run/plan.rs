@@ -14,7 +14,8 @@ use crate::command::method;
 use crate::compiler::Spec;
 use crate::message::Message;
 
-const METHOD: &str = "lie-midpoint";
+/// The method where none is given, for Lie–Poisson brackets and for others.
+const METHODS: [&str; 2] = ["lie-midpoint", "midpoint"];
 
 /// Everything about a run that does not depend on where its rows go.
 #[derive(Debug)]
@@ -146,9 +147,10 @@ impl Planner<'_> {
 
     fn method(&mut self) -> Option<Choice> {
         let given = self.given("--method", self.flags.method.as_ref());
-        let id = given
-            .clone()
-            .unwrap_or_else(|| Given::flag("--method", METHOD));
+        let id = given.clone().unwrap_or_else(|| {
+            let method = METHODS[usize::from(!self.spec.model.is_lie_poisson())];
+            Given::flag("--method", method)
+        });
         let place = id.wrong("").place;
         let found = method::find(&id.text).map_err(|message| message.at(place.clone()));
         let mut choice = self.keep(found)?;

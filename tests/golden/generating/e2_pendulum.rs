@@ -375,6 +375,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for PendulumSystem<
         &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
     ];
     const CLOSED: bool = true;
+    const ORTHOGONAL: bool = false;
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for PendulumSystem<S> {

@@ -5,6 +5,7 @@ mod domain;
 mod legendre;
 mod limits;
 mod names;
+mod poisson;
 mod random;
 
 use super::*;

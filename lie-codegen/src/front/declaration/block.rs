@@ -1,8 +1,8 @@
-//! The blocks `algebra` and `parameters`, and lists of names.
+//! The blocks `algebra`, `poisson`, `cocycle` and `parameters`, and lists of names.
 
 use super::entry::{Entry, inside};
 use super::statement::Statement;
-use crate::ast::{Algebra, Matrix, Name, Parameter};
+use crate::ast::{Algebra, Bracket, Matrix, Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::front::token::{Delimiter, Token, span, split_commas};
 use crate::front::{Names, item};
@@ -76,6 +76,13 @@ pub fn algebra(
         matrices,
         origin: statement.origin,
     })
+}
+
+/// `{ {x, y} = …; }`
+pub fn poisson(statement: &Statement<'_>, names: &Names, report: &mut Report) -> Vec<Bracket> {
+    let entries = statement.block(report).unwrap_or_default();
+    let bracket = |entry: &Entry<'_>| item::poisson(entry.tokens, entry.origin(), names, report);
+    entries.iter().filter_map(bracket).collect()
 }
 
 /// `matrix NAME = [[a, b], [c, d]]`

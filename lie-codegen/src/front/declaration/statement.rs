@@ -10,6 +10,8 @@ use crate::suggest::did_you_mean;
 const KEYWORDS: &[(&str, Follows)] = &[
     ("system", Follows::Name),
     ("algebra", Follows::Block),
+    ("poisson", Follows::Block),
+    ("cocycle", Follows::Block),
     ("group", Follows::Name),
     ("state", Follows::Name),
     ("parameters", Follows::Block),

@@ -78,8 +78,8 @@ fn everything_is_read() {
         d.description,
         ["Free rigid body in the body frame.", "Second line."]
     );
-    assert_eq!(texts(&d.algebra.basis), ["e1", "e2", "e3"]);
-    let brackets = d.algebra.brackets.unwrap();
+    assert_eq!(texts(d.basis()), ["e1", "e2", "e3"]);
+    let brackets = d.algebra().unwrap().brackets.clone().unwrap();
     assert_eq!(
         (brackets.len(), explicit(&brackets[1].value)),
         (3, "(k*e1)".into())
@@ -215,7 +215,11 @@ fn statements() {
         ("[e1, e2] = e3;", "[e1, e2] e3;", "[e1, e2] e3"),
         ("basis e1, e2, e3;", "basis e1, e2, e3; basis e1;", "basis"),
         ("[e3, e1] = e2; }", "[e3, e1] = e2 }", "e2"),
-        ("state x, y, z;", "poisson = 3; state x, y, z;", "poisson"),
+        (
+            "state x, y, z;",
+            "realization = 3; state x, y, z;",
+            "realization",
+        ),
         ("state x, y, z;", "#[derive(Debug)] state x, y, z;", "#"),
         ("state x, y, z;", "state x, y, z", "z"),
         ("let w2 = y/I2;", "let w2 = y/I2", "I2"),
@@ -329,4 +333,51 @@ fn both_front_ends_read_the_same() {
         };
         assert_eq!(ours, rusts, "{text}");
     }
+}
+
+#[test]
+fn brackets_of_coordinates() {
+    use crate::ast::Structure;
+    let algebra = "algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = k*e1; [e3, e1] = e2; }";
+    let general = BODY
+        .replacen(algebra, "poisson { {x, y} = w2*z^2; {z, x} = -1; }", 1)
+        .replacen("invariance = right;", "", 1);
+    let d = declared(&general);
+    let Structure::General { brackets, .. } = &d.structure else {
+        panic!("{:?}", d.structure)
+    };
+    let texts: Vec<String> = brackets
+        .iter()
+        .map(|b| format!("{} {} {}", b.left.text, b.right.text, explicit(&b.value)))
+        .collect();
+    assert_eq!(texts, ["x y (w2*(z^2))", "z x (-1)"]);
+    let d = declared(&BODY.replacen(
+        algebra,
+        &format!("{algebra} cocycle {{ {{x, y}} = k; }}"),
+        1,
+    ));
+    assert!(matches!(d.structure, Structure::Lie { cocycle, .. } if cocycle.len() == 1));
+    let with = |statements: &str| changed(algebra, statements);
+    assert_eq!(
+        with("poisson { {x, y} = 1; }"),
+        one(Kind::Syntax, "invariance")
+    );
+    assert_eq!(
+        with(&format!("{algebra} poisson {{ {{x, y}} = 1; }}")),
+        one(Kind::Syntax, "poisson")
+    );
+    for wrong in [
+        "{x, y}",
+        "{x, y, z} = 1",
+        "(x, y) = 1",
+        "[x, y] = 1",
+        "{x y} = 1",
+    ] {
+        let found = with(&format!("{algebra} cocycle {{ {wrong}; }}"));
+        assert_eq!(found, one(Kind::Syntax, wrong), "{wrong}");
+    }
+    assert_eq!(
+        mistakes("pub system S; poisson { {x, y} = 1 } state x, y; hamiltonian = x;"),
+        one(Kind::Syntax, "1")
+    );
 }

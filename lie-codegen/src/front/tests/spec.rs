@@ -68,9 +68,9 @@ fn everything_is_read() {
         ),
         ("HeavyTop", 2, 1)
     );
-    assert_eq!(texts(&d.algebra.basis), ["J1", "J2", "J3"]);
+    assert_eq!(texts(d.basis()), ["J1", "J2", "J3"]);
     assert_eq!(texts(&d.state), ["Π1", "Π2", "Π3"]);
-    let brackets = d.algebra.brackets.unwrap();
+    let brackets = d.algebra().unwrap().brackets.clone().unwrap();
     assert_eq!(
         (
             brackets[1].left.text.as_str(),
@@ -141,8 +141,8 @@ fn the_short_form_is_enough() {
     let d = declaration(
         "\u{feff}{\"name\":\"A\",\"algebra\":{\"basis\":[\"a\"],\"matrices\":{\"a\":[[0,\"1/2\"],[-1,0]]}},\"state\":[\"a\"],\"hamiltonian\":\"a\"}",
     );
-    assert!(d.algebra.brackets.is_none() && d.initial.is_none());
-    let entries: Vec<String> = d.algebra.matrices[0]
+    assert!(d.algebra().unwrap().brackets.is_none() && d.initial.is_none());
+    let entries: Vec<String> = d.algebra().unwrap().matrices[0]
         .rows
         .concat()
         .iter()
@@ -187,17 +187,10 @@ fn keys() {
 
 #[test]
 fn what_later_versions_declare_is_reserved() {
-    let found = changed(
-        "\"hamiltonian\": \"Π1^2/(2*I1) + m*w3\"",
-        "\"realization\": \"x\"",
+    assert_eq!(
+        changed("\"let\":", "\"realization\": [], \"let\":"),
+        one(Kind::Schema, "realization")
     );
-    assert_eq!(found, one(Kind::Schema, "realization"));
-    for key in ["poisson", "cocycle", "realization"] {
-        assert_eq!(
-            changed("\"let\":", &format!("\"{key}\": [], \"let\":")),
-            one(Kind::Schema, key)
-        );
-    }
     let algebra =
         r#"{ "basis": ["J1","J2","J3"], "brackets": ["[J1, J2] = J3", "[J2, J3] = k*J1"] }"#;
     assert_eq!(
@@ -320,4 +313,53 @@ fn several_mistakes_come_in_the_order_of_the_file() {
 #[test]
 fn repeated_names_are_left_to_the_check_of_names() {
     assert_eq!(changed("\"I2\": \"3/2\"", "\"I1\": \"3/2\""), []);
+}
+
+#[test]
+fn brackets_of_coordinates() {
+    use crate::ast::Structure;
+    let algebra = r#""algebra": { "basis": ["J1","J2","J3"], "brackets": ["[J1, J2] = J3", "[J2, J3] = k*J1"] },"#;
+    let general = TOP
+        .replacen(
+            algebra,
+            r#""poisson": ["{Π1, Π2} = w3*Π3^2", "{Π3,Π1}=-1"],"#,
+            1,
+        )
+        .replacen(r#""invariance": "right","#, "", 1);
+    let d = declaration(&general);
+    let Structure::General { brackets, .. } = &d.structure else {
+        panic!("{:?}", d.structure)
+    };
+    let texts: Vec<String> = brackets
+        .iter()
+        .map(|b| format!("{} {} {}", b.left.text, b.right.text, explicit(&b.value)))
+        .collect();
+    assert_eq!(texts, ["Π1 Π2 (w3*(Π3^2))", "Π3 Π1 (-1)"]);
+    assert_eq!((d.dimension(), d.basis().len()), (3, 0));
+    let extended = TOP.replacen(
+        algebra,
+        &format!(r#"{algebra} "cocycle": ["{{Π1, Π2}} = k"],"#),
+        1,
+    );
+    let d = declaration(&extended);
+    assert!(matches!(d.structure, Structure::Lie { cocycle, .. } if cocycle.len() == 1));
+    let with = |keys: &str| changed(algebra, keys);
+    assert_eq!(
+        with(r#""poisson": ["{Π1, Π2} = 1"],"#),
+        one(Kind::Schema, "\"right\"")
+    );
+    assert_eq!(
+        with(&format!(r#"{algebra} "poisson": ["{{Π1, Π2}} = 1"],"#)),
+        one(Kind::Schema, r#"["{Π1, Π2} = 1"]"#)
+    );
+    for wrong in [
+        "{Π1, Π2}",
+        "{Π1, Π2, Π3} = 1",
+        "(Π1, Π2) = 1",
+        "[Π1, Π2] = 1",
+        "{Π1 Π2} = 1",
+    ] {
+        let found = with(&format!(r#"{algebra} "cocycle": ["{wrong}"],"#));
+        assert_eq!(found, one(Kind::Syntax, wrong), "{wrong}");
+    }
 }

@@ -1,10 +1,11 @@
 //! What all measurements on one system share.
 
 use super::super::integrals::{Integral, integrals};
+use super::super::orbit::orbit_distance;
 use super::super::random::Random;
 use super::super::reference::reference;
 use crate::matrix::SquareMatrix;
-use crate::poisson::Poisson;
+use crate::poisson::{LiePoisson, Poisson};
 use crate::state::{State, Unknown};
 
 /// States near the initial one, on which nothing vanishes by accident, and with it.
@@ -31,7 +32,12 @@ pub struct Ground<P: Poisson<f64>> {
     pub quadratic: Vec<Integral>,
     /// The largest structure constant, about: the size of the Poisson matrix over that of the state.
     pub structure: f64,
+    /// The distance of a state from the coadjoint orbit of another, where there are orbits.
+    pub orbit: Option<OrbitDistance<P>>,
 }
+
+/// The distance of the second state from the orbit of the first.
+pub type OrbitDistance<P> = fn(&P, &<P as Poisson<f64>>::State, &<P as Poisson<f64>>::State) -> f64;
 
 /// The solutions over one span.
 pub struct Exact<V> {
@@ -116,7 +122,20 @@ impl<P: Poisson<f64>> Ground<P> {
             linear,
             quadratic,
             structure,
+            orbit: None,
         })
+    }
+
+    /// The same for a system whose states lie on coadjoint orbits.
+    #[must_use]
+    pub fn with_orbits(self) -> Self
+    where
+        P: LiePoisson<f64>,
+    {
+        Self {
+            orbit: Some(orbit_distance::<P>),
+            ..self
+        }
     }
 }
 

@@ -11,12 +11,11 @@ mod order;
 
 pub use findings::{Finding, Verdict};
 pub(crate) use ground::rate;
-pub use ground::{Exact, Ground};
+pub use ground::{Exact, Ground, OrbitDistance};
 pub(crate) use order::relative_error;
 
 use super::any::AnyMethod;
 use super::newton_order::{order_of_iteration, residual_floor, residuals};
-use super::orbit::orbit_distance;
 use super::poisson_defect::tangent_map;
 use super::symmetry::symmetry_defect;
 use crate::methods::StepFailure;
@@ -128,6 +127,13 @@ fn symmetry<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) 
 
 fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
     let claimed = subject.method.claims().preserves.orbit;
+    let Some(orbit_distance) = ground.orbit else {
+        return if claimed {
+            Finding::zero("orbit", claimed, f64::NAN, 0.0).note("no algebra is known".to_owned())
+        } else {
+            Finding::absent("orbit", "no algebra")
+        };
+    };
     let newton = NewtonOptions::default();
     worst(
         ground,
@@ -147,7 +153,9 @@ fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> 
 }
 
 fn poisson<P: Lift<f64>>(lifted: &P::Lifted, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
-    let claimed = subject.method.claims().preserves.poisson;
+    let kept = subject.method.claims().preserves;
+    let constant = P::POISSON_DEGREE == Some(0);
+    let claimed = kept.poisson || (kept.constant_poisson && constant);
     let newton = NewtonOptions::default();
     let operations = PER_STEP * P::DIM as f64;
     worst(

@@ -5,7 +5,7 @@ mod slopes;
 
 use crate::generating::GeneratingFunction;
 use crate::matrix::SquareMatrix;
-use crate::poisson::{CayleyPoisson, Lift, Poisson};
+use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
 use crate::state::State;
 use derivatives::seeded;
@@ -80,7 +80,7 @@ pub fn linearize_by_duals<S, F, V, M>(
 }
 
 macro_rules! by_duals {
-    ($(#[$doc:meta])* $name:ident, $slope:path $(, $cayley:ident)?) => {
+    ($(#[$doc:meta])* $name:ident, $slope:path $(, $cayley:ident)? $(; $($lifted:tt)+)?) => {
         $(#[$doc])*
         #[derive(Clone, Debug)]
         pub struct $name<'a, S, P> {
@@ -98,7 +98,9 @@ macro_rules! by_duals {
         impl<S, P> GeneratingFunction<S> for $name<'_, S, P>
         where
             S: Scalar,
-            P: Lift<S> $(+ $cayley<S>, P::Lifted: $cayley<Dual<S>>)?,
+            P: Lift<S> + LiePoisson<S> $(+ $cayley<S>)?,
+            P::Lifted: LiePoisson<Dual<S>> $(+ $cayley<Dual<S>>)?,
+            $($($lifted)+: LiePoisson<Dual<Dual<S>>>,)?
         {
             type State = P::State;
             type Jacobian = P::Jacobian;
@@ -139,7 +141,9 @@ by_duals!(
     /// `S5 = (-<X2, eta>/12 + H''(X, ad*_eta p)/4 + H''(X2, X2)/288 + H'''(X, X, X2)/96
     /// + H''''(X, X, X, X)/384)/5`.
     Generating6,
-    slopes::exp6
+    slopes::exp6;
+    // the gradient is one of dual numbers already
+    <P::Lifted as Lift<Dual<S>>>::Lifted
 );
 by_duals!(
     /// `S = h H + h^3 S3` in Cayley coordinates,

@@ -7,8 +7,8 @@
 
 use super::derivatives::{fifth, fourth, second, seeded, slope, third};
 use crate::matrix::SquareMatrix;
-use crate::poisson::{CayleyPoisson, Lift, Poisson};
-use crate::scalar::Scalar;
+use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
+use crate::scalar::{Dual, Scalar};
 use crate::state::State;
 
 /// `xi`, X and w at a point.
@@ -19,7 +19,7 @@ struct Flow<V> {
 }
 
 impl<V> Flow<V> {
-    fn at<S: Scalar, P: Lift<S, State = V>>(system: &P, p: &V) -> Self
+    fn at<S: Scalar, P: Lift<S> + LiePoisson<S, State = V>>(system: &P, p: &V) -> Self
     where
         V: State<S>,
     {
@@ -36,7 +36,7 @@ impl<V> Flow<V> {
 }
 
 /// `grad H''(X, X) = H'''(X, X, .) + 2 ([xi, w] - H'' ad*_w p)`, and `Y = ad*_w p`.
-fn of_square<S: Scalar, P: Lift<S>>(
+fn of_square<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     system: &P,
     p: &P::State,
     flow: &Flow<P::State>,
@@ -60,7 +60,12 @@ fn started<S: Scalar, V: State<S>>(h: S, xi: &V, weight: S, eta: &V, out: &mut V
 }
 
 /// `grad (h H + h^3 S3)` in exponential coordinates.
-pub(super) fn exp4<S: Scalar, P: Lift<S>>(system: &P, h: S, p: &P::State, out: &mut P::State) {
+pub(super) fn exp4<S: Scalar, P: Lift<S> + LiePoisson<S>>(
+    system: &P,
+    h: S,
+    p: &P::State,
+    out: &mut P::State,
+) {
     let flow = Flow::at(system, p);
     let (mut y, mut eta) = (system.zero_state(), system.zero_state());
     of_square(system, p, &flow, &mut y, &mut eta);
@@ -68,7 +73,7 @@ pub(super) fn exp4<S: Scalar, P: Lift<S>>(system: &P, h: S, p: &P::State, out: &
 }
 
 /// 24 times the gradient of S3 alone, for its derivative along a direction.
-fn eta_of<S: Scalar, P: Lift<S>>(system: &P, p: &P::State, out: &mut P::State) {
+fn eta_of<S: Scalar, P: Lift<S> + LiePoisson<S>>(system: &P, p: &P::State, out: &mut P::State) {
     let flow = Flow::at(system, p);
     let mut y = system.zero_state();
     of_square(system, p, &flow, &mut y, out);
@@ -77,7 +82,12 @@ fn eta_of<S: Scalar, P: Lift<S>>(system: &P, p: &P::State, out: &mut P::State) {
 /// `grad (h H + h^3 S3 + h^5 S5)` in exponential coordinates, with
 /// `5760 S5 = -4 <X2 + 3 Y, eta> + 4 H''(X2, X2) + 12 H'''(X, X, X2) + 3 H''''(X, X, X, X)`
 /// and `eta = 24 grad S3`.
-pub(super) fn exp6<S: Scalar, P: Lift<S>>(system: &P, h: S, p: &P::State, out: &mut P::State) {
+pub(super) fn exp6<S, P>(system: &P, h: S, p: &P::State, out: &mut P::State)
+where
+    S: Scalar,
+    P: Lift<S> + LiePoisson<S>,
+    P::Lifted: LiePoisson<Dual<S>>,
+{
     let zero = system.zero_state();
     let number = S::from_f64;
     let flow = Flow::at(system, p);
@@ -187,7 +197,7 @@ where
 /// `grad (h H + h^2 S2)` in coordinates of the second kind. With the upper half U of the Poisson
 /// matrix, `2 S2 = xi.U xi`: the gradient in xi is `(U + U^T) xi`, that in p is
 /// `sum_j [xi_j e_j, (xi_1, …, xi_(j-1))]`.
-pub(super) fn second_kind<S: Scalar, P: Lift<S>>(
+pub(super) fn second_kind<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     system: &P,
     h: S,
     p: &P::State,

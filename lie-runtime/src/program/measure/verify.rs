@@ -10,7 +10,7 @@ use crate::diagnostics::AnyMethod;
 use crate::diagnostics::verify::{Ground, Subject, Verdict, verify};
 use crate::methods::Method;
 use crate::parameter::ParameterError;
-use crate::poisson::Lift;
+use crate::poisson::{LiePoisson, Lift};
 use crate::scalar::Dual;
 use std::io::{BufRead, Write};
 use std::process::ExitCode;
@@ -21,6 +21,7 @@ type MakeSubject<P> = Box<dyn Fn() -> Subject<P>>;
 pub struct Verify<P: Lift<f64>> {
     defaults: Vec<f64>,
     build: Box<Build<P>>,
+    with_orbits: fn(Ground<P>) -> Ground<P>,
     subjects: Vec<(&'static str, MakeSubject<P>)>,
 }
 
@@ -33,7 +34,20 @@ impl<P: Lift<f64> + 'static> Verify<P> {
         Self {
             defaults: defaults.to_vec(),
             build: Box::new(build),
+            with_orbits: |ground| ground,
             subjects: Vec::new(),
+        }
+    }
+
+    /// Measures the distance from coadjoint orbits too.
+    #[must_use]
+    pub fn with_orbits(self) -> Self
+    where
+        P: LiePoisson<f64>,
+    {
+        Self {
+            with_orbits: Ground::with_orbits,
+            ..self
         }
     }
 
@@ -107,6 +121,7 @@ impl<P: Lift<f64> + 'static> Verify<P> {
         let seed = request.number("seed").unwrap_or(1.0) as u64;
         let ground = Ground::new(&system, &mu, seed, request.number("step"))
             .map_err(|text| (2, format!("ground {text}")))?;
+        let ground = (self.with_orbits)(ground);
         session.line(&[
             "ground",
             &format!("{:?}", ground.step),

@@ -1,0 +1,135 @@
+//! Constants that are added to a Lie–Poisson bracket: a 2-cocycle of the algebra.
+
+use super::normal::NormalForm;
+use super::poisson::{Entry, symbol_name};
+use super::proof::{Proof, examine};
+use crate::algebra::StructureConstants;
+use crate::ast::{Declaration, Expr, ExprKind, Structure};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::exact::Budget;
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// Work allowed for the identity.
+const WORK: u64 = 20_000_000;
+
+/// Reports constants that use parameters which are not exact: the identity must hold for what the
+/// brackets of the algebra may depend on, and these are exact.
+pub fn parameters(declaration: &Declaration, report: &mut Report) {
+    let Structure::Lie { cocycle, .. } = &declaration.structure else {
+        return;
+    };
+    let inexact = |name: &str| {
+        let mut parameters = declaration.parameters.iter();
+        parameters.any(|p| p.name.text == name && !p.exact)
+    };
+    for bracket in cocycle {
+        for (name, origin) in names(&bracket.value) {
+            if inexact(name) {
+                let message =
+                    format!("the parameter `{name}` is not exact, so a cocycle cannot use it");
+                let help = format!(
+                    "declare it exact: `exact {name} = …;` in the macro, `\"exact\": true` in a spec"
+                );
+                report.push(Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help));
+            }
+        }
+    }
+}
+
+/// The names in an expression, in the order of the text.
+fn names(expression: &Expr) -> Vec<(&str, Origin)> {
+    let mut pending = vec![expression];
+    let mut names = Vec::new();
+    while let Some(part) = pending.pop() {
+        match &part.kind {
+            ExprKind::Name { name, .. } => names.push((name.as_str(), part.origin)),
+            ExprKind::Number(_) => {}
+            ExprKind::Negative(a) => pending.push(a),
+            ExprKind::Power(a, b) => pending.extend([&**b, &**a]),
+            ExprKind::Sum(operands) | ExprKind::Product(operands) => {
+                pending.extend(operands.iter().rev().map(|(_, operand)| operand));
+            }
+            ExprKind::Call { arguments, .. } => pending.extend(arguments.iter().rev()),
+            ExprKind::IndexedSum { from, to, body, .. } => {
+                pending.extend([&**body, &**to, &**from]);
+            }
+        }
+    }
+    names
+}
+
+/// Reports the first three basis elements for which the cocycle identity
+/// `S([a, b], c) + S([b, c], a) + S([c, a], b) = 0` fails, with `S(e_i, e_j)` the constant that is added to
+/// `{x_i, x_j}`: only then is the sum a Poisson bracket, the Lie–Poisson bracket of a central extension.
+pub fn check(
+    declaration: &Declaration,
+    entries: &[Entry],
+    constants: &StructureConstants<ExprId>,
+    scratch: &mut Graph,
+    report: &mut Report,
+) {
+    let n = constants.dimension();
+    let zero = scratch.integer(0);
+    let mut cocycle = vec![vec![zero; n]; n];
+    for entry in entries {
+        cocycle[entry.row][entry.column] = entry.value;
+        cocycle[entry.column][entry.row] = scratch.neg(entry.value);
+    }
+    let mut brackets = vec![vec![Vec::new(); n]; n];
+    for (i, j, k, value) in constants.entries() {
+        brackets[*i][*j].push((*k, *value));
+        brackets[*j][*i].push((*k, scratch.neg(*value)));
+    }
+    let mut sums = Vec::new();
+    for i in 0..n {
+        for j in i + 1..n {
+            for k in j + 1..n {
+                let mut terms = Vec::new();
+                for (a, b, c) in [(i, j, k), (j, k, i), (k, i, j)] {
+                    for (l, value) in &brackets[a][b] {
+                        terms.push(scratch.mul(*value, cocycle[*l][c]));
+                    }
+                }
+                let sum = scratch.sum(&terms);
+                if !scratch.is_zero(sum) {
+                    sums.push(([i, j, k], sum));
+                }
+            }
+        }
+    }
+    let scratch = &*scratch;
+    let budget = Budget::new(WORK);
+    let mut normal = NormalForm::new(scratch, &budget);
+    let name = |symbol: Symbol| symbol_name(declaration, symbol);
+    for (triple, sum) in &sums {
+        let [a, b, c] = triple.map(|index| declaration.basis()[index].text.as_str());
+        let sums = format!("S([{a}, {b}], {c}) + S([{b}, {c}], {a}) + S([{c}, {a}], {b})");
+        let message = match examine(&mut normal, scratch, *sum, &name) {
+            Proof::Zero => continue,
+            Proof::Nonzero(shown) => {
+                format!("the cocycle identity fails for ({a}, {b}, {c}): {sums} = {shown}")
+            }
+            Proof::Unproven(_) => format!(
+                "the cocycle identity is unproven for ({a}, {b}, {c}): it could not be shown that {sums} is zero"
+            ),
+        };
+        // the constants S(e_l, e_c) that the sum contains
+        let involved = |entry: &&Entry| {
+            [(0, 1, 2), (1, 2, 0), (2, 0, 1)].iter().any(|&(x, y, z)| {
+                let (x, y, z) = (triple[x], triple[y], triple[z]);
+                let mut from = brackets[x][y].iter();
+                from.any(|(l, _)| {
+                    (entry.row, entry.column) == (*l, z) || (entry.row, entry.column) == (z, *l)
+                })
+            })
+        };
+        let found = entries.iter().find(involved).or(entries.first());
+        let place = found.map_or(declaration.place(), |entry| entry.origin);
+        report.push(
+            Diagnostic::new(Kind::Cocycle, place, message).help(
+                "correct the constants; S(a, b) is what is added to the bracket of the coordinates of a and b",
+            ),
+        );
+        return;
+    }
+}
