@@ -212,10 +212,10 @@ impl Model {
             Symbol::Parameter(i) => self.parameters[i].name.clone(),
             Symbol::Step => "h".into(),
             Symbol::Time => "t".into(),
-            Symbol::Input(i) => match &self.lagrangian {
-                Some(lagrangian) => lagrangian.velocity[i].text.clone(),
-                None => format!("input{i}"),
-            },
+            Symbol::Input(i) => {
+                let velocity = self.lagrangian.as_ref().and_then(|l| l.velocity.get(i));
+                velocity.map_or_else(|| format!("input{i}"), |name| name.text.clone())
+            }
         }
     }
 

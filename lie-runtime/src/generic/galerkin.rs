@@ -37,10 +37,16 @@ where
     weight: P::Jacobian,
     inverse_stiffness: SMatrix<S, STAGES, STAGES>,
     path: Path<S, P::State, STAGES>,
-    lifted_path: Path<Dual<S>, <P::Lifted as Poisson<Dual<S>>>::State, STAGES>,
+    lifted_path: Path<Dual<S>, LiftedState<S, P>, STAGES>,
+    lifted_base: LiftedState<S, P>,
+    lifted_controls: Stages<LiftedState<S, P>, STAGES>,
+    lifted_defects: Stages<LiftedState<S, P>, STAGES>,
     columns: [P::State; 3],
     defects: Stages<P::State, STAGES>,
+    moved: Stages<P::State, STAGES>,
 }
+
+type LiftedState<S, P> = <<P as Lift<S>>::Lifted as Poisson<Dual<S>>>::State;
 
 /// The path of a step over some scalar.
 struct Path<S, V, const STAGES: usize> {
@@ -203,6 +209,7 @@ where
     pub fn new(system: &'a P, h: S) -> Self {
         let zero = system.zero_state();
         let lifted = system.lift();
+        let lifted_zero = lifted.zero_state();
         let path = Path::new(&zero, h);
         let mut stiffness = SMatrix::<S, STAGES, STAGES>::repeat(S::zero());
         for j in 0..STAGES {
@@ -220,30 +227,36 @@ where
             base: zero.clone(),
             weight: system.zero_jacobian(),
             inverse_stiffness,
-            lifted_path: Path::new(&lifted.zero_state(), Dual::constant_of(h)),
+            lifted_path: Path::new(&lifted_zero, Dual::constant_of(h)),
+            lifted_controls: Stages(core::array::from_fn(|_| lifted_zero.clone())),
+            lifted_defects: Stages(core::array::from_fn(|_| lifted_zero.clone())),
+            lifted_base: lifted_zero,
             path,
             lifted,
             columns: core::array::from_fn(|_| zero.clone()),
             defects: Stages(core::array::from_fn(|_| zero.clone())),
+            moved: Stages(core::array::from_fn(|_| zero.clone())),
         }
     }
 
-    /// Applies `K^-1 W h` to the stages of a vector.
-    fn precondition(
-        &mut self,
-        vector: &Stages<P::State, STAGES>,
-        out: &mut Stages<P::State, STAGES>,
-    ) {
-        let [sum, moved, _] = &mut self.columns;
-        for (j, part) in out.0.iter_mut().enumerate() {
+    /// Applies `K^-1 W h` to the stages of the defect; leaves the result in `moved`.
+    fn precondition(&mut self) {
+        let [sum, column, _] = &mut self.columns;
+        for (j, part) in self.moved.0.iter_mut().enumerate() {
             sum.fill(S::zero());
-            for (k, entry) in vector.0.iter().enumerate() {
+            for (k, entry) in self.defects.0.iter().enumerate() {
                 sum.axpy(self.inverse_stiffness[(j, k)] * self.step, entry);
             }
-            multiply(&self.weight, sum, moved);
-            part.copy_from(moved);
+            multiply(&self.weight, sum, column);
+            part.copy_from(column);
         }
     }
+}
+
+/// A vector without derivative.
+fn lift<S: Scalar>(vector: &impl State<S>, out: &mut impl State<Dual<S>>) {
+    let pairs = out.as_mut_slice().iter_mut().zip(vector.as_slice());
+    pairs.for_each(|(out, &value)| *out = Dual::constant_of(value));
 }
 
 impl<S, P, const STAGES: usize> Equation<S> for GalerkinStep<'_, S, P, STAGES>
@@ -285,10 +298,12 @@ where
     }
 
     fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        let mut defects = self.defects.clone();
         self.path
-            .defect(self.system, unknown, &self.base, &mut defects);
-        self.precondition(&defects, residual);
+            .defect(self.system, unknown, &self.base, &mut self.defects);
+        self.precondition();
+        for (part, moved) in residual.0.iter_mut().zip(&self.moved.0) {
+            part.copy_from(moved);
+        }
     }
 
     fn linearize(
@@ -297,30 +312,29 @@ where
         residual: &mut Self::Unknown,
         matrix: &mut Self::Matrix,
     ) {
-        let lifted = |system: &P::Lifted, vector: &P::State| {
-            let mut out = system.zero_state();
-            let pairs = out.as_mut_slice().iter_mut().zip(vector.as_slice());
-            pairs.for_each(|(out, &value)| *out = Dual::constant_of(value));
-            out
-        };
-        let mu = lifted(&self.lifted, &self.base);
-        let mut controls = Stages(core::array::from_fn(|j| {
-            lifted(&self.lifted, &unknown.0[j])
-        }));
-        let mut values = controls.clone();
-        let (mut column, mut moved) = (self.defects.clone(), self.defects.clone());
+        lift(&self.base, &mut self.lifted_base);
+        for (control, lifted) in unknown.0.iter().zip(&mut self.lifted_controls.0) {
+            lift(control, lifted);
+        }
         for stage in 0..STAGES {
             for index in 0..P::DIM {
-                controls.0[stage].as_mut_slice()[index].derivative = S::one();
-                self.lifted_path
-                    .defect(&self.lifted, &controls, &mu, &mut values);
-                controls.0[stage].as_mut_slice()[index].derivative = S::zero();
-                for (part, value) in column.0.iter_mut().zip(&values.0) {
+                let seed = |controls: &mut Stages<LiftedState<S, P>, STAGES>, slope: S| {
+                    controls.0[stage].as_mut_slice()[index].derivative = slope;
+                };
+                seed(&mut self.lifted_controls, S::one());
+                self.lifted_path.defect(
+                    &self.lifted,
+                    &self.lifted_controls,
+                    &self.lifted_base,
+                    &mut self.lifted_defects,
+                );
+                seed(&mut self.lifted_controls, S::zero());
+                for (part, value) in self.defects.0.iter_mut().zip(&self.lifted_defects.0) {
                     let pairs = part.as_mut_slice().iter_mut().zip(value.as_slice());
                     pairs.for_each(|(out, value)| *out = value.derivative);
                 }
-                self.precondition(&column, &mut moved);
-                for (row_stage, part) in moved.0.iter().enumerate() {
+                self.precondition();
+                for (row_stage, part) in self.moved.0.iter().enumerate() {
                     let block = &mut matrix.0[row_stage][stage];
                     for (row, &entry) in part.as_slice().iter().enumerate() {
                         block.set(row, index, entry);
