@@ -10,6 +10,7 @@ mod kernel;
 mod lagrangian;
 mod midpoint;
 mod poisson;
+mod realization;
 mod second_kind;
 mod spherical;
 mod splitting;
@@ -17,6 +18,7 @@ mod tape;
 
 pub use generating::{Function, Generating};
 pub use kernel::{Argument, Kernel, Shape};
+pub use realization::Realization;
 pub use splitting::{PieceKernel, Update};
 
 use crate::algebra::{Representation, TripleEntry};
@@ -55,6 +57,8 @@ pub struct Source {
     pub triple: Option<Vec<TripleEntry>>,
     /// The coordinate pieces of H, if it is a sum of functions of one coordinate each.
     pub pieces: Option<Vec<Piece>>,
+    /// The declared realization.
+    pub realization: Option<Realization>,
     /// The representation, where it carries collective methods.
     pub matrices: Option<Representation>,
     /// The group of the declared matrices, where it is not part of the state.
@@ -108,6 +112,7 @@ impl Source {
             casimirs: Vec::new(),
             triple: None,
             pieces: None,
+            realization: None,
             matrices: None,
             spins: None,
             body: None,
@@ -242,6 +247,12 @@ impl Source {
     /// Residual and Jacobian of the discrete rigid body.
     pub fn discrete_body_kernels(&mut self) -> Option<Vec<Kernel>> {
         discrete_body::kernels(self)
+    }
+
+    /// The map of the realization and its derivatives.
+    pub fn realization_kernels(&mut self) -> Option<Vec<Kernel>> {
+        let realization = self.realization.clone()?;
+        Some(realization::kernels(self, &realization))
     }
 
     /// Residual, Jacobian and result of the retraction method with the Cayley map.

@@ -14,6 +14,7 @@ mod lagrangian;
 mod names;
 mod parameters;
 mod prepared;
+mod realization;
 mod splitting;
 mod structure;
 mod system;
@@ -83,13 +84,16 @@ pub fn emit(blueprint: &Blueprint) -> Emitted {
     let basic = writer.system_impls();
     let lagrangian = writer.lagrangian();
     let structure = writer.structure();
+    let realization = writer.realization();
     let equations = writer.equations();
     let splitting = writer.splitting();
     let parameters = writer.parameters();
     let system = writer.system_struct();
     let lift = writer.lift();
     Emitted {
-        tokens: quote! { #parameters #system #basic #lagrangian #lift #structure #equations #splitting },
+        tokens: quote! {
+            #parameters #system #basic #lagrangian #lift #structure #realization #equations #splitting
+        },
         counts: writer.counts,
     }
 }

@@ -20,6 +20,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("lagrangian", Follows::Equals),
     ("discrete_lagrangian", Follows::Equals),
     ("velocity", Follows::Name),
+    ("realization", Follows::Block),
     ("casimir", Follows::Name),
     ("methods", Follows::Equals),
     ("invariance", Follows::Equals),
