@@ -118,6 +118,13 @@ fn the_attitude_of_hairer_and_vilmart_is_met() {
         Chart::Quaternion,
     );
     assert!(distance(&end.element, &Q10) < 1e-11, "{:?}", end.element);
+    let digits: Vec<String> = end.element.iter().map(|q| format!("{q:.12}")).collect();
+    let row = format!(
+        "| attitude q(10) by `gauss6`, h = 0.01, q(0) = 1 | ({}) |",
+        digits.join(", ")
+    );
+    let page = std::fs::read_to_string("docs/published.md").expect("the page");
+    assert!(page.contains(&row), "{row}");
     let end = run(
         &body,
         &Y0,

@@ -44,6 +44,21 @@ use proc_macro::TokenStream;
 ///     methods = [discrete-euler-poincare];
 /// }
 ///
+/// lie_poisson! {
+///     /// A body in a potential that turns with the time: a system on T*SO(3). The entries of R are
+///     /// coordinates beside x, y, z.
+///     pub system InPotential;
+///     algebra {
+///         basis e1, e2, e3;
+///         matrix e1 = [[0, 0, 0], [0, 0, -1], [0, 1, 0]];
+///         matrix e2 = [[0, 0, 1], [0, 0, 0], [-1, 0, 0]];
+///         matrix e3 = [[0, -1, 0], [1, 0, 0], [0, 0, 0]];
+///     }
+///     group R;
+///     state x, y, z;
+///     hamiltonian = x^2/4 + y^2/2 + 3*z^2/4 + R33*cos(t);
+/// }
+///
 /// lie_poisson! { pub spec = "specs/se3_heavy_top.json"; }
 /// ```
 ///
