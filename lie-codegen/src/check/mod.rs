@@ -139,6 +139,9 @@ fn system(
         ),
     };
     let constants = exact_constants.map(|value| expression(&mut graph, value));
+    if declaration.algebra().is_some() {
+        cocycle::values(&brackets, &graph, &parameters, report);
+    }
     let structure = match &declaration.structure {
         ast::Structure::General { .. } => Structure::General,
         ast::Structure::Lie { .. } if brackets.is_empty() => Structure::Lie,
