@@ -113,9 +113,9 @@ mod tests {
     #[test]
     fn errors_are_relative_unless_the_invariant_is_zero() {
         let mut drift = Drift::new(&["energy".to_owned(), "C".to_owned()]);
-        drift.push(&[0.0, 1.0, -3.0, 2.0, 0.0]);
-        drift.push(&[0.5, 1.0, -3.0, 2.5, 1e-9]);
-        drift.push(&[1.0, 1.0, -3.0, 2.1, -2e-9]);
+        drift.push(&[0.0, 1.0, -3.0, 2.0, 0.0], 3);
+        drift.push(&[0.5, 1.0, -3.0, 2.5, 1e-9], 3);
+        drift.push(&[1.0, 1.0, -3.0, 2.1, -2e-9], 3);
         let counts = Counts {
             steps: 2,
             newton: 5,
@@ -127,9 +127,9 @@ mod tests {
             "T: 2 steps to t = 1.0 in 1.500 s, 2.50 Newton iterations per step\n\
              largest relative error in the rows: energy 2.5e-1, C 2.0e-9 (absolute)\n"
         );
-        drift.push(&[1.5, 1.0, 1.0, f64::NAN, 0.0]);
+        drift.push(&[1.5, 1.0, 1.0, f64::NAN, 0.0], 3);
         assert!(drift.text().contains("energy NaN"));
-        drift.push(&[2.0, 1.0, 1.0, 2.0, 0.0]);
+        drift.push(&[2.0, 1.0, 1.0, 2.0, 0.0], 3);
         assert!(drift.text().contains("energy NaN"), "it stays");
     }
 }
