@@ -185,6 +185,28 @@ impl Energy {
     }
 }
 
+/// A realization of the bracket: a map from canonical coordinates (q, p) to the state.
+#[derive(Clone, Debug)]
+pub struct Realization {
+    /// Names of the positions q.
+    pub positions: Vec<Name>,
+    /// Names of the momenta p.
+    pub momenta: Vec<Name>,
+    /// `STATE = expression` for each coordinate.
+    pub map: Vec<(Name, Expr)>,
+    /// A point (q, p) near which points over a state are sought.
+    pub start: Option<Vec<Expr>>,
+    /// The whole declaration.
+    pub origin: Origin,
+}
+
+impl Realization {
+    /// Positions, then momenta.
+    pub fn names(&self) -> impl Iterator<Item = &Name> {
+        self.positions.iter().chain(&self.momenta)
+    }
+}
+
 /// Which invariance the system has; the right-invariant one has the opposite sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Invariance {
@@ -227,6 +249,8 @@ pub struct Declaration {
     pub lets: Vec<(Name, Expr)>,
     /// The Hamiltonian or the Lagrangian.
     pub energy: Energy,
+    /// A realization, for collective methods.
+    pub realization: Option<Realization>,
     /// Declared Casimirs.
     pub casimirs: Vec<Casimir>,
     /// Methods that get fused code.

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 
 use crate::ast::Declaration;
 use crate::check::check;
-use crate::derive::Source;
+use crate::derive::{Realization, Source};
 use crate::diagnostic::{Diagnostic, Origin, Report};
 use crate::emit::{Blueprint, Emitted, Parameter, emit};
 use crate::front::{Body, spec};
@@ -163,6 +163,7 @@ pub fn source(model: &Model) -> Source {
             hamiltonian: model.hamiltonian,
             energy: model.energy,
             casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
+            realization: realization(model),
             ..Source::empty(graph)
         };
     }
@@ -183,10 +184,24 @@ pub fn source(model: &Model) -> Source {
         actions: None,
         triple: model.representation.as_ref().and_then(|r| r.triple.clone()),
         group: group::group(model),
+        realization: realization(model),
         matrices: model.representation.clone().filter(|r| r.dual.is_some()),
         spins: spins::spins(model),
         body,
     }
+}
+
+fn realization(model: &Model) -> Option<Realization> {
+    let declared = model.realization.as_ref()?;
+    Some(Realization {
+        names: declared
+            .names
+            .iter()
+            .map(|name| name.text.clone())
+            .collect(),
+        map: declared.map.clone(),
+        start: declared.start.clone(),
+    })
 }
 
 /// The names of the components of a velocity: the basis, or the coordinates where there is none.

@@ -77,6 +77,24 @@ impl PoissonMatrix {
     }
 }
 
+/// [`Symbol::Input`] of the first canonical coordinate of a realization: beyond all other inputs.
+pub const CANONICAL: usize = 1 << 20;
+
+/// A verified realization of the bracket: a Poisson map from canonical coordinates.
+#[derive(Clone, Debug)]
+pub struct Realization {
+    /// Names of the positions, then of the momenta.
+    pub names: Vec<Name>,
+    /// The component of each coordinate of the state; position k is the input `CANONICAL + k`.
+    pub map: Vec<ExprId>,
+    /// Where the components stand.
+    pub origins: Vec<Origin>,
+    /// A point near which points over a state are sought.
+    pub start: Vec<ExprId>,
+    /// Whether all components are of degree at most two.
+    pub quadratic: bool,
+}
+
 /// A checked system.
 ///
 /// The right-invariant sign is already in `constants`, `representation` (both negated) and `poisson`, so
@@ -122,6 +140,8 @@ pub struct Model {
     /// The coordinates on which H depends, if H is a sum of functions of one of them each; else two
     /// that it mixes.
     pub pieces: Result<Vec<usize>, (usize, usize)>,
+    /// The realization, for collective methods.
+    pub realization: Option<Realization>,
     /// The independent declared Casimirs.
     pub casimirs: Vec<Casimir>,
     /// The matrix representation.
@@ -175,7 +195,10 @@ impl Model {
             Symbol::Parameter(i) => self.parameters[i].name.clone(),
             Symbol::Step => "h".into(),
             Symbol::Time => "t".into(),
-            Symbol::Input(i) => format!("input{i}"),
+            Symbol::Input(i) => match (&self.realization, i.checked_sub(CANONICAL)) {
+                (Some(realization), Some(place)) => realization.names[place].text.clone(),
+                _ => format!("input{i}"),
+            },
         }
     }
 

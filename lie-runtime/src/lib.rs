@@ -93,7 +93,9 @@ pub use pieces::{PieceFlows, SeparablePoisson};
 pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
-pub use structure::{CotangentPoisson, InertiaPoisson, MatrixGroup, MatrixPoisson, SpinPoisson};
+pub use structure::{
+    CotangentPoisson, InertiaPoisson, MatrixGroup, MatrixPoisson, RealizedPoisson, SpinPoisson,
+};
 
 /// What a program usually needs.
 pub mod prelude {

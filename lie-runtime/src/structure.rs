@@ -2,7 +2,7 @@
 //! factors so(3), the inertia of a rigid body in n dimensions.
 
 use crate::matrix::SquareMatrix;
-use crate::poisson::LiePoisson;
+use crate::poisson::{LiePoisson, Poisson};
 use crate::scalar::Scalar;
 use crate::state::State;
 
@@ -136,6 +136,39 @@ pub trait SpinPoisson<S: Scalar>: LiePoisson<S> {
     const SPINS: &'static [[usize; 3]];
     /// The constant c of one spin.
     fn scale(&self, spin: usize) -> S;
+}
+
+/// A system with a realization of its bracket: a map `mu = J(z)` from points z = (q, p) with canonical brackets and
+/// `{J_a, J_b} = Pi_ab(J)`. Flows of functions of J lie over those of functions of mu.
+///
+/// Positions come first, then momenta.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no realization over the scalar `{S}`",
+    note = "declare `realization`: a map from canonical coordinates whose brackets are those of the system"
+)]
+pub trait RealizedPoisson<S: Scalar>: Poisson<S> {
+    /// A point (q, p).
+    type Point: State<S>;
+    /// A square matrix of its size.
+    type PointMatrix: SquareMatrix<S>;
+    /// The number of positions and momenta together.
+    const POINT_DIM: usize;
+    /// Their names.
+    const CANONICAL: &'static [&'static str];
+    /// A point, all coordinates 0.
+    fn zero_point(&self) -> Self::Point;
+    /// A matrix, all entries 0.
+    fn zero_point_matrix(&self) -> Self::PointMatrix;
+    /// The map `out = J(z)`.
+    fn momentum_map(&self, z: &Self::Point, out: &mut Self::State);
+    /// The pullback of a covector: `out_i = sum_k xi_k dJ_k/dz_i`.
+    fn pullback(&self, z: &Self::Point, xi: &Self::State, out: &mut Self::Point);
+    /// The derivative along a vector: `out_k = sum_i dJ_k/dz_i v_i`.
+    fn pushforward(&self, z: &Self::Point, v: &Self::Point, out: &mut Self::State);
+    /// The second derivatives against a covector: `out_ij = sum_k xi_k d^2J_k/dz_i dz_j`.
+    fn curvature(&self, z: &Self::Point, xi: &Self::State, out: &mut Self::PointMatrix);
+    /// A point near which points over a state are sought.
+    fn start(&self, out: &mut Self::Point);
 }
 
 /// A plane of rotation: the basis element is `E_(to, from) - E_(from, to)`.

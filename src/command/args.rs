@@ -181,7 +181,7 @@ pub struct MethodOptions {
     /// Pieces of a splitting: coordinate
     #[arg(long, value_name = "NAME")]
     pub pieces: Option<String>,
-    /// Space over g* of a collective method: representation or hopf
+    /// Space over g* of a collective method: representation, hopf or spec (the declared realization)
     #[arg(long, value_name = "NAME")]
     pub lift: Option<String>,
     /// Discrete gradient of orbit-energy: gonzalez, mean-value or itoh-abe

@@ -11,7 +11,6 @@ lie_poisson! {
     casimir C = x^2 + y^2 + z^2;
     methods = [lie-midpoint];
     discrete_lagrangian = x^2;
-    realization = R;
 }
 
 // Whoever uses the type hears of nothing else.

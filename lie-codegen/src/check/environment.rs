@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::ast::Declaration;
+use crate::ast::{Declaration, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin};
+use crate::model::CANONICAL;
 use crate::suggest::did_you_mean;
 use crate::symbolic::{ExprId, Function, Symbol};
 
@@ -32,6 +33,8 @@ pub enum Allowed {
     /// Components of the velocity, and of the coordinates those from this one on: a Lagrangian may depend on
     /// the group element and the time, but not on mu.
     Velocity(usize),
+    /// Canonical coordinates of a realization.
+    Canonical,
     /// Both: an abbreviation may serve either.
     Everything,
 }
@@ -50,8 +53,9 @@ impl Allowed {
             Symbol::Coordinate(i) => match self {
                 Self::State | Self::Everything => true,
                 Self::Velocity(first) => i >= first,
-                Self::Constants | Self::Parameters => false,
+                Self::Constants | Self::Parameters | Self::Canonical => false,
             },
+            Symbol::Input(i) if i >= CANONICAL => self == Self::Canonical,
             Symbol::Input(_) => matches!(self, Self::Velocity(_) | Self::Everything),
             _ => false,
         }
@@ -72,6 +76,12 @@ impl<'a> Environment<'a> {
             bindings
                 .entry(name.text.as_str())
                 .or_insert(Binding::Symbol(Symbol::Input(i)));
+        }
+        let canonical = declaration.realization.iter().flat_map(Realization::names);
+        for (i, name) in canonical.enumerate() {
+            bindings
+                .entry(name.text.as_str())
+                .or_insert(Binding::Symbol(Symbol::Input(CANONICAL + i)));
         }
         for (i, parameter) in declaration.parameters.iter().enumerate() {
             bindings
@@ -137,6 +147,10 @@ impl<'a> Environment<'a> {
                     Allowed::Velocity(_) => (
                         "a reduced Lagrangian depends on the velocity, not on mu",
                         "use the velocity names; mu is the derivative of the Lagrangian",
+                    ),
+                    Allowed::Canonical => (
+                        "the map of a realization depends on positions and momenta alone",
+                        "use their names",
                     ),
                     Allowed::State => (
                         "it depends on the velocity, and this is a function of mu",

@@ -25,6 +25,7 @@ mod parameters;
 mod poisson;
 mod proof;
 mod ranks;
+mod realization;
 mod sample;
 mod size;
 
@@ -114,12 +115,14 @@ fn system(
         .iter()
         .map(|c| lower(&c.value, Allowed::State))
         .collect();
+    let realization =
+        realization::lower(declaration, configuration, &mut graph, &environment, report);
     let initial = initial::check(declaration, &mut graph, &environment, report);
     if report.has_errors() {
         return None;
     }
     let (algebra, parameters, initial) = (algebra?, parameters?, initial?);
-    let brackets = brackets?;
+    let (brackets, mut realization) = (brackets?, realization?);
     let constants = algebra.constants;
     let defaults = defaults::check(declaration, &constants, &parameters, report)?;
     // The right-invariant system is the left-invariant one of the opposite algebra.
@@ -212,6 +215,9 @@ fn system(
             report,
         ));
     }
+    if let Some(realization) = &mut realization {
+        realization::check(realization, &poisson, &mut scratch, &symbol_name, report);
+    }
     let degrees: Vec<Option<u32>> = degrees.into_iter().collect::<Option<_>>()?;
     let casimirs = independent(declaration, &graph, candidates, &degrees, report);
     let dimension = declaration.dimension();
@@ -245,6 +251,7 @@ fn system(
         configuration: configuration.cloned(),
         hamiltonian_degree,
         pieces,
+        realization,
         casimirs,
         representation,
         methods: declaration.methods.clone(),

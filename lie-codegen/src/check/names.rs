@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::ast::{Declaration, Name};
+use crate::ast::{Declaration, Name, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::symbolic::Function;
 
@@ -40,6 +40,7 @@ pub fn check(declaration: &Declaration, report: &mut Report) {
         .chain(state)
         .chain(velocity)
         .chain(&declaration.group)
+        .chain(declaration.realization.iter().flat_map(Realization::names))
         .chain(parameters.clone())
         .chain(lets.clone())
         .chain(casimirs.clone())
@@ -66,6 +67,9 @@ pub fn check(declaration: &Declaration, report: &mut Report) {
     }
     for name in velocity {
         declare(&mut [&mut dual], name, "component of the velocity", report);
+    }
+    for name in declaration.realization.iter().flat_map(Realization::names) {
+        declare(&mut [&mut dual], name, "canonical coordinate", report);
     }
     // A Casimir is a column beside the coordinates, but no expression refers to it.
     let mut columns = dual.clone();

@@ -10,6 +10,7 @@ use super::proof::{Proof, examine};
 use crate::ast::{Bracket, Declaration, Name, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Budget;
+use crate::model::CANONICAL;
 use crate::suggest::did_you_mean;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
@@ -141,6 +142,11 @@ pub fn symbol_name(declaration: &Declaration, symbol: Symbol) -> String {
     match symbol {
         Symbol::Coordinate(i) => declaration.state[i].text.clone(),
         Symbol::Parameter(p) => declaration.parameters[p].name.text.clone(),
+        Symbol::Input(i) => {
+            let mut names = declaration.realization.iter().flat_map(|r| r.names());
+            let name = i.checked_sub(CANONICAL).and_then(|k| names.nth(k));
+            name.map_or_else(String::new, |name| name.text.clone())
+        }
         _ => String::new(),
     }
 }

@@ -9,6 +9,7 @@ mod generating;
 mod kernel;
 mod midpoint;
 mod poisson;
+mod realization;
 mod second_kind;
 mod spherical;
 mod splitting;
@@ -16,6 +17,7 @@ mod tape;
 
 pub use generating::{Function, Generating};
 pub use kernel::{Argument, Kernel, Shape};
+pub use realization::Realization;
 pub use splitting::{PieceKernel, Update};
 
 use crate::algebra::{Representation, TripleEntry};
@@ -50,6 +52,8 @@ pub struct Source {
     pub triple: Option<Vec<TripleEntry>>,
     /// The coordinate pieces of H, if it is a sum of functions of one coordinate each.
     pub pieces: Option<Vec<Piece>>,
+    /// The declared realization.
+    pub realization: Option<Realization>,
     /// The representation, where it carries collective methods.
     pub matrices: Option<Representation>,
     /// The group of the declared matrices, where it is not part of the state.
@@ -101,6 +105,7 @@ impl Source {
             casimirs: Vec::new(),
             triple: None,
             pieces: None,
+            realization: None,
             matrices: None,
             spins: None,
             body: None,
@@ -220,6 +225,12 @@ impl Source {
     /// Residual and Jacobian of the discrete rigid body.
     pub fn discrete_body_kernels(&mut self) -> Option<Vec<Kernel>> {
         discrete_body::kernels(self)
+    }
+
+    /// The map of the realization and its derivatives.
+    pub fn realization_kernels(&mut self) -> Option<Vec<Kernel>> {
+        let realization = self.realization.clone()?;
+        Some(realization::kernels(self, &realization))
     }
 
     /// Residual, Jacobian and result of the retraction method with the Cayley map.

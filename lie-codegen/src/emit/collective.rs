@@ -134,6 +134,8 @@ impl Writer<'_> {
                 },
                 quote! { ::lie_runtime::methods::Isospectral<#count> },
             ),
+            // its equation is that of the canonical system, without a fused form
+            Lift::Spec => return None,
             Lift::Hopf => (
                 "Hopf",
                 "collective --lift hopf",

@@ -9,6 +9,15 @@ use super::prepared::{Owner, Prepared};
 use crate::derive::{Argument, Kernel, Shape};
 use crate::schedule::{Operation, Program, Value};
 
+/// How many entries a result has.
+#[derive(Clone, Copy, Debug)]
+pub enum Extent {
+    /// As many as the state.
+    State,
+    /// That many.
+    Of(usize),
+}
+
 /// Longer formulas are left out of the doc comments.
 const LONGEST_FORMULA: usize = 160;
 
@@ -108,6 +117,29 @@ impl Writer<'_> {
         argument: &dyn Fn(&str) -> TokenStream,
         targets: &[&str],
     ) -> TokenStream {
+        self.sized_body(
+            kernel,
+            program,
+            owner,
+            step,
+            argument,
+            targets,
+            Extent::State,
+        )
+    }
+
+    /// The same for results of another size than that of the state.
+    #[expect(clippy::too_many_arguments, reason = "one more than `kernel_body`")]
+    pub fn sized_body(
+        &mut self,
+        kernel: &Kernel,
+        program: &Program,
+        owner: Owner,
+        step: &mut Prepared,
+        argument: &dyn Fn(&str) -> TokenStream,
+        targets: &[&str],
+        extent: Extent,
+    ) -> TokenStream {
         let unpacked: TokenStream = kernel
             .arguments
             .iter()
@@ -115,7 +147,10 @@ impl Writer<'_> {
             .collect();
         let (statements, outputs) =
             self.program(program, |writer, value| writer.value(value, owner, step));
-        let n = self.source.dimension;
+        let n = match extent {
+            Extent::State => self.source.dimension,
+            Extent::Of(count) => count,
+        };
         let writes = match &kernel.shape {
             Shape::Scalar => outputs.into_iter().collect(),
             Shape::Vector(indices) => {

@@ -13,6 +13,7 @@ mod generating;
 mod names;
 mod parameters;
 mod prepared;
+mod realization;
 mod splitting;
 mod structure;
 mod system;
@@ -81,13 +82,14 @@ pub fn emit(blueprint: &Blueprint) -> Emitted {
     let mut writer = Writer::new(blueprint);
     let basic = writer.system_impls();
     let structure = writer.structure();
+    let realization = writer.realization();
     let equations = writer.equations();
     let splitting = writer.splitting();
     let parameters = writer.parameters();
     let system = writer.system_struct();
     let lift = writer.lift();
     Emitted {
-        tokens: quote! { #parameters #system #basic #lift #structure #equations #splitting },
+        tokens: quote! { #parameters #system #basic #lift #structure #realization #equations #splitting },
         counts: writer.counts,
     }
 }

@@ -5,6 +5,7 @@ use proc_macro2::{Ident, Literal, Span};
 use quote::format_ident;
 
 use super::Writer;
+use crate::model::CANONICAL;
 use crate::symbolic::Symbol;
 
 /// An identifier of ours.
@@ -37,6 +38,9 @@ impl Writer<'_> {
             Symbol::Parameter(i) => self.blueprint.parameters[i].name.clone(),
             Symbol::Step => ident("_h"),
             Symbol::Time => ident("_time"),
+            Symbol::Input(index) if index >= CANONICAL => {
+                format_ident!("_z{}", index - CANONICAL)
+            }
             Symbol::Input(index) => {
                 let coordinate = &self.blueprint.coordinates[index % n];
                 match index / n {

@@ -6,7 +6,7 @@ mod statement;
 
 use proc_macro2::{Span, TokenStream};
 
-use self::block::{algebra, names, parameters, poisson};
+use self::block::{algebra, names, parameters, poisson, realization};
 use self::entry::{compact, inside};
 use self::statement::{Statement, statements};
 use super::object::NOT_BUILT;
@@ -261,6 +261,9 @@ fn remainder(
         Some((statement.origin, function(statement, &names, report)))
     });
     let energy = item::energy(functions, (place, velocity), Kind::Syntax, report);
+    let realization = parts
+        .first("realization")
+        .map(|s| realization(s, &constants, report));
     let casimirs = parts
         .all("casimir")
         .filter_map(|s| item::casimir(s.rest, s.origin, &names, report))
@@ -298,6 +301,7 @@ fn remainder(
         parameters,
         lets,
         energy: energy?,
+        realization: realization.map_or(Some(None), |read| read.map(Some))?,
         casimirs,
         methods,
         invariance: invariance?,

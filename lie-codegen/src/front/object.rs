@@ -13,10 +13,7 @@ pub struct Object<'a> {
 }
 
 /// Keys that the format keeps for what is not built yet, and the keys that they would replace.
-pub const NOT_BUILT: &[(&str, &[&str])] = &[
-    ("discrete_lagrangian", &["hamiltonian"]),
-    ("realization", &[]),
-];
+pub const NOT_BUILT: &[(&str, &[&str])] = &[("discrete_lagrangian", &["hamiltonian"])];
 
 impl<'a> Object<'a> {
     /// Takes an object apart and reports every key that is not in `keys` or stands there twice.

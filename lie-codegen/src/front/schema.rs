@@ -67,6 +67,8 @@ objects! {
         "lagrangian" lagrangian: Option<String>,
         /// Names of the components of the velocity xi, one for each basis element; for a Lagrangian.
         "velocity" velocity: Option<Vec<String>>,
+        /// A realization of the bracket in canonical coordinates, for collective methods.
+        "realization" realization: Option<Realization>,
         /// Casimirs, `NAME = expression` or an expression; each is verified exactly.
         "casimirs" casimirs: Option<Vec<String>>,
         /// Ids of the methods that get fused code.
@@ -88,6 +90,18 @@ objects! {
         /// The matrix of each basis element in a representation, as rows. Without `brackets` the
         /// brackets are computed from it.
         "matrices" matrices: Option<BTreeMap<String, Vec<Vec<Constant>>>>,
+    }
+
+    /// A map J from canonical coordinates to the state with {J_a, J_b} = Pi_ab(J), for collective methods.
+    struct Realization requires ["positions", "momenta", "map"] {
+        /// Names of the positions q.
+        "positions" positions: Vec<String>,
+        /// Names of the momenta p, one for each position.
+        "momenta" momenta: Vec<String>,
+        /// `STATE = expression` in positions, momenta and parameters, one for each name of the state.
+        "map" map: Vec<String>,
+        /// A point (q, p) near which points over a state are sought: numbers or exact expressions in parameters.
+        "start" start: Option<Vec<Constant>>,
     }
 
     /// A parameter with what people want to know about it.
@@ -261,6 +275,11 @@ mod tests {
                 DescribedParameter::REQUIRED,
             ),
             (&schema["$defs"]["Run"], Run::KEYS, Run::REQUIRED),
+            (
+                &schema["$defs"]["Realization"],
+                Realization::KEYS,
+                Realization::REQUIRED,
+            ),
         ];
         for (object, all, required) in tables {
             assert_eq!(keys(object), sorted(all));

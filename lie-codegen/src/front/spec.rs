@@ -2,6 +2,7 @@
 
 mod algebra;
 mod parameters;
+mod realization;
 mod run;
 
 use quote::quote;
@@ -147,6 +148,9 @@ impl Remainder<'_, '_> {
         let structure =
             item::structure(algebra, poisson, cocycle, &of_algebra, Kind::Schema, report);
         let energy = self.energy(velocity, &names, report);
+        let realization = spec
+            .get("realization")
+            .map(|v| realization::read(v, &parameters, report));
         let casimirs = lines(spec, "casimirs", report)
             .iter()
             .filter_map(|line| item::casimir(&line.tokens, line.place, &names, report))
@@ -188,6 +192,7 @@ impl Remainder<'_, '_> {
             parameters: self.parameters,
             lets,
             energy: energy?,
+            realization: realization.map_or(Some(None), |read| read.map(Some))?,
             casimirs,
             methods: methods
                 .into_iter()

@@ -35,6 +35,7 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
         Choice::Collective(order, Lift::Representation) | Choice::Isospectral(order) => {
             matrices::refusal(model, *order)
         }
+        Choice::Collective(order, Lift::Spec) => realization(model, *order),
         Choice::Collective(order, Lift::Hopf) => spins::refusal(model, Some(*order)),
         Choice::EulerArnold2 => cotangent(model),
         Choice::SphericalMidpoint => spins::refusal(model, None),
@@ -51,6 +52,7 @@ fn needs_algebra(choice: &Choice) -> bool {
             | Choice::Gauss(_)
             | Choice::DiscreteGradient(..)
             | Choice::CohenHairer(_)
+            | Choice::Collective(_, Lift::Spec)
             | Choice::Rk4
             | Choice::Dopri5
     )
@@ -97,6 +99,26 @@ fn tensor(model: &Model, choice: &Choice) -> Option<(String, String)> {
             format!("use `{id}` without the option: the steps are the same"),
         )
     })
+}
+
+/// Why a collective method has no declared realization to go over.
+fn realization(model: &Model, order: u32) -> Option<(String, String)> {
+    let help =
+        || "use `lie-midpoint` or a composition of it, which work for every Lie algebra".into();
+    match &model.realization {
+        None => Some((
+            "the lift `spec` needs a realization, and none is declared".into(),
+            "declare `realization`, a map from canonical coordinates to the state".into(),
+        )),
+        Some(realization) if !realization.quadratic => Some((
+            format!(
+                "the components of the realization are not of degree at most two: the Gauss method of order {order} \
+                 over it does not descend to the state"
+            ),
+            help(),
+        )),
+        Some(_) => None,
+    }
 }
 
 /// Why a system is none on `T*G`.

@@ -40,6 +40,7 @@ impl Choice {
                 let lift = match lift {
                     Lift::Representation => format_ident!("representation"),
                     Lift::Hopf => format_ident!("hopf"),
+                    Lift::Spec => format_ident!("given"),
                 };
                 quote! { #collective::#lift() }
             }

@@ -52,6 +52,8 @@ named! {
         Representation = "representation",
         /// `T*R^2` by the Hopf map, for so(3).
         Hopf = "hopf",
+        /// The points of the declared realization.
+        Spec = "spec",
     }
 }
 
@@ -166,12 +168,6 @@ impl Choice {
                 pick(option, value, Retraction::ALL, Retraction::name)?,
             ),
             (Self::Collective(order, _), "lift") => {
-                if value == "spec" {
-                    return Err(OptionError::Value(
-                        "the lift `spec` is not built yet".into(),
-                        "take `representation`, or `hopf` for so(3)".into(),
-                    ));
-                }
                 Self::Collective(order, pick(option, value, Lift::ALL, Lift::name)?)
             }
             (Self::DiscreteGradient(gradient, _), "tensor") => {

@@ -30,6 +30,11 @@
 //!   \mu_1 = \mu + \sum_i b_i\, \mathrm{ad}^*_{x_i} m_i
 //!   ```
 //!
+//! * [`Collective4::given`](Collective::given) and its kin lift to the points of a realization that the declaration
+//!   gives ([`RealizedPoisson`]). Points over mu are found by a Gauss–Newton iteration; the step does not depend on
+//!   which point it is where the components of J are of degree at most two: they generate affine
+//!   transformations then, with which Gauss methods commute.
+//!
 //! Needs: see [`MatrixPoisson`](crate::MatrixPoisson) and [`SpinPoisson`](crate::SpinPoisson); gradient
 //! and Hessian of H.
 //!
@@ -39,10 +44,12 @@
 
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;
+use super::realized::RealizedStepper;
 use super::stepper::Method;
 use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
 use crate::scalar::Scalar;
+use crate::structure::RealizedPoisson;
 
 /// The lift to `T*V` of the declared representation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,6 +58,10 @@ pub struct Representation;
 /// The lift of so(3)* by the Hopf map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Hopf;
+
+/// The lift to the points of the declared realization.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Given;
 
 /// The collective Gauss method with 1, 2 or 3 stages; see the [module's text](self).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -81,6 +92,13 @@ impl<const STAGES: usize> Collective<Hopf, STAGES> {
     }
 }
 
+impl<const STAGES: usize> Collective<Given, STAGES> {
+    /// Over the declared realization.
+    pub const fn given() -> Self {
+        Self { lift: Given }
+    }
+}
+
 impl<L, const STAGES: usize> Facts for Collective<L, STAGES> {
     const ID: &'static str = match STAGES {
         1 => "collective2",
@@ -93,7 +111,27 @@ impl<L, const STAGES: usize> Facts for Collective<L, STAGES> {
     const PRESERVES: Preserves = Preserves::POISSON;
 }
 
-impl<S: Scalar, P: Implicit<S, Self>, L, const STAGES: usize> Method<S, P>
+impl<S, P, const STAGES: usize> Method<S, P> for Collective<Given, STAGES>
+where
+    S: Scalar,
+    P: RealizedPoisson<S>,
+{
+    type Stepper<'a>
+        = RealizedStepper<'a, S, P, STAGES>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+        RealizedStepper::new(system, h, newton)
+    }
+}
+
+/// Lifts that are solved in the momenta of the stages.
+pub trait Reduced {}
+impl Reduced for Representation {}
+impl Reduced for Hopf {}
+
+impl<S: Scalar, P: Implicit<S, Self>, L: Reduced, const STAGES: usize> Method<S, P>
     for Collective<L, STAGES>
 {
     type Stepper<'a>

@@ -52,6 +52,7 @@ pub mod mean_value;
 pub mod midpoint;
 pub mod moser_veselov;
 pub mod orbit_energy;
+mod realized;
 pub mod rk4;
 pub mod rkmk;
 pub mod spherical_midpoint;
@@ -61,7 +62,9 @@ pub mod tensor;
 
 pub use coefficients::Scheme;
 pub use cohen_hairer::{CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6};
-pub use collective::{Collective, Collective2, Collective4, Collective6, Hopf, Representation};
+pub use collective::{
+    Collective, Collective2, Collective4, Collective6, Given, Hopf, Reduced, Representation,
+};
 pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
 pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};
 pub use crouch_grossman::{CrouchGrossman3, CrouchGrossmanStepper};
@@ -81,6 +84,7 @@ pub use mean_value::MeanValue;
 pub use midpoint::ImplicitMidpoint;
 pub use moser_veselov::{MoserVeselov, MoserVeselovStepper};
 pub use orbit_energy::OrbitEnergy;
+pub use realized::RealizedStepper;
 pub use rk4::{Rk4, Rk4Stepper};
 pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
 pub use spherical_midpoint::SphericalMidpoint;

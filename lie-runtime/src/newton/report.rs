@@ -38,6 +38,9 @@ pub enum FailureReason {
     /// [`MoserVeselov`](crate::methods::MoserVeselov).
     #[error("no rotation near the identity solves the discrete rigid body")]
     RotationTooLarge,
+    /// No point of the realization was found over the state, see [`Collective`](crate::methods::Collective).
+    #[error("no point of the realization was found over the state")]
+    NoLift,
     /// A quadrature does not resolve the gradient of H along the step: the energy would not be kept.
     #[error("the nodes of the method do not resolve the Hamiltonian along the step")]
     Unresolved,
@@ -65,6 +68,9 @@ impl FailureReason {
             }
             Self::RotationTooLarge => {
                 "take a smaller step: h times the angular momentum must be below the moments of inertia"
+            }
+            Self::NoLift => {
+                "give the realization a `start` near a point over the initial state; its map must have full rank there"
             }
             Self::Unresolved => {
                 "take a smaller step, or `gonzalez`, which keeps the energy without a quadrature"

@@ -2,7 +2,7 @@
 
 use super::entry::{Entry, inside};
 use super::statement::Statement;
-use crate::ast::{Algebra, Bracket, Matrix, Name, Parameter};
+use crate::ast::{Algebra, Bracket, Matrix, Name, Parameter, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::front::token::{Delimiter, Token, span, split_commas};
 use crate::front::{Names, item};
@@ -83,6 +83,70 @@ pub fn poisson(statement: &Statement<'_>, names: &Names, report: &mut Report) ->
     let entries = statement.block(report).unwrap_or_default();
     let bracket = |entry: &Entry<'_>| item::poisson(entry.tokens, entry.origin(), names, report);
     entries.iter().filter_map(bracket).collect()
+}
+
+/// `{ positions q1, q2; momenta p1, p2; x = …; start = [1, 0, 0, 1]; }`
+pub fn realization(
+    statement: &Statement<'_>,
+    parameters: &[String],
+    report: &mut Report,
+) -> Option<Realization> {
+    let entries = statement.block(report)?;
+    let mut list = |word: &str| {
+        let entry = entries.iter().find(|entry| entry.is_word(word));
+        if entry.is_none() {
+            report.push(
+                Diagnostic::new(
+                    Kind::Syntax,
+                    statement.origin,
+                    format!("the realization has no `{word}`"),
+                )
+                .help("write `positions q1, q2; momenta p1, p2;`"),
+            );
+        }
+        entry.map_or_else(Vec::new, |entry| {
+            names(&entry.tokens[1..], entry.origin(), report)
+        })
+    };
+    let (positions, momenta) = (list("positions"), list("momenta"));
+    let own = positions.iter().chain(&momenta).map(|n| n.text.clone());
+    let known: Names = own.chain(parameters.iter().cloned()).collect();
+    let constants: Names = parameters.iter().cloned().collect();
+    let (mut map, mut start) = (Vec::new(), None);
+    for entry in &entries {
+        if entry.is_word("positions") || entry.is_word("momenta") {
+            continue;
+        }
+        let Some((name, value)) =
+            item::definition(entry.tokens, "a component", entry.origin(), report)
+        else {
+            continue;
+        };
+        if name.text != "start" {
+            let example = ("its value", "q*p");
+            let value = item::formula(value, example, name.origin, &known, report);
+            map.extend(value.map(|value| (name, value)));
+            continue;
+        }
+        let Some(values) = inside(value, Delimiter::Bracket) else {
+            let place = span(value).unwrap_or(name.origin);
+            report.push(
+                Diagnostic::new(Kind::Syntax, place, "`start` is a list in brackets")
+                    .help("write `start = [1, 0, 0, 1];`"),
+            );
+            continue;
+        };
+        let what = ("an entry of `start`", "1/2");
+        let entry = |part| item::formula(part, what, name.origin, &constants, report);
+        start = Some(split_commas(values).into_iter().filter_map(entry).collect());
+    }
+    Some(Realization {
+        positions,
+        momenta,
+        map,
+        start,
+        origin: statement.origin,
+    })
 }
 
 /// `matrix NAME = [[a, b], [c, d]]`

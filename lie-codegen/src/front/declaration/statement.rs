@@ -19,6 +19,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("hamiltonian", Follows::Equals),
     ("lagrangian", Follows::Equals),
     ("velocity", Follows::Name),
+    ("realization", Follows::Block),
     ("casimir", Follows::Name),
     ("methods", Follows::Equals),
     ("invariance", Follows::Equals),

@@ -192,10 +192,6 @@ fn what_later_versions_declare_is_reserved() {
         "\"discrete_lagrangian\": \"x\"",
     );
     assert_eq!(found, one(Kind::Schema, "discrete_lagrangian"));
-    assert_eq!(
-        changed("\"let\":", "\"realization\": [], \"let\":"),
-        one(Kind::Schema, "realization")
-    );
     let algebra =
         r#"{ "basis": ["J1","J2","J3"], "brackets": ["[J1, J2] = J3", "[J2, J3] = k*J1"] }"#;
     assert_eq!(

@@ -1,0 +1,227 @@
+//! Realizations: a map J from canonical coordinates with `{J_a, J_b} = Pi_ab(J)`, proven by a normal form.
+
+use super::configuration::Configuration;
+use super::environment::{Allowed, Environment};
+use super::lower::Lowering;
+use super::normal::{NormalForm, Verdict};
+use super::proof::{Proof, examine};
+use super::size::plural;
+use crate::ast::{Declaration, Expr};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::exact::{Budget, Rational};
+use crate::model::{CANONICAL, PoissonMatrix, Realization};
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// Work allowed for all brackets of one realization.
+const WORK: u64 = 20_000_000;
+
+/// Lowers a realization; `Some(None)` where none is declared.
+pub fn lower(
+    declaration: &Declaration,
+    configuration: Option<&Configuration>,
+    graph: &mut Graph,
+    environment: &Environment<'_>,
+    report: &mut Report,
+) -> Option<Option<Realization>> {
+    let Some(declared) = &declaration.realization else {
+        return Some(None);
+    };
+    let fails = |place: Origin, message: String, help: &str| {
+        Diagnostic::new(Kind::Representation, place, message).help(help)
+    };
+    if configuration.is_some() {
+        report.push(fails(
+            declared.origin,
+            "a realization is for systems without a group element and without the time".into(),
+            "remove it, or the group element and the time",
+        ));
+        return None;
+    }
+    let (positions, momenta) = (declared.positions.len(), declared.momenta.len());
+    if positions != momenta || positions == 0 {
+        report.push(fails(
+            declared.origin,
+            format!(
+                "there are {positions} {} and {momenta} momenta",
+                plural(positions, "position")
+            ),
+            "name one momentum for each position",
+        ));
+        return None;
+    }
+    let mut map: Vec<Option<&Expr>> = vec![None; declaration.state.len()];
+    let mut complete = true;
+    for (name, value) in &declared.map {
+        let place = declaration.state.iter().position(|c| c.text == name.text);
+        let Some(place) = place else {
+            report.push(
+                Diagnostic::new(
+                    Kind::UnknownSymbol,
+                    name.origin,
+                    format!("`{}` is not a coordinate of the state", name.text),
+                )
+                .help("write `STATE = expression` for each name of the state"),
+            );
+            complete = false;
+            continue;
+        };
+        if map[place].replace(value).is_some() {
+            report.push(
+                Diagnostic::new(
+                    Kind::DuplicateName,
+                    name.origin,
+                    format!("`{}` has a component already", name.text),
+                )
+                .help("keep one of the two"),
+            );
+            complete = false;
+        }
+    }
+    let missing = declaration.state.iter().zip(&map);
+    let missing: Vec<&str> = missing
+        .filter(|(_, value)| value.is_none())
+        .map(|(name, _)| name.text.as_str())
+        .collect();
+    if complete && !missing.is_empty() {
+        report.push(fails(
+            declared.origin,
+            format!(
+                "the realization has no component for {}",
+                missing.join(", ")
+            ),
+            "write `STATE = expression` for each name of the state",
+        ));
+    }
+    let points = positions + momenta;
+    if let Some(start) = declared
+        .start
+        .as_ref()
+        .filter(|start| start.len() != points)
+    {
+        let place = start.last().map_or(declared.origin, |value| value.origin);
+        report.push(
+            Diagnostic::new(
+                Kind::StateLength,
+                place,
+                format!(
+                    "the start has {} {}, but there are {points} canonical coordinates",
+                    start.len(),
+                    plural(start.len(), "value")
+                ),
+            )
+            .help("write the positions, then the momenta"),
+        );
+        return None;
+    }
+    let mut value = |expr, allowed| Lowering::new(graph, environment, report, allowed).lower(expr);
+    let origins = map.iter().flatten().map(|expr| expr.origin).collect();
+    let map: Vec<Option<ExprId>> = map
+        .into_iter()
+        .map(|expr| value(expr?, Allowed::Canonical))
+        .collect();
+    let start: Option<Vec<Option<ExprId>>> = declared.start.as_ref().map(|start| {
+        let entries = start.iter();
+        entries
+            .map(|expr| value(expr, Allowed::Parameters))
+            .collect()
+    });
+    let start = match start {
+        Some(start) => start.into_iter().collect::<Option<Vec<_>>>()?,
+        // a generic point: no two entries are alike
+        None => (0..points)
+            .map(|k| {
+                let value = &Rational::from(1) + &(&Rational::ONE / &Rational::from(k as i64 + 2));
+                graph.number(value)
+            })
+            .collect(),
+    };
+    Some(Some(Realization {
+        names: declared.names().cloned().collect(),
+        map: map.into_iter().collect::<Option<Vec<_>>>()?,
+        origins,
+        start,
+        quadratic: false,
+    }))
+}
+
+/// Verifies the brackets, and says whether the components are of degree at most two.
+pub fn check(
+    realization: &mut Realization,
+    poisson: &PoissonMatrix,
+    scratch: &mut Graph,
+    name: &dyn Fn(Symbol) -> String,
+    report: &mut Report,
+) {
+    let half = realization.names.len() / 2;
+    let map = realization.map.clone();
+    let slopes: Vec<Vec<ExprId>> = map
+        .iter()
+        .map(|&component| {
+            let symbols = (0..2 * half).map(|i| Symbol::Input(CANONICAL + i));
+            symbols
+                .map(|symbol| scratch.derivative(component, symbol))
+                .collect()
+        })
+        .collect();
+    let mut differences = Vec::new();
+    for a in 0..map.len() {
+        for b in a + 1..map.len() {
+            let mut terms = Vec::new();
+            for i in 0..half {
+                terms.push(scratch.mul(slopes[a][i], slopes[b][half + i]));
+                let other = scratch.mul(slopes[a][half + i], slopes[b][i]);
+                terms.push(scratch.neg(other));
+            }
+            let entry = poisson
+                .entries
+                .iter()
+                .find(|entry| (entry.0, entry.1) == (a, b));
+            if let Some(&(_, _, value)) = entry {
+                let over = scratch.substitute(&[value], &|symbol| match symbol {
+                    Symbol::Coordinate(k) => Some(map[k]),
+                    _ => None,
+                });
+                terms.push(scratch.neg(over[0]));
+            }
+            differences.push((a, b, scratch.sum(&terms)));
+        }
+    }
+    let mut thirds = Vec::new();
+    for slope in slopes.iter().flatten() {
+        for i in 0..2 * half {
+            let second = scratch.derivative(*slope, Symbol::Input(CANONICAL + i));
+            for j in i..2 * half {
+                thirds.push(scratch.derivative(second, Symbol::Input(CANONICAL + j)));
+            }
+        }
+    }
+    thirds.sort_unstable();
+    thirds.dedup();
+    let scratch = &*scratch;
+    let budget = Budget::new(WORK);
+    let mut normal = NormalForm::new(scratch, &budget);
+    for (a, b, difference) in differences {
+        let (state, place) = (|k| name(Symbol::Coordinate(k)), realization.origins[b]);
+        let (left, right) = (state(a), state(b));
+        let message = match examine(&mut normal, scratch, difference, name) {
+            Proof::Zero => continue,
+            Proof::Nonzero(shown) => format!(
+                "the realization is no Poisson map: {{{left}, {right}}} of its components is not that of the \
+                 system, the difference is {shown}"
+            ),
+            Proof::Unproven(_) => {
+                format!(
+                    "it could not be shown that {{{left}, {right}}} of the components is that of the system"
+                )
+            }
+        };
+        report.push(
+            Diagnostic::new(Kind::Representation, place, message)
+                .help("{f, g} = sum df/dq dg/dp - df/dp dg/dq must be the bracket of the system; often a sign is wrong"),
+        );
+        return;
+    }
+    realization.quadratic = thirds
+        .iter()
+        .all(|third| matches!(normal.verdict(*third), Verdict::Zero));
+}
