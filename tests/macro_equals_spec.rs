@@ -30,7 +30,10 @@ fn read(path: &Path) -> Map<String, Value> {
     let Ok(Value::Object(mut spec)) = serde_json::from_str(&text) else {
         panic!("{}: no object", path.display())
     };
-    if let Some(algebra) = spec.get_mut("algebra").and_then(Value::as_object_mut) {
+    // matrices only where they are needed: what they add to the code is the same in both forms
+    if !spec.contains_key("group")
+        && let Some(algebra) = spec.get_mut("algebra").and_then(Value::as_object_mut)
+    {
         algebra.remove("matrices");
     }
     let lie_poisson = spec.contains_key("algebra") && !spec.contains_key("cocycle");
@@ -74,7 +77,16 @@ fn declaration(spec: &Map<String, Value>) -> String {
         for bracket in strings(&algebra["brackets"]) {
             body += &format!(" {bracket};");
         }
+        let matrices = algebra.get("matrices").and_then(Value::as_object);
+        for (name, rows) in matrices.into_iter().flatten() {
+            let rows = rows.as_array().into_iter().flatten().map(list);
+            let rows: Vec<String> = rows.map(|row| format!("[{row}]")).collect();
+            body += &format!(" matrix {name} = [{}];", rows.join(", "));
+        }
         body += " }\n";
+    }
+    if let Some(group) = spec.get("group").and_then(Value::as_str) {
+        body += &format!("group {group};\n");
     }
     for key in ["poisson", "cocycle"] {
         if let Some(brackets) = spec.get(key) {
