@@ -292,8 +292,8 @@ fn symplectic_methods_on_the_canonical_pendulum() {
             assert!(control > 1e4 * bound, "h = {h}: {control:e}");
         }
     }
-    assert!(<ImplicitMidpoint as Facts>::PRESERVES.constant_poisson);
-    assert!(!<Rk4 as Facts>::PRESERVES.constant_poisson);
+    const { assert!(<ImplicitMidpoint as Facts>::PRESERVES.constant_poisson) };
+    const { assert!(!<Rk4 as Facts>::PRESERVES.constant_poisson) };
     let degree = |degree: Option<u32>| degree;
     type System<B> = <B as Bracketed>::System<f64>;
     assert_eq!(degree(System::<CanonicalPendulum>::POISSON_DEGREE), Some(0));
