@@ -3,11 +3,12 @@
 use lie_codegen::methods::{Availability, CATALOGUE, Method};
 use lie_runtime::methods::{
     CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6,
-    CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, Dopri5, EulerArnold2, Facts,
-    Gauss4, Gauss6, Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez,
-    ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler, LieMidpoint,
-    MeanValue, MoserVeselov, OrbitEnergy, Preserves, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6,
-    SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8,
+    CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, DiscreteEulerPoincare, Dopri5,
+    EulerArnold2, Facts, Gauss4, Gauss6, Generating2, Generating4, Generating6,
+    GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6,
+    ItohAbe, LieEuler, LieMidpoint, MeanValue, MoserVeselov, OrbitEnergy, Preserves, Rk4, Rkmk2,
+    Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6,
+    Splitting8, Variational2, Variational4, Variational6,
 };
 
 fn agrees<F: Facts>(_: &F) -> &'static str {
@@ -108,6 +109,10 @@ fn facts_are_those_of_the_runtime() {
         agrees(&Isospectral6::new()),
         agrees(&SphericalMidpoint),
         agrees(&MoserVeselov),
+        agrees(&Variational2::exp()),
+        agrees(&DiscreteEulerPoincare::exp()),
+        agrees(&Variational4::exp()),
+        agrees(&Variational6::exp()),
         agrees(&EulerArnold2),
         composition(&Compose4::new(LieMidpoint::exp())),
         composition(&Compose6::new(ImplicitMidpoint)),
@@ -116,6 +121,7 @@ fn facts_are_those_of_the_runtime() {
     assert_eq!(agrees(&LieMidpoint::cayley()), "lie-midpoint");
     assert_eq!(agrees(&OrbitEnergy::mean_value()), "orbit-energy");
     assert_eq!(agrees(&OrbitEnergy::itoh_abe()), "orbit-energy");
+    assert_eq!(agrees(&Variational2::cayley()), "variational2");
     assert_eq!(agrees(&Generating2::cayley()), "generating2");
     assert_eq!(agrees(&Generating4::cayley()), "generating4");
     built.sort_unstable();

@@ -25,9 +25,9 @@ use lie_runtime::methods::{Cayley, LieMidpoint};
 use lie_runtime::{CayleyPoisson, Dual, Implicit, Poisson, State};
 use representation::Representation;
 use systems::{
-    CotangentBody, CotangentEulerArnold, Declared, FreeRigidBody, HeavyTop, Heisenberg,
-    KirchhoffBody, ManakovTop, NonpolynomialSpin, Pendulum, Random, Satellite, Sl2Quadratic,
-    Su3Quadratic, TodaLattice, state,
+    CotangentBody, CotangentEulerArnold, Declared, DiscreteBody, FreeRigidBody, Gyrostat, HeavyTop,
+    Heisenberg, KirchhoffBody, ManakovTop, NonpolynomialSpin, Pendulum, QuarticBody, Random,
+    Satellite, Sl2Quadratic, Su3Quadratic, TodaLattice, state,
 };
 
 /// Random states per system.

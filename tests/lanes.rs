@@ -12,7 +12,8 @@ use lie_runtime::prelude::*;
 use systems::{
     Declared, HeavyTop, Random, canonical_pendulum, e2_pendulum, heisenberg_h3, lotka_volterra,
     se2_circulation, se3_heavy_top, se3_kirchhoff, sl2_quadratic, so3_cotangent_euler_arnold,
-    so3_free_rigid_body, so3_nonpolynomial, so4_manakov, state, su3_quadratic, toda3_solvable,
+    so3_free_rigid_body, so3_gyrostat_lagrangian, so3_nonpolynomial, so3_quartic_lagrangian,
+    so4_manakov, state, su3_quadratic, toda3_solvable,
 };
 
 const STEPS: usize = 20;
@@ -119,6 +120,8 @@ macro_rules! same_digits {
 }
 
 each_system!(same_digits);
+same_digits!(so3_gyrostat_lagrangian, Gyrostat, cayley);
+same_digits!(so3_quartic_lagrangian, QuarticBody, cayley);
 
 macro_rules! same_digits_of_brackets {
     ($file:ident, $name:ident) => {

@@ -166,22 +166,38 @@ pub enum Energy {
         /// The function.
         value: Expr,
     },
+    /// A discrete Lagrangian l_d of one step of size `h`, in the coordinates x of a retraction.
+    DiscreteLagrangian {
+        /// The names of x, one for each basis element.
+        velocity: Vec<Name>,
+        /// The function.
+        value: Expr,
+    },
 }
 
 impl Energy {
     /// The function.
     pub fn expression(&self) -> &Expr {
         match self {
-            Self::Hamiltonian(value) | Self::Lagrangian { value, .. } => value,
+            Self::Hamiltonian(value)
+            | Self::Lagrangian { value, .. }
+            | Self::DiscreteLagrangian { value, .. } => value,
         }
     }
 
-    /// The names of the velocity of a Lagrangian; none of a Hamiltonian.
+    /// The names of the velocity of a Lagrangian, or of the coordinates of a discrete one; none of a Hamiltonian.
     pub fn velocity(&self) -> &[Name] {
         match self {
             Self::Hamiltonian(_) => &[],
-            Self::Lagrangian { velocity, .. } => velocity,
+            Self::Lagrangian { velocity, .. } | Self::DiscreteLagrangian { velocity, .. } => {
+                velocity
+            }
         }
+    }
+
+    /// Whether it may contain the step size `h`.
+    pub fn has_step(&self) -> bool {
+        matches!(self, Self::DiscreteLagrangian { .. })
     }
 }
 

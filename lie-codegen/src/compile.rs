@@ -146,7 +146,12 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
         casimir_names: model.casimirs.iter().map(|c| c.name.clone()).collect(),
         initial: model.initial.clone(),
         source,
-        methods: choices.iter().map(|c| c.solved().clone()).collect(),
+        // without an expression of H there is nothing to fuse
+        methods: choices
+            .iter()
+            .filter(|_| model.has_expression())
+            .map(|c| c.solved().clone())
+            .collect(),
         hamiltonian_degree: model.hamiltonian_degree,
         poisson_degree: model.poisson.degree,
         casimir_degrees: model.casimirs.iter().map(|c| c.degree).collect(),
@@ -160,7 +165,7 @@ pub fn source(model: &Model) -> Source {
         return Source {
             dimension: model.dimension(),
             poisson: Some(model.poisson.entries.clone()),
-            hamiltonian: model.hamiltonian,
+            hamiltonian: Some(model.hamiltonian),
             energy: model.energy,
             casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
             realization: realization(model),
@@ -173,7 +178,9 @@ pub fn source(model: &Model) -> Source {
         dimension: model.dimension(),
         constants: model.constants.entries().to_vec(),
         poisson: None,
-        hamiltonian: model.hamiltonian,
+        hamiltonian: model.has_expression().then_some(model.hamiltonian),
+        lagrangian: model.lagrangian.as_ref().map(|l| l.value),
+        discrete: model.lagrangian.as_ref().and_then(|l| l.discrete),
         energy: model.energy,
         momenta: model
             .configuration
@@ -239,11 +246,31 @@ fn docs(model: &Model) -> Vec<String> {
     let mut docs = model.description.clone();
     let names: Vec<&str> = model.coordinates.iter().map(|c| c.text.as_str()).collect();
     docs.push(String::new());
-    docs.push(format!(
-        "`H = {}` {},",
-        model.display(model.energy),
-        bracket_in_words(model)
-    ));
+    let energy = if model.has_expression() {
+        format!("`H = {}`", model.display(model.energy))
+    } else {
+        "The Legendre transform of its Lagrangian, by Newton's iteration,".to_owned()
+    };
+    if let Some(lagrangian) = &model.lagrangian {
+        let velocity: Vec<&str> = lagrangian
+            .velocity
+            .iter()
+            .map(|v| v.text.as_str())
+            .collect();
+        if let Some(discrete) = lagrangian.discrete {
+            docs.push(format!(
+                "Discrete Lagrangian `l_d = {}` of a step with the coordinates `{}`.",
+                model.display(discrete),
+                velocity.join(", ")
+            ));
+        }
+        docs.push(format!(
+            "Lagrangian `l = {}` of the velocity `{}`.",
+            model.display(lagrangian.value),
+            velocity.join(", ")
+        ));
+    }
+    docs.push(format!("{energy} {},", bracket_in_words(model)));
     docs.push(format!(
         "coordinates `{}`; the Poisson matrix has generic rank {}.",
         names.join(", "),

@@ -165,6 +165,16 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
         impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for #system<S> {
             fn triple(&self, _x: &Self::State, _z: &Self::State, _mu: &Self::State, _out: &mut Self::State) {}
         }
+        impl<S: ::lie_runtime::Scalar> ::lie_runtime::LagrangianPoisson<S> for #system<S> {
+            fn lagrangian(&self, _xi: &Self::State) -> S { S::zero() }
+            fn momentum(&self, _xi: &Self::State, _out: &mut Self::State) {}
+            fn inertia(&self, _xi: &Self::State, _out: &mut Self::Jacobian) {}
+        }
+        impl<S: ::lie_runtime::Scalar> ::lie_runtime::DiscreteLagrangianPoisson<S> for #system<S> {
+            fn discrete_lagrangian(&self, _h: S, _x: &Self::State) -> S { S::zero() }
+            fn discrete_slope(&self, _h: S, _x: &Self::State, _out: &mut Self::State) {}
+            fn discrete_curvature(&self, _h: S, _x: &Self::State, _out: &mut Self::Jacobian) {}
+        }
         impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for #system<S> {
             type Lifted = #system<::lie_runtime::Dual<S>>;
             fn lift(&self) -> Self::Lifted { #system { _scalar: ::core::marker::PhantomData } }

@@ -41,6 +41,31 @@ pub struct Casimir {
     pub degree: Option<u32>,
 }
 
+/// The reduced Lagrangian of a system that was declared by one.
+#[derive(Clone, Debug)]
+pub struct Lagrangian {
+    /// The function l(xi); component i of the velocity is [`Symbol::Input`] i.
+    pub value: ExprId,
+    /// Names of the components of the velocity.
+    pub velocity: Vec<Name>,
+    /// How the Hamiltonian comes from it.
+    pub transform: Transform,
+    /// The discrete Lagrangian by which the system was declared, in the same symbols and the step size; l is the
+    /// Lagrangian that it approximates.
+    pub discrete: Option<ExprId>,
+    /// Whether that was written in the entries of the group element, and so in Cayley coordinates.
+    pub in_entries: bool,
+}
+
+/// How the Legendre transform of a Lagrangian is had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transform {
+    /// The Hamiltonian is an expression in mu.
+    Exact,
+    /// The velocity of a momentum is found by Newton's iteration when it is needed.
+    Newton,
+}
+
 /// What the bracket of a system is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Structure {
@@ -129,8 +154,11 @@ pub struct Model {
     pub exact_constants: StructureConstants<Fraction>,
     /// How it was declared.
     pub invariance: Invariance,
-    /// The Hamiltonian; of a system that depends on the time, that of the extended phase space.
+    /// The Hamiltonian; of a system that depends on the time, that of the extended phase space. Where [`Model::has_expression`] is false it is `<mu, xi> - l(xi)` in mu and the
+    /// velocity xi of mu, so that its derivative by a coordinate is a component of xi.
     pub hamiltonian: ExprId,
+    /// The Lagrangian, if the system was declared by one.
+    pub lagrangian: Option<Lagrangian>,
     /// The energy: the Hamiltonian as it was declared.
     pub energy: ExprId,
     /// What the coordinates beside mu are, of a system on `T*G` or one that depends on the time.
@@ -173,6 +201,15 @@ impl Model {
         self.structure == Structure::Lie
     }
 
+    /// Whether the Hamiltonian is an expression in mu alone, which methods can take apart.
+    pub fn has_expression(&self) -> bool {
+        let transform = self
+            .lagrangian
+            .as_ref()
+            .map(|lagrangian| lagrangian.transform);
+        transform != Some(Transform::Newton)
+    }
+
     /// The coordinates that are shown: all but those that carry the time.
     pub fn shown_coordinates(&self) -> Vec<usize> {
         let hidden = |i: &usize| self.configuration.as_ref().is_some_and(|c| c.is_hidden(*i));
@@ -195,10 +232,15 @@ impl Model {
             Symbol::Parameter(i) => self.parameters[i].name.clone(),
             Symbol::Step => "h".into(),
             Symbol::Time => "t".into(),
-            Symbol::Input(i) => match (&self.realization, i.checked_sub(CANONICAL)) {
-                (Some(realization), Some(place)) => realization.names[place].text.clone(),
-                _ => format!("input{i}"),
-            },
+            Symbol::Input(i) => {
+                let canonical = i.checked_sub(CANONICAL);
+                let names = match (canonical, &self.realization, &self.lagrangian) {
+                    (Some(place), Some(realization), _) => realization.names.get(place),
+                    (None, _, Some(lagrangian)) => lagrangian.velocity.get(i),
+                    _ => None,
+                };
+                names.map_or_else(|| format!("input{i}"), |name| name.text.clone())
+            }
         }
     }
 

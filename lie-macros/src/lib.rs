@@ -52,8 +52,24 @@ use proc_macro::TokenStream;
 ///     hamiltonian = L^2/4 + p1^2/2 + p2^2/6;
 /// }
 ///
+/// lie_poisson! {
+///     /// The same by the discrete Lagrangian of a step of size h; x1/h is a velocity.
+///     pub system ByDiscreteLagrangian;
+///     algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+///     state x, y, z;
+///     velocity x1, x2, x3;
+///     parameters { I1 = 2.0; I2 = 1.0; I3 = 2/3; }
+///     discrete_lagrangian = (I1*x1^2 + I2*x2^2 + I3*x3^2)/(2*h);
+///     methods = [discrete-euler-poincare];
+/// }
+///
 /// lie_poisson! { pub spec = "specs/se3_heavy_top.json"; }
 /// ```
+///
+/// A Lagrangian that is not quadratic in the velocity must be regular at rest, where the iteration for the velocity
+/// of a momentum begins; methods then run on their generic forms. With `group R;` and matrices, a discrete
+/// Lagrangian may contain the entries `R11`, `R12`, … of the step's group element; they are functions of
+/// Cayley coordinates.
 #[proc_macro]
 pub fn lie_poisson(input: TokenStream) -> TokenStream {
     let manifest = std::env::var_os("CARGO_MANIFEST_DIR")

@@ -110,7 +110,10 @@ pub trait Implicit<S: Scalar, M>: Poisson<S> {
 /// `cohen_hairer4`, `cohen_hairer6`); `isospectral2`, `isospectral4`, `isospectral6` (also for `Collective`;
 /// need [`crate::MatrixPoisson`]), `isospectral2_cayley` (needs `cayley` instead), `hopf` and `spherical`
 /// (need [`crate::SpinPoisson`]), `moser_veselov` (the same with a diagonal quadratic H on so(3)) and
-/// `moser_veselov_n` (needs [`crate::InertiaPoisson`]). And `splitting` implements
+/// `moser_veselov_n` (needs [`crate::InertiaPoisson`]); `variational` (`variational2`, `variational4`,
+/// `variational6`; need [`crate::LagrangianPoisson`], the last two also over [`crate::Lift::Lifted`]) and
+/// `variational_cayley` (needs [`crate::CayleyPoisson`] too); `discrete` and `discrete_cayley` (need
+/// [`crate::DiscreteLagrangianPoisson`]). And `splitting` implements
 /// [`crate::SeparablePoisson`], for a Hamiltonian that is a sum of functions of one coordinate each.
 #[macro_export]
 macro_rules! generic_equations {
@@ -222,6 +225,51 @@ macro_rules! generic_equations {
         $crate::generic_equations!(
             @impl $generics $system, $scalar, [MoserVeselov],
             $crate::generic::DiscreteBody<'a, $scalar, Self>
+        );
+    };
+    (@variational $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            $generics $system, $scalar: variational2, variational4, variational6
+        );
+    };
+    (@variational2 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [Variational<$crate::methods::Exp, 2>],
+            $crate::generic::ExpVariational<'a, $scalar, Self>
+        );
+    };
+    (@variational4 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [Variational<$crate::methods::Exp, 4>],
+            $crate::generic::GalerkinStep<'a, $scalar, Self, 2>
+        );
+    };
+    (@variational6 $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [Variational<$crate::methods::Exp, 6>],
+            $crate::generic::GalerkinStep<'a, $scalar, Self, 3>
+        );
+    };
+    (@variational_cayley $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [Variational<$crate::methods::Cayley, 2>],
+            $crate::generic::CayleyVariational<'a, $scalar, Self>
+        );
+    };
+    (@discrete $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [DiscreteEulerPoincare<$crate::methods::Exp>],
+            $crate::generic::ExpVariational<
+                'a, $scalar, Self, $crate::lagrangian::DeclaredDiscreteLagrangian<'a, $scalar, Self>,
+            >
+        );
+    };
+    (@discrete_cayley $generics:tt $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(
+            @impl $generics $system, $scalar, [DiscreteEulerPoincare<$crate::methods::Cayley>],
+            $crate::generic::CayleyVariational<
+                'a, $scalar, Self, $crate::lagrangian::DeclaredDiscreteLagrangian<'a, $scalar, Self>,
+            >
         );
     };
     // the equation of another method

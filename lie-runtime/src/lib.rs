@@ -67,6 +67,7 @@ pub mod elimination;
 pub mod equation;
 pub mod generating;
 pub mod generic;
+pub mod lagrangian;
 pub mod matrix;
 pub mod methods;
 pub mod newton;
@@ -85,6 +86,7 @@ mod test_systems;
 
 pub use equation::{Equation, Implicit};
 pub use generating::GeneratingFunction;
+pub use lagrangian::{DiscreteLagrangian, DiscreteLagrangianPoisson, LagrangianPoisson};
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
 pub use matrix::{SquareMatrix, StageMatrix};
@@ -108,18 +110,19 @@ pub mod prelude {
     };
     pub use crate::methods::{
         CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6,
-        CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, Dopri5, EulerArnold2,
-        Gauss4, Gauss6, Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez,
-        ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler, LieMidpoint,
-        MeanValue, Method, MoserVeselov, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme,
-        SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper,
+        CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, DiscreteEulerPoincare,
+        Dopri5, EulerArnold2, Gauss4, Gauss6, Generating2, Generating4, Generating6,
+        GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4,
+        Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue, Method, MoserVeselov, OrbitEnergy,
+        Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint, Splitting1, Splitting2,
+        Splitting4, Splitting6, Splitting8, Stepper, Variational2, Variational4, Variational6,
     };
     pub use crate::newton::{Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]
     pub use crate::scalar::{F32x8, F64x4, F64x8};
     pub use crate::{
-        CayleyPoisson, Dual, LiePoisson, Lift, Mask, ParameterError, Poisson, Scalar, SquareMatrix,
-        State,
+        CayleyPoisson, DiscreteLagrangian, DiscreteLagrangianPoisson, Dual, LagrangianPoisson,
+        LiePoisson, Lift, Mask, ParameterError, Poisson, Scalar, SquareMatrix, State,
     };
     #[cfg(feature = "macros")]
     pub use lie_macros::lie_poisson;

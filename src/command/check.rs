@@ -158,7 +158,20 @@ impl Report {
         if let Some(configuration) = &model.configuration {
             writeln!(text, "  {}", configuration.description())?;
         }
-        writeln!(text, "  H = {}", model.display(model.energy))?;
+        if let Some(lagrangian) = &model.lagrangian {
+            if let Some(discrete) = lagrangian.discrete {
+                writeln!(text, "  l_d = {}", model.display(discrete))?;
+            }
+            writeln!(text, "  l = {}", model.display(lagrangian.value))?;
+        }
+        if model.has_expression() {
+            writeln!(text, "  H = {}", model.display(model.energy))?;
+        } else {
+            writeln!(
+                text,
+                "  H = Legendre transform of l, solved by Newton's iteration"
+            )?;
+        }
         let independent = dimension - model.generic_rank;
         writeln!(
             text,

@@ -38,15 +38,24 @@ pub mod so3_cotangent_euler_arnold;
 #[path = "../golden/so3_cotangent_group.rs"]
 #[rustfmt::skip]
 pub mod so3_cotangent_group;
+#[path = "../golden/so3_discrete_lagrangian.rs"]
+#[rustfmt::skip]
+pub mod so3_discrete_lagrangian;
 #[path = "../golden/so3_free_rigid_body.rs"]
 #[rustfmt::skip]
 pub mod so3_free_rigid_body;
 #[path = "../golden/so3_gravity_gradient.rs"]
 #[rustfmt::skip]
 pub mod so3_gravity_gradient;
+#[path = "../golden/so3_gyrostat_lagrangian.rs"]
+#[rustfmt::skip]
+pub mod so3_gyrostat_lagrangian;
 #[path = "../golden/so3_nonpolynomial.rs"]
 #[rustfmt::skip]
 pub mod so3_nonpolynomial;
+#[path = "../golden/so3_quartic_lagrangian.rs"]
+#[rustfmt::skip]
+pub mod so3_quartic_lagrangian;
 #[path = "../golden/so4_manakov.rs"]
 #[rustfmt::skip]
 pub mod so4_manakov;
@@ -67,9 +76,12 @@ pub use se3_kirchhoff::KirchhoffBody;
 pub use sl2_quadratic::Sl2Quadratic;
 pub use so3_cotangent_euler_arnold::CotangentEulerArnold;
 pub use so3_cotangent_group::CotangentBody;
+pub use so3_discrete_lagrangian::DiscreteBody;
 pub use so3_free_rigid_body::FreeRigidBody;
 pub use so3_gravity_gradient::Satellite;
+pub use so3_gyrostat_lagrangian::Gyrostat;
 pub use so3_nonpolynomial::NonpolynomialSpin;
+pub use so3_quartic_lagrangian::QuarticBody;
 pub use so4_manakov::ManakovTop;
 pub use su3_quadratic::Su3Quadratic;
 pub use toda3_solvable::TodaLattice;
@@ -127,6 +139,9 @@ declared!(
     NonpolynomialSpin,
     NonpolynomialSpinSystem
 );
+declared!(so3_discrete_lagrangian, DiscreteBody, DiscreteBodySystem);
+declared!(so3_gyrostat_lagrangian, Gyrostat, GyrostatSystem);
+declared!(so3_quartic_lagrangian, QuarticBody, QuarticBodySystem);
 declared!(so4_manakov, ManakovTop, ManakovTopSystem);
 declared!(su3_quadratic, Su3Quadratic, Su3QuadraticSystem);
 declared!(toda3_solvable, TodaLattice, TodaLatticeSystem);
@@ -152,7 +167,10 @@ macro_rules! each_system {
 macro_rules! each_further_system {
     ($check:ident) => {
         $check!(so3_cotangent_group, CotangentBody, exp);
+        $check!(so3_discrete_lagrangian, DiscreteBody, exp);
         $check!(so3_gravity_gradient, Satellite, exp);
+        $check!(so3_gyrostat_lagrangian, Gyrostat, exp);
+        $check!(so3_quartic_lagrangian, QuarticBody, exp);
     };
 }
 

@@ -2605,7 +2605,7 @@ for CotangentBodyCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
     ///
-    /// 70 additions, 81 multiplications.
+    /// 70 additions, 79 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = self
@@ -2632,31 +2632,32 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         let _t15 = _u_m2 * self._h7 * _t14;
         let _t16 = _u_R12 * self._h1;
         let _t17 = _t15 * _u_R11 + _t16 * _u_R21;
-        let _t18 = _t2 * (_t10 + _t11 + _t17) - m2 - _u_R32 * _t7
-            - _t9 * (_t15 * _u_R12 + _t16 * _u_R22) - _u_m3 * _t8 - _u_R23 * _t16
-            + _u_R31 * self._h4;
-        let _t19 = S::ratio(1.0, 10.0) * (_u_R33 * self.h + _u_m1 * self._h12);
+        let _t18 = _t16 * _u_R22;
+        let _t19 = _u_R23 * _t16;
+        let _t20 = _t2 * (_t10 + _t11 + _t17) - m2 - _u_R32 * _t7
+            - _t9 * (_t15 * _u_R12 + _t18) - _u_m3 * _t8 - _t19 + _u_R31 * self._h4
+            + (_u_R31 * self.h - _u_m3 * self._h8) * _t13;
+        let _t21 = S::ratio(1.0, 10.0) * (_u_R33 * self.h + _u_m1 * self._h12);
         residual[0] = _t9 * (_t10 + _t12) - m1 - _u_R11 * _t4 - _u_R31 * _t7
             - _u_R32 * self._h4 + _u_R13 * _t3
             - (_u_R32 * self.h - S::ratio(10.0, 1.0)) * _t13
             + _u_m3 * (_t0 + self._h6) * _t1;
-        residual[1] = _t18 + (_u_R31 * self.h - _u_m3 * self._h8) * _t13
-            - (_u_R13 * self.h * _t14 - S::ratio(6.0, 1.0)) * _t1;
+        residual[1] = _t20 - (_u_R13 * self.h * _t14 - S::ratio(6.0, 1.0)) * _t1;
         residual[2] = _u_m3 - m3 - _u_R13 * _t4 + _t5 * (_t12 + _t17)
-            - _t9 * (_t15 * _u_R13 + _t16 * _u_R23) - _u_R11 * _t3 + _u_R22 * _t16
+            - _t9 * (_t15 * _u_R13 + _t19) - _u_R11 * _t3 + _t18
             + _u_m2
                 * (_u_R33 * self._h9 + _u_R12 * self._h10 * _t14
                     - _u_m1 * (_t0 - self._h11) * S::ratio(5.0, 1.0))
                 * S::ratio(1.0, 30.0);
         residual[3] = _u_R11 - _R11 - _u_R12 * _t5 + _u_R13 * _t2;
-        residual[4] = _u_R12 - _R12 + _u_R11 * _t5 - _u_R13 * _t19;
-        residual[5] = _u_R13 - _R13 - _u_R11 * _t2 + _u_R12 * _t19;
+        residual[4] = _u_R12 - _R12 + _u_R11 * _t5 - _u_R13 * _t21;
+        residual[5] = _u_R13 - _R13 - _u_R11 * _t2 + _u_R12 * _t21;
         residual[6] = _u_R21 - _R21 - _u_R22 * _t5 + _u_R23 * _t2;
-        residual[7] = _u_R22 - _R22 + _u_R21 * _t5 - _u_R23 * _t19;
-        residual[8] = _u_R23 - _R23 - _u_R21 * _t2 + _u_R22 * _t19;
+        residual[7] = _u_R22 - _R22 + _u_R21 * _t5 - _u_R23 * _t21;
+        residual[8] = _u_R23 - _R23 - _u_R21 * _t2 + _u_R22 * _t21;
         residual[9] = _u_R31 - _R31 - _u_R32 * _t5 + _u_R33 * _t2;
-        residual[10] = _u_R32 - _R32 + _u_R31 * _t5 - _u_R33 * _t19;
-        residual[11] = _u_R33 - _R33 - _u_R31 * _t2 + _u_R32 * _t19;
+        residual[10] = _u_R32 - _R32 + _u_R31 * _t5 - _u_R33 * _t21;
+        residual[11] = _u_R33 - _R33 - _u_R31 * _t2 + _u_R32 * _t21;
     }
 
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`

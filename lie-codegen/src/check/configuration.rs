@@ -78,7 +78,7 @@ impl Configuration {
     }
 
     /// The names of the entries of the group element, row by row.
-    fn entries(&self) -> Vec<String> {
+    pub fn entries(&self) -> Vec<String> {
         self.group
             .as_ref()
             .map_or_else(Vec::new, |(name, size)| entries_of(name, *size))
@@ -244,7 +244,7 @@ pub fn extended(
 }
 
 /// Reports names of the user that the entries of the group element take.
-fn clashes(declaration: &Declaration, entries: &[String], origin: Origin, report: &mut Report) {
+pub fn clashes(declaration: &Declaration, entries: &[String], origin: Origin, report: &mut Report) {
     let own = declaration.state.iter().chain(declaration.basis());
     let others = declaration.parameters.iter().map(|p| &p.name);
     let lets = declaration.lets.iter().map(|(name, _)| name);

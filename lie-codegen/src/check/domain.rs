@@ -1,5 +1,6 @@
 //! The domain: the Hamiltonian, its gradient and the Casimirs must be finite where a run begins.
 
+use super::velocity::velocity;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::model::{Model, Structure};
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
@@ -48,6 +49,22 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
         });
     }
     let mut scratch = model.graph.clone();
+    let mut xi = Vec::new();
+    if let Some(lagrangian) = model
+        .lagrangian
+        .as_ref()
+        .filter(|_| !model.has_expression())
+    {
+        match velocity(&mut scratch, lagrangian.value, mu, parameters) {
+            Some(found) => xi = found,
+            None => {
+                return Some(Fault {
+                    coordinate: None,
+                    message: "the Hamiltonian is not finite because no velocity with this momentum was found".into(),
+                });
+            }
+        }
+    }
     let mut functions: Vec<(ExprId, String)> = vec![(model.hamiltonian, "the Hamiltonian".into())];
     for symbol in model.graph.symbols(model.hamiltonian) {
         if let Symbol::Coordinate(i) = symbol {
@@ -76,6 +93,7 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
     let value = |symbol| match symbol {
         Symbol::Coordinate(i) => mu[i],
         Symbol::Parameter(p) => parameters[p],
+        Symbol::Input(i) => xi.get(i).copied().unwrap_or(f64::NAN),
         _ => f64::NAN,
     };
     let roots: Vec<ExprId> = functions.iter().map(|(id, _)| *id).collect();

@@ -57,6 +57,7 @@ impl Allowed {
             },
             Symbol::Input(i) if i >= CANONICAL => self == Self::Canonical,
             Symbol::Input(_) => matches!(self, Self::Velocity(_) | Self::Everything),
+            Symbol::Step => matches!(self, Self::Velocity(_) | Self::Everything),
             _ => false,
         }
     }
@@ -90,6 +91,9 @@ impl<'a> Environment<'a> {
         }
         for (name, _) in &declaration.lets {
             bindings.entry(name.text.as_str()).or_insert(Binding::Later);
+        }
+        if declaration.energy.has_step() {
+            bindings.entry("h").or_insert(Binding::Symbol(Symbol::Step));
         }
         for name in declaration.basis() {
             bindings.entry(name.text.as_str()).or_insert(Binding::Basis);

@@ -3,13 +3,17 @@
 //! For `l = <A xi, xi>/2 + <b, xi> + c` with a symmetric matrix A it is
 //! `H = <A^-1 (mu - b), mu - b>/2 - c`, by elimination in the order `A = L D L^T`: a sum of squares over
 //! pivots. Where the diagonal is zero, as in `l = xi1 xi2`, a pivot is a block of two rows.
+//!
+//! A Lagrangian that is not quadratic, or not shown to be, has no such expression: the velocity of a momentum is
+//! found by Newton's iteration, here ([`super::velocity`]) and in generated code. The iteration begins at rest,
+//! where l must be finite and regular.
 
 use super::configuration::Configuration;
 use super::normal::{NormalForm, Verdict};
 use crate::ast::Name;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::{Budget, Rational};
-use crate::model::Parameter;
+use crate::model::{Parameter, Transform};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for one decision of the normal form.
@@ -31,6 +35,9 @@ pub struct Lagrangian<'a> {
     pub parameters: &'a [Parameter],
     /// The group element and the time, where the Lagrangian depends on them.
     pub configuration: Option<&'a Configuration>,
+    /// Whether the velocity is an element of an algebra and the bracket the Lie–Poisson one, so that a Newton
+    /// iteration for it can be generated.
+    pub on_algebra: bool,
 }
 
 impl Lagrangian<'_> {
@@ -41,22 +48,33 @@ impl Lagrangian<'_> {
     }
 }
 
-/// The Hamiltonian in the coordinates of mu.
+/// The Hamiltonian in the coordinates of mu; of a Lagrangian that is not quadratic, in mu and its velocity.
 ///
 /// # Errors
-/// `legendre`, reported, for a Lagrangian that is singular or not quadratic.
+/// `legendre`, reported, for a Lagrangian that is singular or has no value at rest.
 pub fn hamiltonian(
     graph: &mut Graph,
     lagrangian: &Lagrangian<'_>,
     report: &mut Report,
-) -> Option<ExprId> {
-    let mut form = match Quadratic::of(graph, lagrangian) {
+) -> Option<(ExprId, Transform)> {
+    let (mut form, quadratic) = match Quadratic::of(graph, lagrangian) {
         Ok(form) => form,
         Err(diagnostic) => {
             report.push(*diagnostic);
             return None;
         }
     };
+    if !quadratic {
+        if !lagrangian.on_algebra {
+            report.push(not_quadratic(lagrangian));
+            return None;
+        }
+        if let Some(rank) = form.rank_at_rest(graph) {
+            report.push(singular_at_rest(lagrangian, rank));
+            return None;
+        }
+        return Some((in_velocity(graph, lagrangian), Transform::Newton));
+    }
     let mut terms = Vec::new();
     while !form.rest.is_empty() {
         let Some(pivot) = form.pivot(graph) else {
@@ -67,7 +85,18 @@ pub fn hamiltonian(
     }
     let constant = graph.neg(form.constant);
     terms.push(constant);
-    Some(graph.sum(&terms))
+    Some((graph.sum(&terms), Transform::Exact))
+}
+
+/// `<mu, xi> - l(xi)`
+fn in_velocity(graph: &mut Graph, lagrangian: &Lagrangian<'_>) -> ExprId {
+    let mut terms = vec![graph.neg(lagrangian.value)];
+    for i in 0..lagrangian.velocity.len() {
+        let mu = graph.symbol(Symbol::Coordinate(i));
+        let xi = graph.symbol(Symbol::Input(i));
+        terms.push(graph.mul(mu, xi));
+    }
+    graph.sum(&terms)
 }
 
 /// `<A xi, xi>/2 + <b, xi> + c`, partly eliminated.
@@ -92,7 +121,8 @@ enum Pivot {
 }
 
 impl Quadratic {
-    fn of(graph: &mut Graph, lagrangian: &Lagrangian<'_>) -> Result<Self, Box<Diagnostic>> {
+    /// The terms up to second order at rest, and whether there are no others.
+    fn of(graph: &mut Graph, lagrangian: &Lagrangian<'_>) -> Result<(Self, bool), Box<Diagnostic>> {
         let count = lagrangian.velocity.len();
         let zero = graph.integer(0);
         let at_rest = |symbol| matches!(symbol, Symbol::Input(_)).then_some(zero);
@@ -100,15 +130,16 @@ impl Quadratic {
             .map(|i| graph.derivative(lagrangian.value, Symbol::Input(i)))
             .collect();
         let mut matrix = Vec::new();
+        let mut quadratic = true;
         for (i, &slope) in slopes.iter().enumerate() {
             let row: Vec<ExprId> = (0..count)
                 .map(|j| graph.derivative(slope, Symbol::Input(j)))
                 .collect();
             for (j, &entry) in row.iter().enumerate().skip(i) {
                 for k in j..count {
-                    let third = graph.derivative(entry, Symbol::Input(k));
-                    if !graph.is_zero(third) && !vanishes(graph, third) {
-                        return Err(Box::new(not_quadratic(lagrangian, [i, j, k])));
+                    if quadratic {
+                        let third = graph.derivative(entry, Symbol::Input(k));
+                        quadratic = graph.is_zero(third) || vanishes(graph, third);
                     }
                 }
             }
@@ -153,7 +184,33 @@ impl Quadratic {
         form.size = entries
             .map(|&entry| form.value(graph, entry).abs())
             .fold(0.0, f64::max);
-        Ok(form)
+        Ok((form, quadratic))
+    }
+
+    /// The rank of the Hessian at rest with the default parameters, if it is not full.
+    fn rank_at_rest(&self, graph: &Graph) -> Option<usize> {
+        let rows = self.matrix.iter();
+        let mut rows: Vec<Vec<f64>> = rows
+            .map(|row| row.iter().map(|&entry| self.value(graph, entry)).collect())
+            .collect();
+        let count = rows.len();
+        for k in 0..count {
+            let candidates = (k..count).flat_map(|i| (k..count).map(move |j| (i, j)));
+            let size = |&(i, j): &(usize, usize)| rows[i][j].abs();
+            let (i, j) = candidates.max_by(|a, b| size(a).total_cmp(&size(b)))?;
+            if !self.is_pivot(rows[i][j]) {
+                return Some(k);
+            }
+            rows.swap(k, i);
+            rows.iter_mut().for_each(|row| row.swap(k, j));
+            let pivot = rows[k].clone();
+            for row in &mut rows[k + 1..] {
+                let factor = row[k] / pivot[k];
+                let pairs = row.iter_mut().zip(&pivot);
+                pairs.for_each(|(entry, pivot)| *entry -= factor * pivot);
+            }
+        }
+        None
     }
 
     /// An entry at the default parameters.
@@ -301,20 +358,31 @@ fn not_at_rest(lagrangian: &Lagrangian<'_>) -> Diagnostic {
     Diagnostic::new(
         Kind::Legendre,
         lagrangian.origin,
-        "the Lagrangian is not finite at rest with the default parameters, where its coefficients are taken",
+        "the Lagrangian or one of its first two derivatives is not finite at rest with the default parameters, \
+         where its Legendre transform begins",
     )
-    .help("write it as a polynomial in the velocity")
+    .help("write it so that it is smooth at rest, or give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
 }
 
-fn not_quadratic(lagrangian: &Lagrangian<'_>, indices: [usize; 3]) -> Diagnostic {
-    let [a, b, c] = indices.map(|i| &lagrangian.velocity[i].text);
+fn singular_at_rest(lagrangian: &Lagrangian<'_>, rank: usize) -> Diagnostic {
+    let all = lagrangian.velocity.len();
     Diagnostic::new(
         Kind::Legendre,
         lagrangian.origin,
         format!(
-            "the Lagrangian is not quadratic in the velocity: its derivative by `{a}`, `{b}` and `{c}` is not zero, \
-             or could not be shown to be"
+            "the Lagrangian is singular at rest with the default parameters: its Hessian has rank {rank} of {all} \
+             there, where the iteration for the velocity of a momentum begins"
         ),
     )
-    .help("the Legendre transform of other Lagrangians is not built yet; give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
+    .help("every component of the velocity needs a quadratic kinetic term; else give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
+}
+
+fn not_quadratic(lagrangian: &Lagrangian<'_>) -> Diagnostic {
+    Diagnostic::new(
+        Kind::Legendre,
+        lagrangian.origin,
+        "the Lagrangian is not quadratic in the velocity, or could not be shown to be, and it depends on the group \
+         element or the time, or the bracket is not that of an algebra",
+    )
+    .help("the Legendre transform of such Lagrangians is not built yet; give the Hamiltonian `H(mu) = <mu, xi> - l(xi)`")
 }

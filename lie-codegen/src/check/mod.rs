@@ -10,7 +10,9 @@ mod cocycle;
 pub mod configuration;
 mod constant;
 mod defaults;
+mod discrete;
 pub mod domain;
+mod entries;
 mod environment;
 mod independence;
 mod initial;
@@ -27,7 +29,9 @@ mod proof;
 mod ranks;
 mod realization;
 mod sample;
+mod series;
 mod size;
+mod velocity;
 
 #[cfg(test)]
 mod tests;
@@ -38,7 +42,7 @@ use crate::algebra::{StructureConstants, rank};
 use crate::ast::{self, Declaration, Energy, Invariance};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Fraction, Rational};
-use crate::model::{Casimir, Model, Structure};
+use crate::model::{self, Casimir, Model, Structure, Transform};
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
 use algebra::Algebra;
@@ -74,6 +78,9 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     if !size::check(declaration, report) {
         return None;
     }
+    if declaration.energy.has_step() && declaration.group.is_some() {
+        return system(&entries::written_out(declaration, report)?, None, report);
+    }
     match configuration::of(declaration, report) {
         Some(configuration) => {
             let whole = configuration::extended(declaration, &configuration, report);
@@ -105,7 +112,7 @@ fn system(
         declaration.energy.expression(),
         match declaration.energy {
             Energy::Hamiltonian(_) => Allowed::State,
-            Energy::Lagrangian { .. } => {
+            Energy::Lagrangian { .. } | Energy::DiscreteLagrangian { .. } => {
                 Allowed::Velocity(configuration.map_or(usize::MAX, |c| c.momenta))
             }
         },
@@ -156,19 +163,49 @@ fn system(
         declaration,
         &lowered.into_iter().collect::<Option<Vec<_>>>()?,
     );
-    let hamiltonian = match &declaration.energy {
-        Energy::Hamiltonian(_) => energy?,
-        Energy::Lagrangian { velocity, value } => {
+    let (hamiltonian, lagrangian) = match &declaration.energy {
+        Energy::Hamiltonian(_) => (energy?, None),
+        Energy::Lagrangian { velocity, value } | Energy::DiscreteLagrangian { velocity, value } => {
+            let declared = energy?;
+            if !size::lagrangian(&graph, declared, velocity.len(), value.origin, report) {
+                return None;
+            }
+            // one that depends on the group element or the time is none on the algebra alone
+            let on_algebra = configuration.is_none() && structure == Structure::Lie;
+            let discrete = declaration.energy.has_step().then_some(declared);
+            if discrete.is_some() && !on_algebra {
+                report.push(discrete::elsewhere(value.origin));
+                return None;
+            }
+            let reduced = match discrete {
+                Some(discrete) => {
+                    let count = velocity.len();
+                    discrete::lagrangian(&mut graph, discrete, count, value.origin, report)?
+                }
+                None => declared,
+            };
             let lagrangian = Lagrangian {
-                value: energy?,
+                value: reduced,
                 velocity,
                 origin: value.origin,
                 parameters: &parameters,
                 configuration,
+                on_algebra,
             };
-            legendre::hamiltonian(&mut graph, &lagrangian, report)?
+            let (hamiltonian, transform) = legendre::hamiltonian(&mut graph, &lagrangian, report)?;
+            let reduced = on_algebra.then(|| model::Lagrangian {
+                value: lagrangian.value,
+                velocity: velocity.clone(),
+                transform,
+                discrete,
+                in_entries: declaration.group.is_some(),
+            });
+            (hamiltonian, reduced)
         }
     };
+    let exact = lagrangian
+        .as_ref()
+        .is_none_or(|lagrangian| lagrangian.transform == Transform::Exact);
     let autonomous = hamiltonian;
     let hamiltonian = match configuration {
         Some(configuration) if configuration.time => {
@@ -229,8 +266,12 @@ fn system(
     if structure == Structure::Lie {
         poisson.entries.clear();
     }
-    let pieces = separable::coordinates(&mut scratch, hamiltonian, dimension);
-    let hamiltonian_degree = casimirs::degree(&scratch, hamiltonian);
+    let (pieces, hamiltonian_degree) = if exact {
+        let pieces = separable::coordinates(&mut scratch, hamiltonian, dimension);
+        (pieces, casimirs::degree(&scratch, hamiltonian))
+    } else {
+        (Err((0, dimension - 1)), None)
+    };
     let mut model = Model {
         name: declaration.name.text.clone(),
         name_origin: declaration.name.origin,
@@ -247,6 +288,7 @@ fn system(
         exact_constants,
         invariance: declaration.invariance,
         hamiltonian,
+        lagrangian,
         energy: autonomous,
         configuration: configuration.cloned(),
         hamiltonian_degree,

@@ -47,6 +47,22 @@ pub fn check(declaration: &Declaration, report: &mut Report) {
     {
         permitted(name, report);
     }
+    if declaration.energy.has_step() {
+        let lets = declaration.lets.iter().map(|(name, _)| name);
+        let parameters = declaration.parameters.iter().map(|p| &p.name);
+        for name in velocity.iter().chain(state).chain(parameters).chain(lets) {
+            if name.text == "h" {
+                report.push(
+                    Diagnostic::new(
+                        Kind::ReservedName,
+                        name.origin,
+                        "`h` is the step size in a discrete Lagrangian",
+                    )
+                    .help("choose another name"),
+                );
+            }
+        }
+    }
     if TYPES.contains(&declaration.name.text.as_str()) {
         let message = format!(
             "`{}` is the name of a type of the generated code",

@@ -85,16 +85,7 @@ pub fn derived(
     report: &mut Report,
 ) {
     let mut scratch = graph.clone();
-    let mut fails = |what: &str, origin: Origin| {
-        report.push(
-            Diagnostic::new(
-                Kind::Limit,
-                origin,
-                format!("the derivatives of {what} have more than {MOST_DERIVED} terms and factors"),
-            )
-            .help("shorten its products and compositions: each factor and each level multiplies the size"),
-        );
-    };
+    let mut fails = |what: &str, origin: Origin| report.push(swollen(what, origin));
     if field(&mut scratch, poisson, hamiltonian.0).is_none() {
         fails("the Hamiltonian", hamiltonian.1);
         return;
@@ -105,6 +96,42 @@ pub fn derived(
             return;
         }
     }
+}
+
+/// Checks that a Lagrangian has momentum and inertia of reasonable size.
+pub fn lagrangian(
+    graph: &Graph,
+    value: ExprId,
+    dimension: usize,
+    origin: Origin,
+    report: &mut Report,
+) -> bool {
+    let mut scratch = graph.clone();
+    let mut derivatives = |function: ExprId| -> Option<Vec<ExprId>> {
+        (0..dimension)
+            .map(|i| scratch.derivative_within(function, Symbol::Input(i), MOST_DERIVED))
+            .collect()
+    };
+    let momentum = derivatives(value);
+    let inertia = momentum.and_then(|slopes| {
+        slopes
+            .into_iter()
+            .map(derivatives)
+            .collect::<Option<Vec<_>>>()
+    });
+    if inertia.is_none() {
+        report.push(swollen("the Lagrangian", origin));
+    }
+    inertia.is_some()
+}
+
+fn swollen(what: &str, origin: Origin) -> Diagnostic {
+    Diagnostic::new(
+        Kind::Limit,
+        origin,
+        format!("the derivatives of {what} have more than {MOST_DERIVED} terms and factors"),
+    )
+    .help("shorten its products and compositions: each factor and each level multiplies the size")
 }
 
 fn gradient(graph: &mut Graph, function: ExprId, dimension: usize) -> Option<Vec<ExprId>> {

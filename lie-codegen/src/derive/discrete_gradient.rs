@@ -109,7 +109,7 @@ impl Source {
     /// `c e_i` is `e_i t_j + c r delta_ij`, `t_j = dc/ds_j + dc/dd_j + r (dc/de_j - 2 c e_j)`.
     fn gonzalez(&mut self, degree: u32, mut definitions: Vec<(Symbol, ExprId)>) -> Closed {
         let n = self.dimension;
-        let (mut term, mut terms) = (self.hamiltonian, Vec::new());
+        let (mut term, mut terms) = (self.function(), Vec::new());
         for k in 1..=degree {
             if k > 1 && k % 2 == 1 {
                 let directed = self.along(Block::Direction, term);

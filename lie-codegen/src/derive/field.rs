@@ -11,42 +11,27 @@ pub(super) fn mu(source: &Source) -> Argument {
 }
 
 pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
-    let gradient = source.gradient_of_h();
-    let hessian = source.hessian_of_h();
-    let field = source.field_of_h();
-    let jacobian = jacobian(source, &field);
+    let mut kernels = Vec::new();
+    if let Some(hamiltonian) = source.hamiltonian {
+        kernels.extend(motion(source, hamiltonian));
+    }
     let matrix = poisson_matrix(source);
-    let [of_matrix, of_field, of_both] = formulas(source.is_lie());
-    let arguments = || vec![mu(source)];
+    let [of_matrix, ..] = formulas(source.is_lie());
+    let arguments = vec![mu(source)];
+    let poisson_matrix = Kernel::matrix(
+        &source.graph,
+        "poisson_matrix",
+        of_matrix,
+        arguments,
+        &matrix,
+    );
+    kernels.insert(kernels.len().min(3), poisson_matrix);
     let graph = &source.graph;
-    let mut kernels = vec![
-        Kernel::scalar("hamiltonian", "`H(mu)`", arguments(), source.hamiltonian),
-        Kernel::vector(
-            graph,
-            "gradient",
-            "`out_i = dH/dmu_i`",
-            arguments(),
-            &gradient,
-        ),
-        Kernel::matrix(
-            graph,
-            "hessian",
-            "`out_ij = d^2H/dmu_i dmu_j`",
-            arguments(),
-            &hessian,
-        ),
-        Kernel::matrix(graph, "poisson_matrix", of_matrix, arguments(), &matrix),
-        Kernel::vector(graph, "vector_field", of_field, arguments(), &field),
-        Kernel::matrix(
-            graph,
-            "jacobian",
-            "`out_ij = df_i/dmu_j`",
-            arguments(),
-            &jacobian,
-        ),
-        Kernel::fused(graph, "linearize", of_both, arguments(), &field, &jacobian),
-    ];
-    if source.energy != source.hamiltonian {
+    let arguments = || vec![mu(source)];
+    if source
+        .hamiltonian
+        .is_some_and(|hamiltonian| hamiltonian != source.energy)
+    {
         let energy = "`H(t, mu)`, without the momentum of the time";
         kernels.push(Kernel::scalar("energy", energy, arguments(), source.energy));
     }
@@ -77,6 +62,43 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
         ));
     }
     kernels
+}
+
+/// What comes from an expression of H.
+fn motion(source: &mut Source, hamiltonian: ExprId) -> Vec<Kernel> {
+    let gradient = source.gradient_of_h();
+    let hessian = source.hessian_of_h();
+    let field = source.field_of_h();
+    let jacobian = jacobian(source, &field);
+    let [_, of_field, of_both] = formulas(source.is_lie());
+    let arguments = || vec![mu(source)];
+    let graph = &source.graph;
+    vec![
+        Kernel::scalar("hamiltonian", "`H(mu)`", arguments(), hamiltonian),
+        Kernel::vector(
+            graph,
+            "gradient",
+            "`out_i = dH/dmu_i`",
+            arguments(),
+            &gradient,
+        ),
+        Kernel::matrix(
+            graph,
+            "hessian",
+            "`out_ij = d^2H/dmu_i dmu_j`",
+            arguments(),
+            &hessian,
+        ),
+        Kernel::vector(graph, "vector_field", of_field, arguments(), &field),
+        Kernel::matrix(
+            graph,
+            "jacobian",
+            "`out_ij = df_i/dmu_j`",
+            arguments(),
+            &jacobian,
+        ),
+        Kernel::fused(graph, "linearize", of_both, arguments(), &field, &jacobian),
+    ]
 }
 
 /// The formulas of the Poisson matrix, of the field, and of the field with its Jacobian.

@@ -7,6 +7,7 @@ mod discrete_gradient;
 mod field;
 mod generating;
 mod kernel;
+mod lagrangian;
 mod midpoint;
 mod poisson;
 mod realization;
@@ -39,8 +40,12 @@ pub struct Source {
     pub constants: Vec<(usize, usize, usize, ExprId)>,
     /// The entries `(i, j, Pi_ij)`, `i < j`, of a Poisson matrix that is not that of a Lie algebra alone.
     pub poisson: Option<Vec<(usize, usize, ExprId)>>,
-    /// The Hamiltonian.
-    pub hamiltonian: ExprId,
+    /// The Hamiltonian, if it is an expression in mu; else that of the Lagrangian, by Newton's iteration.
+    pub hamiltonian: Option<ExprId>,
+    /// The Lagrangian, in the symbols of an element of the algebra.
+    pub lagrangian: Option<ExprId>,
+    /// The discrete Lagrangian, in the same symbols and the step size.
+    pub discrete: Option<ExprId>,
     /// The energy: the Hamiltonian, of a system that depends on the time without the momentum of the time.
     pub energy: ExprId,
     /// The number of momenta of a system on `T*G`, which are its first coordinates.
@@ -98,7 +103,9 @@ impl Source {
             dimension: 0,
             constants: Vec::new(),
             poisson: None,
-            hamiltonian,
+            hamiltonian: Some(hamiltonian),
+            lagrangian: None,
+            discrete: None,
             energy: hamiltonian,
             momenta: None,
             group: None,
@@ -155,13 +162,16 @@ impl Source {
             .collect()
     }
 
+    /// H, and 0 where it has no expression: nothing is derived from it then.
+    pub(crate) fn function(&mut self) -> ExprId {
+        self.hamiltonian.unwrap_or_else(|| self.graph.integer(0))
+    }
+
     /// `dH/dmu_i`
     pub(crate) fn gradient_of_h(&mut self) -> Vec<ExprId> {
+        let function = self.function();
         (0..self.dimension)
-            .map(|i| {
-                self.graph
-                    .derivative(self.hamiltonian, Symbol::Coordinate(i))
-            })
+            .map(|i| self.graph.derivative(function, Symbol::Coordinate(i)))
             .collect()
     }
 
@@ -210,6 +220,18 @@ impl Source {
             kernels.push(cayley::triple(self));
         }
         kernels
+    }
+
+    /// The kernels of a Lagrangian, if there is one.
+    pub fn lagrangian_kernels(&mut self) -> Option<Vec<Kernel>> {
+        let value = self.lagrangian?;
+        Some(lagrangian::kernels(self, value))
+    }
+
+    /// The kernels of a discrete Lagrangian, if there is one.
+    pub fn discrete_kernels(&mut self) -> Option<Vec<Kernel>> {
+        let value = self.discrete?;
+        Some(lagrangian::discrete_kernels(self, value))
     }
 
     /// Residual, Jacobian and result of the Poisson midpoint rule.

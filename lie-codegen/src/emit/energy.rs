@@ -299,7 +299,7 @@ impl Writer<'_> {
     /// The degree of H if discrete gradients have closed forms of reasonable size.
     fn closed(&self) -> Option<u32> {
         let degree = self.blueprint.hamiltonian_degree?;
-        let nodes = self.source.graph.dependencies(&[self.source.hamiltonian]);
+        let nodes = self.source.graph.dependencies(&[self.source.hamiltonian?]);
         let size = (2..degree).fold(nodes.len(), |size, _| {
             size.saturating_mul(self.source.dimension)
         });

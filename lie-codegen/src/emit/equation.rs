@@ -71,6 +71,18 @@ impl Writer<'_> {
             tokens.extend(self.generating(&mut generic));
             tokens.extend(self.collective(&mut generic));
         }
+        if self.source.lagrangian.is_some() {
+            generic.push(ident("variational"));
+            if self.source.triple.is_some() {
+                generic.push(ident("variational_cayley"));
+            }
+        }
+        if self.source.discrete.is_some() {
+            generic.push(ident("discrete"));
+            if self.source.triple.is_some() {
+                generic.push(ident("discrete_cayley"));
+            }
+        }
         if !generic.is_empty() {
             let system = self.system_name();
             tokens.extend(quote! {

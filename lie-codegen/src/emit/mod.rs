@@ -10,6 +10,7 @@ mod expression;
 mod fixed_order;
 mod function;
 mod generating;
+mod lagrangian;
 mod names;
 mod parameters;
 mod prepared;
@@ -81,6 +82,7 @@ pub struct Emitted {
 pub fn emit(blueprint: &Blueprint) -> Emitted {
     let mut writer = Writer::new(blueprint);
     let basic = writer.system_impls();
+    let lagrangian = writer.lagrangian();
     let structure = writer.structure();
     let realization = writer.realization();
     let equations = writer.equations();
@@ -89,7 +91,7 @@ pub fn emit(blueprint: &Blueprint) -> Emitted {
     let system = writer.system_struct();
     let lift = writer.lift();
     Emitted {
-        tokens: quote! { #parameters #system #basic #lift #structure #realization #equations #splitting },
+        tokens: quote! { #parameters #system #basic #lagrangian #lift #structure #realization #equations #splitting },
         counts: writer.counts,
     }
 }

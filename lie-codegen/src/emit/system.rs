@@ -24,6 +24,9 @@ impl Writer<'_> {
             }
         }
         poisson.extend(self.casimir_gradients(&gradients));
+        if self.source.hamiltonian.is_none() {
+            poisson.extend(super::lagrangian::energy());
+        }
         let system = format_ident!("{}System", self.blueprint.name);
         let n = index(self.source.dimension);
         let casimirs = index(self.source.casimirs.len());
@@ -93,7 +96,7 @@ impl Writer<'_> {
     }
 
     /// A kernel as a method of a trait.
-    fn method(&mut self, kernel: &Kernel) -> TokenStream {
+    pub(super) fn method(&mut self, kernel: &Kernel) -> TokenStream {
         let targets: &[&str] = match kernel.shape {
             Shape::VectorAndMatrix(..) => &["field", "jacobian"],
             _ => &["out"],
@@ -128,7 +131,7 @@ impl Writer<'_> {
         }
     }
 
-    fn system_body(
+    pub(super) fn system_body(
         &mut self,
         kernel: &Kernel,
         program: &crate::schedule::Program,

@@ -9,7 +9,6 @@ use proc_macro2::{Span, TokenStream};
 use self::block::{algebra, names, parameters, poisson, realization};
 use self::entry::{compact, inside};
 use self::statement::{Statement, statements};
-use super::object::NOT_BUILT;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::{Body, Names, Parsed, expression, item, rust};
 use crate::ast::{Declaration, Expr, Invariance, Name, Parameter};
@@ -99,10 +98,7 @@ impl<'a> Parts<'a> {
     }
 
     fn missing(&self, keyword: &str, example: &str, place: Origin, report: &mut Report) {
-        let replaced = NOT_BUILT.iter().any(|(reserved, replaces)| {
-            replaces.contains(&keyword) && self.first(reserved).is_some()
-        });
-        if self.first(keyword).is_none() && !replaced {
+        if self.first(keyword).is_none() {
             report.push(
                 Diagnostic::new(
                     Kind::Syntax,
@@ -178,7 +174,10 @@ fn system(parts: &Parts<'_>, report: &mut Report) -> Parsed {
         parts.missing("algebra", example, place, report);
     }
     parts.missing("state", "state x, y;", place, report);
-    if parts.first("lagrangian").is_none() {
+    if item::FUNCTIONS[1..]
+        .iter()
+        .all(|f| parts.first(f).is_none())
+    {
         parts.missing("hamiltonian", "hamiltonian = x^2/2;", place, report);
     }
     parsed.state = parts
@@ -228,6 +227,7 @@ fn remainder(
         .chain(texts(&velocity))
         .chain(constants.iter().cloned())
         .chain(lets)
+        .chain(parts.first(item::FUNCTIONS[2]).map(|_| "h".to_owned()))
         .collect();
     let basis = algebra.iter().filter_map(|(_, algebra)| algebra.as_ref());
     let names = names.with_elsewhere(basis.flat_map(|a| texts(&a.basis)));
@@ -235,7 +235,14 @@ fn remainder(
         let statement = parts.first(keyword)?;
         Some((statement.origin, poisson(statement, &names, report)))
     });
-    let of_algebra = ["lagrangian", "invariance", "group", "realization"].map(|keyword| {
+    let of_algebra = [
+        "lagrangian",
+        "discrete_lagrangian",
+        "invariance",
+        "group",
+        "realization",
+    ]
+    .map(|keyword| {
         let statement = parts.first(keyword)?;
         Some((statement.origin, keyword))
     });
@@ -256,7 +263,7 @@ fn remainder(
         ))
     });
     let lets = lets.collect();
-    let functions = ["hamiltonian", "lagrangian"].map(|keyword| {
+    let functions = item::FUNCTIONS.map(|keyword| {
         let statement = parts.first(keyword)?;
         Some((statement.origin, function(statement, &names, report)))
     });

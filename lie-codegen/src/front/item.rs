@@ -233,6 +233,10 @@ pub fn structure(
 pub fn empty_function(keyword: &str, place: Origin) -> Diagnostic {
     let (name, help) = match keyword {
         "lagrangian" => ("Lagrangian", "write an expression in the velocity names"),
+        "discrete_lagrangian" => (
+            "discrete Lagrangian",
+            "write an expression in the velocity names and `h`",
+        ),
         _ => (
             "Hamiltonian",
             "write an expression in the state names; a constant is allowed",
@@ -246,10 +250,13 @@ pub fn empty_function(keyword: &str, place: Origin) -> Diagnostic {
     .help(help)
 }
 
-/// The Hamiltonian, or the Lagrangian with the names of the velocity: places and what was read. That
-/// there is one is checked elsewhere.
+/// The functions that can give a system, by their keys.
+pub const FUNCTIONS: [&str; 3] = ["hamiltonian", "lagrangian", "discrete_lagrangian"];
+
+/// The Hamiltonian, or a Lagrangian with the names of the velocity: places and what was read, in the order of
+/// [`FUNCTIONS`]. That there is one is checked elsewhere.
 pub fn energy(
-    [hamiltonian, lagrangian]: [Option<(Origin, Option<Expr>)>; 2],
+    functions: [Option<(Origin, Option<Expr>)>; 3],
     (place, velocity): (Option<Origin>, Vec<Name>),
     kind: Kind,
     report: &mut Report,
@@ -257,27 +264,35 @@ pub fn energy(
     let mut fails = |place, message: &str, help: &str| {
         report.push(Diagnostic::new(kind, place, message).help(help));
     };
-    match (hamiltonian, lagrangian, place) {
-        (Some(_), Some((second, _)), _) => fails(
-            second,
-            "`lagrangian` beside `hamiltonian`: either gives the system",
-            "remove one of the two",
-        ),
-        (_, Some((lagrangian, _)), None) => fails(
-            lagrangian,
-            "the Lagrangian has no `velocity`",
-            "name the components of the velocity xi, one for each basis element",
-        ),
-        (Some(_), None, Some(velocity)) => fails(
+    let found = functions.into_iter().zip(FUNCTIONS);
+    let mut found = found.filter_map(|(function, key)| Some((function?, key)));
+    let ((origin, value), key) = found.next()?;
+    if let Some(((second, _), other)) = found.next() {
+        let message = format!("`{other}` beside `{key}`: either gives the system");
+        fails(second, &message, "remove one of the two");
+        return None;
+    }
+    match (key, place) {
+        ("hamiltonian", Some(velocity)) => fails(
             velocity,
             "`velocity` beside `hamiltonian`: a Hamiltonian is a function of mu",
             "remove it, or give a `lagrangian`",
         ),
-        (Some((_, value)), None, None) => return value.map(Energy::Hamiltonian),
-        (None, Some((_, value)), Some(_)) => {
+        ("hamiltonian", None) => return value.map(Energy::Hamiltonian),
+        ("lagrangian", None) => fails(
+            origin,
+            "the Lagrangian has no `velocity`",
+            "name the components of the velocity xi, one for each basis element",
+        ),
+        (_, None) => fails(
+            origin,
+            "the discrete Lagrangian has no `velocity`",
+            "name the coordinates x of the step, one for each basis element; x/h is a velocity",
+        ),
+        ("lagrangian", Some(_)) => {
             return value.map(|value| Energy::Lagrangian { velocity, value });
         }
-        (None, None, _) => {}
+        (_, Some(_)) => return value.map(|value| Energy::DiscreteLagrangian { velocity, value }),
     }
     None
 }

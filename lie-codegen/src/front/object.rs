@@ -12,19 +12,9 @@ pub struct Object<'a> {
     head: Origin,
 }
 
-/// Keys that the format keeps for what is not built yet, and the keys that they would replace.
-pub const NOT_BUILT: &[(&str, &[&str])] = &[("discrete_lagrangian", &["hamiltonian"])];
-
 impl<'a> Object<'a> {
     /// Takes an object apart and reports every key that is not in `keys` or stands there twice.
-    /// Of the keys in `reserved` it says that they are not built yet.
-    pub fn read(
-        value: Value<'a>,
-        what: &str,
-        keys: &[&str],
-        reserved: &[(&str, &[&str])],
-        report: &mut Report,
-    ) -> Option<Self> {
+    pub fn read(value: Value<'a>, what: &str, keys: &[&str], report: &mut Report) -> Option<Self> {
         if value.kind() != Type::Object {
             report.push(wrong_type(&value, what, "an object"));
             return None;
@@ -42,12 +32,6 @@ impl<'a> Object<'a> {
                     "remove one of the two".into(),
                 );
             } else if keys.contains(&key) {
-                members.push(member);
-            } else if reserved.iter().any(|(word, _)| *word == key) {
-                error(
-                    format!("the key `{key}` is reserved: what it declares is not built yet"),
-                    "remove it; systems are declared by `algebra` and `hamiltonian`".into(),
-                );
                 members.push(member);
             } else {
                 let near = did_you_mean(key, keys.iter().copied());
@@ -91,10 +75,7 @@ impl<'a> Object<'a> {
     /// Reports the keys that must be there and are not.
     pub fn require(&self, what: &str, keys: &[&str], report: &mut Report) {
         for key in keys {
-            let replaced = NOT_BUILT
-                .iter()
-                .any(|(reserved, replaces)| replaces.contains(key) && self.get(reserved).is_some());
-            if self.get(key).is_none() && !replaced {
+            if self.get(key).is_none() {
                 report.push(
                     Diagnostic::new(Kind::Schema, self.head, format!("{what} has no `{key}`"))
                         .help(format!("add the key `\"{key}\"`")),

@@ -65,7 +65,11 @@ objects! {
         /// Instead of the Hamiltonian: the reduced Lagrangian, an expression in velocity, parameters and
         /// abbreviations.
         "lagrangian" lagrangian: Option<String>,
-        /// Names of the components of the velocity xi, one for each basis element; for a Lagrangian.
+        /// Instead of the Hamiltonian: a discrete Lagrangian of one step, an expression in the coordinates of the step
+        /// that `velocity` names, the step size `h`, parameters and abbreviations.
+        "discrete_lagrangian" discrete_lagrangian: Option<String>,
+        /// Names of the components of the velocity xi, one for each basis element; for a Lagrangian. For a discrete one
+        /// those of the coordinates x = tau^-1(g) of the step g in the retraction of the method.
         "velocity" velocity: Option<Vec<String>>,
         /// A realization of the bracket in canonical coordinates, for collective methods.
         "realization" realization: Option<Realization>,
@@ -204,6 +208,7 @@ pub fn schema() -> Value {
     schema["oneOf"] = serde_json::json!([
         { "required": ["hamiltonian"] },
         { "required": ["lagrangian", "velocity"] },
+        { "required": ["discrete_lagrangian", "velocity"] },
     ]);
     schema["allOf"] = serde_json::json!([
         { "oneOf": [{ "required": ["algebra"] }, { "required": ["poisson"] }] },

@@ -8,7 +8,7 @@ mod run;
 use quote::quote;
 
 use super::json::{self, Type, Value};
-use super::object::{NOT_BUILT, Object, list, string, strings, wrong_type};
+use super::object::{Object, list, string, strings, wrong_type};
 use super::schema::Spec;
 use super::token::Token;
 use super::{Body, Names, Parsed, expression, item, number};
@@ -39,7 +39,7 @@ fn document(text: &str, report: &mut Report) -> Parsed {
         ..Parsed::default()
     };
     let spec = match json::document(text) {
-        Ok(value) => Object::read(value, "a spec", Spec::KEYS, NOT_BUILT, report),
+        Ok(value) => Object::read(value, "a spec", Spec::KEYS, report),
         Err(diagnostic) => {
             report.push(diagnostic);
             None
@@ -50,7 +50,7 @@ fn document(text: &str, report: &mut Report) -> Parsed {
     if spec.get("poisson").is_none() {
         spec.require("a spec", &["algebra"], report);
     }
-    if spec.get("lagrangian").is_none() {
+    if item::FUNCTIONS[1..].iter().all(|f| spec.get(f).is_none()) {
         spec.require("a spec", &["hamiltonian"], report);
     }
     headers(&spec, report);
@@ -124,6 +124,7 @@ impl Remainder<'_, '_> {
             .chain(texts(&velocity))
             .chain(parameters.iter().cloned())
             .chain(defined.map(str::to_owned))
+            .chain(spec.get(item::FUNCTIONS[2]).map(|_| "h".to_owned()))
             .collect();
         let basis = algebra.iter().filter_map(|(_, algebra)| algebra.as_ref());
         let names = names.with_elsewhere(basis.flat_map(|a| texts(&a.basis)));
@@ -142,8 +143,14 @@ impl Remainder<'_, '_> {
             let place = spec.get(key)?.origin();
             Some((place, poisson(spec, key, &names, report)))
         });
-        let of_algebra = ["lagrangian", "invariance", "group", "realization"]
-            .map(|key| Some((spec.get(key)?.origin(), key)));
+        let of_algebra = [
+            "lagrangian",
+            "discrete_lagrangian",
+            "invariance",
+            "group",
+            "realization",
+        ]
+        .map(|key| Some((spec.get(key)?.origin(), key)));
         let of_algebra: Vec<_> = of_algebra.into_iter().flatten().collect();
         let structure =
             item::structure(algebra, poisson, cocycle, &of_algebra, Kind::Schema, report);
@@ -210,10 +217,10 @@ impl Remainder<'_, '_> {
 }
 
 impl Remainder<'_, '_> {
-    /// `hamiltonian`, or `lagrangian` with `velocity`.
+    /// `hamiltonian`, or one of the Lagrangians with `velocity`.
     fn energy(&self, velocity: Vec<Name>, names: &Names, report: &mut Report) -> Option<Energy> {
         let spec = self.spec;
-        let functions = ["hamiltonian", "lagrangian"].map(|key| {
+        let functions = item::FUNCTIONS.map(|key| {
             let value = spec.get(key)?;
             Some((value.origin(), function(value, key, names, report)))
         });

@@ -23,7 +23,32 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
             "use `generating6` with `--retraction exp`, or `generating4` with `--retraction cayley`"
                 .into(),
         )),
-        Choice::LieMidpoint(Retraction::Cayley) | Choice::Generating(_, Retraction::Cayley) => {
+        Choice::Variational(order, _) if model.lagrangian.is_none() => Some((
+            "the method needs a system by its Lagrangian, and this one is given by its Hamiltonian".into(),
+            format!(
+                "declare `velocity` and `lagrangian` instead of `hamiltonian`, or use `generating{order}`, which is a \
+                 Poisson map of the same order"
+            ),
+        )),
+        Choice::DiscreteEulerPoincare(_)
+            if model.lagrangian.as_ref().is_none_or(|l| l.discrete.is_none()) =>
+        {
+            let message = "the method needs a system by a discrete Lagrangian, and this one declares none";
+            let help = "declare `discrete_lagrangian`; a system by its `lagrangian` has `variational2`";
+            Some((message.into(), help.into()))
+        }
+        Choice::DiscreteEulerPoincare(Retraction::Exp)
+            if model.lagrangian.as_ref().is_some_and(|l| l.in_entries) =>
+        {
+            let message = "the discrete Lagrangian is written in the entries of the group element, which are functions \
+                           of the coordinates of the Cayley map";
+            let help = "use `--retraction cayley`";
+            Some((message.into(), help.into()))
+        }
+        Choice::LieMidpoint(Retraction::Cayley)
+        | Choice::Generating(_, Retraction::Cayley)
+        | Choice::Variational(_, Retraction::Cayley)
+        | Choice::DiscreteEulerPoincare(Retraction::Cayley) => {
             cayley(model).map(|reason| {
                 let help = format!(
                     "use `{}` with `--retraction exp`, which works for every Lie algebra",

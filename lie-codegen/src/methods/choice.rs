@@ -23,6 +23,10 @@ pub enum Choice {
     CrouchGrossman3,
     /// `cf4`
     CommutatorFree4,
+    /// `variational2`, `variational4`, `variational6`; only the first has another retraction than exp.
+    Variational(u32, Retraction),
+    /// `discrete-euler-poincare`
+    DiscreteEulerPoincare(Retraction),
     /// `moser-veselov`
     MoserVeselov,
     /// `compose4(ID)`, `compose6(ID)`, `compose8(ID)` of a symmetric method of order 2.
@@ -167,6 +171,10 @@ impl Choice {
             "rkmk6" => Self::Rkmk(6),
             "cg3" => Self::CrouchGrossman3,
             "cf4" => Self::CommutatorFree4,
+            "variational2" => Self::Variational(2, Retraction::Exp),
+            "variational4" => Self::Variational(4, Retraction::Exp),
+            "variational6" => Self::Variational(6, Retraction::Exp),
+            "discrete-euler-poincare" => Self::DiscreteEulerPoincare(Retraction::Exp),
             "moser-veselov" => Self::MoserVeselov,
             "generating2" => Self::Generating(2, Retraction::Exp),
             "generating4" => Self::Generating(4, Retraction::Exp),
@@ -244,6 +252,8 @@ impl Choice {
             Self::Rkmk(order) => format!("rkmk{order}"),
             Self::CrouchGrossman3 => "cg3".into(),
             Self::CommutatorFree4 => "cf4".into(),
+            Self::Variational(order, _) => format!("variational{order}"),
+            Self::DiscreteEulerPoincare(_) => "discrete-euler-poincare".into(),
             Self::MoserVeselov => "moser-veselov".into(),
             Self::Compose(order, _, base) => format!("compose{order}({})", base.id()),
             Self::Generating(order, _) => format!("generating{order}"),

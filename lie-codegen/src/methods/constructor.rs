@@ -22,6 +22,15 @@ impl Choice {
             Self::Rkmk(order) => method(format_ident!("Rkmk{order}")),
             Self::CrouchGrossman3 => named("CrouchGrossman3"),
             Self::CommutatorFree4 => named("CommutatorFree4"),
+            Self::Variational(order, retraction) => {
+                let variational = method(format_ident!("Variational{order}"));
+                let tau = function_of(*retraction);
+                quote! { #variational::#tau() }
+            }
+            Self::DiscreteEulerPoincare(retraction) => {
+                let tau = function_of(*retraction);
+                quote! { ::lie_runtime::methods::DiscreteEulerPoincare::#tau() }
+            }
             Self::MoserVeselov => named("MoserVeselov"),
             Self::Compose(order, scheme, base) => {
                 let compose = method(format_ident!("Compose{order}"));

@@ -163,6 +163,12 @@ impl Choice {
             (Self::LieMidpoint(_), "retraction") => {
                 Self::LieMidpoint(pick(option, value, Retraction::ALL, Retraction::name)?)
             }
+            (Self::Variational(2, _), "retraction") => {
+                Self::Variational(2, pick(option, value, Retraction::ALL, Retraction::name)?)
+            }
+            (Self::DiscreteEulerPoincare(_), "retraction") => {
+                Self::DiscreteEulerPoincare(pick(option, value, Retraction::ALL, Retraction::name)?)
+            }
             (Self::Generating(order, _), "retraction") => Self::Generating(
                 order,
                 pick(option, value, Retraction::ALL, Retraction::name)?,
@@ -205,7 +211,10 @@ impl Choice {
     /// The options and their values, defaults included.
     pub fn options(&self) -> Vec<(&'static str, &'static str)> {
         match self {
-            Self::LieMidpoint(retraction) | Self::Generating(_, retraction) => {
+            Self::LieMidpoint(retraction)
+            | Self::Generating(_, retraction)
+            | Self::Variational(2, retraction)
+            | Self::DiscreteEulerPoincare(retraction) => {
                 vec![("retraction", retraction.name())]
             }
             Self::Collective(_, lift) => vec![("lift", lift.name())],
@@ -231,6 +240,14 @@ impl Choice {
             Self::LieMidpoint(_) => Retraction::ALL
                 .iter()
                 .map(|r| Self::LieMidpoint(*r))
+                .collect(),
+            Self::Variational(2, _) => Retraction::ALL
+                .iter()
+                .map(|r| Self::Variational(2, *r))
+                .collect(),
+            Self::DiscreteEulerPoincare(_) => Retraction::ALL
+                .iter()
+                .map(|r| Self::DiscreteEulerPoincare(*r))
                 .collect(),
             Self::Generating(order, _) => Retraction::ALL
                 .iter()

@@ -6,6 +6,7 @@ const ANY: &str = "any Poisson system";
 const ALGEBRA: &str = "any Lie algebra";
 const RETRACTION: &str =
     "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)";
+const LAGRANGIAN: &str = "a system by its Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2";
 const REDUCTIVE: &str =
     "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const COLLECTIVE: &str = "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it; with --lift hopf a direct sum of algebras so(3)";
@@ -46,6 +47,7 @@ const AKW: &str = "Austin, Krishnaprasad, Wang (1993), 10.1006/jcph.1993.1128";
 const HLW: &str =
     "Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), 10.1007/3-540-30666-8";
 const MPS: &str = "Marsden, Pekarsky, Shkoller (1999), 10.1088/0951-7715/12/6/314; Bou-Rabee, Marsden (2009), 10.1007/s10208-008-9030-4";
+const LEOK: &str = "Marsden, Pekarsky, Shkoller (1999), 10.1088/0951-7715/12/6/314; Hall, Leok (2017), 10.1007/s10208-015-9287-3";
 const BRM: &str = "Bou-Rabee, Marsden (2009), 10.1007/s10208-008-9030-4";
 const MK: &str = "Munthe-Kaas (1999), 10.1016/S0168-9274(98)00030-0";
 const CROUCH: &str = "Crouch, Grossman (1993), 10.1007/BF02429858";
@@ -193,6 +195,46 @@ pub const CATALOGUE: &[Method] = &[
         Preserves::ORBIT,
         ALGEBRA,
         CMO,
+    )
+    .built(),
+    planned(
+        "variational2",
+        "variational integrator (discrete Euler–Poincaré)",
+        2,
+        [true, false],
+        Preserves::POISSON,
+        LAGRANGIAN,
+        MPS,
+    )
+    .built(),
+    planned(
+        "variational4",
+        "variational integrator (Lie-group Galerkin)",
+        4,
+        [false, false],
+        Preserves::POISSON,
+        "a system by its Lagrangian",
+        LEOK,
+    )
+    .built(),
+    planned(
+        "variational6",
+        "variational integrator (Lie-group Galerkin)",
+        6,
+        [false, false],
+        Preserves::POISSON,
+        "a system by its Lagrangian",
+        LEOK,
+    )
+    .built(),
+    planned(
+        "discrete-euler-poincare",
+        "step of a declared discrete Lagrangian; its order is at least 1",
+        1,
+        [false, false],
+        Preserves::POISSON,
+        "a system by its discrete Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2",
+        MPS,
     )
     .built(),
     planned(
@@ -482,9 +524,6 @@ pub const CATALOGUE: &[Method] = &[
 
 /// Ids that are kept for later and have no row in the table yet.
 pub const RESERVED: &[&str] = &[
-    "variational2",
-    "variational4",
-    "variational6",
     "taylor",
     "exact",
     "gauss8",

@@ -12,6 +12,7 @@ mod formula;
 mod inverse;
 mod linearise;
 mod program;
+mod reuse;
 mod share;
 
 pub use program::{Counts, Operation, Program, Value};
@@ -82,7 +83,7 @@ pub fn schedule(graph: &mut Graph, task: &Task) -> Program {
         .map(|(roots, group)| {
             let mut formula = formula::Formula::new(graph, &symbols, &roots, task.known, group);
             share::share(&mut formula, &mut budget);
-            linearise::linearise(&formula)
+            reuse::reuse(linearise::linearise(&formula))
         })
         .min_by_key(|program| program.counts.weight())
         .unwrap_or_default()

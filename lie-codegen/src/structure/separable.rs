@@ -95,16 +95,25 @@ pub fn actions(model: &Model) -> Vec<Option<Vec<Block>>> {
 /// Why H cannot be split by coordinates, with the nearest method for each order.
 pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
     let (i, j) = model.pieces.clone().err()?;
+    if !model.has_expression() {
+        let reason = "the Hamiltonian is no sum of functions of one coordinate each: it is the Legendre transform of \
+                      a Lagrangian that is not quadratic";
+        return Some((reason.to_owned(), nearest(order)));
+    }
     let name = |i: usize| &model.coordinates[i].text;
     let reason = format!(
         "the Hamiltonian is no sum of functions of one coordinate each: it mixes `{}` and `{}`",
         name(i),
         name(j)
     );
+    Some((reason, nearest(order)))
+}
+
+/// The remedy: the nearest method of an order.
+fn nearest(order: u32) -> String {
     let nearest = match order {
         1 | 2 => "`lie-midpoint`".to_owned(),
         order => format!("`compose{order}(lie-midpoint)`"),
     };
-    let remedy = format!("use {nearest}, which is a Poisson map for every Hamiltonian");
-    Some((reason, remedy))
+    format!("use {nearest}, which is a Poisson map for every Hamiltonian")
 }

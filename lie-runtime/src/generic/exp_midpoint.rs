@@ -1,8 +1,9 @@
 //! The equation of methods of coadjoint form along the exponential map: the Lie–Poisson midpoint
 //! method and the generating-function methods.
 
+use super::dexp_slope::DexpSlope;
 use super::generating::Generating2;
-use super::series::{Scratch, coadjoint_action_in, dexp_dual_in};
+use super::series::coadjoint_action_in;
 use crate::equation::Equation;
 use crate::generating::GeneratingFunction;
 use crate::matrix::SquareMatrix;
@@ -12,17 +13,12 @@ use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
 use crate::state::State;
 
-/// Terms of the series whose derivative enters the Jacobian. Beyond them Newton's matrix is only
-/// approximate, the residual is not.
-const TERMS: usize = 24;
-
 /// The method `mu1 = Ad*_(exp xi) mu` of a generating function S, for any Lie algebra.
 ///
 /// Unknown: the momentum p of the function. Equation: `(dexp_xi^-1)* p = mu` with `xi = grad S(p)`,
 /// in the equivalent entire form `r(p) = p - phi1(ad*_xi) mu`, `phi1(z) = (e^z - 1)/z`.
 /// New state: `exp(ad*_xi) mu`, on the coadjoint orbit of mu to round-off whatever the error of p.
-/// Jacobian: `1 - d/dxi[phi1(ad*_xi) mu] S''(p)`; with `t_k = (ad*_xi)^k mu/(k + 1)!` the derivative
-/// along v is the sum of `e_k = (ad*_xi e_(k-1) + ad*_v t_(k-1))/(k + 1)`, `e_0 = 0`.
+/// Jacobian: `1 - d/dxi[phi1(ad*_xi) mu] S''(p)`.
 /// Start: `p = mu + (h/2) f(mu)`.
 #[derive(Debug)]
 pub struct ExpRetraction<'a, S: Scalar, P: LiePoisson<S>, G> {
@@ -32,10 +28,9 @@ pub struct ExpRetraction<'a, S: Scalar, P: LiePoisson<S>, G> {
     base: P::State,
     direction: P::State,
     sum: P::State,
-    scratch: Scratch<P::State>,
-    terms: [P::State; TERMS],
+    series: DexpSlope<P::State, S>,
     hessian: P::Jacobian,
-    columns: [P::State; 5],
+    columns: [P::State; 2],
 }
 
 /// The Lie–Poisson midpoint method for any Lie algebra: [`ExpRetraction`] with `S = h H`.
@@ -64,27 +59,19 @@ where
             base: zero.clone(),
             direction: zero.clone(),
             sum: zero.clone(),
-            scratch: Scratch::new(&zero),
-            terms: core::array::from_fn(|_| zero.clone()),
+            series: DexpSlope::new(&zero),
             hessian: system.zero_jacobian(),
             columns: core::array::from_fn(|_| zero.clone()),
         }
     }
 
-    /// Computes the residual for the direction; returns the index of the last term in each lane.
-    fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) -> S {
-        let terms = &mut self.terms;
-        let keep = |index: usize, term: &P::State| {
-            if let Some(kept) = terms.get_mut(index) {
-                kept.copy_from(term);
-            }
-        };
-        let (sum, scratch) = (&mut self.sum, &mut self.scratch);
-        let last = dexp_dual_in(self.system, &self.direction, &self.base, sum, scratch, keep);
+    /// Computes the residual for the direction.
+    fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) {
+        self.series
+            .evaluate(self.system, &self.direction, &self.base, &mut self.sum);
         for (index, out) in residual.as_mut_slice().iter_mut().enumerate() {
             *out = unknown.as_slice()[index] - self.sum.as_slice()[index];
         }
-        last
     }
 }
 
@@ -124,32 +111,14 @@ where
     fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
         self.function
             .linearize(unknown, &mut self.direction, &mut self.hessian);
-        let last = self.evaluate(unknown, residual);
-        let [along, derivative, first, second, total] = &mut self.columns;
+        self.evaluate(unknown, residual);
+        let [along, total] = &mut self.columns;
         for column in 0..P::DIM {
             for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {
                 *entry = self.hessian.get(row, column);
             }
-            derivative.fill(S::zero());
-            total.fill(S::zero());
-            if along.as_slice().iter().any(|&entry| entry != S::zero()) {
-                for index in 1..TERMS {
-                    let weight = S::from_f64(index as f64);
-                    let counted = weight.less_equal(last);
-                    if !crate::scalar::Mask::any(counted) {
-                        break;
-                    }
-                    self.system.ad_star(&self.direction, derivative, first);
-                    self.system.ad_star(along, &self.terms[index - 1], second);
-                    let weight = S::ratio(1.0, (index + 1) as f64);
-                    for row in 0..P::DIM {
-                        let term = (first.as_slice()[row] + second.as_slice()[row]) * weight;
-                        derivative.as_mut_slice()[row] = term;
-                        let sum = total.as_slice()[row];
-                        total.as_mut_slice()[row] = S::select(counted, sum + term, sum);
-                    }
-                }
-            }
+            self.series
+                .along(self.system, &self.direction, along, total);
             for (row, &entry) in total.as_slice().iter().enumerate() {
                 let identity = if row == column { S::one() } else { S::zero() };
                 matrix.set(row, column, identity - entry);
@@ -167,7 +136,7 @@ where
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         self.function.gradient(unknown, &mut self.direction);
-        let scratch = &mut self.scratch;
+        let scratch = self.series.scratch();
         coadjoint_action_in(self.system, &self.direction, &self.base, mu, scratch);
     }
 

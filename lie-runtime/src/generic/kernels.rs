@@ -1,6 +1,8 @@
 //! Vector field, Jacobian and coadjoint action from the Poisson matrix, gradient and Hessian.
 
+use crate::lagrangian::LagrangianPoisson;
 use crate::matrix::SquareMatrix;
+use crate::newton::exchanging;
 use crate::poisson::{LiePoisson, Poisson};
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -117,4 +119,18 @@ pub fn ad_star_matrix<S: Scalar, P: LiePoisson<S>>(
             out.set(row, k, entry);
         }
     }
+}
+
+/// The Euler–Poincaré equations as a field of velocities: `xi' = l''(xi)^-1 ad*_xi l'(xi)`.
+pub fn euler_poincare<S: Scalar, P: LagrangianPoisson<S>>(
+    system: &P,
+    xi: &P::State,
+    out: &mut P::State,
+) {
+    let mut momentum = system.zero_state();
+    system.momentum(xi, &mut momentum);
+    system.ad_star(xi, &momentum, out);
+    let mut inertia = system.zero_jacobian();
+    system.inertia(xi, &mut inertia);
+    exchanging::solve(&mut inertia, out);
 }

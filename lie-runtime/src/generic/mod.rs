@@ -4,16 +4,21 @@
 //! form given here.
 
 mod cayley_midpoint;
+mod cayley_variational;
 mod cohen_hairer;
 mod coordinate_flows;
+mod dexp_slope;
 mod discrete_body;
 mod discrete_gradient;
 mod discrete_gradient_step;
 mod discrete_top;
 mod euler_arnold;
 mod exp_midpoint;
+mod exp_variational;
+mod galerkin;
 mod gauss;
 mod generating;
+mod inverse_tangent;
 mod kernels;
 mod matrix_stages;
 mod midpoint;
@@ -30,6 +35,7 @@ mod tableau;
 mod tensor;
 
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
+pub use cayley_variational::CayleyVariational;
 pub use cohen_hairer::CohenHairerStep;
 pub use coordinate_flows::{CoordinateFlows, piece_direction};
 pub use discrete_body::DiscreteBody;
@@ -40,13 +46,17 @@ pub use discrete_gradient_step::DiscreteGradientStep;
 pub use discrete_top::DiscreteTop;
 pub use euler_arnold::{EulerArnoldHalf, Half};
 pub use exp_midpoint::{ExpMidpoint, ExpRetraction};
+pub use exp_variational::ExpVariational;
+pub use galerkin::GalerkinStep;
 pub use gauss::Gauss;
 pub use generating::{
     CayleyGenerating4, Generating2, Generating4, Generating6, SecondKind2, linearize_by_duals,
 };
+pub use inverse_tangent::{dcay_inverse_dual, dexp_inverse_dual};
 pub(crate) use kernels::direction;
 pub use kernels::{
-    ad_star, ad_star_matrix, jacobian, linearize, multiply, poisson_slope, vector_field,
+    ad_star, ad_star_matrix, euler_poincare, jacobian, linearize, multiply, poisson_slope,
+    vector_field,
 };
 pub use matrix_stages::MatrixStages;
 pub use midpoint::Midpoint;

@@ -18,6 +18,8 @@
 //! | [`Isospectral2`], [`Isospectral4`], [`Isospectral6`] | Gauss on `T*V` of a representation V, reduced to g*; also [`Collective`] | 2, 4, 6 |
 //! | [`Collective::hopf`] | Gauss on `T*R^2` by the Hopf map, reduced to so(3)* | 2, 4, 6 |
 //! | [`SphericalMidpoint`] | `$\mu_1 = \mu + h f(w)$`, w the midpoint on the sphere of each spin | 2 |
+//! | [`Variational2`], [`Variational4`], [`Variational6`] | `$F^+(g) = \mu, \quad \mu_1 = F^-(g)$` of a discrete Lagrangian `$l_d(g)$` | 2, 4, 6 |
+//! | [`DiscreteEulerPoincare`] | the same with a declared `$l_d$` | at least 1 |
 //! | [`MoserVeselov`] | `$h M = g J - J g^T, \quad M_1 = g^T M g$`, keeps the energy too | 2 |
 //! | [`EulerArnold2`] | on `T*G`, for a Hamiltonian of g and mu: `$B_{h/2} \circ A_{h/2}$`, symplectic | 2 |
 //!
@@ -35,6 +37,7 @@ pub mod collective;
 pub mod commutator_free;
 pub mod compose;
 pub mod crouch_grossman;
+pub mod discrete_euler_poincare;
 pub mod dopri5;
 pub mod euler_arnold;
 mod explicit;
@@ -59,6 +62,7 @@ pub mod spherical_midpoint;
 pub mod splitting;
 mod stepper;
 pub mod tensor;
+pub mod variational;
 
 pub use coefficients::Scheme;
 pub use cohen_hairer::{CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6};
@@ -68,6 +72,7 @@ pub use collective::{
 pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
 pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};
 pub use crouch_grossman::{CrouchGrossman3, CrouchGrossmanStepper};
+pub use discrete_euler_poincare::DiscreteEulerPoincare;
 pub use dopri5::{Dopri5, Dopri5Stepper};
 pub use euler_arnold::{EulerArnold2, EulerArnoldStepper};
 pub use facts::{Facts, Preserves};
@@ -97,3 +102,4 @@ pub use stepper::{
 pub use tensor::{
     AlongGradient, MeanTensor, MidpointTensor, PoissonTensor, TensorFacts, WithTensor,
 };
+pub use variational::{Variational, Variational2, Variational4, Variational6};

@@ -1,9 +1,11 @@
 //! Newton's iteration for implicit steps: the equation is [`crate::equation::Equation`], the loop
 //! [`Newton`], its stopping rule `convergence`, the update of each variant `update`, elimination
-//! [`dense`] and, for lanes with a small pivot, [`pivoted`].
+//! [`dense`] and, for lanes with a small pivot, [`pivoted`]; [`exchanging`] is for matrices that are far
+//! from the identity.
 
 mod convergence;
 pub mod dense;
+pub mod exchanging;
 mod options;
 pub mod pivoted;
 mod report;

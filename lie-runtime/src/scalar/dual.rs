@@ -112,6 +112,7 @@ impl<S: Scalar> Scalar for Dual<S> {
     type Lane = Dual<S::Lane>;
     type Mask = S::Mask;
     const LANES: usize = S::LANES;
+    const DERIVATIVES: u32 = S::DERIVATIVES + 1;
 
     fn zero() -> Self {
         Self::constant_of(S::zero())

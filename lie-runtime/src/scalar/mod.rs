@@ -59,6 +59,9 @@ pub trait Scalar:
     type Mask: Mask;
     /// The number of lanes.
     const LANES: usize;
+    /// How many derivatives along directions the number carries: 0 of plain numbers, one more with
+    /// each [`Dual`].
+    const DERIVATIVES: u32 = 0;
 
     /// 0 in every lane.
     fn zero() -> Self;

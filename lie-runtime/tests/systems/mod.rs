@@ -4,6 +4,7 @@
 pub mod heavy_top;
 pub mod nonpolynomial;
 pub mod quartic;
+pub mod quartic_lagrangian;
 pub mod rigid_body;
 pub mod saddle;
 

@@ -383,7 +383,7 @@ for HeisenbergGenerating4<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 27 additions, 53 multiplications.
+    /// 27 additions, 52 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -407,31 +407,30 @@ for HeisenbergGenerating4<'_, S> {
         let _t12 = _t11 * S::ratio(2.0, 1.0);
         let _t13 = S::ratio(1.0, 3.0) * (_t0 + z * S::ratio(2.0, 1.0));
         let _t14 = _t7 * S::ratio(2.0, 1.0);
-        let _t15 = _t3 * z;
-        let _t16 = S::ratio(6.0, 1.0) * _t8;
-        let _t17 = self._h1 * (z * (_t16 + _t16));
-        let _t18 = q + z * S::ratio(2.0, 3.0);
-        let _t19 = _t3 * _t18;
-        let _t20 = _t19 + _t19;
-        let _t21 = self._h0 + self._h1 * (_t6 + z * _t20);
-        let _t22 = -_t7;
-        let _t23 = self._h1
-            * (_t18 * (S::ratio(12.0, 1.0) * _t8) - _t3 * S::ratio(2.0, 1.0) * _t10
-                - _t22 * _t12);
+        let _t15 = S::ratio(6.0, 1.0) * _t8;
+        let _t16 = self._h1 * (z * (_t15 + _t15));
+        let _t17 = q + z * S::ratio(2.0, 3.0);
+        let _t18 = _t3 * _t17;
+        let _t19 = _t18 + _t18;
+        let _t20 = self._h0 + self._h1 * (_t6 + z * _t19);
+        let _t21 = -_t7;
+        let _t22 = self._h1
+            * (_t17 * (S::ratio(12.0, 1.0) * _t8) - _t3 * S::ratio(2.0, 1.0) * _t10
+                - _t21 * _t12);
         xi[0] = _t1 * self._h0 + z * _t6 * self._h1;
         xi[1] = _t7 * self.h + (_t8 * _t9 - _t10 * _t12) * self._h1;
         xi[2] = q * self._h0 + (_t6 * _t13 - _t10 * _t14) * self._h1;
-        hessian[(0, 0)] = self.h + self._h1 * (z * (_t15 + _t15));
-        hessian[(0, 1)] = _t17;
-        hessian[(0, 2)] = _t21;
-        hessian[(1, 0)] = _t17;
+        hessian[(0, 0)] = self.h + self._h1 * (z * (_t11 + _t11));
+        hessian[(0, 1)] = _t16;
+        hessian[(0, 2)] = _t20;
+        hessian[(1, 0)] = _t16;
         hessian[(1, 1)] = _t3 * self.h
             + self._h1 * (_t4 * _t9 - p * z * _t10 * S::ratio(12.0, 1.0) - -_t11 * _t12);
-        hessian[(1, 2)] = _t23;
-        hessian[(2, 0)] = _t21;
-        hessian[(2, 1)] = _t23;
+        hessian[(1, 2)] = _t22;
+        hessian[(2, 0)] = _t20;
+        hessian[(2, 1)] = _t22;
         hessian[(2, 2)] = self._h1
-            * (S::ratio(2.0, 3.0) * _t6 - _t22 * _t14 + _t20 * _t13);
+            * (S::ratio(2.0, 3.0) * _t6 - _t21 * _t14 + _t19 * _t13);
     }
 }
 
@@ -678,7 +677,7 @@ for HeisenbergGenerating6<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 92 additions, 177 multiplications.
+    /// 92 additions, 176 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -724,49 +723,48 @@ for HeisenbergGenerating6<'_, S> {
         let _t33 = _t0 + _t30;
         let _t34 = S::ratio(1.0, 3.0) * _t33;
         let _t35 = S::ratio(2.0, 1.0) * _t14;
-        let _t36 = _t3 * z;
-        let _t37 = z * (_t36 + _t36);
-        let _t38 = _t36 * _t8 * _t10;
-        let _t39 = (_t20 * S::ratio(9.0, 1.0) - _t19) * S::ratio(24.0, 1.0);
-        let _t40 = z * (_t24 + _t24);
-        let _t41 = _t24 * _t8 * _t10;
-        let _t42 = _t41 + (_t41 + _t40 * _t12);
-        let _t43 = _t17 * S::ratio(48.0, 1.0);
-        let _t44 = -_t27;
-        let _t45 = _t44 * _t16;
-        let _t46 = self._h1 * _t40
-            + (_t3 * _t42 - _t4 * _t43
-                + p * S::ratio(6.0, 1.0) * (_t13 - _t4 * _t45 * S::ratio(8.0, 1.0)))
+        let _t36 = z * (_t27 + _t27);
+        let _t37 = _t27 * _t8 * _t10;
+        let _t38 = (_t20 * S::ratio(9.0, 1.0) - _t19) * S::ratio(24.0, 1.0);
+        let _t39 = z * (_t24 + _t24);
+        let _t40 = _t24 * _t8 * _t10;
+        let _t41 = _t40 + (_t40 + _t39 * _t12);
+        let _t42 = _t17 * S::ratio(48.0, 1.0);
+        let _t43 = -_t27;
+        let _t44 = _t43 * _t16;
+        let _t45 = self._h1 * _t39
+            + (_t3 * _t41 - _t4 * _t42
+                + p * S::ratio(6.0, 1.0) * (_t13 - _t4 * _t44 * S::ratio(8.0, 1.0)))
                 * _t22;
-        let _t47 = q + z * S::ratio(2.0, 3.0);
-        let _t48 = _t3 * _t47;
-        let _t49 = (_t5 + z * _t48) * S::ratio(-3.0, 1.0);
-        let _t50 = (_t9 + z * _t49) * S::ratio(-4.0, 1.0);
-        let _t51 = _t48 + _t48;
-        let _t52 = _t6 + z * _t51;
-        let _t53 = _t50 + (_t50 + S::ratio(12.0, 1.0) * (_t7 + z * _t52));
-        let _t54 = -_t14;
-        let _t55 = _t15 + z * _t54;
-        let _t56 = S::ratio(3.0, 1.0) * _t55;
-        let _t57 = _t3 * _t53 + _t47 * _t39 - S::ratio(48.0, 1.0) * _t56 * _t23;
-        let _t58 = self._h0 + self._h2 * (_t21 + z * _t57) + self._h1 * _t52;
-        let _t59 = S::ratio(6.0, 1.0) * _t20
-            - _t30 * (_t3 * _t44 + S::ratio(6.0, 1.0) * _t31);
-        let _t60 = _t32 * self._h4;
-        let _t61 = _t17 * S::ratio(8.0, 1.0);
-        let _t62 = _t4 * self._h6;
-        let _t63 = self._h7 * (z * _t17);
-        let _t64 = p * S::ratio(1.0, 960.0);
-        let _t65 = z * S::ratio(4.0, 1.0);
-        let _t66 = _t47 * (S::ratio(12.0, 1.0) * _t23) - _t55 * _t25;
-        let _t67 = _t3 * _t61 - _t26 * S::ratio(12.0, 1.0)
-            - (S::ratio(3.0, 1.0) * _t66 - _t56 * _t25) * _t65;
-        let _t68 = self._h1 * _t66 - self._h2 * (_t3 * _t29 - _t31 * _t43 + _t27 * _t67)
-            - _t56 * _t60 + _t47 * self._h5 * (p * _t13 - _t4 * _t61)
-            + (_t53 * _t62 + _t54 * _t63) * _t64;
-        let _t69 = _t21 * self._h9 - (_t28 * _t54 + _t9 * _t51 + _t6 * _t49) * self._h10
-            + (_t7 * _t48 + _t5 * _t52) * self._h11
-            + self._h1 * (S::ratio(2.0, 3.0) * _t6 + _t51 * _t34 - _t54 * _t35);
+        let _t46 = q + z * S::ratio(2.0, 3.0);
+        let _t47 = _t3 * _t46;
+        let _t48 = (_t5 + z * _t47) * S::ratio(-3.0, 1.0);
+        let _t49 = (_t9 + z * _t48) * S::ratio(-4.0, 1.0);
+        let _t50 = _t47 + _t47;
+        let _t51 = _t6 + z * _t50;
+        let _t52 = _t49 + (_t49 + S::ratio(12.0, 1.0) * (_t7 + z * _t51));
+        let _t53 = -_t14;
+        let _t54 = _t15 + z * _t53;
+        let _t55 = S::ratio(3.0, 1.0) * _t54;
+        let _t56 = _t3 * _t52 + _t46 * _t38 - S::ratio(48.0, 1.0) * _t55 * _t23;
+        let _t57 = self._h0 + self._h2 * (_t21 + z * _t56) + self._h1 * _t51;
+        let _t58 = S::ratio(6.0, 1.0) * _t20
+            - _t30 * (_t3 * _t43 + S::ratio(6.0, 1.0) * _t31);
+        let _t59 = _t32 * self._h4;
+        let _t60 = _t17 * S::ratio(8.0, 1.0);
+        let _t61 = _t4 * self._h6;
+        let _t62 = self._h7 * (z * _t17);
+        let _t63 = p * S::ratio(1.0, 960.0);
+        let _t64 = z * S::ratio(4.0, 1.0);
+        let _t65 = _t46 * (S::ratio(12.0, 1.0) * _t23) - _t54 * _t25;
+        let _t66 = _t3 * _t60 - _t26 * S::ratio(12.0, 1.0)
+            - (S::ratio(3.0, 1.0) * _t65 - _t55 * _t25) * _t64;
+        let _t67 = self._h1 * _t65 - self._h2 * (_t3 * _t29 - _t31 * _t42 + _t27 * _t66)
+            - _t55 * _t59 + _t46 * self._h5 * (p * _t13 - _t4 * _t60)
+            + (_t52 * _t61 + _t53 * _t62) * _t63;
+        let _t68 = _t21 * self._h9 - (_t28 * _t53 + _t9 * _t50 + _t6 * _t48) * self._h10
+            + (_t7 * _t47 + _t5 * _t51) * self._h11
+            + self._h1 * (S::ratio(2.0, 3.0) * _t6 + _t50 * _t34 - _t53 * _t35);
         xi[0] = _t1 * self._h0 + _t7 * self._h1 + _t21 * _t22;
         xi[1] = _t14 * self.h + _t26 * self._h1
             - self._h2 * (_t27 * _t29 + _t17 * _t32 * S::ratio(24.0, 1.0) - _t13 * _t24);
@@ -774,23 +772,23 @@ for HeisenbergGenerating6<'_, S> {
             + (_t33 * _t21 + _t5 * _t7 * S::ratio(36.0, 1.0)
                 - S::ratio(12.0, 1.0) * (_t6 * _t9 + _t15 * _t28)
                 - S::ratio(3.0, 1.0) * _t14 * _t29) * self._h3;
-        hessian[(0, 0)] = self.h + _t37 * self._h1
-            + (_t3 * (_t38 + (_t38 + _t37 * _t12)) + z * _t39) * _t22;
-        hessian[(0, 1)] = _t46;
-        hessian[(0, 2)] = _t58;
-        hessian[(1, 0)] = _t46;
-        hessian[(1, 1)] = self._h1 * _t59 - _t45 * _t60
-            + (_t4 * _t13 - z * (p * _t29 - _t15 * _t61)) * self._h5
-            + (_t42 * _t62 + _t44 * _t63) * _t64
+        hessian[(0, 0)] = self.h + _t36 * self._h1
+            + (_t3 * (_t37 + (_t37 + _t36 * _t12)) + z * _t38) * _t22;
+        hessian[(0, 1)] = _t45;
+        hessian[(0, 2)] = _t57;
+        hessian[(1, 0)] = _t45;
+        hessian[(1, 1)] = self._h1 * _t58 - _t44 * _t59
+            + (_t4 * _t13 - z * (p * _t29 - _t15 * _t60)) * self._h5
+            + (_t41 * _t61 + _t43 * _t62) * _t63
             - _t3
                 * (z * self._h6
-                    * ((S::ratio(12.0, 1.0) * _t18 - S::ratio(3.0, 1.0) * _t59
-                        + _t45 * _t25) * _t65) - self._h8) * S::ratio(1.0, 5760.0);
-        hessian[(1, 2)] = _t68;
-        hessian[(2, 0)] = _t58;
-        hessian[(2, 1)] = _t68;
-        hessian[(2, 2)] = _t69 + _t33 * _t57 * self._h3 - _t14 * self._h2 * _t67
-            - _t15 * (_t66 * self._h12 - _t3 * _t56 * self._h13) * S::ratio(1.0, 1440.0);
+                    * ((S::ratio(12.0, 1.0) * _t18 - S::ratio(3.0, 1.0) * _t58
+                        + _t44 * _t25) * _t64) - self._h8) * S::ratio(1.0, 5760.0);
+        hessian[(1, 2)] = _t67;
+        hessian[(2, 0)] = _t57;
+        hessian[(2, 1)] = _t67;
+        hessian[(2, 2)] = _t68 + _t33 * _t56 * self._h3 - _t14 * self._h2 * _t66
+            - _t15 * (_t65 * self._h12 - _t3 * _t55 * self._h13) * S::ratio(1.0, 1440.0);
     }
 }
 
@@ -1176,7 +1174,7 @@ for HeisenbergCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 33 additions, 53 multiplications.
+    /// 33 additions, 52 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1202,9 +1200,8 @@ for HeisenbergCayleyGenerating4<'_, S> {
         let _t13 = _t2 * self._h2 + _t12 * _u_z * self._h1;
         let _t14 = S::ratio(12.0, 1.0) * _t4;
         let _t15 = _u_q + _u_z * S::ratio(2.0, 3.0);
-        let _t16 = _u_z * _t6;
-        let _t17 = S::ratio(6.0, 1.0) * _t4;
-        let _t18 = _t15 * _t6;
+        let _t16 = S::ratio(6.0, 1.0) * _t4;
+        let _t17 = _t15 * _t6;
         residual[0] = _u_q - q + _t10 * _u_z;
         residual[1] = _u_p - p - _t13 * _u_z;
         residual[2] = _u_z - z;
@@ -1215,10 +1212,10 @@ for HeisenbergCayleyGenerating4<'_, S> {
         matrix[(0, 2)] = _t10
             + (_t15 * _t14 - _t6 * _t9 - _t7 * (-_t1 * S::ratio(2.0, 1.0))) * self._h1
                 * _u_z;
-        matrix[(1, 0)] = -(((_t16 + _t16) * _u_z * self._h1 + self._h0) * _u_z);
-        matrix[(1, 1)] = S::one() - (_t17 + _t17) * _u_z * self._h1 * _u_z;
+        matrix[(1, 0)] = -(((_t7 + _t7) * _u_z * self._h1 + self._h0) * _u_z);
+        matrix[(1, 1)] = S::one() - (_t16 + _t16) * _u_z * self._h1 * _u_z;
         matrix[(1, 2)] = -_t13
-            - (self._h2 + (_t12 + (_t18 + _t18) * _u_z) * self._h1) * _u_z;
+            - (self._h2 + (_t12 + (_t17 + _t17) * _u_z) * self._h1) * _u_z;
         matrix[(2, 2)] = S::one();
     }
 

@@ -2204,7 +2204,7 @@ for NonpolynomialSpinSecondKind2Equation<'_, S> {
 
     /// `r_i = p_i - (m_(i-1))_i` and `dr/dp`, by `dm_i/dxi_i = ad*_(e_i) m_i`
     ///
-    /// 98 additions, 129 multiplications, 3 divisions, 6 function calls.
+    /// 98 additions, 127 multiplications, 3 divisions, 6 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -2218,85 +2218,87 @@ for NonpolynomialSpinSecondKind2Equation<'_, S> {
         let _t1 = S::one() / (S::one() + _u_z * _u_z).sqrt();
         let _t2 = _u_z * _t1;
         let _t3 = _u_y * _u_y;
-        let _t4 = _t2 + _u_x * _t3;
-        let _t5 = _u_y * S::ratio(1.0, 2.0);
-        let _t6 = _t5.exp();
-        let _t7 = _u_x * S::ratio(2.0, 1.0);
-        let _t8 = _u_y * _u_z;
-        let _t9 = S::ratio(1.0, 2.0) * _t6 + _t7 * _t8;
-        let _t10 = _t9 * self._h0;
-        let _t11 = _t4 * _u_y - _t9 * _u_z;
-        let _t12 = _u_x.sin();
-        let _t13 = _t12 * self._h0;
-        let _t14 = _t0 + _u_z * _t3;
-        let _t15 = _t14 * _u_y - _t9 * _u_x;
-        let _t16 = _t15 * self._h3;
-        let _t17 = _u_y * (_t16 + _u_z * self._h4);
-        let _t18 = -(_t14 * _u_z) - _t4 * _u_x;
-        let _t19 = _u_z * self._h5;
-        let _t20 = ((self.h * _t0 - _t4 * _t10 - _t11 * _t13
-            + _t5 * (_t17 + _t18 * _t19)) * S::ratio(1.0, 2.0))
+        let _t4 = _u_x * _t3;
+        let _t5 = _t2 + _t4;
+        let _t6 = _u_y * S::ratio(1.0, 2.0);
+        let _t7 = _t6.exp();
+        let _t8 = _u_x * S::ratio(2.0, 1.0);
+        let _t9 = _u_y * _u_z;
+        let _t10 = S::ratio(1.0, 2.0) * _t7 + _t8 * _t9;
+        let _t11 = _t10 * self._h0;
+        let _t12 = _t5 * _u_y - _t10 * _u_z;
+        let _t13 = _u_x.sin();
+        let _t14 = _t13 * self._h0;
+        let _t15 = _u_z * _t3;
+        let _t16 = _t0 + _t15;
+        let _t17 = _t16 * _u_y - _t10 * _u_x;
+        let _t18 = _t17 * self._h3;
+        let _t19 = _u_y * (_t18 + _u_z * self._h4);
+        let _t20 = -(_t16 * _u_z) - _t5 * _u_x;
+        let _t21 = _u_z * self._h5;
+        let _t22 = ((self.h * _t0 - _t5 * _t11 - _t12 * _t14
+            + _t6 * (_t19 + _t20 * _t21)) * S::ratio(1.0, 2.0))
             .tan();
-        let _t21 = _t20 * S::ratio(2.0, 1.0) / (S::one() + _t20 * _t20);
-        let _t22 = _t20 * _t21;
-        let _t23 = y + (z * _t21 - y * _t22);
-        let _t24 = z + (-(y * _t21) - z * _t22);
-        let _t25 = self._h3 * _u_y;
-        let _t26 = _t18 * self._h3;
-        let _t27 = _u_z * _t26;
-        let _t28 = _t14 * self._h0;
-        let _t29 = _t26 + self._h6;
-        let _t30 = ((_u_z * (_t11 * _t25) + _u_x * (_t27 + _t17) + _t4 * _t28
-            + _t6 * _t29 * S::ratio(1.0, 8.0)) * S::ratio(1.0, 2.0))
+        let _t23 = _t22 * S::ratio(2.0, 1.0) / (S::one() + _t22 * _t22);
+        let _t24 = _t22 * _t23;
+        let _t25 = y + (z * _t23 - y * _t24);
+        let _t26 = z + (-(y * _t23) - z * _t24);
+        let _t27 = self._h3 * _u_y;
+        let _t28 = _t20 * self._h3;
+        let _t29 = _u_z * _t28;
+        let _t30 = _t16 * self._h0;
+        let _t31 = _t28 + self._h6;
+        let _t32 = ((_u_z * (_t12 * _t27) + _u_x * (_t29 + _t19) + _t5 * _t30
+            + _t7 * _t31 * S::ratio(1.0, 8.0)) * S::ratio(1.0, 2.0))
             .tan();
-        let _t31 = S::ratio(2.0, 1.0) * _t30 / (S::one() + _t30 * _t30);
-        let _t32 = _t30 * _t31;
-        let _t33 = S::ratio(2.0, 1.0) * _t8;
-        let _t34 = _t4 * self._h0;
-        let _t35 = _t33 * _t34;
-        let _t36 = -_t12;
-        let _t37 = _t3 * _u_y;
-        let _t38 = _t33 * _u_z;
-        let _t39 = _t5
-            * ((_t36 * _u_y - _t9 - _t33 * _u_x) * _t25
-                + (-_t4 - _t3 * _u_x - _t36 * _u_z) * _t19) - _t35 - _t3 * _t10
-            - _t11 * _t0 * self._h0;
-        let _t40 = _t39
-            - S::ratio(1.0, 2.0) * _t12 * ((_t37 - _t38) * self._h3 + self._h4);
-        let _t41 = _t6 * S::ratio(1.0, 4.0) + _u_z * _t7;
-        let _t42 = _u_y * _t7;
-        let _t43 = _t4 + _t42 * _u_y - _t41 * _u_z;
-        let _t44 = (_t14 - _t41 * _u_x + _t33 * _u_y) * _t25;
-        let _t45 = _t42 * _u_x;
-        let _t46 = -_t38 - _t45;
-        let _t47 = _u_z * (self._h4 + _t46 * self._h3);
-        let _t48 = _t27 - _t41 * _t34 - _t42 * _t10 - _t43 * _t13
-            + _t5 * (_t44 + S::ratio(2.0, 1.0) * _t47 + _t15 * self._h5);
-        let _t49 = _t1 - _t1 * (_t2 * _t2);
-        let _t50 = _t49 * _u_y - _t9 - _t42 * _u_z;
-        let _t51 = _u_y * (self._h4 + (_t37 - _t45) * self._h3);
-        let _t52 = -_t14 - _t3 * _u_z - _t49 * _u_x;
-        let _t53 = _t5 * (_t18 * self._h5 + _t51 + _t52 * _t19) - _t42 * _t34
-            - _t49 * _t10 - _t50 * _t13;
-        let _t54 = _t32 * _t23 - _t23;
-        let _t55 = x + (-(_t31 * _t24) - x * _t32);
-        let _t56 = _t11 * self._h3;
-        let _t57 = self._h3 * _u_z;
+        let _t33 = S::ratio(2.0, 1.0) * _t32 / (S::one() + _t32 * _t32);
+        let _t34 = _t32 * _t33;
+        let _t35 = S::ratio(2.0, 1.0) * _t9;
+        let _t36 = _t5 * self._h0;
+        let _t37 = _t35 * _t36;
+        let _t38 = -_t13;
+        let _t39 = _t3 * _u_y;
+        let _t40 = _t35 * _u_z;
+        let _t41 = _t6
+            * ((_t38 * _u_y - _t10 - _t35 * _u_x) * _t27
+                + (-_t5 - _t4 - _t38 * _u_z) * _t21) - _t37 - _t3 * _t11
+            - _t12 * _t0 * self._h0;
+        let _t42 = _t41
+            - S::ratio(1.0, 2.0) * _t13 * ((_t39 - _t40) * self._h3 + self._h4);
+        let _t43 = _t7 * S::ratio(1.0, 4.0) + _u_z * _t8;
+        let _t44 = _u_y * _t8;
+        let _t45 = _t5 + _t44 * _u_y - _t43 * _u_z;
+        let _t46 = (_t16 - _t43 * _u_x + _t35 * _u_y) * _t27;
+        let _t47 = _t44 * _u_x;
+        let _t48 = -_t40 - _t47;
+        let _t49 = _u_z * (self._h4 + _t48 * self._h3);
+        let _t50 = _t29 - _t43 * _t36 - _t44 * _t11 - _t45 * _t14
+            + _t6 * (_t46 + S::ratio(2.0, 1.0) * _t49 + _t17 * self._h5);
+        let _t51 = _t1 - _t1 * (_t2 * _t2);
+        let _t52 = _t51 * _u_y - _t10 - _t44 * _u_z;
+        let _t53 = _u_y * (self._h4 + (_t39 - _t47) * self._h3);
+        let _t54 = -_t16 - _t15 - _t51 * _u_x;
+        let _t55 = _t6 * (_t20 * self._h5 + _t53 + _t54 * _t21) - _t44 * _t36
+            - _t51 * _t11 - _t52 * _t14;
+        let _t56 = _t34 * _t25 - _t25;
+        let _t57 = x + (-(_t33 * _t26) - x * _t34);
+        let _t58 = _t12 * self._h3;
+        let _t59 = self._h3 * _u_z;
         residual[0] = _u_x - x;
-        residual[1] = _u_y - _t23;
-        residual[2] = _u_z - (_t24 + (x * _t31 - _t32 * _t24));
+        residual[1] = _u_y - _t25;
+        residual[2] = _u_z - (_t26 + (x * _t33 - _t34 * _t26));
         matrix[(0, 0)] = S::one();
-        matrix[(1, 0)] = -(_t40 * _t24);
-        matrix[(1, 1)] = S::one() - _t48 * _t24;
-        matrix[(1, 2)] = -(_t53 * _t24);
-        matrix[(2, 0)] = -(_t40 * _t54) - _t48 * _t55;
-        matrix[(2, 1)] = -(_t48 * _t54)
-            - (_t35 + _u_x * (_t44 + _t47 + _t16) + _u_z * (_t43 * _t25 + _t56)
-                + _t42 * _t28 + _t6 * (_t29 + _t46 * self._h5) * S::ratio(1.0, 16.0))
-                * _t55;
-        matrix[(2, 2)] = S::one() - _t53 * _t54
-            - (_u_x * (_t26 + _t52 * _t57 + _t51) + _u_y * (_t50 * _t57 + _t56)
-                + _t3 * _t34 + _t49 * _t28 + _t52 * _t6 * self._h2) * _t55;
+        matrix[(1, 0)] = -(_t42 * _t26);
+        matrix[(1, 1)] = S::one() - _t50 * _t26;
+        matrix[(1, 2)] = -(_t55 * _t26);
+        matrix[(2, 0)] = -(_t42 * _t56) - _t50 * _t57;
+        matrix[(2, 1)] = -(_t50 * _t56)
+            - (_t37 + _u_x * (_t46 + _t49 + _t18) + _u_z * (_t45 * _t27 + _t58)
+                + _t44 * _t30 + _t7 * (_t31 + _t48 * self._h5) * S::ratio(1.0, 16.0))
+                * _t57;
+        matrix[(2, 2)] = S::one() - _t55 * _t56
+            - (_u_x * (_t28 + _t54 * _t59 + _t53) + _u_y * (_t52 * _t59 + _t58)
+                + _t3 * _t36 + _t51 * _t30 + _t54 * _t7 * self._h2) * _t57;
     }
 
     /// `mu1 = m_n`
@@ -2553,7 +2555,7 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 403 additions, 488 multiplications, 1 division, 4 function calls.
+    /// 403 additions, 484 multiplications, 1 division, 4 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -2590,288 +2592,292 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t24 = _u_z * _t23;
         let _t25 = _t1 * _t24;
         let _t26 = _t1 - _u_z * _t25;
-        let _t27 = _u_z * _t15 - _u_x * _t4;
-        let _t28 = _t7 + S::ratio(8.0, 1.0) * _t10;
-        let _t29 = _t28 * S::ratio(1.0, 4.0);
-        let _t30 = _u_z * S::ratio(4.0, 1.0);
-        let _t31 = _u_x * _u_y;
-        let _t32 = _t7 + _t30 * _t31;
-        let _t33 = S::ratio(1.0, 2.0) * _t32;
-        let _t34 = _u_y * _t4 - _u_z * _t33;
-        let _t35 = _t34 * _u_z;
-        let _t36 = _u_x * _t33 - _u_y * _t15;
-        let _t37 = _t36 * _u_x;
-        let _t38 = _t27 * _t29 + (_t35 + _t37) * _t9;
-        let _t39 = _t38 + _t38;
-        let _t40 = _u_y * _u_z;
-        let _t41 = _t13 - _u_x * _t26 + _t9 * _t40;
-        let _t42 = _t15 * _u_x;
-        let _t43 = S::ratio(3.0, 1.0) * _t42;
-        let _t44 = _t4 * _t21;
-        let _t45 = _t4 * _t4;
-        let _t46 = _t19 + _t45;
-        let _t47 = _t15 * S::ratio(2.0, 1.0) * (_t43 + _t12 + _t44) + _t46 * _t16;
-        let _t48 = _t34 * _u_y;
-        let _t49 = _t27 * _t16;
-        let _t50 = _t36 * _t26 + _u_y * (_t48 + _t49);
-        let _t51 = _t50 + _t50;
-        let _t52 = _u_x * _t16;
-        let _t53 = _t2 - _t52;
-        let _t54 = _t27 * S::ratio(2.0, 1.0);
-        let _t55 = _t11 * _u_y;
-        let _t56 = S::ratio(3.0, 1.0) * _t55;
-        let _t57 = _t18 + _t45;
-        let _t58 = _t11 * S::ratio(2.0, 1.0) * (_t56 + _t17 + _t44) + _t57 * _t9;
-        let _t59 = _t58 * _t16;
-        let _t60 = _t48 + _t27 * _u_x;
-        let _t61 = S::ratio(2.0, 1.0) * (_t45 + _t20);
-        let _t62 = _t1 * _t23;
-        let _t63 = _t24 * _t25;
-        let _t64 = _t62 - _t63;
-        let _t65 = _u_z * _t64;
-        let _t66 = S::ratio(3.0, 1.0) * _t65;
-        let _t67 = _t36 * _t66;
-        let _t68 = _u_x.sin();
-        let _t69 = _t34 * _t68;
-        let _t70 = _t36 * _u_y;
-        let _t71 = _t27 * _t21;
-        let _t72 = _t69 - _u_y * (_t70 + _t71);
-        let _t73 = -_t72 - _t72;
-        let _t74 = _u_x * _t30;
-        let _t75 = _t26 - _t74;
-        let _t76 = S::ratio(1.0, 2.0) * (_t7 - _t75 * _t9);
-        let _t77 = _t22 * _t26 + _t39 * _t41
-            + _u_y * (_t47 * _u_y - _t51 * _t53 + _t34 * _t54 + _t59) + _t60 * _t54
-            + _t4 * _t61 - _t36 * _t67;
-        let _t78 = _t4 * self._h2 + (_t77 - _t73 * _t76) * self._h1;
-        let _t79 = _t78 * _u_y;
-        let _t80 = _t36 * S::ratio(2.0, 1.0);
-        let _t81 = _t27 * _u_z + _t70;
-        let _t82 = _t34 * S::ratio(2.0, 1.0);
-        let _t83 = _t0 - _u_x * _u_x;
-        let _t84 = _t27 * _t7;
-        let _t85 = _t84 + _t35 * S::ratio(16.0, 1.0) + _t37 * S::ratio(16.0, 1.0);
-        let _t86 = S::ratio(1.0, 4.0)
-            * (_u_x * _t28 - _t13 * S::ratio(4.0, 1.0) - S::ratio(12.0, 1.0) * _t14);
-        let _t87 = _t1 * S::ratio(4.0, 1.0);
-        let _t88 = _u_z * (_t28 - _t87);
-        let _t89 = S::ratio(1.0, 4.0) * (_t88 - S::ratio(12.0, 1.0) * _t3);
-        let _t90 = _t60 * _t80 + _t81 * _t82 + _t11 * _t61
-            + (_t47 * _u_z + _t22 * _u_x + _t39 * _t83) * _t9
-            + _t27 * _t85 * S::ratio(1.0, 8.0) + _t58 * _t29;
-        let _t91 = _t32 * self._h0 + (_t90 + _t51 * _t86 - _t73 * _t89) * self._h1;
-        let _t92 = _u_x + _t91 * _u_z;
-        let _t93 = _t34 * _t13;
-        let _t94 = _u_z * (_t1 + _t68) + _t9 * _t31;
-        let _t95 = _u_z * _t21;
-        let _t96 = _t2 - _t95;
-        let _t97 = _t58 * _t21;
-        let _t98 = _t68 + _t74;
-        let _t99 = S::ratio(1.0, 2.0) * (_t7 + _t98 * _t9);
-        let _t100 = _u_y * (_t22 * _u_y + _t73 * _t96 + _t36 * _t54 + _t97) - _t34 * _t93
-            - _t47 * _t68 - _t39 * _t94 + _t81 * _t54 + _t15 * _t61;
-        let _t101 = _t15 * self._h2 + (_t100 + _t51 * _t99) * self._h1;
-        let _t102 = _t78 * _u_z;
-        let _t103 = _t101 * _u_x;
-        let _t104 = _t91 * _u_y;
-        let _t105 = _t103 + _t104;
-        let _t106 = _t102 + _t105;
-        let _t107 = _t78 * _u_x;
-        let _t108 = _u_y - _t101 * _u_z;
-        let _t109 = _t101 * _u_y;
-        let _t110 = _u_z - _t91 * _u_x;
-        let _t111 = _t55 + _t5 + _t43;
-        let _t112 = -_t68;
-        let _t113 = _t112 * S::ratio(4.0, 1.0);
-        let _t114 = _t15 * _u_z + _t4 * _u_x;
-        let _t115 = _t2 * S::ratio(4.0, 1.0);
-        let _t116 = S::ratio(2.0, 1.0) * _t19 + _t114 * _t115;
-        let _t117 = _t15 * _u_y + _t11 * _u_x;
-        let _t118 = _u_z * _t9;
-        let _t119 = _t118 * S::ratio(4.0, 1.0);
-        let _t120 = S::ratio(2.0, 1.0) * _t45 + _t117 * _t119;
-        let _t121 = _t18 * S::ratio(6.0, 1.0) + _t111 * _t113 + _t116 + _t120;
-        let _t122 = _u_y * _t9;
-        let _t123 = -_t94;
-        let _t124 = _u_y * _t96;
-        let _t125 = _t8 + _u_y * _t98;
-        let _t126 = _t123 * _t29 + (_t71 + (_t36 + _t124 * _u_z + _t125 * _u_x) * _t9);
-        let _t127 = _t126 + _t126;
-        let _t128 = _t15 * S::ratio(4.0, 1.0);
-        let _t129 = _t4 * _t128;
-        let _t130 = _t11 * _u_z + _t4 * _u_y;
-        let _t131 = _t55 + _t42 + _t6;
-        let _t132 = _t129 + _t114 * _t113 + _t130 * _t119 + _t131 * _t115;
-        let _t133 = _u_y * (_t125 * _u_y + _t123 * _t21) - (_t93 + _t124 * _t68);
-        let _t134 = _t133 + _t133;
-        let _t135 = _t27 * S::ratio(4.0, 1.0);
-        let _t136 = _t11 * _t128;
-        let _t137 = _t42 + _t5 + _t56;
-        let _t138 = _t136 + _t117 * _t113 + _t137 * _t119 + _t130 * _t115;
-        let _t139 = S::ratio(2.0, 1.0) * (_t18 * S::ratio(3.0, 1.0) + _t46);
-        let _t140 = S::ratio(4.0, 1.0) * _t81;
-        let _t141 = _t11 * _t118;
-        let _t142 = _t4 * _t2;
-        let _t143 = _t125 * _t26 + _u_y * (_t124 * _u_y + _t54 + _t123 * _t16);
-        let _t144 = _t143 + _t143;
-        let _t145 = _u_y
-            * (_t132 * _u_y + _t134 * _t96 + _t51 * (_t13 + _t30) + _t125 * _t135
-                + _t138 * _t21) - _t121 * _t68 - _t47 * _t13
-            - _t39 * (_u_z * _t13 + _t122);
-        let _t146 = (_t145 - _t127 * _t94
-            + _t34 * (_t69 - _t124 * _t13 * S::ratio(2.0, 1.0)) + _t112 * _t139
-            + _t123 * _t140 + (_t141 + _t142) * _t128 + _t144 * _t99) * self._h1;
-        let _t147 = _t146 - _t68 * self._h2;
-        let _t148 = _t104 + _t102 + _t101 * _t16;
-        let _t149 = self.h * _t40;
-        let _t150 = S::ratio(4.0, 1.0) * _t60;
-        let _t151 = _t15 * _t112;
-        let _t152 = _t11 * S::ratio(4.0, 1.0);
-        let _t153 = S::ratio(2.0, 1.0) * (_t19 * S::ratio(3.0, 1.0) + _t57);
-        let _t154 = _t39 * S::ratio(2.0, 1.0);
-        let _t155 = S::ratio(1.0, 4.0) * _t85;
-        let _t156 = _t2 * S::ratio(3.0, 1.0);
-        let _t157 = _t73 * (_t95 - _t156) - _t97
-            - (_t36 * _t135
-                + _t51 * S::ratio(1.0, 4.0)
-                    * (_t7 + _t68 * S::ratio(4.0, 1.0) + S::ratio(16.0, 1.0) * _t10));
-        let _t158 = _t124 * _t140 + _t125 * _t150 + (_t142 + _t151) * _t152
-            + _t118 * _t153
-            + (_t22 + _t121 * _u_z + _t127 * _t83 + _u_x * (_t132 - _t154)) * _t9;
-        let _t159 = _t149
-            + (_t158 + _t138 * _t29 + _t144 * _t86 + _t123 * _t155 - _t134 * _t89
-                - _t157) * self._h1;
-        let _t160 = _u_z + _t109;
-        let _t161 = _t2 * self._h2;
-        let _t162 = _t58 * S::ratio(2.0, 1.0);
-        let _t163 = S::ratio(2.0, 1.0) * (_t45 * S::ratio(3.0, 1.0) + _t20);
-        let _t164 = _t4 * S::ratio(4.0, 1.0);
-        let _t165 = _t65 * (_t36 * S::ratio(6.0, 1.0));
-        let _t166 = _t39 * (_t68 + _t26) - _t27 * _t54;
-        let _t167 = _t132 * _t26 + _t127 * _t41
+        let _t27 = _u_z * _t15;
+        let _t28 = _u_x * _t4;
+        let _t29 = _t27 - _t28;
+        let _t30 = _t7 + S::ratio(8.0, 1.0) * _t10;
+        let _t31 = _t30 * S::ratio(1.0, 4.0);
+        let _t32 = _u_y * _t4;
+        let _t33 = _u_z * S::ratio(4.0, 1.0);
+        let _t34 = _u_x * _u_y;
+        let _t35 = _t7 + _t33 * _t34;
+        let _t36 = S::ratio(1.0, 2.0) * _t35;
+        let _t37 = _t32 - _u_z * _t36;
+        let _t38 = _t37 * _u_z;
+        let _t39 = _u_y * _t15;
+        let _t40 = _u_x * _t36 - _t39;
+        let _t41 = _t40 * _u_x;
+        let _t42 = _t29 * _t31 + (_t38 + _t41) * _t9;
+        let _t43 = _t42 + _t42;
+        let _t44 = _u_y * _u_z;
+        let _t45 = _t13 - _u_x * _t26 + _t9 * _t44;
+        let _t46 = _t15 * _u_x;
+        let _t47 = S::ratio(3.0, 1.0) * _t46;
+        let _t48 = _t4 * _t21;
+        let _t49 = _t4 * _t4;
+        let _t50 = _t19 + _t49;
+        let _t51 = _t15 * S::ratio(2.0, 1.0) * (_t47 + _t12 + _t48) + _t50 * _t16;
+        let _t52 = _t37 * _u_y;
+        let _t53 = _t29 * _t16;
+        let _t54 = _t40 * _t26 + _u_y * (_t52 + _t53);
+        let _t55 = _t54 + _t54;
+        let _t56 = _u_x * _t16;
+        let _t57 = _t2 - _t56;
+        let _t58 = _t29 * S::ratio(2.0, 1.0);
+        let _t59 = _t11 * _u_y;
+        let _t60 = S::ratio(3.0, 1.0) * _t59;
+        let _t61 = _t18 + _t49;
+        let _t62 = _t11 * S::ratio(2.0, 1.0) * (_t60 + _t17 + _t48) + _t61 * _t9;
+        let _t63 = _t62 * _t16;
+        let _t64 = _t52 + _t29 * _u_x;
+        let _t65 = S::ratio(2.0, 1.0) * (_t49 + _t20);
+        let _t66 = _t1 * _t23;
+        let _t67 = _t24 * _t25;
+        let _t68 = _t66 - _t67;
+        let _t69 = _u_z * _t68;
+        let _t70 = S::ratio(3.0, 1.0) * _t69;
+        let _t71 = _t40 * _t70;
+        let _t72 = _u_x.sin();
+        let _t73 = _t37 * _t72;
+        let _t74 = _t40 * _u_y;
+        let _t75 = _t29 * _t21;
+        let _t76 = _t73 - _u_y * (_t74 + _t75);
+        let _t77 = -_t76 - _t76;
+        let _t78 = _u_x * _t33;
+        let _t79 = _t26 - _t78;
+        let _t80 = S::ratio(1.0, 2.0) * (_t7 - _t79 * _t9);
+        let _t81 = _t22 * _t26 + _t43 * _t45
+            + _u_y * (_t51 * _u_y - _t55 * _t57 + _t37 * _t58 + _t63) + _t64 * _t58
+            + _t4 * _t65 - _t40 * _t71;
+        let _t82 = _t4 * self._h2 + (_t81 - _t77 * _t80) * self._h1;
+        let _t83 = _t82 * _u_y;
+        let _t84 = _t40 * S::ratio(2.0, 1.0);
+        let _t85 = _t29 * _u_z + _t74;
+        let _t86 = _t37 * S::ratio(2.0, 1.0);
+        let _t87 = _t0 - _u_x * _u_x;
+        let _t88 = _t29 * _t7;
+        let _t89 = _t88 + _t38 * S::ratio(16.0, 1.0) + _t41 * S::ratio(16.0, 1.0);
+        let _t90 = S::ratio(1.0, 4.0)
+            * (_u_x * _t30 - _t13 * S::ratio(4.0, 1.0) - S::ratio(12.0, 1.0) * _t14);
+        let _t91 = _t1 * S::ratio(4.0, 1.0);
+        let _t92 = _u_z * (_t30 - _t91);
+        let _t93 = S::ratio(1.0, 4.0) * (_t92 - S::ratio(12.0, 1.0) * _t3);
+        let _t94 = _t64 * _t84 + _t85 * _t86 + _t11 * _t65
+            + (_t51 * _u_z + _t22 * _u_x + _t43 * _t87) * _t9
+            + _t29 * _t89 * S::ratio(1.0, 8.0) + _t62 * _t31;
+        let _t95 = _t35 * self._h0 + (_t94 + _t55 * _t90 - _t77 * _t93) * self._h1;
+        let _t96 = _u_x + _t95 * _u_z;
+        let _t97 = _t37 * _t13;
+        let _t98 = _u_z * (_t1 + _t72) + _t9 * _t34;
+        let _t99 = _u_z * _t21;
+        let _t100 = _t2 - _t99;
+        let _t101 = _t62 * _t21;
+        let _t102 = _t72 + _t78;
+        let _t103 = S::ratio(1.0, 2.0) * (_t7 + _t102 * _t9);
+        let _t104 = _u_y * (_t22 * _u_y + _t77 * _t100 + _t40 * _t58 + _t101)
+            - _t37 * _t97 - _t51 * _t72 - _t43 * _t98 + _t85 * _t58 + _t15 * _t65;
+        let _t105 = _t15 * self._h2 + (_t104 + _t55 * _t103) * self._h1;
+        let _t106 = _t82 * _u_z;
+        let _t107 = _t105 * _u_x;
+        let _t108 = _t95 * _u_y;
+        let _t109 = _t107 + _t108;
+        let _t110 = _t106 + _t109;
+        let _t111 = _t82 * _u_x;
+        let _t112 = _u_y - _t105 * _u_z;
+        let _t113 = _t105 * _u_y;
+        let _t114 = _u_z - _t95 * _u_x;
+        let _t115 = _t59 + _t5 + _t47;
+        let _t116 = -_t72;
+        let _t117 = _t116 * S::ratio(4.0, 1.0);
+        let _t118 = _t27 + _t28;
+        let _t119 = _t2 * S::ratio(4.0, 1.0);
+        let _t120 = S::ratio(2.0, 1.0) * _t19 + _t118 * _t119;
+        let _t121 = _t39 + _t11 * _u_x;
+        let _t122 = _u_z * _t9;
+        let _t123 = _t122 * S::ratio(4.0, 1.0);
+        let _t124 = S::ratio(2.0, 1.0) * _t49 + _t121 * _t123;
+        let _t125 = _t18 * S::ratio(6.0, 1.0) + _t115 * _t117 + _t120 + _t124;
+        let _t126 = _u_y * _t9;
+        let _t127 = -_t98;
+        let _t128 = _u_y * _t100;
+        let _t129 = _t8 + _u_y * _t102;
+        let _t130 = _t127 * _t31 + (_t75 + (_t40 + _t128 * _u_z + _t129 * _u_x) * _t9);
+        let _t131 = _t130 + _t130;
+        let _t132 = _t15 * S::ratio(4.0, 1.0);
+        let _t133 = _t4 * _t132;
+        let _t134 = _t11 * _u_z + _t32;
+        let _t135 = _t59 + _t46 + _t6;
+        let _t136 = _t133 + _t118 * _t117 + _t134 * _t123 + _t135 * _t119;
+        let _t137 = _u_y * (_t129 * _u_y + _t127 * _t21) - (_t97 + _t128 * _t72);
+        let _t138 = _t137 + _t137;
+        let _t139 = _t29 * S::ratio(4.0, 1.0);
+        let _t140 = _t11 * _t132;
+        let _t141 = _t46 + _t5 + _t60;
+        let _t142 = _t140 + _t121 * _t117 + _t141 * _t123 + _t134 * _t119;
+        let _t143 = S::ratio(2.0, 1.0) * (_t18 * S::ratio(3.0, 1.0) + _t50);
+        let _t144 = S::ratio(4.0, 1.0) * _t85;
+        let _t145 = _t11 * _t122;
+        let _t146 = _t4 * _t2;
+        let _t147 = _t129 * _t26 + _u_y * (_t128 * _u_y + _t58 + _t127 * _t16);
+        let _t148 = _t147 + _t147;
+        let _t149 = _u_y
+            * (_t136 * _u_y + _t138 * _t100 + _t55 * (_t13 + _t33) + _t129 * _t139
+                + _t142 * _t21) - _t125 * _t72 - _t51 * _t13
+            - _t43 * (_u_z * _t13 + _t126);
+        let _t150 = (_t149 - _t131 * _t98
+            + _t37 * (_t73 - _t128 * _t13 * S::ratio(2.0, 1.0)) + _t116 * _t143
+            + _t127 * _t144 + (_t145 + _t146) * _t132 + _t148 * _t103) * self._h1;
+        let _t151 = _t150 - _t72 * self._h2;
+        let _t152 = _t108 + _t106 + _t105 * _t16;
+        let _t153 = self.h * _t44;
+        let _t154 = S::ratio(4.0, 1.0) * _t64;
+        let _t155 = _t15 * _t116;
+        let _t156 = _t11 * S::ratio(4.0, 1.0);
+        let _t157 = S::ratio(2.0, 1.0) * (_t19 * S::ratio(3.0, 1.0) + _t61);
+        let _t158 = _t43 * S::ratio(2.0, 1.0);
+        let _t159 = S::ratio(1.0, 4.0) * _t89;
+        let _t160 = _t2 * S::ratio(3.0, 1.0);
+        let _t161 = _t77 * (_t99 - _t160) - _t101
+            - (_t40 * _t139
+                + _t55 * S::ratio(1.0, 4.0)
+                    * (_t7 + _t72 * S::ratio(4.0, 1.0) + S::ratio(16.0, 1.0) * _t10));
+        let _t162 = _t128 * _t144 + _t129 * _t154 + (_t146 + _t155) * _t156
+            + _t122 * _t157
+            + (_t22 + _t125 * _u_z + _t131 * _t87 + _u_x * (_t136 - _t158)) * _t9;
+        let _t163 = _t153
+            + (_t162 + _t142 * _t31 + _t148 * _t90 + _t127 * _t159 - _t138 * _t93
+                - _t161) * self._h1;
+        let _t164 = _u_z + _t113;
+        let _t165 = _t2 * self._h2;
+        let _t166 = _t62 * S::ratio(2.0, 1.0);
+        let _t167 = S::ratio(2.0, 1.0) * (_t49 * S::ratio(3.0, 1.0) + _t20);
+        let _t168 = _t4 * S::ratio(4.0, 1.0);
+        let _t169 = _t69 * (_t40 * S::ratio(6.0, 1.0));
+        let _t170 = _t43 * (_t72 + _t26) - _t29 * _t58;
+        let _t171 = _t136 * _t26 + _t131 * _t45
             + _u_y
-                * (_t121 * _u_y - _t144 * _t53 + _t162
-                    + (_t138 + _t51 * S::ratio(2.0, 1.0)) * _t16 + _t124 * _t135
-                    - _t73 * _t30);
-        let _t168 = _t161
-            + (_t167 + _t2 * _t163 + _t123 * _t150 + (_t141 + _t151) * _t164
-                - _t134 * _t76 - _t125 * _t165 - _t166) * self._h1;
-        let _t169 = _t101 * _t91;
-        let _t170 = _t7 * S::ratio(1.0, 4.0) + _u_x * _t21;
-        let _t171 = _t170 * S::ratio(4.0, 1.0);
-        let _t172 = _u_x * _t9;
-        let _t173 = _t172 * S::ratio(4.0, 1.0);
-        let _t174 = _t136 + _t111 * _t119 + _t117 * _t171 + _t114 * _t173;
-        let _t175 = _t83 * _t9;
-        let _t176 = _u_x * _t29 - _t13 - S::ratio(3.0, 1.0) * _t14;
-        let _t177 = _t176 * _u_y;
-        let _t178 = S::ratio(3.0, 1.0) * _t3 - S::ratio(1.0, 4.0) * _t88;
-        let _t179 = _t178 * _u_y;
-        let _t180 = _t84 * S::ratio(1.0, 8.0) + _t175 * _t29
-            + ((_t36 + _t177) * _t16 + (_t34 + _t179) * _t21);
-        let _t181 = _t180 + _t180;
-        let _t182 = _t4 * _t152;
-        let _t183 = _t182 + _t114 * _t119 + _t130 * _t171 + _t131 * _t173;
-        let _t184 = _u_y * (_t177 + _t80 + _t175 * _t21) - (_t178 * _t68 - _t71);
+                * (_t125 * _u_y - _t148 * _t57 + _t166
+                    + (_t142 + _t55 * S::ratio(2.0, 1.0)) * _t16 + _t128 * _t139
+                    - _t77 * _t33);
+        let _t172 = _t165
+            + (_t171 + _t2 * _t167 + _t127 * _t154 + (_t145 + _t155) * _t168
+                - _t138 * _t80 - _t129 * _t169 - _t170) * self._h1;
+        let _t173 = _t105 * _t95;
+        let _t174 = _t7 * S::ratio(1.0, 4.0) + _u_x * _t21;
+        let _t175 = _t174 * S::ratio(4.0, 1.0);
+        let _t176 = _u_x * _t9;
+        let _t177 = _t176 * S::ratio(4.0, 1.0);
+        let _t178 = _t140 + _t115 * _t123 + _t121 * _t175 + _t118 * _t177;
+        let _t179 = _t87 * _t9;
+        let _t180 = _u_x * _t31 - _t13 - S::ratio(3.0, 1.0) * _t14;
+        let _t181 = _t180 * _u_y;
+        let _t182 = S::ratio(3.0, 1.0) * _t3 - S::ratio(1.0, 4.0) * _t92;
+        let _t183 = _t182 * _u_y;
+        let _t184 = _t88 * S::ratio(1.0, 8.0) + _t179 * _t31
+            + ((_t40 + _t181) * _t16 + (_t37 + _t183) * _t21);
         let _t185 = _t184 + _t184;
-        let _t186 = S::ratio(2.0, 1.0) * _t18 + _t130 * _t173;
-        let _t187 = _t19 * S::ratio(6.0, 1.0) + _t137 * _t171 + _t120 + _t186;
-        let _t188 = _u_x * S::ratio(4.0, 1.0);
-        let _t189 = _t4 * _t172;
-        let _t190 = _t11 * _t170;
-        let _t191 = S::ratio(2.0, 1.0) * _t93;
-        let _t192 = _u_y * (_t179 + _t82 + _t175 * _t16) + (_t176 * _t26 + _t49);
-        let _t193 = _t192 + _t192;
-        let _t194 = _u_y
-            * (_t183 * _u_y + _t185 * _t96 + _t22 * S::ratio(2.0, 1.0) + _t187 * _t21
-                - _t39 * _t188 + _t176 * _t135) - _t174 * _t68 - _t181 * _t94
-            + _t175 * _t140;
-        let _t195 = _t149
-            + (_t194 + (_t189 + _t190) * _t128 + _t118 * _t139 - _t178 * _t191
-                + _t193 * _t99 - _t157) * self._h1;
-        let _t196 = _t15 * _t118;
-        let _t197 = _t34 * _t36 * S::ratio(4.0, 1.0) + _t178 * _t140 + _t176 * _t150
-            + (_t189 + _t196) * _t152 + _t47 * _t21 + _t170 * _t153 + _t22 * _t16
-            + _t83 * _t154;
-        let _t198 = _t197 + (_t174 * _u_z + _t183 * _u_x + _t181 * _t83) * _t9
-            + _t51 * (_u_x * _t7 - S::ratio(48.0, 1.0) * _t40) * S::ratio(1.0, 8.0)
-            - _t73 * (_u_z * _t7 - S::ratio(48.0, 1.0) * _t31) * S::ratio(1.0, 8.0);
-        let _t199 = _t28 * self._h3
-            + (_t198 + _t175 * _t155 + _t187 * _t29 + _t193 * _t86 - _t185 * _t89
-                + _t7 * (_t27 * _t27 + _t162) * S::ratio(1.0, 16.0)) * self._h1;
-        let _t200 = self.h * _t31;
-        let _t201 = _t51 * (_t156 - _t52) - _t59
-            - (_t34 * _t135
-                - _t73 * S::ratio(1.0, 4.0) * (_t7 - _t87 + _t30 * (_t25 + _t188)));
-        let _t202 = _t183 * _t26 + _t181 * _t41
+        let _t186 = _t4 * _t156;
+        let _t187 = _t186 + _t118 * _t123 + _t134 * _t175 + _t135 * _t177;
+        let _t188 = _u_y * (_t181 + _t84 + _t179 * _t21) - (_t182 * _t72 - _t75);
+        let _t189 = _t188 + _t188;
+        let _t190 = S::ratio(2.0, 1.0) * _t18 + _t134 * _t177;
+        let _t191 = _t19 * S::ratio(6.0, 1.0) + _t141 * _t175 + _t124 + _t190;
+        let _t192 = _u_x * S::ratio(4.0, 1.0);
+        let _t193 = _t4 * _t176;
+        let _t194 = _t11 * _t174;
+        let _t195 = S::ratio(2.0, 1.0) * _t97;
+        let _t196 = _u_y * (_t183 + _t86 + _t179 * _t16) + (_t180 * _t26 + _t53);
+        let _t197 = _t196 + _t196;
+        let _t198 = _u_y
+            * (_t187 * _u_y + _t189 * _t100 + _t22 * S::ratio(2.0, 1.0) + _t191 * _t21
+                - _t43 * _t192 + _t180 * _t139) - _t178 * _t72 - _t185 * _t98
+            + _t179 * _t144;
+        let _t199 = _t153
+            + (_t198 + (_t193 + _t194) * _t132 + _t122 * _t143 - _t182 * _t195
+                + _t197 * _t103 - _t161) * self._h1;
+        let _t200 = _t15 * _t122;
+        let _t201 = _t37 * _t40 * S::ratio(4.0, 1.0) + _t182 * _t144 + _t180 * _t154
+            + (_t193 + _t200) * _t156 + _t51 * _t21 + _t174 * _t157 + _t22 * _t16
+            + _t87 * _t158;
+        let _t202 = _t201 + (_t178 * _u_z + _t187 * _u_x + _t185 * _t87) * _t9
+            + _t55 * (_u_x * _t7 - S::ratio(48.0, 1.0) * _t44) * S::ratio(1.0, 8.0)
+            - _t77 * (_u_z * _t7 - S::ratio(48.0, 1.0) * _t34) * S::ratio(1.0, 8.0);
+        let _t203 = _t30 * self._h3
+            + (_t202 + _t179 * _t159 + _t191 * _t31 + _t197 * _t90 - _t189 * _t93
+                + _t7 * (_t29 * _t29 + _t166) * S::ratio(1.0, 16.0)) * self._h1;
+        let _t204 = self.h * _t34;
+        let _t205 = _t55 * (_t160 - _t56) - _t63
+            - (_t37 * _t139
+                - _t77 * S::ratio(1.0, 4.0) * (_t7 - _t91 + _t33 * (_t25 + _t192)));
+        let _t206 = _t187 * _t26 + _t185 * _t45
             + _u_y
-                * (_t174 * _u_y - _t193 * _t53 + _t47 * S::ratio(2.0, 1.0) + _t187 * _t16
-                    + _t39 * _t30 + _t178 * _t135) + _t175 * _t150;
-        let _t203 = _t200
-            + (_t202 + (_t190 + _t196) * _t164 + _t172 * _t163 - _t176 * _t165
-                - _t185 * _t76 - _t201) * self._h1;
-        let _t204 = _t101 * _t78;
-        let _t205 = _t26 * S::ratio(4.0, 1.0);
-        let _t206 = _t129 + _t111 * _t115 + _t117 * _t173 + _t114 * _t205;
-        let _t207 = -(_u_y * _t53);
-        let _t208 = _u_y * _t75 - _t8;
-        let _t209 = _t41 * _t29 + (_t49 + (_t34 + _t207 * _u_x + _t208 * _u_z) * _t9);
-        let _t210 = _t209 + _t209;
-        let _t211 = _t45 * S::ratio(6.0, 1.0) + _t131 * _t205 + _t116 + _t186;
-        let _t212 = _t208 * _t68 - _u_y * (_t54 + _t207 * _u_y + _t41 * _t21);
-        let _t213 = -_t212 - _t212;
-        let _t214 = _t182 + _t117 * _t115 + _t137 * _t173 + _t130 * _t205;
-        let _t215 = _t11 * _t172;
-        let _t216 = _t4 * _t26;
-        let _t217 = _t67 - (_t207 * _t26 + _u_y * (_t208 * _u_y + _t41 * _t16));
-        let _t218 = -_t217 - _t217;
-        let _t219 = _u_y
-            * (_t162 + _t211 * _u_y + _t213 * _t96
-                + (_t214 - _t73 * S::ratio(2.0, 1.0)) * _t21 + _t51 * _t188
-                + _t207 * _t135) - _t206 * _t68 - _t210 * _t94;
-        let _t220 = _t161
-            + (_t219 + _t2 * _t139 - _t208 * _t191 + _t41 * _t140
-                + (_t215 + _t216) * _t128 + _t218 * _t99 - _t166) * self._h1;
-        let _t221 = _t15 * _t2;
-        let _t222 = _t208 * _t140 + _t207 * _t150 + (_t216 + _t221) * _t152
-            + _t172 * _t153
-            + (_t47 + _t211 * _u_x + _t210 * _t83 + _u_z * (_t206 + _t154)) * _t9;
-        let _t223 = _t200
-            + (_t222 + _t41 * _t155 + _t214 * _t29 + _t218 * _t86 - _t213 * _t89 - _t201)
+                * (_t178 * _u_y - _t197 * _t57 + _t51 * S::ratio(2.0, 1.0) + _t191 * _t16
+                    + _t43 * _t33 + _t182 * _t139) + _t179 * _t154;
+        let _t207 = _t204
+            + (_t206 + (_t194 + _t200) * _t168 + _t176 * _t167 - _t180 * _t169
+                - _t189 * _t80 - _t205) * self._h1;
+        let _t208 = _t105 * _t82;
+        let _t209 = _t26 * S::ratio(4.0, 1.0);
+        let _t210 = _t133 + _t115 * _t119 + _t121 * _t177 + _t118 * _t209;
+        let _t211 = -(_u_y * _t57);
+        let _t212 = _u_y * _t79 - _t8;
+        let _t213 = _t45 * _t31 + (_t53 + (_t37 + _t211 * _u_x + _t212 * _u_z) * _t9);
+        let _t214 = _t213 + _t213;
+        let _t215 = _t49 * S::ratio(6.0, 1.0) + _t135 * _t209 + _t120 + _t190;
+        let _t216 = _t212 * _t72 - _u_y * (_t58 + _t211 * _u_y + _t45 * _t21);
+        let _t217 = -_t216 - _t216;
+        let _t218 = _t186 + _t121 * _t119 + _t141 * _t177 + _t134 * _t209;
+        let _t219 = _t11 * _t176;
+        let _t220 = _t4 * _t26;
+        let _t221 = _t71 - (_t211 * _t26 + _u_y * (_t212 * _u_y + _t45 * _t16));
+        let _t222 = -_t221 - _t221;
+        let _t223 = _u_y
+            * (_t166 + _t215 * _u_y + _t217 * _t100
+                + (_t218 - _t77 * S::ratio(2.0, 1.0)) * _t21 + _t55 * _t192
+                + _t211 * _t139) - _t210 * _t72 - _t214 * _t98;
+        let _t224 = _t165
+            + (_t223 + _t2 * _t143 - _t212 * _t195 + _t45 * _t144
+                + (_t219 + _t220) * _t132 + _t222 * _t103 - _t170) * self._h1;
+        let _t225 = _t15 * _t2;
+        let _t226 = _t212 * _t144 + _t211 * _t154 + (_t220 + _t225) * _t156
+            + _t176 * _t157
+            + (_t51 + _t215 * _u_x + _t214 * _t87 + _u_z * (_t210 + _t158)) * _t9;
+        let _t227 = _t204
+            + (_t226 + _t45 * _t159 + _t218 * _t31 + _t222 * _t90 - _t217 * _t93 - _t205)
                 * self._h1;
-        let _t224 = _t211 * _t26 + _t210 * _t41 + _t39 * (_t122 + _u_x * _t66)
+        let _t228 = _t215 * _t26 + _t214 * _t45 + _t43 * (_t126 + _u_x * _t70)
             - _u_y
-                * (_t73 * (_t188 + _t66) - _t206 * _u_y + _t218 * _t53 - _t208 * _t135
-                    - _t214 * _t16);
-        let _t225 = _t224 + _t26 * _t163 + _t41 * _t150 + (_t215 + _t221) * _t164
-            - _t22 * _t66
-            - _t36 * S::ratio(3.0, 1.0)
-                * (_t36
-                    * (_t62
+                * (_t77 * (_t192 + _t70) - _t210 * _u_y + _t222 * _t57 - _t212 * _t139
+                    - _t218 * _t16);
+        let _t229 = _t228 + _t26 * _t167 + _t45 * _t154 + (_t219 + _t225) * _t168
+            - _t22 * _t70
+            - _t40 * S::ratio(3.0, 1.0)
+                * (_t40
+                    * (_t66
                         - _t0
-                            * (S::ratio(6.0, 1.0) * _t23 * _t62
-                                - S::ratio(5.0, 1.0) * _t23 * _t63)) + _t207 * _t64 * _t21);
-        let _t226 = _t26 * self._h2 + (_t225 - _t213 * _t76) * self._h1;
-        let _t227 = _t103 + _t102 + _t91 * _t9;
-        let _t228 = _t91 * _t78;
-        let _t229 = _u_y + _t107;
-        let _t230 = _u_x - _t79;
-        let _t231 = _t78 * _t21 + _t105;
-        residual[0] = _t92 - x - _t79 + _t101 * _t106;
-        residual[1] = _t107 - y + _t108 + _t91 * _t106;
-        residual[2] = _t109 - z + _t110 + _t78 * _t106;
-        matrix[(0, 0)] = S::one() + _t101 * _t101 + _t147 * _t148 + _t159 * _t160
-            - _t168 * _t108;
-        matrix[(0, 1)] = _t169 - _t78 + _t195 * _t148 + _t199 * _t160 - _t203 * _t108;
-        matrix[(0, 2)] = _t91 + _t204 + _t220 * _t148 + _t223 * _t160 - _t226 * _t108;
-        matrix[(1, 0)] = _t78 + _t169 - _t147 * _t110 + _t159 * _t227 + _t168 * _t92;
-        matrix[(1, 1)] = S::one() + _t91 * _t91 - _t195 * _t110 + _t199 * _t227
-            + _t203 * _t92;
-        matrix[(1, 2)] = _t228 - _t101 - _t220 * _t110 + _t223 * _t227 + _t226 * _t92;
-        matrix[(2, 0)] = _t204 - _t91 + _t147 * _t229 - _t159 * _t230 + _t168 * _t231;
-        matrix[(2, 1)] = _t101 + _t228 + _t195 * _t229 - _t199 * _t230 + _t203 * _t231;
-        matrix[(2, 2)] = S::one() + _t78 * _t78 + _t220 * _t229 - _t223 * _t230
-            + _t226 * _t231;
+                            * (S::ratio(6.0, 1.0) * _t23 * _t66
+                                - S::ratio(5.0, 1.0) * _t23 * _t67)) + _t211 * _t68 * _t21);
+        let _t230 = _t26 * self._h2 + (_t229 - _t217 * _t80) * self._h1;
+        let _t231 = _t107 + _t106 + _t95 * _t9;
+        let _t232 = _t95 * _t82;
+        let _t233 = _u_y + _t111;
+        let _t234 = _u_x - _t83;
+        let _t235 = _t82 * _t21 + _t109;
+        residual[0] = _t96 - x - _t83 + _t105 * _t110;
+        residual[1] = _t111 - y + _t112 + _t95 * _t110;
+        residual[2] = _t113 - z + _t114 + _t82 * _t110;
+        matrix[(0, 0)] = S::one() + _t105 * _t105 + _t151 * _t152 + _t163 * _t164
+            - _t172 * _t112;
+        matrix[(0, 1)] = _t173 - _t82 + _t199 * _t152 + _t203 * _t164 - _t207 * _t112;
+        matrix[(0, 2)] = _t95 + _t208 + _t224 * _t152 + _t227 * _t164 - _t230 * _t112;
+        matrix[(1, 0)] = _t82 + _t173 - _t151 * _t114 + _t163 * _t231 + _t172 * _t96;
+        matrix[(1, 1)] = S::one() + _t95 * _t95 - _t199 * _t114 + _t203 * _t231
+            + _t207 * _t96;
+        matrix[(1, 2)] = _t232 - _t105 - _t224 * _t114 + _t227 * _t231 + _t230 * _t96;
+        matrix[(2, 0)] = _t208 - _t95 + _t151 * _t233 - _t163 * _t234 + _t172 * _t235;
+        matrix[(2, 1)] = _t105 + _t232 + _t199 * _t233 - _t203 * _t234 + _t207 * _t235;
+        matrix[(2, 2)] = S::one() + _t82 * _t82 + _t224 * _t233 - _t227 * _t234
+            + _t230 * _t235;
     }
 
     /// `mu1 = mu + 2 ad*_y p`

@@ -382,7 +382,7 @@ for TodaLatticeGenerating4<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 33 additions, 61 multiplications.
+    /// 29 additions, 63 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -394,61 +394,59 @@ for TodaLatticeGenerating4<'_, S> {
         let _t0 = a1 * S::ratio(4.0, 1.0);
         let _t1 = b1 - b2;
         let _t2 = a1 * _t1;
-        let _t3 = _t0 * _t2;
-        let _t4 = a2 * S::ratio(4.0, 1.0);
-        let _t5 = b2 - b3;
-        let _t6 = a2 * _t5;
-        let _t7 = a2 * S::ratio(-4.0, 1.0);
-        let _t8 = S::ratio(4.0, 1.0) * _t1;
-        let _t9 = a1 * a1;
-        let _t10 = S::ratio(-2.0, 1.0) * _t9;
-        let _t11 = a2 * a2 * S::ratio(2.0, 1.0);
-        let _t12 = S::ratio(2.0, 1.0) * _t9 - _t11;
-        let _t13 = a1 * S::ratio(8.0, 1.0);
-        let _t14 = S::ratio(4.0, 1.0) * _t5;
-        let _t15 = a2 * S::ratio(8.0, 1.0);
-        let _t16 = _t0 * -a1;
-        let _t17 = self._h0 * _t16;
-        let _t18 = S::ratio(4.0, 1.0) * _t2 + _t0 * _t1;
-        let _t19 = self._h0 * _t18;
-        let _t20 = -a2;
-        let _t21 = self._h0 * (_t4 * _t20);
-        let _t22 = self._h0 * -_t18;
-        let _t23 = S::ratio(4.0, 1.0) * _t6 + _t4 * _t5;
-        let _t24 = self._h0 * _t23;
-        let _t25 = self._h0 * -_t23;
-        let _t26 = _t12 * S::ratio(8.0, 1.0);
-        let _t27 = self._h0 * (_t7 * _t13);
-        xi[0] = b1 * self.h + _t3 * self._h0;
-        xi[1] = b2 * self.h + (_t4 * _t6 - _t3) * self._h0;
-        xi[2] = b3 * self.h + _t6 * _t7 * self._h0;
-        xi[3] = a1 * self._h1 + (_t2 * _t8 - (_t10 - _t12) * _t13) * self._h0;
-        xi[4] = a2 * self._h1 + (_t6 * _t14 - (_t12 - _t11) * _t15) * self._h0;
+        let _t3 = b2 - b3;
+        let _t4 = a2 * _t3;
+        let _t5 = a2 * S::ratio(-4.0, 1.0);
+        let _t6 = S::ratio(4.0, 1.0) * _t1;
+        let _t7 = a1 * a1;
+        let _t8 = a2 * a2;
+        let _t9 = S::ratio(2.0, 1.0) * (_t7 - _t8);
+        let _t10 = _t7 * S::ratio(-2.0, 1.0) - _t9;
+        let _t11 = a1 * S::ratio(8.0, 1.0);
+        let _t12 = S::ratio(4.0, 1.0) * _t3;
+        let _t13 = _t9 - _t8 * S::ratio(2.0, 1.0);
+        let _t14 = -a1;
+        let _t15 = self._h0 * (_t0 * _t14);
+        let _t16 = _t2 + _t2;
+        let _t17 = self._h0 * (S::ratio(4.0, 1.0) * _t16);
+        let _t18 = a2 * S::ratio(4.0, 1.0);
+        let _t19 = -a2;
+        let _t20 = self._h0 * (_t18 * _t19);
+        let _t21 = self._h0 * (_t16 * S::ratio(-4.0, 1.0));
+        let _t22 = _t4 + _t4;
+        let _t23 = self._h0 * (S::ratio(4.0, 1.0) * _t22);
+        let _t24 = self._h0 * (_t22 * S::ratio(-4.0, 1.0));
+        let _t25 = self._h0 * (_t5 * _t11);
+        xi[0] = b1 * self.h + _t0 * _t2 * self._h0;
+        xi[1] = b2 * self.h + S::ratio(4.0, 1.0) * (a2 * _t4 - a1 * _t2) * self._h0;
+        xi[2] = b3 * self.h + _t4 * _t5 * self._h0;
+        xi[3] = a1 * self._h1 + (_t2 * _t6 - _t10 * _t11) * self._h0;
+        xi[4] = a2 * self._h1 + (_t4 * _t12 - a2 * S::ratio(8.0, 1.0) * _t13) * self._h0;
         hessian.fill(S::zero());
         hessian[(0, 0)] = self.h + self._h0 * (_t0 * a1);
-        hessian[(0, 1)] = _t17;
-        hessian[(0, 3)] = _t19;
-        hessian[(1, 0)] = _t17;
-        hessian[(1, 1)] = self.h + self._h0 * (_t4 * a2 - _t16);
-        hessian[(1, 2)] = _t21;
-        hessian[(1, 3)] = _t22;
-        hessian[(1, 4)] = _t24;
-        hessian[(2, 1)] = _t21;
-        hessian[(2, 2)] = self.h + self._h0 * (_t20 * _t7);
-        hessian[(2, 4)] = _t25;
-        hessian[(3, 0)] = _t19;
-        hessian[(3, 1)] = _t22;
+        hessian[(0, 1)] = _t15;
+        hessian[(0, 3)] = _t17;
+        hessian[(1, 0)] = _t15;
+        hessian[(1, 1)] = self.h + self._h0 * ((a1 * _t14 - _t8) * S::ratio(-4.0, 1.0));
+        hessian[(1, 2)] = _t20;
+        hessian[(1, 3)] = _t21;
+        hessian[(1, 4)] = _t23;
+        hessian[(2, 1)] = _t20;
+        hessian[(2, 2)] = self.h + self._h0 * (_t19 * _t5);
+        hessian[(2, 4)] = _t24;
+        hessian[(3, 0)] = _t17;
+        hessian[(3, 1)] = _t21;
         hessian[(3, 3)] = self._h1
             + self._h0
-                * (_t26 - _t10 * S::ratio(8.0, 1.0)
-                    - (a1 * S::ratio(-4.0, 1.0) - _t0) * _t13 + _t1 * _t8);
-        hessian[(3, 4)] = _t27;
-        hessian[(4, 1)] = _t24;
-        hessian[(4, 2)] = _t25;
-        hessian[(4, 3)] = _t27;
+                * (_t1 * _t6
+                    - S::ratio(8.0, 1.0)
+                        * (_t10 + a1 * (a1 * S::ratio(-4.0, 1.0) - _t0)));
+        hessian[(3, 4)] = _t25;
+        hessian[(4, 1)] = _t23;
+        hessian[(4, 2)] = _t24;
+        hessian[(4, 3)] = _t25;
         hessian[(4, 4)] = self._h1
-            + self._h0
-                * (_t11 * S::ratio(8.0, 1.0) - _t26 - (_t7 - _t4) * _t15 + _t5 * _t14);
+            + self._h0 * (_t3 * _t12 - S::ratio(8.0, 1.0) * (_t13 + a2 * (_t5 - _t18)));
     }
 }
 
@@ -748,7 +746,7 @@ for TodaLatticeGenerating6<'_, S> {
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 5, 5>;
     /// `xi = grad S(p)`
     ///
-    /// 67 additions, 102 multiplications.
+    /// 65 additions, 100 multiplications.
     #[inline]
     fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
         let [[b1, b2, b3, a1, a2]] = p.data.0;
@@ -756,74 +754,72 @@ for TodaLatticeGenerating6<'_, S> {
         let _t1 = a1 * _t0;
         let _t2 = a1 * S::ratio(4.0, 1.0);
         let _t3 = _t1 * _t2;
-        let _t4 = a1 * a1;
-        let _t5 = a2 * S::ratio(2.0, 1.0);
-        let _t6 = a2 * _t5;
-        let _t7 = S::ratio(2.0, 1.0) * _t4 - _t6;
-        let _t8 = S::ratio(-2.0, 1.0) * _t4 - _t7;
-        let _t9 = a1 * _t8;
-        let _t10 = _t0 * _t1 * S::ratio(4.0, 1.0) - S::ratio(8.0, 1.0) * _t9;
-        let _t11 = b1 - b2;
-        let _t12 = _t1 * _t11;
-        let _t13 = _t12 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t10;
-        let _t14 = _t1 * _t13;
-        let _t15 = a1 * S::ratio(2.0, 1.0);
-        let _t16 = b2 - b3;
+        let _t4 = _t0 * _t1;
+        let _t5 = a1 * a1;
+        let _t6 = a2 * S::ratio(2.0, 1.0);
+        let _t7 = a2 * _t6;
+        let _t8 = S::ratio(2.0, 1.0) * _t5 - _t7;
+        let _t9 = S::ratio(-2.0, 1.0) * _t5 - _t8;
+        let _t10 = a1 * _t9;
+        let _t11 = _t4 * S::ratio(4.0, 1.0) - S::ratio(8.0, 1.0) * _t10;
+        let _t12 = _t4 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t11;
+        let _t13 = _t1 * _t12;
+        let _t14 = a1 * S::ratio(2.0, 1.0);
+        let _t15 = b2 - b3;
+        let _t16 = a2 * _t15;
         let _t17 = a2 * _t16;
-        let _t18 = a2 * _t17;
-        let _t19 = S::ratio(4.0, 1.0) * _t18 - _t3;
-        let _t20 = _t1 * _t15;
-        let _t21 = _t17 * _t5;
-        let _t22 = _t20 - _t21;
-        let _t23 = _t22 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t19;
-        let _t24 = -_t20;
-        let _t25 = _t23 - (_t24 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t3);
-        let _t26 = _t12 + S::ratio(3.0, 1.0) * _t9;
-        let _t27 = _t26 * S::ratio(16.0, 1.0);
-        let _t28 = a1 * _t1 * S::ratio(6.0, 1.0);
-        let _t29 = S::ratio(6.0, 1.0) * _t18;
-        let _t30 = _t19 * S::ratio(3.0, 1.0) - S::ratio(2.0, 1.0) * (_t22 + _t28 - _t29);
-        let _t31 = S::ratio(8.0, 1.0)
-            * (_t3 * S::ratio(3.0, 1.0) - S::ratio(2.0, 1.0) * (_t24 - _t28) - _t30);
-        let _t32 = _t13 * _t11 + _t15 * _t25 - _t0 * _t27 + a1 * _t31;
-        let _t33 = a1 * _t32 - _t1 * _t27;
-        let _t34 = _t7 - _t6;
+        let _t18 = S::ratio(4.0, 1.0) * _t17 - _t3;
+        let _t19 = _t1 * _t14;
+        let _t20 = _t16 * _t6;
+        let _t21 = _t19 - _t20;
+        let _t22 = _t21 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t18;
+        let _t23 = -_t19;
+        let _t24 = _t22 - (_t23 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t3);
+        let _t25 = _t4 + S::ratio(3.0, 1.0) * _t10;
+        let _t26 = _t25 * S::ratio(16.0, 1.0);
+        let _t27 = a1 * _t1 * S::ratio(6.0, 1.0);
+        let _t28 = S::ratio(6.0, 1.0) * _t17;
+        let _t29 = _t18 * S::ratio(3.0, 1.0) - S::ratio(2.0, 1.0) * (_t21 + _t27 - _t28);
+        let _t30 = S::ratio(8.0, 1.0)
+            * (_t3 * S::ratio(3.0, 1.0) - S::ratio(2.0, 1.0) * (_t23 - _t27) - _t29);
+        let _t31 = _t12 * _t0 + _t14 * _t24 - _t0 * _t26 + a1 * _t30;
+        let _t32 = a1 * _t31 - _t1 * _t26;
+        let _t33 = _t15 * _t16;
+        let _t34 = _t8 - _t7;
         let _t35 = a2 * _t34;
-        let _t36 = _t16 * _t17 * S::ratio(4.0, 1.0) - S::ratio(8.0, 1.0) * _t35;
-        let _t37 = b2 - b3;
-        let _t38 = _t17 * _t37;
-        let _t39 = _t38 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t36;
-        let _t40 = _t17 * _t39;
-        let _t41 = S::ratio(-4.0, 1.0) * _t18;
-        let _t42 = _t21 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t41 - _t23;
-        let _t43 = _t38 + S::ratio(3.0, 1.0) * _t35;
-        let _t44 = _t43 * S::ratio(16.0, 1.0);
-        let _t45 = S::ratio(8.0, 1.0)
-            * (S::ratio(2.0, 1.0) * (_t21 + _t29) - _t41 * S::ratio(3.0, 1.0) + _t30);
-        let _t46 = _t39 * _t37 + _t5 * _t42 - _t16 * _t44 + a2 * _t45;
-        let _t47 = a2 * _t46 - _t17 * _t44;
-        let _t48 = _t36 * S::ratio(3.0, 1.0) - _t43 * S::ratio(8.0, 1.0);
-        let _t49 = a2 * S::ratio(4.0, 1.0);
-        let _t50 = _t48 * _t49;
-        let _t51 = _t10 * S::ratio(3.0, 1.0) - _t26 * S::ratio(8.0, 1.0);
-        let _t52 = _t51 * _t2 - _t50;
-        xi[0] = b1 * self.h + _t3 * self._h0 + (_t14 + _t33) * self._h1;
-        xi[1] = b2 * self.h + _t19 * self._h0 + (_t40 - _t14 + _t47 - _t33) * self._h1;
-        xi[2] = b3 * self.h + _t41 * self._h0 + (-_t40 - _t47) * self._h1;
-        xi[3] = a1 * self._h2 + _t10 * self._h0
+        let _t36 = _t33 * S::ratio(4.0, 1.0) - S::ratio(8.0, 1.0) * _t35;
+        let _t37 = _t33 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t36;
+        let _t38 = _t16 * _t37;
+        let _t39 = S::ratio(-4.0, 1.0) * _t17;
+        let _t40 = _t20 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t39 - _t22;
+        let _t41 = _t33 + S::ratio(3.0, 1.0) * _t35;
+        let _t42 = _t41 * S::ratio(16.0, 1.0);
+        let _t43 = S::ratio(8.0, 1.0)
+            * (S::ratio(2.0, 1.0) * (_t20 + _t28) - _t39 * S::ratio(3.0, 1.0) + _t29);
+        let _t44 = _t37 * _t15 + _t6 * _t40 - _t15 * _t42 + a2 * _t43;
+        let _t45 = a2 * _t44 - _t16 * _t42;
+        let _t46 = _t36 * S::ratio(3.0, 1.0) - _t41 * S::ratio(8.0, 1.0);
+        let _t47 = a2 * S::ratio(4.0, 1.0);
+        let _t48 = _t46 * _t47;
+        let _t49 = _t11 * S::ratio(3.0, 1.0) - _t25 * S::ratio(8.0, 1.0);
+        let _t50 = _t49 * _t2 - _t48;
+        xi[0] = b1 * self.h + _t3 * self._h0 + (_t13 + _t32) * self._h1;
+        xi[1] = b2 * self.h + _t18 * self._h0 + (_t38 - _t13 + _t45 - _t32) * self._h1;
+        xi[2] = b3 * self.h + _t39 * self._h0 + (-_t38 - _t45) * self._h1;
+        xi[3] = a1 * self._h2 + _t11 * self._h0
             + self._h1
-                * (_t0 * _t32 + S::ratio(2.0, 1.0) * (_t1 * _t25) + _t1 * _t31
-                    + (_t52 - a1 * _t51 * S::ratio(-4.0, 1.0)) * _t2
-                    - S::ratio(4.0, 1.0) * _t8 * _t51);
+                * (_t0 * _t31 + S::ratio(2.0, 1.0) * (_t1 * _t24) + _t1 * _t30
+                    + (_t50 - a1 * _t49 * S::ratio(-4.0, 1.0)) * _t2
+                    - S::ratio(4.0, 1.0) * _t9 * _t49);
         xi[4] = a2 * self._h2 + _t36 * self._h0
             + self._h1
-                * (_t16 * _t46 + S::ratio(2.0, 1.0) * (_t17 * _t42) + _t17 * _t45
-                    + (_t50 - _t52) * _t49 - S::ratio(4.0, 1.0) * _t34 * _t48);
+                * (_t15 * _t44 + S::ratio(2.0, 1.0) * (_t16 * _t40) + _t16 * _t43
+                    + (_t48 - _t50) * _t47 - S::ratio(4.0, 1.0) * _t34 * _t46);
     }
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 304 additions, 411 multiplications.
+    /// 295 additions, 400 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -838,278 +834,281 @@ for TodaLatticeGenerating6<'_, S> {
         let _t3 = _t0 * _t2;
         let _t4 = S::ratio(4.0, 1.0) * _t1;
         let _t5 = a1 * a1;
-        let _t6 = S::ratio(-2.0, 1.0) * _t5;
-        let _t7 = a2 * S::ratio(2.0, 1.0);
-        let _t8 = a2 * _t7;
-        let _t9 = S::ratio(2.0, 1.0) * _t5 - _t8;
-        let _t10 = _t6 - _t9;
-        let _t11 = a1 * S::ratio(8.0, 1.0);
-        let _t12 = _t2 * _t4 - _t10 * _t11;
-        let _t13 = b1 - b2;
-        let _t14 = _t2 * _t13;
-        let _t15 = _t14 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t12;
-        let _t16 = _t2 * _t15;
-        let _t17 = a1 * S::ratio(2.0, 1.0);
-        let _t18 = a2 * S::ratio(4.0, 1.0);
-        let _t19 = b2 - b3;
-        let _t20 = a2 * _t19;
-        let _t21 = _t18 * _t20 - _t3;
-        let _t22 = _t2 * _t17;
-        let _t23 = _t20 * _t7;
-        let _t24 = _t22 - _t23;
-        let _t25 = _t24 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t21;
-        let _t26 = -_t22;
-        let _t27 = _t26 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t3;
-        let _t28 = _t25 - _t27;
-        let _t29 = a1 * S::ratio(3.0, 1.0);
-        let _t30 = _t14 + _t10 * _t29;
-        let _t31 = _t1 * S::ratio(16.0, 1.0);
-        let _t32 = a1 * S::ratio(6.0, 1.0);
-        let _t33 = _t2 * _t32;
-        let _t34 = _t26 - _t33;
-        let _t35 = a2 * S::ratio(6.0, 1.0);
-        let _t36 = _t20 * _t35;
-        let _t37 = _t24 + _t33 - _t36;
-        let _t38 = _t21 * S::ratio(3.0, 1.0) - S::ratio(2.0, 1.0) * _t37;
-        let _t39 = _t3 * S::ratio(3.0, 1.0) - S::ratio(2.0, 1.0) * _t34 - _t38;
-        let _t40 = _t15 * _t13 + _t17 * _t28 - _t30 * _t31 + _t39 * _t11;
-        let _t41 = _t30 * S::ratio(16.0, 1.0);
-        let _t42 = a1 * _t40 - _t2 * _t41;
-        let _t43 = S::ratio(4.0, 1.0) * _t19;
-        let _t44 = _t9 - _t8;
-        let _t45 = a2 * S::ratio(8.0, 1.0);
-        let _t46 = _t20 * _t43 - _t44 * _t45;
-        let _t47 = b2 - b3;
-        let _t48 = _t20 * _t47;
-        let _t49 = _t48 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t46;
-        let _t50 = _t20 * _t49;
-        let _t51 = a2 * S::ratio(-4.0, 1.0);
-        let _t52 = _t20 * _t51;
-        let _t53 = _t23 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t52;
-        let _t54 = _t53 - _t25;
-        let _t55 = a2 * S::ratio(3.0, 1.0);
-        let _t56 = _t48 + _t44 * _t55;
-        let _t57 = _t19 * S::ratio(16.0, 1.0);
-        let _t58 = _t23 + _t36;
-        let _t59 = S::ratio(2.0, 1.0) * _t58 - _t52 * S::ratio(3.0, 1.0) + _t38;
-        let _t60 = _t49 * _t47 + _t7 * _t54 - _t56 * _t57 + _t59 * _t45;
-        let _t61 = _t56 * S::ratio(16.0, 1.0);
-        let _t62 = a2 * _t60 - _t20 * _t61;
-        let _t63 = _t46 * S::ratio(3.0, 1.0) - _t56 * S::ratio(8.0, 1.0);
-        let _t64 = _t18 * _t63;
-        let _t65 = _t12 * S::ratio(3.0, 1.0) - _t30 * S::ratio(8.0, 1.0);
-        let _t66 = _t0 * _t65 - _t64;
-        let _t67 = a1 * S::ratio(-4.0, 1.0);
-        let _t68 = _t66 - _t65 * _t67;
-        let _t69 = _t64 - _t66;
-        let _t70 = _t30 * self._h3;
-        let _t71 = _t2 + _t13 * a1;
-        let _t72 = _t2 * self._h3;
-        let _t73 = _t0 * a1;
-        let _t74 = S::ratio(4.0, 1.0) * _t2;
-        let _t75 = S::ratio(16.0, 1.0) * _t71 - S::ratio(4.0, 1.0) * (_t74 + a1 * _t4);
-        let _t76 = a1 * _t67;
-        let _t77 = _t17 * a1;
-        let _t78 = -_t77;
-        let _t79 = a1 * _t32;
-        let _t80 = _t15 - _t41;
-        let _t81 = _t13 * _t75
-            + _t17
-                * (S::ratio(8.0, 1.0) * _t77 - S::ratio(4.0, 1.0) * _t76
-                    - (S::ratio(8.0, 1.0) * _t78 - S::ratio(4.0, 1.0) * _t73))
-            - _t71 * _t31
-            - (_t76 * S::ratio(3.0, 1.0) - S::ratio(2.0, 1.0) * (_t77 + _t79)
-                - _t73 * S::ratio(3.0, 1.0) + S::ratio(2.0, 1.0) * (_t78 - _t79)) * _t11;
-        let _t82 = a1 * self._h1;
-        let _t83 = -a1;
-        let _t84 = _t0 * _t83;
-        let _t85 = _t13 * _t83 - _t2;
-        let _t86 = S::ratio(16.0, 1.0) * _t85 - S::ratio(4.0, 1.0) * (_t83 * _t4 - _t74);
-        let _t87 = _t15 * _t83 + _t2 * _t86;
-        let _t88 = _t18 * a2 - _t84;
-        let _t89 = _t17 * _t83;
-        let _t90 = _t7 * a2;
-        let _t91 = _t89 - _t90;
-        let _t92 = S::ratio(8.0, 1.0) * _t91 - S::ratio(4.0, 1.0) * _t88;
-        let _t93 = -_t89;
-        let _t94 = _t83 * _t32;
-        let _t95 = a2 * _t35;
-        let _t96 = S::ratio(3.0, 1.0) * _t88 - S::ratio(2.0, 1.0) * (_t91 + _t94 - _t95);
-        let _t97 = _t13 * _t86
-            + _t17 * (_t92 - (S::ratio(8.0, 1.0) * _t93 - S::ratio(4.0, 1.0) * _t84))
-            - _t85 * _t31
-            - (S::ratio(2.0, 1.0) * (_t93 - _t94) - S::ratio(3.0, 1.0) * _t84 + _t96)
-                * _t11 - _t80;
-        let _t98 = _t97 * _t82 - (_t83 * _t70 + _t85 * _t72);
-        let _t99 = self._h0 * _t84 + self._h1 * _t87 + _t98;
-        let _t100 = -a2;
-        let _t101 = _t18 * _t100;
-        let _t102 = _t7 * _t100;
-        let _t103 = -_t102;
-        let _t104 = S::ratio(8.0, 1.0) * _t103 - S::ratio(4.0, 1.0) * _t101;
-        let _t105 = _t100 * _t35;
-        let _t106 = S::ratio(3.0, 1.0) * _t101 - S::ratio(2.0, 1.0) * (_t103 - _t105);
-        let _t107 = (_t17 * _t104 - _t106 * _t11) * _t82;
-        let _t108 = _t9 * S::ratio(8.0, 1.0);
-        let _t109 = _t67 - _t0;
-        let _t110 = _t108 - _t6 * S::ratio(8.0, 1.0) - _t109 * _t11 + _t1 * _t4;
-        let _t111 = _t13 * _t1;
-        let _t112 = S::ratio(16.0, 1.0) * _t111 - S::ratio(4.0, 1.0) * _t110;
-        let _t113 = _t15 * _t1 + _t2 * _t112;
-        let _t114 = _t74 + _t0 * _t1;
-        let _t115 = -_t114;
-        let _t116 = _t17 * _t1 + S::ratio(2.0, 1.0) * _t2;
-        let _t117 = S::ratio(8.0, 1.0) * _t116 - S::ratio(4.0, 1.0) * _t115;
-        let _t118 = -_t116;
-        let _t119 = _t117 - (S::ratio(8.0, 1.0) * _t118 - S::ratio(4.0, 1.0) * _t114);
-        let _t120 = _t9 * S::ratio(3.0, 1.0);
-        let _t121 = _t111 + _t6 * S::ratio(3.0, 1.0) - _t120 + _t109 * _t29;
-        let _t122 = _t2 * S::ratio(6.0, 1.0) + _t1 * _t32;
-        let _t123 = _t116 + _t122;
-        let _t124 = S::ratio(3.0, 1.0) * _t115 - S::ratio(2.0, 1.0) * _t123;
-        let _t125 = _t118 - _t122;
-        let _t126 = S::ratio(2.0, 1.0) * _t25
-            - (_t21 * S::ratio(24.0, 1.0) - _t37 * S::ratio(16.0, 1.0));
-        let _t127 = _t13 * _t112 + _t17 * _t119 + _t3 * S::ratio(24.0, 1.0)
-            - _t34 * S::ratio(16.0, 1.0) - _t121 * _t31 - S::ratio(2.0, 1.0) * _t27
-            - (_t124 - S::ratio(3.0, 1.0) * _t114 + S::ratio(2.0, 1.0) * _t125) * _t11;
-        let _t128 = _t127 + _t126;
-        let _t129 = _t40 * self._h1 + _t128 * _t82 - (_t1 * _t70 + _t121 * _t72);
-        let _t130 = self._h1 * _t113 + self._h0 * _t114 + _t129;
-        let _t131 = _t51 * _t11;
-        let _t132 = a1 * _t51 * S::ratio(-3.0, 1.0);
-        let _t133 = S::ratio(4.0, 1.0) * _t20;
-        let _t134 = _t133 + _t18 * _t19;
-        let _t135 = _t7 * _t19 + S::ratio(2.0, 1.0) * _t20;
-        let _t136 = -_t135;
-        let _t137 = S::ratio(8.0, 1.0) * _t136 - S::ratio(4.0, 1.0) * _t134;
-        let _t138 = _t20 * S::ratio(6.0, 1.0) + _t19 * _t35;
-        let _t139 = _t136 - _t138;
-        let _t140 = S::ratio(3.0, 1.0) * _t134 - S::ratio(2.0, 1.0) * _t139;
-        let _t141 = _t17 * _t137 - _t132 * _t31 - S::ratio(4.0, 1.0) * _t13 * _t131
-            - _t140 * _t11;
-        let _t142 = _t132 * _t72 - _t141 * _t82;
-        let _t143 = self._h1 * (_t2 * _t131 * S::ratio(-4.0, 1.0)) - _t142;
-        let _t144 = _t56 * self._h3;
-        let _t145 = _t20 + _t47 * a2;
-        let _t146 = _t20 * self._h3;
-        let _t147 = S::ratio(16.0, 1.0) * _t145
-            - S::ratio(4.0, 1.0) * (_t133 + a2 * _t43);
-        let _t148 = a2 * _t51;
-        let _t149 = _t49 - _t61;
-        let _t150 = _t47 * _t147
-            + _t7 * (S::ratio(8.0, 1.0) * _t90 - S::ratio(4.0, 1.0) * _t148 - _t92)
-            - _t145 * _t57
-            + (S::ratio(2.0, 1.0) * (_t90 + _t95) - S::ratio(3.0, 1.0) * _t148 + _t96)
-                * _t45 + _t149;
-        let _t151 = a2 * self._h1;
-        let _t152 = _t47 * _t100 - _t20;
-        let _t153 = S::ratio(16.0, 1.0) * _t152
-            - S::ratio(4.0, 1.0) * (_t100 * _t43 - _t133);
-        let _t154 = _t49 * _t100 + _t20 * _t153;
-        let _t155 = _t100 * _t51;
-        let _t156 = _t47 * _t153
-            + _t7 * (S::ratio(8.0, 1.0) * _t102 - S::ratio(4.0, 1.0) * _t155 - _t104)
-            - _t152 * _t57
-            + (S::ratio(2.0, 1.0) * (_t102 + _t105) - S::ratio(3.0, 1.0) * _t155 + _t106)
-                * _t45 - _t149;
-        let _t157 = _t152 * _t146 - (_t156 * _t151 - _t100 * _t144);
-        let _t158 = self._h1 * _t154 - _t107 + self._h0 * _t101 - _t157;
-        let _t159 = a2 * _t0 * S::ratio(-8.0, 1.0);
-        let _t160 = _t133 * _t159;
-        let _t161 = _t0 * _t55;
-        let _t162 = (_t124 * _t45 - _t7 * _t117 - _t161 * _t57
-            - S::ratio(4.0, 1.0) * _t47 * _t159) * _t151 - _t161 * _t146;
-        let _t163 = self._h1 * (-_t160 - _t113) + self._h0 * _t115 + _t162 - _t129;
-        let _t164 = _t51 - _t18;
-        let _t165 = _t8 * S::ratio(8.0, 1.0) - _t108 - _t164 * _t45 + _t19 * _t43;
-        let _t166 = _t47 * _t19;
-        let _t167 = S::ratio(16.0, 1.0) * _t166 - S::ratio(4.0, 1.0) * _t165;
-        let _t168 = _t49 * _t19 + _t20 * _t167;
-        let _t169 = -_t134;
-        let _t170 = S::ratio(8.0, 1.0) * _t135 - S::ratio(4.0, 1.0) * _t169 - _t137;
-        let _t171 = _t166 + _t120 - _t8 * S::ratio(3.0, 1.0) + _t164 * _t55;
-        let _t172 = _t135 + _t138;
-        let _t173 = _t47 * _t167 + _t7 * _t170 - _t52 * S::ratio(24.0, 1.0)
-            + _t58 * S::ratio(16.0, 1.0) - _t171 * _t57 + S::ratio(2.0, 1.0) * _t53
-            + (S::ratio(2.0, 1.0) * _t172 - S::ratio(3.0, 1.0) * _t169 + _t140) * _t45;
-        let _t174 = _t173 - _t126;
-        let _t175 = _t60 * self._h1 + _t174 * _t151 - (_t19 * _t144 + _t171 * _t146);
-        let _t176 = self._h1 * (_t74 * _t131 + _t168) + self._h0 * _t134 + _t142 + _t175;
-        let _t177 = self._h1 * _t160 - _t162;
-        let _t178 = self._h1 * -_t168 + self._h0 * _t169 - _t175;
-        let _t179 = (_t10 * self._h6 - self._h7) * S::ratio(1.0, 480.0);
-        let _t180 = _t10 * self._h8;
-        let _t181 = _t1 * self._h1;
-        let _t182 = _t2 * S::ratio(1.0, 720.0);
-        let _t183 = _t0 * (S::ratio(3.0, 1.0) * _t110 - S::ratio(8.0, 1.0) * _t121)
-            + (_t12 * S::ratio(12.0, 1.0) - _t30 * S::ratio(32.0, 1.0));
-        let _t184 = a1 * S::ratio(1.0, 1440.0);
-        let _t185 = self._h2 + _t68 * self._h4 + _t39 * _t1 * self._h5 - _t110 * _t179
-            + _t121 * _t180 + (_t28 * _t1 + _t2 * _t119) * self._h9 + _t128 * _t181
-            + (_t114 * self._h10 - _t115 * self._h10 - _t125 * self._h11
-                + _t123 * self._h11) * _t182;
-        let _t186 = S::ratio(3.0, 1.0) * _t131 - S::ratio(8.0, 1.0) * _t132;
-        let _t187 = _t18 * (S::ratio(3.0, 1.0) * _t165 - S::ratio(8.0, 1.0) * _t171)
-            + (_t46 * S::ratio(12.0, 1.0) - _t56 * S::ratio(32.0, 1.0));
-        let _t188 = self._h6 * (_t0 * _t186 - _t187);
-        let _t189 = _t134 * self._h10 - _t139 * self._h11;
-        let _t190 = _t65 * _t51 * self._h4 - _t131 * _t179 + _t132 * _t180
-            + _t2 * _t137 * self._h9 + _t141 * _t181
-            + (_t188 - self._h6 * (_t186 * _t67)) * _t184 - _t189 * _t182;
-        let _t191 = self._h2 + _t69 * self._h4 + _t59 * _t19 * self._h5
-            + (self._h7 - _t44 * self._h6) * _t165 * S::ratio(1.0, 480.0)
-            + _t44 * _t171 * self._h8 + (_t54 * _t19 + _t20 * _t170) * self._h9;
-        xi[0] = b1 * self.h + _t3 * self._h0 + (_t16 + _t42) * self._h1;
-        xi[1] = b2 * self.h + _t21 * self._h0 + (_t50 - _t16 + _t62 - _t42) * self._h1;
-        xi[2] = b3 * self.h + _t52 * self._h0 + (-_t50 - _t62) * self._h1;
-        xi[3] = a1 * self._h2 + _t12 * self._h0
+        let _t6 = a2 * a2;
+        let _t7 = S::ratio(2.0, 1.0) * (_t5 - _t6);
+        let _t8 = _t5 * S::ratio(-2.0, 1.0) - _t7;
+        let _t9 = a1 * S::ratio(8.0, 1.0);
+        let _t10 = _t2 * _t4 - _t8 * _t9;
+        let _t11 = _t2 * _t1;
+        let _t12 = _t11 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t10;
+        let _t13 = _t2 * _t12;
+        let _t14 = _t12 * _t1;
+        let _t15 = a1 * S::ratio(2.0, 1.0);
+        let _t16 = b2 - b3;
+        let _t17 = a2 * _t16;
+        let _t18 = a2 * _t17 - a1 * _t2;
+        let _t19 = S::ratio(4.0, 1.0) * _t18;
+        let _t20 = _t2 * _t15;
+        let _t21 = a2 * S::ratio(2.0, 1.0);
+        let _t22 = _t17 * _t21;
+        let _t23 = _t20 - _t22;
+        let _t24 = _t23 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t19;
+        let _t25 = -_t20;
+        let _t26 = _t24 - (_t25 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t3);
+        let _t27 = _t11 + a1 * _t8 * S::ratio(3.0, 1.0);
+        let _t28 = _t1 * S::ratio(16.0, 1.0);
+        let _t29 = _t3 - _t19;
+        let _t30 = a1 * S::ratio(6.0, 1.0);
+        let _t31 = _t23 - _t18 * S::ratio(6.0, 1.0);
+        let _t32 = _t25 - _t2 * _t30 - _t31;
+        let _t33 = _t29 * S::ratio(3.0, 1.0) - S::ratio(2.0, 1.0) * _t32;
+        let _t34 = _t14 + _t15 * _t26 - _t27 * _t28 + _t33 * _t9;
+        let _t35 = a1 * _t34;
+        let _t36 = _t2 * _t27;
+        let _t37 = S::ratio(4.0, 1.0) * _t16;
+        let _t38 = _t7 - _t6 * S::ratio(2.0, 1.0);
+        let _t39 = a2 * S::ratio(8.0, 1.0);
+        let _t40 = _t17 * _t37 - _t38 * _t39;
+        let _t41 = _t17 * _t16;
+        let _t42 = _t41 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t40;
+        let _t43 = _t17 * _t42;
+        let _t44 = _t42 * _t16;
+        let _t45 = a2 * S::ratio(-4.0, 1.0);
+        let _t46 = _t17 * _t45;
+        let _t47 = _t22 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t46 - _t24;
+        let _t48 = a2 * S::ratio(3.0, 1.0);
+        let _t49 = _t41 + _t38 * _t48;
+        let _t50 = _t16 * S::ratio(16.0, 1.0);
+        let _t51 = _t19 - _t46;
+        let _t52 = a2 * S::ratio(6.0, 1.0);
+        let _t53 = _t31 - (_t22 + _t17 * _t52);
+        let _t54 = S::ratio(3.0, 1.0) * _t51 - S::ratio(2.0, 1.0) * _t53;
+        let _t55 = _t44 + _t21 * _t47 - _t49 * _t50 + _t54 * _t39;
+        let _t56 = a2 * _t55;
+        let _t57 = _t17 * _t49;
+        let _t58 = _t40 * S::ratio(3.0, 1.0) - _t49 * S::ratio(8.0, 1.0);
+        let _t59 = _t10 * S::ratio(3.0, 1.0) - _t27 * S::ratio(8.0, 1.0);
+        let _t60 = (a2 * _t58 - a1 * _t59) * S::ratio(-4.0, 1.0);
+        let _t61 = a1 * S::ratio(-4.0, 1.0);
+        let _t62 = _t60 - _t59 * _t61;
+        let _t63 = a2 * S::ratio(4.0, 1.0);
+        let _t64 = _t63 * _t58 - _t60;
+        let _t65 = _t2 + _t2;
+        let _t66 = _t0 * a1;
+        let _t67 = S::ratio(4.0, 1.0) * _t65;
+        let _t68 = S::ratio(4.0, 1.0) * _t67;
+        let _t69 = S::ratio(16.0, 1.0) * _t65 - _t68;
+        let _t70 = a1 * _t61;
+        let _t71 = _t15 * a1;
+        let _t72 = -_t71;
+        let _t73 = a1 * _t30;
+        let _t74 = _t12 + _t1 * _t69
+            + _t15
+                * (S::ratio(8.0, 1.0) * _t71 - S::ratio(4.0, 1.0) * _t70
+                    - (S::ratio(8.0, 1.0) * _t72 - S::ratio(4.0, 1.0) * _t66))
+            - S::ratio(16.0, 1.0) * (_t27 + _t1 * _t65)
+            + (S::ratio(3.0, 1.0) * (_t66 - _t70)
+                - S::ratio(2.0, 1.0) * (_t72 - _t73 - (_t71 + _t73))) * _t9;
+        let _t75 = -a1;
+        let _t76 = _t1 * _t75;
+        let _t77 = _t76 - _t2;
+        let _t78 = _t27 * _t75 + _t2 * _t77;
+        let _t79 = _t0 * _t75;
+        let _t80 = S::ratio(16.0, 1.0) * _t77
+            - S::ratio(4.0, 1.0) * ((_t2 - _t76) * S::ratio(-4.0, 1.0));
+        let _t81 = _t12 * _t75 + _t2 * _t80;
+        let _t82 = a1 * _t75 - _t6;
+        let _t83 = _t82 * S::ratio(-4.0, 1.0);
+        let _t84 = _t15 * _t75;
+        let _t85 = _t21 * a2;
+        let _t86 = _t84 - _t85;
+        let _t87 = S::ratio(8.0, 1.0) * _t86 - S::ratio(4.0, 1.0) * _t83;
+        let _t88 = -_t84;
+        let _t89 = _t86 + S::ratio(6.0, 1.0) * _t82;
+        let _t90 = _t1 * _t80 - _t12
+            + _t15 * (_t87 - (S::ratio(8.0, 1.0) * _t88 - S::ratio(4.0, 1.0) * _t79))
+            + S::ratio(16.0, 1.0) * (_t27 - _t1 * _t77)
+            + (S::ratio(3.0, 1.0) * (_t79 - _t83)
+                - S::ratio(2.0, 1.0) * (_t88 - _t75 * _t30 - _t89)) * _t9;
+        let _t91 = a1 * _t90;
+        let _t92 = self._h0 * _t79 - self._h3 * _t78 + self._h1 * (_t81 + _t91);
+        let _t93 = -a2;
+        let _t94 = _t63 * _t93;
+        let _t95 = _t21 * _t93;
+        let _t96 = -_t95;
+        let _t97 = S::ratio(8.0, 1.0) * _t96 - S::ratio(4.0, 1.0) * _t94;
+        let _t98 = _t93 * _t52;
+        let _t99 = _t96 - _t98;
+        let _t100 = a1
+            * (_t15 * _t97
+                - (S::ratio(3.0, 1.0) * _t94 - S::ratio(2.0, 1.0) * _t99) * _t9);
+        let _t101 = self._h1 * _t100;
+        let _t102 = _t61 - _t0;
+        let _t103 = _t8 + a1 * _t102;
+        let _t104 = _t1 * _t4 - S::ratio(8.0, 1.0) * _t103;
+        let _t105 = _t1 * _t1;
+        let _t106 = S::ratio(16.0, 1.0) * _t105 - S::ratio(4.0, 1.0) * _t104;
+        let _t107 = _t14 + _t2 * _t106;
+        let _t108 = _t65 * S::ratio(-4.0, 1.0);
+        let _t109 = _t15 * _t1 + S::ratio(2.0, 1.0) * _t2;
+        let _t110 = S::ratio(8.0, 1.0) * _t109 - S::ratio(4.0, 1.0) * _t108;
+        let _t111 = -_t109;
+        let _t112 = _t110 - (S::ratio(8.0, 1.0) * _t111 - _t68);
+        let _t113 = _t105 + S::ratio(3.0, 1.0) * _t103;
+        let _t114 = _t67 - _t108;
+        let _t115 = S::ratio(6.0, 1.0) * _t65;
+        let _t116 = _t109 + _t115;
+        let _t117 = _t111 - _t115 - _t116;
+        let _t118 = _t1 * _t106 + _t15 * _t112 + _t29 * S::ratio(24.0, 1.0)
+            - S::ratio(16.0, 1.0) * (_t32 + _t1 * _t113) + S::ratio(2.0, 1.0) * _t26
+            + (S::ratio(3.0, 1.0) * _t114 - S::ratio(2.0, 1.0) * _t117) * _t9;
+        let _t119 = _t34 + a1 * _t118;
+        let _t120 = _t27 * _t1 + _t2 * _t113;
+        let _t121 = self._h1 * (_t107 + _t119) - self._h3 * _t120 + self._h0 * _t67;
+        let _t122 = a1 * _t45 * S::ratio(-3.0, 1.0);
+        let _t123 = _t2 * _t122;
+        let _t124 = _t45 * _t9;
+        let _t125 = _t17 + _t17;
+        let _t126 = S::ratio(4.0, 1.0) * _t125;
+        let _t127 = S::ratio(4.0, 1.0) * _t126;
+        let _t128 = _t21 * _t16 + S::ratio(2.0, 1.0) * _t17;
+        let _t129 = -_t128;
+        let _t130 = S::ratio(8.0, 1.0) * _t129 - _t127;
+        let _t131 = S::ratio(4.0, 1.0) * _t124;
+        let _t132 = S::ratio(6.0, 1.0) * _t125;
+        let _t133 = _t129 - _t132;
+        let _t134 = _t15 * _t130 - _t122 * _t28 - _t1 * _t131
+            - (S::ratio(3.0, 1.0) * _t126 - S::ratio(2.0, 1.0) * _t133) * _t9;
+        let _t135 = a1 * _t134;
+        let _t136 = self._h1 * (_t2 * _t124 * S::ratio(-4.0, 1.0) + _t135)
+            - self._h3 * _t123;
+        let _t137 = S::ratio(16.0, 1.0) * _t125 - _t127;
+        let _t138 = a2 * _t45;
+        let _t139 = _t42 + _t16 * _t137
+            + _t21 * (S::ratio(8.0, 1.0) * _t85 - S::ratio(4.0, 1.0) * _t138 - _t87)
+            - S::ratio(16.0, 1.0) * (_t49 + _t16 * _t125)
+            + (S::ratio(3.0, 1.0) * (_t83 - _t138)
+                - S::ratio(2.0, 1.0) * (_t89 - (_t85 + a2 * _t52))) * _t39;
+        let _t140 = _t16 * _t93;
+        let _t141 = _t140 - _t17;
+        let _t142 = S::ratio(16.0, 1.0) * _t141
+            - S::ratio(4.0, 1.0) * ((_t17 - _t140) * S::ratio(-4.0, 1.0));
+        let _t143 = _t42 * _t93 + _t17 * _t142;
+        let _t144 = _t93 * _t45;
+        let _t145 = _t16 * _t142 - _t42
+            + _t21 * (S::ratio(8.0, 1.0) * _t95 - S::ratio(4.0, 1.0) * _t144 - _t97)
+            + S::ratio(16.0, 1.0) * (_t49 - _t16 * _t141)
+            + (S::ratio(3.0, 1.0) * (_t94 - _t144)
+                - S::ratio(2.0, 1.0) * (_t99 - (_t95 + _t98))) * _t39;
+        let _t146 = a2 * _t145;
+        let _t147 = self._h3 * (_t49 * _t93 + _t17 * _t141);
+        let _t148 = self._h1 * (_t143 - _t100 + _t146) - _t147 + self._h0 * _t94;
+        let _t149 = a2 * _t0 * S::ratio(-8.0, 1.0);
+        let _t150 = S::ratio(4.0, 1.0) * _t149;
+        let _t151 = _t17 * _t150;
+        let _t152 = _t0 * _t48;
+        let _t153 = a2
+            * ((S::ratio(3.0, 1.0) * _t108 - S::ratio(2.0, 1.0) * _t116) * _t39
+                - _t21 * _t110 - _t152 * _t50 - _t16 * _t150);
+        let _t154 = _t17 * _t152;
+        let _t155 = self._h3 * (_t120 - _t154)
+            - self._h1 * (_t119 - (-_t151 - _t107) - _t153) + self._h0 * _t108;
+        let _t156 = _t45 - _t63;
+        let _t157 = _t38 + a2 * _t156;
+        let _t158 = _t16 * _t37 - S::ratio(8.0, 1.0) * _t157;
+        let _t159 = _t16 * _t16;
+        let _t160 = S::ratio(16.0, 1.0) * _t159 - S::ratio(4.0, 1.0) * _t158;
+        let _t161 = _t44 + _t17 * _t160;
+        let _t162 = _t125 * S::ratio(-4.0, 1.0);
+        let _t163 = S::ratio(8.0, 1.0) * _t128 - S::ratio(4.0, 1.0) * _t162 - _t130;
+        let _t164 = _t159 + S::ratio(3.0, 1.0) * _t157;
+        let _t165 = _t126 - _t162;
+        let _t166 = _t133 - (_t128 + _t132);
+        let _t167 = _t16 * _t160 + _t21 * _t163 + _t51 * S::ratio(24.0, 1.0)
+            - S::ratio(16.0, 1.0) * (_t53 + _t16 * _t164) + S::ratio(2.0, 1.0) * _t47
+            + (S::ratio(3.0, 1.0) * _t165 - S::ratio(2.0, 1.0) * _t166) * _t39;
+        let _t168 = _t55 + a2 * _t167;
+        let _t169 = _t49 * _t16 + _t17 * _t164;
+        let _t170 = self._h1 * (_t2 * _t131 + _t161 - _t135 + _t168)
+            + self._h3 * (_t123 - _t169) + self._h0 * _t126;
+        let _t171 = self._h3 * _t154 + self._h1 * (_t151 - _t153);
+        let _t172 = self._h3 * _t169 - self._h1 * (_t168 - -_t161) + self._h0 * _t162;
+        let _t173 = (_t8 * self._h6 - self._h7) * S::ratio(1.0, 480.0);
+        let _t174 = _t8 * self._h8;
+        let _t175 = _t1 * self._h1;
+        let _t176 = _t2 * S::ratio(1.0, 720.0);
+        let _t177 = S::ratio(3.0, 1.0) * _t104 - S::ratio(8.0, 1.0) * _t113;
+        let _t178 = _t10 * S::ratio(12.0, 1.0) - _t27 * S::ratio(32.0, 1.0);
+        let _t179 = a1 * self._h6;
+        let _t180 = ((_t178
+            - S::ratio(4.0, 1.0)
+                * (a2 * (S::ratio(3.0, 1.0) * _t149 - S::ratio(8.0, 1.0) * _t152)
+                    - a1 * _t177) - (-(_t0 * _t177) - _t178)) * _t179
+            - self._h6 * _t59 * _t102) * S::ratio(1.0, 1440.0);
+        let _t181 = self._h2 + _t62 * self._h4 + _t33 * _t1 * self._h5 - _t104 * _t173
+            + _t113 * _t174 + (_t26 * _t1 + _t2 * _t112) * self._h9 + _t118 * _t175
+            + (_t114 * self._h10 - _t117 * self._h11) * _t176;
+        let _t182 = S::ratio(3.0, 1.0) * _t158 - S::ratio(8.0, 1.0) * _t164;
+        let _t183 = S::ratio(3.0, 1.0) * _t124 - S::ratio(8.0, 1.0) * _t122;
+        let _t184 = _t40 * S::ratio(12.0, 1.0) - _t49 * S::ratio(32.0, 1.0);
+        let _t185 = -(S::ratio(4.0, 1.0) * (a2 * _t182 - a1 * _t183)) - _t184;
+        let _t186 = _t59 * _t45 * self._h4 - _t124 * _t173 + _t122 * _t174
+            + _t2 * _t130 * self._h9 + _t134 * _t175
+            + S::ratio(1.0, 1440.0) * (_t185 - _t183 * _t61) * _t179
+            - (_t126 * self._h10 - _t133 * self._h11) * _t176;
+        let _t187 = self._h2 + _t64 * self._h4 + _t54 * _t16 * self._h5
+            + (self._h7 - _t38 * self._h6) * _t158 * S::ratio(1.0, 480.0)
+            + _t38 * _t164 * self._h8 + (_t47 * _t16 + _t17 * _t163) * self._h9;
+        xi[0] = b1 * self.h + _t3 * self._h0
+            + (_t13 + _t35 - S::ratio(16.0, 1.0) * _t36) * self._h1;
+        xi[1] = b2 * self.h + _t19 * self._h0
+            + (_t43 - _t13 + _t56 - _t35 - S::ratio(16.0, 1.0) * (_t57 - _t36))
+                * self._h1;
+        xi[2] = b3 * self.h + _t46 * self._h0
+            + (-_t43 - _t56 + S::ratio(16.0, 1.0) * _t57) * self._h1;
+        xi[3] = a1 * self._h2 + _t10 * self._h0
             + self._h1
-                * (_t1 * _t40 + S::ratio(2.0, 1.0) * (_t2 * _t28)
-                    + _t2 * S::ratio(8.0, 1.0) * _t39 + _t0 * _t68
-                    - S::ratio(4.0, 1.0) * _t10 * _t65);
-        xi[4] = a2 * self._h2 + _t46 * self._h0
+                * (_t1 * _t34 + S::ratio(2.0, 1.0) * (_t2 * _t26)
+                    + _t2 * S::ratio(8.0, 1.0) * _t33
+                    + S::ratio(4.0, 1.0) * (a1 * _t62 - _t8 * _t59));
+        xi[4] = a2 * self._h2 + _t40 * self._h0
             + self._h1
-                * (_t19 * _t60 + S::ratio(2.0, 1.0) * (_t20 * _t54)
-                    + _t20 * S::ratio(8.0, 1.0) * _t59 + _t18 * _t69
-                    - S::ratio(4.0, 1.0) * _t44 * _t63);
-        hessian[(0, 0)] = self.h - a1 * _t70 - _t71 * _t72 + self._h0 * _t73
-            + self._h1 * (_t15 * a1 + _t2 * _t75) + (_t81 + _t80) * _t82;
-        hessian[(0, 1)] = _t99;
-        hessian[(0, 2)] = _t107;
-        hessian[(0, 3)] = _t130;
-        hessian[(0, 4)] = _t143;
-        hessian[(1, 0)] = _t99;
-        hessian[(1, 1)] = self.h - a2 * _t144 - _t145 * _t146
-            + self._h1 * (_t49 * a2 + _t20 * _t147 - _t87) + _t150 * _t151
-            + self._h0 * _t88 - _t98;
-        hessian[(1, 2)] = _t158;
-        hessian[(1, 3)] = _t163;
-        hessian[(1, 4)] = _t176;
-        hessian[(2, 0)] = _t107;
-        hessian[(2, 1)] = _t158;
-        hessian[(2, 2)] = self.h + self._h1 * -_t154 + self._h0 * _t155 + _t157;
-        hessian[(2, 3)] = _t177;
-        hessian[(2, 4)] = _t178;
-        hessian[(3, 0)] = _t130;
-        hessian[(3, 1)] = _t163;
-        hessian[(3, 2)] = _t177;
-        hessian[(3, 3)] = _t185
-            + (self._h6
-                * (_t183
-                    - _t18 * (S::ratio(3.0, 1.0) * _t159 - S::ratio(8.0, 1.0) * _t161))
-                - self._h6 * -_t183) * _t184
-            - _t65 * (self._h6 * _t67 - self._h6 * _t0) * S::ratio(1.0, 1440.0);
-        hessian[(3, 4)] = _t190;
-        hessian[(4, 0)] = _t143;
-        hessian[(4, 1)] = _t176;
-        hessian[(4, 2)] = _t178;
-        hessian[(4, 3)] = _t190;
-        hessian[(4, 4)] = _t191 + _t19 * self._h1 * _t174
-            + _t20 * S::ratio(1.0, 720.0)
-                * (_t189 - _t169 * self._h10 + _t172 * self._h11)
-            - a2 * S::ratio(1.0, 1440.0) * (_t188 - self._h6 * _t187)
-            - _t63 * S::ratio(1.0, 1440.0) * (self._h6 * _t51 - self._h6 * _t18);
+                * (_t16 * _t55 + S::ratio(2.0, 1.0) * (_t17 * _t47)
+                    + _t17 * S::ratio(8.0, 1.0) * _t54
+                    + S::ratio(4.0, 1.0) * (a2 * _t64 - _t38 * _t58));
+        hessian[(0, 0)] = self.h - (_t27 * a1 + _t2 * _t65) * self._h3 + self._h0 * _t66
+            + self._h1 * (_t12 * a1 + _t2 * _t69 + a1 * _t74);
+        hessian[(0, 1)] = _t92;
+        hessian[(0, 2)] = _t101;
+        hessian[(0, 3)] = _t121;
+        hessian[(0, 4)] = _t136;
+        hessian[(1, 0)] = _t92;
+        hessian[(1, 1)] = self.h + self._h3 * (_t78 - _t49 * a2 - _t17 * _t125)
+            + self._h1 * (_t42 * a2 + _t17 * _t137 - _t81 - _t91 + a2 * _t139)
+            + self._h0 * _t83;
+        hessian[(1, 2)] = _t148;
+        hessian[(1, 3)] = _t155;
+        hessian[(1, 4)] = _t170;
+        hessian[(2, 0)] = _t101;
+        hessian[(2, 1)] = _t148;
+        hessian[(2, 2)] = self.h + _t147 + self._h1 * (-_t143 - _t146)
+            + self._h0 * _t144;
+        hessian[(2, 3)] = _t171;
+        hessian[(2, 4)] = _t172;
+        hessian[(3, 0)] = _t121;
+        hessian[(3, 1)] = _t155;
+        hessian[(3, 2)] = _t171;
+        hessian[(3, 3)] = _t181 + _t180;
+        hessian[(3, 4)] = _t186;
+        hessian[(4, 0)] = _t136;
+        hessian[(4, 1)] = _t170;
+        hessian[(4, 2)] = _t172;
+        hessian[(4, 3)] = _t186;
+        hessian[(4, 4)] = _t187 + _t16 * self._h1 * _t167
+            + _t17 * S::ratio(1.0, 720.0) * (self._h10 * _t165 - self._h11 * _t166)
+            + S::ratio(1.0, 1440.0)
+                * (a2 * self._h6 * (_t63 * _t182 + _t184 - _t185)
+                    - self._h6 * _t58 * _t156);
     }
 }
 

@@ -135,13 +135,88 @@ fn what_has_no_transform_is_refused() {
     refused("b*(w1/3 + w2/7 + w3/11)^2", &singular(1, "`w2`, `w3`"));
     refused("w1^2 + (a - 2)*w2^2 + w3^2", &singular(2, "`w2`"));
     refused("c", &singular(0, "`w1`, `w2`, `w3`"));
-    refused(
-        "w1^2 + w2^3 + w3^2",
-        "the Lagrangian is not quadratic in the velocity: its derivative by `w2`, `w2` and `w2` is not zero",
-    );
-    refused(
-        "sqrt(1 + w1^2) + w2^2 + w3^2",
-        "the Lagrangian is not quadratic in the velocity",
+    let at_rest = |rank: usize| {
+        format!(
+            "the Lagrangian is singular at rest with the default parameters: its Hessian has rank {rank} of 3 there"
+        )
+    };
+    refused("w1^2 + w2^3 + w3^2", &at_rest(2));
+    refused("w1^4 + w2^4 + w3^4", &at_rest(0));
+    refused("w1*w2 + w1^2*w3^2 + exp(w1)", &at_rest(2));
+}
+
+/// Lagrangians that are not quadratic: no expression of H, and the velocity of a momentum by iteration.
+#[test]
+fn others_are_left_to_newtons_iteration() {
+    use crate::methods::{Choice, refusal};
+    use crate::model::Transform;
+
+    for (value, xi, mu) in [
+        (
+            "w1^2 + w2^2/2 + w3^2/3 + w1^4/10 + w2^2*w3^2/5",
+            [0.4, 0.5, 0.7],
+            [0.8256, 0.598, 161.0 / 300.0],
+        ),
+        // a full step of Newton leaves the domain
+        (
+            "-sqrt(1 - w1^2 - w2^2 - w3^2)",
+            [0.9, 0.0, 0.3],
+            [0.9, 0.0, 0.3].map(|x: f64| x / 0.1_f64.sqrt()),
+        ),
+        ("w1*w2 + w3^2/2 + w3^4", [1.5, -2.0, 0.5], [-2.0, 1.5, 1.0]),
+    ] {
+        let model = model(&lagrangian(value, &[]));
+        let lagrangian = model.lagrangian.clone().expect("it has one");
+        assert_eq!(lagrangian.transform, Transform::Newton, "{value}");
+        assert!(!model.has_expression());
+        assert_eq!(model.hamiltonian_degree, None);
+        let found = super::super::velocity::velocity(
+            &mut model.graph.clone(),
+            lagrangian.value,
+            &mu,
+            &model.defaults(),
+        );
+        let found = found.expect("a velocity");
+        for (found, expected) in found.iter().zip(xi) {
+            assert!(
+                (found - expected).abs() < 1e-14,
+                "{value}: {found} {expected}"
+            );
+        }
+        for id in [
+            "variational2",
+            "variational6",
+            "generating6",
+            "lie-midpoint",
+            "mean-value",
+        ] {
+            let choice = Choice::from_id(id).expect("a method");
+            assert_eq!(refusal(&model, &choice), None, "{id}");
+        }
+        for id in ["splitting2", "moser-veselov"] {
+            let choice = Choice::from_id(id).expect("a method");
+            assert!(refusal(&model, &choice).is_some(), "{id}");
+        }
+    }
+}
+
+/// The transform is exact where the derivatives of third order can be shown to vanish.
+#[test]
+fn a_quadratic_lagrangian_in_disguise_is_exact() {
+    let text = lagrangian("(w1^2 + w2^2)*(cos(w1)^2 + sin(w1)^2) + w3^2", &[]);
+    let model = model(&text);
+    assert!(model.has_expression());
+    assert_eq!(model.display(model.hamiltonian), "x^2/4 + y^2/4 + z^2/4");
+    assert!(model.lagrangian.is_some());
+}
+
+#[test]
+fn the_initial_state_has_a_velocity() {
+    let text = |initial: &str| lagrangian("sqrt(1 + w1^2) + w2^2 + w3^2", &[("initial", initial)]);
+    assert!(model(&text("[0.9, 5, 7]")).initial_rank.is_some());
+    expect(
+        &text("[1.5, 5, 7]"),
+        &["domain at [1.5, 5, 7]: the Hamiltonian is not finite because no velocity"],
     );
 }
 
@@ -149,7 +224,9 @@ fn what_has_no_transform_is_refused() {
 fn a_lagrangian_is_defined_at_rest() {
     expect(
         &lagrangian("w1^2 + w2^4/w2^2 + w3^2 + log(a - 2)", &[]),
-        &["legendre at w1^2 + w2^4/w2^2 + w3^2 + log(a - 2): the Lagrangian is not finite"],
+        &[
+            "legendre at w1^2 + w2^4/w2^2 + w3^2 + log(a - 2): the Lagrangian or one of its first two derivatives is not finite at rest",
+        ],
     );
 }
 
@@ -206,4 +283,113 @@ fn one_function_gives_the_system() {
         &alone,
         &["schema at \"1\": the Lagrangian has no `velocity`"],
     );
+}
+
+/// so(3) with a discrete Lagrangian in the coordinates w1, w2, w3.
+fn discrete(value: &str) -> String {
+    lagrangian(value, &[]).replace("\"lagrangian\"", "\"discrete_lagrangian\"")
+}
+
+/// The Lagrangian that a discrete one approximates, and its Hamiltonian.
+#[test]
+fn discrete_lagrangians_have_their_limit() {
+    for (value, limit, hamiltonian) in [
+        (
+            "(w1^2 + w2^2/2)/(2*h) + w3^2/h - w1*w2*w3/h^2 + 3/h + 1",
+            "w1^2/2 + w2^2/4 + w3^2 - w1*w2*w3",
+            None,
+        ),
+        (
+            "h*(a*(w1/h)^2/2 + (w2/h)^2 + (w3/h)^2) + b*w1",
+            "w1*b + a*w1^2/2 + w2^2 + w3^2",
+            Some("(x - b)^2/(2*a) + y^2/4 + z^2/4"),
+        ),
+        // of higher order in h: no part of the limit
+        (
+            "(w1^2 + w2^2 + w3^2)/(2*h) + w1^3/h + h^3 + (w1/h)^2*w2^2",
+            "w1^2/2 + w2^2/2 + w3^2/2",
+            Some("x^2/2 + y^2/2 + z^2/2"),
+        ),
+        (
+            "((1 - cos(w1)) + log(1 + w2^2)/2)/h + sqrt(h^2 + w3^2) - h",
+            "w1^2/2 + w2^2/2 + (w3^2 + 1)^(1/2) - 1",
+            None,
+        ),
+        (
+            "2*(w1^2 + w2^2 + w3^2)/(h*(4 + w1^2 + w2^2 + w3^2))",
+            "w1^2/2 + w2^2/2 + w3^2/2",
+            Some("x^2/2 + y^2/2 + z^2/2"),
+        ),
+    ] {
+        let model = model(&discrete(value));
+        let found = model.lagrangian.clone().expect("it has one");
+        assert!(found.discrete.is_some());
+        let at = |value: ExprId, w: [f64; 3]| {
+            model.graph.evaluate(value, &|symbol| match symbol {
+                Symbol::Input(i) => w[i],
+                Symbol::Parameter(p) => model.defaults()[p],
+                _ => f64::NAN,
+            })
+        };
+        let expected = super::model(&lagrangian(limit, &[]));
+        let value_of_limit = expected.lagrangian.as_ref().expect("it has one").value;
+        for w in [[0.3, -0.7, 1.1], [2.0, 0.25, -0.5]] {
+            let (a, b) = (
+                at(found.value, w),
+                expected
+                    .graph
+                    .evaluate(value_of_limit, &|symbol| match symbol {
+                        Symbol::Input(i) => w[i],
+                        Symbol::Parameter(p) => model.defaults()[p],
+                        _ => f64::NAN,
+                    }),
+            );
+            assert!(
+                (a - b).abs() < 1e-14,
+                "{value}: {} is not {limit}: {a} {b}",
+                model.display(found.value)
+            );
+        }
+        if let Some(hamiltonian) = hamiltonian {
+            assert!(model.has_expression());
+            let expected = so3(&[
+                ("parameters", r#"{"a": 2, "b": "1/3", "c": "-3/2"}"#),
+                ("hamiltonian", &format!("{hamiltonian:?}")),
+            ]);
+            let expected = super::model(&expected);
+            let value = |model: &crate::model::Model| {
+                model
+                    .graph
+                    .evaluate(model.hamiltonian, &|symbol| match symbol {
+                        Symbol::Coordinate(i) => [0.3, 0.8, -1.2][i],
+                        Symbol::Parameter(p) => model.defaults()[p],
+                        _ => f64::NAN,
+                    })
+            };
+            assert!(
+                (value(&model) - value(&expected)).abs() < 1e-14,
+                "{hamiltonian}"
+            );
+        }
+    }
+}
+
+#[test]
+fn discrete_lagrangians_without_a_limit_are_refused() {
+    for value in [
+        "(w1^2 + w2^2 + w3^2)/(2*h^2)",
+        "w1 + w1^2 + w2^2 + w3^2",
+        "w1/h + (w1^2 + w2^2 + w3^2)/(2*h)",
+        "exp(1/h)*w1^2 + w2^2 + w3^2",
+        "atan2(w1, h) + (w2^2 + w3^2)/h",
+    ] {
+        let expected =
+            "legendre at ".to_owned() + value + ": the discrete Lagrangian is consistent with no";
+        if value.starts_with("w1 + ") {
+            // the limit is linear: nothing is left of the kinetic energy
+            expect(&discrete(value), &["legendre"]);
+        } else {
+            expect(&discrete(value), &[&expected]);
+        }
+    }
 }

@@ -2,7 +2,6 @@
 
 use super::entry::{Entry, docs, inside, split};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::front::object::NOT_BUILT;
 use crate::front::token::{Cursor, Delimiter, Token, TokenKind, render};
 use crate::suggest::did_you_mean;
 
@@ -18,6 +17,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("let", Follows::Name),
     ("hamiltonian", Follows::Equals),
     ("lagrangian", Follows::Equals),
+    ("discrete_lagrangian", Follows::Equals),
     ("velocity", Follows::Name),
     ("realization", Follows::Block),
     ("casimir", Follows::Name),
@@ -116,24 +116,6 @@ pub fn statements<'a>(tokens: &'a [Token], report: &mut Report) -> Vec<Statement
                 statements.push(Statement {
                     docs,
                     visibility,
-                    keyword,
-                    origin: token.origin,
-                    rest,
-                });
-            }
-            Some(keyword) if NOT_BUILT.iter().any(|(word, _)| *word == keyword) => {
-                report.push(
-                    Diagnostic::new(
-                        Kind::Syntax,
-                        token.origin,
-                        format!("`{keyword}` is reserved: what it declares is not built yet"),
-                    )
-                    .help("remove it; systems are declared by `algebra` and `hamiltonian`"),
-                );
-                let rest = rest(&mut cursor, keyword, report);
-                statements.push(Statement {
-                    docs: Vec::new(),
-                    visibility: &[],
                     keyword,
                     origin: token.origin,
                     rest,

@@ -21,7 +21,7 @@ pub fn read(value: Value<'_>, parameters: &[String], report: &mut Report) -> Opt
         );
         return None;
     }
-    let object = Object::read(value, "`algebra`", schema::Algebra::KEYS, &[], report)?;
+    let object = Object::read(value, "`algebra`", schema::Algebra::KEYS, report)?;
     object.require("`algebra`", schema::Algebra::REQUIRED, report);
     let basis = object
         .get("basis")

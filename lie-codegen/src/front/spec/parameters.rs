@@ -51,7 +51,7 @@ fn described(
     name: Option<Name>,
     report: &mut Report,
 ) -> Option<Parameter> {
-    let object = Object::read(value, what, DescribedParameter::KEYS, &[], report)?;
+    let object = Object::read(value, what, DescribedParameter::KEYS, report)?;
     object.require(what, DescribedParameter::REQUIRED, report);
     let mut text = |key: &str| {
         Some(

@@ -11,7 +11,7 @@ use crate::front::{Names, item};
 /// Reads a realization; its map may use `parameters`.
 pub fn read(value: Value<'_>, parameters: &[String], report: &mut Report) -> Option<Realization> {
     let keys = schema::Realization::KEYS;
-    let object = Object::read(value, "`realization`", keys, &[], report)?;
+    let object = Object::read(value, "`realization`", keys, report)?;
     object.require("`realization`", schema::Realization::REQUIRED, report);
     let mut names = |key| {
         let what = format!("`{key}`");

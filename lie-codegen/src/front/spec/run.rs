@@ -12,7 +12,7 @@ use crate::front::token;
 
 /// Reads the options. Constants are checked here and handed on as text, like those of flags.
 pub fn read(value: Value<'_>, report: &mut Report) -> Vec<RunOption> {
-    let Some(object) = Object::read(value, "`run`", Run::KEYS, &[], report) else {
+    let Some(object) = Object::read(value, "`run`", Run::KEYS, report) else {
         return Vec::new();
     };
     object.require("`run`", Run::REQUIRED, report);

@@ -1,0 +1,66 @@
+//! The reduced Lagrangian of which a discrete one is an approximation.
+//!
+//! A discrete Lagrangian is consistent with `l(xi) = lim l_d(h xi)/h`, h to 0: the coefficient of h in the series of
+//! `l_d(h xi)`. Those of lower powers must not depend on xi; a constant in l_d moves nothing.
+
+use super::normal::{NormalForm, Verdict};
+use super::series::{Series, in_step};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::exact::Budget;
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// Work allowed for the decisions of the normal form.
+const WORK: u64 = 2_000_000;
+
+/// The reduced Lagrangian of a discrete one in the same number of variables.
+///
+/// # Errors
+/// `legendre`, reported, where it is consistent with none.
+pub fn lagrangian(
+    graph: &mut Graph,
+    discrete: ExprId,
+    count: usize,
+    origin: Origin,
+    report: &mut Report,
+) -> Option<ExprId> {
+    let limit = in_step(graph, discrete).and_then(|series| limit(graph, &series, count));
+    if limit.is_none() {
+        report.push(
+            Diagnostic::new(
+                Kind::Legendre,
+                origin,
+                "the discrete Lagrangian is consistent with no Lagrangian: `l_d(h xi)/h` has no limit as the step size \
+                 h goes to 0, or none that could be found",
+            )
+            .help("an action of one step is about `h*l(x/h)`, such as `x^2/(2*h)`"),
+        );
+    }
+    limit
+}
+
+/// The mistake of a discrete Lagrangian where there is no group alone to step on.
+pub fn elsewhere(origin: Origin) -> Diagnostic {
+    Diagnostic::new(
+        Kind::Legendre,
+        origin,
+        "a discrete Lagrangian needs the Lie–Poisson bracket of an algebra, and no dependence on the time",
+    )
+    .help("give the system by a `hamiltonian` or a `lagrangian`")
+}
+
+fn limit(graph: &mut Graph, series: &Series, count: usize) -> Option<ExprId> {
+    let limit = series.coefficient(graph, 1)?;
+    let mut divergent = Vec::new();
+    for power in series.start()..1 {
+        let coefficient = series.coefficient(graph, power)?;
+        for i in 0..count {
+            divergent.push(graph.derivative(coefficient, Symbol::Input(i)));
+        }
+    }
+    let budget = Budget::new(WORK);
+    let graph = &*graph;
+    let mut normal = NormalForm::new(graph, &budget);
+    let vanishes =
+        |slope: &ExprId| graph.is_zero(*slope) || matches!(normal.verdict(*slope), Verdict::Zero);
+    divergent.iter().all(vanishes).then_some(limit)
+}

@@ -1,0 +1,82 @@
+//! `phi1(ad*_x) mu` with its derivatives by x, for Newton's matrices.
+
+use super::series::{Scratch, dexp_dual_in};
+use crate::poisson::LiePoisson;
+use crate::scalar::{Mask, Scalar};
+use crate::state::State;
+
+/// Terms of the series whose derivative is taken. Beyond them Newton's matrix is only approximate.
+const TERMS: usize = 24;
+
+/// `phi1(ad*_x) mu = sum_k t_k`, `t_k = (ad*_x)^k mu/(k + 1)!`, and its derivative along v: the sum of
+/// `e_k = (ad*_x e_(k-1) + ad*_v t_(k-1))/(k + 1)`, `e_0 = 0`.
+#[derive(Clone, Debug)]
+pub(super) struct DexpSlope<V, S> {
+    scratch: Scratch<V>,
+    terms: [V; TERMS],
+    derivative: V,
+    first: V,
+    second: V,
+    /// The index of the last term in each lane.
+    last: S,
+}
+
+impl<S: Scalar, V: State<S>> DexpSlope<V, S> {
+    pub(super) fn new(zero: &V) -> Self {
+        Self {
+            scratch: Scratch::new(zero),
+            terms: core::array::from_fn(|_| zero.clone()),
+            derivative: zero.clone(),
+            first: zero.clone(),
+            second: zero.clone(),
+            last: S::zero(),
+        }
+    }
+
+    /// `out = phi1(ad*_x) mu`; what follows refers to it.
+    pub(super) fn evaluate<P>(&mut self, system: &P, x: &V, mu: &V, out: &mut V)
+    where
+        P: LiePoisson<S, State = V>,
+    {
+        let terms = &mut self.terms;
+        let keep = |index: usize, term: &V| {
+            if let Some(kept) = terms.get_mut(index) {
+                kept.copy_from(term);
+            }
+        };
+        self.last = dexp_dual_in(system, x, mu, out, &mut self.scratch, keep);
+    }
+
+    /// Writes the derivative along v to `total`; x is that of the last evaluation.
+    pub(super) fn along<P>(&mut self, system: &P, x: &V, v: &V, total: &mut V)
+    where
+        P: LiePoisson<S, State = V>,
+    {
+        total.fill(S::zero());
+        self.derivative.fill(S::zero());
+        if v.as_slice().iter().all(|&entry| entry == S::zero()) {
+            return;
+        }
+        for index in 1..TERMS {
+            let counted = S::from_f64(index as f64).less_equal(self.last);
+            if !counted.any() {
+                break;
+            }
+            system.ad_star(x, &self.derivative, &mut self.first);
+            system.ad_star(v, &self.terms[index - 1], &mut self.second);
+            let weight = S::ratio(1.0, (index + 1) as f64);
+            let parts = self.first.as_slice().iter().zip(self.second.as_slice());
+            let entries = self.derivative.as_mut_slice().iter_mut();
+            let entries = entries.zip(total.as_mut_slice());
+            for ((derivative, total), (&first, &second)) in entries.zip(parts) {
+                *derivative = (first + second) * weight;
+                *total = S::select(counted, *total + *derivative, *total);
+            }
+        }
+    }
+
+    /// Space for sums along the same argument.
+    pub(super) fn scratch(&mut self) -> &mut Scratch<V> {
+        &mut self.scratch
+    }
+}

@@ -1,0 +1,264 @@
+//! The Legendre transform by Newton's iteration: velocity, Hamiltonian and Hessian of a Lagrangian that is not
+//! quadratic in the velocity.
+//!
+//! ```math
+//! l'(\xi) = \mu, \qquad H(\mu) = \langle \mu, \xi \rangle - l(\xi), \qquad
+//! \nabla H(\mu) = \xi, \qquad H''(\mu) = l''(\xi)^{-1}
+//! ```
+//!
+//! The iteration begins at rest, `$\xi = 0$`: its first iterate is the velocity of the part of l that is
+//! quadratic there. Steps are halved until the defect `$l'(\xi) - \mu$` shrinks, so that an iterate neither leaves
+//! the domain of l nor runs away; for a convex l this finds the velocity wherever there is one. Of several
+//! velocities with the same momentum it finds the one that this path leads to. Where there is none, or
+//! `$l''$` becomes singular on the way, the result is not a number, and the driver refuses the step.
+//!
+//! Over dual numbers the iteration goes on after the values have converged until all derivatives have, which
+//! it doubles in order each time: they are exact to round-off. Nothing is allocated.
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
+
+use super::LagrangianPoisson;
+use crate::matrix::SquareMatrix;
+use crate::newton::exchanging;
+use crate::scalar::{Mask, Scalar};
+use crate::state::State;
+
+/// More iterations than any start needs that leads to a solution.
+const MAX_ITERATIONS: usize = 100;
+/// The smallest step is 2^-MAX_HALVINGS of Newton's.
+const MAX_HALVINGS: usize = 40;
+/// The last step with damping, in units of round-off.
+const NEAR: f64 = 1024.0;
+
+/// The velocity of a momentum: `l'(out) = mu`.
+pub fn velocity<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State, out: &mut P::State) {
+    solve(
+        |xi, momentum| system.momentum(xi, momentum),
+        |xi, inertia| system.inertia(xi, inertia),
+        mu,
+        out,
+        &mut system.zero_jacobian(),
+    );
+}
+
+/// The Hamiltonian `H(mu) = <mu, xi> - l(xi)`.
+pub fn hamiltonian<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State) -> S {
+    let mut xi = system.zero_state();
+    velocity(system, mu, &mut xi);
+    let mut pairing = S::zero();
+    for (&mu, &xi) in mu.as_slice().iter().zip(xi.as_slice()) {
+        pairing += mu * xi;
+    }
+    pairing - system.lagrangian(&xi)
+}
+
+/// The Hessian `H''(mu) = l''(xi)^-1`.
+pub fn hessian<S: Scalar, P: LagrangianPoisson<S>>(
+    system: &P,
+    mu: &P::State,
+    out: &mut P::Jacobian,
+) {
+    let mut xi = system.zero_state();
+    velocity(system, mu, &mut xi);
+    let mut inertia = system.zero_jacobian();
+    system.inertia(&xi, &mut inertia);
+    exchanging::invert(&mut inertia, out);
+}
+
+/// The largest value, derivatives left aside.
+fn size<S: Scalar>(vector: &impl State<S>) -> S {
+    let entries = vector.as_slice().iter();
+    entries.fold(S::zero(), |norm, entry| norm.max(entry.abs()))
+}
+
+/// Solves `map(xi) = mu`, from `xi = 0`, for a map with the derivative `slope`; `matrix` is space for the latter.
+/// The lanes without a solution are not a number.
+pub fn solve<S, V, M>(
+    map: impl Fn(&V, &mut V),
+    slope: impl Fn(&V, &mut M),
+    mu: &V,
+    xi: &mut V,
+    matrix: &mut M,
+) where
+    S: Scalar,
+    V: State<S>,
+    M: SquareMatrix<S>,
+{
+    let half = S::ratio(1.0, 2.0);
+    let (mut defect, mut step, mut trial) = (mu.clone(), mu.clone(), mu.clone());
+    let mut trial_defect = mu.clone();
+    let write_defect = |xi: &V, out: &mut V| {
+        map(xi, out);
+        out.axpy(-S::one(), mu);
+    };
+    xi.fill(S::zero());
+    write_defect(xi, &mut defect);
+    let mut active = S::Mask::splat(true);
+    let mut failed = S::Mask::splat(false);
+    for _ in 0..MAX_ITERATIONS {
+        slope(xi, matrix);
+        let round_off = S::from_f64(16.0) * S::epsilon() * (size(mu) + largest(matrix) * size(xi));
+        step.copy_from(&defect);
+        exchanging::solve(matrix, &mut step);
+        let near = size(&step).less_equal(S::from_f64(NEAR) * S::epsilon() * size(xi))
+            | size(&defect).less_equal(round_off);
+        active = active & !near;
+        if !active.any() {
+            break;
+        }
+        let before = size(&defect);
+        let mut factor = S::one();
+        let mut open = active;
+        for _ in 0..MAX_HALVINGS {
+            for (index, entry) in trial.as_mut_slice().iter_mut().enumerate() {
+                let moved = xi.as_slice()[index] - factor * step.as_slice()[index];
+                *entry = S::select(open, moved, *entry);
+            }
+            write_defect(&trial, &mut trial_defect);
+            let enough = (S::one() - half * half * factor) * before;
+            let shrinks = open & size(&trial_defect).less_equal(enough);
+            xi.assign_where(shrinks, &trial);
+            defect.assign_where(shrinks, &trial_defect);
+            open = open & !shrinks;
+            if !open.any() {
+                break;
+            }
+            factor *= half;
+        }
+        // where not even a small step shrinks the defect it is round-off, or there is no solution
+        let small = size(&step).less_equal(S::epsilon().sqrt() * size(xi));
+        failed = failed | (open & !small);
+        active = active & !open;
+    }
+    failed = failed | active;
+    // values that are near enough are at round-off after one more iteration, and the number of derivatives
+    // that are exact doubles in each
+    for _ in 0..=(S::DERIVATIVES + 1).ilog2() + u32::from(S::DERIVATIVES > 0) {
+        write_defect(xi, &mut step);
+        slope(xi, matrix);
+        exchanging::solve(matrix, &mut step);
+        xi.axpy(-S::one(), &step);
+    }
+    let not_a_number = S::zero() / S::zero();
+    for entry in xi.as_mut_slice() {
+        *entry = S::select(failed, not_a_number, *entry);
+    }
+}
+
+/// The largest entry, derivatives left aside.
+fn largest<S: Scalar, M: SquareMatrix<S>>(matrix: &M) -> S {
+    let size = matrix.dimension();
+    (0..size * size).fold(S::zero(), |norm, index| {
+        norm.max(matrix.get(index / size, index % size).abs())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scalar::Dual;
+    use nalgebra::{SMatrix, SVector};
+
+    type V<S> = SVector<S, 1>;
+
+    /// Solves `map(xi) = mu` in one variable.
+    fn root<S: Scalar>(map: fn(S) -> S, slope: fn(S) -> S, mu: S) -> S {
+        let mut xi = V::from([S::zero()]);
+        let mut matrix = SMatrix::<S, 1, 1>::repeat(S::zero());
+        solve(
+            |xi: &V<S>, out: &mut V<S>| out[0] = map(xi[0]),
+            |xi: &V<S>, out: &mut SMatrix<S, 1, 1>| out[(0, 0)] = slope(xi[0]),
+            &V::from([mu]),
+            &mut xi,
+            &mut matrix,
+        );
+        xi[0]
+    }
+
+    /// `l = -sqrt(1 - xi^2)`: `mu = xi/sqrt(1 - xi^2)`, a full step from rest leaves the domain.
+    fn relativistic<S: Scalar>(xi: S) -> S {
+        xi / (S::one() - xi * xi).sqrt()
+    }
+
+    fn relativistic_slope<S: Scalar>(xi: S) -> S {
+        let root = (S::one() - xi * xi).sqrt();
+        S::one() / (root * root * root)
+    }
+
+    fn cubic<S: Scalar>(xi: S) -> S {
+        xi + xi * xi * xi
+    }
+
+    fn cubic_slope<S: Scalar>(xi: S) -> S {
+        S::one() + S::from_f64(3.0) * xi * xi
+    }
+
+    #[test]
+    fn closed_forms() {
+        for mu in [0.0, 1e-12, 0.3, -1.0, 7.0, 1e3] {
+            let xi = root(relativistic, relativistic_slope, mu);
+            let exact = mu / (1.0 + mu * mu).sqrt();
+            assert!(
+                (xi - exact).abs() <= 4e-16 * exact.abs(),
+                "{mu}: {xi} {exact}"
+            );
+            // sinh(3 arsinh) solves the cubic
+            let xi = root(cubic, cubic_slope, mu);
+            let c = 2.0 / 3.0_f64.sqrt();
+            let exact = c * ((1.5 * 3.0_f64.sqrt() * mu).asinh() / 3.0).sinh();
+            assert!(
+                (xi - exact).abs() <= 1e-15 * exact.abs(),
+                "{mu}: {xi} {exact}"
+            );
+            let single = root(cubic, cubic_slope, mu as f32);
+            assert!(
+                (f64::from(single) - exact).abs() <= 4e-7 * exact.abs(),
+                "{mu}"
+            );
+        }
+    }
+
+    /// `xi = mu/sqrt(1 + mu^2)` has the derivatives `r^-3`, `-3 mu r^-5`, `(12 mu^2 - 3) r^-7`.
+    #[test]
+    fn derivatives_are_exact() {
+        let mu = 0.75_f64;
+        let nested = Dual::new(
+            Dual::new(Dual::variable(mu), Dual::one()),
+            Dual::new(Dual::one(), Dual::zero()),
+        );
+        let xi = root(relativistic, relativistic_slope, nested);
+        let r = (1.0 + mu * mu).sqrt();
+        let first = xi.value.value.derivative;
+        assert!((first - r.powi(-3)).abs() < 1e-15);
+        let second = xi.value.derivative.derivative;
+        assert!((second + 3.0 * mu * r.powi(-5)).abs() < 4e-15);
+        let third = xi.derivative.derivative.derivative;
+        assert!((third - (12.0 * mu * mu - 3.0) * r.powi(-7)).abs() < 4e-14);
+    }
+
+    #[test]
+    fn what_has_no_velocity_is_not_a_number() {
+        // l = log cosh xi: |mu| < 1
+        let map = |xi: f64| xi.tanh();
+        let slope = |xi: f64| 1.0 - xi.tanh().powi(2);
+        assert!((root(map, slope, 0.5) - 0.5_f64.atanh()).abs() < 1e-15);
+        assert!(root(map, slope, 1.5).is_nan());
+        assert!(root(map, slope, f64::NAN).is_nan());
+        // singular at rest
+        assert!(!root(|xi: f64| xi.powi(3), |xi| 3.0 * xi * xi, 1.0).is_finite());
+    }
+
+    #[cfg(feature = "lanes")]
+    #[test]
+    fn a_lane_has_the_bits_of_a_run_of_its_own() {
+        use crate::scalar::F64x4;
+        let values = [0.3, 2000.0, -5.0, 1e-9];
+        let mut mu = F64x4::zero();
+        for (lane, value) in values.into_iter().enumerate() {
+            mu = mu.with_lane(lane, value);
+        }
+        let xi = root(relativistic, relativistic_slope, mu);
+        for (lane, value) in values.into_iter().enumerate() {
+            assert_eq!(xi.lane(lane), root(relativistic, relativistic_slope, value));
+        }
+    }
+}

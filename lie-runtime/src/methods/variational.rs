@@ -1,0 +1,100 @@
+//! Variational integrators on the group, reduced: discrete Euler–Poincaré steps of orders 2, 4, 6.
+//!
+//! A discrete Lagrangian `$l_d(g)$` stands for the action of one step `$g = q_k^{-1} q_{k+1}$`; the sum over all
+//! steps is stationary where the discrete Euler–Poincaré equation
+//! `$L_{g_k}^*\, \mathrm dl_d(g_k) = R_{g_{k+1}}^*\, \mathrm dl_d(g_{k+1})$` holds. With the momentum
+//! `$\mu_k = R_{g_k}^*\, \mathrm dl_d(g_k)$` and the right-trivialised tangent `$\mathrm{d}\tau_x$` of a retraction,
+//! order 2 is the choice `$l_d = h\, l(\tau^{-1}(g)/h)$`:
+//!
+//! ```math
+//! (\mathrm{d}\tau_{h\xi}^{-1})^*\, l'(\xi) = \mu, \qquad
+//! \mu_1 = \mathrm{Ad}^*_{\tau(h\xi)}\, \mu = (\mathrm{d}\tau_{-h\xi}^{-1})^*\, l'(\xi)
+//! ```
+//!
+//! Orders 4 and 6 take a path `$\exp(\theta(t))$`, `$\theta$` a polynomial of degree `$s = 2, 3$` with the control
+//! points `$\Theta_1, \dots, \Theta_s$`, and Gauss quadrature of its action:
+//!
+//! ```math
+//! l_d(\exp \Theta_s) = \operatorname*{ext}_{\Theta_1, \dots, \Theta_{s-1}}\; h \sum_i b_i\, l(\xi_i), \qquad
+//! \xi_i = \mathrm{dexp}_{-\theta(c_i)}\, \theta'(c_i)
+//! ```
+//!
+//! All are Poisson maps, keep every Casimir and the coadjoint orbit, and the energy without drift though not
+//! exactly. Order 2 is symmetric and makes the steps of [`LieMidpoint`] of the Legendre transform; the others are
+//! symmetric up to terms of their error only, because the coordinates are centred at the left end of the step.
+//!
+//! Needs: a system by its Lagrangian, `$l'$` and `$l''$`, ad, ad*, and for the Cayley map the triple product. Newton's
+//! matrix is exact: analytic for order 2, by dual numbers for the others.
+//!
+//! References: J. E. Marsden, S. Pekarsky, S. Shkoller, "Discrete Euler–Poincaré and Lie–Poisson
+//! equations", Nonlinearity 12 (1999) 1647–1662,
+//! [doi:10.1088/0951-7715/12/6/314](https://doi.org/10.1088/0951-7715/12/6/314);
+//! N. Bou-Rabee, J. E. Marsden, "Hamilton–Pontryagin integrators on Lie groups", Foundations of
+//! Computational Mathematics 9 (2009) 197–219,
+//! [doi:10.1007/s10208-008-9030-4](https://doi.org/10.1007/s10208-008-9030-4);
+//! J. Hall, M. Leok, "Lie group spectral variational integrators", Foundations of Computational Mathematics
+//! 17 (2017) 199–257, [doi:10.1007/s10208-015-9287-3](https://doi.org/10.1007/s10208-015-9287-3).
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
+
+#[cfg(doc)]
+use super::LieMidpoint;
+use super::facts::{Facts, Preserves};
+use super::implicit::ImplicitStepper;
+use super::lie_midpoint::{Cayley, Exp};
+use super::stepper::Method;
+use crate::equation::Implicit;
+use crate::newton::NewtonOptions;
+use crate::scalar::Scalar;
+
+/// A variational integrator of order 2, 4 or 6; see the [module's text](self).
+///
+/// Made by [`Variational2`], [`Variational4`] and [`Variational6`], for example `Variational2::cayley()`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Variational<T, const ORDER: u32> {
+    retraction: T,
+}
+
+/// Order 2: `Variational2::exp()`, `Variational2::cayley()`.
+pub type Variational2<T = Exp> = Variational<T, 2>;
+/// Order 4: `Variational4::exp()`.
+pub type Variational4<T = Exp> = Variational<T, 4>;
+/// Order 6: `Variational6::exp()`.
+pub type Variational6<T = Exp> = Variational<T, 6>;
+
+macro_rules! variational {
+    ($retraction:ident, $constructor:ident, $doc:literal: $($order:literal $id:literal),+) => {$(
+        impl Variational<$retraction, $order> {
+            #[doc = $doc]
+            pub const fn $constructor() -> Self {
+                Self { retraction: $retraction }
+            }
+        }
+
+        impl Facts for Variational<$retraction, $order> {
+            const ID: &'static str = $id;
+            const ORDER: u32 = $order;
+            const SYMMETRIC: bool = $order == 2;
+            const EXPLICIT: bool = false;
+            const PRESERVES: Preserves = Preserves::POISSON;
+        }
+    )+};
+}
+
+variational!(Exp, exp, "With the exponential map.": 2 "variational2", 4 "variational4", 6 "variational6");
+variational!(Cayley, cayley, "With the Cayley map of the declared representation.": 2 "variational2");
+
+impl<S, P, T, const ORDER: u32> Method<S, P> for Variational<T, ORDER>
+where
+    S: Scalar,
+    P: Implicit<S, Self>,
+    Self: Facts,
+{
+    type Stepper<'a>
+        = ImplicitStepper<S, P::Equation<'a>>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
+    }
+}

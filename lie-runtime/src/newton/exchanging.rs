@@ -1,0 +1,168 @@
+//! Elimination with row exchanges for every lane at once: each lane exchanges its own rows, by selection.
+//!
+//! Nothing is allocated and nothing fails: where a matrix is singular or not finite, the solution is not finite.
+
+use crate::matrix::SquareMatrix;
+use crate::scalar::{Mask, Scalar};
+use crate::state::Unknown;
+
+/// Brings the largest entry of column k, at or below row k, to the diagonal: of the matrix from column k on,
+/// and of what `exchange` exchanges besides.
+fn pivot<S: Scalar, M: SquareMatrix<S>>(
+    matrix: &mut M,
+    k: usize,
+    mut exchange: impl FnMut(S::Mask, usize, usize),
+) {
+    let size = matrix.dimension();
+    for row in k + 1..size {
+        let larger = matrix.get(k, k).abs().less(matrix.get(row, k).abs());
+        if !larger.any() {
+            continue;
+        }
+        for column in k..size {
+            let (a, b) = (matrix.get(k, column), matrix.get(row, column));
+            matrix.set(k, column, S::select(larger, b, a));
+            matrix.set(row, column, S::select(larger, a, b));
+        }
+        exchange(larger, k, row);
+    }
+}
+
+/// Solves `A x = b` in place of b; the matrix is used up.
+pub fn solve<S: Scalar, M: SquareMatrix<S>, U: Unknown<S>>(matrix: &mut M, vector: &mut U) {
+    let size = matrix.dimension();
+    for k in 0..size {
+        pivot(matrix, k, |lanes, first, second| {
+            let (a, b) = (vector.entry(first), vector.entry(second));
+            vector.set_entry(first, S::select(lanes, b, a));
+            vector.set_entry(second, S::select(lanes, a, b));
+        });
+        let inverse = S::one() / matrix.get(k, k);
+        for row in k + 1..size {
+            let multiplier = matrix.get(row, k) * inverse;
+            for column in k + 1..size {
+                let reduced = matrix.get(row, column) - multiplier * matrix.get(k, column);
+                matrix.set(row, column, reduced);
+            }
+            vector.set_entry(row, vector.entry(row) - multiplier * vector.entry(k));
+        }
+    }
+    for row in (0..size).rev() {
+        let mut sum = vector.entry(row);
+        for column in row + 1..size {
+            sum -= matrix.get(row, column) * vector.entry(column);
+        }
+        vector.set_entry(row, sum / matrix.get(row, row));
+    }
+}
+
+/// Writes the inverse of a matrix to `out`; the matrix is used up.
+pub fn invert<S: Scalar, M: SquareMatrix<S>>(matrix: &mut M, out: &mut M) {
+    let size = matrix.dimension();
+    for row in 0..size {
+        for column in 0..size {
+            out.set(
+                row,
+                column,
+                if row == column { S::one() } else { S::zero() },
+            );
+        }
+    }
+    for k in 0..size {
+        pivot(matrix, k, |lanes, first, second| {
+            for column in 0..size {
+                let (a, b) = (out.get(first, column), out.get(second, column));
+                out.set(first, column, S::select(lanes, b, a));
+                out.set(second, column, S::select(lanes, a, b));
+            }
+        });
+        let inverse = S::one() / matrix.get(k, k);
+        for column in 0..size {
+            matrix.set(k, column, matrix.get(k, column) * inverse);
+            out.set(k, column, out.get(k, column) * inverse);
+        }
+        for row in (0..size).filter(|&row| row != k) {
+            let multiplier = matrix.get(row, k);
+            for column in k..size {
+                let reduced = matrix.get(row, column) - multiplier * matrix.get(k, column);
+                matrix.set(row, column, reduced);
+            }
+            for column in 0..size {
+                let reduced = out.get(row, column) - multiplier * out.get(k, column);
+                out.set(row, column, reduced);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{SMatrix, SVector};
+
+    fn example() -> SMatrix<f64, 4, 4> {
+        SMatrix::from_row_slice(&[
+            0.0, 2.0, -1.0, 0.5, 1e-9, 1.0, 3.0, -2.0, 4.0, 0.25, 0.0, 1.0, 2.0, -1.0, 0.5, 0.0,
+        ])
+    }
+
+    #[test]
+    fn solution_and_inverse() {
+        let (matrix, right) = (example(), SVector::from([1.0, -2.0, 0.5, 3.0]));
+        let mut solution = right;
+        solve(&mut matrix.clone(), &mut solution);
+        assert!((matrix * solution - right).amax() < 1e-14);
+        let mut inverse = SMatrix::<f64, 4, 4>::zeros();
+        invert(&mut matrix.clone(), &mut inverse);
+        assert!((matrix * inverse - SMatrix::identity()).amax() < 1e-14);
+        assert!((inverse * right - solution).amax() < 1e-14);
+    }
+
+    #[test]
+    fn a_singular_matrix_gives_no_numbers() {
+        let matrix = SMatrix::<f64, 2, 2>::new(1.0, 2.0, 2.0, 4.0);
+        let mut vector = SVector::from([1.0, 0.0]);
+        solve(&mut matrix.clone(), &mut vector);
+        assert!(!vector.iter().all(|x| x.is_finite()));
+        let mut inverse = matrix;
+        invert(&mut matrix.clone(), &mut inverse);
+        assert!(!inverse.iter().all(|x| x.is_finite()));
+    }
+
+    #[cfg(feature = "lanes")]
+    #[test]
+    fn a_lane_has_the_bits_of_a_run_of_its_own() {
+        use crate::scalar::F64x4;
+        let scaled = |lane: usize| {
+            let mut matrix = example();
+            matrix[(0, 0)] = 3.0 * lane as f64;
+            matrix[(2, 0)] = 4.0 - lane as f64;
+            matrix
+        };
+        let mut lanes = SMatrix::<F64x4, 4, 4>::repeat(F64x4::zero());
+        for (index, entry) in lanes.iter_mut().enumerate() {
+            for lane in 0..4 {
+                *entry = entry.with_lane(lane, scaled(lane)[index]);
+            }
+        }
+        let mut right = SVector::<F64x4, 4>::from([1.0, -2.0, 0.5, 3.0].map(F64x4::splat));
+        let mut inverse = lanes;
+        invert(&mut lanes.clone(), &mut inverse);
+        solve(&mut lanes, &mut right);
+        for lane in 0..4 {
+            let mut alone = SVector::from([1.0, -2.0, 0.5, 3.0]);
+            solve(&mut scaled(lane), &mut alone);
+            let mut alone_inverse = scaled(lane);
+            invert(&mut scaled(lane), &mut alone_inverse);
+            for row in 0..4 {
+                assert_eq!(right[row].lane(lane), alone[row]);
+                for column in 0..4 {
+                    assert_eq!(
+                        inverse[(row, column)].lane(lane),
+                        alone_inverse[(row, column)]
+                    );
+                }
+            }
+        }
+    }
+}
