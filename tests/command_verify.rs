@@ -23,6 +23,45 @@ fn all_claims_of_a_few_methods_hold() {
     assert!(run.stdout.contains(" claims, 0 fail\n"));
 }
 
+/// A Hamiltonian by Newton's iteration, and a discrete Lagrangian: every claim of the methods that they add holds.
+#[test]
+fn systems_by_lagrangians() {
+    for (spec, methods, orders) in [
+        (
+            "so3_quartic_lagrangian",
+            "variational2,variational4,variational6,lie-midpoint,generating4",
+            [
+                ("variational2 ", "2: 2.00 ✓"),
+                ("variational4 ", "4: "),
+                ("variational6 ", "6: "),
+            ],
+        ),
+        (
+            "so3_discrete_lagrangian",
+            "discrete-euler-poincare,variational2,variational4,moser-veselov",
+            [
+                ("discrete-euler-poincare ", "1: 2.00 ✓"),
+                ("variational4 ", "4: "),
+                ("moser-veselov ", "2: 2.00 ✓"),
+            ],
+        ),
+    ] {
+        let run = lie(&format!(
+            "verify specs/{spec}.json --methods {methods} --quiet"
+        ))
+        .ok();
+        for (name, order) in orders {
+            let line = run.stdout.lines().find(|line| line.starts_with(name));
+            assert!(
+                line.is_some_and(|line| line.contains(order)),
+                "{name}: {}",
+                run.stdout
+            );
+        }
+        assert!(run.stdout.contains(" claims, 0 fail\n"), "{}", run.stdout);
+    }
+}
+
 #[test]
 fn as_json() {
     let run = lie("verify specs/so3_nonpolynomial.json --methods midpoint,lie-midpoint,rk4,dopri5 --quiet --json --seed 4").ok();

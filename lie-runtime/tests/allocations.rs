@@ -6,6 +6,7 @@ use lie_runtime::methods::{FactorSink, Method, Retraction, Stepper};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
 use systems::heavy_top::{HeavyTop, START};
+use systems::quartic_lagrangian::{BODY, QuarticBody};
 use systems::state;
 
 /// Counts the group factors.
@@ -33,6 +34,33 @@ where
         }
     })
     .count_total
+}
+
+/// Nor does the Legendre transform by Newton's iteration, nor a step of a Lagrangian.
+#[test]
+fn steps_of_lagrangian_systems_allocate_nothing() {
+    fn count<S: Scalar, M: Method<S, QuarticBody>>(method: M, options: &NewtonOptions) -> u64 {
+        let mut mu = state::<S, _>(&QuarticBody, &BODY);
+        let mut stepper = method.stepper(&QuarticBody, S::ratio(1.0, 10.0), options);
+        let steps = || {
+            for _ in 0..10 {
+                stepper.step(&mut mu, &mut ()).expect("the step converges");
+            }
+        };
+        allocation_counter::measure(steps).count_total
+    }
+    for options in [
+        NewtonOptions::default(),
+        NewtonOptions::simplified(),
+        NewtonOptions::fixed_point(),
+    ] {
+        assert_eq!(count::<f64, _>(Variational2::exp(), &options), 0);
+        assert_eq!(count::<f64, _>(Variational2::cayley(), &options), 0);
+        assert_eq!(count::<f64, _>(Variational4::exp(), &options), 0);
+        assert_eq!(count::<f64, _>(Variational6::exp(), &options), 0);
+        assert_eq!(count::<F64x8, _>(Variational4::exp(), &options), 0);
+        assert_eq!(count::<f64, _>(LieMidpoint::exp(), &options), 0);
+    }
 }
 
 #[test]

@@ -12,6 +12,7 @@ mod constant;
 mod defaults;
 mod discrete;
 pub mod domain;
+mod energy;
 mod entries;
 mod environment;
 mod independence;
@@ -42,7 +43,7 @@ use crate::algebra::{StructureConstants, rank};
 use crate::ast::{self, Declaration, Energy, Invariance};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Fraction, Rational};
-use crate::model::{self, Casimir, Model, Structure, Transform};
+use crate::model::{Casimir, Model, Structure, Transform};
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
 use algebra::Algebra;
@@ -50,7 +51,6 @@ use casimirs::Candidate;
 use configuration::Configuration;
 use environment::{Allowed, Environment};
 use independence::Standing;
-use legendre::Lagrangian;
 use lower::Lowering;
 
 pub use constant::constant;
@@ -163,46 +163,14 @@ fn system(
         declaration,
         &lowered.into_iter().collect::<Option<Vec<_>>>()?,
     );
-    let (hamiltonian, lagrangian) = match &declaration.energy {
-        Energy::Hamiltonian(_) => (energy?, None),
-        Energy::Lagrangian { velocity, value } | Energy::DiscreteLagrangian { velocity, value } => {
-            let declared = energy?;
-            if !size::lagrangian(&graph, declared, velocity.len(), value.origin, report) {
-                return None;
-            }
-            // one that depends on the group element or the time is none on the algebra alone
-            let on_algebra = configuration.is_none() && structure == Structure::Lie;
-            let discrete = declaration.energy.has_step().then_some(declared);
-            if discrete.is_some() && !on_algebra {
-                report.push(discrete::elsewhere(value.origin));
-                return None;
-            }
-            let reduced = match discrete {
-                Some(discrete) => {
-                    let count = velocity.len();
-                    discrete::lagrangian(&mut graph, discrete, count, value.origin, report)?
-                }
-                None => declared,
-            };
-            let lagrangian = Lagrangian {
-                value: reduced,
-                velocity,
-                origin: value.origin,
-                parameters: &parameters,
-                configuration,
-                on_algebra,
-            };
-            let (hamiltonian, transform) = legendre::hamiltonian(&mut graph, &lagrangian, report)?;
-            let reduced = on_algebra.then(|| model::Lagrangian {
-                value: lagrangian.value,
-                velocity: velocity.clone(),
-                transform,
-                discrete,
-                in_entries: declaration.group.is_some(),
-            });
-            (hamiltonian, reduced)
-        }
+    let on_algebra = configuration.is_none() && structure == Structure::Lie;
+    let motion = energy::Motion {
+        declaration,
+        parameters: &parameters,
+        configuration,
+        on_algebra,
     };
+    let (hamiltonian, lagrangian) = motion.hamiltonian(&mut graph, energy?, report)?;
     let exact = lagrangian
         .as_ref()
         .is_none_or(|lagrangian| lagrangian.transform == Transform::Exact);

@@ -91,7 +91,9 @@ pub fn emit(blueprint: &Blueprint) -> Emitted {
     let system = writer.system_struct();
     let lift = writer.lift();
     Emitted {
-        tokens: quote! { #parameters #system #basic #lagrangian #lift #structure #realization #equations #splitting },
+        tokens: quote! {
+            #parameters #system #basic #lagrangian #lift #structure #realization #equations #splitting
+        },
         counts: writer.counts,
     }
 }
