@@ -174,6 +174,7 @@ fn a_changed_coefficient_is_noticed() {
         "ad_star",
         "ad_star_matrix",
         "poisson_matrix",
+        "poisson_slope",
         "casimir_gradient",
         "bracket of a Casimir",
     ];

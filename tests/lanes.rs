@@ -4,13 +4,16 @@
 #[path = "common/systems.rs"]
 mod systems;
 
-use lie_runtime::methods::{Method, StepFailure, StepReport, Stepper};
+use lie_runtime::methods::{
+    MeanTensor, MeanValue, Method, StepFailure, StepReport, Stepper, WithTensor,
+};
 use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::prelude::*;
 use systems::{
-    Declared, HeavyTop, Random, e2_pendulum, heisenberg_h3, se3_heavy_top, se3_kirchhoff,
-    sl2_quadratic, so3_cotangent_euler_arnold, so3_free_rigid_body, so3_gyrostat_lagrangian,
-    so3_nonpolynomial, so3_quartic_lagrangian, so4_manakov, state, su3_quadratic, toda3_solvable,
+    Declared, HeavyTop, Random, canonical_pendulum, e2_pendulum, heisenberg_h3, lotka_volterra,
+    se2_circulation, se3_heavy_top, se3_kirchhoff, sl2_quadratic, so3_cotangent_euler_arnold,
+    so3_free_rigid_body, so3_gyrostat_lagrangian, so3_nonpolynomial, so3_quartic_lagrangian,
+    so4_manakov, state, su3_quadratic, toda3_solvable,
 };
 
 const STEPS: usize = 20;
@@ -119,6 +122,32 @@ macro_rules! same_digits {
 each_system!(same_digits);
 same_digits!(so3_gyrostat_lagrangian, Gyrostat, cayley);
 same_digits!(so3_quartic_lagrangian, QuarticBody, cayley);
+
+macro_rules! same_digits_of_brackets {
+    ($file:ident, $name:ident) => {
+        #[test]
+        fn $file() {
+            let lanes = $file::$name::<F64x8>::default()
+                .system()
+                .expect("valid parameters");
+            let scalar = $file::$name::<f64>::default()
+                .system()
+                .expect("valid parameters");
+            let initial = $file::$name::<f64>::default()
+                .initial_state()
+                .as_slice()
+                .to_vec();
+            assert!(compare(&lanes, &scalar, &ImplicitMidpoint, &initial));
+            assert!(compare(&lanes, &scalar, &Gauss4, &initial));
+            assert!(compare(&lanes, &scalar, &MeanValue, &initial));
+            let mean = WithTensor::new(MeanValue, MeanTensor);
+            assert!(compare(&lanes, &scalar, &mean, &initial));
+            compare(&lanes, &scalar, &Rk4, &initial);
+        }
+    };
+}
+
+each_bracket!(same_digits_of_brackets);
 
 /// Parameters may differ per lane.
 #[test]

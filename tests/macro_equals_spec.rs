@@ -24,17 +24,30 @@ fn specs() -> Vec<PathBuf> {
     paths
 }
 
+/// The key of the function that gives the equations.
+fn energy(spec: &Map<String, Value>) -> &'static str {
+    let keys = ["hamiltonian", "lagrangian", "discrete_lagrangian"];
+    let found = keys.into_iter().find(|key| spec.contains_key(*key));
+    found.expect("a function")
+}
+
 /// A spec with all methods, without what the macro does not have.
 fn read(path: &Path) -> Map<String, Value> {
     let text = std::fs::read_to_string(path).expect("the spec");
     let Ok(Value::Object(mut spec)) = serde_json::from_str(&text) else {
         panic!("{}: no object", path.display())
     };
-    if let Some(algebra) = spec.get_mut("algebra").and_then(Value::as_object_mut) {
+    // matrices only where they are needed: what they add to the code is the same in both forms
+    if !spec.contains_key("group")
+        && let Some(algebra) = spec.get_mut("algebra").and_then(Value::as_object_mut)
+    {
         algebra.remove("matrices");
     }
     let lie_poisson = spec.contains_key("algebra") && !spec.contains_key("cocycle");
-    let methods = METHODS[..if lie_poisson { 4 } else { 3 }].to_vec();
+    let methods = match energy(&spec) {
+        "discrete_lagrangian" => vec!["discrete-euler-poincare"],
+        _ => METHODS[..if lie_poisson { 4 } else { 3 }].to_vec(),
+    };
     spec.insert("methods".into(), methods.into());
     spec.remove("run");
     spec
@@ -74,7 +87,16 @@ fn declaration(spec: &Map<String, Value>) -> String {
         for bracket in strings(&algebra["brackets"]) {
             body += &format!(" {bracket};");
         }
+        let matrices = algebra.get("matrices").and_then(Value::as_object);
+        for (name, rows) in matrices.into_iter().flatten() {
+            let rows = rows.as_array().into_iter().flatten().map(list);
+            let rows: Vec<String> = rows.map(|row| format!("[{row}]")).collect();
+            body += &format!(" matrix {name} = [{}];", rows.join(", "));
+        }
         body += " }\n";
+    }
+    if let Some(group) = spec.get("group").and_then(Value::as_str) {
+        body += &format!("group {group};\n");
     }
     for key in ["poisson", "cocycle"] {
         if let Some(brackets) = spec.get(key) {
@@ -103,7 +125,11 @@ fn declaration(spec: &Map<String, Value>) -> String {
     for definition in spec.get("let").into_iter().flat_map(strings) {
         body += &format!("let {definition};\n");
     }
-    body += &format!("hamiltonian = {};\n", text("hamiltonian"));
+    if let Some(velocity) = spec.get("velocity") {
+        body += &format!("velocity {};\n", list(velocity));
+    }
+    let energy = energy(spec);
+    body += &format!("{energy} = {};\n", text(energy));
     for casimir in spec.get("casimirs").into_iter().flat_map(strings) {
         body += &format!("casimir {casimir};\n");
     }
@@ -171,7 +197,8 @@ fn macro_and_spec_give_the_same_tokens() {
         assert!(!other.contains("compile_error"), "{body}\n{other}");
         assert_eq!(one, other, "{}", path.display());
         // The comparison can fail: another Hamiltonian gives other code.
-        let changed = body.replacen("hamiltonian = ", "hamiltonian = 2*", 1);
+        let start = format!("{} = ", energy(&spec));
+        let changed = body.replacen(&start, &format!("{start}2*"), 1);
         assert_ne!(
             one,
             without_docs(from_macro(&changed)).to_string(),
@@ -325,8 +352,8 @@ fn the_order_of_what_is_unrelated_does_not_matter() {
         assert_eq!(code, from_spec(&turned).to_string(), "{}", path.display());
         // Blanks and superfluous parentheses.
         let mut spaced = spec.clone();
-        spaced["hamiltonian"] =
-            format!(" ( {} )\n", spec["hamiltonian"].as_str().expect("H")).into();
+        let key = energy(&spec);
+        spaced[key] = format!(" ( {} )\n", spec[key].as_str().expect("a function")).into();
         assert_eq!(code, from_spec(&spaced).to_string(), "{}", path.display());
         // The statements of the macro in another order.
         let body = declaration(&spec);

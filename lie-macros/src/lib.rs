@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use proc_macro::TokenStream;
 
-/// Declares a Lie–Poisson system and generates its specialized code.
+/// Declares a Lie–Poisson system, or another Poisson system, and generates its specialized code.
 ///
 /// The structure constants are checked exactly at compile time, the equations of motion
-/// `mu' = ad*_{grad H(mu)} mu` are derived symbolically. Every mistake is an error at its token.
+/// `mu' = ad*_{grad H(mu)} mu` (of other brackets `mu' = Pi(mu) grad H(mu)`) are derived symbolically. Every
+/// mistake is an error at its token.
 ///
 /// ```ignore
 /// use lie_runtime::prelude::*;
@@ -31,6 +32,24 @@ use proc_macro::TokenStream;
 ///     velocity w1, w2, w3;
 ///     parameters { I1 = 2.0; I2 = 1.0; I3 = 2/3; }
 ///     lagrangian = (I1*w1^2 + I2*w2^2 + I3*w3^2)/2;
+/// }
+///
+/// lie_poisson! {
+///     /// A pendulum in canonical coordinates: brackets of coordinates instead of an algebra, any functions of
+///     /// the state that satisfy the Jacobi identity.
+///     pub system Canonical;
+///     poisson { {q, p} = 1; }
+///     state q, p;
+///     hamiltonian = p^2/2 - cos(q);
+/// }
+///
+/// lie_poisson! {
+///     /// A body with circulation around it: constants are added to the bracket of se(2)*, a cocycle.
+///     pub system Foil;
+///     algebra { basis J, P1, P2; [J, P1] = P2; [J, P2] = -P1; }
+///     cocycle { {p1, p2} = 1/2; }
+///     state L, p1, p2;
+///     hamiltonian = L^2/4 + p1^2/2 + p2^2/6;
 /// }
 ///
 /// lie_poisson! {

@@ -19,6 +19,10 @@
 //! For so(3) this is `$\dot\mu = \mu \times \nabla H(\mu)$`; on the group, `$\dot g = g\, \nabla H(\mu)$`. A
 //! right-invariant system is declared as such and is the same with `$-C$` in the place of `$C$`.
 //!
+//! Poisson brackets that are not those of an algebra, as that of canonical coordinates, `$\{q, p\} = 1$`, have a
+//! Poisson matrix `$\Pi(\mu)$` of their own, `$\dot\mu = \Pi(\mu)\, \nabla H(\mu)$`: their systems implement [`Poisson`] and
+//! not [`LiePoisson`].
+//!
 //! Functions `$C$` with `$\Pi\, \nabla C = 0$` are Casimirs: the flow keeps them whatever the Hamiltonian is.
 //!
 //! # From a declaration to a trajectory

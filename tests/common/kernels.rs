@@ -102,9 +102,10 @@ pub fn of_poisson<P, Q>(
     // the derivative of the Poisson matrix against a vector
     let coordinates = random.numbers(P::DIM);
     let xi = state(fused, &coordinates);
+    let turned = nudged(&coordinates, errors);
     fused.poisson_slope(&mu, &xi, &mut matrix[0]);
     let slope = derivatives(dual, &other, P::DIM, |mu, out| {
-        let (xi, mut image) = (state(dual, &coordinates), dual.zero_state());
+        let (xi, mut image) = (state(dual, &turned), dual.zero_state());
         generic::ad_star(dual, &xi, mu, &mut image);
         out.copy_from_slice(image.as_slice());
     });

@@ -7,6 +7,7 @@ use crate::algebra::StructureConstants;
 use crate::ast::{Declaration, Expr, ExprKind, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Budget;
+use crate::model::Parameter;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the identity.
@@ -25,13 +26,41 @@ pub fn parameters(declaration: &Declaration, report: &mut Report) {
     for bracket in cocycle {
         for (name, origin) in names(&bracket.value) {
             if inexact(name) {
-                let message =
-                    format!("the parameter `{name}` is not exact, so a cocycle cannot use it");
-                let help = format!(
-                    "declare it exact: `exact {name} = …;` in the macro, `\"exact\": true` in a spec"
-                );
-                report.push(Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help));
+                report.push(not_exact(name, origin));
             }
+        }
+    }
+}
+
+fn not_exact(name: &str, origin: Origin) -> Diagnostic {
+    let message = format!("the parameter `{name}` is not exact, so a cocycle cannot use it");
+    let help =
+        format!("declare it exact: `exact {name} = …;` in the macro, `\"exact\": true` in a spec");
+    Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help)
+}
+
+/// Reports constants that reach such parameters through abbreviations, and those that are not finite for
+/// the default parameters.
+pub fn values(entries: &[Entry], graph: &Graph, parameters: &[Parameter], report: &mut Report) {
+    for entry in entries {
+        let used = graph.symbols(entry.value);
+        let inexact = used.into_iter().find_map(|symbol| match symbol {
+            Symbol::Parameter(p) => parameters.get(p).filter(|p| p.exact.is_none()),
+            _ => None,
+        });
+        if let Some(parameter) = inexact {
+            report.push(not_exact(&parameter.name, entry.origin));
+            continue;
+        }
+        let value = |symbol| match symbol {
+            Symbol::Parameter(p) => parameters[p].default_value,
+            _ => f64::NAN,
+        };
+        if !graph.evaluate(entry.value, &value).is_finite() {
+            let message = "this constant is not finite for the default parameters";
+            report.push(
+                Diagnostic::new(Kind::Number, entry.origin, message).help("choose another default"),
+            );
         }
     }
 }

@@ -20,6 +20,7 @@ mod initial;
 mod legendre;
 mod lets;
 mod lower;
+mod matrix;
 mod methods;
 mod names;
 pub(crate) mod normal;
@@ -36,13 +37,13 @@ mod velocity;
 #[cfg(test)]
 mod tests;
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::HashSet;
 
 use crate::algebra::{StructureConstants, rank};
 use crate::ast::{self, Declaration, Energy, Invariance};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Fraction, Rational};
-use crate::model::{Casimir, Model, PoissonMatrix, Structure, Transform};
+use crate::model::{Casimir, Model, Structure, Transform};
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
 use algebra::Algebra;
@@ -149,6 +150,9 @@ fn system(
         ),
     };
     let constants = exact_constants.map(|value| expression(&mut graph, value));
+    if declaration.algebra().is_some() {
+        cocycle::values(&brackets, &graph, &parameters, report);
+    }
     let structure = match &declaration.structure {
         ast::Structure::General { .. } => Structure::General,
         ast::Structure::Lie { .. } if brackets.is_empty() => Structure::Lie,
@@ -184,7 +188,7 @@ fn system(
         Structure::Lie => &mut scratch,
         _ => &mut graph,
     };
-    let mut poisson = poisson_matrix(arena, structure, &constants, &brackets);
+    let mut poisson = matrix::of(arena, structure, &constants, &brackets);
     if structure != Structure::Lie {
         scratch = graph.clone();
     }
@@ -224,13 +228,8 @@ fn system(
     let dimension = declaration.dimension();
     let bound = (dimension - casimirs.len().min(dimension)) & !1;
     let generic_rank = match structure {
-        Structure::Lie => rank::generic(&exact_constants, bound),
-        _ => {
-            let rows = poisson.rows(&mut scratch);
-            let rows: Vec<&Vec<ExprId>> = rows.iter().collect();
-            // where no point is in the domain the initial state decides
-            ranks::generic(&scratch, &rows, bound).unwrap_or(bound)
-        }
+        Structure::Lie => Some(rank::generic(&exact_constants, bound)),
+        _ => matrix::generic_rank(&mut scratch, &poisson, bound),
     };
     if structure == Structure::Lie {
         poisson.entries.clear();
@@ -275,7 +274,7 @@ fn system(
             .collect(),
         run: declaration.run.clone(),
         warnings: Vec::new(),
-        generic_rank,
+        generic_rank: generic_rank.unwrap_or(bound),
         initial_rank: None,
     };
     domain::check(&model, declaration.initial_origin, report);
@@ -285,62 +284,16 @@ fn system(
     }
     model.initial_rank = model.initial_values(&model.defaults()).and_then(|mu| {
         if structure != Structure::Lie {
-            return initial_rank(&model, &mut scratch, &mu);
+            return matrix::initial_rank(&model, &mut scratch, &mu);
         }
         let mu: Option<Vec<Rational>> = mu.into_iter().map(Rational::from_f64).collect();
-        rank::at(&model.exact_constants, &mu?, &defaults, generic_rank)
+        rank::at(&model.exact_constants, &mu?, &defaults, model.generic_rank)
     });
+    // where no sample is in the domain, what is known is the rank at the initial state
+    if generic_rank.is_none() {
+        model.generic_rank = model.initial_rank.unwrap_or(bound);
+    }
     Some(model)
-}
-
-/// The entries of the Poisson matrix: `-C_ij^k x_k` of an algebra, and what is declared.
-fn poisson_matrix(
-    graph: &mut Graph,
-    structure: Structure,
-    constants: &StructureConstants<ExprId>,
-    brackets: &[poisson::Entry],
-) -> PoissonMatrix {
-    let mut terms: BTreeMap<(usize, usize), Vec<ExprId>> = BTreeMap::new();
-    for (i, j, k, value) in constants.entries() {
-        let x = graph.symbol(Symbol::Coordinate(*k));
-        let product = graph.mul(*value, x);
-        let term = graph.neg(product);
-        terms.entry((*i, *j)).or_default().push(term);
-    }
-    for entry in brackets {
-        let pair = (entry.row, entry.column);
-        terms.entry(pair).or_default().push(entry.value);
-    }
-    let entries = terms.into_iter();
-    let entries = entries.map(|((i, j), terms)| (i, j, graph.sum(&terms)));
-    let entries: Vec<_> = entries.collect();
-    PoissonMatrix {
-        dimension: constants.dimension(),
-        entries,
-        degree: (structure != Structure::General).then_some(1),
-    }
-}
-
-/// The rank of the Poisson matrix at the initial state, rounded to double precision.
-fn initial_rank(model: &Model, scratch: &mut Graph, mu: &[f64]) -> Option<usize> {
-    let rows = model.poisson.rows(scratch);
-    let rows: Vec<&Vec<ExprId>> = rows.iter().collect();
-    let exact = |symbol| match symbol {
-        Symbol::Coordinate(i) => Rational::from_f64(mu[i]),
-        Symbol::Parameter(p) => {
-            let parameter = &model.parameters[p];
-            let number = model.graph.as_number(parameter.default).cloned();
-            number.or_else(|| Rational::from_f64(parameter.default_value))
-        }
-        _ => None,
-    };
-    let number = |symbol| match symbol {
-        Symbol::Coordinate(i) => mu[i],
-        Symbol::Parameter(p) => model.parameters[p].default_value,
-        _ => f64::NAN,
-    };
-    ranks::at_rationals(scratch, &rows, &exact, model.generic_rank)
-        .or_else(|| ranks::at_numbers(scratch, &rows, &number))
 }
 
 /// The Casimirs with names: unnamed ones are C1, C2, …, skipping what is taken.

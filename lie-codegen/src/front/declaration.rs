@@ -235,7 +235,14 @@ fn remainder(
         let statement = parts.first(keyword)?;
         Some((statement.origin, poisson(statement, &names, report)))
     });
-    let of_algebra = ["lagrangian", "invariance", "group"].map(|keyword| {
+    let of_algebra = [
+        "lagrangian",
+        "discrete_lagrangian",
+        "invariance",
+        "group",
+        "realization",
+    ]
+    .map(|keyword| {
         let statement = parts.first(keyword)?;
         Some((statement.origin, keyword))
     });

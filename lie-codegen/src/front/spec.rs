@@ -143,8 +143,14 @@ impl Remainder<'_, '_> {
             let place = spec.get(key)?.origin();
             Some((place, poisson(spec, key, &names, report)))
         });
-        let of_algebra =
-            ["lagrangian", "invariance", "group"].map(|key| Some((spec.get(key)?.origin(), key)));
+        let of_algebra = [
+            "lagrangian",
+            "discrete_lagrangian",
+            "invariance",
+            "group",
+            "realization",
+        ]
+        .map(|key| Some((spec.get(key)?.origin(), key)));
         let of_algebra: Vec<_> = of_algebra.into_iter().flatten().collect();
         let structure =
             item::structure(algebra, poisson, cocycle, &of_algebra, Kind::Schema, report);

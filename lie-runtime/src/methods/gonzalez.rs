@@ -9,6 +9,8 @@
 //! kept whatever H is. Order 2, symmetric; keeps quadratic Casimirs, those of higher degree and the
 //! Poisson structure only to O(h^2) per unit of time. For a quadratic H it is the midpoint rule.
 //!
+//! With another tensor in place of `$\Pi(m)$`: [`WithTensor`](super::WithTensor).
+//!
 //! The quotient loses digits where d is small. How that is avoided, for polynomials and in general, is
 //! told in [`GonzalezGradient`](crate::generic::GonzalezGradient).
 //!

@@ -9,6 +9,8 @@
 //! degree and the Poisson structure only to O(h^2) per unit of time. For a quadratic H it is the
 //! midpoint rule.
 //!
+//! With another tensor in place of `$\Pi(m)$`: [`WithTensor`](super::WithTensor).
+//!
 //! The integral is exact for a polynomial H of known degree; otherwise it is Gauss quadrature with 10
 //! nodes: a step that they do not resolve, so that the energy would change by more than round-off, is
 //! refused ([`FailureReason::Unresolved`](crate::newton::FailureReason::Unresolved)).

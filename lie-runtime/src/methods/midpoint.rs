@@ -6,7 +6,8 @@
 //!
 //! Order 2, symmetric. Keeps every quadratic invariant of the equation, among them quadratic
 //! Casimirs and a quadratic energy; Casimirs of higher degree and the Poisson structure are kept only
-//! to O(h^2) per unit of time (the Poisson defect of a step is O(h^3)), unless Pi is constant.
+//! to O(h^2) per unit of time (the Poisson defect of a step is O(h^3)), unless Pi is constant: then each
+//! step is a Poisson map, in canonical coordinates a symplectic one.
 //!
 //! Needs: the vector field and its Jacobian; any [`Poisson`] system.
 //!

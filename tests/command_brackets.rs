@@ -1,0 +1,158 @@
+//! The command on systems whose bracket is not that of an algebra alone.
+
+mod common;
+
+use common::{folder, lie};
+use serde_json::{Value, json};
+
+fn check(path: &str) -> Value {
+    let run = lie(&format!("check {path} --json")).ok();
+    serde_json::from_str(&run.stdout).expect("JSON")
+}
+
+#[test]
+fn ranks_casimirs_and_methods() {
+    let pendulum = check("specs/canonical_pendulum.json");
+    assert_eq!(pendulum["generic_rank"], 2);
+    assert_eq!(pendulum["initial_rank"], 2);
+    assert_eq!(pendulum["independent_casimirs"], 0);
+    assert!(pendulum["class"].is_null() && pendulum["splitting"].is_null());
+    let volterra = check("specs/lotka_volterra.json");
+    assert_eq!(volterra["generic_rank"], 2);
+    assert_eq!(volterra["casimirs"][0]["name"], "C");
+    assert!(volterra["casimirs"][0]["degree"].is_null());
+    let body = check("specs/se2_circulation.json");
+    assert_eq!(body["casimirs"][0]["degree"], 2);
+    for (report, why) in [
+        (
+            &pendulum,
+            "it needs a Lie algebra, and the system declares a general bracket",
+        ),
+        (
+            &volterra,
+            "it needs a Lie algebra, and the system declares a general bracket",
+        ),
+        (
+            &body,
+            "it needs the Lie–Poisson bracket of an algebra, and a cocycle is added to it",
+        ),
+    ] {
+        let methods = report["methods"].as_object().expect("an object");
+        let apply: Vec<&str> = methods
+            .iter()
+            .filter(|(_, reason)| reason.is_null())
+            .map(|(id, _)| id.as_str())
+            .collect();
+        let mut expected = vec![
+            "midpoint",
+            "gauss4",
+            "gauss6",
+            "rk4",
+            "dopri5",
+            "compose4",
+            "compose6",
+            "compose8",
+            "gonzalez",
+            "mean-value",
+            "itoh-abe",
+            "cohen-hairer2",
+            "cohen-hairer4",
+            "cohen-hairer6",
+        ];
+        expected.sort_unstable();
+        assert_eq!(apply, expected);
+        for id in [
+            "lie-midpoint",
+            "rkmk4",
+            "orbit-energy",
+            "splitting2",
+            "euler-arnold2",
+        ] {
+            assert_eq!(methods[id], json!(why), "{id}");
+        }
+    }
+}
+
+/// The verdicts of one fact, by method.
+fn verdict(report: &Value, method: &str, fact: &str) -> String {
+    let found = &report["methods"][method][fact]["verdict"];
+    found.as_str().unwrap_or("missing").to_owned()
+}
+
+fn verify(path: &str, methods: &str) -> Value {
+    let run = lie(&format!("verify {path} --methods {methods} --quiet --json")).ok();
+    let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    assert_eq!(report["failed"], 0, "{report:#}");
+    report
+}
+
+#[test]
+fn claims_hold_where_the_bracket_is_constant_and_where_it_is_not() {
+    let report = verify(
+        "specs/canonical_pendulum.json",
+        "midpoint,gauss4,gonzalez,rk4",
+    );
+    for (method, poisson, energy) in [
+        ("midpoint", "holds", "not-claimed"),
+        ("gauss4", "holds", "not-claimed"),
+        ("gonzalez", "not-claimed", "holds"),
+        ("rk4", "not-claimed", "not-claimed"),
+    ] {
+        assert_eq!(verdict(&report, method, "Poisson"), poisson, "{method}");
+        assert_eq!(verdict(&report, method, "energy"), energy, "{method}");
+        assert_eq!(verdict(&report, method, "orbit"), "absent", "{method}");
+    }
+    let defect = &report["methods"]["rk4"]["Poisson"]["measured"];
+    assert!(
+        defect.as_f64() > Some(1e-8),
+        "the control is no Poisson map"
+    );
+    let report = verify(
+        "specs/lotka_volterra.json",
+        "midpoint,mean-value,cohen-hairer4",
+    );
+    assert_eq!(verdict(&report, "midpoint", "Poisson"), "not-claimed");
+    for method in ["mean-value", "mean-value --tensor mean", "cohen-hairer4"] {
+        assert_eq!(verdict(&report, method, "energy"), "holds", "{method}");
+        assert_eq!(verdict(&report, method, "order"), "holds", "{method}");
+    }
+}
+
+#[test]
+fn runs_with_a_tensor() {
+    let run = |rest: &str| {
+        let flags = "--quiet --step 0.05 --until 1";
+        lie(&format!("run specs/lotka_volterra.json {flags} {rest}"))
+            .ok()
+            .csv()
+            .1
+    };
+    let (middle, mean) = (
+        run("--method gonzalez"),
+        run("--method gonzalez --tensor mean"),
+    );
+    let same = run("--method gonzalez --tensor midpoint");
+    assert_eq!(middle, same);
+    let (last, other) = (&middle[20], &mean[20]);
+    let apart = (last[1] - other[1]).abs();
+    assert!(apart > 1e-6 && apart < 1e-2, "{apart:e}");
+    for rows in [&middle, &mean] {
+        assert!((rows[20][4] - rows[0][4]).abs() < 1e-14, "the energy");
+    }
+    lie("run specs/se2_circulation.json --method gonzalez --tensor mean")
+        .error("method", "command line: --method");
+    lie("run specs/lotka_volterra.json --method midpoint --tensor mean")
+        .error("option", "command line: --tensor");
+    // without a method it is one that applies
+    let text = std::fs::read_to_string("specs/canonical_pendulum.json").expect("the spec");
+    let mut spec: Value = serde_json::from_str(&text).expect("JSON");
+    spec.as_object_mut().expect("an object").remove("run");
+    let folder = folder();
+    let path = folder.path().join("pendulum.json");
+    std::fs::write(&path, spec.to_string()).expect("the spec is written");
+    let (header, rows) = lie(&format!("run {} --quiet --until 0.02", path.display()))
+        .ok()
+        .csv();
+    assert_eq!(header, ["t", "q", "p", "energy"]);
+    assert_eq!(rows.len(), 3);
+}
