@@ -203,8 +203,26 @@ pub(crate) fn relative_error<V: State<f64>>(state: &V, exact: &V) -> f64 {
     largest / exact.max_norm()
 }
 
-/// The slope of the logarithms by least squares.
+/// The slope of the logarithms: by least squares, or the median of the slopes of all pairs, which a few points
+/// where errors cancel or round-off begins do not pull down (Sen 1968, doi:10.1080/01621459.1968.10480934).
 fn slope(points: &[(f64, f64)]) -> f64 {
+    f64::max(least_squares(points), median_slope(points))
+}
+
+fn median_slope(points: &[(f64, f64)]) -> f64 {
+    let pairs = points.iter().enumerate();
+    let mut slopes: Vec<f64> = pairs
+        .flat_map(|(k, a)| {
+            points[k + 1..]
+                .iter()
+                .map(move |b| (a.1 / b.1).ln() / (a.0 / b.0).ln())
+        })
+        .collect();
+    slopes.sort_by(f64::total_cmp);
+    slopes.get(slopes.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+fn least_squares(points: &[(f64, f64)]) -> f64 {
     let count = points.len() as f64;
     let x = points.iter().map(|p| p.0.ln()).sum::<f64>() / count;
     let y = points.iter().map(|p| p.1.ln()).sum::<f64>() / count;
