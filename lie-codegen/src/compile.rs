@@ -208,6 +208,7 @@ fn realization(model: &Model) -> Option<Realization> {
             .collect(),
         map: declared.map.clone(),
         start: declared.start.clone(),
+        given: declared.given,
     })
 }
 

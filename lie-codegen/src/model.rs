@@ -116,6 +116,8 @@ pub struct Realization {
     pub origins: Vec<Origin>,
     /// A point near which points over a state are sought.
     pub start: Vec<ExprId>,
+    /// Whether the declaration gives it.
+    pub given: bool,
     /// Whether all components are of degree at most two.
     pub quadratic: bool,
 }

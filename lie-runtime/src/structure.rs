@@ -155,6 +155,8 @@ pub trait RealizedPoisson<S: Scalar>: Poisson<S> {
     const POINT_DIM: usize;
     /// Their names.
     const CANONICAL: &'static [&'static str];
+    /// Whether the start is the user's; any other one is scaled to the size of the state.
+    const START_GIVEN: bool;
     /// A point, all coordinates 0.
     fn zero_point(&self) -> Self::Point;
     /// A matrix, all entries 0.

@@ -46,14 +46,16 @@ pub fn check(
                 continue;
             }
         };
+        let why = if coordinate == super::configuration::TIME_MOMENTUM {
+            "it depends on the time".to_owned()
+        } else {
+            format!("{{{}, {coordinate}}} = {shown}", candidate.name)
+        };
         report.push(
             Diagnostic::new(
                 Kind::Casimir,
                 candidate.origin,
-                format!(
-                    "`{0}` is not a Casimir: {{{0}, {coordinate}}} = {shown}",
-                    candidate.name
-                ),
+                format!("`{}` is not a Casimir: {why}", candidate.name),
             )
             .help("a Casimir commutes with every coordinate; correct it or remove it"),
         );

@@ -41,9 +41,14 @@ impl Configuration {
         self.time && (coordinate + 1 == self.momenta || coordinate >= self.momenta + entries)
     }
 
+    /// The momenta without that of the time.
+    pub fn own_momenta(&self) -> usize {
+        self.momenta - usize::from(self.time)
+    }
+
     /// What the coordinates are.
     pub fn description(&self) -> String {
-        let own = self.momenta - usize::from(self.time);
+        let own = self.own_momenta();
         // beside the time alone they may be any coordinates
         let what = match self.group {
             Some(_) => "momenta",
@@ -87,12 +92,8 @@ impl Configuration {
     /// A state from the one that the user gives: the momenta alone (the group element is 1 then), or with
     /// the entries of g. `None` where the number of values is neither.
     pub fn complete<T: Clone>(&self, given: &[T], number: impl Fn(i64) -> T) -> Option<Vec<T>> {
-        let own = self.momenta - usize::from(self.time);
+        let own = self.own_momenta();
         let size = self.group.as_ref().map_or(0, |(_, size)| *size);
-        let all = own + size * size + 3 * usize::from(self.time);
-        if given.len() == all {
-            return Some(given.to_vec());
-        }
         if given.len() != own && given.len() != own + size * size {
             return None;
         }
@@ -235,10 +236,46 @@ pub fn extended(
             origin,
         }),
     }
-    if let Some(initial) = &declaration.initial
-        && let Some(complete) = configuration.complete(initial, number)
-    {
-        whole.initial = Some(complete);
+    if let Some(initial) = &declaration.initial {
+        let complete = configuration.complete(initial, number);
+        if complete.is_none() {
+            let place = declaration
+                .initial_origin
+                .or(initial.last().map(|e| e.origin));
+            let entries = entries.len();
+            let own = declaration.state.len();
+            let (or, help) = if entries > 0 {
+                let all = own + entries;
+                let or = format!(", or {all} with the entries of the group element");
+                (
+                    or,
+                    "write the momenta alone, to begin at the identity, or also the entries row by row",
+                )
+            } else {
+                (
+                    String::new(),
+                    "write one value for every coordinate, in their order",
+                )
+            };
+            report.push(
+                Diagnostic::new(
+                    Kind::StateLength,
+                    place.unwrap_or(origin),
+                    format!(
+                        "the initial state has {} {}, but the state has {own} coordinates{or}",
+                        initial.len(),
+                        super::size::plural(initial.len(), "value")
+                    ),
+                )
+                .help(help),
+            );
+        }
+        // of a wrong number of values each is still looked at
+        whole.initial = complete.or_else(|| {
+            let mut padded = initial.clone();
+            padded.resize(whole.state.len(), number(0));
+            Some(padded)
+        });
     }
     whole
 }

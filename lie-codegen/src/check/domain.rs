@@ -2,8 +2,12 @@
 
 use super::velocity::velocity;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::exact::Rational;
 use crate::model::{Model, Structure};
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
+
+/// A group element within this of the group is one, written with few digits.
+const OFF_THE_GROUP: f64 = 1e-4;
 
 /// Something that is not finite at a state.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +37,7 @@ pub fn check(model: &Model, origin: Option<Origin>, report: &mut Report) {
             Structure::General => {
                 "begin inside the domain of the brackets, of the Hamiltonian and of the Casimirs"
             }
-            _ => "begin inside the domain of the Hamiltonian and of the Casimirs",
+            _ => "begin inside the domain of the Hamiltonian and of the Casimirs, at an element of the group",
         }));
     }
 }
@@ -47,6 +51,9 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
             coordinate: Some(i),
             message,
         });
+    }
+    if let Some(fault) = outside_the_group(model, mu) {
+        return Some(fault);
     }
     let mut scratch = model.graph.clone();
     let mut xi = Vec::new();
@@ -124,6 +131,42 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
     Some(Fault {
         coordinate,
         message: format!("{what} is not finite{because}"),
+    })
+}
+
+/// A group element off the group by more than the digits that someone may have left out. Known for groups of
+/// orthogonal matrices: their algebras have antisymmetric ones.
+fn outside_the_group(model: &Model, mu: &[f64]) -> Option<Fault> {
+    let configuration = model.configuration.as_ref()?;
+    let (name, size) = configuration.group.as_ref()?;
+    let (first, size) = (configuration.momenta, *size);
+    let matrices = &model.representation.as_ref()?.matrices;
+    let skew = |matrix: &Vec<Vec<Rational>>| {
+        let pairs = (0..size).flat_map(|i| (0..=i).map(move |j| (i, j)));
+        let mut sums = pairs.map(|(i, j)| &matrix[i][j] + &matrix[j][i]);
+        sums.all(|sum| sum.is_zero())
+    };
+    // those of the momenta begin with the block of the algebra
+    if !matrices.iter().take(configuration.own_momenta()).all(skew) {
+        return None;
+    }
+    let entry = |i: usize, j: usize| mu[first + size * i + j];
+    let mut worst = (0.0, 0);
+    for i in 0..size {
+        for j in 0..=i {
+            let product: f64 = (0..size).map(|k| entry(i, k) * entry(j, k)).sum();
+            let off = (product - f64::from(u8::from(i == j))).abs();
+            if off > worst.0 {
+                worst = (off, first + size * i);
+            }
+        }
+    }
+    (worst.0 > OFF_THE_GROUP).then(|| Fault {
+        coordinate: Some(worst.1),
+        message: format!(
+            "{name} is no element of the group (its rows are not orthonormal, by {:.1e})",
+            worst.0
+        ),
     })
 }
 

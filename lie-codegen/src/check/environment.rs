@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::ast::{Declaration, Realization};
+use crate::ast::{Declaration, Name, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin};
 use crate::model::CANONICAL;
 use crate::suggest::did_you_mean;
@@ -68,7 +68,14 @@ impl<'a> Environment<'a> {
     /// repetition is reported elsewhere.
     pub fn new(declaration: &'a Declaration) -> Self {
         let mut bindings = HashMap::new();
-        for (i, name) in declaration.state.iter().enumerate() {
+        // the coordinates that carry the time have names that nobody can write
+        let visible = |name: &&Name| !name.text.starts_with('_');
+        for (i, name) in declaration
+            .state
+            .iter()
+            .enumerate()
+            .filter(|(_, n)| visible(n))
+        {
             bindings
                 .entry(name.text.as_str())
                 .or_insert(Binding::Symbol(Symbol::Coordinate(i)));
@@ -116,7 +123,7 @@ impl<'a> Environment<'a> {
     /// The error for a name that may not stand here.
     pub fn unknown(&self, name: &str, origin: Origin, allowed: Allowed) -> Diagnostic {
         let function = !matches!(allowed, Allowed::Constants | Allowed::Parameters);
-        if name == "t" && function {
+        if name == "t" {
             return Diagnostic::new(
                 Kind::ReservedName,
                 origin,

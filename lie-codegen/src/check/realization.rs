@@ -127,11 +127,11 @@ pub fn lower(
     });
     let start = match start {
         Some(start) => start.into_iter().collect::<Option<Vec<_>>>()?,
-        // a generic point: no two entries are alike
-        None => (0..points)
+        // a generic point: no two entries are alike, and they point in many directions
+        None => (0..points as i64)
             .map(|k| {
-                let value = &Rational::from(1) + &(&Rational::ONE / &Rational::from(k as i64 + 2));
-                graph.number(value)
+                let whole = Rational::from((3 * k * k + 5 * k + 2) % 7 - 3);
+                graph.number(&whole + &(&Rational::ONE / &Rational::from(k + 2)))
             })
             .collect(),
     };
@@ -140,6 +140,7 @@ pub fn lower(
         map: map.into_iter().collect::<Option<Vec<_>>>()?,
         origins,
         start,
+        given: declared.start.is_some(),
         quadratic: false,
     }))
 }

@@ -14,6 +14,8 @@ pub struct Realization {
     pub map: Vec<ExprId>,
     /// A point near which points over a state are sought.
     pub start: Vec<ExprId>,
+    /// Whether the declaration gives it.
+    pub given: bool,
 }
 
 fn points(count: usize, first: usize) -> Vec<Symbol> {

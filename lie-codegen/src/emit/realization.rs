@@ -18,6 +18,7 @@ impl Writer<'_> {
         let system = self.system_name();
         let count = index(realization.names.len());
         let names = &realization.names;
+        let given = realization.given;
         let kernels = self.source.realization_kernels()?;
         let mut methods = TokenStream::new();
         for kernel in &kernels {
@@ -41,6 +42,7 @@ impl Writer<'_> {
                 type PointMatrix = ::lie_runtime::__private::SMatrix<S, #count, #count>;
                 const POINT_DIM: usize = #count;
                 const CANONICAL: &'static [&'static str] = &[#(#names),*];
+                const START_GIVEN: bool = #given;
 
                 fn zero_point(&self) -> Self::Point {
                     Self::Point::repeat(S::zero())

@@ -24,7 +24,12 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
                 .into(),
         )),
         Choice::Variational(order, _) if model.lagrangian.is_none() => Some((
-            "the method needs a system by its Lagrangian, and this one is given by its Hamiltonian".into(),
+            if model.configuration.is_some() {
+                "the method is for reduced Lagrangians, without the group element and without the time"
+            } else {
+                "the method needs a system by its Lagrangian, and this one is given by its Hamiltonian"
+            }
+            .into(),
             format!(
                 "declare `velocity` and `lagrangian` instead of `hamiltonian`, or use `generating{order}`, which is a \
                  Poisson map of the same order"
@@ -77,7 +82,6 @@ fn needs_algebra(choice: &Choice) -> bool {
             | Choice::Gauss(_)
             | Choice::DiscreteGradient(..)
             | Choice::CohenHairer(_)
-            | Choice::Collective(_, Lift::Spec)
             | Choice::Rk4
             | Choice::Dopri5
     )

@@ -164,6 +164,44 @@ impl<V, M, Z> Lifting<V, M, Z> {
         }
     }
 
+    /// What counts as round-off in `J(z) - mu`: units of the size of mu and of the terms of J at z.
+    fn round_off<S, P>(&mut self, system: &P, mu: &V, z: &Z) -> S
+    where
+        S: Scalar,
+        V: State<S>,
+        Z: State<S>,
+        P: RealizedPoisson<S, State = V, Jacobian = M, Point = Z>,
+    {
+        let mut size = mu.max_norm();
+        for k in 0..P::DIM {
+            self.unit.fill(S::zero());
+            self.unit.as_mut_slice()[k] = S::one();
+            system.pullback(z, &self.unit, &mut self.step);
+            let mut terms = S::zero();
+            for (&slope, &z) in self.step.as_slice().iter().zip(z.as_slice()) {
+                terms += (slope * z).abs();
+            }
+            size = size.max(terms);
+        }
+        S::from_f64(CLOSE) * S::epsilon() * size
+    }
+
+    /// Scales a point so that the state over it has the size of mu, if J is homogeneous of degree two.
+    pub fn scale<S, P>(&mut self, system: &P, mu: &V, z: &mut Z)
+    where
+        S: Scalar,
+        V: State<S>,
+        Z: State<S>,
+        P: RealizedPoisson<S, State = V, Jacobian = M, Point = Z>,
+    {
+        system.momentum_map(z, &mut self.over);
+        let ratio = (mu.max_norm() / self.over.max_norm()).sqrt();
+        let usable = ratio.finite() & S::zero().less(ratio);
+        for entry in z.as_mut_slice() {
+            *entry = S::select(usable, *entry * ratio, *entry);
+        }
+    }
+
     /// Moves z to a point over mu, `J(z) = mu`, the nearest one to first order: `z += J'^T (J' J'^T)^-1 (mu - J(z))`.
     /// Returns the lanes in which there is one.
     pub fn lift<S, P>(&mut self, system: &P, mu: &V, z: &mut Z) -> S::Mask
@@ -174,7 +212,7 @@ impl<V, M, Z> Lifting<V, M, Z> {
         Z: State<S>,
         P: RealizedPoisson<S, State = V, Jacobian = M, Point = Z>,
     {
-        let bound = S::from_f64(CLOSE) * S::epsilon() * mu.max_norm();
+        let mut bound = self.round_off(system, mu, z);
         let mut best = S::from_f64(f64::INFINITY);
         for _ in 0..ITERATIONS {
             system.momentum_map(z, &mut self.over);
@@ -205,6 +243,7 @@ impl<V, M, Z> Lifting<V, M, Z> {
                 *entry = S::select(open, *entry + step, *entry);
             }
         }
+        bound = bound.max(self.round_off(system, mu, z));
         system.momentum_map(z, &mut self.over);
         let mut distance = S::zero();
         for (&here, &there) in self.over.as_slice().iter().zip(mu.as_slice()) {

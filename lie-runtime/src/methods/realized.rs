@@ -27,6 +27,8 @@ where
     solver: Newton<S, Stages<P::Point, STAGES>, StageMatrix<P::PointMatrix, STAGES>>,
     lifting: Lifting<P::State, P::Jacobian, P::Point>,
     end: P::State,
+    /// No step has been made yet.
+    fresh: bool,
 }
 
 impl<'a, S, P, const STAGES: usize> RealizedStepper<'a, S, P, STAGES>
@@ -48,6 +50,7 @@ where
             solver: Newton::new(&equation, newton),
             lifting: Lifting::new(system),
             end: system.zero_state(),
+            fresh: true,
         }
     }
 }
@@ -96,6 +99,10 @@ where
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
         let mut base = self.point.clone();
+        if self.fresh && !P::START_GIVEN {
+            self.lifting.scale(self.system, mu, &mut base);
+        }
+        self.fresh = false;
         let lifted = self.lifting.lift(self.system, mu, &mut base);
         let canonical = Canonical::over(self.system);
         let mut equation = Gauss::<S, _, STAGES>::new(&canonical, self.step);

@@ -28,7 +28,10 @@ impl Layout {
         let group = chart
             .zip(group::group(model))
             .map_or_else(Vec::new, |(chart, group)| {
-                let taken = |name: &String| model.coordinates.iter().any(|c| c.text == *name);
+                let taken = |name: &String| {
+                    model.coordinates.iter().any(|c| c.text == *name)
+                        || model.casimirs.iter().any(|c| c.name == *name)
+                };
                 let names = chart.columns(group.size);
                 if names.iter().any(taken) {
                     names.iter().map(|name| format!("group_{name}")).collect()

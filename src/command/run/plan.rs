@@ -16,6 +16,8 @@ use crate::message::Message;
 
 /// The method where none is given, for Lie–Poisson brackets and for others.
 const METHODS: [&str; 2] = ["lie-midpoint", "midpoint"];
+/// That of a system by a discrete Lagrangian in coordinates of the exponential map.
+const DISCRETE: &str = "discrete-euler-poincare";
 
 /// Everything about a run that does not depend on where its rows go.
 #[derive(Debug)]
@@ -148,7 +150,13 @@ impl Planner<'_> {
     fn method(&mut self) -> Option<Choice> {
         let given = self.given("--method", self.flags.method.as_ref());
         let id = given.clone().unwrap_or_else(|| {
-            let method = METHODS[usize::from(!self.spec.model.is_lie_poisson())];
+            let model = &self.spec.model;
+            let discrete = model.lagrangian.as_ref();
+            let method = if discrete.is_some_and(|l| l.discrete.is_some() && !l.in_entries) {
+                DISCRETE
+            } else {
+                METHODS[usize::from(!model.is_lie_poisson())]
+            };
             Given::flag("--method", method)
         });
         let place = id.wrong("").place;

@@ -112,7 +112,7 @@ impl Planner<'_> {
             "--param"
         };
         let text = format!("{} at the initial state", fault.message);
-        let help = "start where it is finite, or change the parameters";
+        let help = "start at a state where it is defined, or change the parameters";
         self.mistakes
             .push(Message::new(Kind::Domain, text).at_option(flag).help(help));
         false
