@@ -33,11 +33,16 @@ pub fn check(model: &Model, origin: Option<Origin>, report: &mut Report) {
             format!("{} at the initial state", fault.message),
         );
         diagnostic.origin = entry.or(origin).or(model.initial_origins.first().copied());
+        let group = model
+            .configuration
+            .as_ref()
+            .is_some_and(|c| c.group.is_some());
         report.push(diagnostic.help(match model.structure {
+            _ if group => "begin at an element of the group, inside the domain of the Hamiltonian",
             Structure::General => {
                 "begin inside the domain of the brackets, of the Hamiltonian and of the Casimirs"
             }
-            _ => "begin inside the domain of the Hamiltonian and of the Casimirs, at an element of the group",
+            _ => "begin inside the domain of the Hamiltonian and of the Casimirs",
         }));
     }
 }

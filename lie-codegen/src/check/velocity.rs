@@ -45,15 +45,18 @@ pub fn velocity(
     };
     let mut xi = vec![0.0; count];
     let mut error = defect(&xi);
+    let mut at_rest = None;
     for _ in 0..MAX_ITERATIONS {
         let inertia = at(&xi, &functions[count..]);
-        let step = solve(inertia, error.clone())?;
+        let (step, sign) = solve(inertia, error.clone())?;
+        // beyond a fold the determinant has another sign
+        let folded = *at_rest.get_or_insert(sign) != sign;
         let moved = |factor: f64| -> Vec<f64> {
             let pairs = xi.iter().zip(&step);
             pairs.map(|(xi, step)| xi - factor * step).collect()
         };
         if size(&error) == 0.0 || size(&step) <= NEAR * size(&xi) {
-            return Some(moved(1.0));
+            return (!folded).then(|| moved(1.0));
         }
         let factors = (0..MAX_HALVINGS).map(|k| 0.5_f64.powi(k as i32));
         let better = factors.into_iter().find_map(|factor| {
@@ -63,7 +66,9 @@ pub fn velocity(
         });
         match better {
             Some((trial, after)) => (xi, error) = (trial, after),
-            None if size(&step) <= f64::EPSILON.sqrt() * size(&xi) => return Some(xi),
+            None if size(&step) <= f64::EPSILON.sqrt() * size(&xi) => {
+                return (!folded).then_some(xi);
+            }
             None => return None,
         }
     }
@@ -78,9 +83,10 @@ fn size(values: &[f64]) -> f64 {
         .fold(0.0, |a, b| if a.is_nan() { a } else { larger(a, b) })
 }
 
-/// Solves a linear system, the matrix by rows, with row exchanges.
-fn solve(mut matrix: Vec<f64>, mut right: Vec<f64>) -> Option<Vec<f64>> {
+/// Solves a linear system, the matrix by rows, with row exchanges; with the sign of the determinant.
+fn solve(mut matrix: Vec<f64>, mut right: Vec<f64>) -> Option<(Vec<f64>, f64)> {
     let n = right.len();
+    let mut sign = 1.0;
     for k in 0..n {
         let row = (k..n).max_by(|&a, &b| {
             let entry = |row: usize| matrix[row * n + k].abs();
@@ -91,6 +97,7 @@ fn solve(mut matrix: Vec<f64>, mut right: Vec<f64>) -> Option<Vec<f64>> {
         }
         right.swap(k, row);
         let pivot = matrix[k * n + k];
+        sign *= pivot.signum() * if row == k { 1.0 } else { -1.0 };
         if pivot == 0.0 || !pivot.is_finite() {
             return None;
         }
@@ -106,5 +113,5 @@ fn solve(mut matrix: Vec<f64>, mut right: Vec<f64>) -> Option<Vec<f64>> {
         let known: f64 = (row + 1..n).map(|j| matrix[row * n + j] * right[j]).sum();
         right[row] = (right[row] - known) / matrix[row * n + row];
     }
-    Some(right)
+    Some((right, sign))
 }

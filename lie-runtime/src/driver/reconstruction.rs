@@ -21,7 +21,7 @@
 
 use super::group_matrix::{GroupMatrix, exponential, rational};
 use super::observer::{Motion, Observer, Progress};
-use crate::generic::gauss_tableau;
+use crate::generic::{gauss_tableau, quaternion_product as product};
 use crate::methods::{Retraction, RungeKutta};
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
@@ -337,15 +337,6 @@ fn combine<S: Scalar, V: State<S>>(weights: &[S], slopes: &[V], out: &mut V) {
     for (&weight, slope) in weights.iter().zip(slopes) {
         out.axpy(weight, slope);
     }
-}
-
-fn product<S: Scalar>(a: [S; 4], b: [S; 4]) -> [S; 4] {
-    [
-        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
-    ]
 }
 
 /// The unit quaternion of a rotation by less than half a turn, `q0 > 0`: of the columns of the matrix `4 q q^T`

@@ -24,7 +24,8 @@ fn conjugate<S: Scalar>(a: Quaternion<S>) -> Quaternion<S> {
     [a[0], -a[1], -a[2], -a[3]]
 }
 
-fn product<S: Scalar>(a: Quaternion<S>, b: Quaternion<S>) -> Quaternion<S> {
+/// The product of two quaternions.
+pub(crate) fn product<S: Scalar>(a: Quaternion<S>, b: Quaternion<S>) -> Quaternion<S> {
     [
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],

@@ -9,8 +9,9 @@
 //! The iteration begins at rest, `$\xi = 0$`: its first iterate is the velocity of the part of l that is
 //! quadratic there. Steps are halved until the defect `$l'(\xi) - \mu$` shrinks, so that an iterate neither leaves
 //! the domain of l nor runs away; for a convex l this finds the velocity wherever there is one. Of several
-//! velocities with the same momentum it finds the one that this path leads to. Where there is none, or
-//! `$l''$` becomes singular on the way, the result is not a number, and the driver refuses the step.
+//! velocities with the same momentum it finds the one that this path leads to. Where there is none, or it lies
+//! beyond a fold, where the determinant of `$l''$` has another sign than at rest, the result is not a number, and the
+//! driver refuses the step.
 //!
 //! Over dual numbers the iteration goes on after the values have converged until all derivatives have, which
 //! it doubles in order each time: they are exact to round-off. Nothing is allocated.
@@ -94,11 +95,13 @@ pub fn solve<S, V, M>(
     write_defect(xi, &mut defect);
     let mut active = S::Mask::splat(true);
     let mut failed = S::Mask::splat(false);
+    let mut at_rest = None;
     for _ in 0..MAX_ITERATIONS {
         slope(xi, matrix);
         let round_off = S::from_f64(16.0) * S::epsilon() * (size(mu) + largest(matrix) * size(xi));
         step.copy_from(&defect);
-        exchanging::solve(matrix, &mut step);
+        let sign = exchanging::solve(matrix, &mut step);
+        at_rest.get_or_insert(sign);
         let near = size(&step).less_equal(S::from_f64(NEAR) * S::epsilon() * size(xi))
             | size(&defect).less_equal(round_off);
         active = active & !near;
@@ -135,7 +138,8 @@ pub fn solve<S, V, M>(
     for _ in 0..=(S::DERIVATIVES + 1).ilog2() + u32::from(S::DERIVATIVES > 0) {
         write_defect(xi, &mut step);
         slope(xi, matrix);
-        exchanging::solve(matrix, &mut step);
+        let sign = exchanging::solve(matrix, &mut step);
+        failed = failed | (sign * at_rest.unwrap_or(sign)).less(S::zero());
         xi.axpy(-S::one(), &step);
     }
     let not_a_number = S::zero() / S::zero();
@@ -190,6 +194,24 @@ mod tests {
 
     fn cubic_slope<S: Scalar>(xi: S) -> S {
         S::one() + S::from_f64(3.0) * xi * xi
+    }
+
+    /// `l = xi^2/2 - xi^4/12` has momenta up to 2/3 on the branch through rest, and beyond its folds others.
+    #[test]
+    fn no_velocity_beyond_a_fold() {
+        fn map<S: Scalar>(xi: S) -> S {
+            xi - xi * xi * xi * S::ratio(1.0, 3.0)
+        }
+        fn slope<S: Scalar>(xi: S) -> S {
+            S::one() - xi * xi
+        }
+        for mu in [0.0, 0.3, -0.6] {
+            let xi = root::<f64>(map, slope, mu);
+            assert!(xi.abs() < 1.0 && (map(xi) - mu).abs() < 1e-15, "{mu}: {xi}");
+        }
+        for mu in [0.7, 3.0, -5.0] {
+            assert!(root::<f64>(map, slope, mu).is_nan(), "{mu}");
+        }
     }
 
     #[test]

@@ -28,15 +28,19 @@ fn pivot<S: Scalar, M: SquareMatrix<S>>(
     }
 }
 
-/// Solves `A x = b` in place of b; the matrix is used up.
-pub fn solve<S: Scalar, M: SquareMatrix<S>, U: Unknown<S>>(matrix: &mut M, vector: &mut U) {
+/// Solves `A x = b` in place of b; the matrix is used up. Returns the sign of the determinant, 1 or -1.
+pub fn solve<S: Scalar, M: SquareMatrix<S>, U: Unknown<S>>(matrix: &mut M, vector: &mut U) -> S {
     let size = matrix.dimension();
+    let mut sign = S::one();
     for k in 0..size {
         pivot(matrix, k, |lanes, first, second| {
+            sign = S::select(lanes, -sign, sign);
             let (a, b) = (vector.entry(first), vector.entry(second));
             vector.set_entry(first, S::select(lanes, b, a));
             vector.set_entry(second, S::select(lanes, a, b));
         });
+        let negative = matrix.get(k, k).less(S::zero());
+        sign = S::select(negative, -sign, sign);
         let inverse = S::one() / matrix.get(k, k);
         for row in k + 1..size {
             let multiplier = matrix.get(row, k) * inverse;
@@ -54,6 +58,7 @@ pub fn solve<S: Scalar, M: SquareMatrix<S>, U: Unknown<S>>(matrix: &mut M, vecto
         }
         vector.set_entry(row, sum / matrix.get(row, row));
     }
+    sign
 }
 
 /// Writes the inverse of a matrix to `out`; the matrix is used up.
