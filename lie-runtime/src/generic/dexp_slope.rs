@@ -9,7 +9,7 @@ use crate::state::State;
 const TERMS: usize = 24;
 
 /// `phi1(ad*_x) mu = sum_k t_k`, `t_k = (ad*_x)^k mu/(k + 1)!`, and its derivative along v: the sum of
-/// `e_k = (ad*_x e_(k-1) + ad*_v t_(k-1))/(k + 1)`, `e_0 = 0`.
+/// `e_k = (ad*_x e_(k-1) + ad*_v t_(k-1))/(k + 1)`; `e_0 = 0`, or the derivative of mu where that moves too.
 #[derive(Clone, Debug)]
 pub(super) struct DexpSlope<V, S> {
     scratch: Scratch<V>,
@@ -53,10 +53,18 @@ impl<S: Scalar, V: State<S>> DexpSlope<V, S> {
         P: LiePoisson<S, State = V>,
     {
         total.fill(S::zero());
-        self.derivative.fill(S::zero());
         if v.as_slice().iter().all(|&entry| entry == S::zero()) {
             return;
         }
+        self.along_both(system, x, v, total);
+    }
+
+    /// The same where mu moves too: `total` holds its derivative before, and that of `phi1(ad*_x) mu` after.
+    pub(super) fn along_both<P>(&mut self, system: &P, x: &V, v: &V, total: &mut V)
+    where
+        P: LiePoisson<S, State = V>,
+    {
+        self.derivative.copy_from(total);
         for index in 1..TERMS {
             let counted = S::from_f64(index as f64).less_equal(self.last);
             if !counted.any() {

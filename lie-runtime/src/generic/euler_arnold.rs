@@ -1,16 +1,13 @@
 //! The two halves of a step on `T*G` as equations.
 
-use super::series::{Scratch, coadjoint_action_in, dexp_dual_in};
+use super::dexp_slope::DexpSlope;
+use super::series::coadjoint_action_in;
 use crate::equation::Equation;
 use crate::matrix::SquareMatrix;
-use crate::methods::Retraction;
 use crate::newton::dense;
-use crate::scalar::{Mask, Scalar};
+use crate::scalar::Scalar;
 use crate::state::State;
 use crate::structure::CotangentPoisson;
-
-/// Terms of the series whose derivative enters the Jacobian, as in the Lie–Poisson midpoint method.
-const TERMS: usize = 24;
 
 /// Which half of a step: they are adjoint to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,8 +30,8 @@ pub enum Half {
 ///   state is `(mu' - h F(a1, m), a1)`.
 ///
 /// Both are products of two coadjoint actions, of `exp(xi)` and of `exp(h (0, dH/da))`, so the coadjoint orbit
-/// is kept to round-off whatever the error of the unknown. Jacobians: the derivative of a series
-/// `sum_k c_k (ad*_xi)^k nu` along (dx, dnu) by `e_k = (ad*_xi e_(k-1) + ad*_dx t_(k-1)) c_k/c_(k-1)`, `e_0 = dnu`.
+/// is kept to round-off whatever the error of the unknown. Jacobians: by the derivatives of `phi1(ad*_xi) nu`, and
+/// `exp(A) = 1 + A phi1(A)`.
 #[derive(Debug)]
 pub struct EulerArnoldHalf<'a, S: Scalar, P: CotangentPoisson<S>> {
     system: &'a P,
@@ -53,18 +50,19 @@ pub struct EulerArnoldHalf<'a, S: Scalar, P: CotangentPoisson<S>> {
     /// (0, h dH/da)
     force: P::State,
     hessian: P::Jacobian,
-    scratch: Scratch<P::State>,
-    terms: [P::State; TERMS],
-    columns: [P::State; 6],
+    series: DexpSlope<P::State, S>,
+    /// `phi1(ad*_direction)` of the start.
+    sum: P::State,
+    columns: [P::State; 4],
 }
 
 impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
-    /// The equation of one half with the step h.
-    pub fn new(system: &'a P, half: Half, h: S) -> Self {
+    /// The equation of the first half with the step h.
+    pub fn new(system: &'a P, h: S) -> Self {
         let zero = system.zero_state();
         Self {
             system,
-            half,
+            half: Half::First,
             step: h,
             size: S::one(),
             base: zero.clone(),
@@ -74,10 +72,15 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
             direction: zero.clone(),
             force: zero.clone(),
             hessian: system.zero_jacobian(),
-            scratch: Scratch::new(&zero),
-            terms: core::array::from_fn(|_| zero.clone()),
+            series: DexpSlope::new(&zero),
+            sum: zero.clone(),
             columns: core::array::from_fn(|_| zero.clone()),
         }
+    }
+
+    /// Goes over to one of the halves.
+    pub fn set_half(&mut self, half: Half) {
+        self.half = half;
     }
 
     /// Splits `h grad H` at the point into the direction and the force.
@@ -109,23 +112,10 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
         }
     }
 
-    /// `phi1(ad*_direction)` of the start into `sum`, the terms kept; the index of the last in each lane.
-    fn momentum(&mut self, sum: &mut P::State) -> S {
-        let terms = &mut self.terms;
-        let keep = |index: usize, term: &P::State| {
-            if let Some(kept) = terms.get_mut(index) {
-                kept.copy_from(term);
-            }
-        };
-        let scratch = &mut self.scratch;
-        dexp_dual_in(
-            self.system,
-            &self.direction,
-            &self.start,
-            sum,
-            scratch,
-            keep,
-        )
+    /// Sets the sum.
+    fn momentum(&mut self) {
+        let (system, series) = (self.system, &mut self.series);
+        series.evaluate(system, &self.direction, &self.start, &mut self.sum);
     }
 
     /// First half: sets direction, force and start for the momentum m.
@@ -145,7 +135,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
         for (entry, &y) in self.direction.as_mut_slice().iter_mut().zip(y.as_slice()) {
             *entry = y / self.size;
         }
-        let (system, scratch) = (self.system, &mut self.scratch);
+        let (system, scratch) = (self.system, self.series.scratch());
         coadjoint_action_in(
             system,
             &self.direction,
@@ -155,65 +145,33 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
         );
     }
 
-    /// The residual; the index of the last term of the series in each lane.
-    fn evaluate(&mut self, unknown: &P::Momentum, residual: &mut P::Momentum) -> S {
-        let mut sum = self.columns[1].clone();
-        let last = match self.half {
+    fn evaluate(&mut self, unknown: &P::Momentum, residual: &mut P::Momentum) {
+        match self.half {
             Half::First => {
                 self.set_first(unknown);
-                let last = self.momentum(&mut sum);
+                self.momentum();
                 for (index, out) in residual.as_mut_slice().iter_mut().enumerate() {
-                    *out = unknown.as_slice()[index] - sum.as_slice()[index];
+                    *out = unknown.as_slice()[index] - self.sum.as_slice()[index];
                 }
-                last
             }
             Half::Second => {
-                self.set_second(unknown);
-                let last = self.momentum(&mut sum);
-                let point = self.point.as_mut_slice();
-                point[..P::MOMENTA].copy_from_slice(&sum.as_slice()[..P::MOMENTA]);
+                self.solve_point(unknown);
                 self.system.gradient(&self.point, &mut self.gradient);
                 for (index, out) in residual.as_mut_slice().iter_mut().enumerate() {
                     let velocity = self.step * self.gradient.as_slice()[index];
                     *out = unknown.as_slice()[index] - self.size * velocity;
                 }
-                last
-            }
-        };
-        self.columns[1] = sum;
-        last
-    }
-
-    /// The derivative of `sum_k shift!/(k + shift)! (ad*_direction)^k` of the kept terms' start along
-    /// (along, first) into `columns[5]`, by the terms up to `last`.
-    fn series_slope(&mut self, shift: usize, last: S) {
-        let [along, derivative, first, second, start, total] = &mut self.columns;
-        derivative.copy_from(start);
-        total.copy_from(start);
-        for index in 1..TERMS {
-            let counted = S::from_f64(index as f64).less_equal(last);
-            if !counted.any() {
-                break;
-            }
-            self.system.ad_star(&self.direction, derivative, first);
-            self.system.ad_star(along, &self.terms[index - 1], second);
-            let weight = S::ratio(1.0, (index + shift) as f64);
-            for row in 0..P::DIM {
-                let term = (first.as_slice()[row] + second.as_slice()[row]) * weight;
-                derivative.as_mut_slice()[row] = term;
-                let sum = total.as_slice()[row];
-                total.as_mut_slice()[row] = S::select(counted, sum + term, sum);
             }
         }
     }
 
-    fn linearize_first(&mut self, last: S, matrix: &mut P::MomentumMatrix) {
+    fn linearize_first(&mut self, matrix: &mut P::MomentumMatrix) {
         self.system.hessian(&self.point, &mut self.hessian);
+        let [along, force, total, free] = &mut self.columns;
         for column in 0..P::MOMENTA {
-            let [along, _, first, force, start, _] = &mut self.columns;
             along.fill(S::zero());
             force.fill(S::zero());
-            start.fill(S::zero());
+            total.fill(S::zero());
             for row in 0..P::DIM {
                 let part = if row < P::MOMENTA {
                     &mut *along
@@ -222,83 +180,64 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
                 };
                 part.as_mut_slice()[row] = self.step * self.hessian.get(row, column);
             }
-            Self::push_force(self.system, force, &self.base, start, first);
-            self.series_slope(1, last);
+            Self::push_force(self.system, force, &self.base, total, free);
+            self.series
+                .along_both(self.system, &self.direction, along, total);
             for row in 0..P::MOMENTA {
                 let identity = if row == column { S::one() } else { S::zero() };
-                matrix.set(row, column, identity - self.columns[5].as_slice()[row]);
+                matrix.set(row, column, identity - total.as_slice()[row]);
             }
         }
     }
 
-    fn linearize_second(&mut self, last: S, matrix: &mut P::MomentumMatrix) {
+    fn linearize_second(&mut self, matrix: &mut P::MomentumMatrix) {
         self.system.hessian(&self.point, &mut self.hessian);
-        // derivatives of m first, kept in the matrix; then those of a1 from the terms of the action
+        let [unit, total, first, second] = &mut self.columns;
         for column in 0..P::MOMENTA {
-            self.columns[0].fill(S::zero());
-            self.columns[0].as_mut_slice()[column] = S::one();
-            self.columns[4].fill(S::zero());
-            self.series_slope(1, last);
+            unit.fill(S::zero());
+            unit.as_mut_slice()[column] = S::one();
+            self.series.along(self.system, &self.direction, unit, total);
+            // exp(A) = 1 + A phi1(A): the derivative of the action along the unit
+            self.system.ad_star(unit, &self.sum, first);
+            self.system.ad_star(&self.direction, total, second);
             for row in 0..P::MOMENTA {
-                let mut sum = S::zero();
-                for (inner, &slope) in self.columns[5].as_slice()[..P::MOMENTA].iter().enumerate() {
-                    sum += self.hessian.get(row, inner) * slope;
+                let mut slope = S::zero();
+                for inner in 0..P::DIM {
+                    let moved = if inner < P::MOMENTA {
+                        total.as_slice()[inner]
+                    } else {
+                        first.as_slice()[inner] + second.as_slice()[inner]
+                    };
+                    slope += self.hessian.get(row, inner) * moved;
                 }
                 let identity = if row == column { S::one() } else { S::zero() };
-                matrix.set(row, column, identity - self.step * sum);
-            }
-        }
-        self.terms[0].copy_from(&self.base);
-        for index in 1..TERMS {
-            let (before, after) = self.terms.split_at_mut(index);
-            let (before, after) = (&before[index - 1], &mut after[0]);
-            self.system.ad_star(&self.direction, before, after);
-            let weight = S::ratio(1.0, index as f64);
-            for entry in after.as_mut_slice() {
-                *entry *= weight;
-            }
-        }
-        for column in 0..P::MOMENTA {
-            self.columns[0].fill(S::zero());
-            self.columns[0].as_mut_slice()[column] = S::one();
-            self.columns[4].fill(S::zero());
-            // the action has terms 1/k!, one more than phi1 to the same size
-            self.series_slope(0, last + S::one());
-            for row in 0..P::MOMENTA {
-                let mut sum = S::zero();
-                for inner in P::MOMENTA..P::DIM {
-                    sum += self.hessian.get(row, inner) * self.columns[5].as_slice()[inner];
-                }
-                matrix.set(row, column, matrix.get(row, column) - self.step * sum);
+                matrix.set(row, column, identity - self.step * slope);
             }
         }
     }
 
     /// The element of each of the two actions of a solved half, in their order.
-    pub(crate) fn factors(&mut self, unknown: &P::Momentum) -> [(Retraction, &P::State); 2] {
-        let (first, second) = match self.half {
+    pub(crate) fn factors(&mut self, unknown: &P::Momentum) -> [&P::State; 2] {
+        match self.half {
             Half::First => {
                 self.set_first(unknown);
-                (&self.force, &self.direction)
+                [&self.force, &self.direction]
             }
             Half::Second => {
                 self.solve_point(unknown);
                 self.set_force();
-                (&self.direction, &self.force)
+                [&self.direction, &self.force]
             }
-        };
-        [(Retraction::Exp, first), (Retraction::Exp, second)]
+        }
     }
 
-    /// Second half: the point (m, a1) of a solution; `columns[2]` holds `(mu', a1)`.
+    /// Second half: the point (m, a1) of an unknown; `columns[2]` holds `(mu', a1)`.
     fn solve_point(&mut self, unknown: &P::Momentum) {
         self.set_second(unknown);
-        let mut sum = self.columns[1].clone();
-        self.momentum(&mut sum);
+        self.momentum();
         self.columns[2].copy_from(&self.point);
         let point = self.point.as_mut_slice();
-        point[..P::MOMENTA].copy_from_slice(&sum.as_slice()[..P::MOMENTA]);
-        self.columns[1] = sum;
+        point[..P::MOMENTA].copy_from_slice(&self.sum.as_slice()[..P::MOMENTA]);
     }
 
     /// The force at the point, the direction kept.
@@ -363,10 +302,10 @@ impl<S: Scalar, P: CotangentPoisson<S>> Equation<S> for EulerArnoldHalf<'_, S, P
         residual: &mut P::Momentum,
         matrix: &mut P::MomentumMatrix,
     ) {
-        let last = self.evaluate(unknown, residual);
+        self.evaluate(unknown, residual);
         match self.half {
-            Half::First => self.linearize_first(last, matrix),
-            Half::Second => self.linearize_second(last, matrix),
+            Half::First => self.linearize_first(matrix),
+            Half::Second => self.linearize_second(matrix),
         }
     }
 
@@ -382,7 +321,7 @@ impl<S: Scalar, P: CotangentPoisson<S>> Equation<S> for EulerArnoldHalf<'_, S, P
         match self.half {
             Half::First => {
                 self.set_first(unknown);
-                let (system, scratch) = (self.system, &mut self.scratch);
+                let (system, scratch) = (self.system, self.series.scratch());
                 coadjoint_action_in(system, &self.direction, &self.start, mu, scratch);
             }
             Half::Second => {

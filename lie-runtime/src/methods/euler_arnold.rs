@@ -30,7 +30,7 @@
 
 use super::facts::{Facts, Preserves};
 use super::implicit::{ImplicitStepper, clear};
-use super::stepper::{FactorSink, Method, StepFailure, StepReport, Stepper};
+use super::stepper::{FactorSink, Method, Retraction, StepFailure, StepReport, Stepper};
 use crate::generic::{EulerArnoldHalf, Half};
 use crate::newton::NewtonOptions;
 use crate::scalar::{Mask, Scalar};
@@ -57,23 +57,21 @@ impl<S: Scalar, P: CotangentPoisson<S>> Method<S, P> for EulerArnold2 {
 
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
         let half = h * S::ratio(1.0, 2.0);
-        let stepper = |which| {
-            let equation = EulerArnoldHalf::new(system, which, half);
-            ImplicitStepper::new(equation, system.zero_state(), newton)
-        };
+        let equation = EulerArnoldHalf::new(system, half);
         EulerArnoldStepper {
-            halves: [stepper(Half::First), stepper(Half::Second)],
+            half: ImplicitStepper::new(equation, system.zero_state(), newton),
             next: system.zero_state(),
-            factor: system.zero_state(),
+            factors: core::array::from_fn(|_| system.zero_state()),
         }
     }
 }
 
 /// The stepper of [`EulerArnold2`].
 pub struct EulerArnoldStepper<'a, S: Scalar, P: CotangentPoisson<S>> {
-    halves: [ImplicitStepper<S, EulerArnoldHalf<'a, S, P>>; 2],
+    half: ImplicitStepper<S, EulerArnoldHalf<'a, S, P>>,
     next: P::State,
-    factor: P::State,
+    /// The elements of the actions of both halves, in their order.
+    factors: [P::State; 4],
 }
 
 impl<S: Scalar, P: CotangentPoisson<S>> Stepper<S> for EulerArnoldStepper<'_, S, P> {
@@ -90,8 +88,19 @@ impl<S: Scalar, P: CotangentPoisson<S>> Stepper<S> for EulerArnoldStepper<'_, S,
             ..StepReport::default()
         };
         let mut failure: Option<StepFailure> = None;
-        for half in &mut self.halves {
-            let outcome = half.step(&mut self.next, &mut ());
+        for (half, factors) in [Half::First, Half::Second]
+            .into_iter()
+            .zip(self.factors.chunks_exact_mut(2))
+        {
+            self.half
+                .with_solution(|equation, _| equation.set_half(half));
+            let outcome = self.half.step(&mut self.next, &mut ());
+            if K::ACTIVE {
+                let found = self.half.with_solution(EulerArnoldHalf::factors);
+                for (factor, xi) in factors.iter_mut().zip(found) {
+                    factor.copy_from(xi);
+                }
+            }
             let part = match outcome {
                 Ok(part) => part,
                 Err(new) => {
@@ -109,12 +118,9 @@ impl<S: Scalar, P: CotangentPoisson<S>> Stepper<S> for EulerArnoldStepper<'_, S,
         let failed = S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
         mu.assign_where(!failed, &self.next);
         if K::ACTIVE && !failed.all() {
-            for half in &mut self.halves {
-                for (retraction, xi) in half.with_solution(EulerArnoldHalf::factors) {
-                    self.factor.copy_from(xi);
-                    clear(&mut self.factor, failed);
-                    sink.push(retraction, &self.factor);
-                }
+            for factor in &mut self.factors {
+                clear(factor, failed);
+                sink.push(Retraction::Exp, factor);
             }
         }
         match failure {
