@@ -79,6 +79,9 @@ fn exact(
                     &sum + &(c * &values[term])
                 })
             }
+            Node::Written(terms) => terms
+                .iter()
+                .fold(Rational::ZERO, |sum, (term, c)| &sum + &(c * &values[term])),
             Node::Product(factors) => {
                 let mut product = Rational::ONE;
                 for (base, exponent) in factors {

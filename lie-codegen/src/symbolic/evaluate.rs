@@ -23,6 +23,9 @@ impl Graph {
                         sum + c.to_f64() * values[t]
                     })
                 }
+                Node::Written(terms) => terms
+                    .iter()
+                    .fold(0.0, |sum, (t, c)| sum + c.to_f64() * values[t]),
                 Node::Product(factors) => factors.iter().fold(1.0, |product, (base, exponent)| {
                     let base = values[base];
                     product
