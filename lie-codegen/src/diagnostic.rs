@@ -74,6 +74,8 @@ kinds! {
     Toolchain "toolchain" "cargo is missing or failed.",
     Checkpoint "checkpoint" "A checkpoint does not fit.",
     Limit "limit" "A size limit is exceeded.",
+    Unused "unused" "Only a warning: a parameter or an abbreviation that nothing uses.",
+    Motionless "motionless" "Only a warning: all brackets are zero, or the Hamiltonian is constant.",
 }
 impl fmt::Display for Kind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
