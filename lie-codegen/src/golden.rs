@@ -16,8 +16,9 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::characters::visible;
 use crate::compile::{compile_spec, expand, with_options};
-use crate::diagnostic::Origin;
+use crate::diagnostic::{MOST_SHOWN, Origin, not_shown};
 use crate::front::line_column;
 use crate::methods::Choice;
 
@@ -172,9 +173,10 @@ fn generate(path: &Path, methods: &[&str]) -> Result<String, String> {
     let place = path.display();
     let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: {error}"))?;
     let model = compile_spec(&text).map_err(|diagnostics| {
-        let messages: Vec<String> = diagnostics
-            .iter()
-            .filter(|d| !d.warning)
+        let errors = diagnostics.iter().filter(|d| !d.warning);
+        let rest = not_shown(errors.clone().count());
+        let messages: Vec<String> = errors
+            .take(MOST_SHOWN)
             .map(|d| {
                 let place = match d.origin {
                     Some(Origin::Text { start, .. }) => {
@@ -184,8 +186,10 @@ fn generate(path: &Path, methods: &[&str]) -> Result<String, String> {
                     _ => place.to_string(),
                 };
                 let help = d.help.as_deref().unwrap_or("correct the declaration");
-                format!("{place}: error[{}]: {}{REMEDY}{help}", d.kind, d.message)
+                let text = format!("{place}: error[{}]: {}{REMEDY}{help}", d.kind, d.message);
+                visible(&text).into_owned()
             })
+            .chain(rest)
             .collect();
         messages.join("\n")
     })?;

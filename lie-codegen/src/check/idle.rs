@@ -81,7 +81,7 @@ fn mentioned(declaration: &Declaration) -> BTreeSet<&str> {
     pending.extend(declaration.lets.iter().map(|(_, value)| value));
     pending.push(declaration.energy.expression());
     pending.extend(declaration.casimirs.iter().map(|c| &c.value));
-    for realization in &declaration.realization {
+    if let Some(realization) = &declaration.realization {
         pending.extend(realization.map.iter().map(|(_, value)| value));
         pending.extend(realization.start.iter().flatten());
     }
