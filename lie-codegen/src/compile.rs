@@ -116,7 +116,7 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
                 .clone()
                 .unwrap_or_else(|| format!("The parameter `{}`", p.name));
             if let Some(unit) = &p.unit {
-                doc.push_str(&format!(" [{unit}]"));
+                doc.push_str(&format!(" \\[{unit}]"));
             }
             doc.push('.');
             Parameter {
@@ -305,6 +305,6 @@ fn docs(model: &Model) -> Vec<String> {
         docs.push(format!("Reference: {reference}"));
     }
     docs.into_iter()
-        .map(|line| line.trim().to_string())
+        .map(|line| line.trim_end().to_string())
         .collect()
 }

@@ -50,6 +50,7 @@
 
 pub mod algebra;
 pub mod ast;
+pub mod characters;
 pub mod check;
 pub mod compile;
 pub mod derive;

@@ -22,9 +22,9 @@ pub struct Parameter {
     pub default_value: f64,
     /// The default of an exact parameter, which structure constants may use.
     pub exact: Option<Rational>,
-    /// Unit, for people.
+    /// Unit, for people, as Markdown within a line.
     pub unit: Option<String>,
-    /// Description, for people.
+    /// Description, for people, as Markdown.
     pub description: Option<String>,
 }
 
@@ -134,9 +134,9 @@ pub struct Model {
     pub name_origin: Origin,
     /// Visibility of the generated type.
     pub visibility: TokenStream,
-    /// Description, by lines.
+    /// Description, by lines of Markdown.
     pub description: Vec<String>,
-    /// References, for people.
+    /// References, for people, as Markdown within a line.
     pub references: Vec<String>,
     /// The arena of all expressions.
     pub graph: Graph,

@@ -15,6 +15,7 @@ pub mod domain;
 mod energy;
 mod entries;
 mod environment;
+mod idle;
 mod independence;
 mod initial;
 mod legendre;
@@ -62,6 +63,9 @@ pub use size::MAX_DIMENSION;
 pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     let mut own = Report::new();
     let model = stages(declaration, &mut own);
+    if let Some(model) = &model {
+        idle::check(declaration, model, &mut own);
+    }
     let failed = own.has_errors();
     let diagnostics = own.into_diagnostics();
     let warnings: Vec<Diagnostic> = diagnostics.iter().filter(|d| d.warning).cloned().collect();

@@ -2,6 +2,7 @@ mod algebra;
 mod casimirs;
 mod configuration;
 mod domain;
+mod idle;
 mod legendre;
 mod limits;
 mod names;

@@ -3,10 +3,10 @@
 use super::quantity;
 use crate::ast::{Name, Parameter};
 use crate::diagnostic::Report;
-use crate::front::item;
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, string, wrong_type};
 use crate::front::schema::DescribedParameter;
+use crate::front::{item, prose};
 
 /// What was found.
 #[derive(Default)]
@@ -53,14 +53,10 @@ fn described(
 ) -> Option<Parameter> {
     let object = Object::read(value, what, DescribedParameter::KEYS, report)?;
     object.require(what, DescribedParameter::REQUIRED, report);
-    let mut text = |key: &str| {
-        Some(
-            string(object.get(key)?, &format!("`{key}`"), report)?
-                .text
-                .into_owned(),
-        )
-    };
-    let (unit, description) = (text("unit"), text("description"));
+    let mut text = |key: &str, place: &str| string(object.get(key)?, place, report);
+    let (unit, description) = (text("unit", "`unit`"), text("description", "`description`"));
+    let unit = unit.map(|text| prose::inline(&text, "the unit", report));
+    let description = description.map(|text| prose::paragraph(&text, "the description", report));
     let exact = object.get("exact").map(|v| {
         if v.boolean().is_none() {
             report.push(wrong_type(&v, "`exact`", "a boolean"));
