@@ -10,6 +10,7 @@ mod cocycle;
 pub mod configuration;
 mod constant;
 mod defaults;
+mod degree;
 mod discrete;
 pub mod domain;
 mod energy;
@@ -210,7 +211,7 @@ fn system(
         Structure::General => {
             poisson::jacobi(declaration, &brackets, &mut scratch, report);
             let degrees = poisson.entries.iter();
-            let mut degrees = degrees.map(|(.., value)| casimirs::degree(&graph, *value));
+            let mut degrees = degrees.map(|(.., value)| degree::degree(&graph, *value));
             poisson.degree = degrees.try_fold(0, |most, degree| Some(most.max(degree?)));
         }
     }
@@ -240,7 +241,7 @@ fn system(
     }
     let (pieces, hamiltonian_degree) = if exact {
         let pieces = separable::coordinates(&mut scratch, hamiltonian, dimension);
-        (pieces, casimirs::degree(&scratch, hamiltonian))
+        (pieces, degree::degree(&scratch, hamiltonian))
     } else {
         (Err((0, dimension - 1)), None)
     };
