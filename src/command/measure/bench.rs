@@ -57,7 +57,7 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();
-    let program = bed.program(flags, Purpose::Bench)?;
+    let program = bed.program(flags, Purpose::Bench, &interrupt)?;
     let (mut points, mut stopped, mut reference) = (Vec::new(), Vec::new(), [f64::NAN; 2]);
     let numbers = [("until", until), ("budget", budget)];
     let ended = bed.measure(
@@ -98,8 +98,8 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     files::write(out, arguments.out.as_deref(), wanted.then(|| csv(&points)))?;
     files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
     print(&report(&bed, until, &points, &stopped, reference))?;
-    if matches!(ended, Ended::Interrupted) {
-        return Ok(interrupted(flags));
+    if let Ended::Interrupted(code) = ended {
+        return Ok(interrupted(flags, code));
     }
     Ok(0)
 }

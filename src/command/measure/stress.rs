@@ -132,7 +132,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();
-    let program = bed.program(flags, Purpose::Stress)?;
+    let program = bed.program(flags, Purpose::Stress, &interrupt)?;
     let parameters: Vec<String> = bed
         .spec
         .model
@@ -168,8 +168,8 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let picture = || picture(&bed, &cells, step);
     files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
     print(&report(&bed, &cells, step, steps))?;
-    if matches!(ended, Ended::Interrupted) {
-        return Ok(interrupted(flags));
+    if let Ended::Interrupted(code) = ended {
+        return Ok(interrupted(flags, code));
     }
     let lost: Vec<&Cell> = cells.iter().filter(|cell| cell.word == "lost").collect();
     for cell in &lost {
