@@ -137,6 +137,7 @@ pub const FILES: &[(&str, &str)] = files![
     "program/measure/mod.rs",
     "program/measure/stress/mod.rs",
     "program/measure/stress/outcome.rs",
+    "program/measure/timing.rs",
     "program/measure/verify.rs",
     "program/mod.rs",
     "program/request.rs",

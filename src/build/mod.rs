@@ -41,11 +41,15 @@ const PLAIN: Template = Template {
     lock: include_str!("template/Cargo.lock"),
     modules: &[],
 };
-/// With the methods from elsewhere that `lie bench` compares with: only its programs depend on them.
+/// With the clock of `lie bench`, and the methods from elsewhere that it compares with: only its programs depend on
+/// them.
 const BENCH: Template = Template {
     manifest: include_str!("template/bench/Cargo.toml"),
     lock: include_str!("template/bench/Cargo.lock"),
-    modules: &[("controls.rs", include_str!("template/bench/controls.rs"))],
+    modules: &[
+        ("clock.rs", include_str!("template/bench/clock.rs")),
+        ("controls.rs", include_str!("template/bench/controls.rs")),
+    ],
 };
 
 impl Template {

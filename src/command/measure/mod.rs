@@ -3,6 +3,7 @@
 pub mod bench;
 mod files;
 mod list;
+mod quiet;
 pub mod stress;
 mod table;
 pub mod verify;

@@ -8,6 +8,7 @@
 
 mod bench;
 mod stress;
+mod timing;
 mod verify;
 
 pub use bench::{Bench, Control, ControlRun};
