@@ -309,7 +309,7 @@ fn report(bed: &Bed, cells: &[Cell], step: f64, steps: u64) -> String {
         table::text(&rows),
     );
     let model = &bed.spec.model;
-    let independent = model.dimension() - model.generic_rank;
+    let independent = model.casimirs_to_find();
     if model.casimirs.len() < independent {
         text.push_str(&format!(
             "{} of {independent} Casimirs declared: the others are not looked at, declare them in the spec\n",
