@@ -135,6 +135,7 @@ pub const FILES: &[(&str, &str)] = files![
     "poisson.rs",
     "program/measure/bench.rs",
     "program/measure/mod.rs",
+    "program/measure/stress/growth.rs",
     "program/measure/stress/mod.rs",
     "program/measure/stress/outcome.rs",
     "program/measure/timing.rs",

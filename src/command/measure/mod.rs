@@ -2,6 +2,7 @@
 
 pub mod bench;
 mod files;
+mod growth;
 mod list;
 mod quiet;
 pub mod stress;
