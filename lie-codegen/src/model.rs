@@ -212,6 +212,13 @@ impl Model {
         transform != Some(Transform::Newton)
     }
 
+    /// How many independent Casimirs a user may look for. The unit beside the time is one that nobody has to
+    /// declare.
+    pub fn casimirs_to_find(&self) -> usize {
+        let unit = self.configuration.as_ref().is_some_and(|c| c.time);
+        (self.dimension() - self.generic_rank).saturating_sub(usize::from(unit))
+    }
+
     /// The coordinates that are shown: all but those that carry the time.
     pub fn shown_coordinates(&self) -> Vec<usize> {
         let hidden = |i: &usize| self.configuration.as_ref().is_some_and(|c| c.is_hidden(*i));

@@ -6,7 +6,8 @@
 use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
 use std::process::{Child, ChildStderr, Command, Stdio};
 
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, own_group};
+use crate::message::INTERRUPTED;
 
 /// At which times rows are wanted.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,6 +78,8 @@ pub struct Counts {
     pub evaluations: u64,
     /// Newton iterations.
     pub newton: u64,
+    /// Steps that an adaptive method took within those; every other method takes one.
+    pub accepted: u64,
     /// Steps tried and refused by an adaptive method.
     pub rejected: u64,
 }
@@ -103,8 +106,8 @@ pub struct Stop {
 pub enum End {
     /// All rows were written.
     Done(Counts),
-    /// Asked to stop by Ctrl-C.
-    Interrupted,
+    /// Asked to stop by a signal, which asks for this exit code.
+    Interrupted(u8),
     /// The integration stopped early.
     Stopped(Stop),
     /// A parameter's value is impossible: its name and why.
@@ -156,10 +159,12 @@ pub fn run(
     interrupt.stop();
     taken?;
     Ok(match (status.code(), last) {
+        (Some(130), _) if interrupt.seen().is_some() => {
+            End::Interrupted(interrupt.seen().unwrap_or(INTERRUPTED))
+        }
         (Some(0), Last::Done(counts)) => End::Done(counts),
         (Some(2), Last::Parameter(name, why)) => End::Parameter(name, why),
         (Some(3), Last::Failed(stop)) => End::Stopped(stop),
-        (Some(130), _) if interrupt.seen() => End::Interrupted,
         (_, last) => {
             let words = if let Last::Other(words) = last {
                 words
@@ -242,16 +247,6 @@ fn last_line(pipe: ChildStderr, progress: &mut (dyn FnMut(u64, u64) + Send)) -> 
         }
     }
     last
-}
-
-/// Ctrl-C at the terminal must reach this process alone: the program ends by its stdin.
-fn own_group(command: &mut Command) {
-    #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(command, 0);
-    #[cfg(windows)]
-    std::os::windows::process::CommandExt::creation_flags(command, 0x0000_0200);
-    #[cfg(not(any(unix, windows)))]
-    let _ = command;
 }
 
 /// Hands on whole rows as they come; half a row at the end of a killed program is dropped.
@@ -349,6 +344,7 @@ fn counts(fields: &str) -> Counts {
         steps: value("steps"),
         evaluations: value("evaluations"),
         newton: value("newton"),
+        accepted: value("accepted"),
         rejected: value("rejected"),
     }
 }

@@ -51,12 +51,13 @@ const ROW: &str = r"printf '\000\000\000\000\000\000\360\077\000\000\000\000\000
 fn rows_progress_and_counts() {
     let (end, rows, steps) = script(&format!(
         "while read line; do [ \"$line\" = run ] && break; done; {ROW}; {ROW}; \
-         echo progress 3 10 >&2; echo done steps=10 evaluations=4 newton=21 rejected=1 >&2"
+         echo progress 3 10 >&2; echo done steps=10 evaluations=4 newton=21 accepted=12 rejected=1 >&2"
     ));
     let counts = Counts {
         steps: 10,
         evaluations: 4,
         newton: 21,
+        accepted: 12,
         rejected: 1,
     };
     assert_eq!(end.ok(), Some(End::Done(counts)));

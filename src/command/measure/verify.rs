@@ -108,7 +108,7 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     };
     let bed = bed(flags, |spec| list::all(&spec.model))?;
     let interrupt = Interrupt::install();
-    let program = bed.program(flags, Purpose::Verify)?;
+    let program = bed.program(flags, Purpose::Verify, &interrupt)?;
     let mut numbers = vec![("seed", f64::from(arguments.seed))];
     numbers.extend(step.map(|step| ("step", step)));
     let mut findings = Vec::new();
@@ -143,8 +143,8 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     } else {
         print(&report(&bed.spec.model.name, &ground, &findings))?;
     }
-    if matches!(ended, Ended::Interrupted) {
-        return Ok(interrupted(flags));
+    if let Ended::Interrupted(code) = ended {
+        return Ok(interrupted(flags, code));
     }
     let failed: Vec<&Finding> = findings.iter().filter(|finding| finding.fails()).collect();
     for finding in &failed {

@@ -113,7 +113,14 @@ impl<P: Lift<f64> + 'static> Verify<P> {
         mut messages: impl Write,
     ) -> u8 {
         let work = |request: &Request, session: &mut Session<'_>| self.work(request, session);
-        serve(&self.defaults, input, &mut output, &mut messages, &work)
+        serve(
+            None,
+            &self.defaults,
+            input,
+            &mut output,
+            &mut messages,
+            &work,
+        )
     }
 
     fn work(&self, request: &Request, session: &mut Session<'_>) -> Ended {
