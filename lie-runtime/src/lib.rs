@@ -96,7 +96,7 @@ pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 pub use structure::{
-    CotangentPoisson, InertiaPoisson, MatrixGroup, MatrixPoisson, RealizedPoisson, SpinPoisson,
+    ClosedRealization, CotangentPoisson, InertiaPoisson, MatrixGroup, MatrixPoisson, RealizedPoisson, SpinPoisson,
 };
 
 /// What a program usually needs.

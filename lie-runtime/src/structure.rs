@@ -173,6 +173,17 @@ pub trait RealizedPoisson<S: Scalar>: Poisson<S> {
     fn start(&self, out: &mut Self::Point);
 }
 
+/// A realization over which Gauss methods are methods for the state.
+///
+/// All components are of degree at most two in z, so that each has a flow by affine maps; and the span of the
+/// matrices of these flows, constants beside them, is closed under `(abc + cba)/2`. The momenta of the
+/// stages are then functions of mu alone. The compiler decides it.
+#[diagnostic::on_unimplemented(
+    message = "Gauss methods over the realization of `{Self}` do not descend to the state",
+    note = "the components must be of degree at most two, and the matrices of their flows closed under (abc + cba)/2: `lie check` says what is missing; `LieMidpoint::exp()` works for every Lie algebra"
+)]
+pub trait ClosedRealization<S: Scalar>: RealizedPoisson<S> {}
+
 /// A plane of rotation: the basis element is `E_(to, from) - E_(from, to)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plane {

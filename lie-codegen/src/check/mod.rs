@@ -10,6 +10,7 @@ mod cocycle;
 pub mod configuration;
 mod constant;
 mod defaults;
+mod descent;
 mod discrete;
 pub mod domain;
 mod energy;

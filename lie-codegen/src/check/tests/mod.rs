@@ -7,6 +7,7 @@ mod limits;
 mod names;
 mod poisson;
 mod random;
+mod realization;
 
 use super::*;
 use crate::diagnostic::Origin;
