@@ -76,6 +76,18 @@ pub trait CotangentPoisson<S: Scalar>: LiePoisson<S> {
     fn zero_momentum_matrix(&self) -> Self::MomentumMatrix;
 }
 
+/// What is known of the eigenvalues of `rho(xi)`, for a representation `rho`: where one is real and above 2 in
+/// absolute value, the Cayley map is not joined to the identity along xi.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spectrum {
+    /// None is real but 0, for any xi: no Cayley map of an element has a pole on its way.
+    Imaginary,
+    /// `|lambda| <= sum_k w_k |xi^k|` with these weights.
+    Bounded(&'static [f64]),
+    /// Nothing.
+    Unknown,
+}
+
 /// The matrices of a representation `rho` and of its dual, by their nonzero entries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Representation {
@@ -121,6 +133,8 @@ pub trait MatrixPoisson<S: Scalar>: LiePoisson<S> {
     type Matrix: SquareMatrix<S>;
     /// The matrices.
     const REPRESENTATION: Representation;
+    /// The eigenvalues of the matrices.
+    const SPECTRUM: Spectrum = Spectrum::Unknown;
     /// A matrix of the size of the representation, all entries 0.
     fn zero_matrix(&self) -> Self::Matrix;
 }

@@ -196,7 +196,10 @@ pub fn check(
             slopes: slopes.clone(),
             seconds: Vec::new(),
         };
-        for (slope, i) in slopes.iter().flat_map(|s| (0..2 * half).map(move |i| (s, i))) {
+        for (slope, i) in slopes
+            .iter()
+            .flat_map(|s| (0..2 * half).map(move |i| (s, i)))
+        {
             let second = scratch.derivative(*slope, Symbol::Input(CANONICAL + i));
             component.seconds.push(second);
             for j in i..2 * half {

@@ -44,7 +44,9 @@ pub fn orbit_distance<P: LiePoisson<f64>>(system: &P, start: &P::State, end: &P:
         }
         let size = action(system, &xi);
         if size > 0.0 {
-            xi.as_mut_slice().iter_mut().for_each(|entry| *entry /= size);
+            xi.as_mut_slice()
+                .iter_mut()
+                .for_each(|entry| *entry /= size);
         }
         let mut point = start.clone();
         act_by_exp(system, &xi, &mut point);
@@ -68,7 +70,9 @@ fn descend<P: LiePoisson<f64>>(system: &P, mut point: P::State, end: &P::State) 
         let solution = Basis::of_span(&poisson_columns(system, &point)).solve(&gap, P::DIM);
         xi.as_mut_slice().copy_from_slice(&solution);
         let factor = 1.0 / action(system, &xi).max(1.0);
-        xi.as_mut_slice().iter_mut().for_each(|entry| *entry *= factor);
+        xi.as_mut_slice()
+            .iter_mut()
+            .for_each(|entry| *entry *= factor);
         let mut after = f64::INFINITY;
         for _ in 0..HALVINGS {
             trial.copy_from(&point);
@@ -86,7 +90,11 @@ fn descend<P: LiePoisson<f64>>(system: &P, mut point: P::State, end: &P::State) 
         point.copy_from(&trial);
         best = best.min(distance(&point, end));
         // a minimum away from the state, or the last digits, which go up and down
-        stalled = if after < (1.0 - 1e-4) * before { 0 } else { stalled + 1 };
+        stalled = if after < (1.0 - 1e-4) * before {
+            0
+        } else {
+            stalled + 1
+        };
     }
     best
 }

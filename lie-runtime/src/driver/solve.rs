@@ -108,6 +108,16 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
             time: grid.time(index),
             failure,
             stats,
+            works: None,
+        })
+    };
+    // a step that left its chart: with one that does not, from the state before it
+    let stopped = |stats: Stats, index: u64, failure: StepFailure, h: f64, mu: &P::State| {
+        let left = failure.reason == FailureReason::OutsideChart;
+        let works = left.then(|| smaller(system, &method, options, h, mu));
+        Box::new(StepError {
+            works: works.flatten(),
+            ..*fail(stats, index, failure)
         })
     };
 
@@ -133,7 +143,9 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
                     let mut shown = Shown::to(observer, system);
                     let report = match shorter.step(&mut between, &mut shown) {
                         Ok(report) => report,
-                        Err(failure) => return Err(fail(stats, index, failure).into()),
+                        Err(failure) => {
+                            return Err(stopped(stats, index, failure, rest, &mu).into());
+                        }
                     };
                     check_domain(system, &between, report)
                         .map_err(|failure| fail(stats, index, failure))?;
@@ -154,7 +166,7 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         }
         let report = match stepper.step(&mut mu, &mut Shown::to(observer, system)) {
             Ok(report) => report,
-            Err(failure) => return Err(fail(stats, index, failure).into()),
+            Err(failure) => return Err(stopped(stats, index, failure, options.step, &mu).into()),
         };
         check_domain(system, &mu, report).map_err(|failure| fail(stats, index, failure))?;
         stats.add(&report);
@@ -163,6 +175,25 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
             return Ok((stats, Status::Stopped));
         }
     }
+}
+
+/// Halvings of a step that is too large.
+const HALVINGS: u32 = 30;
+
+/// The largest of the halves, quarters, … of a step that succeeds from a state, if there is one.
+fn smaller<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    system: &P,
+    method: &M,
+    options: &Options,
+    h: f64,
+    mu: &P::State,
+) -> Option<f64> {
+    let mut h = h;
+    (0..HALVINGS).find_map(|_| {
+        h *= 0.5;
+        let mut stepper = method.stepper(system, S::from_f64(h), &options.newton);
+        stepper.step(&mut mu.clone(), &mut ()).ok().map(|_| h)
+    })
 }
 
 /// The energy must be finite after a step, where H is no polynomial: a step may jump over a singularity.

@@ -2,7 +2,8 @@
 // `p' = -q dH/dq`, `q' = q dH/dp`. Its open orbits are q > 0 and q < 0. The Cayley map of the representation
 // `x -> [[x_a, x_b], [0, 0]]` has its pole at x_a = 2, and beyond it the sign of q changes.
 
-use lie_runtime::{CayleyPoisson, LiePoisson, Poisson, Scalar};
+use lie_runtime::structure::{Entry, Representation};
+use lie_runtime::{CayleyPoisson, LiePoisson, MatrixPoisson, Poisson, Scalar, Spectrum};
 use nalgebra::{SMatrix, SVector};
 
 /// The coefficients k, c, d.
@@ -81,4 +82,28 @@ impl<S: Scalar> CayleyPoisson<S> for AffineLine<S> {
     }
 }
 
-lie_runtime::generic_equations!([S: Scalar] AffineLine<S>, S: exp, cayley, generating2_cayley);
+impl<S: Scalar> MatrixPoisson<S> for AffineLine<S> {
+    type Matrix = SMatrix<S, 2, 2>;
+    const REPRESENTATION: Representation = Representation {
+        matrices: &[&[Entry::new(0, 0, 1.0)], &[Entry::new(0, 1, 1.0)]],
+        dual: &[&[Entry::new(0, 0, 1.0)], &[Entry::new(1, 0, 1.0)]],
+        skew: false,
+    };
+    const SPECTRUM: Spectrum = Spectrum::Bounded(&[1.0, 1.0]);
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        SMatrix::<S, 2, 2>::repeat(S::zero())
+    }
+}
+
+impl<S: Scalar> lie_runtime::Lift<S> for AffineLine<S> {
+    type Lifted = AffineLine<lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        AffineLine(self.0.map(lie_runtime::Dual::constant_of))
+    }
+}
+
+lie_runtime::generic_equations!(
+    [S: Scalar] AffineLine<S>, S: exp, cayley, generating2_cayley, generating4_cayley, isospectral2, isospectral4,
+    isospectral6
+);

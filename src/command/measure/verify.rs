@@ -193,10 +193,11 @@ fn steps(findings: &[Finding], method: &str) -> String {
         .iter()
         .filter(|finding| finding.method == method && SINGLE.contains(&finding.fact.as_str()))
         .map(|finding| finding.step.abs());
-    let (least, most) = own.filter(|step| step.is_finite()).fold(
-        (f64::INFINITY, 0.0_f64),
-        |(least, most), step| (least.min(step), most.max(step)),
-    );
+    let (least, most) = own
+        .filter(|step| step.is_finite())
+        .fold((f64::INFINITY, 0.0_f64), |(least, most), step| {
+            (least.min(step), most.max(step))
+        });
     if most == 0.0 {
         "–".to_owned()
     } else if least == most {

@@ -196,7 +196,10 @@ impl Over {
     fn casimir_drift(&self, start: &[f64]) -> f64 {
         let casimir = |z: &[f64]| self.momenta(z).iter().map(|m| m * m).sum::<f64>();
         let mut z = start.to_vec();
-        let size = self.momenta(&z).iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let size = self
+            .momenta(&z)
+            .iter()
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
         let h = 0.2 / size.max(1.0).powi(2);
         let mut worst = 0.0_f64;
         for _ in 0..10 {
@@ -221,8 +224,18 @@ fn the_verdict_is_what_gauss_steps_show() {
     let cases: Vec<(&str, Made, &Rational, bool)> = vec![
         ("1", Box::new(rotation), &one, true),
         ("1/2", Box::new(spinor), &half, true),
-        ("1 + 0", Box::new(move |k| sum(&rotation(k), &zero(k))), &one, true),
-        ("1 + 1", Box::new(|k| sum(&rotation(k), &rotation(k))), &one, true),
+        (
+            "1 + 0",
+            Box::new(move |k| sum(&rotation(k), &zero(k))),
+            &one,
+            true,
+        ),
+        (
+            "1 + 1",
+            Box::new(|k| sum(&rotation(k), &rotation(k))),
+            &one,
+            true,
+        ),
         ("2 + 0", Box::new(symmetric), &one, false),
         // the matrices of spin 1 have to be doubled to be those of twice the spinors
         (
@@ -245,10 +258,19 @@ fn the_verdict_is_what_gauss_steps_show() {
                 .map(|k| pulled_back(&form(&rho(k), scale), &coordinates))
                 .collect();
             let verdict = closure(&forms, &budget()).expect("little work");
-            let expected = if closed { Closure::Nothing } else { Closure::Others };
+            let expected = if closed {
+                Closure::Nothing
+            } else {
+                Closure::Others
+            };
             assert_eq!(verdict, expected, "spin {name}");
             let number = |row: &Vec<Rational>| row.iter().map(Rational::to_f64).collect();
-            let over = Over(forms.iter().map(|f| f.iter().map(number).collect()).collect());
+            let over = Over(
+                forms
+                    .iter()
+                    .map(|f| f.iter().map(number).collect())
+                    .collect(),
+            );
             let start: Vec<f64> = (0..2 * n).map(|i| (1.7 * i as f64 + 0.4).sin()).collect();
             let drift = over.casimir_drift(&start);
             assert!(
@@ -279,7 +301,10 @@ fn what_commutes_is_told_from_what_does_not() {
     let verdict = closure(&forms, &budget()).expect("little work");
     assert_eq!(verdict, Closure::Commuting);
     // with the unit matrix nothing is missing, and dependent functions add nothing
-    forms.push(form(&vec![vec![1, 0, 0], vec![0, 1, 0], vec![0, 0, 1]], &one));
+    forms.push(form(
+        &vec![vec![1, 0, 0], vec![0, 1, 0], vec![0, 0, 1]],
+        &one,
+    ));
     forms.push(forms[0].clone());
     let verdict = closure(&forms, &budget()).expect("little work");
     assert_eq!(verdict, Closure::Nothing);

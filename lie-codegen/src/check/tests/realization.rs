@@ -14,7 +14,10 @@ fn over(count: usize, parameters: &str, map: [&str; 3]) -> Model {
         names('q'),
         names('p')
     );
-    model(&so3(&[("parameters", parameters), ("realization", &realization)]))
+    model(&so3(&[
+        ("parameters", parameters),
+        ("realization", &realization),
+    ]))
 }
 
 fn descent(model: &Model) -> Descent {
