@@ -60,7 +60,7 @@ fn velocities_beside_between_and_behind_folds() {
         assert!((velocity(&system, x) - expected).abs() < 1e-12, "{x}");
     }
     for x in [0.42, 0.5, 0.83, 0.97, 1.0, 1.03, 2.0, 40.0, 1e6] {
-        let expected = bisected(x, 1.2564, 20.0);
+        let expected = bisected(x, 1.2564, 30.0);
         let found = velocity(&system, x);
         assert!((found - expected).abs() < 1e-14 * expected, "{x}: {found}");
         let found = velocity(&system, -x);
@@ -69,7 +69,7 @@ fn velocities_beside_between_and_behind_folds() {
     // along a branch the other velocity, as far as it goes
     let outer = Folded(Some([1.7, 0.45, 0.26].into()));
     for x in [0.22, 0.3, 0.41, 1.0, 7.0] {
-        let expected = bisected(x, 1.2564, 20.0);
+        let expected = bisected(x, 1.2564, 30.0);
         assert!((velocity(&outer, x) - expected).abs() < 1e-12, "{x}");
     }
     for x in [0.21, 0.0, -0.5] {
