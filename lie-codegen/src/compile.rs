@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Origin, Report};
 use crate::emit::{Blueprint, Emitted, Parameter, emit};
 use crate::front::{Body, spec};
 use crate::methods::{Choice, refusal};
-use crate::model::{Model, Structure};
+use crate::model::{Descent, Model, Structure};
 use crate::structure::{group, inertia, separable, spins};
 use crate::symbolic::ExprId;
 
@@ -221,6 +221,7 @@ fn realization(model: &Model) -> Option<Realization> {
         map: declared.map.clone(),
         start: declared.start.clone(),
         given: declared.given,
+        descends: declared.descent == Descent::Closed,
     })
 }
 

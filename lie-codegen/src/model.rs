@@ -118,8 +118,25 @@ pub struct Realization {
     pub start: Vec<ExprId>,
     /// Whether the declaration gives it.
     pub given: bool,
-    /// Whether all components are of degree at most two.
-    pub quadratic: bool,
+    /// Whether Gauss methods over it are methods for the state.
+    pub descent: Descent,
+}
+
+/// Whether the Gauss methods for `H o J`, J a realization, descend to the state J(z).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Descent {
+    /// They do.
+    Closed,
+    /// The components are not of degree at most two, or it could not be shown that they are.
+    Degree,
+    /// The closure of the components adds functions that the state does not determine, and that commute with them or
+    /// not.
+    Adds {
+        /// Whether they do.
+        commuting: bool,
+    },
+    /// The closure could not be found: a coefficient is not rational, or there are too many of them.
+    Unknown,
 }
 
 /// A checked system.

@@ -11,6 +11,7 @@ pub mod configuration;
 mod constant;
 mod defaults;
 mod degree;
+mod descent;
 mod discrete;
 pub mod domain;
 mod energy;

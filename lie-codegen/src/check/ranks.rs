@@ -64,7 +64,7 @@ pub fn at_numbers(
 }
 
 /// The values at a point, `None` where they are not rational.
-fn exact(
+pub(super) fn exact(
     graph: &Graph,
     roots: &[ExprId],
     value: &dyn Fn(Symbol) -> Option<Rational>,

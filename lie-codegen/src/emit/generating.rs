@@ -240,6 +240,7 @@ impl Writer<'_> {
             guess: TokenStream::new(),
             generic: quote! { ::lie_runtime::generic::SecondKind::new(self.system, self.h) },
             coadjoint: true,
+            cayley: false,
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -279,6 +280,7 @@ impl Writer<'_> {
                 )
             },
             coadjoint: true,
+            cayley: true,
             result: None,
         };
         let equation = self.fused(&form, &kernels);

@@ -196,7 +196,7 @@ impl<P: Poisson<f64>> Program<P> {
                     error.time,
                     report.iterations,
                     report.residual,
-                    reason.remedy(),
+                    error.remedy(),
                 );
                 (3, message)
             }

@@ -8,6 +8,7 @@ mod limits;
 mod names;
 mod poisson;
 mod random;
+mod realization;
 
 use super::*;
 use crate::diagnostic::Origin;

@@ -1,7 +1,7 @@
 //! The program behind `lie verify`.
 //!
 //! Further keys: `seed`, `step`. Lines: `ground <step> <span> <error of the references> <states> <linear
-//! integrals> <quadratic integrals>`, then one `finding <label> <fact> <claim> <measured> <bound> <verdict> <note>`
+//! integrals> <quadratic integrals>`, then one `finding <label> <fact> <claim> <measured> <bound> <verdict> <note> <step>`
 //! for each fact of each method.
 
 use super::super::{Build, Tolerances};
@@ -161,6 +161,7 @@ impl<P: Lift<f64> + 'static> Verify<P> {
                     &format!("{:?}", finding.bound),
                     verdict,
                     &finding.note,
+                    &format!("{:?}", finding.step),
                 ]);
             }
         }
