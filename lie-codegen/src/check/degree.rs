@@ -127,6 +127,12 @@ fn growths(graph: &Graph, function: ExprId) -> Vec<Option<Growth>> {
                     .collect::<Option<Vec<_>>>()
                     .and_then(|terms| sum(constant, &terms))
             }
+            Node::Written(terms) => {
+                let terms = terms.iter().map(|(term, c)| Some((of(term)?, c)));
+                terms
+                    .collect::<Option<Vec<_>>>()
+                    .and_then(|terms| sum(&Rational::ZERO, &terms))
+            }
             Node::Product(factors) => product(factors, &of),
             Node::Call(function, arguments) => {
                 let constant = arguments
@@ -246,6 +252,12 @@ fn on_line(graph: &Graph, parts: &[ExprId], step: Residue) -> Option<Residue> {
             Node::Sum { constant, terms } => {
                 let constant = Residue::of(constant)?;
                 terms.iter().try_fold(constant, |sum, (term, c)| {
+                    Some(sum.plus(of(term)?.times(Residue::of(c)?)))
+                })?
+            }
+            Node::Written(terms) => {
+                let zero = Residue::of(&Rational::ZERO)?;
+                terms.iter().try_fold(zero, |sum, (term, c)| {
                     Some(sum.plus(of(term)?.times(Residue::of(c)?)))
                 })?
             }

@@ -18,6 +18,10 @@ const MOST_TRIED: usize = 4;
 const STEPS: usize = 12;
 /// How near to the zero a point is, relative to the size of the terms.
 const NEARNESS: f64 = 1.0 / (1 << 20) as f64;
+/// The exponent of two by which parameters differ.
+const MIXED: i32 = 16;
+/// The exponent of two of a factor before which the other terms are small.
+const LARGE: i32 = 40;
 /// Exponents of two by which all quantities are scaled together.
 const UNITS: [i32; 2] = [-10, 10];
 
@@ -29,7 +33,10 @@ pub fn points(graph: &mut Graph, symbols: &[Symbol], roots: &[ExprId]) -> Vec<Po
     let order = graph.dependencies(roots);
     let sums: Vec<Sum> = sums(graph, &order)
         .into_iter()
-        .map(|terms| Sum::new(graph, symbols, roots, &terms))
+        .map(|(whole, terms)| {
+            let factors = factors_of(graph, &order, whole);
+            Sum::new(graph, symbols, roots, &terms, factors)
+        })
         .collect();
     let mut scene = Scene {
         graph,
@@ -54,22 +61,11 @@ pub fn points(graph: &mut Graph, symbols: &[Symbol], roots: &[ExprId]) -> Vec<Po
         points.push(scene.point(&free, positive, |random| random.within(-12, 12)));
     }
     for sum in &sums {
-        for positive in [true, false] {
-            let mut point = scene.point(&free, positive, |_| 0);
-            if sum.cancel(&mut point, &[]).is_some() {
-                points.push(point);
-                break;
-            }
-        }
+        points.extend(scene.cancelled(&free, sum));
     }
     if sums.len() > 1 {
-        for positive in [true, false] {
-            let mut point = scene.point(&free, positive, |_| 0);
-            let mut taken = Vec::new();
-            for sum in &sums {
-                taken.extend(sum.cancel(&mut point, &taken));
-            }
-            points.push(point);
+        for mixed in [0, 0, MIXED, MIXED] {
+            points.push(scene.at_rest(&free, &sums, mixed));
         }
     }
     for point in &mut points {
@@ -78,8 +74,11 @@ pub fn points(graph: &mut Graph, symbols: &[Symbol], roots: &[ExprId]) -> Vec<Po
     points
 }
 
-/// The written sums among these expressions, longer ones also up to each of their terms.
-fn sums(graph: &Graph, order: &[ExprId]) -> Vec<Vec<(ExprId, Rational)>> {
+/// The terms of a sum with their coefficients.
+type Terms = Vec<(ExprId, Rational)>;
+
+/// The written sums among these expressions, short ones also up to each of their terms.
+fn sums(graph: &Graph, order: &[ExprId]) -> Vec<(ExprId, Terms)> {
     let mut found = Vec::new();
     for id in order {
         if let Node::Written(terms) = graph.node(*id) {
@@ -88,10 +87,32 @@ fn sums(graph: &Graph, order: &[ExprId]) -> Vec<Vec<(ExprId, Rational)>> {
             } else {
                 2..=terms.len()
             };
-            found.extend(lengths.filter(|n| *n > 1).map(|n| terms[..n].to_vec()));
+            let lengths = lengths.filter(|n| *n > 1);
+            found.extend(lengths.map(|n| (*id, terms[..n].to_vec())));
         }
         if found.len() >= MOST_SUMS {
             break;
+        }
+    }
+    found
+}
+
+/// The parameters that are multiplied with a quantity.
+fn factors_of(graph: &Graph, order: &[ExprId], quantity: ExprId) -> Vec<Symbol> {
+    let mut found = Vec::new();
+    for id in order {
+        let Node::Product(factors) = graph.node(*id) else {
+            continue;
+        };
+        if factors.iter().any(|(base, _)| *base == quantity) {
+            found.extend(
+                factors
+                    .iter()
+                    .filter_map(|(base, _)| match graph.node(*base) {
+                        Node::Symbol(symbol @ Symbol::Parameter(_)) => Some(*symbol),
+                        _ => None,
+                    }),
+            );
         }
     }
     found
@@ -125,6 +146,45 @@ impl Scene<'_> {
         point
     }
 
+    /// Points where a sum nearly cancels: with factors of ordinary size, and with large ones, before which
+    /// the other terms are small.
+    fn cancelled(&mut self, free: &[Symbol], sum: &Sum) -> Vec<Point> {
+        let mut points = Vec::new();
+        for (exponent, spread) in [(0, 0), (0, 3), (LARGE, 0), (LARGE, 3)] {
+            for positive in [true, false] {
+                let mut point = self.point(free, positive, |random| random.within(-spread, spread));
+                for factor in &sum.factors {
+                    if let Some(value) = point.get_mut(factor) {
+                        *value *= 2f64.powi(exponent);
+                    }
+                }
+                if sum.cancel(&mut point, &sum.factors).is_some() {
+                    points.push(point);
+                    break;
+                }
+            }
+        }
+        points
+    }
+
+    /// A point where as many sums as possible nearly cancel, one after the other by different symbols.
+    fn at_rest(&mut self, free: &[Symbol], sums: &[Sum], mixed: i32) -> Point {
+        let mut point = self.point(free, true, |_| 0);
+        for symbol in free {
+            if let Symbol::Parameter(_) = symbol {
+                let exponent = self.random.within(-mixed, mixed);
+                point
+                    .entry(*symbol)
+                    .and_modify(|v| *v *= 2f64.powi(exponent));
+            }
+        }
+        let mut taken: Vec<Symbol> = sums.iter().flat_map(|sum| sum.factors.clone()).collect();
+        for sum in sums {
+            taken.extend(sum.cancel(&mut point, &taken));
+        }
+        point
+    }
+
     /// Adds the values of the defined symbols.
     fn complete(&self, point: &mut Point) {
         for (symbol, definition) in &self.definitions {
@@ -138,7 +198,8 @@ impl Scene<'_> {
 struct Sum {
     program: Program,
     coefficients: Vec<f64>,
-    pi: f64,
+    /// The parameters that it is multiplied with.
+    factors: Vec<Symbol>,
 }
 
 impl Sum {
@@ -147,6 +208,7 @@ impl Sum {
         symbols: &[Symbol],
         roots: &[ExprId],
         terms: &[(ExprId, Rational)],
+        factors: Vec<Symbol>,
     ) -> Self {
         let terms_only: Vec<ExprId> = terms.iter().map(|(term, _)| *term).collect();
         let (symbols, mut outputs) = needed(graph, symbols, roots, &terms_only);
@@ -155,7 +217,7 @@ impl Sum {
         Self {
             program: linearise::linearise(&formula),
             coefficients: terms.iter().map(|(_, c)| c.to_f64()).collect(),
-            pi: std::f64::consts::PI,
+            factors,
         }
     }
 
@@ -177,7 +239,9 @@ impl Sum {
     /// The value of the sum, and the size of its terms.
     fn value(&self, point: &Point) -> (f64, f64) {
         // pi is the only expression that is not taken apart
-        let values = self.program.evaluate(&|s| at(point, s), &|_| self.pi);
+        let values = self
+            .program
+            .evaluate(&|s| at(point, s), &|_| std::f64::consts::PI);
         let terms = values.iter().zip(&self.coefficients).map(|(v, c)| v * c);
         terms.fold((0.0, 0.0), |(sum, size), term| {
             (sum + term, size + f64::abs(term))
