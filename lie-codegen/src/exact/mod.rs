@@ -1,10 +1,12 @@
 //! Exact numbers: the compiler never computes in floats before it emits.
+mod ball;
 mod budget;
 mod fraction;
 pub mod matrix;
 mod monomial;
 mod polynomial;
 mod rational;
+pub use ball::{Ball, Precision};
 pub use budget::{Budget, Exhausted};
 pub use fraction::Fraction;
 pub use monomial::Monomial;
