@@ -65,6 +65,7 @@ pub struct Graph {
     index: HashMap<Node, ExprId>,
     pub(super) derivatives: HashMap<(ExprId, Symbol), ExprId>,
     operands: usize,
+    positive: BTreeSet<Symbol>,
 }
 
 /// A sum under construction.
@@ -78,6 +79,16 @@ impl Graph {
     /// An empty arena.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Declares a symbol positive.
+    pub fn assume_positive(&mut self, symbol: Symbol) {
+        self.positive.insert(symbol);
+    }
+
+    /// Whether a symbol was declared positive.
+    pub fn is_positive(&self, symbol: Symbol) -> bool {
+        self.positive.contains(&symbol)
     }
 
     /// The node of an id.
