@@ -74,6 +74,7 @@ kinds! {
     Toolchain "toolchain" "cargo is missing or failed.",
     Checkpoint "checkpoint" "A checkpoint does not fit.",
     Limit "limit" "A size limit is exceeded.",
+    Internal "internal" "The compiler contradicts itself, a mistake of its own.",
 }
 impl fmt::Display for Kind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

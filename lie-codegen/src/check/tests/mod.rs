@@ -2,11 +2,13 @@ mod algebra;
 mod casimirs;
 mod configuration;
 mod domain;
+mod extremes;
 mod legendre;
 mod limits;
 mod names;
 mod poisson;
 mod random;
+mod soundness;
 
 use super::*;
 use crate::diagnostic::Origin;
