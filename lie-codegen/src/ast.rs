@@ -139,6 +139,8 @@ pub struct Parameter {
     pub default: Expr,
     /// Whether brackets may use it (as an exact number).
     pub exact: bool,
+    /// Whether it takes positive values only.
+    pub positive: bool,
     /// Unit, for people, as Markdown within a line.
     pub unit: Option<String>,
     /// Description, for people, as Markdown.

@@ -119,9 +119,13 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
                 doc.push_str(&format!(" \\[{unit}]"));
             }
             doc.push('.');
+            if p.positive {
+                doc.push_str(" Positive.");
+            }
             Parameter {
                 name: identifier(&p.name, Some(p.origin)),
                 default: p.default,
+                positive: p.positive,
                 doc,
             }
         })
@@ -156,6 +160,7 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
         hamiltonian_degree: model.hamiltonian_degree,
         poisson_degree: model.poisson.degree,
         casimir_degrees: model.casimirs.iter().map(|c| c.degree).collect(),
+        multivalued: model.casimirs.iter().map(|c| c.multivalued).collect(),
     }
 }
 
@@ -300,6 +305,12 @@ fn docs(model: &Model) -> Vec<String> {
             .map(|c| format!("`{} = {}`", c.name, model.display(c.expr)))
             .collect();
         docs.push(format!("Casimirs: {}.", casimirs.join(", ")));
+    }
+    for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
+        docs.push(format!(
+            "`{}` is multi-valued: an angle in it jumps, and its drift is not measured.",
+            casimir.name
+        ));
     }
     for reference in &model.references {
         docs.push(String::new());

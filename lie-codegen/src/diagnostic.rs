@@ -100,6 +100,7 @@ kinds! {
     Toolchain "toolchain" "cargo is missing or failed.",
     Checkpoint "checkpoint" "A checkpoint does not fit.",
     Limit "limit" "A size limit is exceeded.",
+    Internal "internal" "The compiler contradicts itself, a mistake of its own.",
     Unused "unused" "Only a warning: a parameter or an abbreviation that nothing uses.",
     Motionless "motionless" "Only a warning: all brackets are zero, or the Hamiltonian is constant.",
 }

@@ -22,6 +22,8 @@ pub struct Parameter {
     pub default_value: f64,
     /// The default of an exact parameter, which structure constants may use.
     pub exact: Option<Rational>,
+    /// Whether it takes positive values only, which proofs use and which is checked when a system is made.
+    pub positive: bool,
     /// Unit, for people, as Markdown within a line.
     pub unit: Option<String>,
     /// Description, for people, as Markdown.
@@ -31,6 +33,8 @@ pub struct Parameter {
 /// A declared Casimir that was verified; those of a model are functionally independent.
 #[derive(Clone, Debug)]
 pub struct Casimir {
+    /// Whether it has several branches, between which its value jumps.
+    pub multivalued: bool,
     /// Its name, declared or given.
     pub name: String,
     /// Where it is declared.

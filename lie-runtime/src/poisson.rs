@@ -47,6 +47,10 @@ pub trait Poisson<S: Scalar>: Sized {
     /// the end of the list are of unknown degree.
     const CASIMIR_DEGREES: &'static [Option<u32>] = &[];
 
+    /// The Casimirs with several branches, by their places: the value of such a one jumps where an angle in it
+    /// passes from pi to -pi, so that its drift says nothing. Its gradient does not jump.
+    const MULTIVALUED_CASIMIRS: &'static [usize] = &[];
+
     /// The largest total degree of an entry of the Poisson matrix in the coordinates, where all are
     /// polynomials in them and that is known: 0 for a constant one, of which symplectic methods are
     /// Poisson maps.

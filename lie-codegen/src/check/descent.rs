@@ -28,7 +28,7 @@ pub(super) fn of(graph: &Graph, components: &[Component], points: usize) -> Desc
     let mut found = 0;
     let mut commuting = false;
     for sample in Samples::new().take(TRIES) {
-        let value = |symbol| Some(sample.integer(symbol));
+        let value = |symbol| Some(sample.integer(graph, symbol));
         let forms: Option<Vec<Form>> = components
             .iter()
             .map(|component| form(graph, component, points, &value))

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::constant;
 use super::environment::{Allowed, Binding, Environment};
 use crate::algebra::MAX_DEPTH;
 use crate::ast::{Expr, ExprKind, Name};
@@ -46,8 +47,8 @@ pub struct Lowering<'a, 'b> {
     /// Which names may stand.
     pub allowed: Allowed,
     depth: usize,
-    /// Values of irrational constants, `None` for what is no such constant.
-    constants: HashMap<ExprId, Option<f64>>,
+    /// Signs of irrational constants, `Some(None)` where they are not decided, `None` for what is no constant.
+    constants: HashMap<ExprId, Option<Option<i32>>>,
 }
 
 impl<'a, 'b> Lowering<'a, 'b> {
@@ -171,7 +172,7 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 for ((divides, lowered), (_, factor)) in lowered.into_iter().zip(factors) {
                     let lowered = lowered?;
                     let id = lowered.normal;
-                    if divides && (self.graph.is_zero(id) || self.constant(id) == Some(0.0)) {
+                    if divides && (self.constant_sign(id, factor.origin)? == Some(0)) {
                         return self.fail(Kind::Number, factor.origin, "division by zero", "the divisor is exactly zero; correct it");
                     }
                     let exponent = if divides { Rational::MINUS_ONE } else { Rational::ONE };
@@ -287,9 +288,13 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 );
             }
         }
-        if let Some(value) = self.constant(base)
-            && (value == 0.0 && exponent.is_negative() || value < 0.0 && !exponent.is_integer())
-        {
+        let needs_sign = exponent.is_negative() || !exponent.is_integer();
+        let sign = if needs_sign && number.is_none() {
+            self.constant_sign(base, base_origin)?
+        } else {
+            None
+        };
+        if sign == Some(0) && exponent.is_negative() || sign == Some(-1) && !exponent.is_integer() {
             return self.fail(
                 Kind::Number,
                 base_origin,
@@ -320,18 +325,29 @@ impl<'a, 'b> Lowering<'a, 'b> {
         }
     }
 
-    /// The value of a constant that is not rational, such as `sin(2)`.
-    fn constant(&mut self, id: ExprId) -> Option<f64> {
-        if self.graph.as_number(id).is_some() {
-            return None;
+    /// The sign of a constant, exactly: of rational numbers, of irrational ones by rigorous bounds where these
+    /// exclude zero, and by a proof where it is zero. `Some(None)` for what is no constant; a constant of which it
+    /// cannot be decided is reported.
+    fn constant_sign(&mut self, id: ExprId, origin: Origin) -> Option<Option<i32>> {
+        if let Some(number) = self.graph.as_number(id) {
+            let sign = i32::from(!number.is_zero());
+            return Some(Some(if number.is_negative() { -sign } else { sign }));
         }
-        if let Some(known) = self.constants.get(&id) {
-            return *known;
+        if !self.constants.contains_key(&id) {
+            let constant = self.graph.symbols(id).is_empty();
+            let sign = constant.then(|| constant::sign(self.graph, id));
+            self.constants.insert(id, sign);
         }
-        let constant = self.graph.symbols(id).is_empty();
-        let value = constant.then(|| self.graph.evaluate(id, &|_| f64::NAN));
-        self.constants.insert(id, value);
-        value
+        match self.constants[&id] {
+            None => Some(None),
+            Some(Some(sign)) => Some(Some(sign)),
+            Some(None) => self.fail(
+                Kind::Number,
+                origin,
+                "it cannot be decided whether this constant is zero, positive or negative",
+                "write it in a simpler form, or as a number",
+            ),
+        }
     }
 
     fn call(&mut self, function: &Name, arguments: &[Expr], origin: Origin) -> Option<Lowered> {
@@ -376,11 +392,8 @@ impl<'a, 'b> Lowering<'a, 'b> {
             lowered.iter().map(|l| (l.normal, l.written)).unzip();
         let Some(known) = known else {
             let half = &Rational::ONE / &Rational::from(2);
-            let negative = self
-                .graph
-                .as_number(normal[0])
-                .is_some_and(Rational::is_negative);
-            if negative || self.constant(normal[0]).is_some_and(|value| value < 0.0) {
+            let place = arguments[0].origin;
+            if self.constant_sign(normal[0], place)? == Some(-1) {
                 return self.fail(
                     Kind::Number,
                     origin,
@@ -393,8 +406,7 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 written: self.graph.pow(written[0], &half),
             });
         };
-        let id = self.graph.call(known, &normal);
-        if self.constant(id).is_some_and(|value| !value.is_finite()) {
+        if self.is_undefined(known, &normal, arguments)? {
             return self.fail(
                 Kind::Number,
                 origin,
@@ -403,9 +415,36 @@ impl<'a, 'b> Lowering<'a, 'b> {
             );
         }
         Some(Lowered {
-            normal: id,
+            normal: self.graph.call(known, &normal),
             written: self.graph.call(known, &written),
         })
+    }
+}
+
+impl Lowering<'_, '_> {
+    /// Whether a function of constants is not real or not finite; `None` where that was reported as undecided.
+    fn is_undefined(
+        &mut self,
+        function: Function,
+        lowered: &[ExprId],
+        arguments: &[Expr],
+    ) -> Option<bool> {
+        let (id, place) = (lowered[0], arguments[0].origin);
+        match function {
+            Function::Log => Some(self.constant_sign(id, place)?.is_some_and(|sign| sign <= 0)),
+            Function::Asin | Function::Acos => {
+                // 1 - x^2
+                let square = self.graph.pow(id, &Rational::from(2));
+                let one = self.graph.integer(1);
+                let rest = self.graph.sub(one, square);
+                Some(self.constant_sign(rest, place)? == Some(-1))
+            }
+            Function::Tan => {
+                let cosine = self.graph.call(Function::Cos, &[id]);
+                Some(self.constant_sign(cosine, place)? == Some(0))
+            }
+            _ => Some(false),
+        }
     }
 }
 

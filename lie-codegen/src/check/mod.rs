@@ -5,10 +5,13 @@
 //! identities of other brackets, Casimirs and the domain.
 
 mod algebra;
+mod branches;
 mod casimirs;
 mod cocycle;
 pub mod configuration;
+mod confirmation;
 mod constant;
+mod contradiction;
 mod defaults;
 mod degree;
 mod descent;
@@ -64,7 +67,11 @@ pub use size::MAX_DIMENSION;
 /// model.
 pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     let mut own = Report::new();
+    contradiction::clear();
     let model = stages(declaration, &mut own);
+    if let Some(diagnostic) = contradiction::diagnostic(declaration.name.origin) {
+        own.push(diagnostic);
+    }
     if let Some(model) = &model {
         idle::check(declaration, model, &mut own);
     }
@@ -364,11 +371,16 @@ fn independent(
                     .map(|n| n.text.clone())
                     .or_else(|| free.next())
                     .unwrap_or(candidate.name);
+                let multivalued = branches::jumps(graph, candidate.expr);
+                if multivalued {
+                    report.push(multivalued_casimir(&name, candidate.origin));
+                }
                 kept.push(Casimir {
                     name,
                     origin: candidate.origin,
                     expr: candidate.expr,
                     degree: *degree,
+                    multivalued,
                 });
                 continue;
             }
@@ -386,6 +398,16 @@ fn independent(
         );
     }
     kept
+}
+
+fn multivalued_casimir(name: &str, origin: crate::diagnostic::Origin) -> Diagnostic {
+    let message = format!(
+        "the Casimir `{name}` is multi-valued: an angle in it jumps, and `{name}` with it, although it is constant between \
+         the jumps"
+    );
+    Diagnostic::new(Kind::Casimir, origin, message)
+        .help("its column is written, but no drift is measured; a function of it without jumps, such as its sine, would be followed")
+        .warning()
 }
 
 /// A rational function of the parameters in the arena.

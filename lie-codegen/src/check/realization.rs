@@ -212,7 +212,7 @@ pub fn check(
     thirds.dedup();
     let scratch = &*scratch;
     let budget = Budget::new(WORK);
-    let mut normal = NormalForm::new(scratch, &budget);
+    let mut normal = NormalForm::within(scratch, &budget, &map);
     for (a, b, difference) in differences {
         let (state, place) = (|k| name(Symbol::Coordinate(k)), realization.origins[b]);
         let (left, right) = (state(a), state(b));
@@ -222,7 +222,7 @@ pub fn check(
                 "the realization is no Poisson map: {{{left}, {right}}} of its components is not that of the \
                  system, the difference is {shown}"
             ),
-            Proof::Unproven(_) => {
+            Proof::Unproven { .. } => {
                 format!(
                     "it could not be shown that {{{left}, {right}}} of the components is that of the system"
                 )

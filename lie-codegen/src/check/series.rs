@@ -10,6 +10,8 @@ use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
 const WORK: u64 = 500_000;
 /// Coefficients of a series.
 const TERMS: usize = 6;
+/// Series begin at smaller powers than this.
+const FARTHEST: u64 = 1 << 32;
 /// The largest arena that the coefficients may fill.
 const MOST: usize = 300_000;
 /// A symbol that no expression contains.
@@ -104,7 +106,9 @@ impl Series {
     fn pow(self, graph: &mut Graph, exponent: &Rational) -> Option<Self> {
         let base = self.stripped(graph)?;
         let start = &Rational::from(base.start) * exponent;
-        let start = start.to_integer()?;
+        let start = start
+            .to_integer()
+            .filter(|start| start.unsigned_abs() < FARTHEST)?;
         let leading = base.coefficients[0];
         let inverse = graph.pow(leading, &Rational::MINUS_ONE);
         let rest: Vec<ExprId> = base

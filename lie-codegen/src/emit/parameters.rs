@@ -36,6 +36,12 @@ impl Writer<'_> {
             .is_empty()
             .then(|| quote! { _scalar: ::core::marker::PhantomData });
         let build = self.build();
+        let signs = self.blueprint.parameters.iter().any(|p| p.positive);
+        let errors = if signs {
+            " If a parameter that must be positive is not, or a constant that the system needs is not finite."
+        } else {
+            " If a constant that the system needs is not finite, such as the inverse of a zero."
+        };
         let initial = self.initial_state();
         quote! {
             #(#[doc = #docs])*
@@ -67,7 +73,7 @@ impl Writer<'_> {
                 #[doc = " The system for these parameters; what depends on them alone is computed here, once."]
                 #[doc = ""]
                 #[doc = " # Errors"]
-                #[doc = " If a constant that the system needs is not finite, such as the inverse of a zero."]
+                #[doc = #errors]
                 pub fn system(&self) -> ::core::result::Result<#system<S>, ::lie_runtime::ParameterError> {
                     #build
                 }
@@ -122,7 +128,17 @@ impl Writer<'_> {
         let branch = self
             .has_branches()
             .then(|| quote! { _branch: ::core::option::Option::None, });
+        let positive = self.blueprint.parameters.iter().filter(|p| p.positive);
+        let positive: Vec<_> = positive
+            .map(|p| {
+                let (name, text) = (&p.name, p.name.to_string());
+                quote! { (self.#name, #text) }
+            })
+            .collect();
+        let signs = (!positive.is_empty())
+            .then(|| quote! { ::lie_runtime::__private::all_positive(&[#(#positive),*])?; });
         quote! {
+            #signs
             #statements
             #lets
             #check

@@ -1,4 +1,5 @@
 //! Exact numbers: the compiler never computes in floats before it emits.
+mod ball;
 mod budget;
 mod fraction;
 pub mod matrix;
@@ -6,6 +7,7 @@ mod monomial;
 mod polynomial;
 mod rational;
 mod residue;
+pub use ball::{Ball, Precision};
 pub use budget::{Budget, Exhausted};
 pub use fraction::Fraction;
 pub use monomial::Monomial;

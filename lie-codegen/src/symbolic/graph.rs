@@ -74,6 +74,7 @@ pub struct Graph {
     /// How an expression in normal form was written.
     pub(super) written: HashMap<ExprId, ExprId>,
     operands: usize,
+    positive: BTreeSet<Symbol>,
 }
 
 /// A sum under construction.
@@ -87,6 +88,16 @@ impl Graph {
     /// An empty arena.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Declares a symbol positive.
+    pub fn assume_positive(&mut self, symbol: Symbol) {
+        self.positive.insert(symbol);
+    }
+
+    /// Whether a symbol was declared positive.
+    pub fn is_positive(&self, symbol: Symbol) -> bool {
+        self.positive.contains(&symbol)
     }
 
     /// The node of an id.

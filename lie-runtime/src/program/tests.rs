@@ -7,6 +7,7 @@ fn program() -> Program<Spring> {
         let error = ParameterError {
             name: "k",
             expression: "1/k",
+            fault: ParameterFault::NotFinite,
         };
         if parameters[0] == 0.0 {
             Err(error)

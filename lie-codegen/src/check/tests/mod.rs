@@ -2,6 +2,7 @@ mod algebra;
 mod casimirs;
 mod configuration;
 mod domain;
+mod extremes;
 mod idle;
 mod legendre;
 mod limits;
@@ -9,6 +10,7 @@ mod names;
 mod poisson;
 mod random;
 mod realization;
+mod soundness;
 
 use super::*;
 use crate::diagnostic::Origin;

@@ -81,6 +81,7 @@ fn groups<'a, P: Lift<f64>>(
         let of_kind = move |index: &usize| degree(*index).is_some_and(|d| d <= 2) == quadratic;
         (0..P::CASIMIRS)
             .filter(of_kind)
+            .filter(|index| !P::MULTIVALUED_CASIMIRS.contains(index))
             .map(|index| casimir(system, index))
             .collect()
     };

@@ -45,9 +45,16 @@ impl Planner<'_> {
                 let message = given.wrong(format!("`{name}` is set twice"));
                 self.mistakes.push(message.help("set it once"));
             }
-            if let Some(value) = self.keep(given.part(equals + 1..text.len()).number()) {
-                values[index] = value;
+            let part = given.part(equals + 1..text.len());
+            let Some(value) = self.keep(part.number()) else {
+                continue;
+            };
+            if declared[index].positive && value <= 0.0 {
+                let message = part.wrong(format!("the parameter `{name}` must be positive"));
+                let help = "give it a positive value; the spec declares it positive, and proofs rely on that";
+                self.mistakes.push(message.help(help));
             }
+            values[index] = value;
         }
         (self.mistakes.len() == before).then_some(values)
     }
