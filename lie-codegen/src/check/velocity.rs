@@ -102,8 +102,7 @@ impl Path<'_> {
             if exact || length <= NEAR * size(&xi) {
                 return Some(xi);
             }
-            // not for what is not a number either
-            if !(length <= bound) {
+            if length > bound || length.is_nan() {
                 return None;
             }
             xi = combine(&xi, -1.0, &step);
@@ -149,7 +148,7 @@ impl Path<'_> {
         let mut piece = 0.01 * unit;
         for _ in 0..PIECES {
             let s = *point.last()?;
-            if !(piece > shortest && s.abs() < FAR) {
+            if piece <= shortest || s.abs() >= FAR || (piece * s).is_nan() {
                 return None;
             }
             let (xi, trial) = (&point[..point.len() - 1], combine(&point, piece, &tangent));
@@ -195,7 +194,7 @@ impl Path<'_> {
                 &back,
             );
             let length = f64::max(size(&step[..count]), unit * ds.abs());
-            if !(length <= bound) {
+            if length > bound || length.is_nan() {
                 return None;
             }
             point = combine(&point, 1.0, &step);

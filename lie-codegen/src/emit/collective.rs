@@ -77,7 +77,7 @@ impl Writer<'_> {
             guess: quote! { self.h },
             generic: quote! { ::lie_runtime::generic::Spherical::new(self.system, self.h) },
             coadjoint: true,
-            cayley: false,
+            chart: None,
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -100,7 +100,7 @@ impl Writer<'_> {
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
             generic: quote! { ::lie_runtime::generic::#generic::new(self.system, self.h) },
             coadjoint: true,
-            cayley: false,
+            chart: None,
             result: Some(quote! {
                 let mut equation = ::lie_runtime::generic::#generic::new(self.system, self.h);
                 ::lie_runtime::Equation::set_base(&mut equation, &self.base);

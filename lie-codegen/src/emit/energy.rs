@@ -349,7 +349,7 @@ impl Writer<'_> {
                         }
                     },
                     coadjoint: false,
-                    cayley: false,
+                    chart: None,
                     result: None,
                 };
                 shared.tokens.extend(writer.fused(&form, &kernels));

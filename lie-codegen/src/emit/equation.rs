@@ -29,8 +29,9 @@ pub(super) struct Form {
     pub(super) generic: TokenStream,
     /// Whether the method is of coadjoint form.
     pub(super) coadjoint: bool,
-    /// Whether its retraction is the Cayley map, which ends where an element has real eigenvalues.
-    pub(super) cayley: bool,
+    /// Of a method along the Cayley map, which ends where an element has real eigenvalues: whether that of the step is
+    /// joined to the identity.
+    pub(super) chart: Option<TokenStream>,
     /// Statements that write the state at the end to `mu`, where no kernel does and it is not `unknown`.
     pub(super) result: Option<TokenStream>,
 }
@@ -149,7 +150,7 @@ impl Writer<'_> {
             guess: quote! { self.h },
             generic: quote! { ::lie_runtime::generic::Midpoint::new(self.system, self.h) },
             coadjoint: false,
-            cayley: false,
+            chart: None,
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -170,7 +171,9 @@ impl Writer<'_> {
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
             generic: quote! { ::lie_runtime::generic::CayleyMidpoint::new(self.system, self.h) },
             coadjoint: true,
-            cayley: true,
+            chart: Some(quote! {
+                ::lie_runtime::generic::cayley_chart_of_step(self.system, self.h, unknown)
+            }),
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -307,12 +310,10 @@ impl Writer<'_> {
                 }
             }
         });
-        if form.cayley && self.has_poles() {
+        if let Some(element) = form.chart.as_ref().filter(|_| self.has_poles()) {
             methods.extend(quote! {
                 fn within_chart(&mut self, unknown: &Self::State) -> S::Mask {
-                    let mut xi = ::lie_runtime::Poisson::zero_state(self.system);
-                    let _ = self.group_factor(unknown, &mut xi);
-                    ::lie_runtime::generic::cayley_chart(self.system, &xi)
+                    #element
                 }
             });
         }

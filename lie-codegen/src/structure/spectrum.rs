@@ -29,7 +29,7 @@ pub fn spectrum(matrices: &[Vec<Vec<Rational>>]) -> Spectrum {
     if matrices.iter().all(skew) {
         return Spectrum::Imaginary;
     }
-    Spectrum::Bounded(matrices.iter().map(norm).collect())
+    Spectrum::Bounded(matrices.iter().map(|matrix| norm(matrix)).collect())
 }
 
 /// Whether there is a way along nonzero entries from one axis to another.
@@ -55,7 +55,7 @@ fn reachable(matrices: &[Vec<Vec<Rational>>], size: usize) -> Vec<Vec<bool>> {
 /// A bound of the eigenvalues: the largest absolute sum of a row, rounded up.
 ///
 /// Sums of norms bound those of sums, so that it must be the same norm for all matrices.
-fn norm(matrix: &Vec<Vec<Rational>>) -> f64 {
+fn norm(matrix: &[Vec<Rational>]) -> f64 {
     let sums = matrix.iter().map(|row| {
         let sum = row.iter().fold(Rational::ZERO, |sum, entry| {
             if entry.to_f64() < 0.0 {

@@ -4,6 +4,7 @@
 //! eigenvalue of `s rho(xi)` comes to 2 or -2. Beyond such a pole the group element can lie in another component of
 //! the group, and `Ad*` of it takes a state off its coadjoint orbit. Complex eigenvalues do not meet the poles.
 
+use super::kernels::direction;
 use crate::matrix::SquareMatrix;
 use crate::newton::exchanging;
 use crate::poisson::CayleyPoisson;
@@ -43,6 +44,18 @@ pub fn cayley_chart<S: Scalar, P: CayleyPoisson<S>>(system: &P, xi: &P::State) -
         return near;
     }
     near | far_chart(system, xi)
+}
+
+/// The same along `xi = h grad H(m)`, m the momentum at the midpoint.
+#[inline]
+pub fn cayley_chart_of_step<S: Scalar, P: CayleyPoisson<S>>(
+    system: &P,
+    h: S,
+    m: &P::State,
+) -> S::Mask {
+    let mut xi = system.zero_state();
+    direction(system, h, m, &mut xi);
+    cayley_chart(system, &xi)
 }
 
 #[cold]

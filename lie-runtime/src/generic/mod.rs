@@ -38,7 +38,7 @@ mod tensor;
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
 pub use cayley_variational::CayleyVariational;
 pub(crate) use chart::invertible_along;
-pub use chart::{CAYLEY_POLE, cayley_chart};
+pub use chart::{CAYLEY_POLE, cayley_chart, cayley_chart_of_step};
 pub use cohen_hairer::CohenHairerStep;
 pub use coordinate_flows::{CoordinateFlows, piece_direction};
 pub use discrete_body::DiscreteBody;

@@ -150,8 +150,7 @@ where
         let shortest = SHORTEST * unit;
         let mut piece = 0.01 * unit;
         for _ in 0..PIECES {
-            // not for what is not a number either
-            if !(piece > shortest && s.abs() < FAR) {
+            if piece <= shortest || s.abs() >= FAR || (piece * s).is_nan() {
                 return false;
             }
             let mut end = xi.clone();
@@ -211,7 +210,7 @@ where
             }
             back.axpy(S::from_f64(ds), &along);
             let length = f64::max(self.length(&back), unit * ds.abs());
-            if !(length <= bound) {
+            if length > bound || length.is_nan() {
                 return None;
             }
             xi.axpy(S::one(), &back);
