@@ -179,6 +179,15 @@ pub fn run(
     })
 }
 
+/// How far a measuring program is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress<'a> {
+    /// So much is done, of so much.
+    Done(u64, u64),
+    /// The same, and what comes next.
+    Stage(u64, u64, &'a str),
+}
+
 /// How a measuring program ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Words {
@@ -191,7 +200,7 @@ pub struct Words {
 }
 
 /// Runs a measuring program to its end: `request` goes in, `line` receives each line of its stdout as it comes,
-/// `progress` what is done and all there is, on another thread.
+/// `progress` how far it is, on another thread.
 ///
 /// # Errors
 /// The program cannot be started.
@@ -200,7 +209,7 @@ pub fn measure(
     request: &str,
     interrupt: &Interrupt,
     line: &mut dyn FnMut(&str),
-    progress: &mut (dyn FnMut(u64, u64) + Send),
+    progress: &mut (dyn FnMut(Progress<'_>) + Send),
 ) -> io::Result<Words> {
     command
         .stdin(Stdio::piped())
@@ -234,19 +243,27 @@ pub fn measure(
     })
 }
 
-fn last_line(pipe: ChildStderr, progress: &mut (dyn FnMut(u64, u64) + Send)) -> String {
+fn last_line(pipe: ChildStderr, progress: &mut (dyn FnMut(Progress<'_>) + Send)) -> String {
     let mut last = String::new();
     for text in BufReader::new(pipe).lines().map_while(Result::ok) {
-        let Some(rest) = text.strip_prefix("progress ") else {
-            last = text;
-            continue;
-        };
-        let mut numbers = rest.split(' ').map_while(|number| number.parse().ok());
-        if let (Some(done), Some(all)) = (numbers.next(), numbers.next()) {
-            progress(done, all);
+        match how_far(&text) {
+            Some(how_far) => progress(how_far),
+            None => last = text,
         }
     }
     last
+}
+
+/// What a line says of the progress, if it does.
+fn how_far(line: &str) -> Option<Progress<'_>> {
+    let mut words = line.splitn(4, ' ');
+    let kind = words.next()?;
+    let (done, all) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
+    match kind {
+        "progress" => Some(Progress::Done(done, all)),
+        "stage" => Some(Progress::Stage(done, all, words.next()?)),
+        _ => None,
+    }
 }
 
 /// Hands on whole rows as they come; half a row at the end of a killed program is dropped.

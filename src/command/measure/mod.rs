@@ -19,7 +19,7 @@ use lie_codegen::program::{Purpose, program};
 use super::args::{self, Cpu, Measured};
 use super::run::bar::Bar;
 use super::run::plan;
-use crate::build::protocol::{self, Words};
+use crate::build::protocol::{self, Progress, Words};
 use crate::build::{self, Request};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
@@ -128,13 +128,16 @@ impl Bed {
             lines.push_str(&format!("\n{key} {value:?}"));
         }
         lines.push_str("\nrun\n");
-        let bar = Bar::of(!flags.quiet, "measurements");
+        let bar = Bar::of_stages(!flags.quiet);
         let words = protocol::measure(
             Command::new(&program),
             &lines,
             interrupt,
             &mut |text| line(&text.split('\t').collect::<Vec<_>>()),
-            &mut |done, all| bar.show(done, all),
+            &mut |progress| match progress {
+                Progress::Done(done, all) => bar.show(done, all),
+                Progress::Stage(done, all, what) => bar.stage(done, all, what),
+            },
         );
         bar.clear();
         match words {

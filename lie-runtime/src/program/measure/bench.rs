@@ -156,7 +156,7 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
         let (system, mu) = prepare(&*self.build, &request.parameters, &request.initial)?;
         let until = request.number("until").unwrap_or(10.0);
         let budget = request.number("budget").unwrap_or(0.2);
-        session.progress(0, 1)?;
+        session.stage(0, 1, "the reference solution")?;
         let exact = reference(&system, &mu, until).ok_or((
             2,
             "reference a number becomes infinite, or the steps too small".to_owned(),
@@ -193,7 +193,7 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
             })
             .collect::<Vec<_>>();
         for (index, (label, entry)) in wanted.iter().enumerate() {
-            ended = session.progress(index as u64, (wanted.len() * 4) as u64);
+            ended = session.stage(index as u64, (wanted.len() * 4) as u64, label);
             if ended.is_err() {
                 break;
             }
@@ -378,6 +378,7 @@ fn by_steps<P: Poisson<f64>>(
 fn time(points: &mut [Point<'_>], clock: &Clock, session: &mut Session<'_>) -> Ended {
     let all = (points.len() * ROUNDS) as u64;
     let mut done = 0;
+    session.stage(all / 3, all, "times")?;
     for _ in 0..ROUNDS {
         for point in &mut *points {
             session.progress(all / 3 + done * 2 / 3, all)?;

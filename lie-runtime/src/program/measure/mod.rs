@@ -3,7 +3,7 @@
 //! Requests are lines as for [`Program`](super::Program), here: `method <label>` (repeated), `parameter <index>
 //! <value>`, `initial <v1> <v2> …`, further keys with a number each, then `run`. Results are lines on standard
 //! output, fields separated by tabs, the first of them naming the kind of line; progress and the last word are lines
-//! on standard error, as there. When the input ends after `run`, the program stops after the measurement that
+//! on standard error, as there, and `stage <done> <all> <what>` before each part of the work. When the input ends after `run`, the program stops after the measurement that
 //! it is at, but not later than two seconds after.
 
 mod bench;
@@ -105,6 +105,15 @@ impl Session<'_> {
         if let Err(error) = result {
             self.lost.get_or_insert(error);
         }
+    }
+
+    /// Says what is done next, and whether to go on.
+    ///
+    /// # Errors
+    /// As of [`progress`](Self::progress).
+    fn stage(&mut self, done: u64, all: u64, what: &str) -> Ended {
+        let _ = writeln!(self.messages, "stage {done} {all} {what}");
+        self.progress(done, all)
     }
 
     /// Says how far it is, and whether to go on.

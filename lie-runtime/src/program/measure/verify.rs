@@ -126,6 +126,7 @@ impl<P: Lift<f64> + 'static> Verify<P> {
     fn work(&self, request: &Request, session: &mut Session<'_>) -> Ended {
         let (system, mu) = prepare(&*self.build, &request.parameters, &request.initial)?;
         let seed = request.number("seed").unwrap_or(1.0) as u64;
+        session.stage(0, request.methods.len() as u64, "the reference solution")?;
         let ground = Ground::new(&system, &mu, seed, request.number("step"))
             .map_err(|text| (2, format!("ground {text}")))?;
         let ground = (self.with_orbits)(ground);
@@ -141,7 +142,7 @@ impl<P: Lift<f64> + 'static> Verify<P> {
         let lifted = system.lift();
         let all = request.methods.len() as u64;
         for (done, label) in request.methods.iter().enumerate() {
-            session.progress(done as u64, all)?;
+            session.stage(done as u64, all, label)?;
             let Some((_, make)) = self.subjects.iter().find(|(known, _)| known == label) else {
                 return Err((2, format!("request no method `{label}` in this program")));
             };

@@ -145,6 +145,7 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
             })
             .collect();
         session.line(&["ground", &format!("{step:?}"), &jobs.len().to_string()]);
+        session.stage(0, jobs.len() as u64, "experiments")?;
         let start = Start {
             parameters: &request.parameters,
             mu: mu.as_slice(),
