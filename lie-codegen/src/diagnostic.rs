@@ -73,8 +73,7 @@ kinds! {
     Io "io" "A file cannot be read or written.",
     Toolchain "toolchain" "cargo is missing or failed.",
     Checkpoint "checkpoint" "A checkpoint does not fit.",
-    Limit "limit" "A size limit is exceeded.",
-    Internal "internal" "The compiler contradicts itself, a mistake of its own.",
+    Limit "limit" "A size limit is exceeded, or what the compiler can be trusted with.",
 }
 impl fmt::Display for Kind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
