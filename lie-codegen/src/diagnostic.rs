@@ -99,8 +99,7 @@ kinds! {
     Io "io" "A file cannot be read or written.",
     Toolchain "toolchain" "cargo is missing or failed.",
     Checkpoint "checkpoint" "A checkpoint does not fit.",
-    Limit "limit" "A size limit is exceeded.",
-    Internal "internal" "The compiler contradicts itself, a mistake of its own.",
+    Limit "limit" "A size limit is exceeded, or what the compiler can be trusted with.",
     Unused "unused" "Only a warning: a parameter or an abbreviation that nothing uses.",
     Motionless "motionless" "Only a warning: all brackets are zero, or the Hamiltonian is constant.",
 }

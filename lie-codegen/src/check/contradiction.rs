@@ -46,5 +46,5 @@ pub fn diagnostic(origin: Origin) -> Option<Diagnostic> {
         "the compiler contradicts itself: it proves something of `{text}` that its values at a point refute"
     );
     let help = "this is a mistake of the compiler, not of the declaration; please report it with the declaration";
-    Some(Diagnostic::new(Kind::Internal, origin, message).help(help))
+    Some(Diagnostic::new(Kind::Limit, origin, message).help(help))
 }

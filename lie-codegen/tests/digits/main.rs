@@ -467,3 +467,115 @@ fn a_stiff_spring() {
     let lost = Pair::of(expanded).sub(*exact).to_f64().abs() / exact.to_f64().abs();
     assert!(lost > 1e-9, "the control lost {lost}");
 }
+
+/// The results of a kernel of a spec at a state, and the exact ones by double-double.
+fn kernel<T: Number>(spec: &str, name: &str, parameters: &[f64], state: &[f64]) -> Vec<T> {
+    let model = compile_spec(spec).unwrap_or_else(|e| panic!("{spec}: {e:?}"));
+    let mut source = source(&model);
+    let kernels = source.basic_kernels();
+    let kernel = kernels.iter().find(|kernel| kernel.name == name);
+    let program = kernel.expect("a kernel").program(&mut source.graph);
+    let prepared = constants::<T>(&program, &mut source, parameters);
+    let symbol = |s| match s {
+        Symbol::Coordinate(i) => T::of(state[i]),
+        Symbol::Parameter(i) => T::of(parameters[i]),
+        other => panic!("{other:?}"),
+    };
+    run(&program, &symbol, &prepared)
+}
+
+/// A system on so(3) with this Hamiltonian; its parameters are a, b, c.
+fn spec(hamiltonian: &str) -> String {
+    format!(
+        r#"{{"format": 1, "name": "Case", "algebra": {{"basis": ["e1", "e2", "e3"],
+        "brackets": ["[e1, e2] = e3", "[e2, e3] = e1", "[e3, e1] = e2"]}}, "state": ["x", "y", "z"],
+        "parameters": {{"a": 1, "b": 2, "c": 3}}, "hamiltonian": "{hamiltonian}"}}"#
+    )
+}
+
+/// `1/r - z^2/r^3` has no digit at z = 1e8; `1/r^3` has all.
+#[test]
+fn the_second_derivative_of_a_radius() {
+    let text = spec("sqrt(1 + z^2) + a*x + b*y + c*x*y");
+    let z = 1e8;
+    let hessian = kernel::<f64>(&text, "hessian", &[1.0, 2.0, 3.0], &[1.0, 1.0, z]);
+    let exact = 1e-24 * (1.0 - 1.5e-16);
+    let found = hessian
+        .iter()
+        .find(|entry| (*entry / exact - 1.0).abs() < 1e-14);
+    assert!(found.is_some(), "{hessian:?}");
+    // the control: by the rules of differentiation
+    let r = (1.0 + z * z).sqrt();
+    let ruled = 1.0 / r - z * z / (r * r * r);
+    assert!((ruled / exact - 1.0).abs() > 0.5, "{ruled}");
+    // in three dimensions too: (x^2 + y^2)/r^3
+    let text = spec("sqrt(x^2 + y^2 + z^2) + a*x + b*y + c*x*y");
+    let hessian = kernel::<f64>(&text, "hessian", &[1.0, 2.0, 3.0], &[1.0, 1.0, z]);
+    let found = hessian
+        .iter()
+        .find(|entry| (*entry / 2e-24 - 1.0).abs() < 1e-14);
+    assert!(found.is_some(), "{hessian:?}");
+}
+
+/// A prepared difference is computed before it is multiplied.
+#[test]
+fn a_prepared_constant() {
+    let text = spec("a*(b - c)*y^2 + x^2");
+    let parameters = [1.0 / 3.0, 1.0 + 1e-12, 1.0];
+    let exact = Pair::of(parameters[0]).mul(Pair::of(parameters[1]).sub(Pair::of(parameters[2])));
+    let energy = kernel::<f64>(&text, "hamiltonian", &parameters, &[0.0, 1.0, 0.0])[0];
+    let error = Pair::of(energy).sub(exact).to_f64().abs() / exact.to_f64();
+    assert!(error < 1e-15, "{error}");
+    let expanded = parameters[0] * parameters[1] - parameters[0] * parameters[2];
+    let lost = Pair::of(expanded).sub(exact).to_f64().abs() / exact.to_f64();
+    assert!(lost > 1e-7, "the control lost {lost}");
+}
+
+/// The twelfth power of a ratio stays in range where those of its terms do not.
+#[test]
+fn the_power_of_a_ratio_in_single_precision() {
+    let text = spec("(a/x)^12 - (a/x)^6 + (y + z)^2");
+    for scale in [1e-5, 1e5] {
+        let state = [1.25 * scale, 0.0, 0.0];
+        let energy = kernel::<f32>(&text, "hamiltonian", &[scale, 2.0, 3.0], &state)[0];
+        let exact = 0.8f64.powi(12) - 0.8f64.powi(6);
+        assert!((f64::from(energy) / exact - 1.0).abs() < 3e-6, "{energy}");
+        let control = (scale as f32).powi(12) * (state[0] as f32).powi(-12);
+        assert!(control == 0.0 || !control.is_finite(), "{control}");
+    }
+}
+
+/// Field and Jacobian are the same numbers alone and in `linearize`.
+#[test]
+fn kernels_agree_bit_for_bit() {
+    let mut compared = 0;
+    for seed in 0..60 {
+        let mut random = Random(77 + seed);
+        let system = System::random(&mut random);
+        let text = system.spec();
+        let model = compile_spec(&text).expect("a system");
+        let mut source = source(&model);
+        let kernels = source.basic_kernels();
+        let state = states(&system, &mut random, -3).remove(0);
+        let mut results = |name: &str| {
+            let kernel = kernels.iter().find(|kernel| kernel.name == name);
+            let program = kernel.expect("a kernel").program(&mut source.graph);
+            let prepared = constants::<f64>(&program, &mut source, &system.parameters);
+            let symbol = |s| match s {
+                Symbol::Coordinate(i) => state[i],
+                Symbol::Parameter(i) => system.parameters[i],
+                other => panic!("{other:?}"),
+            };
+            run(&program, &symbol, &prepared)
+        };
+        let mut apart = results("vector_field");
+        apart.extend(results("jacobian"));
+        let together = results("linearize");
+        assert_eq!(apart.len(), together.len());
+        for (a, b) in apart.iter().zip(&together) {
+            assert_eq!(a.to_bits(), b.to_bits(), "{text}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 500, "{compared}");
+}
