@@ -102,7 +102,13 @@ impl Writer<'_> {
                 None => leaf,
             },
             Atom::Sum(mut terms) => {
-                if let Some(first) = terms.iter().position(|(negative, _)| !negative) {
+                // What was written first stands first.
+                let sum = |atom: &AtomId| matches!(self.formula.atoms[*atom], Atom::Sum(_));
+                let first = terms
+                    .iter()
+                    .position(|(negative, atom)| !negative && sum(atom))
+                    .or_else(|| terms.iter().position(|(negative, _)| !negative));
+                if let Some(first) = first {
                     let term = terms.remove(first);
                     terms.insert(0, term);
                 }
