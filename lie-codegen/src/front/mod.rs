@@ -13,6 +13,7 @@ pub(crate) mod place;
 
 mod expression;
 mod families;
+pub(crate) mod habits;
 mod item;
 mod json;
 mod mistakes;

@@ -183,3 +183,26 @@ fn names_have_no_characters_that_are_not_seen() {
         &["syntax at x\u{fe0f}: the name `x\\u{fe0f}` contains U+FE0F, which is not seen"],
     );
 }
+
+#[test]
+fn constants_of_other_languages() {
+    for (text, says) in [
+        ("π*x", "did you mean `pi`?"),
+        ("e^x", "is written `exp(x)`"),
+        ("inf*x", "a finite value"),
+        ("NaN + x", "a finite value"),
+        ("i*x", "all quantities are real"),
+        // Cyrillic, and the wide form.
+        ("\u{445}^2", "write `x`"),
+        ("\u{ff58}^2", "write `x`"),
+        ("omega*x", "declare `omega` as a parameter"),
+    ] {
+        let (_, diagnostics) = run(&so3(&[("hamiltonian", &format!("{text:?}"))]));
+        let [found] = diagnostics.as_slice() else {
+            panic!("{text}: {diagnostics:?}")
+        };
+        assert_eq!(found.kind, Kind::UnknownSymbol, "{text}");
+        let help = found.help.as_deref().unwrap_or_default();
+        assert!(help.contains(says), "{text}: {help}");
+    }
+}
