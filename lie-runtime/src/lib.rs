@@ -96,7 +96,8 @@ pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 pub use structure::{
-    CotangentPoisson, InertiaPoisson, MatrixGroup, MatrixPoisson, RealizedPoisson, SpinPoisson,
+    ClosedRealization, CotangentPoisson, InertiaPoisson, MatrixGroup, MatrixPoisson,
+    RealizedPoisson, Spectrum, SpinPoisson,
 };
 
 /// What a program usually needs.
@@ -145,7 +146,7 @@ pub mod __private {
     pub use crate::state::{Stages, State, Unknown};
     pub use crate::structure::{
         CotangentPoisson, Entry, InertiaPoisson, MatrixGroup, MatrixPoisson, Plane, Representation,
-        SpinPoisson,
+        Spectrum, SpinPoisson,
     };
     pub use core::marker::PhantomData;
     pub use nalgebra::{SMatrix, SVector};

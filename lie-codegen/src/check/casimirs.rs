@@ -1,5 +1,6 @@
 //! Casimirs: `{C, x_i} = sum_j dC/dx_j Pi_ji = 0` for all `i`, proven by a normal form.
 
+use super::degree::degree;
 use super::normal::NormalForm;
 use super::proof::{Proof, examine};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -78,14 +79,7 @@ pub fn check(
         );
         return None;
     }
-    Some(normal.degree(candidate.expr))
-}
-
-/// The total degree of a function in the coordinates, if it is a polynomial in them and small enough
-/// to tell.
-pub fn degree(graph: &Graph, function: ExprId) -> Option<u32> {
-    let budget = Budget::new(WORK);
-    NormalForm::new(graph, &budget).degree(function)
+    Some(degree(scratch, candidate.expr))
 }
 
 /// The brackets with all coordinates that are not trivially zero.

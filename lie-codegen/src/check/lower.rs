@@ -20,6 +20,22 @@ const MAX_BITS_TOGETHER: u64 = 1 << 20;
 /// The largest arena that expressions may fill, nodes and operands together.
 const MAX_SIZE: usize = 200_000;
 
+/// An expression in the arena: its normal form, and the form in which it was written.
+#[derive(Clone, Copy)]
+struct Lowered {
+    normal: ExprId,
+    written: ExprId,
+}
+
+impl Lowered {
+    fn plain(id: ExprId) -> Self {
+        Self {
+            normal: id,
+            written: id,
+        }
+    }
+}
+
 /// Lowers expressions to one arena, reporting every mistake in them.
 pub struct Lowering<'a, 'b> {
     /// The arena.
@@ -53,8 +69,15 @@ impl<'a, 'b> Lowering<'a, 'b> {
         }
     }
 
-    /// The expression in the arena; `None` if anything was reported.
+    /// The normal form of the expression, of which the arena remembers how it was written; `None` if anything
+    /// was reported.
     pub fn lower(&mut self, expr: &Expr) -> Option<ExprId> {
+        let lowered = self.both(expr)?;
+        self.graph.remember_written(lowered.normal, lowered.written);
+        Some(lowered.normal)
+    }
+
+    fn both(&mut self, expr: &Expr) -> Option<Lowered> {
         if self.depth > MAX_DEPTH {
             return self.fail(
                 Kind::Limit,
@@ -64,9 +87,11 @@ impl<'a, 'b> Lowering<'a, 'b> {
             );
         }
         self.depth += 1;
-        let id = self.lower_kind(expr);
+        let lowered = self.lower_kind(expr);
         self.depth -= 1;
-        self.bounded(id?, expr.origin)
+        let lowered = lowered?;
+        self.bounded(lowered.normal, expr.origin)?;
+        Some(lowered)
     }
 
     fn fail<T>(
@@ -114,52 +139,60 @@ impl<'a, 'b> Lowering<'a, 'b> {
         Some(id)
     }
 
-    fn lower_kind(&mut self, expr: &Expr) -> Option<ExprId> {
+    fn lower_kind(&mut self, expr: &Expr) -> Option<Lowered> {
         match &expr.kind {
-            ExprKind::Number(value) => Some(self.graph.number(value.clone())),
+            ExprKind::Number(value) => Some(Lowered::plain(self.graph.number(value.clone()))),
             ExprKind::Name { index: Some(_), .. } | ExprKind::IndexedSum { .. } => self.fail(
                 Kind::Syntax,
                 expr.origin,
                 "indexed names and sums belong to families of systems, which are not available here", "write the copies out, as in x1, x2, x3"),
             ExprKind::Name { name, index: None } => self.name(name, expr.origin),
             ExprKind::Negative(inner) => {
-                let inner = self.lower(inner)?;
-                Some(self.graph.neg(inner))
+                let inner = self.both(inner)?;
+                Some(Lowered {
+                    normal: self.graph.neg(inner.normal),
+                    written: self.graph.neg(inner.written),
+                })
             }
             ExprKind::Sum(terms) => {
                 // Every term is visited, so that all their mistakes are reported together.
-                let lowered: Vec<_> = terms.iter().map(|(minus, term)| (*minus, self.lower(term))).collect();
-                let mut signed = Vec::with_capacity(lowered.len());
-                for (minus, id) in lowered {
-                    signed.push((id?, if minus { Rational::MINUS_ONE } else { Rational::ONE }));
+                let lowered: Vec<_> = terms.iter().map(|(minus, term)| (*minus, self.both(term))).collect();
+                let (mut signed, mut written) = (Vec::new(), Vec::new());
+                for (minus, term) in lowered {
+                    let (term, sign) = (term?, if minus { Rational::MINUS_ONE } else { Rational::ONE });
+                    signed.push((term.normal, sign.clone()));
+                    written.push((term.written, sign));
                 }
                 self.fits(signed.iter().map(|(id, _)| *id), expr.origin)?;
-                Some(self.graph.linear(&signed))
+                Some(Lowered { normal: self.graph.linear(&signed), written: self.graph.written_sum(&written) })
             }
             ExprKind::Product(factors) => {
-                let lowered: Vec<_> = factors.iter().map(|(divides, factor)| (*divides, self.lower(factor))).collect();
-                let mut powers = Vec::with_capacity(lowered.len());
-                for ((divides, id), (_, factor)) in lowered.into_iter().zip(factors) {
-                    let id = id?;
-                    if divides && self.constant_sign(id, factor.origin)? == Some(0) {
+                let lowered: Vec<_> = factors.iter().map(|(divides, factor)| (*divides, self.both(factor))).collect();
+                let (mut powers, mut written) = (Vec::new(), Vec::new());
+                for ((divides, lowered), (_, factor)) in lowered.into_iter().zip(factors) {
+                    let lowered = lowered?;
+                    let id = lowered.normal;
+                    if divides && (self.constant_sign(id, factor.origin)? == Some(0)) {
                         return self.fail(Kind::Number, factor.origin, "division by zero", "the divisor is exactly zero; correct it");
                     }
-                    powers.push((id, if divides { Rational::MINUS_ONE } else { Rational::ONE }));
+                    let exponent = if divides { Rational::MINUS_ONE } else { Rational::ONE };
+                    powers.push((id, exponent.clone()));
+                    written.push((lowered.written, exponent));
                 }
                 self.fits(powers.iter().map(|(id, _)| *id), expr.origin)?;
-                Some(self.graph.power_product(&powers))
+                Some(Lowered { normal: self.graph.power_product(&powers), written: self.graph.power_product(&written) })
             }
             ExprKind::Power(base, exponent) => {
-                let (base_id, exponent_id) = (self.lower(base), self.lower(exponent));
+                let (base_id, exponent_id) = (self.both(base), self.both(exponent));
                 self.power(base_id?, exponent_id?, base.origin, exponent.origin)
             }
             ExprKind::Call { function, arguments } => self.call(function, arguments, expr.origin),
         }
     }
 
-    fn name(&mut self, name: &str, origin: Origin) -> Option<ExprId> {
+    fn name(&mut self, name: &str, origin: Origin) -> Option<Lowered> {
         if name == "pi" {
-            return Some(self.graph.pi());
+            return Some(Lowered::plain(self.graph.pi()));
         }
         let known = match self.environment.get(name) {
             Some(Binding::Symbol(symbol)) => Some(self.graph.symbol(symbol)),
@@ -167,7 +200,10 @@ impl<'a, 'b> Lowering<'a, 'b> {
             _ => None,
         };
         match known {
-            Some(id) if self.permitted(id) => Some(id),
+            Some(id) if self.permitted(id) => Some(Lowered {
+                normal: id,
+                written: self.graph.as_written(id),
+            }),
             _ => {
                 let diagnostic = self.environment.unknown(name, origin, self.allowed);
                 self.report.push(diagnostic);
@@ -199,11 +235,12 @@ impl<'a, 'b> Lowering<'a, 'b> {
 
     fn power(
         &mut self,
-        base: ExprId,
-        exponent: ExprId,
+        lowered: Lowered,
+        lowered_exponent: Lowered,
         base_origin: Origin,
         origin: Origin,
-    ) -> Option<ExprId> {
+    ) -> Option<Lowered> {
+        let (base, exponent) = (lowered.normal, lowered_exponent.normal);
         let number = self.graph.as_number(base).cloned();
         let Some(exponent) = self.graph.as_number(exponent).cloned() else {
             // a^b = exp(b log a)
@@ -215,9 +252,15 @@ impl<'a, 'b> Lowering<'a, 'b> {
                     "`a^b` with a variable `b` is `exp(b*log(a))`",
                 );
             }
-            let logarithm = self.graph.call(Function::Log, &[base]);
-            let product = self.graph.mul(exponent, logarithm);
-            return Some(self.graph.call(Function::Exp, &[product]));
+            let mut power = |base, exponent| {
+                let logarithm = self.graph.call(Function::Log, &[base]);
+                let product = self.graph.mul(exponent, logarithm);
+                self.graph.call(Function::Exp, &[product])
+            };
+            return Some(Lowered {
+                normal: power(base, exponent),
+                written: power(lowered.written, lowered_exponent.written),
+            });
         };
         if exponent.abs() > Rational::from(MAX_EXPONENT) {
             return self.fail(
@@ -259,7 +302,27 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 "correct the base, or use another exponent",
             );
         }
-        Some(self.graph.pow(base, &exponent))
+        let quantity = self.written_base(lowered.written);
+        Some(Lowered {
+            normal: self.graph.pow(base, &exponent),
+            written: self.graph.pow(quantity, &exponent),
+        })
+    }
+
+    /// A quotient that is raised to a power stays one quantity.
+    fn written_base(&mut self, id: ExprId) -> ExprId {
+        let (_, product) = self.graph.coefficient(id);
+        let quotient = match self.graph.node(product) {
+            Node::Product(factors) => {
+                factors.len() > 1 && factors.iter().any(|(_, e)| e.is_negative())
+            }
+            _ => false,
+        };
+        if quotient {
+            self.graph.written_product(id)
+        } else {
+            id
+        }
     }
 
     /// The sign of a constant, exactly: of rational numbers, of irrational ones by rigorous bounds where these
@@ -287,10 +350,10 @@ impl<'a, 'b> Lowering<'a, 'b> {
         }
     }
 
-    fn call(&mut self, function: &Name, arguments: &[Expr], origin: Origin) -> Option<ExprId> {
+    fn call(&mut self, function: &Name, arguments: &[Expr], origin: Origin) -> Option<Lowered> {
         let lowered: Vec<_> = arguments
             .iter()
-            .map(|argument| self.lower(argument))
+            .map(|argument| self.both(argument))
             .collect();
         let known = Function::from_name(&function.text);
         let arity = match known {
@@ -324,11 +387,13 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 "correct the number of arguments",
             );
         }
-        let lowered: Vec<ExprId> = lowered.into_iter().collect::<Option<_>>()?;
+        let lowered: Vec<Lowered> = lowered.into_iter().collect::<Option<_>>()?;
+        let (normal, written): (Vec<ExprId>, Vec<ExprId>) =
+            lowered.iter().map(|l| (l.normal, l.written)).unzip();
         let Some(known) = known else {
             let half = &Rational::ONE / &Rational::from(2);
             let place = arguments[0].origin;
-            if self.constant_sign(lowered[0], place)? == Some(-1) {
+            if self.constant_sign(normal[0], place)? == Some(-1) {
                 return self.fail(
                     Kind::Number,
                     origin,
@@ -336,9 +401,12 @@ impl<'a, 'b> Lowering<'a, 'b> {
                     "correct its argument",
                 );
             }
-            return Some(self.graph.pow(lowered[0], &half));
+            return Some(Lowered {
+                normal: self.graph.pow(normal[0], &half),
+                written: self.graph.pow(written[0], &half),
+            });
         };
-        if self.is_undefined(known, &lowered, arguments)? {
+        if self.is_undefined(known, &normal, arguments)? {
             return self.fail(
                 Kind::Number,
                 origin,
@@ -346,7 +414,10 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 "correct its argument",
             );
         }
-        Some(self.graph.call(known, &lowered))
+        Some(Lowered {
+            normal: self.graph.call(known, &normal),
+            written: self.graph.call(known, &written),
+        })
     }
 }
 

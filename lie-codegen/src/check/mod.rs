@@ -13,11 +13,14 @@ mod confirmation;
 mod constant;
 mod contradiction;
 mod defaults;
+mod degree;
+mod descent;
 mod discrete;
 pub mod domain;
 mod energy;
 mod entries;
 mod environment;
+mod idle;
 mod independence;
 mod initial;
 mod legendre;
@@ -68,6 +71,9 @@ pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     let model = stages(declaration, &mut own);
     if let Some(diagnostic) = contradiction::diagnostic(declaration.name.origin) {
         own.push(diagnostic);
+    }
+    if let Some(model) = &model {
+        idle::check(declaration, model, &mut own);
     }
     let failed = own.has_errors();
     let diagnostics = own.into_diagnostics();
@@ -213,7 +219,7 @@ fn system(
         Structure::General => {
             poisson::jacobi(declaration, &brackets, &mut scratch, report);
             let degrees = poisson.entries.iter();
-            let mut degrees = degrees.map(|(.., value)| casimirs::degree(&graph, *value));
+            let mut degrees = degrees.map(|(.., value)| degree::degree(&graph, *value));
             poisson.degree = degrees.try_fold(0, |most, degree| Some(most.max(degree?)));
         }
     }
@@ -243,7 +249,7 @@ fn system(
     }
     let (pieces, hamiltonian_degree) = if exact {
         let pieces = separable::coordinates(&mut scratch, hamiltonian, dimension);
-        (pieces, casimirs::degree(&scratch, hamiltonian))
+        (pieces, degree::degree(&scratch, hamiltonian))
     } else {
         (Err((0, dimension - 1)), None)
     };

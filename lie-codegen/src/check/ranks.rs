@@ -102,7 +102,7 @@ pub fn at_numbers(
 }
 
 /// The values at a point, `None` where they are not rational.
-fn exact(
+pub(super) fn exact(
     graph: &Graph,
     roots: &[ExprId],
     value: &dyn Fn(Symbol) -> Option<Rational>,
@@ -117,6 +117,9 @@ fn exact(
                     &sum + &(c * &values[term])
                 })
             }
+            Node::Written(terms) => terms
+                .iter()
+                .fold(Rational::ZERO, |sum, (term, c)| &sum + &(c * &values[term])),
             Node::Product(factors) => {
                 let mut product = Rational::ONE;
                 for (base, exponent) in factors {

@@ -182,6 +182,13 @@ pub fn in_step(graph: &mut Graph, expression: ExprId) -> Option<Series> {
             }
             Node::Symbol(Symbol::Input(_)) => Series::monomial(graph, 1, id),
             Node::Symbol(_) => Series::monomial(graph, 0, id),
+            Node::Written(terms) => {
+                let parts: Option<Vec<_>> = terms
+                    .iter()
+                    .map(|(term, factor)| Some((known.get(term)?.clone(), factor.clone())))
+                    .collect();
+                Series::sum(graph, &parts?)?
+            }
             Node::Sum { constant, terms } => {
                 let constant = graph.number(constant);
                 let mut parts = vec![(Series::monomial(graph, 0, constant), Rational::ONE)];

@@ -125,6 +125,9 @@ impl Writer<'_> {
         }
         let check = (!checks.is_empty())
             .then(|| quote! { ::lie_runtime::__private::all_finite(&[#checks])?; });
+        let branch = self
+            .has_branches()
+            .then(|| quote! { _branch: ::core::option::Option::None, });
         let positive = self.blueprint.parameters.iter().filter(|p| p.positive);
         let positive: Vec<_> = positive
             .map(|p| {
@@ -139,7 +142,11 @@ impl Writer<'_> {
             #statements
             #lets
             #check
-            ::core::result::Result::Ok(#system { _parameters: ::core::clone::Clone::clone(self), #(#fields),* })
+            ::core::result::Result::Ok(#system {
+                _parameters: ::core::clone::Clone::clone(self),
+                #branch
+                #(#fields),*
+            })
         }
     }
 
@@ -167,12 +174,20 @@ impl Writer<'_> {
         let marker = names
             .is_empty()
             .then(|| quote! { _scalar: ::core::marker::PhantomData });
+        let branch = self.has_branches().then(|| {
+            let size = super::names::index(self.source.dimension);
+            quote! {
+                #[doc = " A velocity of the branch of the Legendre transform; none for that which begins at rest."]
+                _branch: ::core::option::Option<[S; #size]>,
+            }
+        });
         quote! {
             #[doc = #doc]
             #[derive(Clone, Debug, PartialEq)]
             #[allow(non_snake_case)]
             #visibility struct #system<S = f64> {
                 _parameters: #name<S>,
+                #branch
                 #(#fields,)*
             }
 
@@ -209,6 +224,9 @@ impl Writer<'_> {
             .parameters
             .is_empty()
             .then(|| quote! { _scalar: ::core::marker::PhantomData });
+        let branch = self
+            .has_branches()
+            .then(|| quote! { _branch: self._branch.map(|branch| branch.map(_constant)), });
         quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for #system<S> {
                 type Lifted = #system<::lie_runtime::Dual<S>>;
@@ -220,6 +238,7 @@ impl Writer<'_> {
                             #(#names: _constant(self._parameters.#names),)*
                             #marker
                         },
+                        #branch
                         #(#fields: _constant(self.#fields),)*
                     }
                 }

@@ -63,10 +63,13 @@ impl Writer<'_> {
                 }
             }
         });
+        let spectrum = self.spectrum();
         let cayley = cayley.map(|triple| {
             quote! {
                 #[allow(non_snake_case, clippy::many_single_char_names)]
                 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for #system<S> {
+                    #spectrum
+
                     #triple
                 }
             }

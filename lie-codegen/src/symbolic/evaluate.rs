@@ -34,6 +34,9 @@ impl Graph {
             Node::Sum { constant, terms } => terms.iter().fold(constant.to_f64(), |sum, (t, c)| {
                 sum + c.to_f64() * known(*t)
             }),
+            Node::Written(terms) => terms
+                .iter()
+                .fold(0.0, |sum, (t, c)| sum + c.to_f64() * known(*t)),
             Node::Product(factors) => factors.iter().fold(1.0, |product, (base, exponent)| {
                 let base = known(*base);
                 product

@@ -57,7 +57,7 @@ fn rows_are_time_state_energy() {
     assert!((rows[4][3] - 12.5).abs() < 0.1);
     assert_eq!(
         messages,
-        "done steps=4 evaluations=16 newton=0 rejected=0\n"
+        "done steps=4 evaluations=16 newton=0 accepted=4 rejected=0\n"
     );
 }
 

@@ -1,6 +1,8 @@
 //! Systems written by hand, and what tests do with them.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub mod affine_line;
+pub mod folded;
 pub mod heavy_top;
 pub mod nonpolynomial;
 pub mod quartic;

@@ -87,8 +87,9 @@ fn short(error: f64) -> String {
     }
 }
 
-/// Two lines: what was done, and how well the invariants were kept.
-pub fn text(title: &str, counts: &Counts, drift: &Drift, time: Duration) -> String {
+/// What was done, and how well the invariants were kept; for a method that chooses its own steps, how many those
+/// were, and whether it had a choice.
+pub fn text(title: &str, counts: &Counts, adaptive: bool, drift: &Drift, time: Duration) -> String {
     let steps = counts.steps;
     let mut text = format!(
         "{title}: {steps} steps to t = {:?} in {:.3} s",
@@ -101,8 +102,17 @@ pub fn text(title: &str, counts: &Counts, drift: &Drift, time: Duration) -> Stri
             counts.newton as f64 / steps as f64
         ));
     }
-    if counts.rejected > 0 {
-        text.push_str(&format!(", {} steps refused", counts.rejected));
+    if adaptive {
+        let (own, refused) = (counts.accepted, counts.rejected);
+        text.push_str(&format!(
+            ", {own} of its own within these, {refused} refused"
+        ));
+    }
+    if adaptive && counts.accepted == steps && counts.rejected == 0 {
+        text.push_str(
+            "\nno step was longer than --step: it decided every step, and the tolerances none; give a larger --step to \
+             let them decide",
+        );
     }
     if !drift.first.is_empty() {
         text.push_str(&format!(
@@ -129,7 +139,7 @@ mod tests {
             newton: 5,
             ..Counts::default()
         };
-        let text = text("T", &counts, &drift, Duration::from_millis(1500));
+        let text = text("T", &counts, false, &drift, Duration::from_millis(1500));
         assert_eq!(
             text,
             "T: 2 steps to t = 1.0 in 1.500 s, 2.50 Newton iterations per step\n\
@@ -139,5 +149,22 @@ mod tests {
         assert!(drift.text().contains("energy NaN"));
         drift.push(&[2.0, 1.0, 1.0, 2.0, 0.0], 3);
         assert!(drift.text().contains("energy NaN"), "it stays");
+    }
+
+    #[test]
+    fn adaptive_methods_say_how_many_steps_were_their_own() {
+        let drift = Drift::new(&[]);
+        let of = |accepted, rejected| {
+            let counts = Counts {
+                steps: 10,
+                accepted,
+                rejected,
+                ..Counts::default()
+            };
+            text("T", &counts, true, &drift, Duration::ZERO)
+        };
+        assert!(of(25, 2).contains(", 25 of its own within these, 2 refused\n"));
+        assert!(!of(25, 2).contains("larger --step") && !of(10, 1).contains("larger --step"));
+        assert!(of(10, 0).contains("give a larger --step"));
     }
 }

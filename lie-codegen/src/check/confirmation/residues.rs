@@ -82,6 +82,8 @@ impl<'a> Residues<'a> {
 fn node(graph: &Graph, id: ExprId, known: &HashMap<ExprId, Residue>, sample: Sample) -> Residue {
     let of_number = |value: &Rational| number(value).map_or(Residue::Undefined, Residue::Value);
     match graph.node(id) {
+        // proofs are about normal forms
+        Node::Written(_) => Residue::Other,
         Node::Number(value) => of_number(value),
         Node::Symbol(symbol) => Residue::Value(sample.bits(*symbol) % PRIME),
         Node::Sum { constant, terms } => {

@@ -270,6 +270,13 @@ impl<'a> NormalForm<'a> {
                 }
                 Ok(sum.add(&polynomial.into(), self.budget)?)
             }
+            Node::Written(terms) => {
+                let mut sum = Fraction::default();
+                for (term, coefficient) in terms {
+                    sum = sum.add(&self.values[term].scale(coefficient), self.budget)?;
+                }
+                Ok(sum)
+            }
             Node::Product(factors) => {
                 let mut product = Fraction::from(Rational::ONE);
                 for (base, exponent) in factors {

@@ -3,11 +3,13 @@ mod casimirs;
 mod configuration;
 mod domain;
 mod extremes;
+mod idle;
 mod legendre;
 mod limits;
 mod names;
 mod poisson;
 mod random;
+mod realization;
 mod soundness;
 
 use super::*;

@@ -3,10 +3,10 @@
 use super::quantity;
 use crate::ast::{Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::front::item;
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, string, wrong_type};
 use crate::front::schema::DescribedParameter;
+use crate::front::{item, prose};
 
 /// What was found.
 #[derive(Default)]
@@ -65,14 +65,10 @@ fn described(
         None => &["default"],
     };
     object.require(what, needed, report);
-    let mut text = |key: &str| {
-        Some(
-            string(object.get(key)?, &format!("`{key}`"), report)?
-                .text
-                .into_owned(),
-        )
-    };
-    let (unit, description) = (text("unit"), text("description"));
+    let mut text = |key: &str, place: &str| string(object.get(key)?, place, report);
+    let (unit, description) = (text("unit", "`unit`"), text("description", "`description`"));
+    let unit = unit.map(|text| prose::inline(&text, "the unit", report));
+    let description = description.map(|text| prose::paragraph(&text, "the description", report));
     let mut flag = |key: &str| {
         object.get(key).is_some_and(|v| {
             if v.boolean().is_none() {

@@ -48,11 +48,7 @@ pub(super) fn findings<P: Lift<f64>>(
                     } else {
                         bound(0.0)
                     };
-                    let mut finding = Finding::zero(group.fact, group.claimed, drift, bound);
-                    if h != ground.step {
-                        finding = finding.note(format!("step {h:.2e}"));
-                    }
-                    finding
+                    Finding::zero(group.fact, group.claimed, drift, bound).at(h)
                 }
                 Err(failure) => Finding::unmeasured(group.fact, group.claimed, &failure),
             }

@@ -3,11 +3,12 @@
 //! Requests are lines as for [`Program`](super::Program), here: `method <label>` (repeated), `parameter <index>
 //! <value>`, `initial <v1> <v2> …`, further keys with a number each, then `run`. Results are lines on standard
 //! output, fields separated by tabs, the first of them naming the kind of line; progress and the last word are lines
-//! on standard error, as there. When the input ends after `run`, the program stops after the measurement that
-//! it is at.
+//! on standard error, as there, and `stage <done> <all> <what>` before each part of the work. When the input ends after `run`, the program stops after the measurement that
+//! it is at, but not later than two seconds after.
 
 mod bench;
 mod stress;
+mod timing;
 mod verify;
 
 pub use bench::{Bench, Control, ControlRun};
@@ -22,6 +23,9 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
+
+/// How long a measurement may take after the input has ended.
+const GRACE: Duration = Duration::from_secs(2);
 
 /// What is asked for.
 pub(super) struct Request {
@@ -103,6 +107,15 @@ impl Session<'_> {
         }
     }
 
+    /// Says what is done next, and whether to go on.
+    ///
+    /// # Errors
+    /// As of [`progress`](Self::progress).
+    fn stage(&mut self, done: u64, all: u64, what: &str) -> Ended {
+        let _ = writeln!(self.messages, "stage {done} {all} {what}");
+        self.progress(done, all)
+    }
+
     /// Says how far it is, and whether to go on.
     ///
     /// # Errors
@@ -148,6 +161,7 @@ fn prepare<P: Poisson<f64>>(
 fn main(defaults: &[f64], work: &dyn Fn(&Request, &mut Session<'_>) -> Ended) -> ExitCode {
     let input = io::BufReader::new(io::stdin());
     ExitCode::from(serve(
+        Some(GRACE),
         defaults,
         input,
         &mut io::stdout().lock(),
@@ -158,6 +172,7 @@ fn main(defaults: &[f64], work: &dyn Fn(&Request, &mut Session<'_>) -> Ended) ->
 
 /// Serves one request; returns the exit code.
 fn serve(
+    grace: Option<Duration>,
     defaults: &[f64],
     mut input: impl BufRead + Send + 'static,
     output: &mut dyn Write,
@@ -172,7 +187,7 @@ fn serve(
     let mut session = Session {
         output,
         messages,
-        interrupted: super::lifeline(input),
+        interrupted: super::lifeline(input, grace),
         reported: Instant::now(),
         lost: None,
     };

@@ -1,7 +1,7 @@
 //! The program behind `lie verify`.
 //!
 //! Further keys: `seed`, `step`. Lines: `ground <step> <span> <error of the references> <states> <linear
-//! integrals> <quadratic integrals>`, then one `finding <label> <fact> <claim> <measured> <bound> <verdict> <note>`
+//! integrals> <quadratic integrals>`, then one `finding <label> <fact> <claim> <measured> <bound> <verdict> <note> <step>`
 //! for each fact of each method.
 
 use super::super::{Build, Tolerances};
@@ -113,12 +113,20 @@ impl<P: Lift<f64> + 'static> Verify<P> {
         mut messages: impl Write,
     ) -> u8 {
         let work = |request: &Request, session: &mut Session<'_>| self.work(request, session);
-        serve(&self.defaults, input, &mut output, &mut messages, &work)
+        serve(
+            None,
+            &self.defaults,
+            input,
+            &mut output,
+            &mut messages,
+            &work,
+        )
     }
 
     fn work(&self, request: &Request, session: &mut Session<'_>) -> Ended {
         let (system, mu) = prepare(&*self.build, &request.parameters, &request.initial)?;
         let seed = request.number("seed").unwrap_or(1.0) as u64;
+        session.stage(0, request.methods.len() as u64, "the reference solution")?;
         let ground = Ground::new(&system, &mu, seed, request.number("step"))
             .map_err(|text| (2, format!("ground {text}")))?;
         let ground = (self.with_orbits)(ground);
@@ -134,7 +142,7 @@ impl<P: Lift<f64> + 'static> Verify<P> {
         let lifted = system.lift();
         let all = request.methods.len() as u64;
         for (done, label) in request.methods.iter().enumerate() {
-            session.progress(done as u64, all)?;
+            session.stage(done as u64, all, label)?;
             let Some((_, make)) = self.subjects.iter().find(|(known, _)| known == label) else {
                 return Err((2, format!("request no method `{label}` in this program")));
             };
@@ -154,6 +162,7 @@ impl<P: Lift<f64> + 'static> Verify<P> {
                     &format!("{:?}", finding.bound),
                     verdict,
                     &finding.note,
+                    &format!("{:?}", finding.step),
                 ]);
             }
         }

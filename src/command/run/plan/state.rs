@@ -2,6 +2,7 @@
 
 use lie_codegen::check::domain;
 use lie_codegen::diagnostic::Kind;
+use lie_codegen::front::names::normalised;
 use lie_codegen::suggest::did_you_mean;
 
 use super::super::values::Given;
@@ -26,7 +27,8 @@ impl Planner<'_> {
                     .push(message.help("write it like `--param I1=2`"));
                 continue;
             };
-            let name = text[..equals].trim();
+            let name = normalised(text[..equals].trim());
+            let name = name.as_str();
             let Some(index) = names.iter().position(|known| *known == name) else {
                 let message = given
                     .part(0..equals)
