@@ -1,7 +1,9 @@
 //! Systems written by hand, and what tests do with them.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub mod body4;
 pub mod heavy_top;
+pub mod logarithmic;
 pub mod nonpolynomial;
 pub mod quartic;
 pub mod quartic_lagrangian;
