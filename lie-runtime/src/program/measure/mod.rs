@@ -7,6 +7,8 @@
 //! it is at.
 
 mod bench;
+mod driven;
+mod kernels;
 mod stress;
 mod verify;
 
