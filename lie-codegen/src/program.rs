@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::compile::{format_tokens, generate, source};
-use crate::methods::{Choice, Lift};
+use crate::methods::{Choice, Lift, Tensor};
 use crate::model::Model;
 
 /// What a program is for.
@@ -117,22 +117,21 @@ fn plain(model: &Model, choices: &[Choice]) -> Option<(TokenStream, TokenStream)
     Some((module, entries))
 }
 
-/// Whether there is fused code for a method by itself; others share that of one that is.
+/// Whether the steps of a method are compared: those with fused code of their own, one number of stages of each. Generic
+/// generating functions differentiate several times over, which takes long to build.
 fn is_fused(choice: &Choice) -> bool {
     match choice {
         Choice::Midpoint
-        | Choice::Gauss(_)
         | Choice::LieMidpoint(_)
         | Choice::MoserVeselov
         | Choice::GeneratingSecondKind2
         | Choice::SphericalMidpoint
         | Choice::Splitting(2, _)
-        | Choice::DiscreteGradient(..)
-        | Choice::OrbitEnergy(_)
-        | Choice::CohenHairer(_) => true,
-        Choice::Generating(order, _) => *order > 2,
-        Choice::Isospectral(order) => *order > 2,
-        Choice::Collective(_, lift) => *lift == Lift::Hopf,
+        | Choice::DiscreteGradient(_, Tensor::Midpoint)
+        | Choice::OrbitEnergy(_) => true,
+        Choice::Gauss(stages) => *stages == 2,
+        Choice::CohenHairer(order) | Choice::Isospectral(order) => *order == 4,
+        Choice::Collective(order, lift) => *lift == Lift::Hopf && *order == 2,
         _ => false,
     }
 }

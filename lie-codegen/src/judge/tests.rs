@@ -90,9 +90,13 @@ fn check(name: &str) -> usize {
                 values,
                 velocity: Vec::new(),
             };
-            let verdict = judge
-                .judge(&sample)
-                .unwrap_or_else(|| panic!("{name}: {}", sample.kernel));
+            // the matrices of a larger algebra are the compiler's own
+            if kernel.name == "triple" && model.configuration.is_some() {
+                assert!(judge.judge(&sample).is_none());
+                continue;
+            }
+            let verdict = judge.judge(&sample);
+            let verdict = verdict.unwrap_or_else(|| panic!("{name}: {}", sample.kernel));
             assert!(verdict.excess <= 1.0, "{name}: {sample:?} {verdict:?}");
             compared += 1;
             // a sign, and the eighth digit, of the largest entry
