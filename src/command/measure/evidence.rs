@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::table::short;
 
 /// A spoiled value differs by this part of the largest: the judge must notice.
-const SPOILED: f64 = 1e-6;
+const SPOILED: f64 = 1e-4;
 
 /// What was judged so far.
 pub struct Evidence {
