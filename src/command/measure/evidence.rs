@@ -96,6 +96,9 @@ impl Evidence {
         if self.judge.is_none() {
             failures.push("the declaration cannot be interpreted".to_owned());
         }
+        if self.kernels.is_empty() {
+            failures.push("no kernel was shown to the judge".to_owned());
+        }
         for (kernel, verdict) in &self.kernels {
             if verdict.excess > 1.0 || verdict.excess.is_nan() {
                 failures.push(format!(
