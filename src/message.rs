@@ -12,7 +12,7 @@ pub const SURROUNDINGS: u8 = 1;
 pub const INVALID: u8 = 2;
 /// Exit code: the integration stopped early; the rows so far are written.
 pub const STOPPED: u8 = 3;
-/// Exit code: Ctrl-C; the rows so far are written.
+/// Exit code: Ctrl-C; the rows so far are written. Other signals have codes of their own.
 pub const INTERRUPTED: u8 = 130;
 
 /// A spec file as it was read.
@@ -151,6 +151,14 @@ impl Failure {
         Self {
             messages: vec![message],
             code: SURROUNDINGS,
+        }
+    }
+
+    /// A signal ended it.
+    pub fn interrupted(code: u8) -> Self {
+        Self {
+            messages: Vec::new(),
+            code,
         }
     }
 

@@ -41,6 +41,10 @@ fn points_picture_and_table() {
     let (header, rows) = csv(&numbers);
     assert_eq!(header[..3], ["value", "error", "seconds_per_unit_time"]);
     assert!(rows.len() > 20 && rows.iter().all(|row| row[2] > 0.0 && row[2] <= row[3]));
+    assert_eq!(
+        header[3..5],
+        ["median_seconds_per_unit_time", "wall_seconds_per_unit_time"]
+    );
     // the error of a method of order 4 falls by 2^4 where the step is halved
     let of = |method: &str| -> Vec<f64> {
         let lines = text.lines().filter(|line| line.starts_with(method));
@@ -53,6 +57,42 @@ fn points_picture_and_table() {
     let svg = std::fs::read_to_string(plot).expect("picture");
     assert!(
         svg.starts_with("<svg") && svg.contains(">gauss4<") && svg.trim_end().ends_with("</svg>")
+    );
+}
+
+#[test]
+fn a_busy_machine_is_noticed() {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    let bench = || {
+        lie("bench specs/so3_nonpolynomial.json --methods midpoint,gauss4,rk4,dopri5 --until 2 --budget 0.002").ok()
+    };
+    let built = bench();
+    assert!(built.stdout.contains("times: of the processor") || !cfg!(target_os = "linux"));
+    if !cfg!(target_os = "linux") {
+        return;
+    }
+    let over = AtomicBool::new(false);
+    let threads = 4 * std::thread::available_parallelism().map_or(1, usize::from);
+    let busy = std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while !over.load(Ordering::Relaxed) {
+                    std::hint::spin_loop();
+                }
+            });
+        }
+        let busy = bench();
+        over.store(true, Ordering::Relaxed);
+        busy
+    });
+    let warning = busy
+        .stderr
+        .lines()
+        .find(|line| line.starts_with("warning: "));
+    let warning = warning.unwrap_or_else(|| panic!("no warning: {}{}", busy.stdout, busy.stderr));
+    assert!(
+        warning.contains("other programs had the processor"),
+        "{warning}"
     );
 }
 

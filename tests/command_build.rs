@@ -80,7 +80,7 @@ fn offline_first_then_the_network_then_advice() {
     let path = spec(folder.path(), |spec| spec["name"] = "Remote".into());
     let log = folder.path().join("log");
     let text = format!(
-        "echo \"$@\" >> {0}\necho \"flags=$CARGO_ENCODED_RUSTFLAGS target=$CARGO_TARGET_DIR\" >> {0}\n\
+        "echo \"$@\" >> {0}\nenv | grep -E '^(CARGO|RUST)' >> {0}\n\
          echo 'error: no matching package named `nalgebra` found' >&2\nexit 101",
         log.display()
     );
@@ -93,6 +93,14 @@ fn offline_first_then_the_network_then_advice() {
         ("CARGO_TARGET_DIR", foreign),
         ("RUSTFLAGS", Path::new("-Cforeign")),
         ("CARGO_ENCODED_RUSTFLAGS", Path::new("-Cforeign")),
+        ("RUSTC_WRAPPER", foreign),
+        ("RUSTC_WORKSPACE_WRAPPER", foreign),
+        ("CARGO_BUILD_RUSTC_WRAPPER", foreign),
+        ("CARGO_BUILD_RUSTFLAGS", foreign),
+        ("CARGO_BUILD_TARGET", foreign),
+        ("CARGO_PROFILE_RELEASE_OPT_LEVEL", foreign),
+        ("CARGO_TERM_COLOR", Path::new("always")),
+        ("CARGO_BUILD_JOBS", Path::new("3")),
     ];
     let run = run(&path, &environment);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
@@ -135,6 +143,14 @@ fn offline_first_then_the_network_then_advice() {
         !log.contains("foreign"),
         "the caller's flags stay outside: {log}"
     );
+    // an empty wrapper silences one in a configuration file too
+    for line in [
+        "RUSTC_WRAPPER=",
+        "CARGO_BUILD_JOBS=3",
+        "CARGO_TERM_COLOR=never",
+    ] {
+        assert!(log.lines().any(|found| found == line), "{line}: {log}");
+    }
 }
 
 #[test]
@@ -163,6 +179,162 @@ fn a_program_that_does_not_compile_is_not_tried_twice() {
             .count(),
         1
     );
+}
+
+#[test]
+fn advice_fits_the_failure() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| spec["name"] = "Advice".into());
+    let cache = folder.path().join("cache");
+    for (said, advised) in [
+        (
+            "error: linker `cc` not found\nerror: could not compile `x`",
+            "install a linker",
+        ),
+        (
+            "error: No space left on device (os error 28)",
+            "make room for the cache ",
+        ),
+        ("error: could not compile `x`", "delete the cache folder "),
+        ("error: package `x` requires rustc 9.9", "rustup update"),
+    ] {
+        let cargo = script(folder.path(), &format!("printf '{said}\n' >&2\nexit 101"));
+        let run = run(&path, &[("CARGO", &cargo), ("LIE_CACHE_DIR", &cache)]);
+        assert_eq!(run.code, Some(1));
+        let help = run.stderr.lines().find(|line| line.starts_with("help: "));
+        let help = help.expect("a remedy");
+        assert!(
+            help.contains(advised) && !help.contains("network"),
+            "{help}"
+        );
+        assert!(
+            !run.stderr.contains("once more with the network"),
+            "{}",
+            run.stderr
+        );
+    }
+}
+
+/// The folder of the only program of a cache.
+fn only_program(cache: &Path) -> PathBuf {
+    let mut programs = std::fs::read_dir(cache.join("programs")).expect("programs");
+    let only = programs.next().expect("a program").expect("a folder");
+    assert!(programs.next().is_none());
+    only.path()
+}
+
+#[test]
+fn a_damaged_cache_heals_itself() {
+    let folder = folder();
+    let path = spec(folder.path(), |_| ());
+    let cache = folder.path().join("cache");
+    let call = || run(&path, &[("LIE_CACHE_DIR", &cache)]);
+    let whole = call().ok();
+    let program = only_program(&cache).join("program");
+    let damage = |path: &Path, change: &dyn Fn(&mut Vec<u8>)| {
+        let mut bytes = std::fs::read(path).expect("it is there");
+        change(&mut bytes);
+        // in place: the copy that cargo keeps may be the same file
+        std::fs::write(path, bytes).expect("it is written");
+    };
+    // truncated, and of its length with other content
+    for change in [
+        &(|bytes: &mut Vec<u8>| bytes.truncate(5000)) as &dyn Fn(&mut Vec<u8>),
+        &|bytes| bytes.clear(),
+        &|bytes| bytes[3000..4000].fill(0),
+    ] {
+        damage(&program, change);
+        let run = call().ok();
+        assert!(run.stderr.contains("Building"), "{}", run.stderr);
+        assert_eq!(run.stdout, whole.stdout);
+        assert!(!call().ok().stderr.contains("Building"), "once");
+    }
+    // a source of the runtime, and then the program
+    let runtime = std::fs::read_dir(cache.join("runtime")).expect("the runtime");
+    let runtime = runtime.flatten().next().expect("a version").path();
+    damage(&runtime.join("src/lib.rs"), &|bytes| bytes.truncate(100));
+    damage(&program, &|bytes| bytes.clear());
+    assert_eq!(call().ok().stdout, whole.stdout);
+}
+
+#[test]
+fn a_program_that_dies_names_its_folder() {
+    let folder = folder();
+    let path = spec(folder.path(), |_| ());
+    let cache = folder.path().join("cache");
+    let call = || run(&path, &[("LIE_CACHE_DIR", &cache)]);
+    // what cargo reports as the program cannot be started, or ends at once
+    let fake = folder.path().join("fake");
+    for (text, said) in [
+        ("no program", "cannot be started"),
+        ("#!/bin/sh\nexit 9\n", "failed"),
+    ] {
+        std::fs::write(&fake, text).expect("the program is written");
+        let mode = std::fs::Permissions::from_mode(0o755);
+        std::fs::set_permissions(&fake, mode).expect("it may run");
+        let name = "sed -n 's/^name = \"\\(lie-[0-9a-f]*\\)\"/\\1/p' Cargo.toml";
+        let message = format!(
+            "printf '{{\"target\":{{\"name\":\"%s\"}},\"executable\":\"{}\"}}\\n' \"$({name})\"",
+            fake.display()
+        );
+        let cargo = script(folder.path(), &message);
+        let _ = std::fs::remove_dir_all(cache.join("programs"));
+        let run = run(&path, &[("LIE_CACHE_DIR", &cache), ("CARGO", &cargo)]);
+        assert_eq!(run.code, Some(1), "{}", run.stderr);
+        assert!(
+            run.stderr.contains("error[toolchain]: the built program "),
+            "{}",
+            run.stderr
+        );
+        assert!(run.stderr.contains(said), "{}", run.stderr);
+        let help = format!("delete its folder {}", only_program(&cache).display());
+        assert!(run.stderr.contains(&help), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn a_cache_that_others_may_write_is_refused() {
+    let folder = folder();
+    let path = spec(folder.path(), |_| ());
+    let cache = folder.path().join("cache");
+    let nothing = Path::new("/nonexistent/tool");
+    let call = || run(&path, &[("LIE_CACHE_DIR", &cache), ("CARGO", nothing)]);
+    // made by the command, it is the user's alone
+    assert!(call().stderr.contains("error[toolchain]"));
+    let mode = |path: &Path| {
+        std::fs::metadata(path)
+            .expect("the cache")
+            .permissions()
+            .mode()
+    };
+    assert_eq!(mode(&cache) & 0o777, 0o700);
+    let set = |mode| {
+        let mode = std::fs::Permissions::from_mode(mode);
+        std::fs::set_permissions(&cache, mode).expect("it is ours");
+    };
+    for (mode, refused) in [(0o777, true), (0o702, true), (0o775, false), (0o755, false)] {
+        set(mode);
+        let run = call();
+        assert_eq!(run.code, Some(1));
+        assert_eq!(
+            run.stderr.contains("error[io]: every user can write"),
+            refused,
+            "{}",
+            run.stderr
+        );
+        let advice = format!("`chmod o-w {}`", cache.display());
+        assert_eq!(run.stderr.contains(&advice), refused, "{}", run.stderr);
+    }
+    // that of another user, where this one may give folders away
+    if std::os::unix::fs::chown(&cache, Some(12_345), None).is_ok() {
+        let run = call();
+        assert!(
+            run.stderr.contains("belongs to another user"),
+            "{}",
+            run.stderr
+        );
+        assert!(run.stderr.contains("LIE_CACHE_DIR"), "{}", run.stderr);
+    }
 }
 
 #[test]

@@ -126,3 +126,32 @@ fn expand_prints_rust_with_fused_code_on_demand() {
     lie("expand specs/so3_free_rigid_body.json --method variational4")
         .error("method", "command line: --method");
 }
+
+/// The unit beside the time is a Casimir that nobody has to find; what the time or the group element rules out is
+/// not blamed on the algebra.
+#[test]
+fn larger_algebras_are_not_what_was_declared() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["hamiltonian"] = "x^2 + 2*y^2 + 3*z^2 + cos(t)*x".into();
+    });
+    let timed = lie(&format!("check {}", path.display())).ok().stdout;
+    assert!(
+        timed.contains("Casimirs: 1 declared of 1 independent"),
+        "{timed}"
+    );
+    let group = lie("check specs/so3_gravity_gradient.json").ok().stdout;
+    for (text, what) in [
+        (timed, "the time makes"),
+        (group, "the group element makes"),
+    ] {
+        let refused = text
+            .lines()
+            .find(|line| line.contains("not moser-veselov, spherical-midpoint"));
+        let refused = refused.unwrap_or_else(|| panic!("{text}"));
+        assert!(
+            refused.contains(what) && !refused.contains("so(3)"),
+            "{refused}"
+        );
+    }
+}

@@ -44,7 +44,11 @@ fn every_mistake_of_the_command_line_is_an_option_error() {
             "--retraction",
         ),
         ("run BODY --out BODY", "--out"),
-        ("run BODY --out a.svg --plot a.svg", "--plot"),
+        ("run BODY --out a.csv --plot a.csv", "--plot"),
+        ("run BODY --out x.parquet", "--out"),
+        ("run BODY --out x.csv.gz", "--out"),
+        ("bench BODY --out x.json", "--out"),
+        ("stress BODY --out x.npy", "--out"),
     ] {
         let run = lie(&arguments.replace("BODY", body));
         let run = run.error("option", &format!("command line: {place}"));

@@ -1,4 +1,4 @@
-//! Ends of `lie run` that nobody planned: Ctrl-C, a kill, a reader that goes away.
+//! Ends of `lie run` that nobody planned: signals, a kill, a reader that goes away, a disk that is full.
 #![cfg(unix)]
 
 mod common;
@@ -91,36 +91,244 @@ fn a_kill_keeps_whole_rows_and_ends_the_program() {
     assert_eq!(programs.len(), 1, "the built program runs");
     signal(&child, "-KILL");
     child.wait().expect("lie ends");
-    let gone = || {
-        programs.iter().all(|id| {
-            let status = std::fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
-            status.is_empty() || status.contains("State:\tZ")
-        })
-    };
-    wait("end of the program", gone);
+    wait("end of the program", || gone(&programs));
     assert!(whole_rows(&out) > 10);
 }
 
+/// The rows that an array's header counts and the bytes behind it.
+#[track_caller]
+fn array(out: &Path) -> (usize, Vec<f64>) {
+    let bytes = std::fs::read(out).expect("the rows are there");
+    let head = String::from_utf8_lossy(&bytes[..128]).into_owned();
+    let shape = head.split("'shape': (").nth(1);
+    let count = shape.and_then(|rest| rest.split(',').next()?.parse().ok());
+    let numbers = bytes[128..]
+        .chunks_exact(8)
+        .map(|eight| f64::from_le_bytes(eight.try_into().expect("eight bytes")));
+    (count.expect("a count"), numbers.collect())
+}
+
+/// Columns of the rigid body: t, three coordinates, energy, C.
+const WIDTH: usize = 6;
+
 #[test]
 fn an_array_counts_its_rows_also_after_a_kill() {
+    for delay in [0, 3, 50, 170, 310] {
+        let folder = folder();
+        let out = folder.path().join("rows.npy");
+        let mut child = start(&out, "");
+        std::thread::sleep(Duration::from_millis(delay));
+        signal(&child, "-KILL");
+        child.wait().expect("lie ends");
+        let (count, numbers) = array(&out);
+        let rows = numbers.len() / WIDTH;
+        // what a program sends at once, it counts at once
+        assert!(
+            count > 10 && count <= rows && rows - count < 2000,
+            "{count} of {rows}"
+        );
+        for (k, row) in numbers.chunks_exact(WIDTH).take(count).enumerate() {
+            assert_eq!(row[0], k as f64 * 0.001);
+        }
+    }
+}
+
+#[test]
+fn every_signal_ends_every_form_in_order() {
+    for (name, code) in [("-TERM", 143), ("-HUP", 129), ("-INT", 130)] {
+        for form in ["csv", "json", "npy"] {
+            let folder = folder();
+            let out = folder.path().join(format!("rows.{form}"));
+            let child = start(&out, "");
+            signal(&child, name);
+            let output = child.wait_with_output().expect("lie ends");
+            let stderr = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(code), "{name} {stderr}");
+            assert!(stderr.contains("Interrupted at t = "), "{stderr}");
+            match form {
+                "csv" => assert!(whole_rows(&out) > 10),
+                "json" => {
+                    let json = json(&out);
+                    assert_eq!(json["status"], "interrupted");
+                    assert!(json["rows"].as_array().is_some_and(|rows| rows.len() > 10));
+                }
+                _ => {
+                    let (count, numbers) = array(&out);
+                    assert_eq!(count * WIDTH, numbers.len());
+                }
+            }
+        }
+    }
+}
+
+#[track_caller]
+fn json(out: &Path) -> serde_json::Value {
+    let text = std::fs::read_to_string(out).expect("the rows are there");
+    serde_json::from_str(&text).expect("it is JSON")
+}
+
+#[test]
+fn a_run_that_shall_outlive_its_terminal_does() {
+    lie("run specs/so3_free_rigid_body.json --quiet --method midpoint --step 0.1 --until 0.1").ok();
     let folder = folder();
-    let out = folder.path().join("rows.npy");
-    let mut child = start(&out, "--format npy");
-    std::thread::sleep(Duration::from_millis(500));
-    signal(&child, "-KILL");
-    child.wait().expect("lie ends");
-    let bytes = std::fs::read(&out).expect("the rows are there");
-    let head = String::from_utf8_lossy(&bytes[..128]).into_owned();
-    let count = head
-        .split("'shape': (")
-        .nth(1)
-        .and_then(|rest| rest.split(',').next());
-    let count: usize = count.and_then(|count| count.parse().ok()).expect("a count");
-    assert!(
-        count > 10 && 128 + count * 48 <= bytes.len(),
-        "{head} {}",
-        bytes.len()
-    );
+    let out = folder.path().join("rows.csv");
+    let text = format!("trap '' HUP; exec \"$0\" {LONG} --out \"$1\"");
+    let mut shell = Command::new("sh");
+    shell
+        .args(["-c", &text, env!("CARGO_BIN_EXE_lie")])
+        .arg(&out)
+        .env("LIE_CACHE_DIR", common::cache())
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stderr(Stdio::null());
+    let mut child = shell.spawn().expect("a shell");
+    let length = || std::fs::metadata(&out).map_or(0, |file| file.len());
+    wait("rows", || length() > 10_000);
+    signal(&child, "-HUP");
+    let before = length();
+    wait("more rows", || length() > before + 100_000);
+    signal(&child, "-TERM");
+    assert_eq!(child.wait().expect("lie ends").code(), Some(143));
+}
+
+/// Runs with files of at most so many units of 512 or 1024 bytes, as the shell counts.
+fn limited(out: &Path, units: u32) -> common::Run {
+    lie("run specs/so3_free_rigid_body.json --quiet --method midpoint --step 0.1 --until 0.1").ok();
+    let text = format!("ulimit -f {units}; exec \"$0\" {LONG} --quiet --out \"$1\"");
+    let mut shell = Command::new("sh");
+    shell
+        .args(["-c", &text, env!("CARGO_BIN_EXE_lie")])
+        .arg(out)
+        .env("LIE_CACHE_DIR", common::cache())
+        .current_dir(env!("CARGO_MANIFEST_DIR"));
+    shell.output().expect("a shell").into()
+}
+
+#[test]
+fn a_file_that_cannot_grow_is_whole_as_far_as_it_goes() {
+    for units in [1, 7, 100] {
+        let folder = folder();
+        let out = |form: &str| folder.path().join(format!("rows.{form}"));
+        for form in ["csv", "json", "npy"] {
+            let run = limited(&out(form), units);
+            assert_eq!(run.code, Some(1), "{form}: {run:?}");
+            assert!(
+                run.says("io", "").stderr.contains("the whole rows so far"),
+                "{form}"
+            );
+        }
+        let rows = whole_rows(&out("csv"));
+        assert!(rows > 2);
+        let json = json(&out("json"));
+        assert_eq!(json["status"], "failed");
+        let written = json["rows"].as_array().map_or(0, Vec::len);
+        assert!(written > 0, "{json}");
+        let (count, numbers) = array(&out("npy"));
+        assert_eq!(numbers.len(), count * WIDTH, "header and rows agree");
+        // the limit is used
+        let length = std::fs::metadata(out("npy")).expect("the rows").len();
+        assert!(length + 4096 > 512 * u64::from(units), "{length}");
+    }
+}
+
+/// The built programs among the children.
+#[cfg(target_os = "linux")]
+fn programs(of: u32) -> Vec<String> {
+    let is_program = |id: &String| {
+        std::fs::read_link(format!("/proc/{id}/exe"))
+            .is_ok_and(|path| path.to_string_lossy().contains("/programs/"))
+    };
+    children(of).into_iter().filter(is_program).collect()
+}
+
+#[cfg(target_os = "linux")]
+fn gone(programs: &[String]) -> bool {
+    programs.iter().all(|id| {
+        let status = std::fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+        status.is_empty() || status.contains("State:\tZ")
+    })
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn measuring_programs_end_with_the_command() {
+    let body = "specs/so3_free_rigid_body.json --quiet --methods gonzalez";
+    let methods = "specs/so3_nonpolynomial.json --quiet --methods midpoint,lie-midpoint,rk4,dopri5";
+    for (call, spec, short, long) in [
+        ("stress", body, "--steps 1", "--steps 1e15"),
+        (
+            "bench",
+            body,
+            "--until 1 --budget 1e-6",
+            "--until 1e4 --budget 1e6",
+        ),
+        ("verify", methods, "", ""),
+    ] {
+        lie(&format!("{call} {spec} {short}")).ok();
+        for (name, code) in [("-TERM", Some(143)), ("-HUP", Some(129)), ("-KILL", None)] {
+            let mut command = command(format!("{call} {spec} {long}").split_whitespace());
+            let mut child = command
+                .stdout(Stdio::null())
+                .stderr(Stdio::null())
+                .spawn()
+                .expect("lie starts");
+            wait("program", || programs(child.id()).len() == 1);
+            let programs = programs(child.id());
+            // `verify` is done soon: it waits until the signal is there
+            let halt = |name: &str| Command::new("kill").args([name, &programs[0]]).status();
+            halt("-STOP").expect("kill");
+            signal(&child, name);
+            halt("-CONT").expect("kill");
+            let ended = Instant::now();
+            assert_eq!(
+                child.wait().expect("lie ends").code(),
+                code,
+                "{call} {name}"
+            );
+            wait("end of the program", || gone(&programs));
+            // a measurement may go on for two seconds
+            assert!(ended.elapsed() < Duration::from_secs(20), "{call} {name}");
+        }
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_signal_ends_the_build() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = folder();
+    let spec = common::spec(folder.path(), |spec| spec["name"] = "Slow".into());
+    let cargo = folder.path().join("cargo");
+    std::fs::write(&cargo, "#!/bin/sh\nsleep 1000 &\nwait\n").expect("the script is written");
+    let mode = std::fs::Permissions::from_mode(0o755);
+    std::fs::set_permissions(&cargo, mode).expect("it may run");
+    let out = folder.path().join("rows.csv");
+    let arguments = [
+        "run".as_ref(),
+        spec.as_os_str(),
+        "--out".as_ref(),
+        out.as_os_str(),
+    ];
+    let mut command = command(arguments);
+    command
+        .env("CARGO", &cargo)
+        .env("LIE_CACHE_DIR", folder.path().join("cache"));
+    let mut child = command.stderr(Stdio::null()).spawn().expect("lie starts");
+    let of_cargo = || -> Vec<String> {
+        let ids = children(child.id())
+            .into_iter()
+            .filter_map(|id| id.parse().ok());
+        ids.flat_map(children).collect()
+    };
+    let sleeps = |id: &String| {
+        let name = std::fs::read_to_string(format!("/proc/{id}/comm")).unwrap_or_default();
+        name.trim() == "sleep"
+    };
+    wait("cargo", || of_cargo().iter().any(sleeps));
+    let started = of_cargo();
+    signal(&child, "-TERM");
+    assert_eq!(child.wait().expect("lie ends").code(), Some(143));
+    wait("end of what cargo started", || gone(&started));
+    assert!(!out.exists(), "nothing was run, nothing is left");
 }
 
 #[test]

@@ -41,6 +41,33 @@ fn table_map_and_points() {
         "{drift:?} {bounded:?}"
     );
     assert!(kept[0] < 1e-13 && bounded[0] > 1e-7, "{kept:?} {bounded:?}");
+    // a bias or a walk: the growth is fitted for methods that claim something
+    let growth = |method: &str| {
+        let found = cells
+            .iter()
+            .find(|cell| cell[0] == method && cell[1] == "growth");
+        found.map(|cell| {
+            (
+                cell[2],
+                cell[3].parse::<f64>().expect("an exponent"),
+                cell[13],
+            )
+        })
+    };
+    assert!(growth("rk4").is_none() && growth("dopri5").is_none());
+    for method in ["midpoint", "lie-midpoint"] {
+        let (invariant, exponent, what) = growth(method).expect("a fit");
+        assert!(["energy", "norm2"].contains(&invariant), "{invariant}");
+        assert!((-0.5..1.6).contains(&exponent), "{method}: {exponent}");
+        assert!(what.starts_with("standard error "), "{what}");
+        let row = run.stdout.lines().find(|line| line.starts_with(method));
+        let shown = format!("{invariant} N^{exponent:.2} ± ");
+        assert!(
+            row.is_some_and(|row| row.contains(&shown)),
+            "{shown}: {}",
+            run.stdout
+        );
+    }
     // huge steps are refused with a reason
     assert!(
         run.stdout.contains("the iteration does not converge"),
@@ -50,6 +77,22 @@ fn table_map_and_points() {
     let svg = std::fs::read_to_string(plot).expect("picture");
     assert!(
         svg.starts_with("<svg") && svg.contains(">midpoint<") && svg.trim_end().ends_with("</svg>")
+    );
+}
+
+/// Next to a singularity of H its terms grow and shrink within a few steps; round-off is measured by them.
+#[test]
+fn round_off_next_to_a_singularity_is_no_loss() {
+    let run = lie("stress specs/lotka_volterra.json --methods gonzalez --steps 1000 --quiet").ok();
+    assert!(run.stderr.is_empty(), "{}", run.stderr);
+    let scaled = run
+        .stdout
+        .lines()
+        .find(|line| line.contains("gonzalez, scale state 1.0e-10"));
+    assert!(
+        scaled.is_some_and(|line| line.contains("a number is not finite")),
+        "{}",
+        run.stdout
     );
 }
 

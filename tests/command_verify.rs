@@ -69,6 +69,15 @@ fn systems_by_lagrangians() {
     }
 }
 
+/// The angle in its Casimir jumps, which is no fault of a method; the orbit is measured all the same.
+#[test]
+fn a_casimir_with_several_branches_fails_no_method() {
+    let spec = "tests/data/declarations/pass/casimir_with_several_branches.json";
+    let run = lie(&format!("verify {spec} --methods lie-midpoint --quiet")).ok();
+    assert!(run.stdout.contains(" claims, 0 fail\n"), "{}", run.stdout);
+    assert!(run.stderr.contains("multi-valued"), "{}", run.stderr);
+}
+
 #[test]
 fn as_json() {
     let run = lie("verify specs/so3_nonpolynomial.json --methods midpoint,lie-midpoint,rk4,dopri5 --quiet --json --seed 4").ok();

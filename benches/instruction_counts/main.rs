@@ -1,11 +1,15 @@
-//! Kernels of the heavy top over f64, generated and written by hand, in a loop for a profiler to
-//! count. `tests/instruction_counts.rs` builds and runs this under callgrind; by hand:
+//! Kernels of the heavy top over f64, generated and written by hand, and `linearize` of su(3), in a loop for a
+//! profiler to count. `tests/instruction_counts.rs` builds and runs this under callgrind; by hand:
 //! `cargo bench --bench instruction_counts -- generated vector_field 1000`.
 
 #[path = "../../tests/golden/se3_heavy_top.rs"]
 #[rustfmt::skip]
 #[allow(dead_code)]
 mod se3_heavy_top;
+#[path = "../../tests/golden/su3_quadratic.rs"]
+#[rustfmt::skip]
+#[allow(dead_code)]
+mod su3_quadratic;
 mod plain;
 
 use lie_runtime::{Poisson, generic};
@@ -31,6 +35,22 @@ fn generic_vector_field(system: &HeavyTopSystem, mu: &State, out: &mut State) {
     generic::vector_field(system, mu, out);
 }
 
+/// A Jacobian of 64 entries, some of which vanish.
+#[inline(never)]
+fn su3_linearize(repetitions: u32) -> ExitCode {
+    let parameters = su3_quadratic::Su3Quadratic::new();
+    let Ok(system) = parameters.system() else {
+        return ExitCode::FAILURE;
+    };
+    let mu = parameters.initial_state();
+    let (mut field, mut jacobian) = (system.zero_state(), system.zero_jacobian());
+    repeat(repetitions, || {
+        black_box(&system).linearize(black_box(&mu), &mut field, &mut jacobian);
+    });
+    println!("{:?} {:?}", field.data.0[0], jacobian.data.0);
+    ExitCode::SUCCESS
+}
+
 fn repeat(repetitions: u32, mut kernel: impl FnMut()) {
     for _ in 0..repetitions {
         kernel();
@@ -43,10 +63,13 @@ fn main() -> ExitCode {
         .filter(|argument| argument != "--bench")
         .collect();
     let [form, kernel, repetitions] = arguments.as_slice() else {
-        println!("usage: generated|generic|plain vector_field|linearize REPETITIONS");
+        println!("usage: generated|generic|plain vector_field|linearize|su3_linearize REPETITIONS");
         return ExitCode::SUCCESS;
     };
     let repetitions: u32 = repetitions.parse().unwrap_or(1);
+    if kernel == "su3_linearize" {
+        return su3_linearize(repetitions);
+    }
     let parameters = HeavyTop::new();
     let Ok(system) = parameters.system() else {
         return ExitCode::FAILURE;

@@ -43,7 +43,7 @@ impl Chart {
 
 /// The text of a program for these methods. The entries bear the labels of the choices.
 ///
-/// Programs for [`Purpose::Bench`] contain the module `controls`, which the build adds.
+/// Programs for [`Purpose::Bench`] contain the modules `clock` and `controls`, which the build adds.
 pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
     let system = generate(model, choices).tokens;
     let name = Ident::new(&model.name, Span::call_site());
@@ -65,8 +65,8 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
         }
         Purpose::Bench => (
             quote! { measure::Bench },
-            Some(quote! { mod controls; }),
-            Some(quote! { .controls(controls::all::<_, #dimension>()) }),
+            Some(quote! { mod clock; mod controls; }),
+            Some(quote! { .controls(controls::all::<_, #dimension>()).clock(clock::processor) }),
         ),
         Purpose::Stress => (quote! { measure::Stress }, None, None),
     };

@@ -10,7 +10,7 @@ use crate::message::{Failure, Message};
 /// The cache folder: `$LIE_CACHE_DIR`, else `lie-poisson` in the platform's folder for caches.
 ///
 /// # Errors
-/// `io` if no such folder is known or can be created.
+/// `io` if no such folder is known or can be created, or if others could put programs into it.
 pub fn root() -> Result<PathBuf, Failure> {
     let variable = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
     let root = chosen(&variable).ok_or_else(|| {
@@ -19,8 +19,49 @@ pub fn root() -> Result<PathBuf, Failure> {
         Failure::surroundings(Message::new(Kind::Io, text).help(help))
     })?;
     let root = std::path::absolute(&root).unwrap_or(root);
-    std::fs::create_dir_all(&root).map_err(|error| failure(&root, &error))?;
+    create(&root).map_err(|error| failure(&root, &error))?;
+    is_ours(&root)?;
     Ok(root)
+}
+
+/// Makes the folder, for its owner alone: programs come from it.
+fn create(root: &Path) -> io::Result<()> {
+    let mut builder = std::fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.recursive(true).create(root)
+}
+
+/// Whoever can write there decides what our user runs. A group may share a cache: that is how its folder was made.
+#[cfg(unix)]
+fn is_ours(root: &Path) -> Result<(), Failure> {
+    use std::os::unix::fs::MetadataExt as _;
+    let found = std::fs::metadata(root).map_err(|error| failure(root, &error))?;
+    let (owner, us) = (found.uid(), rustix::process::geteuid().as_raw());
+    let root = root.display();
+    let (text, help) = if owner != us && owner != 0 {
+        (
+            format!("the cache {root} belongs to another user, who could put programs into it"),
+            "set LIE_CACHE_DIR to a folder of your own".to_owned(),
+        )
+    } else if found.mode() & 0o002 != 0 {
+        (
+            format!("every user can write to the cache {root} and put programs into it"),
+            format!(
+                "make it yours with `chmod o-w {root}`, or set LIE_CACHE_DIR to another folder"
+            ),
+        )
+    } else {
+        return Ok(());
+    };
+    Err(Failure::surroundings(
+        Message::new(Kind::Io, text).help(help),
+    ))
+}
+
+#[cfg(not(unix))]
+fn is_ours(_root: &Path) -> Result<(), Failure> {
+    Ok(())
 }
 
 fn chosen(variable: &dyn Fn(&str) -> Option<std::ffi::OsString>) -> Option<PathBuf> {

@@ -22,6 +22,11 @@ impl Key {
             .bytes(&(ingredient.len() as u64).to_le_bytes())
     }
 
+    /// The hash of one text of bytes, as digits.
+    pub fn of(bytes: &[u8]) -> String {
+        Self::new().bytes(bytes).hex()
+    }
+
     fn bytes(mut self, bytes: &[u8]) -> Self {
         for &byte in bytes {
             self.0 = (self.0 ^ u128::from(byte)).wrapping_mul(Self::PRIME);

@@ -2,27 +2,30 @@
 //!
 //! ```text
 //! CACHE/runtime/VERSION-HASH/     the runtime's sources, unpacked once
-//! CACHE/programs/KEY/             manifest, lock file, main.rs and the finished program
+//! CACHE/programs/KEY/             manifest, lock file, main.rs, the finished program and its sum
 //! CACHE/target/                   cargo's folder, shared so that packages compile once
 //! CACHE/lock                      held while cargo runs
 //! ```
 
 mod cache;
+mod cause;
+mod entry;
 mod key;
 pub mod protocol;
 mod runtime;
 mod toolchain;
 
-use std::ffi::OsString;
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
-use std::process::Output;
 use std::time::Instant;
 
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
 
+use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
+use cause::Cause;
+use entry::Entry;
 use key::Key;
 use toolchain::Toolchain;
 
@@ -38,11 +41,15 @@ const PLAIN: Template = Template {
     lock: include_str!("template/Cargo.lock"),
     modules: &[],
 };
-/// With the methods from elsewhere that `lie bench` compares with: only its programs depend on them.
+/// With the clock of `lie bench`, and the methods from elsewhere that it compares with: only its programs depend on
+/// them.
 const BENCH: Template = Template {
     manifest: include_str!("template/bench/Cargo.toml"),
     lock: include_str!("template/bench/Cargo.lock"),
-    modules: &[("controls.rs", include_str!("template/bench/controls.rs"))],
+    modules: &[
+        ("clock.rs", include_str!("template/bench/clock.rs")),
+        ("controls.rs", include_str!("template/bench/controls.rs")),
+    ],
 };
 
 impl Template {
@@ -71,8 +78,8 @@ pub struct Request<'a> {
 /// The path of the compiled program, built if it is not in the cache.
 ///
 /// # Errors
-/// `io` for the cache folder, `toolchain` for everything that cargo cannot do.
-pub fn program(request: &Request<'_>) -> Result<PathBuf, Failure> {
+/// `io` for the cache folder, `toolchain` for everything that cargo cannot do; a signal.
+pub fn program(request: &Request<'_>, interrupt: &Interrupt) -> Result<PathBuf, Failure> {
     let cache = cache::root()?;
     let toolchain = Toolchain::find(&cache, request.native)?;
     let template = Template::of(request.purpose);
@@ -87,25 +94,42 @@ pub fn program(request: &Request<'_>) -> Result<PathBuf, Failure> {
         .with(template.lock)
         .with(if request.native { "native" } else { "portable" })
         .hex();
-    let folder = cache.join("programs").join(&key);
-    let program = folder.join(format!("program{}", std::env::consts::EXE_SUFFIX));
-    if is_built(&folder, &program, request.source) {
-        return Ok(program);
+    let entry = Entry::new(&cache, &key);
+    if entry.is_whole(request.source) {
+        return Ok(entry.program);
     }
     let _lock = lock(&cache, request.quiet)?;
-    if is_built(&folder, &program, request.source) {
-        return Ok(program);
+    if entry.is_whole(request.source) {
+        return Ok(entry.program);
     }
-    let built = build(request, &toolchain, &cache, &folder, &key)?;
-    install(&built, &program).map_err(|error| cache::failure(&program, &error))?;
-    Ok(program)
+    let built = build(request, &toolchain, &cache, &entry.folder, &key, interrupt)?;
+    let installed = entry.install(&built);
+    installed.map_err(|error| cache::failure(&entry.program, &error))?;
+    Ok(entry.program)
 }
 
-/// The program appears last, by a rename: where it is, the source beside it is what it was built
-/// from.
-fn is_built(folder: &Path, program: &Path, source: &str) -> bool {
-    program.is_file()
-        && std::fs::read(folder.join("main.rs")).is_ok_and(|text| text == source.as_bytes())
+/// A built program that does what it should not.
+pub fn broken(program: &Path, how: &str) -> Failure {
+    let message = Message::new(Kind::Toolchain, format!("the built program failed: {how}"));
+    let folder = program.parent().unwrap_or(program).display();
+    Failure::surroundings(message.help(format!(
+        "delete its folder {folder} and try again; if it stays, report it"
+    )))
+}
+
+/// A built program that the system does not start.
+pub fn not_started(program: &Path, error: &std::io::Error) -> Failure {
+    let text = format!(
+        "the built program {} cannot be started: {error}",
+        program.display()
+    );
+    let message = Message::new(Kind::Toolchain, text);
+    if error.kind() == std::io::ErrorKind::PermissionDenied {
+        let help = "set LIE_CACHE_DIR to a folder from which programs may run";
+        return Failure::surroundings(message.help(help));
+    }
+    let folder = program.parent().unwrap_or(program).display();
+    Failure::surroundings(message.help(format!("delete its folder {folder} and try again")))
 }
 
 /// Waits until no other `lie` builds.
@@ -137,6 +161,7 @@ fn build(
     cache: &Path,
     folder: &Path,
     key: &str,
+    interrupt: &Interrupt,
 ) -> Result<PathBuf, Failure> {
     runtime::unpack(cache).map_err(|error| cache::failure(cache, &error))?;
     let name = format!("lie-{key}");
@@ -166,23 +191,23 @@ fn build(
     ));
     let target = cache.join("target");
     let cargo = |offline| {
-        toolchain.build(folder, &target, offline).map_err(|error| {
-            let cargo = toolchain::cargo_name();
-            let text = format!("`{}` cannot be started: {error}", cargo.to_string_lossy());
-            Failure::surroundings(Message::new(Kind::Toolchain, text).help(
-                "`lie run` compiles the system with cargo: install Rust from https://rustup.rs, or set CARGO",
-            ))
-        })
+        let built = toolchain.build(folder, &target, offline, interrupt);
+        let output = built.map_err(|error| no_cargo(&error))?;
+        match interrupt.seen() {
+            Some(code) => Err(Failure::interrupted(code)),
+            None => Ok(output),
+        }
     };
     let mut output = cargo(true)?;
-    if !output.status.success() && is_for_want_of_packages(&output) {
+    if !output.status.success() && Cause::of(&output).is_for_want_of_packages() {
         say("Packages are missing from cargo's cache; once more with the network…");
         output = cargo(false)?;
     }
+    let failed = || cause::failed(&output, cache, folder);
     if !output.status.success() {
-        return Err(failed(&output, folder));
+        return Err(failed());
     }
-    let executable = executable(&output.stdout, &name).ok_or_else(|| failed(&output, folder))?;
+    let executable = executable(&output.stdout, &name).ok_or_else(failed)?;
     say(&format!("Built in {:.1} s.", start.elapsed().as_secs_f64()));
     Ok(executable)
 }
@@ -197,48 +222,12 @@ fn manifest(template: &Template, name: &str) -> String {
         .replace("RUNTIME", &runtime)
 }
 
-/// Whether cargo failed before it compiled anything.
-fn is_for_want_of_packages(output: &Output) -> bool {
-    let text = String::from_utf8_lossy(&output.stderr);
-    ![
-        "could not compile",
-        "linker `",
-        "failed to run custom build command",
-    ]
-    .iter()
-    .any(|sign| text.contains(sign))
-}
-
-fn failed(output: &Output, folder: &Path) -> Failure {
-    let text = String::from_utf8_lossy(&output.stderr);
-    let lines: Vec<&str> = text
-        .lines()
-        .filter(|line| !line.trim().is_empty())
-        .collect();
-    let first = lines
-        .iter()
-        .position(|line| line.starts_with("error"))
-        .unwrap_or(0);
-    let shown = lines[first..]
-        .iter()
-        .take(12)
-        .copied()
-        .collect::<Vec<_>>()
-        .join("\n");
-    let manifest = folder.join("Cargo.toml");
-    let message = Message::new(Kind::Toolchain, format!("cargo failed:\n{shown}"));
-    let help = if is_for_want_of_packages(output) {
-        format!(
-            "where there is a network, run `cargo fetch --locked --manifest-path {}`, then try again",
-            manifest.display()
-        )
-    } else {
-        format!(
-            "the build can be repeated with `cargo build --release --manifest-path {}`",
-            manifest.display()
-        )
-    };
-    Failure::surroundings(message.help(help))
+fn no_cargo(error: &std::io::Error) -> Failure {
+    let cargo = toolchain::cargo_name();
+    let text = format!("`{}` cannot be started: {error}", cargo.to_string_lossy());
+    Failure::surroundings(Message::new(Kind::Toolchain, text).help(
+        "`lie run` compiles the system with cargo: install Rust from https://rustup.rs, or set CARGO",
+    ))
 }
 
 /// The path of the program, from cargo's messages: its folder depends on the configuration.
@@ -251,18 +240,6 @@ fn executable(messages: &[u8], name: &str) -> Option<PathBuf> {
             (message["target"]["name"] == name)
                 .then(|| message["executable"].as_str().map(PathBuf::from))?
         })
-}
-
-/// Puts the program in its place: beside it first, then by a rename.
-fn install(built: &Path, program: &Path) -> std::io::Result<()> {
-    let mut draft = OsString::from(program);
-    draft.push(format!(".{}", std::process::id()));
-    let draft = PathBuf::from(draft);
-    let _ = std::fs::remove_file(&draft);
-    if std::fs::hard_link(built, &draft).is_err() {
-        std::fs::copy(built, &draft)?;
-    }
-    std::fs::rename(&draft, program)
 }
 
 #[cfg(test)]

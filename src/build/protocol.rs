@@ -6,7 +6,8 @@
 use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
 use std::process::{Child, ChildStderr, Command, Stdio};
 
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, own_group};
+use crate::message::INTERRUPTED;
 
 /// At which times rows are wanted.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,6 +78,8 @@ pub struct Counts {
     pub evaluations: u64,
     /// Newton iterations.
     pub newton: u64,
+    /// Steps that an adaptive method took within those; every other method takes one.
+    pub accepted: u64,
     /// Steps tried and refused by an adaptive method.
     pub rejected: u64,
 }
@@ -103,8 +106,8 @@ pub struct Stop {
 pub enum End {
     /// All rows were written.
     Done(Counts),
-    /// Asked to stop by Ctrl-C.
-    Interrupted,
+    /// Asked to stop by a signal, which asks for this exit code.
+    Interrupted(u8),
     /// The integration stopped early.
     Stopped(Stop),
     /// A parameter's value is impossible: its name and why.
@@ -156,10 +159,12 @@ pub fn run(
     interrupt.stop();
     taken?;
     Ok(match (status.code(), last) {
+        (Some(130), _) if interrupt.seen().is_some() => {
+            End::Interrupted(interrupt.seen().unwrap_or(INTERRUPTED))
+        }
         (Some(0), Last::Done(counts)) => End::Done(counts),
         (Some(2), Last::Parameter(name, why)) => End::Parameter(name, why),
         (Some(3), Last::Failed(stop)) => End::Stopped(stop),
-        (Some(130), _) if interrupt.seen() => End::Interrupted,
         (_, last) => {
             let words = if let Last::Other(words) = last {
                 words
@@ -174,6 +179,15 @@ pub fn run(
     })
 }
 
+/// How far a measuring program is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress<'a> {
+    /// So much is done, of so much.
+    Done(u64, u64),
+    /// The same, and what comes next.
+    Stage(u64, u64, &'a str),
+}
+
 /// How a measuring program ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Words {
@@ -186,7 +200,7 @@ pub struct Words {
 }
 
 /// Runs a measuring program to its end: `request` goes in, `line` receives each line of its stdout as it comes,
-/// `progress` what is done and all there is, on another thread.
+/// `progress` how far it is, on another thread.
 ///
 /// # Errors
 /// The program cannot be started.
@@ -195,7 +209,7 @@ pub fn measure(
     request: &str,
     interrupt: &Interrupt,
     line: &mut dyn FnMut(&str),
-    progress: &mut (dyn FnMut(u64, u64) + Send),
+    progress: &mut (dyn FnMut(Progress<'_>) + Send),
 ) -> io::Result<Words> {
     command
         .stdin(Stdio::piped())
@@ -229,29 +243,27 @@ pub fn measure(
     })
 }
 
-fn last_line(pipe: ChildStderr, progress: &mut (dyn FnMut(u64, u64) + Send)) -> String {
+fn last_line(pipe: ChildStderr, progress: &mut (dyn FnMut(Progress<'_>) + Send)) -> String {
     let mut last = String::new();
     for text in BufReader::new(pipe).lines().map_while(Result::ok) {
-        let Some(rest) = text.strip_prefix("progress ") else {
-            last = text;
-            continue;
-        };
-        let mut numbers = rest.split(' ').map_while(|number| number.parse().ok());
-        if let (Some(done), Some(all)) = (numbers.next(), numbers.next()) {
-            progress(done, all);
+        match how_far(&text) {
+            Some(how_far) => progress(how_far),
+            None => last = text,
         }
     }
     last
 }
 
-/// Ctrl-C at the terminal must reach this process alone: the program ends by its stdin.
-fn own_group(command: &mut Command) {
-    #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(command, 0);
-    #[cfg(windows)]
-    std::os::windows::process::CommandExt::creation_flags(command, 0x0000_0200);
-    #[cfg(not(any(unix, windows)))]
-    let _ = command;
+/// What a line says of the progress, if it does.
+fn how_far(line: &str) -> Option<Progress<'_>> {
+    let mut words = line.splitn(4, ' ');
+    let kind = words.next()?;
+    let (done, all) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
+    match kind {
+        "progress" => Some(Progress::Done(done, all)),
+        "stage" => Some(Progress::Stage(done, all, words.next()?)),
+        _ => None,
+    }
 }
 
 /// Hands on whole rows as they come; half a row at the end of a killed program is dropped.
@@ -349,6 +361,7 @@ fn counts(fields: &str) -> Counts {
         steps: value("steps"),
         evaluations: value("evaluations"),
         newton: value("newton"),
+        accepted: value("accepted"),
         rejected: value("rejected"),
     }
 }

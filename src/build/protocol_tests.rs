@@ -51,12 +51,13 @@ const ROW: &str = r"printf '\000\000\000\000\000\000\360\077\000\000\000\000\000
 fn rows_progress_and_counts() {
     let (end, rows, steps) = script(&format!(
         "while read line; do [ \"$line\" = run ] && break; done; {ROW}; {ROW}; \
-         echo progress 3 10 >&2; echo done steps=10 evaluations=4 newton=21 rejected=1 >&2"
+         echo progress 3 10 >&2; echo done steps=10 evaluations=4 newton=21 accepted=12 rejected=1 >&2"
     ));
     let counts = Counts {
         steps: 10,
         evaluations: 4,
         newton: 21,
+        accepted: 12,
         rejected: 1,
     };
     assert_eq!(end.ok(), Some(End::Done(counts)));
@@ -144,4 +145,31 @@ fn the_end_of_stdin_ends_the_program() {
     // Nobody pressed Ctrl-C here, so the end is not called an interruption.
     assert_eq!(end.ok(), Some(End::Broken("exit status: 130".into())));
     assert_eq!(got, 2);
+}
+
+#[test]
+fn a_measuring_program_says_how_far_it_is_and_its_last_word() {
+    let mut command = Command::new("sh");
+    let text = "echo stage 0 3 the reference solution >&2; echo 'point\t1'; echo progress 1 3 >&2; \
+                echo stage 2 3 lie-midpoint --retraction cayley >&2; echo staged >&2; echo ground none >&2; exit 2";
+    command.args(["-c", text]);
+    let (mut lines, mut seen) = (Vec::new(), Vec::new());
+    let words = measure(
+        command,
+        "run\n",
+        &Interrupt::default(),
+        &mut |line| lines.push(line.to_owned()),
+        &mut |progress| seen.push(format!("{progress:?}")),
+    );
+    let expected = [
+        "Stage(0, 3, \"the reference solution\")",
+        "Done(1, 3)",
+        "Stage(2, 3, \"lie-midpoint --retraction cayley\")",
+    ];
+    assert_eq!(
+        (lines.len(), seen.as_slice()),
+        (1, &expected.map(str::to_owned)[..])
+    );
+    let words = words.expect("it starts");
+    assert_eq!((words.code, words.last.as_str()), (Some(2), "ground none"));
 }

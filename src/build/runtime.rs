@@ -22,16 +22,29 @@ pub fn folder(cache: &Path) -> PathBuf {
     cache.join("runtime").join(identity())
 }
 
-/// Writes the runtime's sources, unless they are there.
+/// Whether every file is what it was.
+fn is_whole(folder: &Path) -> bool {
+    let same = |path: PathBuf, text: &str| std::fs::read(path).is_ok_and(|t| t == text.as_bytes());
+    same(folder.join("Cargo.toml"), MANIFEST)
+        && FILES
+            .iter()
+            .all(|(path, text)| same(folder.join("src").join(path), text))
+}
+
+/// Writes the runtime's sources, unless they are there as they should be.
 ///
-/// They are written beside their place and renamed, so that a folder that exists is complete.
+/// They are written beside their place and renamed, so that a folder that exists was complete once.
+/// The caller holds the lock of the cache.
 ///
 /// # Errors
 /// What the file system says.
 pub fn unpack(cache: &Path) -> io::Result<PathBuf> {
     let folder = folder(cache);
-    if folder.is_dir() {
+    if is_whole(&folder) {
         return Ok(folder);
+    }
+    if folder.is_dir() {
+        std::fs::remove_dir_all(&folder)?;
     }
     let parent = cache.join("runtime");
     std::fs::create_dir_all(&parent)?;

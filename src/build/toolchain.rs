@@ -7,23 +7,38 @@ use std::process::{Command, Output, Stdio};
 
 use lie_codegen::diagnostic::Kind;
 
+use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
 
-/// Settings of the caller's environment that must not change what is built or where.
-///
-/// `CARGO_ENCODED_RUSTFLAGS` is set by us, which silences every other source of flags.
+/// Settings of the caller's environment that must not change what is built, where, or with what.
 const FOREIGN: &[&str] = &[
     "RUSTFLAGS",
-    "CARGO_BUILD_RUSTFLAGS",
-    "CARGO_BUILD_TARGET",
-    "CARGO_BUILD_TARGET_DIR",
-    "CARGO_BUILD_BUILD_DIR",
     "CARGO_TARGET_DIR",
     "CARGO_INCREMENTAL",
     "CARGO_NET_OFFLINE",
-    "RUSTC_WORKSPACE_WRAPPER",
-    "CARGO_BUILD_RUSTC_WORKSPACE_WRAPPER",
 ];
+
+/// The same, for everything that begins like this.
+const FOREIGN_PREFIXES: &[&str] = &[
+    "CARGO_BUILD_",
+    "CARGO_PROFILE_",
+    "CARGO_TERM_",
+    "CARGO_UNSTABLE_",
+];
+
+/// What is set in their place. The flags silence every other source of flags; an empty wrapper silences one of the
+/// user's configuration too, and the messages are read.
+const OURS: &[(&str, &str)] = &[
+    ("RUSTC_WRAPPER", ""),
+    ("RUSTC_WORKSPACE_WRAPPER", ""),
+    ("CARGO_TERM_COLOR", "never"),
+];
+
+/// Whether a variable would change what is built. How many jobs may run changes nothing.
+fn is_foreign(name: &str) -> bool {
+    let begins = |prefix: &&str| name.starts_with(*prefix);
+    name != "CARGO_BUILD_JOBS" && (FOREIGN.contains(&name) || FOREIGN_PREFIXES.iter().any(begins))
+}
 
 /// A compiler and the processor that it compiles for.
 pub struct Toolchain {
@@ -85,7 +100,13 @@ impl Toolchain {
     ///
     /// # Errors
     /// cargo could not be started.
-    pub fn build(&self, folder: &Path, target: &Path, offline: bool) -> io::Result<Output> {
+    pub fn build(
+        &self,
+        folder: &Path,
+        target: &Path,
+        offline: bool,
+        interrupt: &Interrupt,
+    ) -> io::Result<Output> {
         let mut command = Command::new(cargo_name());
         command.args(["build", "--release", "--locked", "--message-format"]);
         command.arg("json-render-diagnostics");
@@ -96,19 +117,19 @@ impl Toolchain {
         if offline {
             command.arg("--offline");
         }
-        let foreign_profile = std::env::vars_os()
-            .map(|(name, _)| name)
-            .filter(|name| name.to_string_lossy().starts_with("CARGO_PROFILE_"));
-        for name in FOREIGN.iter().map(OsString::from).chain(foreign_profile) {
-            command.env_remove(name);
+        for (name, _) in std::env::vars_os() {
+            if is_foreign(&name.to_string_lossy()) {
+                command.env_remove(name);
+            }
         }
+        command.envs(OURS.iter().copied());
         let flags = if self.native {
             "-Ctarget-cpu=native"
         } else {
             ""
         };
         command.env("CARGO_ENCODED_RUSTFLAGS", flags);
-        command.current_dir(folder).stdin(Stdio::null()).output()
+        interrupt.build(command.current_dir(folder))
     }
 }
 

@@ -115,7 +115,8 @@ pub struct Methods {
 #[command(after_help = "Numbers may be exact constants: 1/7, -1/2, cos(11/10).
 Flags override the `run` keys of the spec; without either: --method lie-midpoint (midpoint
 where the bracket is not that of an algebra) --step 0.01 --until 10.
-Exit codes: 0 done, 1 surroundings failed, 2 invalid input, 3 integration stopped early, 130 Ctrl-C.")]
+Exit codes: 0 done, 1 surroundings failed, 2 invalid input, 3 integration stopped early, 130 Ctrl-C, 143 SIGTERM,
+129 SIGHUP: ended in order, rows kept.")]
 pub struct Run {
     /// The spec file
     #[arg(value_name = "SPEC", required = true)]
@@ -123,7 +124,8 @@ pub struct Run {
     /// The method, see `lie methods`
     #[arg(long, value_name = "ID")]
     pub method: Option<String>,
-    /// Step size; negative to go backwards
+    /// Step size; negative to go backwards. dopri5 chooses its own steps, but lands on every multiple of
+    /// this: none of its steps is longer
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub step: Option<String>,
     /// Final time
@@ -152,7 +154,7 @@ pub struct Run {
     /// Absolute tolerance of dopri5 (default 1e-9)
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     pub atol: Option<String>,
-    /// Form of the output (default csv, or what the extension of --out says)
+    /// Form of the output (default: what the extension of --out says, csv where there is none)
     #[arg(long, value_enum)]
     pub format: Option<Format>,
     /// Writes to a file instead of stdout
@@ -235,7 +237,7 @@ pub struct Measured {
 /// `lie verify`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Exit codes: 0 every claim holds, 1 a claim fails, 2 invalid input, 130 Ctrl-C."
+    after_help = "Exit codes: 0 every claim holds, 1 a claim fails, 2 invalid input, 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP."
 )]
 pub struct Verify {
     #[command(flatten)]
@@ -260,7 +262,8 @@ pub struct Verify {
 #[derive(Args, Debug)]
 #[command(
     after_help = "Without --until, the end is that of the spec's `run`, but at most 20; 10 without either.
-Exit codes: 0 done, 1 the reference solution was not confirmed, 2 invalid input, 130 Ctrl-C."
+Exit codes: 0 done, 1 the reference solution was not confirmed, 2 invalid input, 130 Ctrl-C,
+143 SIGTERM, 129 SIGHUP."
 )]
 pub struct Bench {
     #[command(flatten)]
@@ -282,7 +285,8 @@ pub struct Bench {
 /// `lie stress`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Exit codes: 0 no claimed invariant is lost without a message, 1 one is, 2 invalid input, 130 Ctrl-C."
+    after_help = "Exit codes: 0 no claimed invariant is lost without a message, 1 one is, 2 invalid input, 130 Ctrl-C,
+143 SIGTERM, 129 SIGHUP."
 )]
 pub struct Stress {
     #[command(flatten)]

@@ -172,7 +172,7 @@ impl Report {
                 "  H = Legendre transform of l, solved by Newton's iteration"
             )?;
         }
-        let independent = dimension - model.generic_rank;
+        let independent = model.casimirs_to_find();
         writeln!(
             text,
             "  Casimirs: {} declared of {independent} independent",

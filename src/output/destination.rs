@@ -3,23 +3,19 @@
 use std::fs::File;
 use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
-
-/// The first bytes of a growing file are brought up to date this often.
-const PATCH: Duration = Duration::from_millis(200);
 
 /// The smallest size of a page, and what a pipe takes at once.
 const PAGE: usize = 4096;
 
-/// Where rows go.
+/// Where rows go. A file that it made and to which nothing was sent is taken away again.
 pub struct Destination {
     to: To,
     /// Takes everything until the end, where the first bytes depend on what follows and the
     /// destination cannot be rewound.
     spool: Option<File>,
-    /// Bytes that arrived.
+    /// Bytes of what was sent whole, and bytes that arrived.
     good: u64,
-    patched: Option<Instant>,
+    arrived: u64,
 }
 
 enum To {
@@ -38,7 +34,7 @@ impl Destination {
             to: To::Stdout,
             spool: None,
             good: 0,
-            patched: None,
+            arrived: 0,
         }
     }
 
@@ -62,21 +58,8 @@ impl Destination {
             to,
             spool: None,
             good: 0,
-            patched: None,
+            arrived: 0,
         })
-    }
-
-    /// Takes an empty file away again, if nothing was sent and it was not there before.
-    pub fn discard(self) {
-        if let To::File {
-            file,
-            path,
-            created: true,
-        } = self.to
-        {
-            drop(file);
-            let _ = std::fs::remove_file(path);
-        }
     }
 
     /// Empties the file, or sets up a spool where the start is to be patched and cannot be.
@@ -99,36 +82,81 @@ impl Destination {
         PAGE - (self.good % PAGE as u64) as usize
     }
 
+    /// Bytes that were sent whole.
+    pub(super) fn length(&self) -> u64 {
+        self.good
+    }
+
+    /// Bytes that arrived: after a failure also a part of what was sent last.
+    pub(super) fn arrived(&self) -> u64 {
+        self.arrived
+    }
+
+    /// The file that can be rewound, if there is one: the spool, else the file itself.
+    fn file_behind(&mut self) -> Option<&mut File> {
+        match (&mut self.spool, &mut self.to) {
+            (Some(file), _) | (None, To::File { file, .. }) => Some(file),
+            (None, To::Stdout) => None,
+        }
+    }
+
     pub(super) fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
-        let sent = match (&mut self.spool, &mut self.to) {
-            (Some(file), _) | (None, To::File { file, .. }) => file.write_all(bytes),
-            (None, To::Stdout) => {
-                let mut stdout = io::stdout().lock();
-                stdout.write_all(bytes).and_then(|()| stdout.flush())
+        let Some(file) = self.file_behind() else {
+            let mut stdout = io::stdout().lock();
+            stdout.write_all(bytes).and_then(|()| stdout.flush())?;
+            self.good += bytes.len() as u64;
+            return Ok(());
+        };
+        let mut left = bytes;
+        let sent = loop {
+            if left.is_empty() {
+                break Ok(());
+            }
+            match file.write(left) {
+                Ok(0) => break Err(io::ErrorKind::WriteZero.into()),
+                Ok(count) => left = &left[count..],
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => break Err(error),
             }
         };
-        match (&sent, &self.to) {
-            (Ok(()), _) => self.good += bytes.len() as u64,
-            // A part of the batch may have arrived. Devices cannot be cut, and need not be.
-            (Err(_), To::File { file, .. }) => drop(file.set_len(self.good)),
-            _ => {}
+        self.arrived = self.good + (bytes.len() - left.len()) as u64;
+        if sent.is_ok() {
+            self.good = self.arrived;
         }
         sent
     }
 
-    /// Overwrites the first bytes, at most every now and then unless it is the last time.
-    pub(super) fn patch(&mut self, start: &[u8], last: bool) -> io::Result<()> {
-        if !last && self.patched.is_some_and(|at| at.elapsed() < PATCH) {
-            return Ok(());
+    /// Takes away what stands behind so many bytes. Devices cannot be cut, and need not be.
+    pub(super) fn cut(&mut self, length: u64) {
+        if let Some(file) = self.file_behind() {
+            let _ = file.set_len(length);
+            let _ = file.seek(SeekFrom::Start(length));
         }
-        self.patched = Some(Instant::now());
-        let ((Some(file), _) | (None, To::File { file, .. })) = (&mut self.spool, &mut self.to)
-        else {
+        self.good = length;
+        self.arrived = length;
+    }
+
+    /// Overwrites the first bytes.
+    pub(super) fn patch(&mut self, start: &[u8]) -> io::Result<()> {
+        let good = self.good;
+        let Some(file) = self.file_behind() else {
             return Ok(());
         };
         file.seek(SeekFrom::Start(0))?;
         file.write_all(start)?;
-        file.seek(SeekFrom::End(0))?;
+        file.seek(SeekFrom::Start(good))?;
+        Ok(())
+    }
+
+    /// Puts an end in place of what stands behind so many bytes. Where that is at least as long, this needs no more
+    /// room than there is.
+    pub(super) fn close(&mut self, from: u64, end: &[u8]) -> io::Result<()> {
+        let Some(file) = self.file_behind() else {
+            return Ok(());
+        };
+        file.seek(SeekFrom::Start(from))?;
+        file.write_all(end)?;
+        self.cut(from + end.len() as u64);
         Ok(())
     }
 
@@ -141,7 +169,8 @@ impl Destination {
         self.send(bytes)
     }
 
-    pub(super) fn finish(mut self) -> io::Result<()> {
+    /// Hands on what the spool has taken.
+    pub(super) fn finish(&mut self) -> io::Result<()> {
         let Some(mut spool) = self.spool.take() else {
             return Ok(());
         };
@@ -153,6 +182,20 @@ impl Destination {
                 return Ok(());
             }
             self.send(&chunk[..read])?;
+        }
+    }
+}
+
+impl Drop for Destination {
+    fn drop(&mut self) {
+        if let To::File {
+            path,
+            created: true,
+            ..
+        } = &self.to
+            && self.good == 0
+        {
+            let _ = std::fs::remove_file(path);
         }
     }
 }

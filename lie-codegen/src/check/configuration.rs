@@ -67,6 +67,19 @@ impl Configuration {
         parts.join(", ")
     }
 
+    /// Why a method that knows the declared algebra alone does not apply, whatever that algebra is.
+    pub fn refusal(&self) -> &'static str {
+        match (&self.group, self.time) {
+            (Some(_), false) => {
+                "it is for the declared algebra alone, and the group element makes that larger"
+            }
+            (None, _) => "it is for the declared algebra alone, and the time makes that larger",
+            (Some(_), true) => {
+                "it is for the declared algebra alone, and the group element and the time make that larger"
+            }
+        }
+    }
+
     /// The number of coordinates.
     pub fn dimension(&self) -> usize {
         let size = self.group.as_ref().map_or(0, |(_, size)| *size);

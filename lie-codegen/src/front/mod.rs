@@ -5,6 +5,7 @@
 //! expression means the same in both.
 
 pub mod declaration;
+pub mod file;
 pub mod names;
 pub mod spec;
 
@@ -18,6 +19,7 @@ mod mistakes;
 mod number;
 mod object;
 mod operand;
+mod prose;
 mod rust;
 mod schema;
 mod text;

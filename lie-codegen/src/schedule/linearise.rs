@@ -4,11 +4,14 @@ use std::collections::HashMap;
 
 use super::formula::{Atom, AtomId, Formula, Signed};
 use super::program::{Operation, Program, Value};
+use crate::symbolic::Symbol;
 
 /// The straight-line program of a formula.
 pub fn linearise(formula: &Formula) -> Program {
+    let definitions = formula.definitions.iter().copied().collect();
     let mut writer = Writer {
         formula,
+        definitions,
         program: Program::default(),
         values: HashMap::new(),
         negatives: HashMap::new(),
@@ -26,6 +29,7 @@ pub fn linearise(formula: &Formula) -> Program {
 
 struct Writer<'a> {
     formula: &'a Formula,
+    definitions: HashMap<Symbol, Signed>,
     program: Program,
     values: HashMap<AtomId, Value>,
     negatives: HashMap<Value, Value>,
@@ -158,10 +162,6 @@ impl Writer<'_> {
         let Value::Symbol(symbol) = leaf else {
             return None;
         };
-        self.formula
-            .definitions
-            .iter()
-            .find(|(defined, _)| defined == symbol)
-            .map(|(_, signed)| *signed)
+        self.definitions.get(symbol).copied()
     }
 }

@@ -211,16 +211,17 @@ fn verified(planes: &[(usize, usize)], table: &[Vec<Option<(usize, i32)>>]) -> b
 /// Why the discrete rigid body does not apply, with the nearest method that does.
 pub fn refusal(model: &Model) -> Option<(String, String)> {
     let other = body(model, &mut model.graph.clone()).err()?;
-    let reason = match other {
-        Other::Algebra => {
+    let reason = match (other, &model.configuration) {
+        (Other::Algebra, Some(configuration)) => configuration.refusal(),
+        (Other::Algebra, None) => {
             "it needs so(3) in a basis with [e1, e2] = c e3 and cyclic, or so(n) in a basis of \
              matrices E_ij - E_ji"
         }
-        Other::NotDiagonal => {
+        (Other::NotDiagonal, _) => {
             "it needs a free rigid body: H must be a sum of squares of all coordinates, with \
              constant coefficients"
         }
-        Other::NoMoments => {
+        (Other::NoMoments, _) => {
             "it needs H = sum M_ij^2/(2 (J_i + J_j)), and there are no such J_i for the declared H"
         }
     };

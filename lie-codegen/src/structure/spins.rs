@@ -59,8 +59,13 @@ pub fn refusal(model: &Model, hopf: Option<u32>) -> Option<(String, String)> {
     if spins(model).is_some() {
         return None;
     }
-    let reason = "it needs so(3), or a direct sum of algebras so(3), in a basis with [e1, e2] = c e3 \
-                  and its cyclic permutations";
+    let reason = match &model.configuration {
+        Some(configuration) => configuration.refusal(),
+        None => {
+            "it needs so(3), or a direct sum of algebras so(3), in a basis with [e1, e2] = c e3 and its \
+             cyclic permutations"
+        }
+    };
     let remedy = match hopf {
         Some(order) if super::matrices::refusal(model, order).is_none() => {
             format!("use `collective{order}` with `--lift representation`")

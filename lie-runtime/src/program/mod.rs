@@ -3,7 +3,9 @@
 //!
 //! Requests are lines: `method <id>`, `step <h>`, `until <T>` or `at <t>` (repeated), `every <k>`,
 //! `parameter <index> <value>`, `initial <v1> <v2> …`, `rtol <r>`, `atol <a>`, then `run`. When the
-//! input ends after `run`, the run stops at the next step and keeps its rows.
+//! input ends after `run`, the run stops at the next step and keeps its rows; a program whose step does not
+//! end within ten seconds ends then without it. So no program outlives the command that started it, however
+//! that one was ended.
 //!
 //! Rows are little-endian f64: t, the coordinates, the energy, the Casimirs, and the group element where a
 //! method reconstructs it; they are flushed at
@@ -12,11 +14,11 @@
 //! | line | exit code |
 //! |---|---|
 //! | `progress <steps done> <steps in all>`, at most ten per second | |
-//! | `done steps=… evaluations=… newton=… rejected=…` | 0 |
+//! | `done steps=… evaluations=… newton=… accepted=… rejected=…` | 0 |
 //! | `output <text>`: rows could not be written | 1 |
 //! | `request <text>`, `option <text>`, `parameter <name> <text>`, `initial <text>` | 2 |
 //! | `failed step=… time=… iterations=… residual=… reason=<text> remedy=<text>` | 3 |
-//! | `interrupted steps=… evaluations=… newton=… rejected=…` | 130 |
+//! | `interrupted`, and the same figures | 130 |
 
 pub mod measure;
 mod request;
@@ -27,6 +29,8 @@ use crate::driver::{
 };
 use crate::methods::Method;
 use crate::parameter::ParameterError;
+#[cfg(test)]
+use crate::parameter::ParameterFault;
 use crate::poisson::Poisson;
 use crate::state::State;
 use crate::structure::MatrixGroup;
@@ -37,6 +41,10 @@ use std::io::{self, BufRead, Write};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// How long a step may take after the input has ended.
+const GRACE: Duration = Duration::from_secs(10);
 
 type Build<P> = dyn Fn(&[f64]) -> Result<P, ParameterError>;
 
@@ -107,12 +115,23 @@ impl<P: Poisson<f64>> Program<P> {
     /// Serves the request on standard input.
     pub fn main(&self) -> ExitCode {
         let input = io::BufReader::new(io::stdin());
-        ExitCode::from(self.serve(input, io::stdout().lock(), io::stderr()))
+        let messages = io::stderr();
+        ExitCode::from(self.serve_within(Some(GRACE), input, io::stdout().lock(), messages))
     }
 
     /// Serves one request; returns the exit code.
     pub fn serve(
         &self,
+        input: impl BufRead + Send + 'static,
+        output: impl Write,
+        messages: impl Write,
+    ) -> u8 {
+        self.serve_within(None, input, output, messages)
+    }
+
+    fn serve_within(
+        &self,
+        grace: Option<Duration>,
         mut input: impl BufRead + Send + 'static,
         output: impl Write,
         mut messages: impl Write,
@@ -124,7 +143,7 @@ impl<P: Poisson<f64>> Program<P> {
                 return say(&mut messages, 2, &format!("request {text}"));
             }
         };
-        let interrupted = lifeline(input);
+        let interrupted = lifeline(input, grace);
         let mut output = io::BufWriter::with_capacity(1 << 16, output);
         let (code, message) = self.run(&request, &mut output, &mut messages, &interrupted);
         say(&mut messages, code, &message)
@@ -179,7 +198,7 @@ impl<P: Poisson<f64>> Program<P> {
                     error.time,
                     report.iterations,
                     report.residual,
-                    reason.remedy(),
+                    error.remedy(),
                 );
                 (3, message)
             }
@@ -187,14 +206,18 @@ impl<P: Poisson<f64>> Program<P> {
     }
 }
 
-/// Becomes true when the input ends.
-fn lifeline(mut input: impl BufRead + Send + 'static) -> Arc<AtomicBool> {
+/// Becomes true when the input ends. What is still running after the grace is ended with the process.
+fn lifeline(mut input: impl BufRead + Send + 'static, grace: Option<Duration>) -> Arc<AtomicBool> {
     let ended = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&ended);
     std::thread::spawn(move || {
         // an error of the input ends the run as its end does
         let _ = io::copy(&mut input, &mut io::sink());
         flag.store(true, Ordering::Relaxed);
+        if let Some(grace) = grace {
+            std::thread::sleep(grace);
+            std::process::exit(130);
+        }
     });
     ended
 }
@@ -204,10 +227,13 @@ fn figures(stats: &Stats) -> String {
         steps,
         evaluations,
         newton,
+        accepted,
         rejected,
         ..
     } = stats;
-    format!("steps={steps} evaluations={evaluations} newton={newton} rejected={rejected}")
+    format!(
+        "steps={steps} evaluations={evaluations} newton={newton} accepted={accepted} rejected={rejected}"
+    )
 }
 
 /// Prints the last line. Where nobody listens any more, the exit code has to do.

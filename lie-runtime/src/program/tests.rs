@@ -7,6 +7,7 @@ fn program() -> Program<Spring> {
         let error = ParameterError {
             name: "k",
             expression: "1/k",
+            fault: ParameterFault::NotFinite,
         };
         if parameters[0] == 0.0 {
             Err(error)
@@ -57,7 +58,7 @@ fn rows_are_time_state_energy() {
     assert!((rows[4][3] - 25.0).abs() < 0.2);
     assert_eq!(
         messages,
-        "done steps=4 evaluations=16 newton=0 rejected=0\n"
+        "done steps=4 evaluations=16 newton=0 accepted=4 rejected=0\n"
     );
 }
 

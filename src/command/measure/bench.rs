@@ -5,6 +5,7 @@ use lie_codegen::methods::Choice;
 use lie_codegen::program::Purpose;
 use lie_poisson::plot::frontier::{Curve, Frontier};
 
+use super::quiet::{Quiet, percent, spread};
 use super::table::{self, short};
 use super::{Bed, Ended, bed, files, interrupted, list};
 use crate::command::run::values::Given;
@@ -19,18 +20,23 @@ const SPAN: f64 = 20.0;
 
 /// One measured run.
 #[derive(Clone, Debug)]
-struct Point {
+pub struct Point {
     method: String,
     kind: String,
     value: f64,
     error: f64,
-    seconds: f64,
-    median: f64,
+    /// The least time per unit of time, the median of the rounds, and what passed meanwhile.
+    pub seconds: f64,
+    /// See `seconds`.
+    pub median: f64,
+    /// See `seconds`.
+    pub wall: f64,
     counts: [u64; 3],
 }
 
 impl Point {
-    fn read(fields: &[&str]) -> Option<Self> {
+    /// Reads the fields of a line.
+    pub fn read(fields: &[&str]) -> Option<Self> {
         let number = |index: usize| fields.get(index)?.parse::<f64>().ok();
         let count = |index: usize| fields.get(index)?.parse::<u64>().ok();
         Some(Self {
@@ -40,7 +46,8 @@ impl Point {
             error: number(4)?,
             seconds: number(5)?,
             median: number(6)?,
-            counts: [count(7)?, count(8)?, count(9)?],
+            wall: number(7)?,
+            counts: [count(8)?, count(9)?, count(10)?],
         })
     }
 }
@@ -57,8 +64,9 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();
-    let program = bed.program(flags, Purpose::Bench)?;
+    let program = bed.program(flags, Purpose::Bench, &interrupt)?;
     let (mut points, mut stopped, mut reference) = (Vec::new(), Vec::new(), [f64::NAN; 2]);
+    let mut clock = String::new();
     let numbers = [("until", until), ("budget", budget)];
     let ended = bed.measure(
         flags,
@@ -67,6 +75,7 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
         &interrupt,
         &mut |fields| match fields {
             ["point", ..] => points.extend(Point::read(fields)),
+            ["clock", name] => clock = (*name).to_owned(),
             ["stopped", label, kind, value, why] => {
                 stopped.push(format!("{label}, {kind} {value}: {why}"));
             }
@@ -97,9 +106,13 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     let wanted = !points.is_empty();
     files::write(out, arguments.out.as_deref(), wanted.then(|| csv(&points)))?;
     files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
-    print(&report(&bed, until, &points, &stopped, reference))?;
-    if matches!(ended, Ended::Interrupted) {
-        return Ok(interrupted(flags));
+    let quiet = Quiet::of(&points, &clock);
+    print(&report(&bed, until, &points, &stopped, reference, &quiet))?;
+    if let (Some(warning), false) = (quiet.warning(), flags.quiet) {
+        eprintln!("warning: {warning}");
+    }
+    if let Ended::Interrupted(code) = ended {
+        return Ok(interrupted(flags, code));
     }
     Ok(0)
 }
@@ -136,13 +149,19 @@ fn until(arguments: &args::Bench, bed: &Bed) -> Result<f64, Failure> {
 
 fn csv(points: &[Point]) -> String {
     let mut text =
-        "method,control,value,error,seconds_per_unit_time,median_seconds_per_unit_time,steps,evaluations,newton\n"
+        "method,control,value,error,seconds_per_unit_time,median_seconds_per_unit_time,wall_seconds_per_unit_time,steps,evaluations,newton\n"
             .to_owned();
     for point in points {
         let [steps, evaluations, newton] = point.counts;
         text.push_str(&format!(
-            "{},{},{:?},{:?},{:?},{:?},{steps},{evaluations},{newton}\n",
-            point.method, point.kind, point.value, point.error, point.seconds, point.median
+            "{},{},{:?},{:?},{:?},{:?},{:?},{steps},{evaluations},{newton}\n",
+            point.method,
+            point.kind,
+            point.value,
+            point.error,
+            point.seconds,
+            point.median,
+            point.wall
         ));
     }
     text
@@ -181,7 +200,12 @@ fn report(
     points: &[Point],
     stopped: &[String],
     reference: [f64; 2],
+    quiet: &Quiet,
 ) -> String {
+    let spreads: Vec<(&str, f64)> = by_method(points)
+        .into_iter()
+        .map(|(method, points)| (method, spread(&points)))
+        .collect();
     let mut rows: Vec<(Vec<Option<f64>>, f64, &str, String)> = by_method(points)
         .into_iter()
         .map(|(method, points)| {
@@ -205,7 +229,7 @@ fn report(
         .collect();
     let mut cells = vec![vec!["method".to_owned(), "order".to_owned()]];
     cells[0].extend(TARGETS.iter().map(|target| format!("to {target:.0e}")));
-    cells[0].push("least error".to_owned());
+    cells[0].extend(["least error", "spread"].map(str::to_owned));
     for (times, least, method, order) in &rows {
         let mut row = vec![(*method).to_owned(), order.clone()];
         for (time, fastest) in times.iter().zip(&fastest) {
@@ -216,6 +240,8 @@ fn report(
             });
         }
         row.push(short(*least));
+        let found = spreads.iter().find(|(known, _)| known == method);
+        row.push(percent(found.map_or(f64::NAN, |(_, spread)| *spread)));
         cells.push(row);
     }
     let mut text = format!(
@@ -226,7 +252,7 @@ fn report(
         short(reference[1]),
         table::text(&cells),
     );
-    text.push_str("\n* the fastest\n");
+    text.push_str(&format!("\n* the fastest\n{}\n", quiet.text()));
     if !stopped.is_empty() {
         text.push_str(&format!(
             "\n{} runs did not come to their end:\n",

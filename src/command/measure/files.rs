@@ -15,6 +15,9 @@ pub fn open(flag: &str, path: Option<&Path>, spec: &Path) -> Result<Option<Desti
     if flag == "--plot" {
         crate::command::run::outputs::picture(flag, Some(path))?;
     }
+    if flag == "--out" {
+        crate::command::run::outputs::table(flag, path)?;
+    }
     let same = |a: &Path, b: &Path| {
         a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
     };
@@ -41,10 +44,7 @@ pub fn write(
         (Some(destination), Some(path), Some(text)) => destination
             .replace(text.as_bytes())
             .map_err(|error| failed(path, &error)),
-        (Some(destination), ..) => {
-            destination.discard();
-            Ok(())
-        }
+        // what was not written to goes away with its destination
         _ => Ok(()),
     }
 }

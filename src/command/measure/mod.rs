@@ -3,7 +3,9 @@
 pub mod bench;
 mod evidence;
 mod files;
+mod growth;
 mod list;
+mod quiet;
 pub mod stress;
 mod table;
 pub mod verify;
@@ -18,11 +20,11 @@ use lie_codegen::program::{Purpose, program};
 use super::args::{self, Cpu, Measured};
 use super::run::bar::Bar;
 use super::run::plan;
-use crate::build::protocol::{self, Words};
+use crate::build::protocol::{self, Progress, Words};
 use crate::build::{self, Request};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
-use crate::message::{Failure, INTERRUPTED, Message, SURROUNDINGS};
+use crate::message::{Failure, INTERRUPTED, Message};
 use crate::render;
 
 /// A system at an initial state with the methods to measure, checked.
@@ -41,8 +43,8 @@ pub struct Bed {
 pub enum Ended {
     /// With all measurements.
     Done,
-    /// By Ctrl-C.
-    Interrupted,
+    /// By a signal, with the exit code that it asks for.
+    Interrupted(u8),
     /// With a message of the program: its first word and the rest.
     Said(String, String),
 }
@@ -84,14 +86,20 @@ impl Bed {
     ///
     /// # Errors
     /// The surroundings fail.
-    pub fn program(&self, flags: &Measured, purpose: Purpose) -> Result<PathBuf, Failure> {
-        build::program(&Request {
+    pub fn program(
+        &self,
+        flags: &Measured,
+        purpose: Purpose,
+        interrupt: &Interrupt,
+    ) -> Result<PathBuf, Failure> {
+        let request = Request {
             name: &self.spec.model.name,
             source: &program(&self.spec.model, &self.choices, purpose),
             native: flags.cpu == Some(Cpu::Native),
             quiet: flags.quiet,
             purpose,
-        })
+        };
+        build::program(&request, interrupt)
     }
 
     /// Has a program measure everything; `line` takes the fields of each line of results.
@@ -121,20 +129,25 @@ impl Bed {
             lines.push_str(&format!("\n{key} {value:?}"));
         }
         lines.push_str("\nrun\n");
-        let bar = Bar::of(!flags.quiet, "measurements");
+        let bar = Bar::of_stages(!flags.quiet);
         let words = protocol::measure(
             Command::new(&program),
             &lines,
             interrupt,
             &mut |text| line(&text.split('\t').collect::<Vec<_>>()),
-            &mut |done, all| bar.show(done, all),
+            &mut |progress| match progress {
+                Progress::Done(done, all) => bar.show(done, all),
+                Progress::Stage(done, all, what) => bar.stage(done, all, what),
+            },
         );
         bar.clear();
         match words {
             Ok(Words { code: Some(0), .. }) => Ok(Ended::Done),
             Ok(Words {
                 code: Some(130), ..
-            }) if interrupt.seen() => Ok(Ended::Interrupted),
+            }) if interrupt.seen().is_some() => {
+                Ok(Ended::Interrupted(interrupt.seen().unwrap_or(INTERRUPTED)))
+            }
             Ok(Words {
                 code: Some(2),
                 last,
@@ -148,27 +161,19 @@ impl Bed {
                 }
                 Ok(Ended::Said(word.to_owned(), rest.to_owned()))
             }
-            Ok(words) => Err(broken(&format!("{}: {}", words.status, words.last))),
-            Err(error) => Err(broken(&format!("{}: {error}", program.display()))),
+            Ok(words) => {
+                let how = format!("{}: {}", words.status, words.last);
+                Err(build::broken(&program, &how))
+            }
+            Err(error) => Err(build::not_started(&program, &error)),
         }
     }
 }
 
-/// Ctrl-C in words.
-pub fn interrupted(flags: &Measured) -> u8 {
+/// A signal in words.
+pub fn interrupted(flags: &Measured, code: u8) -> u8 {
     if !flags.quiet {
         eprintln!("Interrupted; what was measured so far is shown.");
     }
-    INTERRUPTED
-}
-
-/// A program that did what the protocol does not know.
-pub fn broken(how: &str) -> Failure {
-    let message = Message::new(Kind::Toolchain, format!("the built program failed: {how}"));
-    Failure {
-        messages: vec![
-            message.help("delete the cache folder and try again; if it stays, report it"),
-        ],
-        code: SURROUNDINGS,
-    }
+    code
 }

@@ -4,6 +4,7 @@ use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
 use lie_poisson::plot::map::{Cell as Square, Column, Map, Outcome};
 
+use super::growth::{self, Growth};
 use super::table::{self, short};
 use super::{Bed, Ended, bed, files, interrupted, list};
 use crate::command::run::values::Given;
@@ -132,7 +133,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();
-    let program = bed.program(flags, Purpose::Stress)?;
+    let program = bed.program(flags, Purpose::Stress, &interrupt)?;
     let parameters: Vec<String> = bed
         .spec
         .model
@@ -140,7 +141,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
         .iter()
         .map(|p| p.name.clone())
         .collect();
-    let mut cells = Vec::new();
+    let (mut cells, mut growths) = (Vec::new(), Vec::new());
     let mut step = f64::NAN;
     let ended = bed.measure(
         flags,
@@ -149,6 +150,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
         &interrupt,
         &mut |fields| match fields {
             ["cell", ..] => cells.extend(Cell::read(fields, &parameters)),
+            ["growth", ..] => growths.extend(Growth::read(fields)),
             ["ground", text, ..] => step = text.parse().unwrap_or(f64::NAN),
             _ => {}
         },
@@ -164,18 +166,26 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     }
     sort(&mut cells, &bed);
     let wanted = !cells.is_empty();
-    files::write(out, arguments.out.as_deref(), wanted.then(|| csv(&cells)))?;
+    files::write(
+        out,
+        arguments.out.as_deref(),
+        wanted.then(|| csv(&cells, &growths)),
+    )?;
     let picture = || picture(&bed, &cells, step);
     files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
-    print(&report(&bed, &cells, step, steps))?;
-    if matches!(ended, Ended::Interrupted) {
-        return Ok(interrupted(flags));
+    print(&report(&bed, &cells, &growths, step, steps))?;
+    if let Ended::Interrupted(code) = ended {
+        return Ok(interrupted(flags, code));
     }
     let lost: Vec<&Cell> = cells.iter().filter(|cell| cell.word == "lost").collect();
     for cell in &lost {
         eprintln!("lost: {}", cell.text());
     }
-    Ok(u8::from(!lost.is_empty()))
+    let growing: Vec<&Growth> = growths.iter().filter(|growth| growth.is_lost()).collect();
+    for growth in &growing {
+        eprintln!("lost: {}", growth.text());
+    }
+    Ok(u8::from(!lost.is_empty() || !growing.is_empty()))
 }
 
 /// In the order of methods and experiments, whatever ended first.
@@ -204,7 +214,7 @@ fn sort(cells: &mut [Cell], bed: &Bed) {
     });
 }
 
-fn csv(cells: &[Cell]) -> String {
+fn csv(cells: &[Cell], growths: &[Growth]) -> String {
     let mut text = "method,experiment,name,value,step,outcome,steps,newton_per_step,energy_drift,energy_growth,\
                     casimir_drift,casimir_growth,claimed_over_bound,what\n"
         .to_owned();
@@ -227,6 +237,9 @@ fn csv(cells: &[Cell]) -> String {
             cell.what.replace(',', ";")
         ));
     }
+    growths
+        .iter()
+        .for_each(|growth| text.push_str(&growth.csv()));
     text
 }
 
@@ -236,7 +249,7 @@ fn methods(cells: &[Cell]) -> Vec<&str> {
     methods
 }
 
-fn report(bed: &Bed, cells: &[Cell], step: f64, steps: u64) -> String {
+fn report(bed: &Bed, cells: &[Cell], growths: &[Growth], step: f64, steps: u64) -> String {
     let mut rows = vec![
         [
             "method",
@@ -249,6 +262,7 @@ fn report(bed: &Bed, cells: &[Cell], step: f64, steps: u64) -> String {
             "Casimirs",
             "grows",
             "Newton",
+            "round-off",
         ]
         .map(str::to_owned)
         .to_vec(),
@@ -294,22 +308,28 @@ fn report(bed: &Bed, cells: &[Cell], step: f64, steps: u64) -> String {
                 short(cell.casimirs[1]),
                 short(cell.newton),
             ]),
-            Some(cell) => row.push(cell.what.clone()),
-            None => {}
+            Some(cell) => {
+                row.push(cell.what.clone());
+                row.extend(std::iter::repeat_n(String::new(), 4));
+            }
+            None => row.extend(std::iter::repeat_n(String::new(), 5)),
         }
+        let growth = growths.iter().find(|growth| growth.method == method);
+        row.push(growth.map_or_else(|| "–".to_owned(), Growth::cell));
         rows.push(row);
     }
     let mut text = format!(
         "{}: {} experiments, h0 = {}, {steps} steps of the long run at h0\n\n{}\n\
          kept of tried: no claimed invariant beyond its round-off bound, no step refused; drifts relative to the size of the terms;\n\
-         grows: the last tenth of the run over the first\n",
+         grows: the last tenth of the run over the first\n{}",
         bed.spec.model.name,
         cells.len(),
         short(step),
         table::text(&rows),
+        growth::legend(growths),
     );
     let model = &bed.spec.model;
-    let independent = model.dimension() - model.generic_rank;
+    let independent = model.casimirs_to_find();
     if model.casimirs.len() < independent {
         text.push_str(&format!(
             "{} of {independent} Casimirs declared: the others are not looked at, declare them in the spec\n",

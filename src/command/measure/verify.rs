@@ -15,6 +15,17 @@ use crate::command::{args, print};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
 
+/// The facts that are measured at the step itself: an order takes many steps, the iteration others of its own.
+const SINGLE: [&str; 7] = [
+    "symmetric",
+    "energy",
+    "quadratic Casimirs",
+    "other Casimirs",
+    "quadratic integrals",
+    "orbit",
+    "Poisson",
+];
+
 /// One line of results.
 struct Finding {
     method: String,
@@ -24,6 +35,8 @@ struct Finding {
     bound: f64,
     verdict: String,
     note: String,
+    /// Not a number where nothing was measured.
+    step: f64,
 }
 
 impl Finding {
@@ -37,6 +50,7 @@ impl Finding {
             bound: number(5)?,
             verdict: (*fields.get(6)?).to_owned(),
             note: (*fields.get(7)?).to_owned(),
+            step: number(8).unwrap_or(f64::NAN),
         })
     }
 
@@ -57,6 +71,9 @@ impl Finding {
             self.fact,
             short(self.measured)
         );
+        if self.step.is_finite() {
+            text.push_str(&format!(" with a step of {}", short(self.step)));
+        }
         if !self.note.is_empty() {
             text.push_str(&format!(" ({})", self.note));
         }
@@ -84,6 +101,7 @@ impl Finding {
         json!({
             "claim": number(self.claim), "measured": number(self.measured),
             "bound": number(self.bound), "verdict": self.verdict, "note": self.note,
+            "step": number(self.step),
         })
     }
 }
@@ -110,7 +128,7 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     };
     let bed = bed(flags, |spec| list::all(&spec.model))?;
     let interrupt = Interrupt::install();
-    let program = bed.program(flags, Purpose::Verify)?;
+    let program = bed.program(flags, Purpose::Verify, &interrupt)?;
     let mut numbers = vec![("seed", f64::from(arguments.seed))];
     numbers.extend(step.map(|step| ("step", step)));
     let mut findings = Vec::new();
@@ -147,8 +165,8 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     } else {
         print(&report(&bed.spec.model.name, &ground, &findings, &evidence))?;
     }
-    if matches!(ended, Ended::Interrupted) {
-        return Ok(interrupted(flags));
+    if let Ended::Interrupted(code) = ended {
+        return Ok(interrupted(flags, code));
     }
     let failed: Vec<&Finding> = findings.iter().filter(|finding| finding.fails()).collect();
     for finding in &failed {
@@ -176,6 +194,26 @@ fn methods(findings: &[Finding]) -> Vec<&str> {
     methods
 }
 
+/// The steps at which a method's invariants were measured: where the one asked for failed, smaller ones.
+fn steps(findings: &[Finding], method: &str) -> String {
+    let own = findings
+        .iter()
+        .filter(|finding| finding.method == method && SINGLE.contains(&finding.fact.as_str()))
+        .map(|finding| finding.step.abs());
+    let (least, most) = own
+        .filter(|step| step.is_finite())
+        .fold((f64::INFINITY, 0.0_f64), |(least, most), step| {
+            (least.min(step), most.max(step))
+        });
+    if most == 0.0 {
+        "–".to_owned()
+    } else if least == most {
+        short(most)
+    } else {
+        format!("{} to {}", short(least), short(most))
+    }
+}
+
 fn report(system: &str, ground: &[String], findings: &[Finding], evidence: &Evidence) -> String {
     // what holds of the form and not of the method is summed up below the table
     let (folded, facts): (Vec<&str>, Vec<&str>) = facts(findings)
@@ -186,7 +224,8 @@ fn report(system: &str, ground: &[String], findings: &[Finding], evidence: &Evid
         .map(|finding| ((finding.method.as_str(), finding.fact.as_str()), finding))
         .collect();
     let mut rows = vec![
-        std::iter::once("method")
+        ["method", "step"]
+            .into_iter()
             .chain(facts.iter().copied())
             .map(str::to_owned)
             .collect::<Vec<_>>(),
@@ -200,7 +239,8 @@ fn report(system: &str, ground: &[String], findings: &[Finding], evidence: &Evid
             None => "–".to_owned(),
         };
         rows.push(
-            std::iter::once(method.to_owned())
+            [method.to_owned(), steps(findings, method)]
+                .into_iter()
                 .chain(facts.iter().map(cell))
                 .collect(),
         );

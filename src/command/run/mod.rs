@@ -21,7 +21,7 @@ use crate::build::protocol::{self, End, Job, Stop, Times};
 use crate::build::{self, Request};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
-use crate::message::{Failure, INTERRUPTED, Message, STOPPED, SURROUNDINGS};
+use crate::message::{Failure, Message, STOPPED};
 use crate::output::{Header, Rows};
 use crate::render;
 use bar::Bar;
@@ -56,13 +56,8 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         quiet: flags.quiet,
         purpose,
     };
-    match build::program(&request) {
-        Ok(program) => integrate(&spec, &plan, flags, format, outputs, &program, &interrupt),
-        Err(failure) => {
-            outputs.discard();
-            Err(failure)
-        }
-    }
+    let program = build::program(&request, &interrupt)?;
+    integrate(&spec, &plan, flags, format, outputs, &program, &interrupt)
 }
 
 fn integrate(
@@ -103,8 +98,7 @@ fn integrate(
 
     let lost = |error: io::Error| match (error.kind(), &flags.out) {
         (io::ErrorKind::BrokenPipe, None) => Failure::quiet(),
-        (_, Some(path)) => writing_failed(path, &error),
-        (_, None) => writing_failed(Path::new("stdout"), &error),
+        (_, out) => outputs::writing_failed(out.as_deref(), &error),
     };
     let mut rows = Rows::start(outputs.rows, format, &header).map_err(lost)?;
     let mut plot = outputs.plot.as_ref().map(|_| {
@@ -116,6 +110,9 @@ fn integrate(
             .element(element)
     });
     let mut drift = Drift::new(&columns[layout.invariants.clone()]);
+    for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
+        drift.leave_out(&casimir.name);
+    }
     // Rows that scroll by on the same terminal say enough.
     let scrolls = flags.out.is_none() && io::stdout().is_terminal();
     let bar = Bar::new(!flags.quiet && !scrolls);
@@ -148,12 +145,18 @@ fn integrate(
     if let Some(error) = refused {
         return Err(lost(error));
     }
-    let end = end.map_err(|error| broken(&format!("{}: {error}", program.display())))?;
+    let end = match end {
+        Ok(end) => end,
+        Err(error) => {
+            rows.finish("failed").map_err(lost)?;
+            return Err(build::not_started(program, &error));
+        }
+    };
     rows.finish(word(&end)).map_err(lost)?;
     if let (Some(plot), Some(destination), Some(path)) = (plot, outputs.plot, &flags.plot) {
         destination
             .replace(plot.to_svg().as_bytes())
-            .map_err(|e| writing_failed(path, &e))?;
+            .map_err(|error| outputs::unwritable(path, &error))?;
     }
     if !flags.quiet
         && let End::Done(counts) = &end
@@ -164,18 +167,27 @@ fn integrate(
             plan.method.title(),
             plan.step.1.trim()
         );
-        eprint!("{}", summary::text(&title, counts, &drift, start.elapsed()));
+        eprint!(
+            "{}",
+            summary::text(
+                &title,
+                counts,
+                plan.method.is_adaptive(),
+                &drift,
+                start.elapsed()
+            )
+        );
     }
     Ok(match end {
         End::Done(_) => 0,
-        End::Interrupted => {
+        End::Interrupted(code) => {
             if !flags.quiet {
                 eprintln!(
                     "Interrupted at t = {:?}; the rows so far are written.",
                     drift.time()
                 );
             }
-            INTERRUPTED
+            code
         }
         End::Stopped(stop) => {
             render::stopped(&stopped_text(&stop), &stop.remedy);
@@ -186,7 +198,7 @@ fn integrate(
             let help = format!("give {name} another value with `--param {name}=VALUE`");
             return Err(message.at_option("--param").help(help).into());
         }
-        End::Broken(how) => return Err(broken(&how)),
+        End::Broken(how) => return Err(build::broken(program, &how)),
     })
 }
 
@@ -194,7 +206,7 @@ fn integrate(
 fn word(end: &End) -> &'static str {
     match end {
         End::Done(_) => "done",
-        End::Interrupted => "interrupted",
+        End::Interrupted(_) => "interrupted",
         End::Stopped(_) => "stopped",
         End::Parameter(..) | End::Broken(_) => "failed",
     }
@@ -213,21 +225,4 @@ fn stopped_text(stop: &Stop) -> String {
     }
     text.push_str("\nthe rows so far are written");
     text
-}
-
-fn writing_failed(path: &Path, error: &io::Error) -> Failure {
-    let message = Message::io(path, format!("writing failed: {error}"));
-    Failure::surroundings(
-        message.help("make room or give another file; whole rows so far are kept"),
-    )
-}
-
-fn broken(how: &str) -> Failure {
-    let message = Message::new(Kind::Toolchain, format!("the built program failed: {how}"));
-    Failure {
-        messages: vec![
-            message.help("delete the cache folder and try again; if it stays, report it"),
-        ],
-        code: SURROUNDINGS,
-    }
 }

@@ -3,6 +3,8 @@
 use std::io::{self, IsTerminal as _};
 use std::path::Path;
 
+use clap::ValueEnum as _;
+
 use crate::command::args::{self, Format};
 use crate::message::{Failure, Message};
 use crate::output::Destination;
@@ -10,7 +12,7 @@ use crate::output::Destination;
 /// The form of the output, and whether the files make sense.
 ///
 /// # Errors
-/// `option` for files that would overwrite one another, and for npy on a terminal.
+/// `option` for files that would overwrite one another, an extension of another form, and npy on a terminal.
 pub fn format(flags: &args::Run, spec: &Path) -> Result<Format, Failure> {
     let same = |a: &Path, b: &Path| {
         a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
@@ -28,15 +30,11 @@ pub fn format(flags: &args::Run, spec: &Path) -> Result<Format, Failure> {
         return Err(message.help("give another file").into());
     }
     picture("--plot", flags.plot.as_deref())?;
-    let by_name = |path: &Path| match path.extension()?.to_str()? {
-        "json" => Some(Format::Json),
-        "npy" => Some(Format::Npy),
-        _ => None,
+    let format = match (flags.format, flags.out.as_deref()) {
+        (Some(format), _) => format,
+        (None, Some(out)) => by_name(out)?,
+        (None, None) => Format::Csv,
     };
-    let format = flags
-        .format
-        .or_else(|| by_name(flags.out.as_deref()?))
-        .unwrap_or(Format::Csv);
     if format == Format::Npy && flags.out.is_none() && io::stdout().is_terminal() {
         let message = Message::option(
             "--format",
@@ -47,6 +45,44 @@ pub fn format(flags: &args::Run, spec: &Path) -> Result<Format, Failure> {
             .into());
     }
     Ok(format)
+}
+
+/// The form that the extension names; CSV where there is none.
+fn by_name(path: &Path) -> Result<Format, Failure> {
+    let Some(extension) = path.extension() else {
+        return Ok(Format::Csv);
+    };
+    let named = extension.to_str().and_then(|text| {
+        let forms = Format::value_variants().iter();
+        forms.copied().find(|form| {
+            form.to_possible_value()
+                .is_some_and(|value| value.matches(text, true))
+        })
+    });
+    named.ok_or_else(|| {
+        let text = format!("`.{}` is no form that rows are written in", extension.display());
+        let help = "name the file .csv, .json or .npy, or say which of them it holds, such as `--format csv`";
+        Message::option("--out", text).help(help).into()
+    })
+}
+
+/// Tables of measurements are CSV.
+///
+/// # Errors
+/// `option` for a name of another form.
+pub fn table(flag: &str, path: &Path) -> Result<(), Failure> {
+    match path.extension() {
+        Some(extension) if !extension.eq_ignore_ascii_case("csv") => {
+            let text = format!(
+                "`{}` names no CSV file, and the table is CSV",
+                path.display()
+            );
+            let name = path.with_extension("csv");
+            let message = Message::option(flag, text);
+            Err(message.help(format!("write `{}`", name.display())).into())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Pictures are SVG, whatever the name says.
@@ -69,7 +105,8 @@ pub fn picture(flag: &str, path: Option<&Path>) -> Result<(), Failure> {
     }
 }
 
-/// Opened before anything runs, so that a long run does not end in front of a closed door.
+/// Opened before anything runs, so that a long run does not end in front of a closed door. Where none runs, everything
+/// is left as it was.
 pub struct Outputs {
     /// Takes the rows.
     pub rows: Destination,
@@ -88,25 +125,33 @@ impl Outputs {
             Some(path) => open(path)?,
             None => Destination::stdout(),
         };
-        match flags.plot.as_deref().map(open).transpose() {
-            Ok(plot) => Ok(Self { rows, plot }),
-            Err(failure) => {
-                rows.discard();
-                Err(failure)
-            }
-        }
-    }
-
-    /// Leaves everything as it was.
-    pub fn discard(self) {
-        self.rows.discard();
-        if let Some(plot) = self.plot {
-            plot.discard();
-        }
+        let plot = flags.plot.as_deref().map(open).transpose()?;
+        Ok(Self { rows, plot })
     }
 }
 
-fn unwritable(path: &Path, error: &io::Error) -> Failure {
+/// Rows that cannot be written any more.
+pub fn writing_failed(path: Option<&Path>, error: &io::Error) -> Failure {
+    let what = match error.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room",
+        io::ErrorKind::FileTooLarge => "raise the limit of the size of files (`ulimit -f`)",
+        _ => "look whether the disk is still there",
+    };
+    let (path, help) = match path {
+        Some(path) => {
+            let help = format!("{what}, or give another file; it holds the whole rows so far");
+            (path, help)
+        }
+        None => (
+            Path::new("stdout"),
+            format!("{what}, or write to a file with `--out`"),
+        ),
+    };
+    Failure::surroundings(Message::io(path, format!("writing failed: {error}")).help(help))
+}
+
+/// A file that does not take anything.
+pub fn unwritable(path: &Path, error: &io::Error) -> Failure {
     let message = Message::io(path, format!("cannot be written: {error}"));
     Failure::surroundings(message.help("give a file in a folder that exists and can be written"))
 }

@@ -9,6 +9,7 @@ use crate::build::protocol::Counts;
 /// The largest errors of the invariants over the rows, against the first row.
 pub struct Drift {
     names: Vec<String>,
+    left_out: Vec<String>,
     first: Vec<f64>,
     largest: Vec<f64>,
     /// Largest absolute value of a component of the state.
@@ -22,6 +23,7 @@ impl Drift {
         let largest = vec![0.0; names.len()];
         Self {
             names: names.to_vec(),
+            left_out: Vec::new(),
             first: Vec::new(),
             largest,
             scale: 0.0,
@@ -53,6 +55,11 @@ impl Drift {
         self.time
     }
 
+    /// Leaves an invariant with several branches out of the summary.
+    pub fn leave_out(&mut self, name: &str) {
+        self.left_out.push(name.to_owned());
+    }
+
     /// `energy 1.2e-6, C 3e-16 (absolute)`: relative wherever the invariant is not zero.
     fn text(&self) -> String {
         let one =
@@ -66,6 +73,7 @@ impl Drift {
             .iter()
             .zip(&self.first)
             .zip(&self.largest)
+            .filter(|((name, _), _)| !self.left_out.contains(name))
             .map(one);
         all.collect::<Vec<_>>().join(", ")
     }
@@ -79,8 +87,9 @@ fn short(error: f64) -> String {
     }
 }
 
-/// Two lines: what was done, and how well the invariants were kept.
-pub fn text(title: &str, counts: &Counts, drift: &Drift, time: Duration) -> String {
+/// What was done, and how well the invariants were kept; for a method that chooses its own steps, how many those
+/// were, and whether it had a choice.
+pub fn text(title: &str, counts: &Counts, adaptive: bool, drift: &Drift, time: Duration) -> String {
     let steps = counts.steps;
     let mut text = format!(
         "{title}: {steps} steps to t = {:?} in {:.3} s",
@@ -93,8 +102,17 @@ pub fn text(title: &str, counts: &Counts, drift: &Drift, time: Duration) -> Stri
             counts.newton as f64 / steps as f64
         ));
     }
-    if counts.rejected > 0 {
-        text.push_str(&format!(", {} steps refused", counts.rejected));
+    if adaptive {
+        let (own, refused) = (counts.accepted, counts.rejected);
+        text.push_str(&format!(
+            ", {own} of its own within these, {refused} refused"
+        ));
+    }
+    if adaptive && counts.accepted == steps && counts.rejected == 0 {
+        text.push_str(
+            "\nno step was longer than --step: it decided every step, and the tolerances none; give a larger --step to \
+             let them decide",
+        );
     }
     if !drift.first.is_empty() {
         text.push_str(&format!(
@@ -121,7 +139,7 @@ mod tests {
             newton: 5,
             ..Counts::default()
         };
-        let text = text("T", &counts, &drift, Duration::from_millis(1500));
+        let text = text("T", &counts, false, &drift, Duration::from_millis(1500));
         assert_eq!(
             text,
             "T: 2 steps to t = 1.0 in 1.500 s, 2.50 Newton iterations per step\n\
@@ -131,5 +149,22 @@ mod tests {
         assert!(drift.text().contains("energy NaN"));
         drift.push(&[2.0, 1.0, 1.0, 2.0, 0.0], 3);
         assert!(drift.text().contains("energy NaN"), "it stays");
+    }
+
+    #[test]
+    fn adaptive_methods_say_how_many_steps_were_their_own() {
+        let drift = Drift::new(&[]);
+        let of = |accepted, rejected| {
+            let counts = Counts {
+                steps: 10,
+                accepted,
+                rejected,
+                ..Counts::default()
+            };
+            text("T", &counts, true, &drift, Duration::ZERO)
+        };
+        assert!(of(25, 2).contains(", 25 of its own within these, 2 refused\n"));
+        assert!(!of(25, 2).contains("larger --step") && !of(10, 1).contains("larger --step"));
+        assert!(of(10, 0).contains("give a larger --step"));
     }
 }

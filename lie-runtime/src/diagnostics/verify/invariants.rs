@@ -49,11 +49,7 @@ pub(super) fn findings<P: Lift<f64>>(
                     } else {
                         bound(0.0)
                     };
-                    let mut finding = Finding::zero(group.fact, group.claimed, drift, bound);
-                    if h != ground.step {
-                        finding = finding.note(format!("step {h:.2e}"));
-                    }
-                    finding
+                    Finding::zero(group.fact, group.claimed, drift, bound).at(h)
                 }
                 Err(failure) => Finding::unmeasured(group.fact, group.claimed, &failure),
             }
@@ -86,6 +82,7 @@ fn groups<'a, P: Lift<f64>>(
         let of_kind = move |index: &usize| degree(*index).is_some_and(|d| d <= 2) == quadratic;
         (0..P::CASIMIRS)
             .filter(of_kind)
+            .filter(|index| !P::MULTIVALUED_CASIMIRS.contains(index))
             .map(|index| casimir(system, index))
             .collect()
     };

@@ -120,7 +120,7 @@ fn worst<P: Lift<f64>>(
         Ok(largest)
     };
     match smaller_steps(ground.step, all) {
-        Ok((value, _)) => Finding::zero(fact, claimed, value, bound),
+        Ok((value, step)) => Finding::zero(fact, claimed, value, bound).at(step),
         Err(failure) => Finding::unmeasured(fact, claimed, &failure),
     }
 }
@@ -217,10 +217,12 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
         }
         Ok(())
     });
-    if let Err(failure) = measured {
-        return vec![Finding::unmeasured("explicit", claims.explicit, &failure)];
-    }
+    let step = match measured {
+        Ok(((), step)) => step,
+        Err(failure) => return vec![Finding::unmeasured("explicit", claims.explicit, &failure)],
+    };
     let explicit = Finding::zero("explicit", claims.explicit, f64::from(most), 0.0)
+        .at(step)
         .note(format!("{most} iterations"));
     if most == 0 {
         return vec![explicit];
@@ -233,7 +235,9 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
     } else {
         format!("at round-off at once, at most {most} iterations")
     };
-    let newton = Finding::at_least("Newton", true, slowest, 2.0, NEWTON).note(note);
+    let newton = Finding::at_least("Newton", true, slowest, 2.0, NEWTON)
+        .at(step)
+        .note(note);
     let exchanges = exchanges(system, ground, subject);
     vec![
         explicit,

@@ -5,10 +5,15 @@
 //! | line | |
 //! |---|---|
 //! | `reference <error> <difference> <evaluations>` | its own estimate, and the relative difference from a second method |
-//! | `point <label> <kind> <value> <error> <seconds> <median> <steps> <evaluations> <newton>` | per unit of time; kind is `step` or `tolerance` |
+//! | `point <label> <kind> <value> <error> <seconds> <median> <wall> <steps> <evaluations> <newton>` | per unit of time; kind is `step` or `tolerance` |
+//! | `clock <name>` | what the seconds are: `processor`, or `wall` where the system has no clock of the processor |
 //! | `stopped <label> <kind> <value> <why>` | a run that did not come to its end |
+//!
+//! The seconds are the least of all rounds and their median, by the clock; `wall` is the median of what passed
+//! meanwhile: where it is more, other programs ran.
 
 use super::super::{Build, Tolerances};
+use super::timing::{Clock, Spent, summary};
 use super::{Ended, Request, Session, main, prepare};
 use crate::diagnostics::verify::{rate, relative_error};
 use crate::diagnostics::{AnyMethod, reference};
@@ -19,7 +24,6 @@ use crate::parameter::ParameterError;
 use crate::poisson::Poisson;
 use crate::state::{State, Unknown};
 use std::process::ExitCode;
-use std::time::Instant;
 
 /// Rounds of timing; between two runs of one point all others run once.
 const ROUNDS: usize = 7;
@@ -60,6 +64,7 @@ pub struct Bench<P: Poisson<f64>> {
     defaults: Vec<f64>,
     build: Box<Build<P>>,
     entries: Vec<(&'static str, Entry<P>)>,
+    clock: Clock,
 }
 
 /// One run that can be repeated.
@@ -69,9 +74,9 @@ struct Point<'a> {
     value: f64,
     error: f64,
     counts: [u64; 3],
-    /// Seconds of the first run, and of a run in each round.
-    first: f64,
-    samples: Vec<f64>,
+    /// What the first run took, and a run in each round.
+    first: Spent,
+    samples: Vec<Spent>,
     run: Box<dyn Fn() + 'a>,
 }
 
@@ -90,7 +95,15 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
             defaults: defaults.to_vec(),
             build: Box::new(build),
             entries: Vec::new(),
+            clock: Clock::wall(),
         }
+    }
+
+    /// Takes a clock of the processor, which answers none where there is none.
+    #[must_use]
+    pub fn clock(self, processor: fn() -> Option<f64>) -> Self {
+        let clock = Clock::new(processor);
+        Self { clock, ..self }
     }
 
     /// Adds a method under the name by which requests ask for it.
@@ -143,7 +156,7 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
         let (system, mu) = prepare(&*self.build, &request.parameters, &request.initial)?;
         let until = request.number("until").unwrap_or(10.0);
         let budget = request.number("budget").unwrap_or(0.2);
-        session.progress(0, 1)?;
+        session.stage(0, 1, "the reference solution")?;
         let exact = reference(&system, &mu, until).ok_or((
             2,
             "reference a number becomes infinite, or the steps too small".to_owned(),
@@ -168,6 +181,7 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
             );
             return Err((2, text));
         }
+        session.line(&["clock", self.clock.name()]);
         let floor = own.max(difference).max(4.0 * f64::EPSILON);
         let mut points = Vec::new();
         let mut ended = Ok(());
@@ -179,7 +193,7 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
             })
             .collect::<Vec<_>>();
         for (index, (label, entry)) in wanted.iter().enumerate() {
-            ended = session.progress(index as u64, (wanted.len() * 4) as u64);
+            ended = session.stage(index as u64, (wanted.len() * 4) as u64, label);
             if ended.is_err() {
                 break;
             }
@@ -191,11 +205,12 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
                 floor,
                 budget,
                 label,
+                clock: &self.clock,
             };
             ladder.climb(entry, session, &mut points);
         }
         if ended.is_ok() {
-            ended = time(&mut points, session);
+            ended = time(&mut points, &self.clock, session);
         }
         for point in &points {
             point.report(until, session);
@@ -239,6 +254,7 @@ struct Ladder<'a, P: Poisson<f64>> {
     floor: f64,
     budget: f64,
     label: &'a str,
+    clock: &'a Clock,
 }
 
 impl<'a, P: Poisson<f64>> Ladder<'a, P> {
@@ -295,9 +311,7 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
         let mut at_floor = 0;
         let mut best = f64::INFINITY;
         for value in values {
-            let start = Instant::now();
-            let outcome = run(value);
-            let first = start.elapsed().as_secs_f64();
+            let (outcome, first) = self.clock.spent(|| run(value));
             let error = match &outcome {
                 Ok(run) => relative_error(&run.end, self.exact),
                 Err(_) => f64::NAN,
@@ -325,7 +339,7 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
             // two points at the floor, or two that are worse than before, end the ladder
             at_floor += u32::from(error <= 3.0 * self.floor || (error > best && best < 1e-10));
             best = f64::min(best, error);
-            if at_floor == 2 || first > self.budget {
+            if at_floor == 2 || first.seconds > self.budget {
                 break;
             }
         }
@@ -361,21 +375,17 @@ fn by_steps<P: Poisson<f64>>(
 
 /// Times every point, round after round, so that a slow moment of the machine does not fall on one
 /// method alone.
-fn time(points: &mut [Point<'_>], session: &mut Session<'_>) -> Ended {
+fn time(points: &mut [Point<'_>], clock: &Clock, session: &mut Session<'_>) -> Ended {
     let all = (points.len() * ROUNDS) as u64;
     let mut done = 0;
+    session.stage(all / 3, all, "times")?;
     for _ in 0..ROUNDS {
         for point in &mut *points {
             session.progress(all / 3 + done * 2 / 3, all)?;
             done += 1;
-            let times = (SAMPLE / point.first).ceil().clamp(1.0, 1e5) as u32;
-            let start = Instant::now();
-            for _ in 0..times {
-                (point.run)();
-            }
-            point
-                .samples
-                .push(start.elapsed().as_secs_f64() / f64::from(times));
+            let times = (SAMPLE / point.first.seconds).ceil().clamp(1.0, 1e5) as u32;
+            let ((), spent) = clock.spent(|| (0..times).for_each(|_| (point.run)()));
+            point.samples.push(spent.over(f64::from(times)));
         }
     }
     Ok(())
@@ -383,13 +393,7 @@ fn time(points: &mut [Point<'_>], session: &mut Session<'_>) -> Ended {
 
 impl Point<'_> {
     fn report(&self, until: f64, session: &mut Session<'_>) {
-        let mut samples = self.samples.clone();
-        samples.sort_by(f64::total_cmp);
-        let least = samples.first().copied().unwrap_or(self.first);
-        let median = samples
-            .get(samples.len() / 2)
-            .copied()
-            .unwrap_or(self.first);
+        let [least, median, wall] = summary(&self.samples, self.first);
         let [steps, evaluations, newton] = self.counts;
         session.line(&[
             "point",
@@ -399,6 +403,7 @@ impl Point<'_> {
             &format!("{:?}", self.error),
             &format!("{:?}", least / until.abs()),
             &format!("{:?}", median / until.abs()),
+            &format!("{:?}", wall / until.abs()),
             &steps.to_string(),
             &evaluations.to_string(),
             &newton.to_string(),

@@ -3,13 +3,14 @@
 //! Requests are lines as for [`Program`](super::Program), here: `method <label>` (repeated), `parameter <index>
 //! <value>`, `initial <v1> <v2> …`, further keys with a number each, then `run`. Results are lines on standard
 //! output, fields separated by tabs, the first of them naming the kind of line; progress and the last word are lines
-//! on standard error, as there. When the input ends after `run`, the program stops after the measurement that
-//! it is at.
+//! on standard error, as there, and `stage <done> <all> <what>` before each part of the work. When the input ends after `run`, the program stops after the measurement that
+//! it is at, but not later than two seconds after.
 
 mod bench;
 mod driven;
 mod kernels;
 mod stress;
+mod timing;
 mod verify;
 
 pub use bench::{Bench, Control, ControlRun};
@@ -24,6 +25,9 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
+
+/// How long a measurement may take after the input has ended.
+const GRACE: Duration = Duration::from_secs(2);
 
 /// What is asked for.
 pub(super) struct Request {
@@ -105,6 +109,15 @@ impl Session<'_> {
         }
     }
 
+    /// Says what is done next, and whether to go on.
+    ///
+    /// # Errors
+    /// As of [`progress`](Self::progress).
+    fn stage(&mut self, done: u64, all: u64, what: &str) -> Ended {
+        let _ = writeln!(self.messages, "stage {done} {all} {what}");
+        self.progress(done, all)
+    }
+
     /// Says how far it is, and whether to go on.
     ///
     /// # Errors
@@ -150,6 +163,7 @@ fn prepare<P: Poisson<f64>>(
 fn main(defaults: &[f64], work: &dyn Fn(&Request, &mut Session<'_>) -> Ended) -> ExitCode {
     let input = io::BufReader::new(io::stdin());
     ExitCode::from(serve(
+        Some(GRACE),
         defaults,
         input,
         &mut io::stdout().lock(),
@@ -160,6 +174,7 @@ fn main(defaults: &[f64], work: &dyn Fn(&Request, &mut Session<'_>) -> Ended) ->
 
 /// Serves one request; returns the exit code.
 fn serve(
+    grace: Option<Duration>,
     defaults: &[f64],
     mut input: impl BufRead + Send + 'static,
     output: &mut dyn Write,
@@ -174,7 +189,7 @@ fn serve(
     let mut session = Session {
         output,
         messages,
-        interrupted: super::lifeline(input),
+        interrupted: super::lifeline(input, grace),
         reported: Instant::now(),
         lost: None,
     };

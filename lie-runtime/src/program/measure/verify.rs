@@ -3,7 +3,7 @@
 //! Further keys: `seed`, `step`. Lines: `ground <step> <span> <error of the references> <states> <linear
 //! integrals> <quadratic integrals>`, then the kernels at the states (see [`super::kernels`]), the end of the reference
 //! solution from each (`reference <span> <start> <end>`), one `broken <fact>` for each measurement that lets a spoiled map
-//! pass, and one `finding <label> <fact> <claim> <measured> <bound> <verdict> <note>` for each fact of each method.
+//! pass, and one `finding <label> <fact> <claim> <measured> <bound> <verdict> <note> <step>` for each fact of each method.
 
 use super::super::{Build, Tolerances};
 use super::kernels::{self, Kernels};
@@ -205,12 +205,20 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
         mut messages: impl Write,
     ) -> u8 {
         let work = |request: &Request, session: &mut Session<'_>| self.work(request, session);
-        serve(&self.defaults, input, &mut output, &mut messages, &work)
+        serve(
+            None,
+            &self.defaults,
+            input,
+            &mut output,
+            &mut messages,
+            &work,
+        )
     }
 
     fn work(&self, request: &Request, session: &mut Session<'_>) -> Ended {
         let (system, mu) = prepare(&*self.build, &request.parameters, &request.initial)?;
         let seed = request.number("seed").unwrap_or(1.0) as u64;
+        session.stage(0, request.methods.len() as u64, "the reference solution")?;
         let ground = Ground::new(&system, &mu, seed, request.number("step"))
             .map_err(|text| (2, format!("ground {text}")))?;
         let ground = self
@@ -230,7 +238,7 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
         let lifted = system.lift();
         let all = request.methods.len() as u64;
         for (done, label) in request.methods.iter().enumerate() {
-            session.progress(done as u64, all)?;
+            session.stage(done as u64, all, label)?;
             let Some((_, make)) = self.subjects.iter().find(|(known, _)| known == label) else {
                 return Err((2, format!("request no method `{label}` in this program")));
             };
@@ -286,6 +294,7 @@ fn report(label: &str, finding: &Finding, session: &mut Session<'_>) {
         &format!("{:?}", finding.bound),
         verdict,
         &finding.note,
+        &format!("{:?}", finding.step),
     ]);
 }
 

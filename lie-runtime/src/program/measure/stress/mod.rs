@@ -6,12 +6,14 @@
 //! | line | |
 //! |---|---|
 //! | `ground <step> <cells in all>` | the step h0 at which h0 times the largest rate of the field is 0.2 |
+//! | `growth <label> <invariant> <exponent> <standard error> <end> <largest> <from> <to> <states> <step> <bound ratio>` | how the round-off of the claimed invariant that moves most grows with the steps, see `growth.rs` |
 //! | `cell <label> <experiment> <name> <value> <step> <outcome> <steps> <newton> <energy> <growth> <casimirs> <growth> <orbit bound ratio> <what>` | see below |
 //!
 //! Drifts are relative to the size of the terms; `claimed` is the largest drift of a claimed invariant over its round-off
 //! bound. The outcome is `kept`, `lost` (a claimed invariant beyond its bound, with no message), `stopped` (with the
 //! step and the reason) or `domain` (H or the field is not finite there: nothing to integrate).
 
+mod growth;
 mod outcome;
 
 use super::super::{Build, Tolerances};
@@ -22,13 +24,17 @@ use crate::methods::Method;
 use crate::parameter::ParameterError;
 use crate::poisson::Poisson;
 use crate::state::{State, Unknown};
-use outcome::{Outcome, run};
+use growth::growth;
+use outcome::{Outcome, bound, run};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// `h0` times the rate.
 const REACH: f64 = 0.2;
+/// The long run has so many times the steps of each state that is followed for the growth of round-off: both take
+/// about as long.
+const SHARE: u64 = growth::STATES as u64;
 /// Steps of a cell other than the long run.
 const STEPS: u64 = 400;
 
@@ -54,6 +60,20 @@ struct Cell {
     /// None: 0.2 over the rate there.
     step: Option<f64>,
     steps: u64,
+}
+
+/// What is done with a method.
+enum Task<'a> {
+    Cell(&'a Cell),
+    /// With so many steps.
+    Growth(u64),
+}
+
+/// What all tasks share.
+struct Start<'a> {
+    parameters: &'a [f64],
+    mu: &'a [f64],
+    step: f64,
 }
 
 impl<P: Poisson<f64> + Sync> Stress<P> {
@@ -110,22 +130,37 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
             ));
         }
         let cells = self.cells(&system, request, &mu, step, steps);
-        let jobs: Vec<(&str, &Make<P>, &Cell)> = cells
+        // what takes longest comes first: the long run, then growth
+        let growth = Task::Growth(steps / SHARE);
+        let mut tasks: Vec<Task<'_>> = cells.iter().map(Task::Cell).collect();
+        tasks.insert(1, growth);
+        let jobs: Vec<(&str, &Make<P>, &Task<'_>)> = tasks
             .iter()
-            .flat_map(|cell| {
+            .flat_map(|task| {
                 let wanted = self
                     .methods
                     .iter()
                     .filter(|(label, _)| request.methods.iter().any(|m| m == label));
-                wanted.map(move |(label, make)| (*label, make, cell))
+                wanted.map(move |(label, make)| (*label, make, task))
             })
             .collect();
         session.line(&["ground", &format!("{step:?}"), &jobs.len().to_string()]);
-        self.all(&jobs, session)
+        session.stage(0, jobs.len() as u64, "experiments")?;
+        let start = Start {
+            parameters: &request.parameters,
+            mu: mu.as_slice(),
+            step,
+        };
+        self.all(&jobs, &start, session)
     }
 
-    /// All cells, on as many threads as the machine has, reported in the order in which they end.
-    fn all(&self, jobs: &[(&str, &Make<P>, &Cell)], session: &mut Session<'_>) -> Ended {
+    /// All tasks, on as many threads as the machine has, reported in the order in which they end.
+    fn all(
+        &self,
+        jobs: &[(&str, &Make<P>, &Task<'_>)],
+        start: &Start<'_>,
+        session: &mut Session<'_>,
+    ) -> Ended {
         let next = AtomicUsize::new(0);
         let done = AtomicUsize::new(0);
         let stop = std::sync::atomic::AtomicBool::new(false);
@@ -141,10 +176,15 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
                 scope.spawn(|| {
                     loop {
                         let index = next.fetch_add(1, Ordering::Relaxed);
-                        let Some((label, make, cell)) = jobs.get(index) else {
+                        let Some((label, make, task)) = jobs.get(index) else {
                             break;
                         };
-                        let line = self.cell(label, &*make(), cell, &stop);
+                        let line = match task {
+                            Task::Cell(cell) => self.cell(label, &*make(), cell, &stop),
+                            Task::Growth(steps) => {
+                                self.growth(label, &*make(), start, *steps, &stop)
+                            }
+                        };
                         if stop.load(Ordering::Relaxed) {
                             break;
                         }
@@ -267,6 +307,38 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
             }
         }
         cells
+    }
+
+    fn growth(
+        &self,
+        label: &str,
+        method: &dyn AnyMethod<f64, P>,
+        start: &Start<'_>,
+        steps: u64,
+        stop: &std::sync::atomic::AtomicBool,
+    ) -> Vec<String> {
+        let mut line = vec!["growth".to_owned(), label.to_owned()];
+        let system = (self.build)(start.parameters).ok();
+        let found = system.and_then(|system| {
+            let mut mu = system.zero_state();
+            mu.as_mut_slice().copy_from_slice(start.mu);
+            growth(&system, method, &mu, start.step, steps, stop)
+        });
+        let Some(found) = found else { return line };
+        let casimir = found.invariant.checked_sub(1);
+        line.push(
+            casimir
+                .map_or("energy", |index| P::CASIMIR_NAMES[index])
+                .to_owned(),
+        );
+        let (exponent, error) = found.exponent;
+        let (end, largest) = found.end;
+        line.extend([exponent, error, end, largest].map(|value| format!("{value:?}")));
+        let (from, to) = found.steps;
+        line.extend([from, to, found.states as u64].map(|count| count.to_string()));
+        let ratio = largest / bound(to, false);
+        line.extend([start.step, ratio].map(|value| format!("{value:?}")));
+        line
     }
 
     fn cell(

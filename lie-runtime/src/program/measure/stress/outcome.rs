@@ -1,6 +1,6 @@
 //! One experiment: a method, a system and a state, and what happened to the invariants.
 
-use super::{Cell, REACH};
+use super::{Cell, REACH, STEPS};
 use crate::diagnostics::verify::rate;
 use crate::diagnostics::{AnyMethod, Claims};
 use crate::newton::{FailureReason, NewtonOptions};
@@ -8,13 +8,23 @@ use crate::poisson::Poisson;
 use crate::state::{State, Unknown};
 use std::sync::atomic::Ordering;
 
-/// Round-off of N steps in units of epsilon: `LARGE + WALK sqrt(N) + BIAS N`. Steps far beyond use act
-/// by elements of norm 1e3 and more, by which round-off is multiplied; then a random walk, and what
-/// does not average out.
+/// Round-off of N steps in units of epsilon: a beginning, a random walk `WALK sqrt(N)`, and `BIAS N`, what does not
+/// average out. The beginning is `LARGE` where steps are tried that are far beyond use: they act by elements of norm
+/// 1e3 and more, by which round-off is multiplied.
 const LARGE: f64 = 6400.0;
-const WALK: f64 = 64.0;
-const BIAS: f64 = 0.25;
+const SMALL: f64 = 64.0;
+const WALK: f64 = 16.0;
+const BIAS: f64 = 1.0 / 64.0;
 const WINDOWS: usize = 10;
+/// In longer runs the sizes of the terms are looked at every so many steps.
+const LOOK: u64 = 64;
+
+/// The largest relative error of a claimed invariant after N steps that is called round-off.
+pub(super) fn bound(steps: u64, large: bool) -> f64 {
+    let steps = steps as f64;
+    let beginning = if large { LARGE } else { SMALL };
+    f64::EPSILON * (beginning + WALK * steps.sqrt() + BIAS * steps)
+}
 
 /// How an invariant moved.
 #[derive(Clone, Debug)]
@@ -100,25 +110,26 @@ impl Outcome {
 }
 
 /// Which invariants a method claims on a system: the energy, then each Casimir.
-fn claimed<P: Poisson<f64>>(claims: &Claims) -> Vec<bool> {
+pub(super) fn claimed<P: Poisson<f64>>(claims: &Claims) -> Vec<bool> {
     let kept = claims.preserves;
     let quadratic = P::HAMILTONIAN_DEGREE.is_some_and(|degree| degree <= 2);
     let casimirs = (0..P::CASIMIRS).map(|index| {
         let degree = P::CASIMIR_DEGREES.get(index).copied().flatten();
-        kept.casimirs || (kept.quadratic_casimirs && degree.is_some_and(|degree| degree <= 2))
+        let quadratic = kept.quadratic_casimirs && degree.is_some_and(|degree| degree <= 2);
+        (kept.casimirs || quadratic) && !P::MULTIVALUED_CASIMIRS.contains(&index)
     });
     std::iter::once(kept.energy || (kept.quadratic_invariants && quadratic))
         .chain(casimirs)
         .collect()
 }
 
-fn values<P: Poisson<f64>>(system: &P, mu: &P::State, values: &mut [f64]) {
+pub(super) fn values<P: Poisson<f64>>(system: &P, mu: &P::State, values: &mut [f64]) {
     values[0] = system.hamiltonian(mu);
     system.casimirs(mu, &mut values[1..]);
 }
 
 /// The sizes of the terms: what round-off of the state changes.
-fn sizes<P: Poisson<f64>>(system: &P, mu: &P::State) -> Vec<f64> {
+pub(super) fn sizes<P: Poisson<f64>>(system: &P, mu: &P::State) -> Vec<f64> {
     let mut all = vec![0.0; P::CASIMIRS + 1];
     values(system, mu, &mut all);
     let mut gradient = system.zero_state();
@@ -181,7 +192,8 @@ pub(super) fn run<P: Poisson<f64>>(
         for (drift, &value) in drifts.iter_mut().zip(&now) {
             drift.see(value, window);
         }
-        if done % 64 == 0 || done == cell.steps {
+        // next to a singularity the sizes change within a few steps
+        if cell.steps <= STEPS || done % LOOK == 0 || done == cell.steps {
             for (drift, size) in drifts.iter_mut().zip(sizes(system, &mu)) {
                 drift.size = drift.size.max(size);
             }
@@ -193,8 +205,7 @@ pub(super) fn run<P: Poisson<f64>>(
     for (drift, size) in drifts.iter_mut().zip(sizes(system, &mu)) {
         drift.size = drift.size.max(size);
     }
-    let steps = done.max(1) as f64;
-    let bound = f64::EPSILON * (LARGE + WALK * steps.sqrt() + BIAS * steps);
+    let bound = bound(done.max(1), cell.steps <= STEPS);
     let claims = claimed::<P>(&method.claims());
     let excess = drifts
         .iter()
