@@ -190,7 +190,9 @@ impl Judge {
                 let casimir = &kernels.declared.declaration.casimirs[*self.casimirs.get(index)?];
                 exact(kernels.slope_of(&casimir.value, mu))
             }
-            ("lagrangian" | "momentum" | "inertia", [xi]) => {
+            ("lagrangian" | "momentum" | "inertia", [xi])
+                if kernels.declared.configuration.is_none() =>
+            {
                 Some((self.lagrangian(name, xi), discrete))
             }
             ("discrete_lagrangian" | "discrete_slope" | "discrete_curvature", [h, x]) => {

@@ -165,7 +165,8 @@ impl Declared {
     /// `l'(xi) = mu`, by Newton's iteration over the numbers themselves.
     pub(super) fn velocity<T: Number>(&self, mu: &[T], near: &[f64]) -> Vec<T> {
         let n = self.declaration.state.len();
-        let mut xi: Vec<T> = near[..n].iter().map(|&v| T::rounded(v, 0.0)).collect();
+        let start = |k: usize| near.get(k).copied().unwrap_or(0.0);
+        let mut xi: Vec<T> = (0..n).map(|k| T::rounded(start(k), 0.0)).collect();
         for _ in 0..ITERATIONS {
             let (slope, second) = self.derivatives(&xi, n, |xi, lift| {
                 let mu: Vec<_> = mu.iter().map(lift).collect();
