@@ -60,6 +60,7 @@ pub mod exact;
 pub mod expand;
 pub mod front;
 pub mod golden;
+pub mod judge;
 pub mod methods;
 pub mod model;
 pub mod program;

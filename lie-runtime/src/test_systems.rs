@@ -25,6 +25,10 @@ impl Poisson<f64> for Spring {
     fn hamiltonian(&self, mu: &Self::State) -> f64 {
         0.5 * (mu[0] * mu[0] + mu[1] * mu[1])
     }
+    /// Twice H, to be told from it.
+    fn energy(&self, mu: &Self::State) -> f64 {
+        mu[0] * mu[0] + mu[1] * mu[1]
+    }
     fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
         State::copy_from(out, mu);
     }

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 
 use lie_codegen::diagnostic::Kind;
+use lie_codegen::judge::Judge;
 use lie_codegen::program::Purpose;
 use serde_json::{Map, Value, json};
 
+use super::evidence::Evidence;
 use super::table::{self, short};
 use super::{Ended, bed, interrupted, list};
 use crate::command::run::values::Given;
@@ -131,6 +133,8 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     numbers.extend(step.map(|step| ("step", step)));
     let mut findings = Vec::new();
     let mut ground = Vec::new();
+    let judge = Judge::of_spec(&bed.spec.source.text, &bed.spec.model, &bed.parameters);
+    let mut evidence = Evidence::before(judge);
     let ended = bed.measure(
         flags,
         program,
@@ -139,7 +143,7 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
         &mut |fields| match fields.first() {
             Some(&"finding") => findings.extend(Finding::read(fields)),
             Some(&"ground") => ground = fields[1..].iter().map(|f| (*f).to_owned()).collect(),
-            _ => {}
+            _ => evidence.take(fields),
         },
     )?;
     if let Ended::Said(word, text) = &ended {
@@ -156,10 +160,10 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     if arguments.json {
         print(&format!(
             "{:#}\n",
-            as_json(&bed.spec.model.name, &ground, &findings)
+            as_json(&bed.spec.model.name, &ground, &findings, &evidence)
         ))?;
     } else {
-        print(&report(&bed.spec.model.name, &ground, &findings))?;
+        print(&report(&bed.spec.model.name, &ground, &findings, &evidence))?;
     }
     if let Ended::Interrupted(code) = ended {
         return Ok(interrupted(flags, code));
@@ -168,7 +172,10 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     for finding in &failed {
         eprintln!("failed: {}", finding.failure());
     }
-    Ok(u8::from(!failed.is_empty()))
+    for failure in evidence.failures() {
+        eprintln!("failed: {failure}");
+    }
+    Ok(u8::from(!failed.is_empty() || !evidence.holds()))
 }
 
 fn facts(findings: &[Finding]) -> Vec<&str> {
@@ -207,8 +214,11 @@ fn steps(findings: &[Finding], method: &str) -> String {
     }
 }
 
-fn report(system: &str, ground: &[String], findings: &[Finding]) -> String {
-    let facts = facts(findings);
+fn report(system: &str, ground: &[String], findings: &[Finding], evidence: &Evidence) -> String {
+    // what holds of the form and not of the method is summed up below the table
+    let (folded, facts): (Vec<&str>, Vec<&str>) = facts(findings)
+        .into_iter()
+        .partition(|fact| OF_THE_FORM.contains(fact) && all_hold(findings, fact));
     let by_place: BTreeMap<(&str, &str), &Finding> = findings
         .iter()
         .map(|finding| ((finding.method.as_str(), finding.fact.as_str()), finding))
@@ -246,7 +256,7 @@ fn report(system: &str, ground: &[String], findings: &[Finding]) -> String {
     format!(
         "{system}: {} methods, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}\n\n{}\n\
          ✓ claimed and measured, ✗ claimed and not measured, no sign: not claimed; relative to the size of the terms\n\
-         {} claims, {failed} fail\n",
+         {}{}{} claims, {failed} fail\n",
         methods(findings).len(),
         number(0),
         ground.get(3).map_or("", String::as_str),
@@ -254,11 +264,43 @@ fn report(system: &str, ground: &[String], findings: &[Finding]) -> String {
         ground.get(5).map_or("", String::as_str),
         number(2),
         table::text(&rows),
+        summary(findings, &folded),
+        evidence.summary(),
         claimed.count(),
     )
 }
 
-fn as_json(system: &str, ground: &[String], findings: &[Finding]) -> Value {
+/// Facts that no method claims of itself: two forms of its code agree, the driver shows its steps.
+const OF_THE_FORM: [&str; 4] = ["generic form", "row exchanges", "rows", "group"];
+
+fn all_hold(findings: &[Finding], fact: &str) -> bool {
+    let of_fact = findings.iter().filter(|finding| finding.fact == fact);
+    of_fact.into_iter().all(|finding| !finding.fails())
+}
+
+/// One line on the facts that hold everywhere.
+fn summary(findings: &[Finding], folded: &[&str]) -> String {
+    let parts: Vec<String> = folded
+        .iter()
+        .map(|fact| {
+            let holds = |f: &&Finding| f.fact == *fact && f.verdict == "holds";
+            let count = findings.iter().filter(holds).count();
+            let what = match *fact {
+                "generic form" => "the generic form makes the same steps",
+                "row exchanges" => "elimination in fixed order",
+                "rows" => "rows on and off the grid",
+                _ => "group element",
+            };
+            format!("{what} ({count})")
+        })
+        .collect();
+    match parts.is_empty() {
+        true => String::new(),
+        false => format!("also hold, of so many methods: {}\n", parts.join(", ")),
+    }
+}
+
+fn as_json(system: &str, ground: &[String], findings: &[Finding], evidence: &Evidence) -> Value {
     let mut all = Map::new();
     for finding in findings {
         let method = all
@@ -275,6 +317,7 @@ fn as_json(system: &str, ground: &[String], findings: &[Finding]) -> Value {
         "step": number(0), "span": number(1), "reference_error": number(2),
         "states": number(3), "linear_integrals": number(4), "quadratic_integrals": number(5),
         "methods": all,
+        "judge": evidence.as_json(),
         "failed": findings.iter().filter(|finding| finding.fails()).count(),
     })
 }

@@ -55,6 +55,11 @@ impl Finding {
         }
     }
 
+    /// Something that must be equal to the last bit.
+    pub(crate) fn exact(fact: &'static str, difference: f64) -> Self {
+        Self::zero(fact, true, difference, 0.0)
+    }
+
     /// Something that is claimed to be at least `bound`.
     pub(super) fn at_least(
         fact: &'static str,
