@@ -105,7 +105,7 @@ fn failing() -> Vec<(String, String)> {
 }
 
 /// What fails of these methods of a program.
-fn examine<P: Lift<f64> + 'static>(
+fn examine<P: Lift<f64> + Clone + 'static>(
     program: &Verify<P>,
     labels: &[&str],
     initial: &str,
