@@ -262,7 +262,6 @@ fn a_program_that_dies_names_its_folder() {
     let folder = folder();
     let path = spec(folder.path(), |_| ());
     let cache = folder.path().join("cache");
-    let call = || run(&path, &[("LIE_CACHE_DIR", &cache)]);
     // what cargo reports as the program cannot be started, or ends at once
     let fake = folder.path().join("fake");
     for (text, said) in [
