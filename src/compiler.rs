@@ -4,6 +4,7 @@ use std::path::Path;
 use std::rc::Rc;
 
 use lie_codegen::diagnostic::{Diagnostic, Kind};
+use lie_codegen::front::file;
 use lie_codegen::model::Model;
 
 use crate::message::{Failure, Message, Source};
@@ -45,12 +46,19 @@ pub fn load(path: &Path) -> Result<Spec, Failure> {
 
 fn read(path: &Path) -> Result<Source, Failure> {
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|error| {
+    let bytes = file::read(path).map_err(|error| {
         let message = Message::io(path, format!("the spec cannot be read: {error}"));
         Failure::surroundings(
             message.help("give the path of a JSON file, such as specs/se3_heavy_top.json"),
         )
     })?;
+    if let Some(oversized) = file::oversized(bytes.len()) {
+        let source = Rc::new(Source {
+            path: name,
+            text: String::new(),
+        });
+        return Err(Message::from_spec(&source, oversized).into());
+    }
     // Editors of some systems put a mark in front, which is no part of the text.
     let bytes = bytes
         .strip_prefix(b"\xef\xbb\xbf")

@@ -1,10 +1,14 @@
 //! Prints messages the way rustc does: title, place, source line with caret, help.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{IsTerminal as _, Write as _};
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+
+use lie_codegen::characters::visible;
+use lie_codegen::diagnostic::{MOST_SHOWN, not_shown};
 
 use crate::message::{Message, Place};
 
@@ -14,17 +18,14 @@ const WINDOW: usize = 2000;
 
 /// Prints messages to stderr, in colour on a terminal.
 pub fn print(messages: &[Message]) {
-    let stderr = std::io::stderr();
-    let colour = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    let renderer = if colour {
-        Renderer::styled()
-    } else {
-        Renderer::plain()
-    };
+    let renderer = renderer();
     let mut text = String::new();
-    for message in messages {
+    for message in messages.iter().take(MOST_SHOWN) {
         text.push_str(&render(&renderer, message));
         text.push('\n');
+    }
+    if let Some(rest) = not_shown(messages.len()) {
+        text.push_str(&format!("note: {rest}\n"));
     }
     // Nobody is left to hear that stderr is closed.
     let _ = std::io::stderr().lock().write_all(text.as_bytes());
@@ -42,11 +43,11 @@ fn renderer() -> Renderer {
 /// Prints why an integration stopped, and the remedy.
 pub fn stopped(text: &str, remedy: &str) {
     let renderer = renderer();
-    let title = Group::with_title(Level::ERROR.primary_title(text));
+    let title = Group::with_title(Level::ERROR.primary_title(visible(text)));
     let mut text = renderer.render(&[title]);
     if !remedy.is_empty() {
         text.push('\n');
-        let help = Level::HELP.secondary_title(remedy);
+        let help = Level::HELP.secondary_title(visible(remedy));
         text.push_str(&renderer.render(&[Group::with_title(help)]));
     }
     text.push('\n');
@@ -61,31 +62,33 @@ pub fn render(renderer: &Renderer, message: &Message) -> String {
         Level::ERROR
     };
     let title = level
-        .primary_title(message.text.as_str())
+        .primary_title(visible(&message.text))
         .id(message.kind.as_str());
     let mut text = match &message.place {
         Place::Text(source, range) => {
             let line = Line::of(&source.text, range.clone());
-            let snippet = Snippet::source(line.text)
-                .path(source.path.as_str())
+            let path = visible(&source.path);
+            let snippet = Snippet::source(&*line.text)
+                .path(&*path)
                 .line_start(line.number)
                 .annotation(AnnotationKind::Primary.span(line.range.clone()));
             let rendered = renderer.render(&[title.element(snippet)]);
-            line.with_true_column(rendered, &source.path)
+            line.with_true_column(rendered, &path)
         }
         Place::None => renderer.render(&[Group::with_title(title)]),
         Place::File(path) => {
             format!(
-                "{}\n --> {path}",
-                renderer.render(&[Group::with_title(title)])
+                "{}\n --> {}",
+                renderer.render(&[Group::with_title(title)]),
+                visible(path)
             )
         }
         Place::CommandLine { option, value } => {
             let mut text = renderer.render(&[Group::with_title(title)]);
-            let _ = write!(text, "\n --> command line: {option}");
+            let _ = write!(text, "\n --> command line: {}", visible(option));
             if let Some((value, range)) = value {
                 let line = Line::of(value, range.clone());
-                let snippet = Snippet::source(line.text)
+                let snippet = Snippet::source(&*line.text)
                     .line_numbering(false)
                     .annotation(AnnotationKind::Primary.span(line.range.clone()));
                 let group = Group::with_level(Level::ERROR).element(snippet);
@@ -104,7 +107,7 @@ pub fn render(renderer: &Renderer, message: &Message) -> String {
     };
     text.push('\n');
     if let Some(help) = &message.help {
-        let help = Level::HELP.secondary_title(help.as_str());
+        let help = Level::HELP.secondary_title(visible(help));
         text.push_str(&renderer.render(&[Group::with_title(help)]));
         text.push('\n');
     }
@@ -113,7 +116,7 @@ pub fn render(renderer: &Renderer, message: &Message) -> String {
 
 /// The line in which a byte range begins, and the part of the range that lies in it.
 struct Line<'a> {
-    text: &'a str,
+    text: Cow<'a, str>,
     /// Counted from 1.
     number: usize,
     range: Range<usize>,
@@ -143,8 +146,13 @@ impl<'a> Line<'a> {
         let from = floor(source, first.max(start.saturating_sub(WINDOW)));
         let to = ceil(source, last.min(start + WINDOW));
         let cut = source[first..from].chars().count();
+        // The renderer shows the other controls; of these every byte keeps its place.
+        let text = match source[from..to].contains(is_c1) {
+            true => Cow::Owned(source[from..to].replace(is_c1, "¿")),
+            false => Cow::Borrowed(&source[from..to]),
+        };
         Self {
-            text: &source[from..to],
+            text,
             number,
             range: start - from..end.clamp(start, to) - from,
             cut,
@@ -161,6 +169,11 @@ impl<'a> Line<'a> {
         let meant = format!("{path}:{}:{}", self.number, column + self.cut);
         rendered.replacen(&seen, &meant, 1)
     }
+}
+
+/// The controls beyond ASCII, of two bytes each, which some terminals obey.
+fn is_c1(c: char) -> bool {
+    matches!(c, '\u{80}'..='\u{9f}')
 }
 
 fn floor(text: &str, mut at: usize) -> usize {

@@ -109,6 +109,20 @@ fn parameters_and_initial_state() {
 }
 
 #[test]
+fn a_parameter_declared_positive_is_positive() {
+    let spec = "tests/data/declarations/pass/positive_parameters.json";
+    let base = format!("run {spec} --method rk4 --step 0.1 --until 0.1 --quiet");
+    for value in ["-1", "0", "cos(2)"] {
+        let run = lie(&format!("{base} --param I1={value}"));
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        let expected = "error[option]: the parameter `I1` must be positive";
+        assert!(run.stderr.starts_with(expected), "{}", run.stderr);
+        assert!(run.stderr.contains("--> command line: --param"));
+        assert!(run.stdout.is_empty());
+    }
+}
+
+#[test]
 fn the_spec_has_the_defaults_and_flags_win() {
     let folder = folder();
     let path = spec(folder.path(), |spec| {

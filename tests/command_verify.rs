@@ -21,6 +21,13 @@ fn all_claims_of_a_few_methods_hold() {
     // an id stands for every option that applies
     assert!(line("lie-midpoint --retraction cayley").contains('✓'));
     assert!(run.stdout.contains(" claims, 0 fail\n"));
+    // what is not claimed of a method stands below the table
+    for line in [
+        "also hold, of so many methods: ",
+        " of the round-off allowed from the declaration as written, and so does the reference solution",
+    ] {
+        assert!(run.stdout.contains(line), "{}", run.stdout);
+    }
 }
 
 /// A Hamiltonian by Newton's iteration, and a discrete Lagrangian: every claim of the methods that they add holds.
@@ -60,6 +67,15 @@ fn systems_by_lagrangians() {
         }
         assert!(run.stdout.contains(" claims, 0 fail\n"), "{}", run.stdout);
     }
+}
+
+/// The angle in its Casimir jumps, which is no fault of a method; the orbit is measured all the same.
+#[test]
+fn a_casimir_with_several_branches_fails_no_method() {
+    let spec = "tests/data/declarations/pass/casimir_with_several_branches.json";
+    let run = lie(&format!("verify {spec} --methods lie-midpoint --quiet")).ok();
+    assert!(run.stdout.contains(" claims, 0 fail\n"), "{}", run.stdout);
+    assert!(run.stderr.contains("multi-valued"), "{}", run.stderr);
 }
 
 #[test]
@@ -123,10 +139,9 @@ fn a_system_at_rest_cannot_be_measured() {
     assert!(run.stderr.contains("is zero"), "{}", run.stderr);
 }
 
-/// A program that lies in the place of the built one.
-#[test]
+/// `lie verify` with a program in the place of the built one, which writes these lines.
 #[cfg(unix)]
-fn a_claim_that_fails_is_exit_code_1() {
+fn with_program(lines: &[&str]) -> common::Run {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = folder();
     let path = spec(folder.path(), |spec| spec["name"] = "Lied".into());
@@ -137,12 +152,13 @@ fn a_claim_that_fails_is_exit_code_1() {
         std::fs::set_permissions(&path, permissions).expect("it can be run");
         path
     };
+    let said: String = lines
+        .iter()
+        .map(|line| format!("printf '{line}\\n'\n"))
+        .collect();
     let program = script(
         "program",
-        "while read line; do [ \"$line\" = run ] && break; done\n\
-         printf 'finding\\trk4\\torder\\t4.0\\t4.01\\t3.7\\tholds\\t\\n'\n\
-         printf 'finding\\trk4\\tsymmetric\\t0.0\\t1e-7\\t1e-14\\tfails\\t\\n'\n\
-         echo done >&2",
+        &format!("while read line; do [ \"$line\" = run ] && break; done\n{said}echo done >&2"),
     );
     let cargo = script(
         "cargo",
@@ -152,7 +168,7 @@ fn a_claim_that_fails_is_exit_code_1() {
             program.display()
         ),
     );
-    let run: common::Run = command([
+    command([
         "verify".as_ref(),
         path.as_os_str(),
         "--methods".as_ref(),
@@ -162,7 +178,16 @@ fn a_claim_that_fails_is_exit_code_1() {
     .env("LIE_CACHE_DIR", folder.path().join("cache"))
     .output()
     .expect("lie starts")
-    .into();
+    .into()
+}
+
+#[test]
+#[cfg(unix)]
+fn a_claim_that_fails_is_exit_code_1() {
+    let run = with_program(&[
+        "finding\\trk4\\torder\\t4.0\\t4.01\\t3.7\\tholds\\t",
+        "finding\\trk4\\tsymmetric\\t0.0\\t1e-7\\t1e-14\\tfails\\t",
+    ]);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
     assert!(
         run.stderr.contains(
@@ -176,6 +201,29 @@ fn a_claim_that_fails_is_exit_code_1() {
         "{}",
         run.stdout
     );
+}
+
+/// Every claim holds, and still: a kernel computes something else, a measurement is blind, nothing is shown.
+#[test]
+#[cfg(unix)]
+fn the_program_is_judged_by_the_declaration() {
+    let holds = "finding\\trk4\\torder\\t4.0\\t4.01\\t3.7\\tholds\\t";
+    for (line, complaint) in [
+        (
+            "kernel\\tenergy\\t0.1 0.2 0.3\\t1e9\\t0.0 0.0 0.0",
+            "failed: energy: entry 0 is 1000000000.0, and ",
+        ),
+        (
+            "broken\\tPoisson",
+            "failed: Poisson: a spoiled map passes, the measurement says nothing",
+        ),
+        ("other\\tline", "failed: no kernel was shown to the judge"),
+    ] {
+        let run = with_program(&[holds, line]);
+        assert_eq!(run.code, Some(1), "{line}: {}", run.stderr);
+        assert!(run.stderr.contains(complaint), "{}", run.stderr);
+        assert!(run.stdout.contains("1 claims, 0 fail"), "{}", run.stdout);
+    }
 }
 
 #[test]

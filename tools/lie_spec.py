@@ -137,7 +137,7 @@ class System:
         algebra = document["algebra"]
         self.parameters = {}
         for name, value in document.get("parameters", {}).items():
-            value = value["default"] if isinstance(value, dict) else value
+            value = value.get("default", value.get("value")) if isinstance(value, dict) else value
             self.parameters[name] = self.constant(value)
         self.basis = algebra.get("basis") or list(algebra["matrices"])
         self.dimension = len(self.basis)

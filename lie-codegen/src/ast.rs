@@ -139,9 +139,11 @@ pub struct Parameter {
     pub default: Expr,
     /// Whether brackets may use it (as an exact number).
     pub exact: bool,
-    /// Unit, for people.
+    /// Whether it takes positive values only.
+    pub positive: bool,
+    /// Unit, for people, as Markdown within a line.
     pub unit: Option<String>,
-    /// Description, for people.
+    /// Description, for people, as Markdown.
     pub description: Option<String>,
 }
 
@@ -249,9 +251,9 @@ pub struct Declaration {
     pub visibility: proc_macro2::TokenStream,
     /// Name of the system.
     pub name: Name,
-    /// Doc lines (macro) or the description (spec).
+    /// Doc lines (macro, as the user wrote them) or the description (spec, escaped to Markdown).
     pub description: Vec<String>,
-    /// References, for people.
+    /// References, for people, as Markdown within a line.
     pub references: Vec<String>,
     /// The algebra, or the brackets of the coordinates.
     pub structure: Structure,

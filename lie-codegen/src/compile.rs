@@ -9,8 +9,9 @@ use crate::diagnostic::{Diagnostic, Origin, Report};
 use crate::emit::{Blueprint, Emitted, Parameter, emit};
 use crate::front::{Body, spec};
 use crate::methods::{Choice, refusal};
-use crate::model::{Model, Structure};
+use crate::model::{Descent, Model, Structure};
 use crate::structure::{group, inertia, separable, spins};
+use crate::symbolic::ExprId;
 
 /// Reads and checks a spec file.
 ///
@@ -115,12 +116,16 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
                 .clone()
                 .unwrap_or_else(|| format!("The parameter `{}`", p.name));
             if let Some(unit) = &p.unit {
-                doc.push_str(&format!(" [{unit}]"));
+                doc.push_str(&format!(" \\[{unit}]"));
             }
             doc.push('.');
+            if p.positive {
+                doc.push_str(" Positive.");
+            }
             Parameter {
                 name: identifier(&p.name, Some(p.origin)),
                 default: p.default,
+                positive: p.positive,
                 doc,
             }
         })
@@ -155,19 +160,28 @@ fn blueprint(model: &Model, choices: &[Choice]) -> Blueprint {
         hamiltonian_degree: model.hamiltonian_degree,
         poisson_degree: model.poisson.degree,
         casimir_degrees: model.casimirs.iter().map(|c| c.degree).collect(),
+        multivalued: model.casimirs.iter().map(|c| c.multivalued).collect(),
     }
 }
 
 /// What the kernels of a model are derived from.
 pub fn source(model: &Model) -> Source {
     let mut graph = model.graph.clone();
+    // What is proven was proven of normal forms; what is evaluated is what was written.
+    let written = |id: ExprId| model.graph.as_written(id);
+    let casimirs = model.casimirs.iter().map(|c| written(c.expr)).collect();
     if !model.is_lie_poisson() {
+        let entries = model.poisson.entries.iter();
         return Source {
             dimension: model.dimension(),
-            poisson: Some(model.poisson.entries.clone()),
-            hamiltonian: Some(model.hamiltonian),
-            energy: model.energy,
-            casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
+            poisson: Some(
+                entries
+                    .map(|(i, j, value)| (*i, *j, written(*value)))
+                    .collect(),
+            ),
+            hamiltonian: Some(written(model.hamiltonian)),
+            energy: written(model.energy),
+            casimirs,
             realization: realization(model),
             ..Source::empty(graph)
         };
@@ -178,15 +192,18 @@ pub fn source(model: &Model) -> Source {
         dimension: model.dimension(),
         constants: model.constants.entries().to_vec(),
         poisson: None,
-        hamiltonian: model.has_expression().then_some(model.hamiltonian),
-        lagrangian: model.lagrangian.as_ref().map(|l| l.value),
-        discrete: model.lagrangian.as_ref().and_then(|l| l.discrete),
-        energy: model.energy,
+        hamiltonian: model.has_expression().then_some(written(model.hamiltonian)),
+        lagrangian: model.lagrangian.as_ref().map(|l| written(l.value)),
+        discrete: model
+            .lagrangian
+            .as_ref()
+            .and_then(|l| l.discrete.map(written)),
+        energy: written(model.energy),
         momenta: model
             .configuration
             .as_ref()
             .and_then(|c| c.group.as_ref().map(|_| c.momenta)),
-        casimirs: model.casimirs.iter().map(|c| c.expr).collect(),
+        casimirs,
         pieces: separable::pieces(model),
         actions: None,
         triple: model.representation.as_ref().and_then(|r| r.triple.clone()),
@@ -209,6 +226,7 @@ fn realization(model: &Model) -> Option<Realization> {
         map: declared.map.clone(),
         start: declared.start.clone(),
         given: declared.given,
+        descends: declared.descent == Descent::Closed,
     })
 }
 
@@ -288,11 +306,17 @@ fn docs(model: &Model) -> Vec<String> {
             .collect();
         docs.push(format!("Casimirs: {}.", casimirs.join(", ")));
     }
+    for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
+        docs.push(format!(
+            "`{}` is multi-valued: an angle in it jumps, and its drift is not measured.",
+            casimir.name
+        ));
+    }
     for reference in &model.references {
         docs.push(String::new());
         docs.push(format!("Reference: {reference}"));
     }
     docs.into_iter()
-        .map(|line| line.trim().to_string())
+        .map(|line| line.trim_end().to_string())
         .collect()
 }

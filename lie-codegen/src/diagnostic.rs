@@ -4,6 +4,32 @@ use std::fmt;
 
 use proc_macro2::Span;
 
+use crate::characters::excerpt;
+
+/// The longest message and the longest remedy in characters; of more nobody would read the end. What
+/// a message quotes should be much shorter: [`LONGEST_QUOTE`].
+const LONGEST_TEXT: usize = 1200;
+/// The longest expression that a message quotes, in characters.
+pub const LONGEST_QUOTE: usize = 400;
+/// How many mistakes are shown: whoever has more mends these first.
+pub const MOST_SHOWN: usize = 50;
+/// How many mistakes, and how many warnings, are kept at all.
+const MOST_KEPT: usize = 1000;
+
+/// What is said in place of the mistakes that are not shown, of `count` in all.
+pub fn not_shown(count: usize) -> Option<String> {
+    let rest = count.checked_sub(MOST_SHOWN).filter(|rest| *rest > 0)?;
+    let at_least = if count >= MOST_KEPT { "at least " } else { "" };
+    let (noun, verb) = if rest == 1 {
+        ("message", "is")
+    } else {
+        ("messages", "are")
+    };
+    Some(format!(
+        "{at_least}{rest} more {noun} {verb} not shown; mend these first"
+    ))
+}
+
 /// The place of a token: a span of the macro input, or a byte range of the spec file.
 #[derive(Clone, Copy, Debug)]
 pub enum Origin {
@@ -73,7 +99,9 @@ kinds! {
     Io "io" "A file cannot be read or written.",
     Toolchain "toolchain" "cargo is missing or failed.",
     Checkpoint "checkpoint" "A checkpoint does not fit.",
-    Limit "limit" "A size limit is exceeded.",
+    Limit "limit" "A size limit is exceeded, or what the compiler can be trusted with.",
+    Unused "unused" "Only a warning: a parameter or an abbreviation that nothing uses.",
+    Motionless "motionless" "Only a warning: all brackets are zero, or the Hamiltonian is constant.",
 }
 impl fmt::Display for Kind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -100,11 +128,8 @@ impl Diagnostic {
     /// An error at a place.
     pub fn new(kind: Kind, origin: Origin, message: impl Into<String>) -> Self {
         Self {
-            kind,
-            message: message.into(),
             origin: Some(origin),
-            help: None,
-            warning: false,
+            ..Self::placeless(kind, message)
         }
     }
 
@@ -112,7 +137,7 @@ impl Diagnostic {
     pub fn placeless(kind: Kind, message: impl Into<String>) -> Self {
         Self {
             kind,
-            message: message.into(),
+            message: excerpt(&message.into(), LONGEST_TEXT).into_owned(),
             origin: None,
             help: None,
             warning: false,
@@ -122,7 +147,7 @@ impl Diagnostic {
     /// Adds the remedy.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(excerpt(&help.into(), LONGEST_TEXT).into_owned());
         self
     }
 
@@ -135,9 +160,12 @@ impl Diagnostic {
 }
 
 /// Collects the diagnostics of the stages; a stage runs on what the earlier ones left standing.
+///
+/// It keeps the first thousand mistakes: a file of garbage has one for every few bytes.
 #[derive(Debug, Default)]
 pub struct Report {
     diagnostics: Vec<Diagnostic>,
+    errors: usize,
 }
 
 impl Report {
@@ -148,12 +176,21 @@ impl Report {
 
     /// Adds a diagnostic.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
+        let warnings = self.diagnostics.len() - self.errors;
+        let kept = if diagnostic.warning {
+            warnings
+        } else {
+            self.errors
+        };
+        if kept < MOST_KEPT {
+            self.errors += usize::from(!diagnostic.warning);
+            self.diagnostics.push(diagnostic);
+        }
     }
 
     /// Whether any error (not only warnings) was reported.
     pub fn has_errors(&self) -> bool {
-        self.diagnostics.iter().any(|d| !d.warning)
+        self.errors > 0
     }
 
     /// The gate behind a stage: everything reported so far if there is an error.
@@ -162,7 +199,7 @@ impl Report {
     /// All diagnostics, in the order in which they were found.
     pub fn gate(&mut self) -> Result<(), Vec<Diagnostic>> {
         if self.has_errors() {
-            Err(std::mem::take(&mut self.diagnostics))
+            Err(std::mem::take(self).diagnostics)
         } else {
             Ok(())
         }
@@ -171,5 +208,35 @@ impl Report {
     /// All diagnostics.
     pub fn into_diagnostics(self) -> Vec<Diagnostic> {
         self.diagnostics
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_and_numbers_of_messages_are_bounded() {
+        let long =
+            Diagnostic::placeless(Kind::Syntax, "x".repeat(1 << 20)).help("y".repeat(1 << 20));
+        assert!(long.message.len() < 2 * LONGEST_TEXT);
+        assert!(long.message.contains("characters left out"));
+        assert!(long.help.is_some_and(|help| help.len() < 2 * LONGEST_TEXT));
+        let mut report = Report::new();
+        for _ in 0..5000 {
+            report.push(Diagnostic::placeless(Kind::Unused, "idle").warning());
+        }
+        assert!(!report.has_errors());
+        report.push(Diagnostic::placeless(Kind::Syntax, "wrong"));
+        assert!(report.has_errors(), "warnings crowd no error out");
+        let kept = report.gate().unwrap_err();
+        assert_eq!(kept.len(), MOST_KEPT + 1);
+        assert!(!report.has_errors(), "what was taken is gone");
+        assert_eq!(not_shown(MOST_SHOWN), None);
+        assert_eq!(
+            not_shown(MOST_SHOWN + 1).as_deref(),
+            Some("1 more message is not shown; mend these first")
+        );
+        assert!(not_shown(MOST_KEPT).is_some_and(|text| text.starts_with("at least 950 more")));
     }
 }

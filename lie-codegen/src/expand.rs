@@ -6,9 +6,10 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::ast::Name;
+use crate::characters::visible;
 use crate::compile::{compile_declaration, compile_spec, declared_choices, generate};
-use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::front::{Body, Parsed, declaration, line_column};
+use crate::diagnostic::{Diagnostic, Kind, MOST_SHOWN, Origin, Report, not_shown};
+use crate::front::{Body, Parsed, declaration, file, line_column};
 
 /// What `lie_poisson! { input }` expands to; `manifest` is the folder that spec paths start from.
 pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
@@ -29,8 +30,16 @@ pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
 
 /// A spec by path. The file is included as a constant, so that editing it rebuilds the crate.
 fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
-    let file: PathBuf = manifest.join(&path.text);
-    let text = match std::fs::read_to_string(&file) {
+    let place: PathBuf = manifest.join(&path.text);
+    let read = file::read(&place);
+    if let Some(mut oversized) = read.as_ref().ok().and_then(|b| file::oversized(b.len())) {
+        oversized.origin = Some(path.origin);
+        return failure(parsed, &[oversized]);
+    }
+    let read = read.and_then(|bytes| {
+        String::from_utf8(bytes).map_err(|error| std::io::Error::other(error.utf8_error()))
+    });
+    let text = match read {
         Ok(text) => text,
         Err(error) => {
             let message = format!("cannot read the spec `{}`: {error}", path.text);
@@ -85,7 +94,10 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
 
 /// The errors, each at its token, and a stub of the type so that nothing that uses it cascades.
 fn failure(parsed: &Parsed, diagnostics: &[Diagnostic]) -> TokenStream {
-    let errors = diagnostics.iter().filter(|d| !d.warning).map(|diagnostic| {
+    let errors = diagnostics.iter().filter(|d| !d.warning);
+    let rest = not_shown(errors.clone().count())
+        .map(|text| syn::Error::new(Span::call_site(), text).into_compile_error());
+    let errors = errors.take(MOST_SHOWN).map(|diagnostic| {
         let mut message = format!("[{}] {}", diagnostic.kind, diagnostic.message);
         if let Some(help) = &diagnostic.help {
             message.push_str(&format!("\nhelp: {help}"));
@@ -94,10 +106,10 @@ fn failure(parsed: &Parsed, diagnostics: &[Diagnostic]) -> TokenStream {
             Some(Origin::Span(span)) => span,
             _ => Span::call_site(),
         };
-        syn::Error::new(span, message).into_compile_error()
+        syn::Error::new(span, visible(&message)).into_compile_error()
     });
     let stub = parsed.name.as_ref().map(|name| stub(parsed, name));
-    quote! { #(#errors)* #stub }
+    quote! { #(#errors)* #rest #stub }
 }
 
 /// The types of a declaration without its content; none of it runs, since the crate fails to build.

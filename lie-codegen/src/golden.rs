@@ -16,7 +16,10 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::characters::visible;
 use crate::compile::{compile_spec, expand, with_options};
+use crate::diagnostic::{MOST_SHOWN, Origin, not_shown};
+use crate::front::line_column;
 use crate::methods::Choice;
 
 /// The environment variable that makes [`Golden::check`] write instead of compare.
@@ -31,12 +34,26 @@ pub struct Golden {
 }
 
 /// What is wrong with a folder of golden files.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Stale(pub Vec<String>);
+
+/// What stands before the remedy of a problem that has one of its own.
+const REMEDY: &str = "\nhelp: ";
+
+/// What `unwrap` prints: as for people, with the remedy.
+impl fmt::Debug for Stale {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the golden files are stale\n{self}")
+    }
+}
 
 impl fmt::Display for Stale {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.0.join("\n"))?;
+        // A spec that is refused brings its own remedy, and nothing is written before it is mended.
+        if self.0.iter().any(|problem| problem.contains(REMEDY)) {
+            return f.write_str("help: mend what is refused first; no file is written before");
+        }
         write!(
             f,
             "help: set {UPDATE}=1 to write the files anew, then read the change before you commit it"
@@ -156,15 +173,30 @@ fn generate(path: &Path, methods: &[&str]) -> Result<String, String> {
     let place = path.display();
     let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: {error}"))?;
     let model = compile_spec(&text).map_err(|diagnostics| {
-        let messages: Vec<String> = diagnostics
-            .iter()
-            .map(|d| format!("error[{}]: {}", d.kind, d.message))
+        let errors = diagnostics.iter().filter(|d| !d.warning);
+        let rest = not_shown(errors.clone().count());
+        let messages: Vec<String> = errors
+            .take(MOST_SHOWN)
+            .map(|d| {
+                let place = match d.origin {
+                    Some(Origin::Text { start, .. }) => {
+                        let (line, column) = line_column(&text, start);
+                        format!("{place}:{line}:{column}")
+                    }
+                    _ => place.to_string(),
+                };
+                let help = d.help.as_deref().unwrap_or("correct the declaration");
+                let text = format!("{place}: error[{}]: {}{REMEDY}{help}", d.kind, d.message);
+                visible(&text).into_owned()
+            })
+            .chain(rest)
             .collect();
-        format!("{place}: {}", messages.join("; "))
+        messages.join("\n")
     })?;
-    let choices = methods
-        .iter()
-        .map(|id| Choice::from_id(id).map_err(|unusable| format!("{place}: {}", unusable.message)));
+    let choices = methods.iter().map(|id| {
+        Choice::from_id(id)
+            .map_err(|unusable| format!("{place}: {}{REMEDY}{}", unusable.message, unusable.help))
+    });
     let choices: Vec<Choice> = choices.collect::<Result<_, _>>()?;
     Ok(expand(&model, &with_options(&model, &choices)))
 }
@@ -223,6 +255,30 @@ mod tests {
         assert!(problems[1].contains("c.rs"), "{problems:?}");
         golden.run(true).unwrap();
         golden.run(false).unwrap();
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn what_unwrap_prints_says_what_to_do() {
+        let folder = std::env::temp_dir().join(format!("lie-golden-help-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let spec = folder.join("broken.json");
+        std::fs::write(&spec, "{\n  \"format\": 1,\n  \"hamiltonain\": \"x\"\n}").unwrap();
+        let mut golden = Golden::new(&folder);
+        golden.text("a.rs", "one\n".into());
+        let stale = format!("{:?}", golden.run(false).unwrap_err());
+        assert!(
+            stale.contains(&format!("\nhelp: set {UPDATE}=1 to write")),
+            "{stale}"
+        );
+        golden.spec(&spec, &["gauss4"]);
+        let broken = format!("{:?}", golden.run(false).unwrap_err());
+        let place = format!("{}:3:4: error[schema]: ", spec.display());
+        assert!(broken.contains(&place), "{broken}");
+        assert!(
+            broken.contains("\nhelp: did you mean `hamiltonian`?"),
+            "{broken}"
+        );
         std::fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -22,15 +22,19 @@ pub struct Parameter {
     pub default_value: f64,
     /// The default of an exact parameter, which structure constants may use.
     pub exact: Option<Rational>,
-    /// Unit, for people.
+    /// Whether it takes positive values only, which proofs use and which is checked when a system is made.
+    pub positive: bool,
+    /// Unit, for people, as Markdown within a line.
     pub unit: Option<String>,
-    /// Description, for people.
+    /// Description, for people, as Markdown.
     pub description: Option<String>,
 }
 
 /// A declared Casimir that was verified; those of a model are functionally independent.
 #[derive(Clone, Debug)]
 pub struct Casimir {
+    /// Whether it has several branches, between which its value jumps.
+    pub multivalued: bool,
     /// Its name, declared or given.
     pub name: String,
     /// Where it is declared.
@@ -118,8 +122,25 @@ pub struct Realization {
     pub start: Vec<ExprId>,
     /// Whether the declaration gives it.
     pub given: bool,
-    /// Whether all components are of degree at most two.
-    pub quadratic: bool,
+    /// Whether Gauss methods over it are methods for the state.
+    pub descent: Descent,
+}
+
+/// Whether the Gauss methods for `H o J`, J a realization, descend to the state J(z).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Descent {
+    /// They do.
+    Closed,
+    /// The components are not of degree at most two, or it could not be shown that they are.
+    Degree,
+    /// The closure of the components adds functions that the state does not determine, and that commute with them or
+    /// not.
+    Adds {
+        /// Whether they do.
+        commuting: bool,
+    },
+    /// The closure could not be found: a coefficient is not rational, or there are too many of them.
+    Unknown,
 }
 
 /// A checked system.
@@ -134,9 +155,9 @@ pub struct Model {
     pub name_origin: Origin,
     /// Visibility of the generated type.
     pub visibility: TokenStream,
-    /// Description, by lines.
+    /// Description, by lines of Markdown.
     pub description: Vec<String>,
-    /// References, for people.
+    /// References, for people, as Markdown within a line.
     pub references: Vec<String>,
     /// The arena of all expressions.
     pub graph: Graph,

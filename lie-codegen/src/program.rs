@@ -3,8 +3,8 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::compile::{format_tokens, generate};
-use crate::methods::Choice;
+use crate::compile::{format_tokens, generate, source};
+use crate::methods::{Choice, Lift, Tensor};
 use crate::model::Model;
 
 /// What a program is for.
@@ -54,8 +54,14 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
     let (kind, modules, end) = match purpose {
         Purpose::Run | Purpose::OnGroup(_) => (quote! { Program }, None, None),
         Purpose::Verify => {
-            let orbits = model.is_lie_poisson().then(|| quote! { .with_orbits() });
-            (quote! { measure::Verify }, None, orbits)
+            let plain = plain(model, choices);
+            let (module, entries) = plain.map_or((None, None), |(m, e)| (Some(m), Some(e)));
+            let evidence = evidence(model);
+            (
+                quote! { measure::Verify },
+                module,
+                Some(quote! { #entries #evidence }),
+            )
         }
         Purpose::Bench => (
             quote! { measure::Bench },
@@ -80,6 +86,72 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
         }
     };
     format_tokens(main)
+}
+
+/// The same system without fused equations, and the methods that are compared on it: those that are fused, once each.
+fn plain(model: &Model, choices: &[Choice]) -> Option<(TokenStream, TokenStream)> {
+    let fused: Vec<&Choice> = choices.iter().filter(|choice| is_fused(choice)).collect();
+    if fused.is_empty() || !model.has_expression() {
+        return None;
+    }
+    let system = generate(model, &[]).tokens;
+    let name = Ident::new(&model.name, Span::call_site());
+    let system_name = format_ident!("{}System", model.name);
+    let count = model.parameters.len();
+    let entries = fused.iter().map(|choice| {
+        let (label, constructor) = (choice.label(), choice.constructor());
+        quote! { .plain(#label, plain_system, |_| #constructor) }
+    });
+    let module = quote! {
+        #[allow(dead_code)]
+        mod plain { #system }
+
+        fn plain_system(
+            values: &[f64],
+        ) -> ::core::result::Result<plain::#system_name, ::lie_runtime::ParameterError> {
+            let values: &[f64; #count] = values.try_into().unwrap_or(&[f64::NAN; #count]);
+            plain::#name::from_values(values).system()
+        }
+    };
+    let entries = quote! { #(#entries)* };
+    Some((module, entries))
+}
+
+/// Whether the steps of a method are compared: those with fused code of their own, one number of stages of each. Generic
+/// generating functions differentiate several times over, which takes long to build.
+fn is_fused(choice: &Choice) -> bool {
+    match choice {
+        Choice::Midpoint
+        | Choice::LieMidpoint(_)
+        | Choice::MoserVeselov
+        | Choice::GeneratingSecondKind2
+        | Choice::SphericalMidpoint
+        | Choice::Splitting(2, _)
+        | Choice::DiscreteGradient(_, Tensor::Midpoint)
+        | Choice::OrbitEnergy(_) => true,
+        Choice::Gauss(stages) => *stages == 2,
+        Choice::CohenHairer(order) | Choice::Isospectral(order) => *order == 4,
+        Choice::Collective(order, lift) => *lift == Lift::Hopf && *order == 2,
+        _ => false,
+    }
+}
+
+/// What a judge may look at beyond the kernels of every system.
+fn evidence(model: &Model) -> TokenStream {
+    let source = source(model);
+    let mut calls = TokenStream::new();
+    let mut add = |wanted: bool, call: TokenStream| {
+        if wanted {
+            calls.extend(call);
+        }
+    };
+    add(model.is_lie_poisson(), quote! { .with_orbits() });
+    add(source.group.is_some(), quote! { .with_group() });
+    add(source.triple.is_some(), quote! { .with_cayley() });
+    add(source.lagrangian.is_some(), quote! { .with_lagrangian() });
+    add(source.discrete.is_some(), quote! { .with_discrete() });
+    add(source.realization.is_some(), quote! { .with_realization() });
+    calls
 }
 
 fn entry(choice: &Choice, purpose: Purpose) -> TokenStream {

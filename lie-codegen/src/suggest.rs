@@ -1,56 +1,257 @@
 //! "Did you mean": the nearest of a few known words.
 
+use strsim::{damerau_levenshtein, jaro_winkler};
+
+/// Words of the language, of options and of commands, each with what other tools call it.
+const ELSEWHERE: &[(&str, &[&str])] = &[
+    (
+        "step",
+        &[
+            "dt",
+            "h",
+            "deltat",
+            "delta_t",
+            "stepsize",
+            "step_size",
+            "timestep",
+            "time_step",
+            "max_step",
+        ],
+    ),
+    (
+        "until",
+        &[
+            "t",
+            "tmax",
+            "t_max",
+            "tend",
+            "t_end",
+            "tf",
+            "t_f",
+            "tfinal",
+            "t_final",
+            "t1",
+            "t_stop",
+            "tspan",
+            "t_span",
+            "end",
+            "end_time",
+            "stop",
+            "time",
+            "duration",
+            "final_time",
+        ],
+    ),
+    (
+        "initial",
+        &[
+            "x0",
+            "y0",
+            "u0",
+            "q0",
+            "z0",
+            "mu0",
+            "state0",
+            "ic",
+            "init",
+            "initial_state",
+            "initial_value",
+            "initial_values",
+            "initial_condition",
+            "initial_conditions",
+            "start",
+        ],
+    ),
+    (
+        "parameters",
+        &["param", "params", "args", "constants", "coefficients"],
+    ),
+    (
+        "param",
+        &["p", "params", "parameter", "parameters", "args", "set"],
+    ),
+    (
+        "at",
+        &[
+            "t_eval",
+            "saveat",
+            "save_at",
+            "times",
+            "tsave",
+            "output_times",
+        ],
+    ),
+    (
+        "every",
+        &[
+            "stride",
+            "skip",
+            "thin",
+            "save_every",
+            "output_every",
+            "nsave",
+            "interval",
+        ],
+    ),
+    (
+        "out",
+        &["o", "output", "outfile", "output_file", "file", "save"],
+    ),
+    ("plot", &["figure", "picture", "svg", "png"]),
+    ("quiet", &["q", "silent"]),
+    (
+        "method",
+        &["m", "solver", "integrator", "algorithm", "alg", "scheme"],
+    ),
+    ("methods", &["solvers", "integrators", "algorithms", "list"]),
+    (
+        "rtol",
+        &["reltol", "rel_tol", "relative_tolerance", "tol", "eps"],
+    ),
+    ("atol", &["abstol", "abs_tol", "absolute_tolerance"]),
+    (
+        "hamiltonian",
+        &["h", "ham", "energy", "hamilton", "total_energy"],
+    ),
+    ("lagrangian", &["lagrange"]),
+    (
+        "casimirs",
+        &[
+            "casimir",
+            "invariants",
+            "conserved",
+            "constants_of_motion",
+            "first_integrals",
+            "integrals",
+        ],
+    ),
+    (
+        "casimir",
+        &[
+            "casimirs",
+            "invariant",
+            "conserved",
+            "first_integral",
+            "integral",
+        ],
+    ),
+    (
+        "state",
+        &["coordinates", "variables", "vars", "unknowns", "names"],
+    ),
+    ("velocity", &["velocities", "omega", "xi"]),
+    (
+        "algebra",
+        &["lie_algebra", "structure", "structure_constants", "lie"],
+    ),
+    (
+        "brackets",
+        &["bracket", "commutators", "relations", "structure_constants"],
+    ),
+    (
+        "poisson",
+        &["poisson_brackets", "poisson_matrix", "bracket", "brackets"],
+    ),
+    ("matrices", &["representation", "generators"]),
+    ("basis", &["elements", "generators", "basis_elements"]),
+    (
+        "let",
+        &[
+            "lets",
+            "where",
+            "define",
+            "definitions",
+            "aliases",
+            "abbreviations",
+        ],
+    ),
+    ("name", &["title", "id", "system"]),
+    ("system", &["struct", "name", "model"]),
+    (
+        "description",
+        &["doc", "docs", "comment", "comments", "notes", "desc"],
+    ),
+    (
+        "references",
+        &[
+            "reference",
+            "ref",
+            "refs",
+            "citation",
+            "citations",
+            "bibliography",
+        ],
+    ),
+    ("default", &["value", "val"]),
+    ("unit", &["units"]),
+    ("map", &["functions", "components"]),
+    ("check", &["validate", "lint", "test", "info"]),
+    ("run", &["integrate", "simulate", "solve", "start"]),
+    ("expand", &["generate", "codegen", "compile", "emit"]),
+    ("bench", &["benchmark", "time", "compare"]),
+];
+
+/// The word of the language, option or command that is meant by a word: what other tools call so, or
+/// the nearest one. Underscores, hyphens and case make no difference to other tools' words.
+pub fn meant<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str> + Clone,
+) -> Option<&'a str> {
+    let plain = |text: &str| text.to_lowercase().replace(['-', '_'], "");
+    let word_plain = plain(word);
+    let called_so = |candidate: &&str| {
+        let elsewhere = ELSEWHERE.iter().find(|(ours, _)| ours == candidate);
+        elsewhere.is_some_and(|(_, others)| others.iter().any(|other| plain(other) == word_plain))
+    };
+    // A word that is ours but for its case or one exchange of letters is a slip, not another tool's.
+    let same = candidates
+        .clone()
+        .into_iter()
+        .find(|candidate| plain(candidate) == word_plain);
+    same.or_else(|| candidates.clone().into_iter().find(called_so))
+        .or_else(|| did_you_mean(word, candidates))
+}
+
 /// The candidate nearest to a misspelt word, `None` if none is near.
 ///
-/// Near means: equal up to case, or at most a third of the letters wrong, where a wrong, missing,
-/// additional or exchanged letter counts one. Of equally near candidates the first wins.
+/// Near means: equal up to case, or at most a third of the letters wrong by the distance of Damerau
+/// and Levenshtein, where a wrong, missing, additional or exchanged letter counts one. Words of two
+/// letters must begin alike. Of equally near candidates the one wins whose beginning agrees better
+/// (Jaro and Winkler), then the first.
 pub fn did_you_mean<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
-    let letters: Vec<char> = word.chars().collect();
+    let letters = word.chars().count();
     // Nobody misspells a longer word; the distance is quadratic in the length.
-    if letters.len() > 64 {
+    if letters > 64 {
         return None;
     }
-    let mut best = None;
+    let lower = word.to_lowercase();
+    let mut best: Option<((usize, f64), &str)> = None;
     for candidate in candidates {
-        let other: Vec<char> = candidate.chars().collect();
-        let longest = letters.len().max(other.len());
-        let allowed = (longest / 3).max(usize::from(longest >= 2));
-        if letters.len().abs_diff(other.len()) > allowed || longest > 64 {
+        let other = candidate.chars().count();
+        let longest = letters.max(other);
+        let allowed = (longest / 3).max(usize::from(longest == 2));
+        if letters.abs_diff(other) > allowed || longest > 64 {
             continue;
         }
-        let distance = if word.to_lowercase() == candidate.to_lowercase() {
-            0
-        } else {
-            distance(&letters, &other)
+        let distance = match candidate.to_lowercase() == lower {
+            true => 0,
+            false => damerau_levenshtein(word, candidate),
         };
-        if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
-            best = Some((distance, candidate));
+        let begins_alike = word.chars().next() == candidate.chars().next();
+        if distance > allowed || longest == 2 && distance > 0 && !begins_alike {
+            continue;
+        }
+        let likeness = jaro_winkler(word, candidate);
+        let nearer =
+            |(least, most): (usize, f64)| distance < least || distance == least && likeness > most;
+        if best.is_none_or(|(found, _)| nearer(found)) {
+            best = Some(((distance, likeness), candidate));
         }
     }
     best.map(|(_, candidate)| candidate)
-}
-
-/// Number of insertions, deletions, replacements and exchanges of neighbours between two words
-/// (the restricted Damerau–Levenshtein distance).
-fn distance(a: &[char], b: &[char]) -> usize {
-    let mut before: Vec<usize> = Vec::new();
-    let mut last: Vec<usize> = (0..=b.len()).collect();
-    for i in 1..=a.len() {
-        let mut row = vec![i];
-        for j in 1..=b.len() {
-            let replaced = last[j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let mut least = replaced.min(last[j] + 1).min(row[j - 1] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                least = least.min(before[j - 2] + 1);
-            }
-            row.push(least);
-        }
-        before = std::mem::replace(&mut last, row);
-    }
-    last[b.len()]
 }
 
 #[cfg(test)]
@@ -64,6 +265,18 @@ mod tests {
         assert_eq!(did_you_mean("pi1", known), Some("Pi1"));
         assert_eq!(did_you_mean("X", known), Some("x"));
         assert_eq!(did_you_mean("sate", known), Some("state"));
+        assert_eq!(did_you_mean("I4", ["x", "I1"]), Some("I1"));
+        let commands = [
+            "run", "check", "expand", "verify", "bench", "stress", "methods", "schema",
+        ];
+        assert_eq!(did_you_mean("chekc", commands), Some("check"));
+        assert_eq!(did_you_mean("bnech", commands), Some("bench"));
+        // Equally far from both: the beginning decides.
+        assert_eq!(did_you_mean("tome", ["time", "tame", "home"]), Some("time"));
+        assert_eq!(
+            did_you_mean("omegaa2", ["zmegaa2", "omegaa1"]),
+            Some("omegaa1")
+        );
     }
 
     #[test]
@@ -72,19 +285,38 @@ mod tests {
         assert_eq!(did_you_mean("energy", known), None);
         assert_eq!(did_you_mean("y", known), None);
         assert_eq!(did_you_mean("", known), None);
+        assert_eq!(did_you_mean("dt", ["at"]), None);
         assert_eq!(did_you_mean(&"x".repeat(1 << 20), known), None);
     }
 
     #[test]
-    fn distances() {
-        let distance = |a: &str, b: &str| {
-            distance(
-                &a.chars().collect::<Vec<_>>(),
-                &b.chars().collect::<Vec<_>>(),
-            )
-        };
-        assert_eq!(distance("ab", "ba"), 1);
-        assert_eq!(distance("kitten", "sitting"), 3);
-        assert_eq!(distance("", "ωΠ"), 2);
+    fn words_of_other_tools() {
+        let run = ["method", "step", "until", "every", "at", "rtol", "atol"];
+        let keys = [
+            "name",
+            "state",
+            "parameters",
+            "hamiltonian",
+            "casimirs",
+            "initial",
+            "let",
+        ];
+        for (word, known, expected) in [
+            ("dt", &run[..], Some("step")),
+            ("t_end", &run, Some("until")),
+            ("tEnd", &run, Some("until")),
+            ("T-max", &run, Some("until")),
+            ("relTol", &run, Some("rtol")),
+            ("setp", &run, Some("step")),
+            ("solver", &run, Some("method")),
+            ("saveat", &run, Some("at")),
+            ("x0", &keys, Some("initial")),
+            ("params", &keys, Some("parameters")),
+            ("H", &keys, Some("hamiltonian")),
+            ("sate", &keys, Some("state")),
+            ("colour", &keys, None),
+        ] {
+            assert_eq!(meant(word, known.iter().copied()), expected, "{word}");
+        }
     }
 }

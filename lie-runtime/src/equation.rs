@@ -56,6 +56,12 @@ pub trait Equation<S: Scalar> {
     fn resolved(&mut self, _unknown: &Self::Unknown, _end: &Self::State) -> S::Mask {
         S::Mask::splat(true)
     }
+    /// The lanes in which the group element of a step, for a solution u, is joined to the identity by those of the
+    /// same element of the algebra times s, 0 <= s <= 1. In others the step is refused: beyond a pole of
+    /// the Cayley map, or of a method that is a rational function, it may leave the coadjoint orbit.
+    fn within_chart(&mut self, _unknown: &Self::Unknown) -> S::Mask {
+        S::Mask::splat(true)
+    }
     /// For a solution u of a method of coadjoint form, `mu1 = Ad*_(tau(xi)) mu`: writes xi and
     /// returns the retraction tau. None of other methods.
     fn group_factor(

@@ -90,13 +90,14 @@ pub use lagrangian::{DiscreteLagrangian, DiscreteLagrangianPoisson, LagrangianPo
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
 pub use matrix::{SquareMatrix, StageMatrix};
-pub use parameter::ParameterError;
+pub use parameter::{ParameterError, ParameterFault};
 pub use pieces::{PieceFlows, SeparablePoisson};
 pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 pub use structure::{
-    CotangentPoisson, InertiaPoisson, MatrixGroup, MatrixPoisson, RealizedPoisson, SpinPoisson,
+    ClosedRealization, CotangentPoisson, InertiaPoisson, MatrixGroup, MatrixPoisson,
+    RealizedPoisson, Spectrum, SpinPoisson,
 };
 
 /// What a program usually needs.
@@ -138,14 +139,14 @@ pub mod __private {
     pub use crate::generic;
     pub use crate::matrix::{SquareMatrix, StageMatrix};
     pub use crate::newton::{dense, inverse_pivots_are_safe};
-    pub use crate::parameter::{ParameterError, all_finite};
+    pub use crate::parameter::{ParameterError, all_finite, all_positive};
     pub use crate::pieces::{PieceFlows, SeparablePoisson};
     pub use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};
     pub use crate::structure::{
         CotangentPoisson, Entry, InertiaPoisson, MatrixGroup, MatrixPoisson, Plane, Representation,
-        SpinPoisson,
+        Spectrum, SpinPoisson,
     };
     pub use core::marker::PhantomData;
     pub use nalgebra::{SMatrix, SVector};

@@ -15,6 +15,7 @@ use crate::generic;
 use crate::matrix::SquareMatrix;
 use crate::scalar::{Dual, Scalar};
 use crate::state::State;
+use crate::structure::Spectrum;
 
 /// A Hamiltonian system `mu' = f(mu) = Pi(mu) grad H(mu)` on a Poisson manifold with n coordinates.
 ///
@@ -46,6 +47,10 @@ pub trait Poisson<S: Scalar>: Sized {
     /// the end of the list are of unknown degree.
     const CASIMIR_DEGREES: &'static [Option<u32>] = &[];
 
+    /// The Casimirs with several branches, by their places: the value of such a one jumps where an angle in it
+    /// passes from pi to -pi, so that its drift says nothing. Its gradient does not jump.
+    const MULTIVALUED_CASIMIRS: &'static [usize] = &[];
+
     /// The largest total degree of an entry of the Poisson matrix in the coordinates, where all are
     /// polynomials in them and that is known: 0 for a constant one, of which symplectic methods are
     /// Poisson maps.
@@ -55,6 +60,12 @@ pub trait Poisson<S: Scalar>: Sized {
     fn zero_state(&self) -> Self::State;
     /// A matrix of the right size, all entries 0.
     fn zero_jacobian(&self) -> Self::Jacobian;
+
+    /// The same system, where H has several branches, with that which goes on from its own to the state mu: a run
+    /// carries it along. `None` where there is but one, or where that of the system still serves.
+    fn following(&self, _mu: &Self::State) -> Option<Self> {
+        None
+    }
 
     /// The energy H(mu).
     fn hamiltonian(&self, mu: &Self::State) -> S;
@@ -130,6 +141,8 @@ pub trait Lift<S: Scalar>: Poisson<S> {
     note = "the Cayley map needs a matrix representation that is closed under (abc + cba)/2: declare `matrices`, or use `LieMidpoint::exp()`"
 )]
 pub trait CayleyPoisson<S: Scalar>: LiePoisson<S> {
+    /// What is known of the eigenvalues of the representation, at which the Cayley map has poles.
+    const SPECTRUM: Spectrum = Spectrum::Unknown;
     /// The triple product paired with mu: `out_b = T_abc^d x^a z^c mu_d`, symmetric in x and z.
     fn triple(&self, x: &Self::State, z: &Self::State, mu: &Self::State, out: &mut Self::State);
 }

@@ -76,6 +76,18 @@ pub trait CotangentPoisson<S: Scalar>: LiePoisson<S> {
     fn zero_momentum_matrix(&self) -> Self::MomentumMatrix;
 }
 
+/// What is known of the eigenvalues of `rho(xi)`, for a representation `rho`: where one is real and above 2 in
+/// absolute value, the Cayley map is not joined to the identity along xi.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spectrum {
+    /// None is real but 0, for any xi: no Cayley map of an element has a pole on its way.
+    Imaginary,
+    /// `|lambda| <= sum_k w_k |xi^k|` with these weights.
+    Bounded(&'static [f64]),
+    /// Nothing.
+    Unknown,
+}
+
 /// The matrices of a representation `rho` and of its dual, by their nonzero entries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Representation {
@@ -121,6 +133,8 @@ pub trait MatrixPoisson<S: Scalar>: LiePoisson<S> {
     type Matrix: SquareMatrix<S>;
     /// The matrices.
     const REPRESENTATION: Representation;
+    /// The eigenvalues of the matrices.
+    const SPECTRUM: Spectrum = Spectrum::Unknown;
     /// A matrix of the size of the representation, all entries 0.
     fn zero_matrix(&self) -> Self::Matrix;
 }
@@ -172,6 +186,17 @@ pub trait RealizedPoisson<S: Scalar>: Poisson<S> {
     /// A point near which points over a state are sought.
     fn start(&self, out: &mut Self::Point);
 }
+
+/// A realization over which Gauss methods are methods for the state.
+///
+/// All components are of degree at most two in z, so that each has a flow by affine maps; and the span of the
+/// matrices of these flows, constants beside them, is closed under `(abc + cba)/2`. The momenta of the
+/// stages are then functions of mu alone. The compiler decides it.
+#[diagnostic::on_unimplemented(
+    message = "Gauss methods over the realization of `{Self}` do not descend to the state",
+    note = "the components must be of degree at most two, and the matrices of their flows closed under (abc + cba)/2: `lie check` says what is missing; `LieMidpoint::exp()` works for every Lie algebra"
+)]
+pub trait ClosedRealization<S: Scalar>: RealizedPoisson<S> {}
 
 /// A plane of rotation: the basis element is `E_(to, from) - E_(from, to)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -25,6 +25,10 @@ impl Poisson<f64> for Spring {
     fn hamiltonian(&self, mu: &Self::State) -> f64 {
         0.5 * (mu[0] * mu[0] + mu[1] * mu[1])
     }
+    /// Twice H, to be told from it.
+    fn energy(&self, mu: &Self::State) -> f64 {
+        mu[0] * mu[0] + mu[1] * mu[1]
+    }
     fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
         State::copy_from(out, mu);
     }
@@ -39,4 +43,51 @@ impl Poisson<f64> for Spring {
     }
     fn casimirs(&self, _mu: &Self::State, _out: &mut [f64]) {}
     fn casimir_gradient(&self, _index: usize, _mu: &Self::State, _out: &mut Self::State) {}
+}
+
+/// The spring with two functions that are watched as Casimirs are: its angle, which jumps, and the square of its
+/// radius.
+pub(crate) struct Winding(pub Spring);
+
+impl Poisson<f64> for Winding {
+    type State = SVector<f64, 2>;
+    type Jacobian = SMatrix<f64, 2, 2>;
+    const DIM: usize = 2;
+    const CASIMIRS: usize = 2;
+    const NAME: &'static str = "Winding";
+    const COORDINATES: &'static [&'static str] = &["q", "p"];
+    const CASIMIR_NAMES: &'static [&'static str] = &["angle", "square"];
+    const MULTIVALUED_CASIMIRS: &'static [usize] = &[0];
+
+    fn zero_state(&self) -> Self::State {
+        self.0.zero_state()
+    }
+    fn zero_jacobian(&self) -> Self::Jacobian {
+        self.0.zero_jacobian()
+    }
+    fn hamiltonian(&self, mu: &Self::State) -> f64 {
+        self.0.hamiltonian(mu)
+    }
+    fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
+        self.0.gradient(mu, out);
+    }
+    fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+        self.0.hessian(mu, out);
+    }
+    fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+        self.0.poisson_matrix(mu, out);
+    }
+    fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+        self.0.jacobian(mu, out);
+    }
+    fn casimirs(&self, mu: &Self::State, out: &mut [f64]) {
+        out.copy_from_slice(&[libm::atan2(mu[1], mu[0]), mu.norm_squared()]);
+    }
+    fn casimir_gradient(&self, index: usize, mu: &Self::State, out: &mut Self::State) {
+        let square = mu.norm_squared();
+        *out = match index {
+            0 => [-mu[1] / square, mu[0] / square].into(),
+            _ => 2.0 * mu,
+        };
+    }
 }

@@ -11,6 +11,7 @@ use lie_runtime::methods::{
 use lie_runtime::newton::FailureReason;
 use lie_runtime::prelude::*;
 use lie_runtime::{Equation, Implicit, Lift, Unknown};
+use systems::body4::{Body4, coordinates, matrix};
 use systems::heavy_top::{HeavyTop, START};
 use systems::nonpolynomial::Nonpolynomial;
 use systems::rigid_body::RigidBody;
@@ -287,4 +288,70 @@ fn lanes_have_the_digits_of_scalars() {
     check(&spin, &spin, &SphericalMidpoint, &SPIN, 0.1);
     let (top, tops) = (HeavyTop::default(), HeavyTop::<F64x8>::default());
     check(&top, &tops, &Isospectral4::new(), &START, 0.1);
+}
+
+/// A ball in four dimensions that turns in one plane: with `k = h m/(2 c)` the equation `x = k (1 + x^2/4)` of
+/// `X = x E` has the solutions x near 0 and 4/x, a rotation that is not near the identity.
+#[test]
+fn the_discrete_body_stays_on_its_branch() {
+    let h = 0.4;
+    let start = [0.0, 0.0, 0.7, 0.0, 0.0, 0.0];
+    for (moments, sign) in [([0.5; 4], 1.0), ([-0.5; 4], -1.0)] {
+        let ball = Body4(moments);
+        let mut equation = ball.equation(&MoserVeselov, h);
+        let mu = state(&ball, &start);
+        equation.set_base(&mu);
+        let k = h * start[2] * sign;
+        let near = 2.0 * (1.0 - (1.0 - k * k).sqrt()) / k;
+        for (x, inside) in [(near, true), (4.0 / near, false)] {
+            let unknown = state(
+                &ball,
+                &start.map(|m| if m == 0.0 { 0.0 } else { sign * x / h }),
+            );
+            let mut residual = ball.zero_state();
+            equation.residual(&unknown, &mut residual);
+            assert!(residual.amax() < 1e-13, "{x} is no solution: {residual}");
+            let mut end = ball.zero_state();
+            equation.result(&unknown, &mut end);
+            assert_eq!(end.iter().all(|x| x.is_finite()), inside, "x = {x}");
+            assert!(!inside || distance(&end, &mu) < 1e-15);
+        }
+    }
+}
+
+/// A body with one negative moment: `M' = g^T M g` with `h M = g J - J g^T`.
+#[test]
+fn a_body_in_four_dimensions() {
+    let body = Body4([0.9, 0.6, 1.3, -0.2]);
+    let start = [0.4, -0.3, 0.2, 0.1, 0.5, -0.2];
+    let h = 0.1;
+    let mut equation = body.equation(&MoserVeselov, h);
+    let mut mu = state(&body, &start);
+    equation.set_base(&mu);
+    let before = mu;
+    steps(&body, &MoserVeselov, h, 1, &mut mu).expect("a rotation near the identity");
+    // the rotation by which the step went
+    let mut factors = Vec::new();
+    let mut again = before;
+    let mut stepper = MoserVeselov.stepper(&body, h, &NewtonOptions::default());
+    stepper
+        .step(&mut again, &mut Collect(&mut factors))
+        .expect("as before");
+    let mut g = nalgebra::SMatrix::<f64, 4, 4>::identity();
+    for k in (1..30).rev() {
+        g = nalgebra::SMatrix::identity() + matrix(&factors[0]) * g / f64::from(k);
+    }
+    let moments = nalgebra::SMatrix::<f64, 4, 4>::from_diagonal(&body.0.into());
+    let left = (g * moments - moments * g.transpose()) / h;
+    assert!(distance(&coordinates(&left), &before) < 1e-14);
+    let moved = g.transpose() * matrix(&before) * g;
+    assert!(distance(&coordinates(&moved), &mu) < 1e-14);
+}
+
+struct Collect<'a, V>(&'a mut Vec<V>);
+
+impl<V: Clone> lie_runtime::methods::FactorSink<V> for Collect<'_, V> {
+    fn push(&mut self, _retraction: lie_runtime::methods::Retraction, xi: &V) {
+        self.0.push(xi.clone());
+    }
 }

@@ -7,6 +7,7 @@ use lie_runtime::driver::OptionError;
 use lie_runtime::newton::FailureReason;
 use lie_runtime::prelude::*;
 use systems::heavy_top::{HeavyTop, START};
+use systems::logarithmic::Logarithmic;
 use systems::nonpolynomial::Nonpolynomial;
 use systems::rigid_body::RigidBody;
 use systems::{distance, state, steps};
@@ -212,4 +213,56 @@ fn lanes_and_single_precision_go_through_the_same_driver() {
     let single = solve(&problem, Gauss4, &Options::new(0.1)).expect("it converges");
     let (many, one) = (single.last().unwrap().1, one.last().unwrap().1);
     assert!((0..6).all(|row| (f64::from(many[row]) - one[row]).abs() < 2e-6));
+}
+
+/// Rk4 needs no value of H: where H is a polynomial it is evaluated at the start alone, elsewhere after every
+/// step too.
+#[test]
+fn the_energy_is_looked_at_where_a_step_may_leave_the_domain() {
+    fn values<const POLYNOMIAL: bool>(save: Save) -> u32 {
+        let system = Logarithmic::<POLYNOMIAL>::default();
+        let problem = Problem::new(system, [0.3, 4.0], (0.0, 2.0));
+        let options = Options::new(0.1).save(save);
+        solve(&problem, Rk4, &options).expect("inside the domain");
+        problem.system.values.get()
+    }
+    assert_eq!(values::<true>(Save::Ends), 1);
+    assert_eq!(values::<false>(Save::Ends), 21);
+    // and after a step to a row off the grid
+    let off = || Save::At(vec![0.55, 0.57, 2.0]);
+    assert_eq!(values::<true>(off()), 1);
+    assert_eq!(values::<false>(off()), 23);
+}
+
+#[test]
+fn a_step_beyond_the_domain_is_refused() {
+    // p falls below 0 in one long step; the field is finite there, H is not
+    for (step, end, save) in [(2.0, 2.0, Save::Ends), (4.0, 4.0, Save::At(vec![2.0]))] {
+        let system = Logarithmic::<false>::default();
+        let problem = Problem::new(system, [1.0, 0.4], (0.0, end));
+        let options = Options::new(step).save(save);
+        let error = solve(&problem, Rk4, &options).expect_err("H is not finite there");
+        let SolveError::Step { error, .. } = error else {
+            panic!("{error}")
+        };
+        assert_eq!(error.failure.reason, FailureReason::OutsideDomain);
+    }
+}
+
+/// Where H depends on the time the energy is not [`Poisson::hamiltonian`]: rows and drift show the energy.
+#[test]
+fn the_energy_that_is_shown() {
+    let system = Logarithmic::<true>::default();
+    let problem = Problem::new(system, [0.3, 0.4], (0.0, 1.0));
+    let mut monitor = DriftMonitor::new::<Logarithmic<true>>();
+    let options = Options::new(0.1);
+    let solution = solve_observed(&problem, Rk4, &options, &mut monitor).expect("finite");
+    for (mu, &energy) in solution.mu.iter().zip(&solution.energy) {
+        assert_eq!(energy, problem.system.energy(mu));
+        assert_ne!(energy, problem.system.hamiltonian(mu));
+    }
+    let drift = &monitor.drift().energy;
+    assert_eq!(drift.initial, solution.energy[0]);
+    let changes = solution.energy.iter().map(|e| (e - drift.initial).abs());
+    assert_eq!(drift.max, changes.fold(0.0, f64::max));
 }

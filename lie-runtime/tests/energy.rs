@@ -4,6 +4,9 @@ mod systems;
 
 use lie_runtime::diagnostics::{Drift, DriftMonitor, order_of_convergence};
 use lie_runtime::driver::integrate;
+use lie_runtime::generic::{
+    DiscreteGradient, GonzalezGradient, ItohAbeGradient, MeanValueGradient,
+};
 use lie_runtime::methods::{
     CohenHairer2, CohenHairer4, CohenHairer6, Compose4, Facts, Gonzalez, ItohAbe, MeanValue,
     Method, OrbitEnergy, Stepper,
@@ -487,4 +490,61 @@ fn steps_allocate_nothing() {
         };
     }
     each_method!(check);
+}
+
+/// The mean of `x + x^3 + y^2 z` over an edge of length d with the middle m is that at m and `m d^2/4`: down to where
+/// the second is round-off, all discrete gradients have it.
+#[test]
+fn short_edges_have_their_curvature() {
+    fn check<const KNOWN: bool, G: DiscreteGradient<f64, Quartic<KNOWN>>>(units: f64) {
+        let system = Quartic::<KNOWN>;
+        let (m, y, z) = (1.0, 0.5, -0.75);
+        for k in 0..40 {
+            let d = 0.1 * 0.6_f64.powi(k);
+            let (start, end) = ([m - 0.5 * d, y, z], [m + 0.5 * d, y, z]);
+            // the ends as they are rounded
+            let (m, d) = (0.5 * (start[0] + end[0]), end[0] - start[0]);
+            let mut gradient = G::new(&system);
+            gradient.set_start(&system, &start.into());
+            let mut out: SVector<f64, 3> = system.zero_state();
+            gradient.value(&system, &end.into(), &mut out);
+            let expected = m + m * m * m + y * y * z + 0.25 * m * d * d;
+            let error = (out[0] - expected).abs();
+            assert!(error < units * f64::EPSILON, "d = {d:e}: {error:e}");
+        }
+    }
+    check::<true, GonzalezGradient<f64, _>>(16.0);
+    check::<true, MeanValueGradient<f64, _>>(16.0);
+    check::<true, ItohAbeGradient<f64, _>>(16.0);
+    // by differences of H where these keep their digits
+    check::<false, GonzalezGradient<f64, _>>(64.0);
+    check::<false, MeanValueGradient<f64, _>>(16.0);
+    check::<false, ItohAbeGradient<f64, _>>(64.0);
+}
+
+/// The derivative of a discrete gradient in its second argument is `H''/2` where the two are close, however close.
+#[test]
+fn derivatives_on_short_edges() {
+    fn check<G: DiscreteGradient<f64, Nonpolynomial>>(name: &str) {
+        let system = Nonpolynomial;
+        let start: SVector<f64, 3> = BODY.into();
+        let mut hessian = Poisson::<f64>::zero_jacobian(&system);
+        system.hessian(&start, &mut hessian);
+        for exponent in 4..16 {
+            let d = 10_f64.powi(-exponent);
+            let mut end = start;
+            for (index, entry) in end.iter_mut().enumerate() {
+                *entry += d * (7.3 * (index + 1) as f64).sin();
+            }
+            let mut gradient = G::new(&system);
+            gradient.set_start(&system, &start);
+            let (mut out, mut derivative) = (start, hessian);
+            gradient.linearize(&system, &end, &mut out, &mut derivative);
+            let error = (derivative - hessian * 0.5).amax();
+            assert!(error < 2.0 * d + 1e-7, "{name}, d = {d:e}: {error:e}");
+        }
+    }
+    check::<GonzalezGradient<f64, _>>("gonzalez");
+    check::<MeanValueGradient<f64, _>>("mean-value");
+    check::<ItohAbeGradient<f64, _>>("itoh-abe");
 }

@@ -7,7 +7,7 @@ use lie_runtime::diagnostics::{order_of_convergence, poisson_defect};
 use lie_runtime::generic::{self, ExpRetraction, SecondKind};
 use lie_runtime::methods::{FactorSink, Facts, ImplicitStepper, Method, Retraction};
 use lie_runtime::prelude::*;
-use lie_runtime::{GeneratingFunction, Unknown};
+use lie_runtime::{Equation, GeneratingFunction, Implicit, Unknown};
 use systems::heavy_top::{HeavyTop, START};
 use systems::nonpolynomial::Nonpolynomial;
 use systems::{distance, state, steps};
@@ -271,4 +271,59 @@ fn group_factors_move_the_state() {
         error(GeneratingSecondKind2),
     ];
     assert!(errors.iter().all(|error| *error < 2e-15), "{errors:?}");
+}
+
+/// The Jacobian of a step's equation against the derivative of its residual by dual numbers, beside the solution.
+fn jacobian_error<P, M>(system: &P, method: &M, start: &[f64]) -> f64
+where
+    P: Implicit<f64, M> + Lift<f64>,
+    P::Lifted: Implicit<Dual<f64>, M>,
+{
+    let h = 0.2;
+    let dual = system.lift();
+    let mut equation = system.equation(method, h);
+    let mut lifted = dual.equation(method, Dual::constant_of(h));
+    equation.set_base(&state(system, start));
+    lifted.set_base(&state(&dual, start));
+    let mut unknown = equation.zero_unknown();
+    equation.initial_guess(&mut unknown);
+    let mut matrix = equation.zero_matrix();
+    let mut residual = equation.zero_unknown();
+    equation.linearize(&unknown, &mut residual, &mut matrix);
+    let mut error: f64 = 0.0;
+    for column in 0..unknown.len() {
+        let mut seeded = lifted.zero_unknown();
+        for index in 0..unknown.len() {
+            let seed = if index == column { 1.0 } else { 0.0 };
+            seeded.set_entry(index, Dual::new(unknown.entry(index), seed));
+        }
+        let mut out = lifted.zero_unknown();
+        lifted.residual(&seeded, &mut out);
+        for row in 0..unknown.len() {
+            let entry = out.entry(row);
+            error = f64::max(error, (entry.value - residual.entry(row)).abs());
+            let slope = entry.derivative - matrix.get(row, column);
+            error = f64::max(error, slope.abs());
+        }
+    }
+    error
+}
+
+#[test]
+fn jacobians_are_derivatives() {
+    let top = HeavyTop::default();
+    macro_rules! check {
+        ($method:expr) => {
+            for error in [
+                jacobian_error(&Nonpolynomial, &$method, &SPIN),
+                jacobian_error(&top, &$method, &START),
+            ] {
+                assert!(error < 1e-14, "{}: {error:e}", stringify!($method));
+            }
+        };
+    }
+    check!(GeneratingSecondKind2);
+    check!(Generating2::exp());
+    check!(Generating4::exp());
+    check!(Generating4::cayley());
 }

@@ -114,3 +114,25 @@ fn symmetric_methods_undo_themselves() {
     there_and_back(&LieMidpoint::cayley());
     assert!(there_and_back(&Rk4) > 1e-9);
 }
+
+/// `mu -> s mu`, `t -> t/s` leaves the equations of the rigid body alone; tolerances that are scaled too leave
+/// every decision of the step control alone, and with a power of two every digit.
+#[test]
+fn the_step_control_has_no_scale() {
+    let system = systems::rigid_body::RigidBody::default();
+    let start = [0.8, 0.1, 0.6];
+    let run = |scale: f64, rtol: f64| {
+        let method = Dopri5 {
+            rtol,
+            atol: 1e-9 * scale,
+        };
+        let mut mu = state(&system, &start.map(|entry| entry * scale));
+        steps(&system, &method, 5.0 / scale, 3, &mut mu).expect("finite");
+        mu / scale
+    };
+    let expected = run(1.0, 1e-7);
+    for exponent in [-60, -7, 5, 40] {
+        assert_eq!(run(2.0_f64.powi(exponent), 1e-7), expected, "2^{exponent}");
+    }
+    assert_ne!(run(1.0, 1e-6), expected);
+}

@@ -1,8 +1,9 @@
 //! Mistakes of the command line itself, as clap finds them, in the form of every other message.
 
-use clap::Parser as _;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory as _, Parser as _};
 use lie_codegen::diagnostic::Kind;
+use lie_codegen::suggest::meant;
 
 use super::BUILT;
 use super::args::Cli;
@@ -23,13 +24,17 @@ pub enum Parsed {
 pub fn parse(
     arguments: impl IntoIterator<Item = std::ffi::OsString>,
 ) -> Result<Parsed, Box<Message>> {
+    let arguments: Vec<std::ffi::OsString> = arguments.into_iter().collect();
+    let mut words = arguments.iter().skip(1).filter_map(|word| word.to_str());
+    let command = words.find(|word| !word.starts_with('-'));
+    let command = command.unwrap_or_default().to_owned();
     match Cli::try_parse_from(arguments) {
         Ok(cli) => Ok(Parsed::Command(Box::new(cli))),
         Err(error) => match error.kind() {
             ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
                 Ok(Parsed::Text(error.to_string()))
             }
-            _ => Err(Box::new(message(&error))),
+            _ => Err(Box::new(message(&error, &command))),
         },
     }
 }
@@ -51,7 +56,17 @@ fn flag(argument: &str) -> String {
         .to_owned()
 }
 
-fn message(error: &clap::Error) -> Message {
+/// The long flags of a command.
+fn flags(command: &str) -> Vec<String> {
+    let cli = Cli::command();
+    let Some(command) = cli.find_subcommand(command) else {
+        return Vec::new();
+    };
+    let flags = command.get_arguments().filter_map(clap::Arg::get_long);
+    flags.map(str::to_owned).collect()
+}
+
+fn message(error: &clap::Error, command: &str) -> Message {
     let usage = text(error, ContextKind::Usage)
         .map(|usage| usage.replace("Usage:", "").trim().to_owned())
         .filter(|usage| !usage.is_empty());
@@ -71,8 +86,12 @@ fn message(error: &clap::Error) -> Message {
             )
         }
         ErrorKind::UnknownArgument => {
-            let help = text(error, ContextKind::SuggestedArg)
-                .map(|suggested| format!("did you mean `{}`?", flag(&suggested)));
+            let flags = flags(command);
+            let word = place.trim_start_matches('-');
+            let near = meant(word, flags.iter().map(String::as_str));
+            let help = near
+                .filter(|_| place.starts_with('-'))
+                .map(|near| format!("did you mean `--{near}`?"));
             let what = if place.starts_with('-') {
                 format!("unknown option `{place}`")
             } else {
@@ -82,10 +101,7 @@ fn message(error: &clap::Error) -> Message {
         }
         ErrorKind::InvalidSubcommand => {
             let command = text(error, ContextKind::InvalidSubcommand).unwrap_or_default();
-            let suggested = text(error, ContextKind::SuggestedSubcommand).unwrap_or_default();
-            let help = suggested
-                .split(", ")
-                .find(|name| BUILT.contains(name))
+            let help = meant(&command, BUILT)
                 .map(|name| format!("did you mean `{name}`?"))
                 .unwrap_or_else(|| format!("the commands are {}", BUILT.join(", ")));
             let what = format!("unknown command `{command}`");
@@ -164,11 +180,22 @@ mod tests {
             );
             assert_eq!(message.kind, Kind::Option);
         }
-        assert_eq!(of("rum x").help.as_deref(), Some("did you mean `run`?"));
-        assert_eq!(
-            of("run x --stepp 1").help.as_deref(),
-            Some("did you mean `--step`?")
-        );
+        for (arguments, meant) in [
+            ("rum x", "run"),
+            ("chekc x", "check"),
+            ("integrate x", "run"),
+            ("run x --stepp 1", "--step"),
+            ("run x --dt 0.1", "--step"),
+            ("run x --t-end 5", "--until"),
+            ("run x --x0 1,2,3", "--initial"),
+            ("run x --params k=1", "--param"),
+            ("run x --reltol 1e-9", "--rtol"),
+            ("run x -o file.csv", "--out"),
+            ("check x --jsno", "--json"),
+        ] {
+            let expected = format!("did you mean `{meant}`?");
+            assert_eq!(of(arguments).help, Some(expected), "{arguments}");
+        }
     }
 
     #[test]
@@ -189,7 +216,6 @@ mod tests {
 
     #[test]
     fn definition_is_sound() {
-        use clap::CommandFactory as _;
         Cli::command().debug_assert();
     }
 }

@@ -9,7 +9,7 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case)]
 pub struct CanonicalPendulum<S = f64> {
-    /// gravity over length [s^-2].
+    /// gravity over length \[s^-2].
     pub g: S,
 }
 
@@ -137,7 +137,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CanonicalPendulumSy
     #[inline]
     fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[q, _]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self.g * q.cos();
         out[(1, 1)] = S::one();
     }
@@ -147,7 +147,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CanonicalPendulumSy
     /// No operation.
     #[inline]
     fn poisson_matrix(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = S::one();
         out[(1, 0)] = S::ratio(-1.0, 1.0);
     }
@@ -164,7 +164,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CanonicalPendulumSy
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[q, p]] = mu.data.0;
         out[0] = p;
-        out[1] = q.sin() * self._k1;
+        out[1] = self._k1 * q.sin();
     }
 
     /// `out_ij = df_i/dmu_j`
@@ -173,7 +173,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CanonicalPendulumSy
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[q, _]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = S::one();
         out[(1, 0)] = q.cos() * self._k1;
     }
@@ -191,7 +191,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CanonicalPendulumSy
         let [[q, p]] = mu.data.0;
         field[0] = p;
         field[1] = self._k1 * q.sin();
-        jacobian.fill(S::zero());
+        jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 1)] = S::one();
         jacobian[(1, 0)] = q.cos() * self._k1;
     }
@@ -211,7 +211,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CanonicalPendulumSy
         _xi: &Self::State,
         out: &mut Self::Jacobian,
     ) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
     }
 
     /// The system has no Casimir to differentiate.

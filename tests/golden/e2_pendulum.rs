@@ -10,7 +10,7 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case)]
 pub struct Pendulum<S = f64> {
-    /// gravity over length [s^-2].
+    /// gravity over length \[s^-2].
     pub g: S,
 }
 
@@ -129,7 +129,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     #[inline]
     fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
         let [[_L, _, _]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = _L;
         out[1] = self._k1;
     }
@@ -139,7 +139,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = S::one();
     }
 
@@ -149,7 +149,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     #[inline]
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[_, x, y]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -y;
         out[(0, 2)] = x;
         out[(1, 0)] = y;
@@ -179,7 +179,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[_L, x, y]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 2)] = self.g;
         out[(1, 0)] = y;
         out[(1, 2)] = _L;
@@ -201,7 +201,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
         field[0] = self.g * y;
         field[1] = _L * y;
         field[2] = -(_L * x);
-        jacobian.fill(S::zero());
+        jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 2)] = self.g;
         jacobian[(1, 0)] = y;
         jacobian[(1, 2)] = _L;
@@ -224,7 +224,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
         match _index {
             0 => {
                 let [[_, x, y]] = mu.data.0;
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[1] = x * S::ratio(2.0, 1.0);
                 out[2] = y * S::ratio(2.0, 1.0);
             }
@@ -243,7 +243,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for PendulumSystem<S
     fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State) {
         let [[_xi_J, _xi_P1, _xi_P2]] = xi.data.0;
         let [[_eta_J, _eta_P1, _eta_P2]] = eta.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[1] = _xi_P2 * _eta_J - _xi_J * _eta_P2;
         out[2] = _xi_J * _eta_P1 - _xi_P1 * _eta_J;
     }
@@ -266,7 +266,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for PendulumSystem<S
     #[inline]
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_J, _xi_P1, _xi_P2]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_P2;
         out[(0, 2)] = -_xi_P1;
         out[(1, 2)] = _xi_J;
@@ -276,6 +276,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for PendulumSystem<S
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for PendulumSystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 4 additions, 9 multiplications.
@@ -290,7 +291,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for PendulumSyste
         let [[_xi_J, _xi_P1, _xi_P2]] = xi.data.0;
         let [[_eta_J, _eta_P1, _eta_P2]] = eta.data.0;
         let [[_L, x, y]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = (_xi_J * (x * _eta_P1 + y * _eta_P2 + _L * _eta_J * S::ratio(2.0, 1.0))
             + _eta_J * (x * _xi_P1 + y * _xi_P2)) * S::ratio(-1.0, 2.0);
     }
@@ -345,6 +346,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for PendulumSyste
         ],
         skew: false,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }

@@ -116,8 +116,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let [[q, p, z]] = mu.data.0;
         let _t0 = p * p;
-        (_t0 + q * q) * S::ratio(1.0, 2.0) + _t0 * _t0 * S::ratio(1.0, 4.0)
-            + q * z * S::ratio(1.0, 3.0)
+        _t0 * (_t0 + S::ratio(2.0, 1.0)) * S::ratio(1.0, 4.0)
+            + q * (q * S::ratio(3.0, 1.0) + z * S::ratio(2.0, 1.0)) * S::ratio(1.0, 6.0)
     }
 
     /// `out_i = dH/dmu_i`
@@ -137,7 +137,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     #[inline]
     fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[_, p, _]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = S::one();
         out[(0, 2)] = S::ratio(1.0, 3.0);
         out[(1, 1)] = S::one() + p * p * S::ratio(3.0, 1.0);
@@ -150,7 +150,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     #[inline]
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[_, _, z]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -z;
         out[(1, 0)] = z;
     }
@@ -159,35 +159,36 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     ///
     /// ```text
     /// q' = -z*(p + p^3)
-    /// p' = z*(3*q + z)/3
+    /// p' = z*(q + z/3)
     /// ```
     ///
-    /// 3 additions, 6 multiplications.
+    /// 3 additions, 5 multiplications.
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[q, p, z]] = mu.data.0;
-        out.fill(S::zero());
-        out[0] = -(z * (p + p * p * p));
-        out[1] = z * (z + q * S::ratio(3.0, 1.0)) * S::ratio(1.0, 3.0);
+        out.as_mut_slice().fill(S::zero());
+        out[0] = -(z * (p + p * (p * p)));
+        out[1] = z * (q + z * S::ratio(1.0, 3.0));
     }
 
     /// `out_ij = df_i/dmu_j`
     ///
-    /// 5 additions, 5 multiplications.
+    /// 6 additions, 5 multiplications.
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[q, p, z]] = mu.data.0;
         let _t0 = p * p;
-        out.fill(S::zero());
+        let _t1 = z * S::ratio(1.0, 3.0);
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -(z * (S::one() + S::ratio(3.0, 1.0) * _t0));
-        out[(0, 2)] = -p - p * _t0;
+        out[(0, 2)] = -(p + p * _t0);
         out[(1, 0)] = z;
-        out[(1, 2)] = q + z * S::ratio(2.0, 3.0);
+        out[(1, 2)] = _t1 + (q + _t1);
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
     ///
-    /// 7 additions, 9 multiplications.
+    /// 7 additions, 7 multiplications.
     #[inline]
     fn linearize(
         &self,
@@ -198,14 +199,16 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
         let [[q, p, z]] = mu.data.0;
         let _t0 = p * p;
         let _t1 = p + p * _t0;
-        field.fill(S::zero());
+        let _t2 = z * S::ratio(1.0, 3.0);
+        let _t3 = q + _t2;
+        field.as_mut_slice().fill(S::zero());
         field[0] = -(z * _t1);
-        field[1] = z * (z + q * S::ratio(3.0, 1.0)) * S::ratio(1.0, 3.0);
-        jacobian.fill(S::zero());
+        field[1] = z * _t3;
+        jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 1)] = -(z * (S::one() + S::ratio(3.0, 1.0) * _t0));
         jacobian[(0, 2)] = -_t1;
         jacobian[(1, 0)] = z;
-        jacobian[(1, 2)] = q + z * S::ratio(2.0, 3.0);
+        jacobian[(1, 2)] = _t2 + _t3;
     }
 
     /// `out_i = C_i(mu)`
@@ -222,7 +225,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     fn casimir_gradient(&self, _index: usize, _mu: &Self::State, out: &mut Self::State) {
         match _index {
             0 => {
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[2] = S::one();
             }
 
@@ -240,7 +243,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
     fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State) {
         let [[_xi_Q, _xi_P, _]] = xi.data.0;
         let [[_eta_Q, _eta_P, _]] = eta.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[2] = _xi_Q * _eta_P - _xi_P * _eta_Q;
     }
 
@@ -251,7 +254,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
     fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
         let [[_xi_Q, _xi_P, _]] = xi.data.0;
         let [[_, _, z]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = -(z * _xi_P);
         out[1] = z * _xi_Q;
     }
@@ -262,7 +265,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
     #[inline]
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_Q, _xi_P, _]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 2)] = -_xi_P;
         out[(1, 2)] = _xi_Q;
     }
@@ -270,6 +273,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeisenbergSystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// No operation.
@@ -281,7 +285,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeisenbergSys
         _mu: &Self::State,
         out: &mut Self::State,
     ) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
     }
 }
 
@@ -323,6 +327,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeisenbergSys
         ],
         skew: false,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -405,21 +410,21 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergMidpoint
     ) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
-        let _t0 = z + _u_z;
-        let _t1 = p + _u_p;
-        let _t2 = _t1 * _t1;
-        let _t3 = (_t2 + S::ratio(4.0, 1.0)) * (_t1 * self._h0);
-        let _t4 = (q + _u_q) * S::ratio(3.0, 1.0);
-        residual[0] = _u_q - q + _t0 * _t3;
-        residual[1] = _u_p - p + _t0 * (_t0 + _t4) * self._h2;
+        let _t0 = p + _u_p;
+        let _t1 = _t0 * _t0;
+        let _t2 = _t0 * (_t1 + S::ratio(4.0, 1.0));
+        let _t3 = z + _u_z;
+        let _t4 = _t3 * self._h0;
+        let _t5 = (q + _u_q) * S::ratio(3.0, 1.0);
+        residual[0] = _u_q - q + _t2 * _t4;
+        residual[1] = _u_p - p + _t3 * (_t3 + _t5) * self._h2;
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
-        matrix[(0, 1)] = _t0 * (S::ratio(3.0, 1.0) * _t2 + S::ratio(4.0, 1.0))
-            * self._h0;
-        matrix[(0, 2)] = _t3;
-        matrix[(1, 0)] = _t0 * self._h3;
+        matrix[(0, 1)] = (S::ratio(4.0, 1.0) + _t1 * S::ratio(3.0, 1.0)) * _t4;
+        matrix[(0, 2)] = self._h0 * _t2;
+        matrix[(1, 0)] = _t3 * self._h3;
         matrix[(1, 1)] = S::one();
-        matrix[(1, 2)] = self._h2 * (_t4 + _t0 * S::ratio(2.0, 1.0));
+        matrix[(1, 2)] = self._h2 * (_t5 + _t3 * S::ratio(2.0, 1.0));
         matrix[(2, 2)] = S::one();
     }
 
@@ -1030,8 +1035,6 @@ pub struct HeisenbergCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h2: S,
     /// `-h/6`
     _h3: S,
-    /// `h/3`
-    _h4: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> HeisenbergCayleyMidpoint<'a, S> {
@@ -1046,7 +1049,6 @@ impl<'a, S: ::lie_runtime::Scalar> HeisenbergCayleyMidpoint<'a, S> {
             _h1: h * S::ratio(1.0, 6.0),
             _h2: h * S::ratio(-1.0, 2.0),
             _h3: h * S::ratio(-1.0, 6.0),
-            _h4: h * S::ratio(1.0, 3.0),
         }
     }
 }
@@ -1072,13 +1074,14 @@ for HeisenbergCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
     ///
-    /// 7 additions, 7 multiplications.
+    /// 7 additions, 6 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
-        residual[0] = _u_q - q + _u_z * ((_u_p + _u_p * _u_p * _u_p) * self._h0);
-        residual[1] = _u_p - p - _u_z * ((_u_z + _u_q * S::ratio(3.0, 1.0)) * self._h1);
+        let _t0 = _u_z * self._h0;
+        residual[0] = _u_q - q + (_u_p + _u_p * _u_p * _u_p) * _t0;
+        residual[1] = _u_p - p - (_u_q + _u_z * S::ratio(1.0, 3.0)) * _t0;
         residual[2] = _u_z - z;
     }
 
@@ -1099,11 +1102,11 @@ for HeisenbergCayleyMidpoint<'_, S> {
         let _t2 = _u_z * self._h0;
         let _t3 = _u_z + _u_q * S::ratio(3.0, 1.0);
         residual[0] = _u_q - q + _t1 * _t2;
-        residual[1] = _u_p - p - _u_z * (_t3 * self._h1);
+        residual[1] = _u_p - p - _u_z * (self._h1 * _t3);
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = (S::one() + S::ratio(3.0, 1.0) * _t0) * _t2;
-        matrix[(0, 2)] = _t1 * self._h0;
+        matrix[(0, 2)] = self._h0 * _t1;
         matrix[(1, 0)] = _u_z * self._h2;
         matrix[(1, 1)] = S::one();
         matrix[(1, 2)] = (_u_z + _t3) * self._h3;
@@ -1112,13 +1115,14 @@ for HeisenbergCayleyMidpoint<'_, S> {
 
     /// `mu1 = mu + ad*_x m = mu + h f(m)`
     ///
-    /// 4 additions, 7 multiplications.
+    /// 4 additions, 6 multiplications.
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
-        mu[0] = q - _u_z * self.h * (_u_p + _u_p * _u_p * _u_p);
-        mu[1] = p + _u_z * (_u_z + _u_q * S::ratio(3.0, 1.0)) * self._h4;
+        let _t0 = _u_z * self.h;
+        mu[0] = q - (_u_p + _u_p * _u_p * _u_p) * _t0;
+        mu[1] = p + (_u_q + _u_z * S::ratio(1.0, 3.0)) * _t0;
         mu[2] = z;
     }
 
@@ -1192,12 +1196,10 @@ pub struct HeisenbergGonzalez<'a, S: ::lie_runtime::Scalar> {
     h: S,
     /// `h/2`
     _h0: S,
-    /// `3*h/16`
+    /// `-h/4`
     _h1: S,
-    /// `h/4`
+    /// `-h/12`
     _h2: S,
-    /// `h/12`
-    _h3: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> HeisenbergGonzalez<'a, S> {
@@ -1209,9 +1211,8 @@ impl<'a, S: ::lie_runtime::Scalar> HeisenbergGonzalez<'a, S> {
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
             _h0: h * S::ratio(1.0, 2.0),
-            _h1: h * S::ratio(3.0, 16.0),
-            _h2: h * S::ratio(1.0, 4.0),
-            _h3: h * S::ratio(1.0, 12.0),
+            _h1: h * S::ratio(-1.0, 4.0),
+            _h2: h * S::ratio(-1.0, 12.0),
         }
     }
 }
@@ -1261,7 +1262,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergGonzalez
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
     ///
-    /// 29 additions, 44 multiplications.
+    /// 28 additions, 47 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1274,41 +1275,42 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergGonzalez
         let [[_inverse_q]] = ::lie_runtime::generic::inverse_length(&self.base, unknown)
             .data
             .0;
-        let _t0 = p - _u_p;
-        let _t1 = -_t0;
-        let _t2 = _t1 * _inverse_q;
-        let _t3 = _t1 * S::ratio(1.0, 8.0);
-        let _t4 = p + _u_p;
-        let _t5 = _t4 * _t1;
-        let _t6 = _t2 * _t5;
-        let _t7 = _t3 * _t6;
-        let _t8 = _t4 * _t4;
-        let _t9 = _t2 * _t7 + _t4 * S::ratio(1.0, 2.0) + _t4 * S::ratio(1.0, 8.0) * _t8;
+        let _t0 = p + _u_p;
+        let _t1 = _t0 * _t0;
+        let _t2 = _t0 * S::ratio(1.0, 8.0);
+        let _t3 = p - _u_p;
+        let _t4 = -_t3;
+        let _t5 = _t4 * _inverse_q;
+        let _t6 = _t4 * _t4;
+        let _t7 = _t5 * _t2 * _t6;
+        let _t8 = _t5 * _t7;
+        let _t9 = _t0 * S::ratio(1.0, 2.0) + _t1 * _t2 + _t8;
         let _t10 = z + _u_z;
         let _t11 = _t10 * self._h0;
         let _t12 = q - _u_q;
         let _t13 = -_t12 * _inverse_q;
-        let _t14 = _t13 * _t7 + (q + _u_q) * S::ratio(1.0, 2.0)
-            + _t10 * S::ratio(1.0, 6.0);
+        let _t14 = (q + _u_q) * S::ratio(1.0, 2.0) + _t10 * S::ratio(1.0, 6.0)
+            + _t13 * _t7;
         let _t15 = _u_z - z;
         let _t16 = _inverse_q * _t7;
-        let _t17 = S::ratio(-2.0, 1.0) * _t16;
+        let _t17 = _t16 * S::ratio(-2.0, 1.0);
         let _t18 = _t13 * _t17;
-        let _t19 = _t2 * _t11;
-        let _t20 = _t1 * _t2 * _t3 + _inverse_q * _t5 * _t3 + S::ratio(1.0, 4.0) * _t6
-            - _t2 * S::ratio(2.0, 1.0) * _t16;
-        let _t21 = _t10 * self._h2 + _t11 * _t16;
-        let _t22 = _t15 * _inverse_q * _t17;
-        let _t23 = _t13 * _t11;
+        let _t19 = S::ratio(1.0, 8.0)
+            * (_inverse_q * (_t0 * _t6 - _t8 * S::ratio(16.0, 1.0))
+                + _t4 * _t5 * (_t4 + _t0 * S::ratio(2.0, 1.0)));
+        let _t20 = _t15 * _inverse_q * _t17;
         residual[0] = _t9 * _t11 - _t12;
-        residual[1] = -(_t14 * _t11) - _t0;
+        residual[1] = -(_t14 * _t11) - _t3;
         residual[2] = _t15;
-        matrix[(0, 0)] = S::one() + _t18 * _t19;
-        matrix[(0, 1)] = _t10 * self._h1 * _t8 + _t20 * _t19 + _t21;
-        matrix[(0, 2)] = _t9 * self._h0 + _t22 * _t19;
-        matrix[(1, 0)] = -(_t18 * _t23) - _t21;
-        matrix[(1, 1)] = S::one() - _t20 * _t23;
-        matrix[(1, 2)] = -(_t10 * self._h3) - _t14 * self._h0 - _t22 * _t23;
+        matrix[(0, 0)] = S::one() + _t5 * _t18 * _t11;
+        matrix[(0, 1)] = (S::ratio(1.0, 2.0) + S::ratio(3.0, 8.0) * _t1 + _t16
+            + _t5 * _t19) * _t11;
+        matrix[(0, 2)] = self._h0 * (_t9 + _t10 * _t5 * _t20);
+        matrix[(1, 0)] = _t10 * (S::one() + S::ratio(2.0, 1.0) * (_t16 + _t13 * _t18))
+            * self._h1;
+        matrix[(1, 1)] = S::one() - _t13 * _t19 * _t11;
+        matrix[(1, 2)] = (_t10 * (S::one() + _t13 * _t20 * S::ratio(6.0, 1.0))
+            + _t14 * S::ratio(6.0, 1.0)) * self._h2;
         matrix[(2, 2)] = S::one();
     }
 
@@ -1424,7 +1426,7 @@ for HeisenbergGonzalezGradient<S> {
 
     /// `g(mu, u)` and `dg/du`
     ///
-    /// 21 additions, 34 multiplications.
+    /// 21 additions, 36 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1439,34 +1441,36 @@ for HeisenbergGonzalezGradient<S> {
             .data
             .0;
         let _t0 = (_u_q - q) * _inverse_q;
-        let _t1 = _u_p - p;
-        let _t2 = _t1 * _inverse_q;
+        let _t1 = p + _u_p;
+        let _t2 = _u_p - p;
         let _t3 = _t1 * _t2;
-        let _t4 = p + _u_p;
-        let _t5 = _t4 * S::ratio(1.0, 8.0);
-        let _t6 = _t1 * _t3 * _t5;
+        let _t4 = _t2 * _inverse_q;
+        let _t5 = _t2 * _t4;
+        let _t6 = S::ratio(1.0, 8.0) * _t3 * _t5;
         let _t7 = q + _u_q;
-        let _t8 = _t4 * _t4;
-        let _t9 = (_u_z - z) * _inverse_q;
-        let _t10 = _inverse_q * _t6;
-        let _t11 = _t10 * S::ratio(-2.0, 1.0);
-        let _t12 = _t0 * _t11;
-        let _t13 = _t10 + S::ratio(1.0, 2.0);
-        let _t14 = _t2 * S::ratio(2.0, 1.0);
-        let _t15 = _t1 * S::ratio(1.0, 8.0) * (_t3 + _t4 * (_t2 + _t14)) - _t10 * _t14;
-        let _t16 = _t9 * _t11;
+        let _t8 = _t4 * _t6;
+        let _t9 = _t1 * _t1;
+        let _t10 = (_u_z - z) * _inverse_q;
+        let _t11 = _inverse_q * _t6;
+        let _t12 = _t11 * S::ratio(-2.0, 1.0);
+        let _t13 = _t0 * _t12;
+        let _t14 = _t11 + S::ratio(1.0, 2.0);
+        let _t15 = S::ratio(1.0, 8.0)
+            * (_inverse_q * (_t2 * _t3 - _t8 * S::ratio(16.0, 1.0))
+                + (_t2 + _t1 * S::ratio(2.0, 1.0)) * _t5);
+        let _t16 = _t10 * _t12;
         _out[0] = _t0 * _t6 + _t7 * S::ratio(1.0, 2.0) + (z + _u_z) * S::ratio(1.0, 6.0);
-        _out[1] = _t2 * _t6 + (_t8 + S::ratio(4.0, 1.0)) * _t5;
-        _out[2] = _t9 * _t6 + _t7 * S::ratio(1.0, 6.0);
-        _slopes[(0, 0)] = _t0 * _t12 + _t13;
+        _out[1] = _t8 + _t1 * (_t9 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
+        _out[2] = _t10 * _t6 + _t7 * S::ratio(1.0, 6.0);
+        _slopes[(0, 0)] = _t0 * _t13 + _t14;
         _slopes[(0, 1)] = _t0 * _t15;
-        _slopes[(0, 2)] = S::ratio(1.0, 6.0) + _t0 * _t16;
-        _slopes[(1, 0)] = _t2 * _t12;
-        _slopes[(1, 1)] = _t2 * _t15 + _t8 * S::ratio(3.0, 8.0) + _t13;
-        _slopes[(1, 2)] = _t2 * _t16;
-        _slopes[(2, 0)] = S::ratio(1.0, 6.0) + _t9 * _t12;
-        _slopes[(2, 1)] = _t9 * _t15;
-        _slopes[(2, 2)] = _t10 + _t9 * _t16;
+        _slopes[(0, 2)] = _t0 * _t16 + S::ratio(1.0, 6.0);
+        _slopes[(1, 0)] = _t4 * _t13;
+        _slopes[(1, 1)] = _t4 * _t15 + _t9 * S::ratio(3.0, 8.0) + _t14;
+        _slopes[(1, 2)] = _t4 * _t16;
+        _slopes[(2, 0)] = S::ratio(1.0, 6.0) + _t10 * _t13;
+        _slopes[(2, 1)] = _t10 * _t15;
+        _slopes[(2, 2)] = _t11 + _t10 * _t16;
     }
 }
 
@@ -1732,15 +1736,15 @@ for HeisenbergMeanValueGradient<S> {
         let _t1 = p + _u_p;
         let _t2 = _u_p - p;
         let _t3 = _t2 * _t2;
-        let _t4 = _t1 * S::ratio(1.0, 8.0);
         _out[0] = S::ratio(1.0, 2.0) * _t0 + S::ratio(1.0, 6.0) * (z + _u_z);
-        _out[1] = (_t1 * _t1 + _t3 + S::ratio(4.0, 1.0)) * _t4;
+        _out[1] = _t1 * (_t1 * _t1 + _t3 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
         _out[2] = S::ratio(1.0, 6.0) * _t0;
-        _slopes.fill(S::zero());
+        _slopes.as_mut_slice().fill(S::zero());
         _slopes[(0, 0)] = S::ratio(1.0, 2.0);
         _slopes[(0, 2)] = S::ratio(1.0, 6.0);
-        _slopes[(1, 1)] = S::ratio(1.0, 2.0) + _t3 * S::ratio(1.0, 8.0)
-            + (_t1 * S::ratio(3.0, 1.0) + _t2 * S::ratio(2.0, 1.0)) * _t4;
+        _slopes[(1, 1)] = S::ratio(1.0, 2.0)
+            + S::ratio(1.0, 8.0)
+                * (_t3 + _t1 * (_t1 * S::ratio(3.0, 1.0) + _t2 * S::ratio(2.0, 1.0)));
         _slopes[(2, 0)] = S::ratio(1.0, 6.0);
     }
 }
@@ -1983,7 +1987,7 @@ for HeisenbergItohAbeGradient<S> {
         let _t0 = q + _u_q;
         let _t1 = p + _u_p;
         let _t2 = _u_p - p;
-        _out[0] = (z + _u_z) * S::ratio(1.0, 6.0) + _t0 * S::ratio(1.0, 2.0);
+        _out[0] = S::ratio(1.0, 6.0) * (z + _u_z) + _t0 * S::ratio(1.0, 2.0);
         _out[1] = _t1 * (_t1 * _t1 + _t2 * _t2 + S::ratio(4.0, 1.0))
             * S::ratio(1.0, 8.0);
         _out[2] = _t0 * S::ratio(1.0, 6.0);
@@ -2009,7 +2013,7 @@ for HeisenbergItohAbeGradient<S> {
         _out[0] = S::ratio(1.0, 6.0) * (z + _u_z) + S::ratio(1.0, 2.0) * _t0;
         _out[1] = _t1 * (_t1 * _t1 + _t3 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
         _out[2] = S::ratio(1.0, 6.0) * _t0;
-        _slopes.fill(S::zero());
+        _slopes.as_mut_slice().fill(S::zero());
         _slopes[(0, 0)] = S::ratio(1.0, 2.0);
         _slopes[(0, 2)] = S::ratio(1.0, 6.0);
         _slopes[(1, 1)] = S::ratio(1.0, 2.0)

@@ -65,6 +65,8 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
         let _c9 = _t0;
         let _c10 = _t0 * self.mu - _t1 * self.nu;
         let _c11 = self.b;
+        let _c12 = self.nu * S::ratio(2.0, 1.0);
+        let _c13 = self.mu * S::ratio(2.0, 1.0);
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "a", "a*b"),
@@ -79,6 +81,8 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
                 (_c9, "a", "1/a"),
                 (_c10, "a", "-nu/(a*b) + mu/a"),
                 (_c11, "b", "b"),
+                (_c12, "nu", "2*nu"),
+                (_c13, "mu", "2*mu"),
             ],
         )?;
         ::core::result::Result::Ok(LotkaVolterraSystem {
@@ -95,6 +99,8 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
             _k9: _c9,
             _k10: _c10,
             b: _c11,
+            _k12: _c12,
+            _k13: _c13,
         })
     }
 
@@ -138,6 +144,10 @@ pub struct LotkaVolterraSystem<S = f64> {
     _k10: S,
     /// `b`
     b: S,
+    /// `2*nu`
+    _k12: S,
+    /// `2*mu`
+    _k13: S,
 }
 
 impl<S> LotkaVolterraSystem<S> {
@@ -187,7 +197,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
     /// `H(mu)`
     ///
     /// ```text
-    /// H = y2 + a*b*y1 - a*y3 + nu*log(y2) - mu*log(y3)
+    /// H = a*b*y1 + y2 - a*y3 + nu*log(y2) - mu*log(y3)
     /// ```
     ///
     /// 4 additions, 4 multiplications, 2 function calls.
@@ -216,7 +226,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
         let [[_, y2, y3]] = mu.data.0;
         let _t0 = S::one() / y2;
         let _t1 = S::one() / y3;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(1, 1)] = self._k5 * _t0 * _t0;
         out[(2, 2)] = self.mu * _t1 * _t1;
     }
@@ -230,7 +240,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
         let _t0 = y1 * y2;
         let _t1 = y1 * y3;
         let _t2 = y2 * y3;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = self._k6 * _t0;
         out[(0, 2)] = self._k7 * _t1;
         out[(1, 0)] = self._k8 * _t0;
@@ -242,16 +252,16 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
     /// `f_i = Pi_ij(mu) (dH/dmu_j)`
     ///
     /// ```text
-    /// y1' = -y1*y2*(nu/y2 + 1)/(a*b) + y1*y3*(a + mu/y3)/a
+    /// y1' = -y1*y2*(1 + nu/y2)/(a*b) + y1*y3*(a + mu/y3)/a
     /// y2' = y1*y2 + y2*y3*(a + mu/y3)
-    /// y3' = b*y1*y3 + y2*y3*(nu/y2 + 1)
+    /// y3' = b*y1*y3 + y2*y3*(1 + nu/y2)
     /// ```
     ///
     /// 6 additions, 6 multiplications.
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[y1, y2, y3]] = mu.data.0;
-        out[0] = y1 * (y3 - y2 * self._k8 + self._k10);
+        out[0] = y1 * (y3 + y2 * self._k6 + self._k10);
         out[1] = y2 * (y1 + self.a * y3 + self.mu);
         out[2] = y3 * (y2 + self.nu + self.b * y1);
     }
@@ -307,7 +317,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[y1, y2, y3]] = mu.data.0;
-        out[0] = y3.log() + y1.log() * self._k0 - self.b * y2.log();
+        out[0] = y3.log() + (y1.log() * self._k0 - self.b * y2.log());
     }
 
     /// `out_ij = d(Pi(mu) xi)_i/dmu_j`
@@ -375,6 +385,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for LotkaVolterraSystem<S>
             _k9: _constant(self._k9),
             _k10: _constant(self._k10),
             b: _constant(self.b),
+            _k12: _constant(self._k12),
+            _k13: _constant(self._k13),
         }
     }
 }
@@ -385,77 +397,57 @@ pub struct LotkaVolterraMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a LotkaVolterraSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `h/(a*b)`
+    /// `h/4`
     _h0: S,
-    /// `2*nu*h/(a*b) - 2*mu*h/a`
-    _h1: S,
-    /// `a*h`
-    _h2: S,
-    /// `2*mu*h`
-    _h3: S,
-    /// `b*h`
-    _h4: S,
-    /// `2*nu*h`
-    _h5: S,
     /// `h/(4*a*b)`
-    _h6: S,
-    /// `nu*h/(2*a*b)`
-    _h7: S,
+    _h1: S,
+    /// `h/(4*a)`
+    _h2: S,
     /// `-h/4`
-    _h8: S,
-    /// `mu*h/(2*a)`
-    _h9: S,
+    _h3: S,
     /// `-a*h/4`
-    _h10: S,
+    _h4: S,
     /// `mu*h/2`
-    _h11: S,
+    _h5: S,
     /// `-b*h/4`
-    _h12: S,
+    _h6: S,
     /// `nu*h/2`
-    _h13: S,
+    _h7: S,
     /// `nu*h/(2*a*b) - mu*h/(2*a) + 1`
-    _h14: S,
+    _h8: S,
     /// `-mu*h/2 + 1`
-    _h15: S,
+    _h9: S,
     /// `-nu*h/2 + 1`
-    _h16: S,
+    _h10: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> LotkaVolterraMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a LotkaVolterraSystem<S>, h: S) -> Self {
-        let _t0 = h * (S::one() / system._parameters.a);
-        let _t1 = S::one() / system._parameters.b * _t0;
-        let _t2 = system._parameters.nu * _t1;
-        let _t3 = system._parameters.mu * _t0;
-        let _t4 = _t2 - _t3;
-        let _t5 = system._parameters.mu * h;
-        let _t6 = system._parameters.nu * h;
-        let _t7 = h * S::ratio(-1.0, 4.0);
-        let _t8 = S::ratio(1.0, 2.0) * _t5;
-        let _t9 = S::ratio(1.0, 2.0) * _t6;
+        let _t0 = S::one() / system._parameters.b;
+        let _t1 = h * (S::one() / system._parameters.a);
+        let _t2 = S::ratio(1.0, 4.0) * _t1;
+        let _t3 = h * S::ratio(-1.0, 4.0);
+        let _t4 = system._parameters.mu * S::ratio(1.0, 2.0);
+        let _t5 = h * _t4;
+        let _t6 = system._parameters.nu * S::ratio(1.0, 2.0);
+        let _t7 = h * _t6;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t1,
-            _h1: S::ratio(2.0, 1.0) * _t4,
-            _h2: system._parameters.a * h,
-            _h3: S::ratio(2.0, 1.0) * _t5,
-            _h4: system._parameters.b * h,
-            _h5: S::ratio(2.0, 1.0) * _t6,
-            _h6: S::ratio(1.0, 4.0) * _t1,
-            _h7: S::ratio(1.0, 2.0) * _t2,
-            _h8: _t7,
-            _h9: S::ratio(1.0, 2.0) * _t3,
-            _h10: system._parameters.a * _t7,
-            _h11: _t8,
-            _h12: system._parameters.b * _t7,
-            _h13: _t9,
-            _h14: S::one() + S::ratio(1.0, 2.0) * _t4,
-            _h15: S::one() - _t8,
-            _h16: S::one() - _t9,
+            _h0: h * S::ratio(1.0, 4.0),
+            _h1: _t0 * _t2,
+            _h2: _t2,
+            _h3: _t3,
+            _h4: system._parameters.a * _t3,
+            _h5: _t5,
+            _h6: system._parameters.b * _t3,
+            _h7: _t7,
+            _h8: S::one() + _t0 * _t1 * _t6 - _t1 * _t4,
+            _h9: S::one() - _t5,
+            _h10: S::one() - _t7,
         }
     }
 }
@@ -481,25 +473,25 @@ for LotkaVolterraMidpoint<'_, S> {
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`
     ///
-    /// 15 additions, 12 multiplications.
+    /// 14 additions, 11 multiplications, 2 divisions.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[y1, y2, y3]] = self.base.data.0;
         let [[_u_y1, _u_y2, _u_y3]] = unknown.data.0;
         let _t0 = y1 + _u_y1;
         let _t1 = y2 + _u_y2;
-        let _t2 = y3 + _u_y3;
+        let _t2 = _t1 * (S::one() + self.system._k12 / _t1);
+        let _t3 = y3 + _u_y3;
+        let _t4 = _t3 * (self.system.a + self.system._k13 / _t3);
         residual[0] = _u_y1 - y1
-            + _t0 * (_t1 * self._h0 - _t2 * self.h + self._h1) * S::ratio(1.0, 4.0);
-        residual[1] = _u_y2 - y2
-            - _t1 * S::ratio(1.0, 4.0) * (_t0 * self.h + _t2 * self._h2 + self._h3);
-        residual[2] = _u_y3 - y3
-            - _t2 * S::ratio(1.0, 4.0) * (_t1 * self.h + _t0 * self._h4 + self._h5);
+            + _t0 * (self.system._k8 * _t2 - self.system._k9 * _t4) * self._h0;
+        residual[1] = _u_y2 - y2 - _t1 * (_t0 + _t4) * self._h0;
+        residual[2] = _u_y3 - y3 - _t3 * (self.system.b * _t0 + _t2) * self._h0;
     }
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`, and `dr/du = 1 - (h/2) Df(m)`
     ///
-    /// 22 additions, 20 multiplications.
+    /// 22 additions, 20 multiplications, 2 divisions.
     #[inline]
     fn linearize(
         &mut self,
@@ -511,26 +503,26 @@ for LotkaVolterraMidpoint<'_, S> {
         let [[_u_y1, _u_y2, _u_y3]] = unknown.data.0;
         let _t0 = y2 + _u_y2;
         let _t1 = y1 + _u_y1;
-        let _t2 = _t1 * self._h6;
+        let _t2 = _t1 * self._h1;
         let _t3 = y3 + _u_y3;
-        let _t4 = _t1 * self._h8;
-        let _t5 = _t0 * _t3;
-        let _t6 = _t1 * self._h12;
-        let _t7 = _t3 * self._h8;
-        let _t8 = _t0 * self._h8;
-        residual[0] = _u_y1 - y1 + _t0 * _t2 + _t1 * self._h7 + _t3 * _t4
-            - _t1 * self._h9;
-        residual[1] = _u_y2 - y2 + _t0 * _t4 + self._h10 * _t5 - _t0 * self._h11;
-        residual[2] = _u_y3 - y3 + _t3 * _t6 + self._h8 * _t5 - _t3 * self._h13;
-        matrix[(0, 0)] = _t7 + _t0 * self._h6 + self._h14;
+        let _t4 = _t1 * _t3;
+        let _t5 = _t0 * self._h3;
+        let _t6 = _t0 * self._h4;
+        let _t7 = _t3 * self._h3;
+        let _t8 = _t1 * self._h3;
+        residual[0] = _u_y1 - y1 + _t0 * (S::one() + self.system._k12 / _t0) * _t2
+            - (self.system.a + self.system._k13 / _t3) * self._h2 * _t4;
+        residual[1] = _u_y2 - y2 + _t1 * _t5 + _t3 * _t6 - _t0 * self._h5;
+        residual[2] = _u_y3 - y3 + self._h6 * _t4 + _t3 * _t5 - _t3 * self._h7;
+        matrix[(0, 0)] = _t7 + _t0 * self._h1 + self._h8;
         matrix[(0, 1)] = _t2;
-        matrix[(0, 2)] = _t4;
-        matrix[(1, 0)] = _t8;
-        matrix[(1, 1)] = _t4 + _t3 * self._h10 + self._h15;
-        matrix[(1, 2)] = _t0 * self._h10;
-        matrix[(2, 0)] = _t3 * self._h12;
+        matrix[(0, 2)] = _t8;
+        matrix[(1, 0)] = _t5;
+        matrix[(1, 1)] = _t8 + _t3 * self._h4 + self._h9;
+        matrix[(1, 2)] = _t6;
+        matrix[(2, 0)] = _t3 * self._h6;
         matrix[(2, 1)] = _t7;
-        matrix[(2, 2)] = _t8 + _t6 + self._h16;
+        matrix[(2, 2)] = _t5 + _t1 * self._h6 + self._h10;
     }
 
     #[inline]

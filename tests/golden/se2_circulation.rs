@@ -245,7 +245,7 @@ for BodyWithCirculationSystem<S> {
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self._k3;
         out[(1, 1)] = self._k4;
         out[(2, 2)] = self._k5;
@@ -257,7 +257,7 @@ for BodyWithCirculationSystem<S> {
     #[inline]
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[_, p1, p2]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -p2;
         out[(0, 2)] = p1;
         out[(1, 0)] = p2;
@@ -279,7 +279,7 @@ for BodyWithCirculationSystem<S> {
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[_L, p1, p2]] = mu.data.0;
         let _t0 = _L * self._k3;
-        out[0] = p1 * p2 * self._k8;
+        out[0] = p2 * (p1 * self._k8);
         out[1] = p2 * (_t0 + self._k9);
         out[2] = -(p1 * (_t0 + self._k10));
     }
@@ -291,7 +291,7 @@ for BodyWithCirculationSystem<S> {
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[_L, p1, p2]] = mu.data.0;
         let _t0 = _L * self._k3;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = p2 * self._k8;
         out[(0, 2)] = p1 * self._k8;
         out[(1, 0)] = p2 * self._k3;
@@ -317,7 +317,7 @@ for BodyWithCirculationSystem<S> {
         field[0] = p2 * _t0;
         field[1] = p2 * _t2;
         field[2] = -(p1 * (_t1 + self._k10));
-        jacobian.fill(S::zero());
+        jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 1)] = p2 * self._k8;
         jacobian[(0, 2)] = _t0;
         jacobian[(1, 0)] = p2 * self._k3;
@@ -346,7 +346,7 @@ for BodyWithCirculationSystem<S> {
         out: &mut Self::Jacobian,
     ) {
         let [[_xi_J, _xi_P1, _xi_P2]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_P2;
         out[(0, 2)] = -_xi_P1;
         out[(1, 2)] = _xi_J;
@@ -409,11 +409,11 @@ pub struct BodyWithCirculationMidpoint<'a, S: ::lie_runtime::Scalar> {
     h: S,
     /// `(1/m1 - 1/m2)*h/4`
     _h0: S,
-    /// `h/(4*I)`
+    /// `h/I`
     _h1: S,
-    /// `kappa*h/(2*m2)`
+    /// `2*kappa*h/m2`
     _h2: S,
-    /// `kappa*h/(2*m1)`
+    /// `2*kappa*h/m1`
     _h3: S,
     /// `h/4`
     _h4: S,
@@ -421,6 +421,8 @@ pub struct BodyWithCirculationMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h5: S,
     /// `-h/4`
     _h6: S,
+    /// `h/(4*I)`
+    _h7: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> BodyWithCirculationMidpoint<'a, S> {
@@ -430,19 +432,20 @@ impl<'a, S: ::lie_runtime::Scalar> BodyWithCirculationMidpoint<'a, S> {
         let _t0 = S::one() / system._parameters.m1;
         let _t1 = S::one() / system._parameters.m2;
         let _t2 = h * S::ratio(1.0, 4.0);
-        let _t3 = _t2 / system._parameters.I;
-        let _t4 = S::ratio(1.0, 2.0) * (system._parameters.kappa * h);
+        let _t3 = S::ratio(2.0, 1.0) * (system._parameters.kappa * h);
+        let _t4 = _t2 / system._parameters.I;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
             _h0: (_t0 - _t1) * _t2,
-            _h1: _t3,
-            _h2: _t1 * _t4,
-            _h3: _t0 * _t4,
+            _h1: h / system._parameters.I,
+            _h2: _t1 * _t3,
+            _h3: _t0 * _t3,
             _h4: _t2,
-            _h5: -_t3,
+            _h5: -_t4,
             _h6: h * S::ratio(-1.0, 4.0),
+            _h7: _t4,
         }
     }
 }
@@ -477,8 +480,8 @@ for BodyWithCirculationMidpoint<'_, S> {
         let _t1 = p2 + _u_p2;
         let _t2 = (_L + _u_L) * self._h1;
         residual[0] = _u_L - _L + _t0 * _t1 * self._h0;
-        residual[1] = _u_p1 - p1 - _t1 * _t2 - _t1 * self._h2;
-        residual[2] = _u_p2 - p2 + _t0 * _t2 + _t0 * self._h3;
+        residual[1] = _u_p1 - p1 - _t1 * (_t2 + self._h2) * S::ratio(1.0, 4.0);
+        residual[2] = _u_p2 - p2 + _t0 * S::ratio(1.0, 4.0) * (_t2 + self._h3);
     }
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`, and `dr/du = 1 - (h/2) Df(m)`
@@ -508,7 +511,7 @@ for BodyWithCirculationMidpoint<'_, S> {
         matrix[(1, 0)] = _t0 * self._h5;
         matrix[(1, 1)] = S::one();
         matrix[(1, 2)] = _t4 * self._h6;
-        matrix[(2, 0)] = _t1 * self._h1;
+        matrix[(2, 0)] = _t1 * self._h7;
         matrix[(2, 1)] = _t5;
         matrix[(2, 2)] = S::one();
     }

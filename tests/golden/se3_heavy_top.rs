@@ -12,13 +12,13 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case)]
 pub struct HeavyTop<S = f64> {
-    /// first principal moment of inertia [kg m^2].
+    /// first principal moment of inertia \[kg m^2].
     pub I1: S,
-    /// second principal moment of inertia [kg m^2].
+    /// second principal moment of inertia \[kg m^2].
     pub I2: S,
-    /// third principal moment of inertia [kg m^2].
+    /// third principal moment of inertia \[kg m^2].
     pub I3: S,
-    /// weight times distance of the centre of mass from the fixed point [N m].
+    /// weight times distance of the centre of mass from the fixed point \[N m].
     pub mgl: S,
     /// direction of the centre of mass, first body axis.
     pub c1: S,
@@ -66,8 +66,6 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _t3 = S::one() / self.I1;
         let _t4 = S::one() / self.I2;
         let _t5 = S::one() / self.I3;
-        let _t6 = _t4 - _t5;
-        let _t7 = _t3 - _t4;
         let _c0 = _t0;
         let _c1 = _t1;
         let _c2 = _t2;
@@ -77,17 +75,15 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _c6 = _t3;
         let _c7 = _t4;
         let _c8 = _t5;
-        let _c9 = _t6;
+        let _c9 = _t5 - _t4;
         let _c10 = _t3 - _t5;
-        let _c11 = _t7;
-        let _c12 = -_t6;
-        let _c13 = -_t7;
-        let _c14 = -_t4;
-        let _c15 = -_t5;
-        let _c16 = -_t3;
-        let _c17 = -_t1;
-        let _c18 = -_t2;
-        let _c19 = -_t0;
+        let _c11 = _t4 - _t3;
+        let _c12 = -_t4;
+        let _c13 = -_t5;
+        let _c14 = -_t3;
+        let _c15 = -_t1;
+        let _c16 = -_t2;
+        let _c17 = -_t0;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "mgl", "mgl*c1"),
@@ -99,17 +95,15 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
                 (_c6, "I1", "1/I1"),
                 (_c7, "I2", "1/I2"),
                 (_c8, "I3", "1/I3"),
-                (_c9, "I2", "1/I2 - 1/I3"),
+                (_c9, "I2", "-1/I2 + 1/I3"),
                 (_c10, "I1", "1/I1 - 1/I3"),
-                (_c11, "I1", "1/I1 - 1/I2"),
-                (_c12, "I2", "-1/I2 + 1/I3"),
-                (_c13, "I1", "-1/I1 + 1/I2"),
-                (_c14, "I2", "-1/I2"),
-                (_c15, "I3", "-1/I3"),
-                (_c16, "I1", "-1/I1"),
-                (_c17, "mgl", "-mgl*c2"),
-                (_c18, "mgl", "-mgl*c3"),
-                (_c19, "mgl", "-mgl*c1"),
+                (_c11, "I1", "-1/I1 + 1/I2"),
+                (_c12, "I2", "-1/I2"),
+                (_c13, "I3", "-1/I3"),
+                (_c14, "I1", "-1/I1"),
+                (_c15, "mgl", "-mgl*c2"),
+                (_c16, "mgl", "-mgl*c3"),
+                (_c17, "mgl", "-mgl*c1"),
             ],
         )?;
         ::core::result::Result::Ok(HeavyTopSystem {
@@ -132,8 +126,6 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
             _k15: _c15,
             _k16: _c16,
             _k17: _c17,
-            _k18: _c18,
-            _k19: _c19,
         })
     }
 
@@ -174,28 +166,24 @@ pub struct HeavyTopSystem<S = f64> {
     _k7: S,
     /// `1/I3`
     _k8: S,
-    /// `1/I2 - 1/I3`
+    /// `-1/I2 + 1/I3`
     _k9: S,
     /// `1/I1 - 1/I3`
     _k10: S,
-    /// `1/I1 - 1/I2`
-    _k11: S,
-    /// `-1/I2 + 1/I3`
-    _k12: S,
     /// `-1/I1 + 1/I2`
-    _k13: S,
+    _k11: S,
     /// `-1/I2`
-    _k14: S,
+    _k12: S,
     /// `-1/I3`
-    _k15: S,
+    _k13: S,
     /// `-1/I1`
-    _k16: S,
+    _k14: S,
     /// `-mgl*c2`
-    _k17: S,
+    _k15: S,
     /// `-mgl*c3`
-    _k18: S,
+    _k16: S,
     /// `-mgl*c1`
-    _k19: S,
+    _k17: S,
 }
 
 impl<S> HeavyTopSystem<S> {
@@ -280,7 +268,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self._k6;
         out[(1, 1)] = self._k7;
         out[(2, 2)] = self._k8;
@@ -295,7 +283,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         let _t0 = -g3;
         let _t1 = -g1;
         let _t2 = -g2;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -m3;
         out[(0, 2)] = m2;
         out[(0, 4)] = _t0;
@@ -334,9 +322,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         let _t0 = m2 * self._k7;
         let _t1 = m3 * self._k8;
         let _t2 = m1 * self._k6;
-        out[0] = g2 * self._k2 - g3 * self._k1 - m2 * m3 * self._k9;
-        out[1] = g3 * self._k0 - g1 * self._k2 + m1 * m3 * self._k10;
-        out[2] = g1 * self._k1 - g2 * self._k0 - m1 * m2 * self._k11;
+        out[0] = g2 * self._k2 - g3 * self._k1 + m3 * (m2 * self._k9);
+        out[1] = g3 * self._k0 - g1 * self._k2 + m3 * (m1 * self._k10);
+        out[2] = g1 * self._k1 - g2 * self._k0 + m2 * (m1 * self._k11);
         out[3] = g2 * _t1 - g3 * _t0;
         out[4] = g3 * _t2 - g1 * _t1;
         out[5] = g1 * _t0 - g2 * _t2;
@@ -348,31 +336,31 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
-        out.fill(S::zero());
-        out[(0, 1)] = m3 * self._k12;
-        out[(0, 2)] = m2 * self._k12;
+        out.as_mut_slice().fill(S::zero());
+        out[(0, 1)] = m3 * self._k9;
+        out[(0, 2)] = m2 * self._k9;
         out[(0, 4)] = self._k2;
-        out[(0, 5)] = self._k17;
+        out[(0, 5)] = self._k15;
         out[(1, 0)] = m3 * self._k10;
         out[(1, 2)] = m1 * self._k10;
-        out[(1, 3)] = self._k18;
+        out[(1, 3)] = self._k16;
         out[(1, 5)] = self._k0;
-        out[(2, 0)] = m2 * self._k13;
-        out[(2, 1)] = m1 * self._k13;
+        out[(2, 0)] = m2 * self._k11;
+        out[(2, 1)] = m1 * self._k11;
         out[(2, 3)] = self._k1;
-        out[(2, 4)] = self._k19;
-        out[(3, 1)] = g3 * self._k14;
+        out[(2, 4)] = self._k17;
+        out[(3, 1)] = g3 * self._k12;
         out[(3, 2)] = g2 * self._k8;
         out[(3, 4)] = m3 * self._k8;
-        out[(3, 5)] = m2 * self._k14;
+        out[(3, 5)] = m2 * self._k12;
         out[(4, 0)] = g3 * self._k6;
-        out[(4, 2)] = g1 * self._k15;
-        out[(4, 3)] = m3 * self._k15;
+        out[(4, 2)] = g1 * self._k13;
+        out[(4, 3)] = m3 * self._k13;
         out[(4, 5)] = m1 * self._k6;
-        out[(5, 0)] = g2 * self._k16;
+        out[(5, 0)] = g2 * self._k14;
         out[(5, 1)] = g1 * self._k7;
         out[(5, 3)] = m2 * self._k7;
-        out[(5, 4)] = m1 * self._k16;
+        out[(5, 4)] = m1 * self._k14;
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
@@ -386,9 +374,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         jacobian: &mut Self::Jacobian,
     ) {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
-        let _t0 = m2 * self._k12;
+        let _t0 = m2 * self._k9;
         let _t1 = m1 * self._k10;
-        let _t2 = m1 * self._k13;
+        let _t2 = m1 * self._k11;
         let _t3 = m2 * self._k7;
         let _t4 = m3 * self._k8;
         let _t5 = m1 * self._k6;
@@ -398,31 +386,31 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         field[3] = g2 * _t4 - g3 * _t3;
         field[4] = g3 * _t5 - g1 * _t4;
         field[5] = g1 * _t3 - g2 * _t5;
-        jacobian.fill(S::zero());
-        jacobian[(0, 1)] = m3 * self._k12;
+        jacobian.as_mut_slice().fill(S::zero());
+        jacobian[(0, 1)] = m3 * self._k9;
         jacobian[(0, 2)] = _t0;
         jacobian[(0, 4)] = self._k2;
-        jacobian[(0, 5)] = self._k17;
+        jacobian[(0, 5)] = self._k15;
         jacobian[(1, 0)] = m3 * self._k10;
         jacobian[(1, 2)] = _t1;
-        jacobian[(1, 3)] = self._k18;
+        jacobian[(1, 3)] = self._k16;
         jacobian[(1, 5)] = self._k0;
-        jacobian[(2, 0)] = m2 * self._k13;
+        jacobian[(2, 0)] = m2 * self._k11;
         jacobian[(2, 1)] = _t2;
         jacobian[(2, 3)] = self._k1;
-        jacobian[(2, 4)] = self._k19;
-        jacobian[(3, 1)] = g3 * self._k14;
+        jacobian[(2, 4)] = self._k17;
+        jacobian[(3, 1)] = g3 * self._k12;
         jacobian[(3, 2)] = g2 * self._k8;
         jacobian[(3, 4)] = _t4;
-        jacobian[(3, 5)] = m2 * self._k14;
+        jacobian[(3, 5)] = m2 * self._k12;
         jacobian[(4, 0)] = g3 * self._k6;
-        jacobian[(4, 2)] = g1 * self._k15;
-        jacobian[(4, 3)] = m3 * self._k15;
+        jacobian[(4, 2)] = g1 * self._k13;
+        jacobian[(4, 3)] = m3 * self._k13;
         jacobian[(4, 5)] = _t5;
-        jacobian[(5, 0)] = g2 * self._k16;
+        jacobian[(5, 0)] = g2 * self._k14;
         jacobian[(5, 1)] = g1 * self._k7;
         jacobian[(5, 3)] = _t3;
-        jacobian[(5, 4)] = m1 * self._k16;
+        jacobian[(5, 4)] = m1 * self._k14;
     }
 
     /// `out_i = C_i(mu)`
@@ -431,8 +419,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
-        out[0] = g1 * g1 + g2 * g2 + g3 * g3;
-        out[1] = m1 * g1 + m2 * g2 + m3 * g3;
+        out[0] = g3 * g3 + (g1 * g1 + g2 * g2);
+        out[1] = m3 * g3 + (m1 * g1 + m2 * g2);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -442,7 +430,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         match _index {
             0 => {
                 let [[_, _, _, g1, g2, g3]] = mu.data.0;
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[3] = g1 * S::ratio(2.0, 1.0);
                 out[4] = g2 * S::ratio(2.0, 1.0);
                 out[5] = g3 * S::ratio(2.0, 1.0);
@@ -507,7 +495,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeavyTopSystem<S
         let _t0 = -_xi_J2;
         let _t1 = -_xi_J3;
         let _t2 = -_xi_J1;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_J3;
         out[(0, 2)] = _t0;
         out[(0, 4)] = _xi_P3;
@@ -531,6 +519,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeavyTopSystem<S
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 27 additions, 33 multiplications.
@@ -557,7 +546,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSyste
         let _t9 = _t0 + g1 * _eta_P1;
         let _t10 = _xi_J1 * _eta_P1 + _xi_P1 * _eta_J1;
         let _t11 = m1 * _xi_J1 + g1 * _xi_P1;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = (_xi_J1 * (_t0 * S::ratio(2.0, 1.0) + _t2 + _t4) - g1 * (_t5 + _t6)
             + _eta_J1 * (_t7 + _t8)) * S::ratio(-1.0, 2.0);
         out[1] = (_xi_J2 * (_t1 * S::ratio(2.0, 1.0) + _t9 + _t4) - g2 * (_t6 + _t10)
@@ -599,8 +588,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
             _k15: _constant(self._k15),
             _k16: _constant(self._k16),
             _k17: _constant(self._k17),
-            _k18: _constant(self._k18),
-            _k19: _constant(self._k19),
         }
     }
 }
@@ -667,6 +654,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSyste
         ],
         skew: false,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -716,34 +704,35 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a HeavyTopSystem<S>, h: S) -> Self {
-        let _t0 = h * S::ratio(1.0, 4.0);
-        let _t1 = _t0 / system._parameters.I2;
-        let _t2 = _t0 / system._parameters.I3;
+        let _t0 = S::one() / system._parameters.I2;
+        let _t1 = S::one() / system._parameters.I3;
+        let _t2 = h * S::ratio(1.0, 4.0);
         let _t3 = system._parameters.mgl * h;
         let _t4 = S::ratio(1.0, 2.0) * _t3;
-        let _t5 = _t0 / system._parameters.I1;
-        let _t6 = _t2 - _t5;
-        let _t7 = S::ratio(-1.0, 2.0) * _t3;
+        let _t5 = S::one() / system._parameters.I1;
+        let _t6 = _t5 - _t1;
+        let _t7 = h * S::ratio(-1.0, 4.0);
+        let _t8 = S::ratio(-1.0, 2.0) * _t3;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t1 - _t2,
+            _h0: (_t0 - _t1) * _t2,
             _h1: system._parameters.c3 * _t4,
             _h2: system._parameters.c2 * _t4,
-            _h3: -_t6,
+            _h3: _t6 * _t2,
             _h4: system._parameters.c1 * _t4,
-            _h5: _t5 - _t1,
-            _h6: _t1,
-            _h7: _t2,
-            _h8: _t5,
-            _h9: _t6,
-            _h10: -_t2,
-            _h11: -_t5,
-            _h12: -_t1,
-            _h13: system._parameters.c3 * _t7,
-            _h14: system._parameters.c1 * _t7,
-            _h15: system._parameters.c2 * _t7,
+            _h5: (_t5 - _t0) * _t2,
+            _h6: _t0 * _t2,
+            _h7: _t1 * _t2,
+            _h8: _t5 * _t2,
+            _h9: _t6 * _t7,
+            _h10: _t1 * _t7,
+            _h11: _t5 * _t7,
+            _h12: _t0 * _t7,
+            _h13: system._parameters.c3 * _t8,
+            _h14: system._parameters.c1 * _t8,
+            _h15: system._parameters.c2 * _t8,
         }
     }
 }
@@ -1578,60 +1567,57 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopCayleyMidpoint<'a, S> {
     pub fn new(system: &'a HeavyTopSystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I1;
         let _t1 = h * S::ratio(1.0, 2.0);
-        let _t2 = _t0 * _t1;
-        let _t3 = S::one() / system._parameters.I2;
-        let _t4 = _t3 * _t1;
-        let _t5 = S::one() / system._parameters.I3;
-        let _t6 = _t5 * _t1;
-        let _t7 = system._parameters.mgl * h;
-        let _t8 = system._parameters.c2 * _t7;
-        let _t9 = system._parameters.c3 * _t7;
-        let _t10 = system._parameters.c1 * _t7;
-        let _t11 = _t7 * (h * S::ratio(1.0, 4.0));
+        let _t2 = S::one() / system._parameters.I2;
+        let _t3 = S::one() / system._parameters.I3;
+        let _t4 = system._parameters.mgl * h;
+        let _t5 = system._parameters.c2 * _t4;
+        let _t6 = system._parameters.c3 * _t4;
+        let _t7 = _t2 - _t3;
+        let _t8 = system._parameters.c1 * _t4;
+        let _t9 = _t0 - _t3;
+        let _t10 = _t0 - _t2;
+        let _t11 = _t4 * (h * S::ratio(1.0, 4.0));
         let _t12 = system._parameters.c2 * _t11;
         let _t13 = system._parameters.c3 * _t11;
         let _t14 = system._parameters.c1 * _t11;
         let _t15 = h * S::ratio(-1.0, 2.0);
-        let _t16 = h * _t3;
-        let _t17 = h * _t5;
-        let _t18 = h * _t0;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t2,
-            _h1: _t4,
-            _h2: _t6,
-            _h3: S::ratio(1.0, 2.0) * _t8,
-            _h4: S::ratio(1.0, 2.0) * _t9,
-            _h5: _t4 - _t6,
-            _h6: S::ratio(1.0, 2.0) * _t10,
-            _h7: _t2 - _t6,
-            _h8: _t2 - _t4,
+            _h0: _t0 * _t1,
+            _h1: _t2 * _t1,
+            _h2: _t3 * _t1,
+            _h3: S::ratio(1.0, 2.0) * _t5,
+            _h4: S::ratio(1.0, 2.0) * _t6,
+            _h5: _t7 * _t1,
+            _h6: S::ratio(1.0, 2.0) * _t8,
+            _h7: _t9 * _t1,
+            _h8: _t10 * _t1,
             _h9: _t0 * _t12,
             _h10: _t0 * _t13,
-            _h11: _t3 * _t12,
-            _h12: _t5 * _t13,
-            _h13: S::ratio(-1.0, 2.0) * _t9,
+            _h11: _t2 * _t12,
+            _h12: _t3 * _t13,
+            _h13: S::ratio(-1.0, 2.0) * _t6,
             _h14: _t0 * _t14,
-            _h15: _t3 * _t14,
-            _h16: _t3 * _t13,
-            _h17: S::ratio(-1.0, 2.0) * _t10,
-            _h18: _t5 * _t14,
-            _h19: _t5 * _t12,
-            _h20: S::ratio(-1.0, 2.0) * _t8,
-            _h21: _t5 * _t15,
+            _h15: _t2 * _t14,
+            _h16: _t2 * _t13,
+            _h17: S::ratio(-1.0, 2.0) * _t8,
+            _h18: _t3 * _t14,
+            _h19: _t3 * _t12,
+            _h20: S::ratio(-1.0, 2.0) * _t5,
+            _h21: _t3 * _t15,
             _h22: _t0 * _t15,
-            _h23: _t3 * _t15,
-            _h24: _t9,
-            _h25: _t8,
-            _h26: _t16 - _t17,
-            _h27: _t10,
-            _h28: _t18 - _t17,
-            _h29: _t18 - _t16,
-            _h30: _t16,
-            _h31: _t17,
-            _h32: _t18,
+            _h23: _t2 * _t15,
+            _h24: _t6,
+            _h25: _t5,
+            _h26: _t7 * h,
+            _h27: _t8,
+            _h28: _t9 * h,
+            _h29: _t10 * h,
+            _h30: _t2 * h,
+            _h31: _t3 * h,
+            _h32: _t0 * h,
         }
     }
 }

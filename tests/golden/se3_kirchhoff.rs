@@ -147,7 +147,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = S::one();
         out[(0, 3)] = S::ratio(1.0, 4.0);
         out[(1, 1)] = S::ratio(2.0, 3.0);
@@ -171,7 +171,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
         let _t0 = -p3;
         let _t1 = -p1;
         let _t2 = -p2;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -m3;
         out[(0, 2)] = m2;
         out[(0, 4)] = _t0;
@@ -195,86 +195,84 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
     ///
     /// ```text
-    /// m1' = -m3*(4*m2 + p3)/6 + m2*(4*m3 - p2)/8 + p3*(m3 - 8*p2)/8 + p2*(m2 + 8*p3)/6
-    /// m2' = m3*(4*m1 + p1)/4 - m1*(4*m3 - p2)/8 + p3*(5*m1 + 8*p1)/20 - p1*(m2 + 8*p3)/6
-    /// m3' = -m2*(4*m1 + p1)/4 + m1*(4*m2 + p3)/6 - p2*(5*m1 + 8*p1)/20 - p1*(m3 - 8*p2)/8
-    /// p1' = -p3*(4*m2 + p3)/6 + p2*(4*m3 - p2)/8
-    /// p2' = p3*(4*m1 + p1)/4 - p1*(4*m3 - p2)/8
-    /// p3' = -p2*(4*m1 + p1)/4 + p1*(4*m2 + p3)/6
+    /// m1' = -m3*(2*m2/3 + p3/6) + m2*(m3/2 - p2/8) + p3*(m3/8 - p2) + p2*(m2/6 + 4*p3/3)
+    /// m2' = m3*(m1 + p1/4) - m1*(m3/2 - p2/8) + p3*(m1/4 + 2*p1/5) - p1*(m2/6 + 4*p3/3)
+    /// m3' = -m2*(m1 + p1/4) + m1*(2*m2/3 + p3/6) - p2*(m1/4 + 2*p1/5) - p1*(m3/8 - p2)
+    /// p1' = -p3*(2*m2/3 + p3/6) + p2*(m3/2 - p2/8)
+    /// p2' = p3*(m1 + p1/4) - p1*(m3/2 - p2/8)
+    /// p3' = -p2*(m1 + p1/4) + p1*(2*m2/3 + p3/6)
     /// ```
     ///
-    /// 19 additions, 31 multiplications.
+    /// 18 additions, 28 multiplications.
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[m1, m2, m3, p1, p2, p3]] = mu.data.0;
-        let _t0 = (p3 + m2 * S::ratio(4.0, 1.0)) * S::ratio(1.0, 6.0);
-        let _t1 = (m2 + p3 * S::ratio(8.0, 1.0)) * S::ratio(1.0, 6.0);
-        let _t2 = (p2 - m3 * S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
-        let _t3 = (m3 - p2 * S::ratio(8.0, 1.0)) * S::ratio(1.0, 8.0);
-        let _t4 = (p1 + m1 * S::ratio(4.0, 1.0)) * S::ratio(1.0, 4.0);
-        let _t5 = (m1 * S::ratio(5.0, 1.0) + p1 * S::ratio(8.0, 1.0))
-            * S::ratio(1.0, 20.0);
-        out[0] = p2 * _t1 - m3 * _t0 - m2 * _t2 + p3 * _t3;
-        out[1] = m3 * _t4 + m1 * _t2 + p3 * _t5 - p1 * _t1;
-        out[2] = m1 * _t0 - m2 * _t4 - p2 * _t5 - p1 * _t3;
-        out[3] = -(p3 * _t0) - p2 * _t2;
-        out[4] = p3 * _t4 + p1 * _t2;
+        let _t0 = m2 * S::ratio(2.0, 3.0) + p3 * S::ratio(1.0, 6.0);
+        let _t1 = m3 * S::ratio(1.0, 2.0) - p2 * S::ratio(1.0, 8.0);
+        let _t2 = p2 - m3 * S::ratio(1.0, 8.0);
+        let _t3 = m2 * S::ratio(1.0, 6.0) + p3 * S::ratio(4.0, 3.0);
+        let _t4 = m1 + p1 * S::ratio(1.0, 4.0);
+        let _t5 = m1 * S::ratio(1.0, 4.0) + p1 * S::ratio(2.0, 5.0);
+        out[0] = m2 * _t1 - m3 * _t0 - p3 * _t2 + p2 * _t3;
+        out[1] = m3 * _t4 - m1 * _t1 + p3 * _t5 - p1 * _t3;
+        out[2] = m1 * _t0 - m2 * _t4 - p2 * _t5 + p1 * _t2;
+        out[3] = p2 * _t1 - p3 * _t0;
+        out[4] = p3 * _t4 - p1 * _t1;
         out[5] = p1 * _t0 - p2 * _t4;
     }
 
     /// `out_ij = df_i/dmu_j`
     ///
-    /// 27 additions, 36 multiplications.
+    /// 32 additions, 36 multiplications.
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[m1, m2, m3, p1, p2, p3]] = mu.data.0;
-        let _t0 = m2 * S::ratio(1.0, 6.0);
-        let _t1 = p3 * S::ratio(1.0, 3.0);
-        let _t2 = m3 * S::ratio(1.0, 2.0);
-        let _t3 = p2 * S::ratio(1.0, 8.0) + p3 * S::ratio(1.0, 4.0);
-        let _t4 = p1 * S::ratio(1.0, 4.0);
-        let _t5 = m1 * S::ratio(1.0, 4.0);
-        let _t6 = p2 * S::ratio(1.0, 4.0);
-        let _t7 = _t6 - p3 * S::ratio(1.0, 6.0);
-        let _t8 = m2 * S::ratio(2.0, 3.0);
-        let _t9 = m1 + _t4;
-        out.fill(S::zero());
-        out[(0, 1)] = p2 * S::ratio(1.0, 24.0) - m3 * S::ratio(1.0, 6.0);
-        out[(0, 2)] = -_t0 - p3 * S::ratio(1.0, 24.0);
-        out[(0, 4)] = m2 * S::ratio(1.0, 24.0) + _t1;
-        out[(0, 5)] = p2 * S::ratio(1.0, 3.0) - m3 * S::ratio(1.0, 24.0);
-        out[(1, 0)] = _t2 + _t3;
+        let _t0 = p3 * S::ratio(1.0, 6.0);
+        let _t1 = m2 * S::ratio(2.0, 3.0) + _t0;
+        let _t2 = p2 * S::ratio(1.0, 8.0);
+        let _t3 = m3 * S::ratio(1.0, 2.0) - _t2;
+        let _t4 = p2 - m3 * S::ratio(1.0, 8.0);
+        let _t5 = m2 * S::ratio(1.0, 6.0) + p3 * S::ratio(4.0, 3.0);
+        let _t6 = m1 + p1 * S::ratio(1.0, 4.0);
+        let _t7 = m1 * S::ratio(1.0, 4.0) + p1 * S::ratio(2.0, 5.0);
+        let _t8 = _t3 - p3 * S::ratio(1.0, 4.0);
+        let _t9 = _t1 - p2 * S::ratio(1.0, 4.0);
+        out.as_mut_slice().fill(S::zero());
+        out[(0, 1)] = _t3 - m3 * S::ratio(2.0, 3.0) + p2 * S::ratio(1.0, 6.0);
+        out[(0, 2)] = m2 * S::ratio(1.0, 2.0) - _t1 + p3 * S::ratio(1.0, 8.0);
+        out[(0, 4)] = _t5 - p3 - m2 * S::ratio(1.0, 8.0);
+        out[(0, 5)] = p2 * S::ratio(4.0, 3.0) - _t4 - m3 * S::ratio(1.0, 6.0);
+        out[(1, 0)] = m3 - _t8;
         out[(1, 1)] = p1 * S::ratio(-1.0, 6.0);
-        out[(1, 2)] = _t4 + m1 * S::ratio(1.0, 2.0);
-        out[(1, 3)] = m3 * S::ratio(1.0, 4.0) - _t0 - p3 * S::ratio(14.0, 15.0);
+        out[(1, 2)] = _t6 - m1 * S::ratio(1.0, 2.0);
+        out[(1, 3)] = m3 * S::ratio(1.0, 4.0) - _t5 + p3 * S::ratio(2.0, 5.0);
         out[(1, 4)] = m1 * S::ratio(1.0, 8.0);
-        out[(1, 5)] = _t5 - p1 * S::ratio(14.0, 15.0);
-        out[(2, 0)] = -(m2 * S::ratio(1.0, 3.0)) - _t7;
-        out[(2, 1)] = -_t4 - m1 * S::ratio(1.0, 3.0);
+        out[(1, 5)] = _t7 - p1 * S::ratio(4.0, 3.0);
+        out[(2, 0)] = _t9 - m2;
+        out[(2, 1)] = m1 * S::ratio(2.0, 3.0) - _t6;
         out[(2, 2)] = p1 * S::ratio(-1.0, 8.0);
-        out[(2, 3)] = p2 * S::ratio(3.0, 5.0) - m2 * S::ratio(1.0, 4.0)
-            - m3 * S::ratio(1.0, 8.0);
-        out[(2, 4)] = p1 * S::ratio(3.0, 5.0) - _t5;
+        out[(2, 3)] = _t4 - m2 * S::ratio(1.0, 4.0) - p2 * S::ratio(2.0, 5.0);
+        out[(2, 4)] = p1 - _t7;
         out[(2, 5)] = m1 * S::ratio(1.0, 6.0);
         out[(3, 1)] = p3 * S::ratio(-2.0, 3.0);
         out[(3, 2)] = p2 * S::ratio(1.0, 2.0);
-        out[(3, 4)] = _t2 - _t6;
-        out[(3, 5)] = -_t1 - _t8;
+        out[(3, 4)] = _t3 - _t2;
+        out[(3, 5)] = -_t0 - _t1;
         out[(4, 0)] = p3;
         out[(4, 2)] = p1 * S::ratio(-1.0, 2.0);
-        out[(4, 3)] = _t3 - _t2;
+        out[(4, 3)] = -_t8;
         out[(4, 4)] = p1 * S::ratio(1.0, 8.0);
-        out[(4, 5)] = _t9;
+        out[(4, 5)] = _t6;
         out[(5, 0)] = -p2;
         out[(5, 1)] = p1 * S::ratio(2.0, 3.0);
-        out[(5, 3)] = _t8 - _t7;
-        out[(5, 4)] = -_t9;
+        out[(5, 3)] = _t9;
+        out[(5, 4)] = -_t6;
         out[(5, 5)] = p1 * S::ratio(1.0, 6.0);
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
     ///
-    /// 48 additions, 63 multiplications.
+    /// 44 additions, 54 multiplications.
     #[inline]
     fn linearize(
         &self,
@@ -283,69 +281,52 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
         jacobian: &mut Self::Jacobian,
     ) {
         let [[m1, m2, m3, p1, p2, p3]] = mu.data.0;
-        let _t0 = m3 * S::ratio(4.0, 1.0);
-        let _t1 = p2 - _t0;
-        let _t2 = m2 * S::ratio(1.0, 24.0);
-        let _t3 = p3 * S::ratio(1.0, 24.0);
-        let _t4 = m1 * S::ratio(1.0, 8.0);
-        let _t5 = p3 * S::ratio(2.0, 1.0);
-        let _t6 = m2 * S::ratio(10.0, 1.0);
-        let _t7 = m2 * S::ratio(4.0, 1.0);
-        let _t8 = _t5 - p2 * S::ratio(3.0, 1.0);
-        let _t9 = p3 * S::ratio(1.0, 6.0);
-        let _t10 = p2 * S::ratio(1.0, 8.0);
-        let _t11 = p1 * S::ratio(1.0, 8.0);
-        let _t12 = m2 * S::ratio(1.0, 6.0);
-        let _t13 = p3 * S::ratio(1.0, 3.0);
-        let _t14 = m3 * S::ratio(1.0, 2.0);
-        let _t15 = _t10 + p3 * S::ratio(1.0, 4.0);
-        let _t16 = p1 * S::ratio(1.0, 4.0);
-        let _t17 = m1 * S::ratio(1.0, 4.0);
-        let _t18 = p2 * S::ratio(1.0, 4.0);
-        let _t19 = _t18 - _t9;
-        let _t20 = m2 * S::ratio(2.0, 3.0);
-        let _t21 = m1 + _t16;
-        field[0] = _t1 * _t2 - (m3 - p2 * S::ratio(8.0, 1.0)) * _t3;
-        field[1] = _t4 * (p2 + _t0 + _t5)
-            - p1 * (_t6 - m3 * S::ratio(15.0, 1.0) + p3 * S::ratio(56.0, 1.0))
-                * S::ratio(1.0, 60.0);
-        field[2] = -(m1 * (_t7 - _t8) * S::ratio(1.0, 12.0))
-            - p1 * (_t6 + m3 * S::ratio(5.0, 1.0) - p2 * S::ratio(24.0, 1.0))
-                * S::ratio(1.0, 40.0);
-        field[3] = -((p3 + _t7) * _t9) - _t1 * _t10;
-        field[4] = m1 * p3 + _t11 * (_t1 + _t5);
-        field[5] = p1 * S::ratio(1.0, 12.0) * (m2 * S::ratio(8.0, 1.0) + _t8) - m1 * p2;
-        jacobian.fill(S::zero());
-        jacobian[(0, 1)] = p2 * S::ratio(1.0, 24.0) - m3 * S::ratio(1.0, 6.0);
-        jacobian[(0, 2)] = -_t12 - _t3;
-        jacobian[(0, 4)] = _t2 + _t13;
-        jacobian[(0, 5)] = p2 * S::ratio(1.0, 3.0) - m3 * S::ratio(1.0, 24.0);
-        jacobian[(1, 0)] = _t14 + _t15;
+        let _t0 = p3 * S::ratio(1.0, 6.0);
+        let _t1 = m2 * S::ratio(2.0, 3.0) + _t0;
+        let _t2 = p2 * S::ratio(1.0, 8.0);
+        let _t3 = m3 * S::ratio(1.0, 2.0) - _t2;
+        let _t4 = p2 - m3 * S::ratio(1.0, 8.0);
+        let _t5 = m2 * S::ratio(1.0, 6.0) + p3 * S::ratio(4.0, 3.0);
+        let _t6 = m1 + p1 * S::ratio(1.0, 4.0);
+        let _t7 = m1 * S::ratio(1.0, 4.0) + p1 * S::ratio(2.0, 5.0);
+        let _t8 = _t3 - p3 * S::ratio(1.0, 4.0);
+        let _t9 = _t1 - p2 * S::ratio(1.0, 4.0);
+        field[0] = m2 * _t3 - m3 * _t1 - p3 * _t4 + p2 * _t5;
+        field[1] = m3 * _t6 - m1 * _t3 + p3 * _t7 - p1 * _t5;
+        field[2] = m1 * _t1 - m2 * _t6 - p2 * _t7 + p1 * _t4;
+        field[3] = p2 * _t3 - p3 * _t1;
+        field[4] = p3 * _t6 - p1 * _t3;
+        field[5] = p1 * _t1 - p2 * _t6;
+        jacobian.as_mut_slice().fill(S::zero());
+        jacobian[(0, 1)] = _t3 - m3 * S::ratio(2.0, 3.0) + p2 * S::ratio(1.0, 6.0);
+        jacobian[(0, 2)] = m2 * S::ratio(1.0, 2.0) - _t1 + p3 * S::ratio(1.0, 8.0);
+        jacobian[(0, 4)] = _t5 - p3 - m2 * S::ratio(1.0, 8.0);
+        jacobian[(0, 5)] = p2 * S::ratio(4.0, 3.0) - _t4 - m3 * S::ratio(1.0, 6.0);
+        jacobian[(1, 0)] = m3 - _t8;
         jacobian[(1, 1)] = p1 * S::ratio(-1.0, 6.0);
-        jacobian[(1, 2)] = _t16 + m1 * S::ratio(1.0, 2.0);
-        jacobian[(1, 3)] = m3 * S::ratio(1.0, 4.0) - _t12 - p3 * S::ratio(14.0, 15.0);
-        jacobian[(1, 4)] = _t4;
-        jacobian[(1, 5)] = _t17 - p1 * S::ratio(14.0, 15.0);
-        jacobian[(2, 0)] = -(m2 * S::ratio(1.0, 3.0)) - _t19;
-        jacobian[(2, 1)] = -_t16 - m1 * S::ratio(1.0, 3.0);
+        jacobian[(1, 2)] = _t6 - m1 * S::ratio(1.0, 2.0);
+        jacobian[(1, 3)] = m3 * S::ratio(1.0, 4.0) - _t5 + p3 * S::ratio(2.0, 5.0);
+        jacobian[(1, 4)] = m1 * S::ratio(1.0, 8.0);
+        jacobian[(1, 5)] = _t7 - p1 * S::ratio(4.0, 3.0);
+        jacobian[(2, 0)] = _t9 - m2;
+        jacobian[(2, 1)] = m1 * S::ratio(2.0, 3.0) - _t6;
         jacobian[(2, 2)] = p1 * S::ratio(-1.0, 8.0);
-        jacobian[(2, 3)] = p2 * S::ratio(3.0, 5.0) - m2 * S::ratio(1.0, 4.0)
-            - m3 * S::ratio(1.0, 8.0);
-        jacobian[(2, 4)] = p1 * S::ratio(3.0, 5.0) - _t17;
+        jacobian[(2, 3)] = _t4 - m2 * S::ratio(1.0, 4.0) - p2 * S::ratio(2.0, 5.0);
+        jacobian[(2, 4)] = p1 - _t7;
         jacobian[(2, 5)] = m1 * S::ratio(1.0, 6.0);
         jacobian[(3, 1)] = p3 * S::ratio(-2.0, 3.0);
         jacobian[(3, 2)] = p2 * S::ratio(1.0, 2.0);
-        jacobian[(3, 4)] = _t14 - _t18;
-        jacobian[(3, 5)] = -_t13 - _t20;
+        jacobian[(3, 4)] = _t3 - _t2;
+        jacobian[(3, 5)] = -_t0 - _t1;
         jacobian[(4, 0)] = p3;
         jacobian[(4, 2)] = p1 * S::ratio(-1.0, 2.0);
-        jacobian[(4, 3)] = _t15 - _t14;
-        jacobian[(4, 4)] = _t11;
-        jacobian[(4, 5)] = _t21;
+        jacobian[(4, 3)] = -_t8;
+        jacobian[(4, 4)] = p1 * S::ratio(1.0, 8.0);
+        jacobian[(4, 5)] = _t6;
         jacobian[(5, 0)] = -p2;
         jacobian[(5, 1)] = p1 * S::ratio(2.0, 3.0);
-        jacobian[(5, 3)] = _t20 - _t19;
-        jacobian[(5, 4)] = -_t21;
+        jacobian[(5, 3)] = _t9;
+        jacobian[(5, 4)] = -_t6;
         jacobian[(5, 5)] = p1 * S::ratio(1.0, 6.0);
     }
 
@@ -355,8 +336,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m1, m2, m3, p1, p2, p3]] = mu.data.0;
-        out[0] = p1 * p1 + p2 * p2 + p3 * p3;
-        out[1] = m1 * p1 + m2 * p2 + m3 * p3;
+        out[0] = p3 * p3 + (p1 * p1 + p2 * p2);
+        out[1] = m3 * p3 + (m1 * p1 + m2 * p2);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -366,7 +347,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
         match _index {
             0 => {
                 let [[_, _, _, p1, p2, p3]] = mu.data.0;
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[3] = p1 * S::ratio(2.0, 1.0);
                 out[4] = p2 * S::ratio(2.0, 1.0);
                 out[5] = p3 * S::ratio(2.0, 1.0);
@@ -431,7 +412,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for KirchhoffBodySys
         let _t0 = -_xi_J2;
         let _t1 = -_xi_J3;
         let _t2 = -_xi_J1;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_J3;
         out[(0, 2)] = _t0;
         out[(0, 4)] = _xi_P3;
@@ -456,6 +437,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for KirchhoffBodySys
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for KirchhoffBodySystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 27 additions, 33 multiplications.
@@ -482,7 +464,7 @@ for KirchhoffBodySystem<S> {
         let _t9 = _t0 + p1 * _eta_P1;
         let _t10 = _xi_J1 * _eta_P1 + _xi_P1 * _eta_J1;
         let _t11 = m1 * _xi_J1 + p1 * _xi_P1;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = (_xi_J1 * (_t0 * S::ratio(2.0, 1.0) + _t2 + _t4) - p1 * (_t5 + _t6)
             + _eta_J1 * (_t7 + _t8)) * S::ratio(-1.0, 2.0);
         out[1] = (_xi_J2 * (_t1 * S::ratio(2.0, 1.0) + _t9 + _t4) - p2 * (_t6 + _t10)
@@ -567,6 +549,7 @@ for KirchhoffBodySystem<S> {
         ],
         skew: false,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -578,50 +561,52 @@ pub struct KirchhoffBodyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a KirchhoffBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 6>,
     h: S,
-    /// `4*h`
+    /// `h/2`
     _h0: S,
-    /// `8*h`
+    /// `4*h`
     _h1: S,
-    /// `2*h`
+    /// `8*h`
     _h2: S,
-    /// `56*h`
+    /// `2*h`
     _h3: S,
-    /// `15*h`
+    /// `56*h`
     _h4: S,
-    /// `10*h`
+    /// `15*h`
     _h5: S,
-    /// `3*h`
+    /// `10*h`
     _h6: S,
-    /// `24*h`
+    /// `3*h`
     _h7: S,
-    /// `5*h`
+    /// `24*h`
     _h8: S,
-    /// `h/4`
+    /// `5*h`
     _h9: S,
-    /// `-h/24`
+    /// `h/4`
     _h10: S,
     /// `h/96`
     _h11: S,
-    /// `h/12`
+    /// `-h/24`
     _h12: S,
-    /// `h/8`
+    /// `h/12`
     _h13: S,
-    /// `-h/32`
+    /// `h/8`
     _h14: S,
     /// `h/16`
     _h15: S,
-    /// `7*h/30`
+    /// `-h/32`
     _h16: S,
-    /// `3*h/20`
+    /// `7*h/30`
     _h17: S,
-    /// `h/6`
+    /// `3*h/20`
     _h18: S,
-    /// `-h/8`
+    /// `h/6`
     _h19: S,
-    /// `-h/4`
+    /// `-h/8`
     _h20: S,
-    /// `-h/6`
+    /// `-h/4`
     _h21: S,
+    /// `-h/6`
+    _h22: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> KirchhoffBodyMidpoint<'a, S> {
@@ -632,28 +617,29 @@ impl<'a, S: ::lie_runtime::Scalar> KirchhoffBodyMidpoint<'a, S> {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * S::ratio(4.0, 1.0),
-            _h1: h * S::ratio(8.0, 1.0),
-            _h2: h * S::ratio(2.0, 1.0),
-            _h3: h * S::ratio(56.0, 1.0),
-            _h4: h * S::ratio(15.0, 1.0),
-            _h5: h * S::ratio(10.0, 1.0),
-            _h6: h * S::ratio(3.0, 1.0),
-            _h7: h * S::ratio(24.0, 1.0),
-            _h8: h * S::ratio(5.0, 1.0),
-            _h9: h * S::ratio(1.0, 4.0),
-            _h10: h * S::ratio(-1.0, 24.0),
+            _h0: h * S::ratio(1.0, 2.0),
+            _h1: h * S::ratio(4.0, 1.0),
+            _h2: h * S::ratio(8.0, 1.0),
+            _h3: h * S::ratio(2.0, 1.0),
+            _h4: h * S::ratio(56.0, 1.0),
+            _h5: h * S::ratio(15.0, 1.0),
+            _h6: h * S::ratio(10.0, 1.0),
+            _h7: h * S::ratio(3.0, 1.0),
+            _h8: h * S::ratio(24.0, 1.0),
+            _h9: h * S::ratio(5.0, 1.0),
+            _h10: h * S::ratio(1.0, 4.0),
             _h11: h * S::ratio(1.0, 96.0),
-            _h12: h * S::ratio(1.0, 12.0),
-            _h13: h * S::ratio(1.0, 8.0),
-            _h14: h * S::ratio(-1.0, 32.0),
+            _h12: h * S::ratio(-1.0, 24.0),
+            _h13: h * S::ratio(1.0, 12.0),
+            _h14: h * S::ratio(1.0, 8.0),
             _h15: h * S::ratio(1.0, 16.0),
-            _h16: h * S::ratio(7.0, 30.0),
-            _h17: h * S::ratio(3.0, 20.0),
-            _h18: h * S::ratio(1.0, 6.0),
-            _h19: h * S::ratio(-1.0, 8.0),
-            _h20: h * S::ratio(-1.0, 4.0),
-            _h21: h * S::ratio(-1.0, 6.0),
+            _h16: h * S::ratio(-1.0, 32.0),
+            _h17: h * S::ratio(7.0, 30.0),
+            _h18: h * S::ratio(3.0, 20.0),
+            _h19: h * S::ratio(1.0, 6.0),
+            _h20: h * S::ratio(-1.0, 8.0),
+            _h21: h * S::ratio(-1.0, 4.0),
+            _h22: h * S::ratio(-1.0, 6.0),
         }
     }
 }
@@ -679,41 +665,37 @@ for KirchhoffBodyMidpoint<'_, S> {
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`
     ///
-    /// 37 additions, 36 multiplications.
+    /// 36 additions, 36 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, p1, p2, p3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3, _u_p1, _u_p2, _u_p3]] = unknown.data.0;
-        let _t0 = m2 + _u_m2;
-        let _t1 = p2 + _u_p2;
-        let _t2 = _t1 * self.h;
-        let _t3 = m3 + _u_m3;
-        let _t4 = _t3 * self._h0;
-        let _t5 = _t2 - _t4;
-        let _t6 = p3 + _u_p3;
-        let _t7 = m1 + _u_m1;
-        let _t8 = _t6 * self._h2;
+        let _t0 = m3 + _u_m3;
+        let _t1 = m2 + _u_m2;
+        let _t2 = p3 + _u_p3;
+        let _t3 = _t1 * S::ratio(1.0, 3.0) + _t2 * S::ratio(1.0, 12.0);
+        let _t4 = p2 + _u_p2;
+        let _t5 = _t0 * S::ratio(1.0, 4.0) - _t4 * S::ratio(1.0, 16.0);
+        let _t6 = _t0 * S::ratio(1.0, 16.0) - _t4 * S::ratio(1.0, 2.0);
+        let _t7 = _t1 * S::ratio(1.0, 12.0) + _t2 * S::ratio(2.0, 3.0);
+        let _t8 = m1 + _u_m1;
         let _t9 = p1 + _u_p1;
-        let _t10 = _t0 * self._h5;
-        let _t11 = _t0 * self._h0;
-        let _t12 = _t8 - _t1 * self._h6;
-        let _t13 = _t7 * self._h9;
+        let _t10 = _t8 * S::ratio(1.0, 2.0) + _t9 * S::ratio(1.0, 8.0);
+        let _t11 = _t8 * S::ratio(1.0, 8.0) + _t9 * S::ratio(1.0, 5.0);
         residual[0] = _u_m1 - m1
-            - (_t0 * _t5 - _t6 * (_t3 * self.h - _t1 * self._h1)) * S::ratio(1.0, 96.0);
-        residual[1] = _u_m2 - m2 - _t7 * (_t2 + _t4 + _t8) * S::ratio(1.0, 32.0)
-            + _t9 * (_t6 * self._h3 - _t3 * self._h4 + _t10) * S::ratio(1.0, 240.0);
-        residual[2] = _u_m3 - m3 - _t7 * (_t12 - _t11) * S::ratio(1.0, 48.0)
-            + _t9 * (_t10 - _t1 * self._h7 + _t3 * self._h8) * S::ratio(1.0, 160.0);
-        residual[3] = _u_p1 - p1 + _t1 * _t5 * S::ratio(1.0, 32.0)
-            + _t6 * (_t6 * self.h + _t11) * S::ratio(1.0, 24.0);
-        residual[4] = _u_p2 - p2 - _t6 * _t13 - _t9 * S::ratio(1.0, 32.0) * (_t5 + _t8);
-        residual[5] = _u_p3 - p3 + _t1 * _t13
-            - _t9 * S::ratio(1.0, 48.0) * (_t0 * self._h1 + _t12);
+            + (_t0 * _t3 - _t1 * _t5 - _t2 * _t6 - _t4 * _t7) * self._h0;
+        residual[1] = _u_m2 - m2
+            - self._h0 * (_t0 * _t10 - _t8 * _t5 + _t2 * _t11 - _t9 * _t7);
+        residual[2] = _u_m3 - m3
+            + self._h0 * (_t1 * _t10 - _t8 * _t3 + _t4 * _t11 + _t9 * _t6);
+        residual[3] = _u_p1 - p1 + self._h0 * (_t2 * _t3 - _t4 * _t5);
+        residual[4] = _u_p2 - p2 - self._h0 * (_t2 * _t10 - _t9 * _t5);
+        residual[5] = _u_p3 - p3 + self._h0 * (_t4 * _t10 - _t9 * _t3);
     }
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`, and `dr/du = 1 - (h/2) Df(m)`
     ///
-    /// 70 additions, 65 multiplications.
+    /// 67 additions, 72 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -723,74 +705,75 @@ for KirchhoffBodyMidpoint<'_, S> {
     ) {
         let [[m1, m2, m3, p1, p2, p3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3, _u_p1, _u_p2, _u_p3]] = unknown.data.0;
-        let _t0 = m3 + _u_m3;
-        let _t1 = m2 + _u_m2;
-        let _t2 = _t1 * self._h10;
-        let _t3 = p2 + _u_p2;
-        let _t4 = _t1 * self._h11;
-        let _t5 = p3 + _u_p3;
-        let _t6 = _t0 * self._h11;
-        let _t7 = _t3 * self._h12;
-        let _t8 = m1 + _u_m1;
-        let _t9 = _t0 * self._h13;
-        let _t10 = _t3 * self._h14;
-        let _t11 = _t8 * self._h15;
-        let _t12 = p1 + _u_p1;
-        let _t13 = _t12 * self._h15;
-        let _t14 = _t12 * self._h16;
-        let _t15 = _t5 * self._h10;
-        let _t16 = _t0 * self._h14;
-        let _t17 = _t8 * self._h12;
-        let _t18 = _t12 * self._h17;
-        let _t19 = _t1 * self._h18;
-        let _t20 = _t8 * self._h9;
-        let _t21 = _t5 * self._h12;
-        let _t22 = _t5 * self._h15 - _t10;
-        let _t23 = _t12 * self._h10;
-        let _t24 = _t3 * self._h15;
-        let _t25 = _t15 + _t24;
-        let _t26 = _t12 * self._h14;
-        let _t27 = _t13 + _t20;
-        residual[0] = _u_m1 - m1 - _t0 * _t2 - _t3 * _t4 + _t5 * _t6 - _t5 * _t7;
-        residual[1] = _u_m2 - m2 - _t8 * _t9 + _t8 * _t10 - _t5 * _t11 - _t0 * _t13
-            - _t12 * _t2 + _t5 * _t14;
-        residual[2] = _u_m3 - m3 + _t3 * _t11 + _t1 * _t13 + _t8 * _t15 - _t12 * _t16
-            + _t1 * _t17 - _t3 * _t18;
-        residual[3] = _u_p1 - p1 + _t5 * _t19 - _t3 * _t9 - _t3 * _t10 - _t5 * _t15;
-        residual[4] = _u_p2 - p2 - _t5 * _t20 + _t12 * _t9 - _t5 * _t13 + _t12 * _t10;
-        residual[5] = _u_p3 - p3 + _t3 * _t20 - _t12 * _t19 + _t12 * _t15 + _t3 * _t13;
+        let _t0 = m2 + _u_m2;
+        let _t1 = p2 + _u_p2;
+        let _t2 = _t1 * self.h;
+        let _t3 = m3 + _u_m3;
+        let _t4 = _t3 * self._h1;
+        let _t5 = _t2 - _t4;
+        let _t6 = p3 + _u_p3;
+        let _t7 = m1 + _u_m1;
+        let _t8 = _t6 * self._h3;
+        let _t9 = p1 + _u_p1;
+        let _t10 = _t0 * self._h6;
+        let _t11 = _t0 * self._h1;
+        let _t12 = _t8 - _t1 * self._h7;
+        let _t13 = _t7 * self._h10;
+        let _t14 = _t0 * self._h12;
+        let _t15 = _t6 * self._h13;
+        let _t16 = _t3 * self._h14;
+        let _t17 = _t6 * self._h15 - _t1 * self._h16;
+        let _t18 = _t9 * self._h12;
+        let _t19 = _t9 * self._h15;
+        let _t20 = _t7 * self._h15;
+        let _t21 = _t1 * self._h15;
+        let _t22 = _t6 * self._h12 + _t21;
+        let _t23 = _t9 * self._h16;
+        let _t24 = _t0 * self._h19;
+        let _t25 = _t19 + _t13;
+        residual[0] = _u_m1 - m1
+            - (_t0 * _t5 - _t6 * (_t3 * self.h - _t1 * self._h2)) * S::ratio(1.0, 96.0);
+        residual[1] = _u_m2 - m2 - _t7 * (_t2 + _t4 + _t8) * S::ratio(1.0, 32.0)
+            + _t9 * (_t6 * self._h4 - _t3 * self._h5 + _t10) * S::ratio(1.0, 240.0);
+        residual[2] = _u_m3 - m3 - _t7 * (_t12 - _t11) * S::ratio(1.0, 48.0)
+            + _t9 * (_t10 - _t1 * self._h8 + _t3 * self._h9) * S::ratio(1.0, 160.0);
+        residual[3] = _u_p1 - p1 + _t1 * _t5 * S::ratio(1.0, 32.0)
+            + _t6 * (_t6 * self.h + _t11) * S::ratio(1.0, 24.0);
+        residual[4] = _u_p2 - p2 - _t6 * _t13 - _t9 * S::ratio(1.0, 32.0) * (_t5 + _t8);
+        residual[5] = _u_p3 - p3 + _t1 * _t13
+            - _t9 * S::ratio(1.0, 48.0) * (_t0 * self._h2 + _t12);
         matrix[(0, 0)] = S::one();
-        matrix[(0, 1)] = -(_t3 * self._h11) - _t0 * self._h10;
-        matrix[(0, 2)] = _t5 * self._h11 - _t2;
-        matrix[(0, 4)] = -_t21 - _t4;
-        matrix[(0, 5)] = _t6 - _t7;
-        matrix[(1, 0)] = -_t9 - _t22;
-        matrix[(1, 1)] = S::one() - _t23;
-        matrix[(1, 2)] = -_t13 - _t8 * self._h13;
-        matrix[(1, 3)] = _t5 * self._h16 - _t0 * self._h15 - _t2;
-        matrix[(1, 4)] = _t8 * self._h14;
-        matrix[(1, 5)] = _t14 - _t11;
-        matrix[(2, 0)] = _t1 * self._h12 + _t25;
-        matrix[(2, 1)] = _t13 + _t17;
-        matrix[(2, 2)] = S::one() - _t26;
-        matrix[(2, 3)] = _t1 * self._h15 - _t3 * self._h17 - _t16;
-        matrix[(2, 4)] = _t11 - _t18;
-        matrix[(2, 5)] = _t8 * self._h10;
-        matrix[(3, 1)] = _t5 * self._h18;
-        matrix[(3, 2)] = _t3 * self._h19;
+        matrix[(0, 1)] = -(_t1 * self._h11) - _t3 * self._h12;
+        matrix[(0, 2)] = _t6 * self._h11 - _t14;
+        matrix[(0, 4)] = -_t15 - _t0 * self._h11;
+        matrix[(0, 5)] = _t3 * self._h11 - _t1 * self._h13;
+        matrix[(1, 0)] = -_t16 - _t17;
+        matrix[(1, 1)] = S::one() - _t18;
+        matrix[(1, 2)] = -_t19 - _t7 * self._h14;
+        matrix[(1, 3)] = _t6 * self._h17 - _t3 * self._h15 - _t14;
+        matrix[(1, 4)] = _t7 * self._h16;
+        matrix[(1, 5)] = _t9 * self._h17 - _t20;
+        matrix[(2, 0)] = _t0 * self._h13 + _t22;
+        matrix[(2, 1)] = _t19 + _t7 * self._h13;
+        matrix[(2, 2)] = S::one() - _t23;
+        matrix[(2, 3)] = _t0 * self._h15 - _t1 * self._h18 - _t3 * self._h16;
+        matrix[(2, 4)] = _t20 - _t9 * self._h18;
+        matrix[(2, 5)] = _t7 * self._h12;
+        matrix[(3, 1)] = _t6 * self._h19;
+        matrix[(3, 2)] = _t1 * self._h20;
         matrix[(3, 3)] = S::one();
-        matrix[(3, 4)] = _t24 - _t9;
-        matrix[(3, 5)] = _t19 + _t21;
-        matrix[(4, 0)] = _t5 * self._h20;
-        matrix[(4, 2)] = _t12 * self._h13;
-        matrix[(4, 3)] = _t9 - _t22;
-        matrix[(4, 4)] = S::one() + _t26;
-        matrix[(4, 5)] = -_t27;
-        matrix[(5, 0)] = _t3 * self._h9;
-        matrix[(5, 1)] = _t12 * self._h21;
-        matrix[(5, 3)] = _t25 - _t19;
-        matrix[(5, 4)] = _t27;
-        matrix[(5, 5)] = S::one() + _t23;
+        matrix[(3, 4)] = _t21 - _t16;
+        matrix[(3, 5)] = _t24 + _t15;
+        matrix[(4, 0)] = _t6 * self._h21;
+        matrix[(4, 2)] = _t9 * self._h14;
+        matrix[(4, 3)] = _t16 - _t17;
+        matrix[(4, 4)] = S::one() + _t23;
+        matrix[(4, 5)] = -_t25;
+        matrix[(5, 0)] = _t1 * self._h10;
+        matrix[(5, 1)] = _t9 * self._h22;
+        matrix[(5, 3)] = _t22 - _t24;
+        matrix[(5, 4)] = _t25;
+        matrix[(5, 5)] = S::one() + _t18;
         matrix[(4, 1)] = S::zero();
         matrix[(5, 2)] = S::zero();
     }
@@ -1555,64 +1538,44 @@ pub struct KirchhoffBodyCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a KirchhoffBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 6>,
     h: S,
-    /// `h/8`
+    /// `h/2`
     _h0: S,
-    /// `h/12`
+    /// `h/8`
     _h1: S,
     /// `-h/16`
     _h2: S,
-    /// `h/48`
+    /// `h/12`
     _h3: S,
-    /// `h/40`
+    /// `h/48`
     _h4: S,
-    /// `h/240`
+    /// `h/40`
     _h5: S,
-    /// `h/24`
+    /// `h/240`
     _h6: S,
     /// `-h/24`
     _h7: S,
-    /// `h/2`
-    _h8: S,
     /// `h/3`
-    _h9: S,
+    _h8: S,
     /// `h/4`
-    _h10: S,
+    _h9: S,
     /// `2*h/3`
-    _h11: S,
+    _h10: S,
     /// `h/5`
-    _h12: S,
+    _h11: S,
     /// `h/120`
-    _h13: S,
+    _h12: S,
     /// `h/80`
-    _h14: S,
+    _h13: S,
     /// `-h/4`
-    _h15: S,
+    _h14: S,
     /// `h/6`
-    _h16: S,
+    _h15: S,
     /// `-h/2`
-    _h17: S,
+    _h16: S,
     /// `-h/8`
-    _h18: S,
+    _h17: S,
     /// `-h/3`
-    _h19: S,
-    /// `4*h`
-    _h20: S,
-    /// `8*h`
-    _h21: S,
-    /// `2*h`
-    _h22: S,
-    /// `56*h`
-    _h23: S,
-    /// `10*h`
-    _h24: S,
-    /// `15*h`
-    _h25: S,
-    /// `3*h`
-    _h26: S,
-    /// `24*h`
-    _h27: S,
-    /// `5*h`
-    _h28: S,
+    _h18: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> KirchhoffBodyCayleyMidpoint<'a, S> {
@@ -1623,35 +1586,25 @@ impl<'a, S: ::lie_runtime::Scalar> KirchhoffBodyCayleyMidpoint<'a, S> {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * S::ratio(1.0, 8.0),
-            _h1: h * S::ratio(1.0, 12.0),
+            _h0: h * S::ratio(1.0, 2.0),
+            _h1: h * S::ratio(1.0, 8.0),
             _h2: h * S::ratio(-1.0, 16.0),
-            _h3: h * S::ratio(1.0, 48.0),
-            _h4: h * S::ratio(1.0, 40.0),
-            _h5: h * S::ratio(1.0, 240.0),
-            _h6: h * S::ratio(1.0, 24.0),
+            _h3: h * S::ratio(1.0, 12.0),
+            _h4: h * S::ratio(1.0, 48.0),
+            _h5: h * S::ratio(1.0, 40.0),
+            _h6: h * S::ratio(1.0, 240.0),
             _h7: h * S::ratio(-1.0, 24.0),
-            _h8: h * S::ratio(1.0, 2.0),
-            _h9: h * S::ratio(1.0, 3.0),
-            _h10: h * S::ratio(1.0, 4.0),
-            _h11: h * S::ratio(2.0, 3.0),
-            _h12: h * S::ratio(1.0, 5.0),
-            _h13: h * S::ratio(1.0, 120.0),
-            _h14: h * S::ratio(1.0, 80.0),
-            _h15: h * S::ratio(-1.0, 4.0),
-            _h16: h * S::ratio(1.0, 6.0),
-            _h17: h * S::ratio(-1.0, 2.0),
-            _h18: h * S::ratio(-1.0, 8.0),
-            _h19: h * S::ratio(-1.0, 3.0),
-            _h20: h * S::ratio(4.0, 1.0),
-            _h21: h * S::ratio(8.0, 1.0),
-            _h22: h * S::ratio(2.0, 1.0),
-            _h23: h * S::ratio(56.0, 1.0),
-            _h24: h * S::ratio(10.0, 1.0),
-            _h25: h * S::ratio(15.0, 1.0),
-            _h26: h * S::ratio(3.0, 1.0),
-            _h27: h * S::ratio(24.0, 1.0),
-            _h28: h * S::ratio(5.0, 1.0),
+            _h8: h * S::ratio(1.0, 3.0),
+            _h9: h * S::ratio(1.0, 4.0),
+            _h10: h * S::ratio(2.0, 3.0),
+            _h11: h * S::ratio(1.0, 5.0),
+            _h12: h * S::ratio(1.0, 120.0),
+            _h13: h * S::ratio(1.0, 80.0),
+            _h14: h * S::ratio(-1.0, 4.0),
+            _h15: h * S::ratio(1.0, 6.0),
+            _h16: h * S::ratio(-1.0, 2.0),
+            _h17: h * S::ratio(-1.0, 8.0),
+            _h18: h * S::ratio(-1.0, 3.0),
         }
     }
 }
@@ -1677,48 +1630,35 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
     ///
-    /// 46 additions, 64 multiplications.
+    /// 43 additions, 43 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, p1, p2, p3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3, _u_p1, _u_p2, _u_p3]] = unknown.data.0;
-        let _t0 = _u_p1 + _u_m1 * S::ratio(4.0, 1.0);
-        let _t1 = _t0 * self._h0;
-        let _t2 = _u_m2 + _u_p3 * S::ratio(8.0, 1.0);
-        let _t3 = _t2 * self._h1;
+        let _t0 = (_u_p2 - _u_m3 * S::ratio(1.0, 8.0)) * self._h0;
+        let _t1 = _t0 * _u_p3;
+        let _t2 = (_u_m1 + _u_p1 * S::ratio(1.0, 4.0)) * self._h0;
+        let _t3 = (_u_m2 * S::ratio(1.0, 6.0) + _u_p3 * S::ratio(4.0, 3.0)) * self._h0;
         let _t4 = _t3 * _u_p3;
-        let _t5 = _u_m3 - _u_p2 * S::ratio(8.0, 1.0);
-        let _t6 = _t5 * self._h2;
-        let _t7 = _u_p2 - _u_m3 * S::ratio(4.0, 1.0);
-        let _t8 = _t7 * self._h2;
-        let _t9 = _u_p3 + _u_m2 * S::ratio(4.0, 1.0);
-        let _t10 = _t9 * self._h1;
-        let _t11 = _t8 * _u_m3 + (_t1 * _u_m1 + _t10 * _u_m2);
-        let _t12 = _t6 * _u_p2 + _t11;
-        let _t13 = _t10 * _t6;
-        let _t14 = _t8 * _t3;
-        let _t15 = _u_m1 * S::ratio(5.0, 1.0) + _u_p1 * S::ratio(8.0, 1.0);
-        let _t16 = _t15 * self._h4;
-        let _t17 = _t16 * _u_p1;
-        let _t18 = _t1 * _t16;
-        let _t19 = _t0 * S::ratio(30.0, 1.0);
-        let _t20 = _t15 * S::ratio(6.0, 1.0);
-        let _t21 = _u_p2 * S::ratio(3.0, 1.0);
-        residual[0] = _u_m1 - m1 + _t1 * (_t4 + _t12) - _u_p1 * (_t13 + _t14)
-            + (S::ratio(4.0, 1.0) * (_u_m3 * _t9 - _u_p2 * _t2)
-                + (_u_m2 * _t7 - _u_p3 * _t5) * S::ratio(3.0, 1.0)) * self._h3;
-        residual[1] = _u_m2 - m2 + _t10 * (_t4 + _t17 + _t11) - _u_p2 * (_t14 + _t18)
-            - (_u_m3 * _t19 + _u_m1 * _t7 * S::ratio(15.0, 1.0) + _u_p3 * _t20
-                - _u_p1 * _t2 * S::ratio(20.0, 1.0)) * self._h5;
-        residual[2] = _u_m3 - m3 + _t8 * (_t17 + _t12) - _u_p3 * (_t13 + _t18)
-            + (_u_m2 * _t19 - _u_m1 * _t9 * S::ratio(20.0, 1.0) + _u_p2 * _t20
-                + _u_p1 * _t5 * S::ratio(15.0, 1.0)) * self._h5;
-        residual[3] = _u_p1 - p1
-            + (_u_p3 * S::ratio(4.0, 1.0) * _t9 + _t7 * _t21) * self._h3;
-        residual[4] = _u_p2 - p2
-            + self._h2 * (_u_p1 * _t7 + _u_p3 * _t0 * S::ratio(2.0, 1.0));
-        residual[5] = _u_p3 - p3
-            + (_t0 * _t21 - _u_p1 * _t9 * S::ratio(2.0, 1.0)) * self._h6;
+        let _t5 = (_u_m3 * S::ratio(1.0, 2.0) - _u_p2 * S::ratio(1.0, 8.0)) * self._h0;
+        let _t6 = (_u_m2 * S::ratio(2.0, 3.0) + _u_p3 * S::ratio(1.0, 6.0)) * self._h0;
+        let _t7 = _t5 * _u_m3 + (_t2 * _u_m1 + _t6 * _u_m2);
+        let _t8 = _t0 * _u_p2 + _t7;
+        let _t9 = _u_m3 - _t0 * _u_p1;
+        let _t10 = _u_m2 + _t3 * _u_p1;
+        let _t11 = _u_m1 - _t3 * _u_p2;
+        let _t12 = (_u_m1 * S::ratio(1.0, 4.0) + _u_p1 * S::ratio(2.0, 5.0)) * self._h0;
+        let _t13 = _t12 * _u_p3;
+        let _t14 = _t12 * _u_p1;
+        let _t15 = _t12 * _u_p2;
+        residual[0] = _t1 - m1 + _t2 * (_t4 + _t8) + _t6 * _t9 - _t5 * _t10 + _t11;
+        residual[1] = _t6 * (_t4 + _t14 + _t7) - m2 - _t13 + _t10 - _t2 * (_u_m3 + _t15)
+            + _t5 * _t11;
+        residual[2] = _t15 - m3 + _t5 * (_t14 + _t8) + _t9 + _t2 * (_u_m2 - _t13)
+            - _t6 * (_u_m1 + _t1);
+        residual[3] = _u_p1 - p1 + _t6 * _u_p3 - _t5 * _u_p2;
+        residual[4] = _u_p2 - p2 - _t2 * _u_p3 + _t5 * _u_p1;
+        residual[5] = _u_p3 - p3 + _t2 * _u_p2 - _t6 * _u_p1;
     }
 
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
@@ -1735,13 +1675,13 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let [[_u_m1, _u_m2, _u_m3, _u_p1, _u_p2, _u_p3]] = unknown.data.0;
         let _t0 = _u_m1 * S::ratio(4.0, 1.0);
         let _t1 = _u_p1 + _t0;
-        let _t2 = _t1 * self._h0;
+        let _t2 = self._h1 * _t1;
         let _t3 = _u_m3 * S::ratio(4.0, 1.0);
         let _t4 = _u_p2 - _t3;
         let _t5 = _t4 * self._h2;
         let _t6 = _t5 * _u_m3;
         let _t7 = _u_m2 + _u_p3 * S::ratio(8.0, 1.0);
-        let _t8 = _t7 * self._h1;
+        let _t8 = _t7 * self._h3;
         let _t9 = _t6 + _t8 * _u_p3;
         let _t10 = _u_m3 - _u_p2 * S::ratio(8.0, 1.0);
         let _t11 = _t10 * self._h2;
@@ -1749,7 +1689,7 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t13 = _t2 * _u_m1;
         let _t14 = _u_m2 * S::ratio(4.0, 1.0);
         let _t15 = _u_p3 + _t14;
-        let _t16 = _t15 * self._h1;
+        let _t16 = _t15 * self._h3;
         let _t17 = _t16 * _u_m2;
         let _t18 = _t13 + _t17;
         let _t19 = _t12 + _t18;
@@ -1758,7 +1698,7 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t22 = _t20 + _t21;
         let _t23 = _u_m1 * S::ratio(5.0, 1.0);
         let _t24 = _t23 + _u_p1 * S::ratio(8.0, 1.0);
-        let _t25 = _t24 * self._h4;
+        let _t25 = _t24 * self._h5;
         let _t26 = _t25 * _u_p1;
         let _t27 = _t26 + _t9;
         let _t28 = _t2 * _t25;
@@ -1770,7 +1710,7 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t34 = _t20 + _t28;
         let _t35 = _u_p2 * S::ratio(3.0, 1.0);
         let _t36 = _u_p3 * S::ratio(2.0, 1.0);
-        let _t37 = _t17 + _t12 + S::ratio(2.0, 1.0) * _t13 + _t9;
+        let _t37 = _t17 + _t12 + _t13 * S::ratio(2.0, 1.0) + _t9;
         let _t38 = _t2 * _t16;
         let _t39 = _t2 * _u_m2 - _t11 * _u_p1;
         let _t40 = _t2 * _u_p3 - _t5 * _u_p1;
@@ -1780,105 +1720,95 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t44 = _t16 * _u_m1 - _t25 * _u_p2;
         let _t45 = _t16 * _u_p3 - _t5 * _u_p2;
         let _t46 = _u_p1 + _t45;
-        let _t47 = _t13 + S::ratio(2.0, 1.0) * _t17 + _t27;
+        let _t47 = _t13 + _t17 * S::ratio(2.0, 1.0) + _t27;
         let _t48 = _t16 * _t5;
         let _t49 = _t16 * _u_m3 - _t8 * _u_p2;
         let _t50 = _u_m2 * S::ratio(10.0, 1.0);
         let _t51 = _t36 - _t35;
         let _t52 = _t5 * _u_m1 - _t25 * _u_p3;
         let _t53 = _t5 * _u_m2 - _t11 * _u_p3;
-        let _t54 = S::ratio(2.0, 1.0) * _t6 + _t33;
+        let _t54 = _t6 * S::ratio(2.0, 1.0) + _t33;
         residual[0] = _u_m1 - m1 + _t2 * (_t9 + _t19) - _u_p1 * _t22
             + (S::ratio(4.0, 1.0) * (_u_m3 * _t15 - _u_p2 * _t7)
-                + (_u_m2 * _t4 - _u_p3 * _t10) * S::ratio(3.0, 1.0)) * self._h3;
+                + S::ratio(3.0, 1.0) * (_u_m2 * _t4 - _u_p3 * _t10)) * self._h4;
         residual[1] = _u_m2 - m2 + _t16 * (_t18 + _t27) - _u_p2 * _t29
             - (_u_m3 * _t30 + _t4 * _t31 + _u_p3 * _t32
-                - _u_p1 * _t7 * S::ratio(20.0, 1.0)) * self._h5;
+                - _u_p1 * _t7 * S::ratio(20.0, 1.0)) * self._h6;
         residual[2] = _u_m3 - m3 + _t5 * (_t6 + _t33) - _u_p3 * _t34
             + (_u_m2 * _t30 - _u_m1 * _t15 * S::ratio(20.0, 1.0) + _u_p2 * _t32
-                + _u_p1 * _t10 * S::ratio(15.0, 1.0)) * self._h5;
+                + _u_p1 * _t10 * S::ratio(15.0, 1.0)) * self._h6;
         residual[3] = _u_p1 - p1
-            + (_u_p3 * S::ratio(4.0, 1.0) * _t15 + _t4 * _t35) * self._h3;
-        residual[4] = _u_p2 - p2 + self._h2 * (_u_p1 * _t4 + _t1 * _t36);
+            + (_u_p3 * S::ratio(4.0, 1.0) * _t15 + _t4 * _t35) * self._h4;
+        residual[4] = _u_p2 - p2 + self._h2 * (_u_p1 * _t4 + _t36 * _t1);
         residual[5] = _u_p3 - p3
-            - (_t1 * _t35 - _u_p1 * _t15 * S::ratio(2.0, 1.0)) * self._h7;
-        matrix[(0, 0)] = S::one() + _t2 * _t2 + _t37 * self._h8;
-        matrix[(0, 1)] = _t38 - _t4 * self._h3 + _t39 * self._h9 + self._h1 * _t40;
-        matrix[(0, 2)] = _t41 + _t15 * self._h3 + _t42 * self._h10 + self._h2 * _t43;
-        matrix[(0, 3)] = self._h0 * _t37 - _t22;
-        matrix[(0, 4)] = _t2 * _t11 - _t7 * self._h3 + self._h2 * _t42 + _t43 * self._h8;
-        matrix[(0, 5)] = _t2 * _t8 + _t10 * self._h3 + self._h1 * _t39
-            + _t40 * self._h11;
-        matrix[(1, 0)] = _t38 - self._h0 * _t43 + self._h2 * (_u_p2 + _t3 + _t36)
-            + self._h8 * _t44;
-        matrix[(1, 1)] = S::one() + _t16 * _t16 + self._h1 * _t46 + self._h9 * _t47;
-        matrix[(1, 2)] = _t48 - self._h0 * (_u_p1 + _u_m1 * S::ratio(2.0, 1.0))
-            + self._h10 * _t49;
-        matrix[(1, 3)] = _t16 * _t25 - _t43 * self._h12 + self._h0 * _t44
+            - self._h7 * (_t35 * _t1 - _u_p1 * S::ratio(2.0, 1.0) * _t15);
+        matrix[(0, 0)] = S::one() + _t2 * _t2 + _t37 * self._h0;
+        matrix[(0, 1)] = _t38 - _t4 * self._h4 + _t39 * self._h8 + _t40 * self._h3;
+        matrix[(0, 2)] = _t41 + _t15 * self._h4 + _t42 * self._h9 + _t43 * self._h2;
+        matrix[(0, 3)] = _t37 * self._h1 - _t22;
+        matrix[(0, 4)] = _t2 * _t11 + _t42 * self._h2 + _t43 * self._h0 - _t7 * self._h4;
+        matrix[(0, 5)] = _t2 * _t8 + _t39 * self._h3 + _t40 * self._h10
+            + _t10 * self._h4;
+        matrix[(1, 0)] = _t38 - _t43 * self._h1 + (_u_p2 + _t3 + _t36) * self._h2
+            + self._h0 * _t44;
+        matrix[(1, 1)] = S::one() + _t16 * _t16 + _t46 * self._h3 + _t47 * self._h8;
+        matrix[(1, 2)] = _t48 - self._h1 * (_u_p1 + _u_m1 * S::ratio(2.0, 1.0))
+            + _t49 * self._h9;
+        matrix[(1, 3)] = _t16 * _t25 - _t43 * self._h11 + self._h1 * _t44
             + (_t50 - _u_m3 * S::ratio(15.0, 1.0) + _u_p3 * S::ratio(56.0, 1.0))
-                * self._h13;
-        matrix[(1, 4)] = self._h2 * (_u_m1 + _t49) - _t29;
-        matrix[(1, 5)] = _t16 * _t8 + self._h1 * _t47 + self._h11 * _t45
-            - self._h13 * (_t31 - _u_p1 * S::ratio(56.0, 1.0));
-        matrix[(2, 0)] = _t41 - self._h0 * _t40 - self._h7 * (_t14 - _t51)
-            + self._h8 * _t52;
-        matrix[(2, 1)] = _t48 - self._h7 * (_t0 + _u_p1 * S::ratio(3.0, 1.0))
-            + self._h9 * _t53;
-        matrix[(2, 2)] = S::one() + _t5 * _t5 - self._h2 * _t46 + self._h10 * _t54;
-        matrix[(2, 3)] = _t5 * _t25 - _t40 * self._h12 + self._h0 * _t52
+                * self._h12;
+        matrix[(1, 4)] = (_u_m1 + _t49) * self._h2 - _t29;
+        matrix[(1, 5)] = _t16 * _t8 + _t47 * self._h3 + _t45 * self._h10
+            - (_t31 - _u_p1 * S::ratio(56.0, 1.0)) * self._h12;
+        matrix[(2, 0)] = _t41 - _t40 * self._h1 - (_t14 - _t51) * self._h7
+            + self._h0 * _t52;
+        matrix[(2, 1)] = _t48 - (_t0 + _u_p1 * S::ratio(3.0, 1.0)) * self._h7
+            + self._h8 * _t53;
+        matrix[(2, 2)] = S::one() + _t5 * _t5 - _t46 * self._h2 + _t54 * self._h9;
+        matrix[(2, 3)] = _t5 * _t25 - _t40 * self._h11 + self._h1 * _t52
             + (_t50 + _u_m3 * S::ratio(5.0, 1.0) - _u_p2 * S::ratio(24.0, 1.0))
-                * self._h14;
-        matrix[(2, 4)] = _t5 * _t11 - self._h8 * _t45 + self._h2 * _t54
-            + self._h4 * (_t23 - _u_p1 * S::ratio(12.0, 1.0));
-        matrix[(2, 5)] = -(self._h1 * (_u_m1 - _t53)) - _t34;
-        matrix[(3, 1)] = _u_p3 * self._h9;
-        matrix[(3, 2)] = _u_p2 * self._h15;
+                * self._h13;
+        matrix[(2, 4)] = _t5 * _t11 - self._h0 * _t45 + self._h2 * _t54
+            + (_t23 - _u_p1 * S::ratio(12.0, 1.0)) * self._h5;
+        matrix[(2, 5)] = -(self._h3 * (_u_m1 - _t53)) - _t34;
+        matrix[(3, 1)] = _u_p3 * self._h8;
+        matrix[(3, 2)] = _u_p2 * self._h14;
         matrix[(3, 3)] = S::one();
-        matrix[(3, 4)] = self._h0 * (_u_p2 - _u_m3 * S::ratio(2.0, 1.0));
-        matrix[(3, 5)] = (_u_p3 + _u_m2 * S::ratio(2.0, 1.0)) * self._h16;
-        matrix[(4, 0)] = _u_p3 * self._h17;
-        matrix[(4, 2)] = _u_p1 * self._h10;
+        matrix[(3, 4)] = self._h1 * (_u_p2 - _u_m3 * S::ratio(2.0, 1.0));
+        matrix[(3, 5)] = (_u_p3 + _u_m2 * S::ratio(2.0, 1.0)) * self._h15;
+        matrix[(4, 0)] = _u_p3 * self._h16;
+        matrix[(4, 2)] = _u_p1 * self._h9;
         matrix[(4, 3)] = self._h2 * (_t4 + _t36);
         matrix[(4, 4)] = S::one() + _u_p1 * self._h2;
-        matrix[(4, 5)] = _t1 * self._h18;
-        matrix[(5, 0)] = _u_p2 * self._h8;
-        matrix[(5, 1)] = _u_p1 * self._h19;
-        matrix[(5, 3)] = self._h7 * (_u_m2 * S::ratio(8.0, 1.0) + _t51);
+        matrix[(4, 5)] = _t1 * self._h17;
+        matrix[(5, 0)] = _u_p2 * self._h0;
+        matrix[(5, 1)] = _u_p1 * self._h18;
+        matrix[(5, 3)] = (_u_m2 * S::ratio(8.0, 1.0) + _t51) * self._h7;
         matrix[(5, 4)] = _t2;
-        matrix[(5, 5)] = S::one() - _u_p1 * self._h1;
+        matrix[(5, 5)] = S::one() - _u_p1 * self._h3;
         matrix[(4, 1)] = S::zero();
         matrix[(5, 2)] = S::zero();
     }
 
     /// `mu1 = mu + ad*_x m = mu + h f(m)`
     ///
-    /// 25 additions, 36 multiplications.
+    /// 24 additions, 34 multiplications.
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[m1, m2, m3, p1, p2, p3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3, _u_p1, _u_p2, _u_p3]] = unknown.data.0;
-        let _t0 = _u_p2 * self.h;
-        let _t1 = _u_m3 * self._h20;
-        let _t2 = _t0 - _t1;
-        let _t3 = _u_p3 * self._h22;
-        let _t4 = _u_m2 * self._h24;
-        let _t5 = _u_m2 * self._h20;
-        let _t6 = _t3 - _u_p2 * self._h26;
-        let _t7 = _u_m1 * self.h;
-        mu[0] = m1
-            + (_u_m2 * _t2 - _u_p3 * (_u_m3 * self.h - _u_p2 * self._h21))
-                * S::ratio(1.0, 24.0);
-        mu[1] = m2 + _u_m1 * (_t0 + _t1 + _t3) * S::ratio(1.0, 8.0)
-            - _u_p1 * (_u_p3 * self._h23 + _t4 - _u_m3 * self._h25)
-                * S::ratio(1.0, 60.0);
-        mu[2] = m3 + _u_m1 * (_t6 - _t5) * S::ratio(1.0, 12.0)
-            - _u_p1 * (_t4 - _u_p2 * self._h27 + _u_m3 * self._h28)
-                * S::ratio(1.0, 40.0);
-        mu[3] = p1 - _u_p2 * _t2 * S::ratio(1.0, 8.0)
-            - _u_p3 * (_u_p3 * self.h + _t5) * S::ratio(1.0, 6.0);
-        mu[4] = p2 + _u_p3 * _t7 + _u_p1 * (_t2 + _t3) * S::ratio(1.0, 8.0);
-        mu[5] = p3 - _u_p2 * _t7
-            + _u_p1 * (_u_m2 * self._h21 + _t6) * S::ratio(1.0, 12.0);
+        let _t0 = _u_m2 * S::ratio(2.0, 3.0) + _u_p3 * S::ratio(1.0, 6.0);
+        let _t1 = _u_m3 * S::ratio(1.0, 2.0) - _u_p2 * S::ratio(1.0, 8.0);
+        let _t2 = _u_p2 - _u_m3 * S::ratio(1.0, 8.0);
+        let _t3 = _u_m2 * S::ratio(1.0, 6.0) + _u_p3 * S::ratio(4.0, 3.0);
+        let _t4 = _u_m1 + _u_p1 * S::ratio(1.0, 4.0);
+        let _t5 = _u_m1 * S::ratio(1.0, 4.0) + _u_p1 * S::ratio(2.0, 5.0);
+        mu[0] = m1 - self.h * (_u_m3 * _t0 - _u_m2 * _t1 + _u_p3 * _t2 - _u_p2 * _t3);
+        mu[1] = m2 + self.h * (_u_m3 * _t4 - _u_m1 * _t1 + _u_p3 * _t5 - _u_p1 * _t3);
+        mu[2] = m3 - self.h * (_u_m2 * _t4 - _u_m1 * _t0 + _u_p2 * _t5 - _u_p1 * _t2);
+        mu[3] = p1 - self.h * (_u_p3 * _t0 - _u_p2 * _t1);
+        mu[4] = p2 + self.h * (_u_p3 * _t4 - _u_p1 * _t1);
+        mu[5] = p3 - self.h * (_u_p2 * _t4 - _u_p1 * _t0);
     }
 
     #[inline]

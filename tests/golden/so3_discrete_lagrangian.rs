@@ -53,6 +53,9 @@ impl<S: ::lie_runtime::Scalar> DiscreteBody<S> {
         let _t0 = S::one() / self.I1;
         let _t1 = S::one() / self.I2;
         let _t2 = S::one() / self.I3;
+        let _t3 = self.I1 * S::ratio(2.0, 1.0);
+        let _t4 = self.I2 * S::ratio(2.0, 1.0);
+        let _t5 = self.I3 * S::ratio(2.0, 1.0);
         let _c0 = S::ratio(1.0, 2.0) / self.I1;
         let _c1 = S::ratio(1.0, 2.0) / self.I2;
         let _c2 = S::ratio(1.0, 2.0) / self.I3;
@@ -69,8 +72,11 @@ impl<S: ::lie_runtime::Scalar> DiscreteBody<S> {
         let _c13 = self.I2;
         let _c14 = self.I3;
         let _c15 = self.I1 * S::ratio(4.0, 1.0);
-        let _c16 = self.I2 * S::ratio(4.0, 1.0);
-        let _c17 = self.I3 * S::ratio(4.0, 1.0);
+        let _c16 = _t3 + _t4;
+        let _c17 = _t3 + _t5;
+        let _c18 = self.I2 * S::ratio(4.0, 1.0);
+        let _c19 = _t4 + _t5;
+        let _c20 = self.I3 * S::ratio(4.0, 1.0);
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "I1", "1/(2*I1)"),
@@ -89,8 +95,11 @@ impl<S: ::lie_runtime::Scalar> DiscreteBody<S> {
                 (_c13, "I2", "I2"),
                 (_c14, "I3", "I3"),
                 (_c15, "I1", "4*I1"),
-                (_c16, "I2", "4*I2"),
-                (_c17, "I3", "4*I3"),
+                (_c16, "I1", "2*I1 + 2*I2"),
+                (_c17, "I1", "2*I1 + 2*I3"),
+                (_c18, "I2", "4*I2"),
+                (_c19, "I2", "2*I2 + 2*I3"),
+                (_c20, "I3", "4*I3"),
             ],
         )?;
         ::core::result::Result::Ok(DiscreteBodySystem {
@@ -113,6 +122,9 @@ impl<S: ::lie_runtime::Scalar> DiscreteBody<S> {
             _k15: _c15,
             _k16: _c16,
             _k17: _c17,
+            _k18: _c18,
+            _k19: _c19,
+            _k20: _c20,
         })
     }
 
@@ -164,10 +176,16 @@ pub struct DiscreteBodySystem<S = f64> {
     I3: S,
     /// `4*I1`
     _k15: S,
-    /// `4*I2`
+    /// `2*I1 + 2*I2`
     _k16: S,
-    /// `4*I3`
+    /// `2*I1 + 2*I3`
     _k17: S,
+    /// `4*I2`
+    _k18: S,
+    /// `2*I2 + 2*I3`
+    _k19: S,
+    /// `4*I3`
+    _k20: S,
 }
 
 impl<S> DiscreteBodySystem<S> {
@@ -243,7 +261,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for DiscreteBodySystem<
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self._k3;
         out[(1, 1)] = self._k4;
         out[(2, 2)] = self._k5;
@@ -255,7 +273,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for DiscreteBodySystem<
     #[inline]
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[m1, m2, m3]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -m3;
         out[(0, 2)] = m2;
         out[(1, 0)] = m3;
@@ -276,9 +294,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for DiscreteBodySystem<
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[m1, m2, m3]] = mu.data.0;
-        out[0] = m2 * m3 * self._k6;
-        out[1] = m1 * m3 * self._k7;
-        out[2] = m1 * m2 * self._k8;
+        out[0] = m3 * (m2 * self._k6);
+        out[1] = m3 * (m1 * self._k7);
+        out[2] = m2 * (m1 * self._k8);
     }
 
     /// `out_ij = df_i/dmu_j`
@@ -287,7 +305,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for DiscreteBodySystem<
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[m1, m2, m3]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = m3 * self._k6;
         out[(0, 2)] = m2 * self._k6;
         out[(1, 0)] = m3 * self._k7;
@@ -313,7 +331,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for DiscreteBodySystem<
         field[0] = m3 * _t0;
         field[1] = m3 * _t1;
         field[2] = m2 * _t2;
-        jacobian.fill(S::zero());
+        jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 1)] = m3 * self._k6;
         jacobian[(0, 2)] = _t0;
         jacobian[(1, 0)] = m3 * self._k7;
@@ -328,7 +346,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for DiscreteBodySystem<
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m1, m2, m3]] = mu.data.0;
-        out[0] = m1 * m1 + m2 * m2 + m3 * m3;
+        out[0] = m3 * m3 + (m1 * m1 + m2 * m2);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -379,7 +397,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for DiscreteBodySyst
     #[inline]
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_e1, _xi_e2, _xi_e3]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_e3;
         out[(0, 2)] = -_xi_e2;
         out[(1, 0)] = -_xi_e3;
@@ -392,6 +410,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for DiscreteBodySyst
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for DiscreteBodySystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -450,7 +469,7 @@ for DiscreteBodySystem<S> {
     /// No operation.
     #[inline]
     fn inertia(&self, _xi: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self.I1;
         out[(1, 1)] = self.I2;
         out[(2, 2)] = self.I3;
@@ -492,37 +511,34 @@ for DiscreteBodySystem<S> {
 
     /// `out_ij = d^2l_d/dx^i dx^j`
     ///
-    /// 19 additions, 32 multiplications, 2 divisions.
+    /// 17 additions, 34 multiplications, 2 divisions.
     #[inline]
     fn discrete_curvature(&self, _h: S, x: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_e1, _xi_e2, _xi_e3]] = x.data.0;
-        let _t0 = _xi_e1 * _xi_e1;
-        let _t1 = _xi_e2 * _xi_e2;
-        let _t2 = _xi_e3 * _xi_e3;
-        let _t3 = S::one() / (_t0 + _t1 + _t2 + S::ratio(4.0, 1.0));
+        let _t0 = _xi_e3 * _xi_e3;
+        let _t1 = _xi_e1 * _xi_e1;
+        let _t2 = _xi_e2 * _xi_e2;
+        let _t3 = S::one() / (S::one() + (_t0 + (_t1 + _t2)) * S::ratio(1.0, 4.0));
         let _t4 = S::one() / _h * _t3;
         let _t5 = _t3 * _t4;
-        let _t6 = (self.I1 * _t0 + self.I2 * _t1 + self.I3 * _t2) * _t5;
-        let _t7 = S::ratio(4.0, 1.0) * _t6;
-        let _t8 = self.I1 * _t5;
-        let _t9 = _t3 * _t6;
-        let _t10 = self.I2 * _t5;
-        let _t11 = S::ratio(2.0, 1.0) * _t9;
-        let _t12 = _t8 - _t11;
-        let _t13 = _xi_e1 * S::ratio(-8.0, 1.0);
-        let _t14 = _xi_e2 * (_t10 + _t12) * _t13;
-        let _t15 = self.I3 * _t5;
-        let _t16 = _xi_e3 * (_t15 + _t12) * _t13;
-        let _t17 = _xi_e2 * _xi_e3 * (_t10 - _t11 + _t15) * S::ratio(-8.0, 1.0);
-        out[(0, 0)] = self._k15 * _t4 - _t7 - _t0 * (_t8 - _t9) * S::ratio(16.0, 1.0);
-        out[(0, 1)] = _t14;
-        out[(0, 2)] = _t16;
-        out[(1, 0)] = _t14;
-        out[(1, 1)] = self._k16 * _t4 - _t7 + _t1 * S::ratio(16.0, 1.0) * (_t9 - _t10);
-        out[(1, 2)] = _t17;
-        out[(2, 0)] = _t16;
-        out[(2, 1)] = _t17;
-        out[(2, 2)] = self._k17 * _t4 - _t7 + _t2 * S::ratio(16.0, 1.0) * (_t9 - _t15);
+        let _t6 = (self.I3 * _t0 + (self.I1 * _t1 + self.I2 * _t2)) * _t5;
+        let _t7 = _t3 * _t6;
+        let _t8 = _xi_e1 * S::ratio(1.0, 4.0);
+        let _t9 = _xi_e2 * (_t7 - self._k16 * _t5) * _t8;
+        let _t10 = _xi_e3 * (_t7 - self._k17 * _t5) * _t8;
+        let _t11 = _xi_e2 * _xi_e3 * S::ratio(1.0, 4.0) * (_t7 - self._k19 * _t5);
+        out[(0, 0)] = self.I1 * _t4
+            - S::ratio(1.0, 4.0) * (_t6 - _t1 * (_t7 - self._k15 * _t5));
+        out[(0, 1)] = _t9;
+        out[(0, 2)] = _t10;
+        out[(1, 0)] = _t9;
+        out[(1, 1)] = self.I2 * _t4
+            - S::ratio(1.0, 4.0) * (_t6 - _t2 * (_t7 - self._k18 * _t5));
+        out[(1, 2)] = _t11;
+        out[(2, 0)] = _t10;
+        out[(2, 1)] = _t11;
+        out[(2, 2)] = self.I3 * _t4
+            - S::ratio(1.0, 4.0) * (_t6 - _t0 * (_t7 - self._k20 * _t5));
     }
 }
 
@@ -554,6 +570,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for DiscreteBodySystem<S> 
             _k15: _constant(self._k15),
             _k16: _constant(self._k16),
             _k17: _constant(self._k17),
+            _k18: _constant(self._k18),
+            _k19: _constant(self._k19),
+            _k20: _constant(self._k20),
         }
     }
 }
@@ -612,6 +631,7 @@ for DiscreteBodySystem<S> {
         ],
         skew: true,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -645,19 +665,19 @@ impl<'a, S: ::lie_runtime::Scalar> DiscreteBodyMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a DiscreteBodySystem<S>, h: S) -> Self {
-        let _t0 = h * S::ratio(1.0, 4.0);
-        let _t1 = _t0 / system._parameters.I2;
-        let _t2 = _t0 / system._parameters.I3;
-        let _t3 = _t0 / system._parameters.I1;
-        let _t4 = _t2 - _t3;
+        let _t0 = S::one() / system._parameters.I2;
+        let _t1 = S::one() / system._parameters.I3;
+        let _t2 = h * S::ratio(1.0, 4.0);
+        let _t3 = S::one() / system._parameters.I1;
+        let _t4 = _t3 - _t1;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t1 - _t2,
-            _h1: -_t4,
-            _h2: _t3 - _t1,
-            _h3: _t4,
+            _h0: (_t0 - _t1) * _t2,
+            _h1: _t4 * _t2,
+            _h2: (_t3 - _t0) * _t2,
+            _h3: h * _t4 * S::ratio(-1.0, 4.0),
         }
     }
 }
@@ -2942,16 +2962,16 @@ impl<'a, S: ::lie_runtime::Scalar> DiscreteBodySphericalMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a DiscreteBodySystem<S>, h: S) -> Self {
-        let _t0 = h / system._parameters.I2;
-        let _t1 = h / system._parameters.I3;
-        let _t2 = h / system._parameters.I1;
+        let _t0 = S::one() / system._parameters.I2;
+        let _t1 = S::one() / system._parameters.I3;
+        let _t2 = S::one() / system._parameters.I1;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t0 - _t1,
-            _h1: _t2 - _t1,
-            _h2: _t2 - _t0,
+            _h0: h * (_t0 - _t1),
+            _h1: h * (_t2 - _t1),
+            _h2: h * (_t2 - _t0),
         }
     }
 }
@@ -3163,20 +3183,20 @@ impl<'a, S: ::lie_runtime::Scalar> DiscreteBodyMoserVeselov<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a DiscreteBodySystem<S>, h: S) -> Self {
-        let _t0 = h * S::ratio(1.0, 2.0);
-        let _t1 = _t0 / system._parameters.I1;
-        let _t2 = _t0 / system._parameters.I2;
-        let _t3 = _t0 / system._parameters.I3;
+        let _t0 = S::one() / system._parameters.I1;
+        let _t1 = h * S::ratio(1.0, 2.0);
+        let _t2 = S::one() / system._parameters.I2;
+        let _t3 = S::one() / system._parameters.I3;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t1,
-            _h1: _t2,
-            _h2: _t3,
-            _h3: _t2 - _t3,
-            _h4: _t1 - _t3,
-            _h5: _t1 - _t2,
+            _h0: _t0 * _t1,
+            _h1: _t2 * _t1,
+            _h2: _t3 * _t1,
+            _h3: (_t2 - _t3) * _t1,
+            _h4: (_t0 - _t3) * _t1,
+            _h5: (_t0 - _t2) * _t1,
         }
     }
 }

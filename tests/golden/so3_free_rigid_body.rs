@@ -14,11 +14,11 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case)]
 pub struct FreeRigidBody<S = f64> {
-    /// first principal moment of inertia [kg m^2].
+    /// first principal moment of inertia \[kg m^2].
     pub I1: S,
-    /// second principal moment of inertia [kg m^2].
+    /// second principal moment of inertia \[kg m^2].
     pub I2: S,
-    /// third principal moment of inertia [kg m^2].
+    /// third principal moment of inertia \[kg m^2].
     pub I3: S,
 }
 
@@ -198,7 +198,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self._k3;
         out[(1, 1)] = self._k4;
         out[(2, 2)] = self._k5;
@@ -210,7 +210,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[x, y, z]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -z;
         out[(0, 2)] = y;
         out[(1, 0)] = z;
@@ -231,9 +231,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[x, y, z]] = mu.data.0;
-        out[0] = y * z * self._k6;
-        out[1] = x * z * self._k7;
-        out[2] = x * y * self._k8;
+        out[0] = z * (y * self._k6);
+        out[1] = z * (x * self._k7);
+        out[2] = y * (x * self._k8);
     }
 
     /// `out_ij = df_i/dmu_j`
@@ -242,7 +242,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[x, y, z]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = z * self._k6;
         out[(0, 2)] = y * self._k6;
         out[(1, 0)] = z * self._k7;
@@ -268,7 +268,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
         field[0] = z * _t0;
         field[1] = z * _t1;
         field[2] = y * _t2;
-        jacobian.fill(S::zero());
+        jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 1)] = z * self._k6;
         jacobian[(0, 2)] = _t0;
         jacobian[(1, 0)] = z * self._k7;
@@ -283,7 +283,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[x, y, z]] = mu.data.0;
-        out[0] = x * x + y * y + z * z;
+        out[0] = z * z + (x * x + y * y);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -334,7 +334,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for FreeRigidBodySys
     #[inline]
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_e1, _xi_e2, _xi_e3]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_e3;
         out[(0, 2)] = -_xi_e2;
         out[(1, 0)] = -_xi_e3;
@@ -347,6 +347,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for FreeRigidBodySys
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for FreeRigidBodySystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -453,6 +454,7 @@ for FreeRigidBodySystem<S> {
         ],
         skew: true,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -486,19 +488,19 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
-        let _t0 = h * S::ratio(1.0, 4.0);
-        let _t1 = _t0 / system._parameters.I2;
-        let _t2 = _t0 / system._parameters.I3;
-        let _t3 = _t0 / system._parameters.I1;
-        let _t4 = _t2 - _t3;
+        let _t0 = S::one() / system._parameters.I2;
+        let _t1 = S::one() / system._parameters.I3;
+        let _t2 = h * S::ratio(1.0, 4.0);
+        let _t3 = S::one() / system._parameters.I1;
+        let _t4 = _t3 - _t1;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t1 - _t2,
-            _h1: -_t4,
-            _h2: _t3 - _t1,
-            _h3: _t4,
+            _h0: (_t0 - _t1) * _t2,
+            _h1: _t4 * _t2,
+            _h2: (_t3 - _t0) * _t2,
+            _h3: _t4 * h * S::ratio(-1.0, 4.0),
         }
     }
 }
@@ -2784,16 +2786,16 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySphericalMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
-        let _t0 = h / system._parameters.I2;
-        let _t1 = h / system._parameters.I3;
-        let _t2 = h / system._parameters.I1;
+        let _t0 = S::one() / system._parameters.I2;
+        let _t1 = S::one() / system._parameters.I3;
+        let _t2 = S::one() / system._parameters.I1;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t0 - _t1,
-            _h1: _t2 - _t1,
-            _h2: _t2 - _t0,
+            _h0: (_t0 - _t1) * h,
+            _h1: (_t2 - _t1) * h,
+            _h2: (_t2 - _t0) * h,
         }
     }
 }
@@ -3005,20 +3007,20 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMoserVeselov<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
-        let _t0 = h * S::ratio(1.0, 2.0);
-        let _t1 = _t0 / system._parameters.I1;
-        let _t2 = _t0 / system._parameters.I2;
-        let _t3 = _t0 / system._parameters.I3;
+        let _t0 = S::one() / system._parameters.I1;
+        let _t1 = h * S::ratio(1.0, 2.0);
+        let _t2 = S::one() / system._parameters.I2;
+        let _t3 = S::one() / system._parameters.I3;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t1,
-            _h1: _t2,
-            _h2: _t3,
-            _h3: _t2 - _t3,
-            _h4: _t1 - _t3,
-            _h5: _t1 - _t2,
+            _h0: _t0 * _t1,
+            _h1: _t2 * _t1,
+            _h2: _t3 * _t1,
+            _h3: (_t2 - _t3) * _t1,
+            _h4: (_t0 - _t3) * _t1,
+            _h5: (_t0 - _t2) * _t1,
         }
     }
 }

@@ -13,13 +13,13 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case)]
 pub struct Satellite<S = f64> {
-    /// moment of inertia about the axis along the flight [kg m^2].
+    /// moment of inertia about the axis along the flight \[kg m^2].
     pub I1: S,
-    /// moment of inertia about the axis normal to the orbit [kg m^2].
+    /// moment of inertia about the axis normal to the orbit \[kg m^2].
     pub I2: S,
-    /// moment of inertia about the axis along the radius [kg m^2].
+    /// moment of inertia about the axis along the radius \[kg m^2].
     pub I3: S,
-    /// mean motion of the orbit [rad/s].
+    /// mean motion of the orbit \[rad/s].
     pub n: S,
 }
 
@@ -61,10 +61,8 @@ impl<S: ::lie_runtime::Scalar> Satellite<S> {
         let _t6 = self.I1 * _t5;
         let _t7 = self.I2 * _t5;
         let _t8 = self.I3 * _t5;
-        let _t9 = _t3 - _t4;
-        let _t10 = _t7 - _t8;
-        let _t11 = _t2 - _t3;
-        let _t12 = _t6 - _t7;
+        let _t9 = _t7 - _t8;
+        let _t10 = _t6 - _t7;
         let _c0 = S::ratio(1.0, 2.0) / self.I1;
         let _c1 = S::ratio(1.0, 2.0) / self.I2;
         let _c2 = S::ratio(1.0, 2.0) / self.I3;
@@ -79,19 +77,18 @@ impl<S: ::lie_runtime::Scalar> Satellite<S> {
         let _c11 = _t6;
         let _c12 = _t7;
         let _c13 = _t8;
-        let _c14 = _t9;
-        let _c15 = _t10;
+        let _c14 = _t4 - _t3;
+        let _c15 = -_t9;
         let _c16 = _t2 - _t4;
         let _c17 = _t6 - _t8;
-        let _c18 = _t11;
-        let _c19 = _t12;
-        let _c20 = -_t9;
-        let _c21 = -_t10;
-        let _c22 = -_t11;
-        let _c23 = -_t12;
-        let _c24 = -_t3;
-        let _c25 = -_t4;
-        let _c26 = -_t2;
+        let _c18 = _t3 - _t2;
+        let _c19 = -_t10;
+        let _c20 = -_t3;
+        let _c21 = -_t4;
+        let _c22 = -_t2;
+        let _c23 = self.n * S::ratio(1.0, 2.0);
+        let _c24 = _t9;
+        let _c25 = _t10;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "I1", "1/(2*I1)"),
@@ -108,19 +105,18 @@ impl<S: ::lie_runtime::Scalar> Satellite<S> {
                 (_c11, "I1", "3*I1*n^2"),
                 (_c12, "I2", "3*I2*n^2"),
                 (_c13, "I3", "3*I3*n^2"),
-                (_c14, "I2", "1/I2 - 1/I3"),
-                (_c15, "I2", "3*I2*n^2 - 3*I3*n^2"),
+                (_c14, "I2", "-1/I2 + 1/I3"),
+                (_c15, "I2", "-3*I2*n^2 + 3*I3*n^2"),
                 (_c16, "I1", "1/I1 - 1/I3"),
                 (_c17, "I1", "3*I1*n^2 - 3*I3*n^2"),
-                (_c18, "I1", "1/I1 - 1/I2"),
-                (_c19, "I1", "3*I1*n^2 - 3*I2*n^2"),
-                (_c20, "I2", "-1/I2 + 1/I3"),
-                (_c21, "I2", "-3*I2*n^2 + 3*I3*n^2"),
-                (_c22, "I1", "-1/I1 + 1/I2"),
-                (_c23, "I1", "-3*I1*n^2 + 3*I2*n^2"),
-                (_c24, "I2", "-1/I2"),
-                (_c25, "I3", "-1/I3"),
-                (_c26, "I1", "-1/I1"),
+                (_c18, "I1", "-1/I1 + 1/I2"),
+                (_c19, "I1", "-3*I1*n^2 + 3*I2*n^2"),
+                (_c20, "I2", "-1/I2"),
+                (_c21, "I3", "-1/I3"),
+                (_c22, "I1", "-1/I1"),
+                (_c23, "n", "n/2"),
+                (_c24, "I2", "3*I2*n^2 - 3*I3*n^2"),
+                (_c25, "I1", "3*I1*n^2 - 3*I2*n^2"),
             ],
         )?;
         ::core::result::Result::Ok(SatelliteSystem {
@@ -151,7 +147,6 @@ impl<S: ::lie_runtime::Scalar> Satellite<S> {
             _k23: _c23,
             _k24: _c24,
             _k25: _c25,
-            _k26: _c26,
         })
     }
 
@@ -210,32 +205,30 @@ pub struct SatelliteSystem<S = f64> {
     _k12: S,
     /// `3*I3*n^2`
     _k13: S,
-    /// `1/I2 - 1/I3`
+    /// `-1/I2 + 1/I3`
     _k14: S,
-    /// `3*I2*n^2 - 3*I3*n^2`
+    /// `-3*I2*n^2 + 3*I3*n^2`
     _k15: S,
     /// `1/I1 - 1/I3`
     _k16: S,
     /// `3*I1*n^2 - 3*I3*n^2`
     _k17: S,
-    /// `1/I1 - 1/I2`
-    _k18: S,
-    /// `3*I1*n^2 - 3*I2*n^2`
-    _k19: S,
-    /// `-1/I2 + 1/I3`
-    _k20: S,
-    /// `-3*I2*n^2 + 3*I3*n^2`
-    _k21: S,
     /// `-1/I1 + 1/I2`
-    _k22: S,
+    _k18: S,
     /// `-3*I1*n^2 + 3*I2*n^2`
-    _k23: S,
+    _k19: S,
     /// `-1/I2`
-    _k24: S,
+    _k20: S,
     /// `-1/I3`
-    _k25: S,
+    _k21: S,
     /// `-1/I1`
-    _k26: S,
+    _k22: S,
+    /// `n/2`
+    _k23: S,
+    /// `3*I2*n^2 - 3*I3*n^2`
+    _k24: S,
+    /// `3*I1*n^2 - 3*I2*n^2`
+    _k25: S,
 }
 
 impl<S> SatelliteSystem<S> {
@@ -301,7 +294,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
     /// `H(mu)`
     ///
     /// ```text
-    /// H = Pi1^2/(2*I1) + Pi2^2/(2*I2) + Pi3^2/(2*I3) - n*(Pi1*R21 + Pi2*R22 + Pi3*R23) + 3*n^2*(I1*R31^2 + I2*R32^2 + I3*R33^2)/2
+    /// H = (Pi1^2/(2*I1) + Pi2^2/(2*I2) + Pi3^2/(2*I3)) - n*(Pi1*R21 + Pi2*R22 + Pi3*R23) + 3*n^2*(I1*R31^2 + I2*R32^2 + I3*R33^2)/2
     /// ```
     ///
     /// 8 additions, 16 multiplications.
@@ -324,7 +317,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
         let [[_Pi1, _Pi2, _Pi3, _, _, _, _R21, _R22, _R23, _R31, _R32, _R33]] = mu
             .data
             .0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = _Pi1 * self._k7 + _R21 * self._k8;
         out[1] = _Pi2 * self._k9 + _R22 * self._k8;
         out[2] = _Pi3 * self._k10 + _R23 * self._k8;
@@ -341,7 +334,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self._k7;
         out[(0, 6)] = self._k8;
         out[(1, 1)] = self._k9;
@@ -373,7 +366,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
         let _t6 = -_R12;
         let _t7 = -_R22;
         let _t8 = -_R32;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -_Pi3;
         out[(0, 2)] = _Pi2;
         out[(0, 4)] = _t0;
@@ -435,7 +428,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
     /// R33' = -R32*(Pi1/I1 - n*R21) + R31*(Pi2/I2 - n*R22)
     /// ```
     ///
-    /// 17 additions, 36 multiplications.
+    /// 15 additions, 36 multiplications.
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[_Pi1, _Pi2, _Pi3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = mu
@@ -447,9 +440,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
         let _t3 = _t2 - self.n * _R23;
         let _t4 = _Pi1 * self._k7;
         let _t5 = _t4 - self.n * _R21;
-        out[0] = -(_Pi2 * _Pi3 * self._k14) - _R32 * _R33 * self._k15;
-        out[1] = _Pi1 * _Pi3 * self._k16 + _R31 * _R33 * self._k17;
-        out[2] = -(_Pi1 * _Pi2 * self._k18) - _R31 * _R32 * self._k19;
+        out[0] = _Pi3 * (_Pi2 * self._k14) + _R33 * (_R32 * self._k15);
+        out[1] = _Pi3 * (_Pi1 * self._k16) + _R33 * (_R31 * self._k17);
+        out[2] = _Pi2 * (_Pi1 * self._k18) + _R32 * (_R31 * self._k19);
         out[3] = _t3 * _R12 - _t1 * _R13;
         out[4] = _t5 * _R13 - _t3 * _R11;
         out[5] = _t1 * _R11 - _t5 * _R12;
@@ -469,75 +462,75 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
         let [[_Pi1, _Pi2, _Pi3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = mu
             .data
             .0;
-        let _t0 = _Pi3 * self._k10;
-        let _t1 = _t0 - self.n * _R23;
-        let _t2 = _Pi2 * self._k9;
-        let _t3 = _t2 - self.n * _R22;
-        let _t4 = -_t3;
-        let _t5 = -_t1;
-        let _t6 = _Pi1 * self._k7;
-        let _t7 = _t6 - self.n * _R21;
-        let _t8 = -_t7;
-        out.fill(S::zero());
-        out[(0, 1)] = _Pi3 * self._k20;
-        out[(0, 2)] = _Pi2 * self._k20;
-        out[(0, 10)] = _R33 * self._k21;
-        out[(0, 11)] = _R32 * self._k21;
+        let _t0 = _Pi2 * self._k9;
+        let _t1 = _t0 - self.n * _R22;
+        let _t2 = _Pi3 * self._k10;
+        let _t3 = _t2 - self.n * _R23;
+        let _t4 = _Pi1 * self._k7;
+        let _t5 = _t4 - self.n * _R21;
+        let _t6 = -_t1;
+        let _t7 = -_t3;
+        let _t8 = -_t5;
+        out.as_mut_slice().fill(S::zero());
+        out[(0, 1)] = _Pi3 * self._k14;
+        out[(0, 2)] = _Pi2 * self._k14;
+        out[(0, 10)] = _R33 * self._k15;
+        out[(0, 11)] = _R32 * self._k15;
         out[(1, 0)] = _Pi3 * self._k16;
         out[(1, 2)] = _Pi1 * self._k16;
         out[(1, 9)] = _R33 * self._k17;
         out[(1, 11)] = _R31 * self._k17;
-        out[(2, 0)] = _Pi2 * self._k22;
-        out[(2, 1)] = _Pi1 * self._k22;
-        out[(2, 9)] = _R32 * self._k23;
-        out[(2, 10)] = _R31 * self._k23;
-        out[(3, 1)] = _R13 * self._k24;
+        out[(2, 0)] = _Pi2 * self._k18;
+        out[(2, 1)] = _Pi1 * self._k18;
+        out[(2, 9)] = _R32 * self._k19;
+        out[(2, 10)] = _R31 * self._k19;
+        out[(3, 1)] = _R13 * self._k20;
         out[(3, 2)] = self._k10 * _R12;
-        out[(3, 4)] = _t1;
-        out[(3, 5)] = _t4;
+        out[(3, 4)] = _t3;
+        out[(3, 5)] = _t6;
         out[(3, 7)] = self.n * _R13;
         out[(3, 8)] = _R12 * self._k8;
         out[(4, 0)] = self._k7 * _R13;
-        out[(4, 2)] = _R11 * self._k25;
-        out[(4, 3)] = _t5;
-        out[(4, 5)] = _t7;
+        out[(4, 2)] = _R11 * self._k21;
+        out[(4, 3)] = _t7;
+        out[(4, 5)] = _t5;
         out[(4, 6)] = _R13 * self._k8;
         out[(4, 8)] = self.n * _R11;
-        out[(5, 0)] = _R12 * self._k26;
+        out[(5, 0)] = _R12 * self._k22;
         out[(5, 1)] = self._k9 * _R11;
-        out[(5, 3)] = _t3;
+        out[(5, 3)] = _t1;
         out[(5, 4)] = _t8;
         out[(5, 6)] = self.n * _R12;
         out[(5, 7)] = _R11 * self._k8;
-        out[(6, 1)] = _R23 * self._k24;
+        out[(6, 1)] = _R23 * self._k20;
         out[(6, 2)] = _R22 * self._k10;
-        out[(6, 7)] = _t0;
-        out[(6, 8)] = _Pi2 * self._k24;
+        out[(6, 7)] = _t2;
+        out[(6, 8)] = _Pi2 * self._k20;
         out[(7, 0)] = _R23 * self._k7;
-        out[(7, 2)] = _R21 * self._k25;
-        out[(7, 6)] = _Pi3 * self._k25;
-        out[(7, 8)] = _t6;
-        out[(8, 0)] = _R22 * self._k26;
+        out[(7, 2)] = _R21 * self._k21;
+        out[(7, 6)] = _Pi3 * self._k21;
+        out[(7, 8)] = _t4;
+        out[(8, 0)] = _R22 * self._k22;
         out[(8, 1)] = _R21 * self._k9;
-        out[(8, 6)] = _t2;
-        out[(8, 7)] = _Pi1 * self._k26;
-        out[(9, 1)] = _R33 * self._k24;
+        out[(8, 6)] = _t0;
+        out[(8, 7)] = _Pi1 * self._k22;
+        out[(9, 1)] = _R33 * self._k20;
         out[(9, 2)] = _R32 * self._k10;
         out[(9, 7)] = self.n * _R33;
         out[(9, 8)] = _R32 * self._k8;
-        out[(9, 10)] = _t1;
-        out[(9, 11)] = _t4;
+        out[(9, 10)] = _t3;
+        out[(9, 11)] = _t6;
         out[(10, 0)] = _R33 * self._k7;
-        out[(10, 2)] = _R31 * self._k25;
+        out[(10, 2)] = _R31 * self._k21;
         out[(10, 6)] = _R33 * self._k8;
         out[(10, 8)] = self.n * _R31;
-        out[(10, 9)] = _t5;
-        out[(10, 11)] = _t7;
-        out[(11, 0)] = _R32 * self._k26;
+        out[(10, 9)] = _t7;
+        out[(10, 11)] = _t5;
+        out[(11, 0)] = _R32 * self._k22;
         out[(11, 1)] = _R31 * self._k9;
         out[(11, 6)] = self.n * _R32;
         out[(11, 7)] = _R31 * self._k8;
-        out[(11, 9)] = _t3;
+        out[(11, 9)] = _t1;
         out[(11, 10)] = _t8;
     }
 
@@ -554,12 +547,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
         let [[_Pi1, _Pi2, _Pi3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = mu
             .data
             .0;
-        let _t0 = _Pi2 * self._k20;
-        let _t1 = _R32 * self._k21;
+        let _t0 = _Pi2 * self._k14;
+        let _t1 = _R32 * self._k15;
         let _t2 = _Pi1 * self._k16;
         let _t3 = _R31 * self._k17;
-        let _t4 = _Pi1 * self._k22;
-        let _t5 = _R31 * self._k23;
+        let _t4 = _Pi1 * self._k18;
+        let _t5 = _R31 * self._k19;
         let _t6 = _Pi2 * self._k9;
         let _t7 = _t6 - self.n * _R22;
         let _t8 = _Pi3 * self._k10;
@@ -581,62 +574,62 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
         field[9] = _R32 * _t9 - _R33 * _t7;
         field[10] = _R33 * _t11 - _R31 * _t9;
         field[11] = _R31 * _t7 - _R32 * _t11;
-        jacobian.fill(S::zero());
-        jacobian[(0, 1)] = _Pi3 * self._k20;
+        jacobian.as_mut_slice().fill(S::zero());
+        jacobian[(0, 1)] = _Pi3 * self._k14;
         jacobian[(0, 2)] = _t0;
-        jacobian[(0, 10)] = _R33 * self._k21;
+        jacobian[(0, 10)] = _R33 * self._k15;
         jacobian[(0, 11)] = _t1;
         jacobian[(1, 0)] = _Pi3 * self._k16;
         jacobian[(1, 2)] = _t2;
         jacobian[(1, 9)] = _R33 * self._k17;
         jacobian[(1, 11)] = _t3;
-        jacobian[(2, 0)] = _Pi2 * self._k22;
+        jacobian[(2, 0)] = _Pi2 * self._k18;
         jacobian[(2, 1)] = _t4;
-        jacobian[(2, 9)] = _R32 * self._k23;
+        jacobian[(2, 9)] = _R32 * self._k19;
         jacobian[(2, 10)] = _t5;
-        jacobian[(3, 1)] = _R13 * self._k24;
+        jacobian[(3, 1)] = _R13 * self._k20;
         jacobian[(3, 2)] = self._k10 * _R12;
         jacobian[(3, 4)] = _t9;
         jacobian[(3, 5)] = _t12;
         jacobian[(3, 7)] = self.n * _R13;
         jacobian[(3, 8)] = _R12 * self._k8;
         jacobian[(4, 0)] = self._k7 * _R13;
-        jacobian[(4, 2)] = _R11 * self._k25;
+        jacobian[(4, 2)] = _R11 * self._k21;
         jacobian[(4, 3)] = _t13;
         jacobian[(4, 5)] = _t11;
         jacobian[(4, 6)] = _R13 * self._k8;
         jacobian[(4, 8)] = self.n * _R11;
-        jacobian[(5, 0)] = _R12 * self._k26;
+        jacobian[(5, 0)] = _R12 * self._k22;
         jacobian[(5, 1)] = self._k9 * _R11;
         jacobian[(5, 3)] = _t7;
         jacobian[(5, 4)] = _t14;
         jacobian[(5, 6)] = self.n * _R12;
         jacobian[(5, 7)] = _R11 * self._k8;
-        jacobian[(6, 1)] = _R23 * self._k24;
+        jacobian[(6, 1)] = _R23 * self._k20;
         jacobian[(6, 2)] = _R22 * self._k10;
         jacobian[(6, 7)] = _t8;
-        jacobian[(6, 8)] = _Pi2 * self._k24;
+        jacobian[(6, 8)] = _Pi2 * self._k20;
         jacobian[(7, 0)] = _R23 * self._k7;
-        jacobian[(7, 2)] = _R21 * self._k25;
-        jacobian[(7, 6)] = _Pi3 * self._k25;
+        jacobian[(7, 2)] = _R21 * self._k21;
+        jacobian[(7, 6)] = _Pi3 * self._k21;
         jacobian[(7, 8)] = _t10;
-        jacobian[(8, 0)] = _R22 * self._k26;
+        jacobian[(8, 0)] = _R22 * self._k22;
         jacobian[(8, 1)] = _R21 * self._k9;
         jacobian[(8, 6)] = _t6;
-        jacobian[(8, 7)] = _Pi1 * self._k26;
-        jacobian[(9, 1)] = _R33 * self._k24;
+        jacobian[(8, 7)] = _Pi1 * self._k22;
+        jacobian[(9, 1)] = _R33 * self._k20;
         jacobian[(9, 2)] = _R32 * self._k10;
         jacobian[(9, 7)] = self.n * _R33;
         jacobian[(9, 8)] = _R32 * self._k8;
         jacobian[(9, 10)] = _t9;
         jacobian[(9, 11)] = _t12;
         jacobian[(10, 0)] = _R33 * self._k7;
-        jacobian[(10, 2)] = _R31 * self._k25;
+        jacobian[(10, 2)] = _R31 * self._k21;
         jacobian[(10, 6)] = _R33 * self._k8;
         jacobian[(10, 8)] = self.n * _R31;
         jacobian[(10, 9)] = _t13;
         jacobian[(10, 11)] = _t11;
-        jacobian[(11, 0)] = _R32 * self._k26;
+        jacobian[(11, 0)] = _R32 * self._k22;
         jacobian[(11, 1)] = _R31 * self._k9;
         jacobian[(11, 6)] = self.n * _R32;
         jacobian[(11, 7)] = _R31 * self._k8;
@@ -650,9 +643,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[_, _, _, _, _, _, _R21, _R22, _R23, _R31, _R32, _R33]] = mu.data.0;
-        out[0] = _R21 * _R21 + _R22 * _R22 + _R23 * _R23;
-        out[1] = _R31 * _R31 + _R32 * _R32 + _R33 * _R33;
-        out[2] = _R21 * _R31 + _R22 * _R32 + _R23 * _R33;
+        out[0] = _R23 * _R23 + (_R21 * _R21 + _R22 * _R22);
+        out[1] = _R33 * _R33 + (_R31 * _R31 + _R32 * _R32);
+        out[2] = _R23 * _R33 + (_R21 * _R31 + _R22 * _R32);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -663,7 +656,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
         match _index {
             0 => {
                 let [[_, _, _, _, _, _, _R21, _R22, _R23, _, _, _]] = mu.data.0;
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[6] = _R21 * S::ratio(2.0, 1.0);
                 out[7] = _R22 * S::ratio(2.0, 1.0);
                 out[8] = _R23 * S::ratio(2.0, 1.0);
@@ -671,7 +664,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
 
             1 => {
                 let [[_, _, _, _, _, _, _, _, _, _R31, _R32, _R33]] = mu.data.0;
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[9] = _R31 * S::ratio(2.0, 1.0);
                 out[10] = _R32 * S::ratio(2.0, 1.0);
                 out[11] = _R33 * S::ratio(2.0, 1.0);
@@ -679,7 +672,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
 
             2 => {
                 let [[_, _, _, _, _, _, _R21, _R22, _R23, _R31, _R32, _R33]] = mu.data.0;
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[6] = _R31;
                 out[7] = _R32;
                 out[8] = _R33;
@@ -764,7 +757,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for SatelliteSystem<
         let _t0 = -_xi_J2;
         let _t1 = -_xi_J3;
         let _t2 = -_xi_J1;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_J3;
         out[(0, 2)] = _t0;
         out[(0, 4)] = _xi_R13;
@@ -812,6 +805,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for SatelliteSystem<
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for SatelliteSystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 57 additions, 63 multiplications.
@@ -848,7 +842,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for SatelliteSyst
         let _t15 = _xi_J1 * _eta_R21 + _xi_R21 * _eta_J1;
         let _t16 = _xi_J1 * _eta_R31 + _xi_R31 * _eta_J1;
         let _t17 = _xi_J1 * _eta_R11 + _xi_R11 * _eta_J1;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = (_xi_J1 * (_t0 * S::ratio(2.0, 1.0) + _t2 + _t4) + _eta_J1 * (_t5 + _t6)
             - _R21 * (_t7 + _t8) - _R31 * (_t9 + _t10) - _R11 * (_t11 + _t12))
             * S::ratio(-1.0, 2.0);
@@ -898,7 +892,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for SatelliteSystem<S> {
             _k23: _constant(self._k23),
             _k24: _constant(self._k24),
             _k25: _constant(self._k25),
-            _k26: _constant(self._k26),
         }
     }
 }
@@ -954,6 +947,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for SatelliteSyst
         ],
         skew: false,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -979,86 +973,91 @@ pub struct SatelliteMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a SatelliteSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 12>,
     h: S,
-    /// `(1/I2 - 1/I3)*h/4`
-    _h0: S,
     /// `3*(I2*n^2 - I3*n^2)*h/4`
+    _h0: S,
+    /// `(1/I2 - 1/I3)*h/4`
     _h1: S,
-    /// `(1/I1 - 1/I3)*h/4`
-    _h2: S,
     /// `3*(I1*n^2 - I3*n^2)*h/4`
+    _h2: S,
+    /// `(1/I1 - 1/I3)*h/4`
     _h3: S,
-    /// `(1/I1 - 1/I2)*h/4`
-    _h4: S,
     /// `3*(I1*n^2 - I2*n^2)*h/4`
+    _h4: S,
+    /// `(1/I1 - 1/I2)*h/4`
     _h5: S,
-    /// `h/I3`
+    /// `h/2`
     _h6: S,
-    /// `n*h`
-    _h7: S,
-    /// `h/I2`
-    _h8: S,
-    /// `h/I1`
-    _h9: S,
     /// `h/(4*I2)`
-    _h10: S,
+    _h7: S,
     /// `h/(4*I3)`
-    _h11: S,
+    _h8: S,
     /// `h/(4*I1)`
-    _h12: S,
-    /// `-(1/I1 - 1/I3)*h/4`
-    _h13: S,
+    _h9: S,
     /// `-3*(I1*n^2 - I3*n^2)*h/4`
+    _h10: S,
+    /// `-(1/I1 - 1/I3)*h/4`
+    _h11: S,
+    /// `n*h`
+    _h12: S,
+    /// `h/I3`
+    _h13: S,
+    /// `h/I2`
     _h14: S,
-    /// `-h/(4*I3)`
+    /// `h/I1`
     _h15: S,
-    /// `n*h/4`
+    /// `-h/(4*I3)`
     _h16: S,
-    /// `-n*h/4`
+    /// `n*h/4`
     _h17: S,
-    /// `-h/(4*I1)`
+    /// `-n*h/4`
     _h18: S,
-    /// `-h/(4*I2)`
+    /// `-h/(4*I1)`
     _h19: S,
+    /// `-h/(4*I2)`
+    _h20: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> SatelliteMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a SatelliteSystem<S>, h: S) -> Self {
-        let _t0 = S::one() / system._parameters.I2;
-        let _t1 = S::one() / system._parameters.I3;
-        let _t2 = h * S::ratio(1.0, 4.0);
-        let _t3 = system._parameters.n * h;
-        let _t4 = system._parameters.n * _t3;
-        let _t5 = S::ratio(3.0, 4.0) * _t4;
-        let _t6 = S::one() / system._parameters.I1;
-        let _t7 = _t6 - _t1;
-        let _t8 = system._parameters.I1 - system._parameters.I3;
-        let _t9 = h * S::ratio(-1.0, 4.0);
+        let _t0 = system._parameters.n * system._parameters.n;
+        let _t1 = system._parameters.I2 * _t0;
+        let _t2 = system._parameters.I3 * _t0;
+        let _t3 = h * S::ratio(3.0, 4.0);
+        let _t4 = S::one() / system._parameters.I2;
+        let _t5 = S::one() / system._parameters.I3;
+        let _t6 = h * S::ratio(1.0, 4.0);
+        let _t7 = system._parameters.I1 * _t0;
+        let _t8 = _t7 - _t2;
+        let _t9 = S::one() / system._parameters.I1;
+        let _t10 = _t9 - _t5;
+        let _t11 = h * S::ratio(-1.0, 4.0);
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: (_t0 - _t1) * _t2,
-            _h1: (system._parameters.I2 - system._parameters.I3) * _t5,
-            _h2: _t7 * _t2,
-            _h3: _t8 * _t5,
-            _h4: (_t6 - _t0) * _t2,
-            _h5: (system._parameters.I1 - system._parameters.I2) * _t5,
-            _h6: _t1 * h,
-            _h7: _t3,
-            _h8: _t0 * h,
-            _h9: _t6 * h,
-            _h10: _t0 * _t2,
-            _h11: _t1 * _t2,
-            _h12: _t6 * _t2,
-            _h13: _t7 * _t9,
-            _h14: _t8 * S::ratio(-3.0, 4.0) * _t4,
-            _h15: _t1 * _t9,
-            _h16: S::ratio(1.0, 4.0) * _t3,
-            _h17: _t3 * S::ratio(-1.0, 4.0),
-            _h18: _t6 * _t9,
-            _h19: _t0 * _t9,
+            _h0: (_t1 - _t2) * _t3,
+            _h1: (_t4 - _t5) * _t6,
+            _h2: _t8 * _t3,
+            _h3: _t10 * _t6,
+            _h4: (_t7 - _t1) * _t3,
+            _h5: (_t9 - _t4) * _t6,
+            _h6: h * S::ratio(1.0, 2.0),
+            _h7: _t4 * _t6,
+            _h8: _t5 * _t6,
+            _h9: _t9 * _t6,
+            _h10: _t8 * h * S::ratio(-3.0, 4.0),
+            _h11: _t10 * _t11,
+            _h12: system._parameters.n * h,
+            _h13: _t5 * h,
+            _h14: _t4 * h,
+            _h15: _t9 * h,
+            _h16: _t5 * _t11,
+            _h17: system._parameters.n * _t6,
+            _h18: system._parameters.n * _t11,
+            _h19: _t9 * _t11,
+            _h20: _t4 * _t11,
         }
     }
 }
@@ -1083,7 +1082,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for SatelliteMidpoint<
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`
     ///
-    /// 51 additions, 42 multiplications.
+    /// 51 additions, 45 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[_Pi1, _Pi2, _Pi3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = self
@@ -1092,36 +1091,36 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for SatelliteMidpoint<
             .0;
         let [[_u_Pi1, _u_Pi2, _u_Pi3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = _Pi2 + _u_Pi2;
-        let _t1 = _Pi3 + _u_Pi3;
-        let _t2 = _R32 + _u_R32;
-        let _t3 = _R33 + _u_R33;
-        let _t4 = _Pi1 + _u_Pi1;
-        let _t5 = _R31 + _u_R31;
-        let _t6 = _R12 + _u_R12;
-        let _t7 = _R23 + _u_R23;
-        let _t8 = (_t1 * self._h6 - _t7 * self._h7) * S::ratio(1.0, 4.0);
-        let _t9 = _R13 + _u_R13;
-        let _t10 = _R22 + _u_R22;
-        let _t11 = (_t0 * self._h8 - _t10 * self._h7) * S::ratio(1.0, 4.0);
-        let _t12 = _R11 + _u_R11;
-        let _t13 = _R21 + _u_R21;
-        let _t14 = S::ratio(1.0, 4.0) * (_t4 * self._h9 - _t13 * self._h7);
-        let _t15 = _t0 * self._h10;
-        let _t16 = _t1 * self._h11;
-        let _t17 = _t4 * self._h12;
+        let _t0 = _R32 + _u_R32;
+        let _t1 = _R33 + _u_R33;
+        let _t2 = _Pi2 + _u_Pi2;
+        let _t3 = _Pi3 + _u_Pi3;
+        let _t4 = _R31 + _u_R31;
+        let _t5 = _Pi1 + _u_Pi1;
+        let _t6 = _R13 + _u_R13;
+        let _t7 = _R22 + _u_R22;
+        let _t8 = _t2 * self.system._k1 - _t7 * self.system._k23;
+        let _t9 = _R12 + _u_R12;
+        let _t10 = _R23 + _u_R23;
+        let _t11 = _t3 * self.system._k2 - _t10 * self.system._k23;
+        let _t12 = _R21 + _u_R21;
+        let _t13 = _t5 * self.system._k0 - _t12 * self.system._k23;
+        let _t14 = _R11 + _u_R11;
+        let _t15 = _t2 * self._h7;
+        let _t16 = _t3 * self._h8;
+        let _t17 = _t5 * self._h9;
         residual[0] = _u_Pi1 - _Pi1 + _t0 * _t1 * self._h0 + _t2 * _t3 * self._h1;
         residual[1] = _u_Pi2 - _Pi2 - _t4 * _t1 * self._h2 - _t5 * _t3 * self._h3;
         residual[2] = _u_Pi3 - _Pi3 + _t4 * _t0 * self._h4 + _t5 * _t2 * self._h5;
-        residual[3] = _u_R11 - _R11 - _t6 * _t8 + _t9 * _t11;
-        residual[4] = _u_R12 - _R12 + _t12 * _t8 - _t9 * _t14;
-        residual[5] = _u_R13 - _R13 - _t12 * _t11 + _t6 * _t14;
-        residual[6] = _u_R21 - _R21 + _t7 * _t15 - _t10 * _t16;
-        residual[7] = _u_R22 - _R22 - _t7 * _t17 + _t13 * _t16;
-        residual[8] = _u_R23 - _R23 + _t10 * _t17 - _t13 * _t15;
-        residual[9] = _u_R31 - _R31 - _t2 * _t8 + _t3 * _t11;
-        residual[10] = _u_R32 - _R32 + _t5 * _t8 - _t3 * _t14;
-        residual[11] = _u_R33 - _R33 - _t5 * _t11 + _t2 * _t14;
+        residual[3] = _u_R11 - _R11 + (_t6 * _t8 - _t9 * _t11) * self._h6;
+        residual[4] = _u_R12 - _R12 - self._h6 * (_t6 * _t13 - _t14 * _t11);
+        residual[5] = _u_R13 - _R13 + self._h6 * (_t9 * _t13 - _t14 * _t8);
+        residual[6] = _u_R21 - _R21 + _t10 * _t15 - _t7 * _t16;
+        residual[7] = _u_R22 - _R22 - _t10 * _t17 + _t12 * _t16;
+        residual[8] = _u_R23 - _R23 + _t7 * _t17 - _t12 * _t15;
+        residual[9] = _u_R31 - _R31 + self._h6 * (_t1 * _t8 - _t0 * _t11);
+        residual[10] = _u_R32 - _R32 - self._h6 * (_t1 * _t13 - _t4 * _t11);
+        residual[11] = _u_R33 - _R33 + self._h6 * (_t0 * _t13 - _t4 * _t8);
     }
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`, and `dr/du = 1 - (h/2) Df(m)`
@@ -1140,117 +1139,117 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for SatelliteMidpoint<
             .0;
         let [[_u_Pi1, _u_Pi2, _u_Pi3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = _Pi3 + _u_Pi3;
-        let _t1 = _Pi2 + _u_Pi2;
+        let _t0 = _R33 + _u_R33;
+        let _t1 = _R32 + _u_R32;
         let _t2 = _t1 * self._h0;
-        let _t3 = _R33 + _u_R33;
-        let _t4 = _R32 + _u_R32;
+        let _t3 = _Pi3 + _u_Pi3;
+        let _t4 = _Pi2 + _u_Pi2;
         let _t5 = _t4 * self._h1;
-        let _t6 = _Pi1 + _u_Pi1;
-        let _t7 = _t6 * self._h13;
-        let _t8 = _R31 + _u_R31;
-        let _t9 = _t8 * self._h14;
+        let _t6 = _R31 + _u_R31;
+        let _t7 = _t6 * self._h10;
+        let _t8 = _Pi1 + _u_Pi1;
+        let _t9 = _t8 * self._h11;
         let _t10 = _t6 * self._h4;
         let _t11 = _t8 * self._h5;
         let _t12 = _R12 + _u_R12;
         let _t13 = _R23 + _u_R23;
-        let _t14 = (_t0 * self._h6 - _t13 * self._h7) * S::ratio(1.0, 4.0);
+        let _t14 = (_t13 * self._h12 - _t3 * self._h13) * S::ratio(1.0, 4.0);
         let _t15 = _R13 + _u_R13;
         let _t16 = _R22 + _u_R22;
-        let _t17 = (_t1 * self._h8 - _t16 * self._h7) * S::ratio(1.0, 4.0);
+        let _t17 = (_t16 * self._h12 - _t4 * self._h14) * S::ratio(1.0, 4.0);
         let _t18 = _R11 + _u_R11;
         let _t19 = _R21 + _u_R21;
-        let _t20 = S::ratio(1.0, 4.0) * (_t6 * self._h9 - _t19 * self._h7);
-        let _t21 = _t1 * self._h10;
-        let _t22 = _t0 * self._h11;
-        let _t23 = _t6 * self._h12;
-        let _t24 = _t22 - _t13 * self._h16;
+        let _t20 = S::ratio(1.0, 4.0) * (_t19 * self._h12 - _t8 * self._h15);
+        let _t21 = _t4 * self._h7;
+        let _t22 = _t3 * self._h8;
+        let _t23 = _t8 * self._h9;
+        let _t24 = _t22 - _t13 * self._h17;
         let _t25 = -_t24;
-        let _t26 = _t21 - _t16 * self._h16;
-        let _t27 = _t23 - _t19 * self._h16;
+        let _t26 = _t21 - _t16 * self._h17;
+        let _t27 = _t23 - _t19 * self._h17;
         let _t28 = -_t27;
         let _t29 = -_t26;
         residual[0] = _u_Pi1 - _Pi1 + _t0 * _t2 + _t3 * _t5;
         residual[1] = _u_Pi2 - _Pi2 + _t0 * _t7 + _t3 * _t9;
         residual[2] = _u_Pi3 - _Pi3 + _t1 * _t10 + _t4 * _t11;
-        residual[3] = _u_R11 - _R11 - _t12 * _t14 + _t15 * _t17;
-        residual[4] = _u_R12 - _R12 + _t18 * _t14 - _t15 * _t20;
-        residual[5] = _u_R13 - _R13 - _t18 * _t17 + _t12 * _t20;
+        residual[3] = _u_R11 - _R11 + _t12 * _t14 - _t15 * _t17;
+        residual[4] = _u_R12 - _R12 - _t18 * _t14 + _t15 * _t20;
+        residual[5] = _u_R13 - _R13 + _t18 * _t17 - _t12 * _t20;
         residual[6] = _u_R21 - _R21 + _t13 * _t21 - _t16 * _t22;
         residual[7] = _u_R22 - _R22 - _t13 * _t23 + _t19 * _t22;
         residual[8] = _u_R23 - _R23 + _t16 * _t23 - _t19 * _t21;
-        residual[9] = _u_R31 - _R31 - _t4 * _t14 + _t3 * _t17;
-        residual[10] = _u_R32 - _R32 + _t8 * _t14 - _t3 * _t20;
-        residual[11] = _u_R33 - _R33 - _t8 * _t17 + _t4 * _t20;
+        residual[9] = _u_R31 - _R31 + _t1 * _t14 - _t0 * _t17;
+        residual[10] = _u_R32 - _R32 - _t6 * _t14 + _t0 * _t20;
+        residual[11] = _u_R33 - _R33 + _t6 * _t17 - _t1 * _t20;
         matrix[(0, 0)] = S::one();
-        matrix[(0, 1)] = _t0 * self._h0;
-        matrix[(0, 2)] = _t2;
-        matrix[(0, 10)] = _t3 * self._h1;
-        matrix[(0, 11)] = _t5;
-        matrix[(1, 0)] = _t0 * self._h13;
+        matrix[(0, 1)] = _t3 * self._h1;
+        matrix[(0, 2)] = _t5;
+        matrix[(0, 10)] = _t0 * self._h0;
+        matrix[(0, 11)] = _t2;
+        matrix[(1, 0)] = _t3 * self._h11;
         matrix[(1, 1)] = S::one();
-        matrix[(1, 2)] = _t7;
-        matrix[(1, 9)] = _t3 * self._h14;
-        matrix[(1, 11)] = _t9;
-        matrix[(2, 0)] = _t1 * self._h4;
-        matrix[(2, 1)] = _t10;
+        matrix[(1, 2)] = _t9;
+        matrix[(1, 9)] = _t0 * self._h10;
+        matrix[(1, 11)] = _t7;
+        matrix[(2, 0)] = _t4 * self._h5;
+        matrix[(2, 1)] = _t11;
         matrix[(2, 2)] = S::one();
-        matrix[(2, 9)] = _t4 * self._h5;
-        matrix[(2, 10)] = _t11;
-        matrix[(3, 1)] = _t15 * self._h10;
-        matrix[(3, 2)] = _t12 * self._h15;
+        matrix[(2, 9)] = _t1 * self._h4;
+        matrix[(2, 10)] = _t10;
+        matrix[(3, 1)] = _t15 * self._h7;
+        matrix[(3, 2)] = _t12 * self._h16;
         matrix[(3, 3)] = S::one();
         matrix[(3, 4)] = _t25;
         matrix[(3, 5)] = _t26;
-        matrix[(3, 7)] = _t15 * self._h17;
-        matrix[(3, 8)] = _t12 * self._h16;
-        matrix[(4, 0)] = _t15 * self._h18;
-        matrix[(4, 2)] = _t18 * self._h11;
+        matrix[(3, 7)] = _t15 * self._h18;
+        matrix[(3, 8)] = _t12 * self._h17;
+        matrix[(4, 0)] = _t15 * self._h19;
+        matrix[(4, 2)] = _t18 * self._h8;
         matrix[(4, 3)] = _t24;
         matrix[(4, 4)] = S::one();
         matrix[(4, 5)] = _t28;
-        matrix[(4, 6)] = _t15 * self._h16;
-        matrix[(4, 8)] = _t18 * self._h17;
-        matrix[(5, 0)] = _t12 * self._h12;
-        matrix[(5, 1)] = _t18 * self._h19;
+        matrix[(4, 6)] = _t15 * self._h17;
+        matrix[(4, 8)] = _t18 * self._h18;
+        matrix[(5, 0)] = _t12 * self._h9;
+        matrix[(5, 1)] = _t18 * self._h20;
         matrix[(5, 3)] = _t29;
         matrix[(5, 4)] = _t27;
         matrix[(5, 5)] = S::one();
-        matrix[(5, 6)] = _t12 * self._h17;
-        matrix[(5, 7)] = _t18 * self._h16;
-        matrix[(6, 1)] = _t13 * self._h10;
-        matrix[(6, 2)] = _t16 * self._h15;
+        matrix[(5, 6)] = _t12 * self._h18;
+        matrix[(5, 7)] = _t18 * self._h17;
+        matrix[(6, 1)] = _t13 * self._h7;
+        matrix[(6, 2)] = _t16 * self._h16;
         matrix[(6, 6)] = S::one();
-        matrix[(6, 7)] = _t0 * self._h15;
+        matrix[(6, 7)] = _t3 * self._h16;
         matrix[(6, 8)] = _t21;
-        matrix[(7, 0)] = _t13 * self._h18;
-        matrix[(7, 2)] = _t19 * self._h11;
+        matrix[(7, 0)] = _t13 * self._h19;
+        matrix[(7, 2)] = _t19 * self._h8;
         matrix[(7, 6)] = _t22;
         matrix[(7, 7)] = S::one();
-        matrix[(7, 8)] = _t6 * self._h18;
-        matrix[(8, 0)] = _t16 * self._h12;
-        matrix[(8, 1)] = _t19 * self._h19;
-        matrix[(8, 6)] = _t1 * self._h19;
+        matrix[(7, 8)] = _t8 * self._h19;
+        matrix[(8, 0)] = _t16 * self._h9;
+        matrix[(8, 1)] = _t19 * self._h20;
+        matrix[(8, 6)] = _t4 * self._h20;
         matrix[(8, 7)] = _t23;
         matrix[(8, 8)] = S::one();
-        matrix[(9, 1)] = _t3 * self._h10;
-        matrix[(9, 2)] = _t4 * self._h15;
-        matrix[(9, 7)] = _t3 * self._h17;
-        matrix[(9, 8)] = _t4 * self._h16;
+        matrix[(9, 1)] = _t0 * self._h7;
+        matrix[(9, 2)] = _t1 * self._h16;
+        matrix[(9, 7)] = _t0 * self._h18;
+        matrix[(9, 8)] = _t1 * self._h17;
         matrix[(9, 9)] = S::one();
         matrix[(9, 10)] = _t25;
         matrix[(9, 11)] = _t26;
-        matrix[(10, 0)] = _t3 * self._h18;
-        matrix[(10, 2)] = _t8 * self._h11;
-        matrix[(10, 6)] = _t3 * self._h16;
-        matrix[(10, 8)] = _t8 * self._h17;
+        matrix[(10, 0)] = _t0 * self._h19;
+        matrix[(10, 2)] = _t6 * self._h8;
+        matrix[(10, 6)] = _t0 * self._h17;
+        matrix[(10, 8)] = _t6 * self._h18;
         matrix[(10, 9)] = _t24;
         matrix[(10, 10)] = S::one();
         matrix[(10, 11)] = _t28;
-        matrix[(11, 0)] = _t4 * self._h12;
-        matrix[(11, 1)] = _t8 * self._h19;
-        matrix[(11, 6)] = _t4 * self._h17;
-        matrix[(11, 7)] = _t8 * self._h16;
+        matrix[(11, 0)] = _t1 * self._h9;
+        matrix[(11, 1)] = _t6 * self._h20;
+        matrix[(11, 6)] = _t1 * self._h18;
+        matrix[(11, 7)] = _t6 * self._h17;
         matrix[(11, 9)] = _t29;
         matrix[(11, 10)] = _t27;
         matrix[(11, 11)] = S::one();
@@ -2434,112 +2433,121 @@ pub struct SatelliteCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a SatelliteSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 12>,
     h: S,
-    /// `h/(2*I1)`
-    _h0: S,
     /// `-n*h/2`
+    _h0: S,
+    /// `h/2`
     _h1: S,
     /// `3*I3*n^2*h/2`
     _h2: S,
-    /// `h/(2*I3)`
-    _h3: S,
-    /// `h/(2*I2)`
-    _h4: S,
     /// `3*I2*n^2*h/2`
-    _h5: S,
-    /// `(1/I2 - 1/I3)*h/2`
-    _h6: S,
+    _h3: S,
     /// `3*(I2*n^2 - I3*n^2)*h/2`
-    _h7: S,
+    _h4: S,
     /// `3*I1*n^2*h/2`
-    _h8: S,
-    /// `(1/I1 - 1/I3)*h/2`
-    _h9: S,
+    _h5: S,
     /// `3*(I1*n^2 - I3*n^2)*h/2`
-    _h10: S,
-    /// `(1/I1 - 1/I2)*h/2`
-    _h11: S,
+    _h6: S,
     /// `3*(I1*n^2 - I2*n^2)*h/2`
+    _h7: S,
+    /// `h/(2*I1)`
+    _h8: S,
+    /// `h/(2*I2)`
+    _h9: S,
+    /// `(1/I2 - 1/I3)*h/2`
+    _h10: S,
+    /// `h/(2*I3)`
+    _h11: S,
+    /// `(1/I1 - 1/I3)*h/2`
     _h12: S,
-    /// `h/I3`
+    /// `(1/I1 - 1/I2)*h/2`
     _h13: S,
-    /// `n*h`
-    _h14: S,
-    /// `h/I2`
-    _h15: S,
-    /// `h/I1`
-    _h16: S,
     /// `-h/(2*I3)`
-    _h17: S,
+    _h14: S,
+    /// `-h/2`
+    _h15: S,
     /// `n*h/2`
-    _h18: S,
+    _h16: S,
     /// `-h/(2*I1)`
-    _h19: S,
+    _h17: S,
     /// `-h/(2*I2)`
-    _h20: S,
+    _h18: S,
     /// `(1/I2 - 1/I3)*h`
-    _h21: S,
+    _h19: S,
     /// `3*(I2*n^2 - I3*n^2)*h`
-    _h22: S,
+    _h20: S,
     /// `(1/I1 - 1/I3)*h`
-    _h23: S,
+    _h21: S,
     /// `3*(I1*n^2 - I3*n^2)*h`
-    _h24: S,
+    _h22: S,
     /// `(1/I1 - 1/I2)*h`
-    _h25: S,
+    _h23: S,
     /// `3*(I1*n^2 - I2*n^2)*h`
+    _h24: S,
+    /// `h/I3`
+    _h25: S,
+    /// `n*h`
     _h26: S,
+    /// `h/I2`
+    _h27: S,
+    /// `h/I1`
+    _h28: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> SatelliteCayleyMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a SatelliteSystem<S>, h: S) -> Self {
-        let _t0 = S::one() / system._parameters.I1;
+        let _t0 = h * S::ratio(-1.0, 2.0);
         let _t1 = h * S::ratio(1.0, 2.0);
-        let _t2 = system._parameters.n * h;
-        let _t3 = system._parameters.n * _t2;
-        let _t4 = S::ratio(3.0, 2.0) * _t3;
-        let _t5 = S::one() / system._parameters.I3;
-        let _t6 = S::one() / system._parameters.I2;
-        let _t7 = _t6 - _t5;
-        let _t8 = system._parameters.I2 - system._parameters.I3;
-        let _t9 = _t0 - _t5;
-        let _t10 = system._parameters.I1 - system._parameters.I3;
-        let _t11 = _t0 - _t6;
-        let _t12 = system._parameters.I1 - system._parameters.I2;
-        let _t13 = h * S::ratio(-1.0, 2.0);
-        let _t14 = S::ratio(3.0, 1.0) * _t3;
+        let _t2 = system._parameters.n * system._parameters.n;
+        let _t3 = h * S::ratio(3.0, 2.0);
+        let _t4 = _t2 * _t3;
+        let _t5 = system._parameters.I2 * _t2;
+        let _t6 = system._parameters.I3 * _t2;
+        let _t7 = _t5 - _t6;
+        let _t8 = system._parameters.I1 * _t2;
+        let _t9 = _t8 - _t6;
+        let _t10 = _t8 - _t5;
+        let _t11 = S::one() / system._parameters.I1;
+        let _t12 = S::one() / system._parameters.I2;
+        let _t13 = S::one() / system._parameters.I3;
+        let _t14 = _t12 - _t13;
+        let _t15 = _t11 - _t13;
+        let _t16 = _t11 - _t12;
+        let _t17 = h * S::ratio(3.0, 1.0);
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t0 * _t1,
-            _h1: _t2 * S::ratio(-1.0, 2.0),
+            _h0: system._parameters.n * _t0,
+            _h1: _t1,
             _h2: system._parameters.I3 * _t4,
-            _h3: _t5 * _t1,
-            _h4: _t6 * _t1,
-            _h5: system._parameters.I2 * _t4,
-            _h6: _t7 * _t1,
-            _h7: _t8 * _t4,
-            _h8: system._parameters.I1 * _t4,
-            _h9: _t9 * _t1,
-            _h10: _t10 * _t4,
-            _h11: _t11 * _t1,
-            _h12: _t12 * _t4,
-            _h13: _t5 * h,
-            _h14: _t2,
-            _h15: _t6 * h,
-            _h16: _t0 * h,
-            _h17: _t5 * _t13,
-            _h18: _t2 * S::ratio(1.0, 2.0),
-            _h19: _t0 * _t13,
-            _h20: _t6 * _t13,
-            _h21: _t7 * h,
-            _h22: _t8 * _t14,
-            _h23: _t9 * h,
-            _h24: _t10 * _t14,
-            _h25: _t11 * h,
-            _h26: _t12 * _t14,
+            _h3: system._parameters.I2 * _t4,
+            _h4: _t7 * _t3,
+            _h5: system._parameters.I1 * _t4,
+            _h6: _t9 * _t3,
+            _h7: _t10 * _t3,
+            _h8: _t11 * _t1,
+            _h9: _t12 * _t1,
+            _h10: _t14 * _t1,
+            _h11: _t13 * _t1,
+            _h12: _t15 * _t1,
+            _h13: _t16 * _t1,
+            _h14: _t13 * _t0,
+            _h15: _t0,
+            _h16: system._parameters.n * _t1,
+            _h17: _t11 * _t0,
+            _h18: _t12 * _t0,
+            _h19: _t14 * h,
+            _h20: _t7 * _t17,
+            _h21: _t15 * h,
+            _h22: _t9 * _t17,
+            _h23: _t16 * h,
+            _h24: _t10 * _t17,
+            _h25: _t13 * h,
+            _h26: system._parameters.n * h,
+            _h27: _t12 * h,
+            _h28: _t11 * h,
         }
     }
 }
@@ -2565,7 +2573,7 @@ for SatelliteCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
     ///
-    /// 67 additions, 81 multiplications.
+    /// 70 additions, 69 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[_Pi1, _Pi2, _Pi3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = self
@@ -2574,51 +2582,49 @@ for SatelliteCayleyMidpoint<'_, S> {
             .0;
         let [[_u_Pi1, _u_Pi2, _u_Pi3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = _u_Pi1 * self._h0;
-        let _t1 = _t0 + _u_R21 * self._h1;
-        let _t2 = _u_Pi3 * self._h1;
-        let _t3 = _u_R33 * self._h2;
-        let _t4 = _t2 * _u_R23 + _t3 * _u_R33;
-        let _t5 = _u_Pi3 * self._h3;
-        let _t6 = _t5 + _u_R23 * self._h1;
-        let _t7 = _u_Pi2 * self._h4;
-        let _t8 = _t7 + _u_R22 * self._h1;
-        let _t9 = _t6 * _u_Pi3 + (_t1 * _u_Pi1 + _t8 * _u_Pi2);
-        let _t10 = _u_Pi2 * self._h1;
-        let _t11 = _u_R32 * self._h5;
-        let _t12 = _t9 + (_t10 * _u_R22 + _t11 * _u_R32);
-        let _t13 = _u_Pi1 - _Pi1 + _t1 * (_t4 + _t12)
-            - _t8 * (_t10 * _u_R21 + _t11 * _u_R31) - _t6 * (_t2 * _u_R21 + _t3 * _u_R31)
-            + _u_Pi2 * _u_Pi3 * self._h6;
-        let _t14 = _u_Pi1 * self._h1;
-        let _t15 = _u_R31 * self._h8;
-        let _t16 = _t14 * _u_R21 + _t15 * _u_R31;
-        let _t17 = _u_Pi2 - _Pi2 + _t8 * (_t9 + _t4 + _t16)
-            - _t1 * (_t14 * _u_R22 + _t15 * _u_R32) - _t6 * (_t2 * _u_R22 + _t3 * _u_R32)
-            - _u_Pi1 * _u_Pi3 * self._h9;
-        let _t18 = _u_Pi3 - _Pi3 + _t6 * (_t16 + _t12)
-            - _t1 * (_t14 * _u_R23 + _t15 * _u_R33)
-            - _t8 * (_t10 * _u_R23 + _t11 * _u_R33) + _u_Pi1 * _u_Pi2 * self._h11;
-        let _t19 = (_u_Pi3 * self._h13 - _u_R23 * self._h14) * S::ratio(1.0, 2.0);
-        let _t20 = (_u_Pi2 * self._h15 - _u_R22 * self._h14) * S::ratio(1.0, 2.0);
-        let _t21 = S::ratio(1.0, 2.0) * (_u_Pi1 * self._h16 - _u_R21 * self._h14);
-        residual[0] = _t13 + _u_R32 * _u_R33 * self._h7;
-        residual[1] = _t17 - _u_R31 * _u_R33 * self._h10;
-        residual[2] = _t18 + _u_R31 * _u_R32 * self._h12;
-        residual[3] = _u_R11 - _R11 - _u_R12 * _t19 + _u_R13 * _t20;
-        residual[4] = _u_R12 - _R12 + _u_R11 * _t19 - _u_R13 * _t21;
-        residual[5] = _u_R13 - _R13 - _u_R11 * _t20 + _u_R12 * _t21;
-        residual[6] = _u_R21 - _R21 + _u_R23 * _t7 - _u_R22 * _t5;
-        residual[7] = _u_R22 - _R22 - _u_R23 * _t0 + _u_R21 * _t5;
-        residual[8] = _u_R23 - _R23 + _u_R22 * _t0 - _u_R21 * _t7;
-        residual[9] = _u_R31 - _R31 - _u_R32 * _t19 + _u_R33 * _t20;
-        residual[10] = _u_R32 - _R32 + _u_R31 * _t19 - _u_R33 * _t21;
-        residual[11] = _u_R33 - _R33 - _u_R31 * _t20 + _u_R32 * _t21;
+        let _t0 = _u_Pi2 * self._h0;
+        let _t1 = _t0 * _u_R23;
+        let _t2 = (_u_Pi1 * self.system._k7 - self.system.n * _u_R21) * self._h1;
+        let _t3 = _u_Pi3 * self._h0;
+        let _t4 = _u_R33 * self._h2;
+        let _t5 = _t3 * _u_R23 + _t4 * _u_R33;
+        let _t6 = (_u_Pi3 * self.system._k10 - self.system.n * _u_R23) * self._h1;
+        let _t7 = (_u_Pi2 * self.system._k9 - self.system.n * _u_R22) * self._h1;
+        let _t8 = _t6 * _u_Pi3 + (_t2 * _u_Pi1 + _t7 * _u_Pi2);
+        let _t9 = _u_R32 * self._h3;
+        let _t10 = _t8 + (_t0 * _u_R22 + _t9 * _u_R32);
+        let _t11 = _u_Pi3 - _t0 * _u_R21;
+        let _t12 = _u_Pi2 + _t3 * _u_R21;
+        let _t13 = _u_Pi1 - _t3 * _u_R22;
+        let _t14 = _u_Pi1 * self._h0;
+        let _t15 = _t14 * _u_R23;
+        let _t16 = _u_R31 * self._h5;
+        let _t17 = _t14 * _u_R21 + _t16 * _u_R31;
+        let _t18 = _t14 * _u_R22;
+        let _t19 = _t7 * (_t8 + _t5 + _t17) - _Pi2 - _t15
+            - _t2 * (_u_Pi3 + _t18 + _t16 * _u_R32) + _t6 * (_t13 - _t4 * _u_R32)
+            - _u_R31 * _u_R33 * self._h6;
+        let _t20 = _t18 - _Pi3 + _t6 * (_t17 + _t10)
+            + _t2 * (_u_Pi2 - _t15 - _t16 * _u_R33) - _t7 * (_u_Pi1 + _t1 + _t9 * _u_R33)
+            + _u_R31 * _u_R32 * self._h7;
+        residual[0] = _t1 - _Pi1 + _t2 * (_t5 + _t10) + _t7 * (_t11 - _t9 * _u_R31)
+            - _t6 * (_t4 * _u_R31 + _t12) + _u_R32 * _u_R33 * self._h4 + _t13;
+        residual[1] = _t19 + _t12;
+        residual[2] = _t20 + _t11;
+        residual[3] = _u_R11 - _R11 - _t6 * _u_R12 + _t7 * _u_R13;
+        residual[4] = _u_R12 - _R12 + _t6 * _u_R11 - _t2 * _u_R13;
+        residual[5] = _u_R13 - _R13 - _t7 * _u_R11 + _t2 * _u_R12;
+        residual[6] = _u_R21 - _R21 + _t7 * _u_R23 - _t6 * _u_R22;
+        residual[7] = _u_R22 - _R22 - _t2 * _u_R23 + _t6 * _u_R21;
+        residual[8] = _u_R23 - _R23 + _t2 * _u_R22 - _t7 * _u_R21;
+        residual[9] = _u_R31 - _R31 + _t7 * _u_R33 - _t6 * _u_R32;
+        residual[10] = _u_R32 - _R32 - _t2 * _u_R33 + _t6 * _u_R31;
+        residual[11] = _u_R33 - _R33 + _t2 * _u_R32 - _t7 * _u_R31;
     }
 
     /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
     ///
-    /// 138 additions, 204 multiplications.
+    /// 139 additions, 210 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -2632,185 +2638,165 @@ for SatelliteCayleyMidpoint<'_, S> {
             .0;
         let [[_u_Pi1, _u_Pi2, _u_Pi3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = _u_Pi1 * self._h0;
-        let _t1 = _t0 + _u_R21 * self._h1;
-        let _t2 = _t1 * _u_Pi1;
-        let _t3 = _u_Pi2 * self._h4;
-        let _t4 = _t3 + _u_R22 * self._h1;
-        let _t5 = _t4 * _u_Pi2;
-        let _t6 = _t2 + _t5;
-        let _t7 = _u_Pi2 * self._h1;
-        let _t8 = _u_R32 * self._h5;
-        let _t9 = _t7 * _u_R22 + _t8 * _u_R32;
-        let _t10 = _u_Pi3 * self._h3;
-        let _t11 = _t10 + _u_R23 * self._h1;
-        let _t12 = _t11 * _u_Pi3;
-        let _t13 = _u_Pi3 * self._h1;
-        let _t14 = _u_R33 * self._h2;
-        let _t15 = _t13 * _u_R23 + _t14 * _u_R33;
-        let _t16 = _t12 + _t15;
-        let _t17 = _t9 + _t16;
-        let _t18 = _t8 * _u_R31;
-        let _t19 = _t14 * _u_R31;
-        let _t20 = _u_Pi2 * self._h6;
-        let _t21 = _u_R32 * self._h7;
-        let _t22 = _u_Pi1 * self._h1;
-        let _t23 = _u_R31 * self._h8;
+        let _t0 = self.system._k7 * _u_Pi1;
+        let _t1 = _t0 - self.system.n * _u_R21;
+        let _t2 = _t1 * self._h1;
+        let _t3 = _u_R33 * self._h2;
+        let _t4 = self.system._k10 * _u_Pi3;
+        let _t5 = _t4 - self.system.n * _u_R23;
+        let _t6 = _t5 * self._h1;
+        let _t7 = _t6 * _u_Pi3;
+        let _t8 = _u_Pi3 * self._h0;
+        let _t9 = _t3 * _u_R33 + (_t7 + _t8 * _u_R23);
+        let _t10 = _t2 * _u_Pi1;
+        let _t11 = self.system._k9 * _u_Pi2;
+        let _t12 = _t11 - self.system.n * _u_R22;
+        let _t13 = _t12 * self._h1;
+        let _t14 = _t13 * _u_Pi2;
+        let _t15 = _t10 + _t14;
+        let _t16 = _u_Pi2 * self._h0;
+        let _t17 = _u_R32 * self._h3;
+        let _t18 = _t16 * _u_R22 + _t17 * _u_R32;
+        let _t19 = _t15 + _t18;
+        let _t20 = _t16 * _u_R21 + _t17 * _u_R31;
+        let _t21 = _t8 * _u_R21 + _t3 * _u_R31;
+        let _t22 = _u_Pi1 * self._h0;
+        let _t23 = _u_R31 * self._h5;
         let _t24 = _t22 * _u_R21 + _t23 * _u_R31;
-        let _t25 = _t24 + _t16;
-        let _t26 = _t23 * _u_R32;
-        let _t27 = _t14 * _u_R32;
-        let _t28 = _u_Pi1 * self._h9;
-        let _t29 = _u_R31 * self._h10;
-        let _t30 = _t9 + _t24;
-        let _t31 = _t6 + _t30;
-        let _t32 = _t23 * _u_R33;
-        let _t33 = _t8 * _u_R33;
-        let _t34 = _u_Pi1 * self._h11;
-        let _t35 = _u_R31 * self._h12;
-        let _t36 = _u_Pi3 * self._h13;
-        let _t37 = _u_R23 * self._h14;
-        let _t38 = _t36 - _t37;
-        let _t39 = _u_Pi2 * self._h15;
-        let _t40 = _u_R22 * self._h14;
-        let _t41 = _t39 - _t40;
-        let _t42 = _u_Pi1 * self._h16;
-        let _t43 = _u_R21 * self._h14;
-        let _t44 = _t42 - _t43;
-        let _t45 = _t4 * S::ratio(2.0, 1.0);
-        let _t46 = _t41 + _t45;
-        let _t47 = _t4 * self._h14 - _t7 * self._h15;
-        let _t48 = _t11 * S::ratio(2.0, 1.0);
-        let _t49 = _t38 + _t48;
-        let _t50 = _t11 * self._h14 - _t13 * self._h13;
-        let _t51 = _t1 * S::ratio(2.0, 1.0);
-        let _t52 = _t43 + _t1 * S::ratio(4.0, 1.0);
-        let _t53 = _t7 * S::ratio(1.0, 2.0);
-        let _t54 = _t13 * S::ratio(1.0, 2.0);
-        let _t55 = _t11 * _t14;
-        let _t56 = -(_t4 * _t8);
-        let _t57 = _t4 * self._h5;
-        let _t58 = _t11 * self._h2;
-        let _t59 = _t44 + _t51;
-        let _t60 = _t1 * self._h14 - _t22 * self._h16;
-        let _t61 = _t40 + _t4 * S::ratio(4.0, 1.0);
-        let _t62 = _t22 * S::ratio(1.0, 2.0);
-        let _t63 = _t1 * self._h8;
-        let _t64 = _t1 * _t23;
-        let _t65 = _t37 + _t11 * S::ratio(4.0, 1.0);
-        let _t66 = -_t11;
-        let _t67 = -_t1;
-        let _t68 = -_t4;
-        residual[0] = _u_Pi1 - _Pi1 + _t1 * (_t6 + _t17) - _t4 * (_t7 * _u_R21 + _t18)
-            - _t11 * (_t13 * _u_R21 + _t19) + _u_Pi3 * _t20 + _u_R33 * _t21;
-        residual[1] = _u_Pi2 - _Pi2 + _t4 * (_t6 + _t25) - _t1 * (_t22 * _u_R22 + _t26)
-            - _t11 * (_t13 * _u_R22 + _t27) - _u_Pi3 * _t28 - _u_R33 * _t29;
-        residual[2] = _u_Pi3 - _Pi3 + _t11 * (_t12 + _t31) - _t1 * (_t22 * _u_R23 + _t32)
-            - _t4 * (_t7 * _u_R23 + _t33) + _u_Pi2 * _t34 + _u_R32 * _t35;
-        residual[3] = _u_R11 - _R11
-            - (_u_R12 * _t38 - _u_R13 * _t41) * S::ratio(1.0, 2.0);
-        residual[4] = _u_R12 - _R12
-            + S::ratio(1.0, 2.0) * (_u_R11 * _t38 - _u_R13 * _t44);
-        residual[5] = _u_R13 - _R13
-            - S::ratio(1.0, 2.0) * (_u_R11 * _t41 - _u_R12 * _t44);
-        residual[6] = _u_R21 - _R21 + _u_R23 * _t3 - _u_R22 * _t10;
-        residual[7] = _u_R22 - _R22 - _u_R23 * _t0 + _u_R21 * _t10;
-        residual[8] = _u_R23 - _R23 + _u_R22 * _t0 - _u_R21 * _t3;
-        residual[9] = _u_R31 - _R31
-            - S::ratio(1.0, 2.0) * (_u_R32 * _t38 - _u_R33 * _t41);
-        residual[10] = _u_R32 - _R32
-            + S::ratio(1.0, 2.0) * (_u_R31 * _t38 - _u_R33 * _t44);
-        residual[11] = _u_R33 - _R33
-            - S::ratio(1.0, 2.0) * (_u_R31 * _t41 - _u_R32 * _t44);
-        matrix[(0, 0)] = S::one() + _t1 * (_t1 + _t42) + self._h0 * (_t5 + _t17);
-        matrix[(0, 1)] = _u_Pi3 * self._h6 - _t18 * self._h4
-            + S::ratio(1.0, 2.0) * (_t1 * _t46 + _u_R21 * _t47);
-        matrix[(0, 2)] = _t20 - _t19 * self._h3
-            + S::ratio(1.0, 2.0) * (_t1 * _t49 + _u_R21 * _t50);
-        matrix[(0, 6)] = _t22 * _t51 + self._h1 * (_t9 + _t15);
-        matrix[(0, 7)] = _t52 * _t53 - self._h1 * _t18;
-        matrix[(0, 8)] = _t52 * _t54 - self._h1 * _t19;
-        matrix[(0, 9)] = _t56 - _t55;
-        matrix[(0, 10)] = _t8 * _t51 - _u_R31 * _t57 + _u_R33 * self._h7;
-        matrix[(0, 11)] = _t14 * _t51 - _u_R31 * _t58 + _t21;
-        matrix[(1, 0)] = S::ratio(1.0, 2.0) * (_t4 * _t59 + _u_R22 * _t60)
-            - _t26 * self._h0 - _u_Pi3 * self._h9;
-        matrix[(1, 1)] = S::one() + _t4 * (_t4 + _t39) + self._h4 * (_t2 + _t25);
-        matrix[(1, 2)] = S::ratio(1.0, 2.0) * (_t4 * _t49 + _u_R22 * _t50)
-            - _t27 * self._h3 - _t28;
-        matrix[(1, 6)] = _t61 * _t62 - self._h1 * _t26;
-        matrix[(1, 7)] = _t7 * _t45 + self._h1 * (_t15 + _t24);
-        matrix[(1, 8)] = _t61 * _t54 - self._h1 * _t27;
-        matrix[(1, 9)] = _t23 * _t45 - _u_R32 * _t63 - _u_R33 * self._h10;
-        matrix[(1, 10)] = -_t55 - _t64;
-        matrix[(1, 11)] = _t14 * _t45 - _u_R32 * _t58 - _t29;
-        matrix[(2, 0)] = _u_Pi2 * self._h11 - _t32 * self._h0
-            + S::ratio(1.0, 2.0) * (_t11 * _t59 + _u_R23 * _t60);
-        matrix[(2, 1)] = _t34 - _t33 * self._h4
-            + S::ratio(1.0, 2.0) * (_t11 * _t46 + _u_R23 * _t47);
-        matrix[(2, 2)] = S::one() + _t11 * (_t11 + _t36) + self._h3 * _t31;
-        matrix[(2, 6)] = _t65 * _t62 - self._h1 * _t32;
-        matrix[(2, 7)] = _t65 * _t53 - self._h1 * _t33;
-        matrix[(2, 8)] = _t13 * _t48 + self._h1 * _t30;
-        matrix[(2, 9)] = _t23 * _t48 - _u_R33 * _t63 + _u_R32 * self._h12;
-        matrix[(2, 10)] = _t8 * _t48 - _u_R33 * _t57 + _t35;
-        matrix[(2, 11)] = _t56 - _t64;
-        matrix[(3, 1)] = _u_R13 * self._h4;
-        matrix[(3, 2)] = _u_R12 * self._h17;
+        let _t25 = _t9 + _t24;
+        let _t26 = _t22 * _u_R22 + _t23 * _u_R32;
+        let _t27 = _t8 * _u_R22 + _t3 * _u_R32;
+        let _t28 = _t24 + _t19;
+        let _t29 = _t22 * _u_R23 + _t23 * _u_R33;
+        let _t30 = _t16 * _u_R23 + _t17 * _u_R33;
+        let _t31 = _t14 + _t10 * S::ratio(2.0, 1.0) + _t18 + _t9;
+        let _t32 = _t2 * _t13;
+        let _t33 = _t2 * _u_Pi2 - _t20;
+        let _t34 = self._h0 * (_t2 * _u_R22 - _t13 * _u_R21);
+        let _t35 = _t2 * _t6;
+        let _t36 = _t2 * _u_Pi3 - _t21;
+        let _t37 = self._h0 * (_t2 * _u_R23 - _t6 * _u_R21);
+        let _t38 = _t13 * _t16;
+        let _t39 = _t6 * _t8;
+        let _t40 = _t6 * _t3;
+        let _t41 = -(_t13 * _t17);
+        let _t42 = _t2 * _u_R32 - _t13 * _u_R31;
+        let _t43 = _t2 * _u_R33 - _t6 * _u_R31;
+        let _t44 = _t13 * _u_Pi1 - _t26;
+        let _t45 = _t10 + _t14 * S::ratio(2.0, 1.0) + _t25;
+        let _t46 = _t13 * _t6;
+        let _t47 = _t13 * _u_Pi3 - _t27;
+        let _t48 = self._h0 * (_t13 * _u_R23 - _t6 * _u_R22);
+        let _t49 = _t2 * _t22;
+        let _t50 = _t2 * _t23;
+        let _t51 = _t13 * _u_R33 - _t6 * _u_R32;
+        let _t52 = _t6 * _u_Pi1 - _t29;
+        let _t53 = _t6 * _u_Pi2 - _t30;
+        let _t54 = _t7 * S::ratio(2.0, 1.0) + _t28;
+        let _t55 = _t5 * self._h15;
+        let _t56 = _t1 * self._h15;
+        let _t57 = _t12 * self._h15;
+        residual[0] = _u_Pi1 - _Pi1 + _t2 * (_t9 + _t19) - _t13 * _t20 - _t6 * _t21
+            - self._h1
+                * (_u_Pi2 * _t4 - _u_Pi3 * _t11 - _u_R32 * _u_R33 * self.system._k24);
+        residual[1] = _u_Pi2 - _Pi2 + _t13 * (_t15 + _t25) - _t2 * _t26 - _t6 * _t27
+            + self._h1
+                * (_u_Pi1 * _t4 - _u_Pi3 * _t0 - _u_R31 * _u_R33 * self.system._k17);
+        residual[2] = _u_Pi3 - _Pi3 + _t6 * (_t7 + _t28) - _t2 * _t29 - _t13 * _t30
+            - self._h1
+                * (_u_Pi1 * _t11 - _u_Pi2 * _t0 - _u_R31 * _u_R32 * self.system._k25);
+        residual[3] = _u_R11 - _R11 + self._h1 * (_u_R13 * _t12 - _u_R12 * _t5);
+        residual[4] = _u_R12 - _R12 - self._h1 * (_u_R13 * _t1 - _u_R11 * _t5);
+        residual[5] = _u_R13 - _R13 + self._h1 * (_u_R12 * _t1 - _u_R11 * _t12);
+        residual[6] = _u_R21 - _R21 + self._h1 * (_u_R23 * _t12 - _u_R22 * _t5);
+        residual[7] = _u_R22 - _R22 - self._h1 * (_u_R23 * _t1 - _u_R21 * _t5);
+        residual[8] = _u_R23 - _R23 + self._h1 * (_u_R22 * _t1 - _u_R21 * _t12);
+        residual[9] = _u_R31 - _R31 + self._h1 * (_u_R33 * _t12 - _u_R32 * _t5);
+        residual[10] = _u_R32 - _R32 - self._h1 * (_u_R33 * _t1 - _u_R31 * _t5);
+        residual[11] = _u_R33 - _R33 + self._h1 * (_u_R32 * _t1 - _u_R31 * _t12);
+        matrix[(0, 0)] = S::one() + _t2 * _t2 + _t31 * self._h8;
+        matrix[(0, 1)] = _t32 + _t33 * self._h9 + _t34 + _u_Pi3 * self._h10;
+        matrix[(0, 2)] = _t35 + _t36 * self._h11 + _t37 + _u_Pi2 * self._h10;
+        matrix[(0, 6)] = self._h0 * _t31 - _t38 - _t39;
+        matrix[(0, 7)] = _t2 * _t16 + self._h0 * _t33;
+        matrix[(0, 8)] = _t2 * _t8 + self._h0 * _t36;
+        matrix[(0, 9)] = _t41 - _t40;
+        matrix[(0, 10)] = _t2 * _t17 + self._h3 * _t42 + _u_R33 * self._h4;
+        matrix[(0, 11)] = _t2 * _t3 + self._h2 * _t43 + _u_R32 * self._h4;
+        matrix[(1, 0)] = _t32 - _t34 + self._h8 * _t44 - _u_Pi3 * self._h12;
+        matrix[(1, 1)] = S::one() + _t13 * _t13 + _t45 * self._h9;
+        matrix[(1, 2)] = _t46 + _t47 * self._h11 + _t48 - _u_Pi1 * self._h12;
+        matrix[(1, 6)] = _t13 * _t22 + self._h0 * _t44;
+        matrix[(1, 7)] = self._h0 * _t45 - _t39 - _t49;
+        matrix[(1, 8)] = _t13 * _t8 + self._h0 * _t47;
+        matrix[(1, 9)] = _t13 * _t23 - self._h5 * _t42 - _u_R33 * self._h6;
+        matrix[(1, 10)] = -_t40 - _t50;
+        matrix[(1, 11)] = _t13 * _t3 + self._h2 * _t51 - _u_R31 * self._h6;
+        matrix[(2, 0)] = _t35 - _t37 + self._h8 * _t52 + _u_Pi2 * self._h13;
+        matrix[(2, 1)] = _t46 - _t48 + self._h9 * _t53 + _u_Pi1 * self._h13;
+        matrix[(2, 2)] = S::one() + _t6 * _t6 + _t54 * self._h11;
+        matrix[(2, 6)] = _t6 * _t22 + self._h0 * _t52;
+        matrix[(2, 7)] = _t6 * _t16 + self._h0 * _t53;
+        matrix[(2, 8)] = self._h0 * _t54 - _t38 - _t49;
+        matrix[(2, 9)] = _t6 * _t23 - self._h5 * _t43 + _u_R32 * self._h7;
+        matrix[(2, 10)] = _t6 * _t17 - self._h3 * _t51 + _u_R31 * self._h7;
+        matrix[(2, 11)] = _t41 - _t50;
+        matrix[(3, 1)] = _u_R13 * self._h9;
+        matrix[(3, 2)] = _u_R12 * self._h14;
         matrix[(3, 3)] = S::one();
-        matrix[(3, 4)] = _t66;
-        matrix[(3, 5)] = _t4;
-        matrix[(3, 7)] = _u_R13 * self._h1;
-        matrix[(3, 8)] = _u_R12 * self._h18;
-        matrix[(4, 0)] = _u_R13 * self._h19;
-        matrix[(4, 2)] = _u_R11 * self._h3;
-        matrix[(4, 3)] = _t11;
+        matrix[(3, 4)] = _t55;
+        matrix[(3, 5)] = _t13;
+        matrix[(3, 7)] = _u_R13 * self._h0;
+        matrix[(3, 8)] = _u_R12 * self._h16;
+        matrix[(4, 0)] = _u_R13 * self._h17;
+        matrix[(4, 2)] = _u_R11 * self._h11;
+        matrix[(4, 3)] = _t6;
         matrix[(4, 4)] = S::one();
-        matrix[(4, 5)] = _t67;
-        matrix[(4, 6)] = _u_R13 * self._h18;
-        matrix[(4, 8)] = _u_R11 * self._h1;
-        matrix[(5, 0)] = _u_R12 * self._h0;
-        matrix[(5, 1)] = _u_R11 * self._h20;
-        matrix[(5, 3)] = _t68;
-        matrix[(5, 4)] = _t1;
+        matrix[(4, 5)] = _t56;
+        matrix[(4, 6)] = _u_R13 * self._h16;
+        matrix[(4, 8)] = _u_R11 * self._h0;
+        matrix[(5, 0)] = _u_R12 * self._h8;
+        matrix[(5, 1)] = _u_R11 * self._h18;
+        matrix[(5, 3)] = _t57;
+        matrix[(5, 4)] = _t2;
         matrix[(5, 5)] = S::one();
-        matrix[(5, 6)] = _u_R12 * self._h1;
-        matrix[(5, 7)] = _u_R11 * self._h18;
-        matrix[(6, 1)] = _u_R23 * self._h4;
-        matrix[(6, 2)] = _u_R22 * self._h17;
+        matrix[(5, 6)] = _u_R12 * self._h0;
+        matrix[(5, 7)] = _u_R11 * self._h16;
+        matrix[(6, 1)] = _u_R23 * self._h9;
+        matrix[(6, 2)] = _u_R22 * self._h14;
         matrix[(6, 6)] = S::one();
-        matrix[(6, 7)] = _u_Pi3 * self._h17;
-        matrix[(6, 8)] = _t3;
-        matrix[(7, 0)] = _u_R23 * self._h19;
-        matrix[(7, 2)] = _u_R21 * self._h3;
-        matrix[(7, 6)] = _t10;
+        matrix[(6, 7)] = _u_Pi3 * self._h14;
+        matrix[(6, 8)] = _u_Pi2 * self._h9;
+        matrix[(7, 0)] = _u_R23 * self._h17;
+        matrix[(7, 2)] = _u_R21 * self._h11;
+        matrix[(7, 6)] = _u_Pi3 * self._h11;
         matrix[(7, 7)] = S::one();
-        matrix[(7, 8)] = _u_Pi1 * self._h19;
-        matrix[(8, 0)] = _u_R22 * self._h0;
-        matrix[(8, 1)] = _u_R21 * self._h20;
-        matrix[(8, 6)] = _u_Pi2 * self._h20;
-        matrix[(8, 7)] = _t0;
+        matrix[(7, 8)] = _u_Pi1 * self._h17;
+        matrix[(8, 0)] = _u_R22 * self._h8;
+        matrix[(8, 1)] = _u_R21 * self._h18;
+        matrix[(8, 6)] = _u_Pi2 * self._h18;
+        matrix[(8, 7)] = _u_Pi1 * self._h8;
         matrix[(8, 8)] = S::one();
-        matrix[(9, 1)] = _u_R33 * self._h4;
-        matrix[(9, 2)] = _u_R32 * self._h17;
-        matrix[(9, 7)] = _u_R33 * self._h1;
-        matrix[(9, 8)] = _u_R32 * self._h18;
+        matrix[(9, 1)] = _u_R33 * self._h9;
+        matrix[(9, 2)] = _u_R32 * self._h14;
+        matrix[(9, 7)] = _u_R33 * self._h0;
+        matrix[(9, 8)] = _u_R32 * self._h16;
         matrix[(9, 9)] = S::one();
-        matrix[(9, 10)] = _t66;
-        matrix[(9, 11)] = _t4;
-        matrix[(10, 0)] = _u_R33 * self._h19;
-        matrix[(10, 2)] = _u_R31 * self._h3;
-        matrix[(10, 6)] = _u_R33 * self._h18;
-        matrix[(10, 8)] = _u_R31 * self._h1;
-        matrix[(10, 9)] = _t11;
+        matrix[(9, 10)] = _t55;
+        matrix[(9, 11)] = _t13;
+        matrix[(10, 0)] = _u_R33 * self._h17;
+        matrix[(10, 2)] = _u_R31 * self._h11;
+        matrix[(10, 6)] = _u_R33 * self._h16;
+        matrix[(10, 8)] = _u_R31 * self._h0;
+        matrix[(10, 9)] = _t6;
         matrix[(10, 10)] = S::one();
-        matrix[(10, 11)] = _t67;
-        matrix[(11, 0)] = _u_R32 * self._h0;
-        matrix[(11, 1)] = _u_R31 * self._h20;
-        matrix[(11, 6)] = _u_R32 * self._h1;
-        matrix[(11, 7)] = _u_R31 * self._h18;
-        matrix[(11, 9)] = _t68;
-        matrix[(11, 10)] = _t1;
+        matrix[(10, 11)] = _t56;
+        matrix[(11, 0)] = _u_R32 * self._h8;
+        matrix[(11, 1)] = _u_R31 * self._h18;
+        matrix[(11, 6)] = _u_R32 * self._h0;
+        matrix[(11, 7)] = _u_R31 * self._h16;
+        matrix[(11, 9)] = _t57;
+        matrix[(11, 10)] = _t2;
         matrix[(11, 11)] = S::one();
         matrix[(4, 1)] = S::zero();
         matrix[(4, 7)] = S::zero();
@@ -2836,15 +2822,15 @@ for SatelliteCayleyMidpoint<'_, S> {
             .0;
         let [[_u_Pi1, _u_Pi2, _u_Pi3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = _u_Pi3 * self._h13;
-        let _t1 = _t0 - _u_R23 * self._h14;
-        let _t2 = _u_Pi2 * self._h15;
-        let _t3 = _t2 - _u_R22 * self._h14;
-        let _t4 = _u_Pi1 * self._h16;
-        let _t5 = _t4 - _u_R21 * self._h14;
-        mu[0] = _Pi1 - _u_Pi2 * _u_Pi3 * self._h21 - _u_R32 * _u_R33 * self._h22;
-        mu[1] = _Pi2 + _u_Pi1 * _u_Pi3 * self._h23 + _u_R31 * _u_R33 * self._h24;
-        mu[2] = _Pi3 - _u_Pi1 * _u_Pi2 * self._h25 - _u_R31 * _u_R32 * self._h26;
+        let _t0 = _u_Pi3 * self._h25;
+        let _t1 = _t0 - _u_R23 * self._h26;
+        let _t2 = _u_Pi2 * self._h27;
+        let _t3 = _t2 - _u_R22 * self._h26;
+        let _t4 = _u_Pi1 * self._h28;
+        let _t5 = _t4 - _u_R21 * self._h26;
+        mu[0] = _Pi1 - _u_Pi2 * _u_Pi3 * self._h19 - _u_R32 * _u_R33 * self._h20;
+        mu[1] = _Pi2 + _u_Pi1 * _u_Pi3 * self._h21 + _u_R31 * _u_R33 * self._h22;
+        mu[2] = _Pi3 - _u_Pi1 * _u_Pi2 * self._h23 - _u_R31 * _u_R32 * self._h24;
         mu[3] = _R11 + _u_R12 * _t1 - _u_R13 * _t3;
         mu[4] = _R12 - _u_R11 * _t1 + _u_R13 * _t5;
         mu[5] = _R13 + _u_R11 * _t3 - _u_R12 * _t5;

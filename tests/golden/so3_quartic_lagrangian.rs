@@ -47,29 +47,27 @@ impl<S: ::lie_runtime::Scalar> QuarticBody<S> {
         &self,
     ) -> ::core::result::Result<QuarticBodySystem<S>, ::lie_runtime::ParameterError> {
         let _c0 = self.a;
-        let _c1 = self.b;
+        let _c1 = self.b * S::ratio(2.0, 1.0);
         let _c2 = self.a * S::ratio(4.0, 1.0);
-        let _c3 = self.b * S::ratio(2.0, 1.0);
-        let _c4 = self.a * S::ratio(12.0, 1.0);
-        let _c5 = self.b * S::ratio(4.0, 1.0);
+        let _c3 = self.a * S::ratio(12.0, 1.0);
+        let _c4 = self.b * S::ratio(4.0, 1.0);
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "a", "a"),
-                (_c1, "b", "b"),
+                (_c1, "b", "2*b"),
                 (_c2, "a", "4*a"),
-                (_c3, "b", "2*b"),
-                (_c4, "a", "12*a"),
-                (_c5, "b", "4*b"),
+                (_c3, "a", "12*a"),
+                (_c4, "b", "4*b"),
             ],
         )?;
         ::core::result::Result::Ok(QuarticBodySystem {
             _parameters: ::core::clone::Clone::clone(self),
+            _branch: ::core::option::Option::None,
             a: _c0,
-            b: _c1,
+            _k1: _c1,
             _k2: _c2,
             _k3: _c3,
             _k4: _c4,
-            _k5: _c5,
         })
     }
 
@@ -89,18 +87,18 @@ impl<S: ::lie_runtime::Scalar> QuarticBody<S> {
 #[allow(non_snake_case)]
 pub struct QuarticBodySystem<S = f64> {
     _parameters: QuarticBody<S>,
+    /// A velocity of the branch of the Legendre transform; none for that which begins at rest.
+    _branch: ::core::option::Option<[S; 3]>,
     /// `a`
     a: S,
-    /// `b`
-    b: S,
+    /// `2*b`
+    _k1: S,
     /// `4*a`
     _k2: S,
-    /// `2*b`
-    _k3: S,
     /// `12*a`
-    _k4: S,
+    _k3: S,
     /// `4*b`
-    _k5: S,
+    _k4: S,
 }
 
 impl<S> QuarticBodySystem<S> {
@@ -150,7 +148,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for QuarticBodySystem<S
     #[inline]
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[x1, x2, x3]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -x3;
         out[(0, 2)] = x2;
         out[(1, 0)] = x3;
@@ -165,7 +163,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for QuarticBodySystem<S
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[x1, x2, x3]] = mu.data.0;
-        out[0] = x1 * x1 + x2 * x2 + x3 * x3;
+        out[0] = x3 * x3 + (x1 * x1 + x2 * x2);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -181,6 +179,16 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for QuarticBodySystem<S
 
             _ => panic!("the system has 1 Casimir"),
         }
+    }
+
+    /// The system with the velocity of mu as a point of its branch.
+    fn following(&self, mu: &Self::State) -> ::core::option::Option<Self> {
+        let velocity = ::lie_runtime::lagrangian::legendre::follow(self, mu)?;
+        let _branch = ::core::option::Option::Some(velocity.data.0[0]);
+        ::core::option::Option::Some(Self {
+            _branch,
+            ..::core::clone::Clone::clone(self)
+        })
     }
 
     /// `H(mu) = <mu, xi> - l(xi)`, `l'(xi) = mu` by Newton's iteration.
@@ -236,7 +244,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for QuarticBodySyste
     #[inline]
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_e1, _xi_e2, _xi_e3]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_e3;
         out[(0, 2)] = -_xi_e2;
         out[(1, 0)] = -_xi_e3;
@@ -248,6 +256,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for QuarticBodySyste
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for QuarticBodySystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -287,10 +296,9 @@ for QuarticBodySystem<S> {
     fn lagrangian(&self, xi: &Self::State) -> S {
         let [[_xi_e1, _xi_e2, _xi_e3]] = xi.data.0;
         let _t0 = _xi_e1 * _xi_e1;
-        let _t1 = _xi_e2 * _xi_e2;
-        let _t2 = _xi_e3 * _xi_e3;
-        _t0 + _t0 * _t0 * self.a + self.b * _t1 * _t2 + S::ratio(1.0, 2.0) * _t1
-            + S::ratio(1.0, 3.0) * _t2
+        let _t1 = _xi_e3 * _xi_e3;
+        (S::one() + self.a * _t0) * _t0 + S::ratio(1.0, 3.0) * _t1
+            + _xi_e2 * _xi_e2 * (S::one() + self._k1 * _t1) * S::ratio(1.0, 2.0)
     }
 
     /// `out_i = dl/dxi^i`
@@ -299,7 +307,7 @@ for QuarticBodySystem<S> {
     #[inline]
     fn momentum(&self, xi: &Self::State, out: &mut Self::State) {
         let [[_xi_e1, _xi_e2, _xi_e3]] = xi.data.0;
-        let _t0 = self._k3 * (_xi_e2 * _xi_e3);
+        let _t0 = self._k1 * (_xi_e2 * _xi_e3);
         out[0] = _xi_e1 * S::ratio(2.0, 1.0) + _xi_e1 * _xi_e1 * _xi_e1 * self._k2;
         out[1] = _xi_e2 + _xi_e3 * _t0;
         out[2] = _xi_e3 * S::ratio(2.0, 3.0) + _xi_e2 * _t0;
@@ -311,13 +319,17 @@ for QuarticBodySystem<S> {
     #[inline]
     fn inertia(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_e1, _xi_e2, _xi_e3]] = xi.data.0;
-        let _t0 = _xi_e2 * _xi_e3 * self._k5;
-        out.fill(S::zero());
-        out[(0, 0)] = _xi_e1 * _xi_e1 * self._k4 + S::ratio(2.0, 1.0);
-        out[(1, 1)] = S::one() + _xi_e3 * _xi_e3 * self._k3;
+        let _t0 = _xi_e2 * _xi_e3 * self._k4;
+        out.as_mut_slice().fill(S::zero());
+        out[(0, 0)] = S::ratio(2.0, 1.0) + _xi_e1 * _xi_e1 * self._k3;
+        out[(1, 1)] = S::one() + _xi_e3 * _xi_e3 * self._k1;
         out[(1, 2)] = _t0;
         out[(2, 1)] = _t0;
-        out[(2, 2)] = _xi_e2 * _xi_e2 * self._k3 + S::ratio(2.0, 3.0);
+        out[(2, 2)] = S::ratio(2.0, 3.0) + _xi_e2 * _xi_e2 * self._k1;
+    }
+
+    fn branch(&self) -> ::core::option::Option<Self::State> {
+        self._branch.map(<Self::State>::from)
     }
 }
 
@@ -330,12 +342,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for QuarticBodySystem<S> {
                 a: _constant(self._parameters.a),
                 b: _constant(self._parameters.b),
             },
+            _branch: self._branch.map(|branch| branch.map(_constant)),
             a: _constant(self.a),
-            b: _constant(self.b),
+            _k1: _constant(self._k1),
             _k2: _constant(self._k2),
             _k3: _constant(self._k3),
             _k4: _constant(self._k4),
-            _k5: _constant(self._k5),
         }
     }
 }
@@ -393,6 +405,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for QuarticBodySy
         ],
         skew: true,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }

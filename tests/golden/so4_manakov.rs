@@ -10,13 +10,13 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case)]
 pub struct ManakovTop<S = f64> {
-    /// second moment of mass along the first axis [kg m^2].
+    /// second moment of mass along the first axis \[kg m^2].
     pub J1: S,
-    /// second moment of mass along the second axis [kg m^2].
+    /// second moment of mass along the second axis \[kg m^2].
     pub J2: S,
-    /// second moment of mass along the third axis [kg m^2].
+    /// second moment of mass along the third axis \[kg m^2].
     pub J3: S,
-    /// second moment of mass along the fourth axis [kg m^2].
+    /// second moment of mass along the fourth axis \[kg m^2].
     pub J4: S,
 }
 
@@ -61,14 +61,6 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
         let _t9 = S::one() / _t3;
         let _t10 = S::one() / _t4;
         let _t11 = S::one() / _t5;
-        let _t12 = _t7 - _t9;
-        let _t13 = _t8 - _t10;
-        let _t14 = _t8 - _t11;
-        let _t15 = _t6 - _t7;
-        let _t16 = _t10 - _t11;
-        let _t17 = _t6 - _t8;
-        let _t18 = _t7 - _t8;
-        let _t19 = _t9 - _t10;
         let _c0 = S::ratio(1.0, 2.0) / _t0;
         let _c1 = S::ratio(1.0, 2.0) / _t1;
         let _c2 = S::ratio(1.0, 2.0) / _t2;
@@ -81,30 +73,22 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
         let _c9 = _t9;
         let _c10 = _t10;
         let _c11 = _t11;
-        let _c12 = _t12;
-        let _c13 = _t13;
+        let _c12 = _t9 - _t7;
+        let _c13 = _t10 - _t8;
         let _c14 = _t6 - _t9;
-        let _c15 = _t14;
+        let _c15 = _t11 - _t8;
         let _c16 = _t6 - _t10;
         let _c17 = _t7 - _t11;
-        let _c18 = _t15;
-        let _c19 = _t16;
-        let _c20 = _t17;
+        let _c18 = _t7 - _t6;
+        let _c19 = _t11 - _t10;
+        let _c20 = _t8 - _t6;
         let _c21 = _t9 - _t11;
-        let _c22 = _t18;
-        let _c23 = _t19;
-        let _c24 = -_t12;
-        let _c25 = -_t13;
-        let _c26 = -_t14;
-        let _c27 = -_t15;
-        let _c28 = -_t16;
-        let _c29 = -_t17;
-        let _c30 = -_t18;
-        let _c31 = -_t19;
-        let _c32 = self.J1;
-        let _c33 = self.J2;
-        let _c34 = self.J3;
-        let _c35 = self.J4;
+        let _c22 = _t8 - _t7;
+        let _c23 = _t10 - _t9;
+        let _c24 = self.J1;
+        let _c25 = self.J2;
+        let _c26 = self.J3;
+        let _c27 = self.J4;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "J1", "1/(2*(J1 + J2))"),
@@ -119,30 +103,22 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
                 (_c9, "J2", "1/(J2 + J3)"),
                 (_c10, "J2", "1/(J2 + J4)"),
                 (_c11, "J3", "1/(J3 + J4)"),
-                (_c12, "J1", "1/(J1 + J3) - 1/(J2 + J3)"),
-                (_c13, "J1", "1/(J1 + J4) - 1/(J2 + J4)"),
+                (_c12, "J1", "-1/(J1 + J3) + 1/(J2 + J3)"),
+                (_c13, "J1", "-1/(J1 + J4) + 1/(J2 + J4)"),
                 (_c14, "J1", "1/(J1 + J2) - 1/(J2 + J3)"),
-                (_c15, "J1", "1/(J1 + J4) - 1/(J3 + J4)"),
+                (_c15, "J1", "-1/(J1 + J4) + 1/(J3 + J4)"),
                 (_c16, "J1", "1/(J1 + J2) - 1/(J2 + J4)"),
                 (_c17, "J1", "1/(J1 + J3) - 1/(J3 + J4)"),
-                (_c18, "J1", "1/(J1 + J2) - 1/(J1 + J3)"),
-                (_c19, "J2", "1/(J2 + J4) - 1/(J3 + J4)"),
-                (_c20, "J1", "1/(J1 + J2) - 1/(J1 + J4)"),
+                (_c18, "J1", "-1/(J1 + J2) + 1/(J1 + J3)"),
+                (_c19, "J2", "-1/(J2 + J4) + 1/(J3 + J4)"),
+                (_c20, "J1", "-1/(J1 + J2) + 1/(J1 + J4)"),
                 (_c21, "J2", "1/(J2 + J3) - 1/(J3 + J4)"),
-                (_c22, "J1", "1/(J1 + J3) - 1/(J1 + J4)"),
-                (_c23, "J2", "1/(J2 + J3) - 1/(J2 + J4)"),
-                (_c24, "J1", "-1/(J1 + J3) + 1/(J2 + J3)"),
-                (_c25, "J1", "-1/(J1 + J4) + 1/(J2 + J4)"),
-                (_c26, "J1", "-1/(J1 + J4) + 1/(J3 + J4)"),
-                (_c27, "J1", "-1/(J1 + J2) + 1/(J1 + J3)"),
-                (_c28, "J2", "-1/(J2 + J4) + 1/(J3 + J4)"),
-                (_c29, "J1", "-1/(J1 + J2) + 1/(J1 + J4)"),
-                (_c30, "J1", "-1/(J1 + J3) + 1/(J1 + J4)"),
-                (_c31, "J2", "-1/(J2 + J3) + 1/(J2 + J4)"),
-                (_c32, "J1", "J1"),
-                (_c33, "J2", "J2"),
-                (_c34, "J3", "J3"),
-                (_c35, "J4", "J4"),
+                (_c22, "J1", "-1/(J1 + J3) + 1/(J1 + J4)"),
+                (_c23, "J2", "-1/(J2 + J3) + 1/(J2 + J4)"),
+                (_c24, "J1", "J1"),
+                (_c25, "J2", "J2"),
+                (_c26, "J3", "J3"),
+                (_c27, "J4", "J4"),
             ],
         )?;
         ::core::result::Result::Ok(ManakovTopSystem {
@@ -171,18 +147,10 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
             _k21: _c21,
             _k22: _c22,
             _k23: _c23,
-            _k24: _c24,
-            _k25: _c25,
-            _k26: _c26,
-            _k27: _c27,
-            _k28: _c28,
-            _k29: _c29,
-            _k30: _c30,
-            _k31: _c31,
-            J1: _c32,
-            J2: _c33,
-            J3: _c34,
-            J4: _c35,
+            J1: _c24,
+            J2: _c25,
+            J3: _c26,
+            J4: _c27,
         })
     }
 
@@ -229,46 +197,30 @@ pub struct ManakovTopSystem<S = f64> {
     _k10: S,
     /// `1/(J3 + J4)`
     _k11: S,
-    /// `1/(J1 + J3) - 1/(J2 + J3)`
+    /// `-1/(J1 + J3) + 1/(J2 + J3)`
     _k12: S,
-    /// `1/(J1 + J4) - 1/(J2 + J4)`
+    /// `-1/(J1 + J4) + 1/(J2 + J4)`
     _k13: S,
     /// `1/(J1 + J2) - 1/(J2 + J3)`
     _k14: S,
-    /// `1/(J1 + J4) - 1/(J3 + J4)`
+    /// `-1/(J1 + J4) + 1/(J3 + J4)`
     _k15: S,
     /// `1/(J1 + J2) - 1/(J2 + J4)`
     _k16: S,
     /// `1/(J1 + J3) - 1/(J3 + J4)`
     _k17: S,
-    /// `1/(J1 + J2) - 1/(J1 + J3)`
+    /// `-1/(J1 + J2) + 1/(J1 + J3)`
     _k18: S,
-    /// `1/(J2 + J4) - 1/(J3 + J4)`
+    /// `-1/(J2 + J4) + 1/(J3 + J4)`
     _k19: S,
-    /// `1/(J1 + J2) - 1/(J1 + J4)`
+    /// `-1/(J1 + J2) + 1/(J1 + J4)`
     _k20: S,
     /// `1/(J2 + J3) - 1/(J3 + J4)`
     _k21: S,
-    /// `1/(J1 + J3) - 1/(J1 + J4)`
-    _k22: S,
-    /// `1/(J2 + J3) - 1/(J2 + J4)`
-    _k23: S,
-    /// `-1/(J1 + J3) + 1/(J2 + J3)`
-    _k24: S,
-    /// `-1/(J1 + J4) + 1/(J2 + J4)`
-    _k25: S,
-    /// `-1/(J1 + J4) + 1/(J3 + J4)`
-    _k26: S,
-    /// `-1/(J1 + J2) + 1/(J1 + J3)`
-    _k27: S,
-    /// `-1/(J2 + J4) + 1/(J3 + J4)`
-    _k28: S,
-    /// `-1/(J1 + J2) + 1/(J1 + J4)`
-    _k29: S,
     /// `-1/(J1 + J3) + 1/(J1 + J4)`
-    _k30: S,
+    _k22: S,
     /// `-1/(J2 + J3) + 1/(J2 + J4)`
-    _k31: S,
+    _k23: S,
     /// `J1`
     J1: S,
     /// `J2`
@@ -365,7 +317,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self._k6;
         out[(1, 1)] = self._k7;
         out[(2, 2)] = self._k8;
@@ -386,7 +338,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
         let _t3 = -m12;
         let _t4 = -m13;
         let _t5 = -m14;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _t0;
         out[(0, 2)] = _t1;
         out[(0, 3)] = m13;
@@ -424,16 +376,16 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
     /// m34' = -m13*m14/(J1 + J3) + m13*m14/(J1 + J4) - m23*m24/(J2 + J3) + m23*m24/(J2 + J4)
     /// ```
     ///
-    /// 9 additions, 24 multiplications.
+    /// 6 additions, 24 multiplications.
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[m12, m13, m14, m23, m24, m34]] = mu.data.0;
-        out[0] = -(m13 * m23 * self._k12) - m14 * m24 * self._k13;
-        out[1] = m12 * m23 * self._k14 - m14 * m34 * self._k15;
-        out[2] = m12 * m24 * self._k16 + m13 * m34 * self._k17;
-        out[3] = -(m12 * m13 * self._k18) - m24 * m34 * self._k19;
-        out[4] = m23 * m34 * self._k21 - m12 * m14 * self._k20;
-        out[5] = -(m13 * m14 * self._k22) - m23 * m24 * self._k23;
+        out[0] = m23 * (m13 * self._k12) + m24 * (m14 * self._k13);
+        out[1] = m23 * (m12 * self._k14) + m34 * (m14 * self._k15);
+        out[2] = m24 * (m12 * self._k16) + m34 * (m13 * self._k17);
+        out[3] = m13 * (m12 * self._k18) + m34 * (m24 * self._k19);
+        out[4] = m14 * (m12 * self._k20) + m34 * (m23 * self._k21);
+        out[5] = m14 * (m13 * self._k22) + m24 * (m23 * self._k23);
     }
 
     /// `out_ij = df_i/dmu_j`
@@ -442,31 +394,31 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[m12, m13, m14, m23, m24, m34]] = mu.data.0;
-        out.fill(S::zero());
-        out[(0, 1)] = m23 * self._k24;
-        out[(0, 2)] = m24 * self._k25;
-        out[(0, 3)] = m13 * self._k24;
-        out[(0, 4)] = m14 * self._k25;
+        out.as_mut_slice().fill(S::zero());
+        out[(0, 1)] = m23 * self._k12;
+        out[(0, 2)] = m24 * self._k13;
+        out[(0, 3)] = m13 * self._k12;
+        out[(0, 4)] = m14 * self._k13;
         out[(1, 0)] = m23 * self._k14;
-        out[(1, 2)] = m34 * self._k26;
+        out[(1, 2)] = m34 * self._k15;
         out[(1, 3)] = m12 * self._k14;
-        out[(1, 5)] = m14 * self._k26;
+        out[(1, 5)] = m14 * self._k15;
         out[(2, 0)] = m24 * self._k16;
         out[(2, 1)] = m34 * self._k17;
         out[(2, 4)] = m12 * self._k16;
         out[(2, 5)] = m13 * self._k17;
-        out[(3, 0)] = m13 * self._k27;
-        out[(3, 1)] = m12 * self._k27;
-        out[(3, 4)] = m34 * self._k28;
-        out[(3, 5)] = m24 * self._k28;
-        out[(4, 0)] = m14 * self._k29;
-        out[(4, 2)] = m12 * self._k29;
+        out[(3, 0)] = m13 * self._k18;
+        out[(3, 1)] = m12 * self._k18;
+        out[(3, 4)] = m34 * self._k19;
+        out[(3, 5)] = m24 * self._k19;
+        out[(4, 0)] = m14 * self._k20;
+        out[(4, 2)] = m12 * self._k20;
         out[(4, 3)] = m34 * self._k21;
         out[(4, 5)] = m23 * self._k21;
-        out[(5, 1)] = m14 * self._k30;
-        out[(5, 2)] = m13 * self._k30;
-        out[(5, 3)] = m24 * self._k31;
-        out[(5, 4)] = m23 * self._k31;
+        out[(5, 1)] = m14 * self._k22;
+        out[(5, 2)] = m13 * self._k22;
+        out[(5, 3)] = m24 * self._k23;
+        out[(5, 4)] = m23 * self._k23;
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
@@ -480,48 +432,48 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
         jacobian: &mut Self::Jacobian,
     ) {
         let [[m12, m13, m14, m23, m24, m34]] = mu.data.0;
-        let _t0 = m13 * self._k24;
-        let _t1 = m14 * self._k25;
+        let _t0 = m13 * self._k12;
+        let _t1 = m14 * self._k13;
         let _t2 = m12 * self._k14;
-        let _t3 = m14 * self._k26;
+        let _t3 = m14 * self._k15;
         let _t4 = m12 * self._k16;
         let _t5 = m13 * self._k17;
-        let _t6 = m12 * self._k27;
-        let _t7 = m24 * self._k28;
-        let _t8 = m12 * self._k29;
+        let _t6 = m12 * self._k18;
+        let _t7 = m24 * self._k19;
+        let _t8 = m12 * self._k20;
         let _t9 = m23 * self._k21;
-        let _t10 = m13 * self._k30;
-        let _t11 = m23 * self._k31;
+        let _t10 = m13 * self._k22;
+        let _t11 = m23 * self._k23;
         field[0] = m23 * _t0 + m24 * _t1;
         field[1] = m23 * _t2 + m34 * _t3;
         field[2] = m24 * _t4 + m34 * _t5;
         field[3] = m13 * _t6 + m34 * _t7;
         field[4] = m14 * _t8 + m34 * _t9;
         field[5] = m14 * _t10 + m24 * _t11;
-        jacobian.fill(S::zero());
-        jacobian[(0, 1)] = m23 * self._k24;
-        jacobian[(0, 2)] = m24 * self._k25;
+        jacobian.as_mut_slice().fill(S::zero());
+        jacobian[(0, 1)] = m23 * self._k12;
+        jacobian[(0, 2)] = m24 * self._k13;
         jacobian[(0, 3)] = _t0;
         jacobian[(0, 4)] = _t1;
         jacobian[(1, 0)] = m23 * self._k14;
-        jacobian[(1, 2)] = m34 * self._k26;
+        jacobian[(1, 2)] = m34 * self._k15;
         jacobian[(1, 3)] = _t2;
         jacobian[(1, 5)] = _t3;
         jacobian[(2, 0)] = m24 * self._k16;
         jacobian[(2, 1)] = m34 * self._k17;
         jacobian[(2, 4)] = _t4;
         jacobian[(2, 5)] = _t5;
-        jacobian[(3, 0)] = m13 * self._k27;
+        jacobian[(3, 0)] = m13 * self._k18;
         jacobian[(3, 1)] = _t6;
-        jacobian[(3, 4)] = m34 * self._k28;
+        jacobian[(3, 4)] = m34 * self._k19;
         jacobian[(3, 5)] = _t7;
-        jacobian[(4, 0)] = m14 * self._k29;
+        jacobian[(4, 0)] = m14 * self._k20;
         jacobian[(4, 2)] = _t8;
         jacobian[(4, 3)] = m34 * self._k21;
         jacobian[(4, 5)] = _t9;
-        jacobian[(5, 1)] = m14 * self._k30;
+        jacobian[(5, 1)] = m14 * self._k22;
         jacobian[(5, 2)] = _t10;
-        jacobian[(5, 3)] = m24 * self._k31;
+        jacobian[(5, 3)] = m24 * self._k23;
         jacobian[(5, 4)] = _t11;
     }
 
@@ -531,8 +483,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m12, m13, m14, m23, m24, m34]] = mu.data.0;
-        out[0] = m12 * m12 + m13 * m13 + m14 * m14 + m23 * m23 + m24 * m24 + m34 * m34;
-        out[1] = m12 * m34 - m13 * m24 + m14 * m23;
+        out[0] = m34 * m34
+            + (m24 * m24 + (m23 * m23 + (m14 * m14 + (m12 * m12 + m13 * m13))));
+        out[1] = m14 * m23 + (m12 * m34 - m13 * m24);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -615,7 +568,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for ManakovTopSystem
         let _t3 = -_xi_E24;
         let _t4 = -_xi_E34;
         let _t5 = -_xi_E12;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_E23;
         out[(0, 2)] = _xi_E24;
         out[(0, 3)] = _t0;
@@ -645,6 +598,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for ManakovTopSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 36 additions, 48 multiplications.
@@ -733,14 +687,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for ManakovTopSystem<S> {
             _k21: _constant(self._k21),
             _k22: _constant(self._k22),
             _k23: _constant(self._k23),
-            _k24: _constant(self._k24),
-            _k25: _constant(self._k25),
-            _k26: _constant(self._k26),
-            _k27: _constant(self._k27),
-            _k28: _constant(self._k28),
-            _k29: _constant(self._k29),
-            _k30: _constant(self._k30),
-            _k31: _constant(self._k31),
             J1: _constant(self.J1),
             J2: _constant(self.J2),
             J3: _constant(self.J3),
@@ -838,6 +784,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for ManakovTopSys
         ],
         skew: true,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -912,37 +859,38 @@ impl<'a, S: ::lie_runtime::Scalar> ManakovTopMidpoint<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a ManakovTopSystem<S>, h: S) -> Self {
-        let _t0 = h * S::ratio(1.0, 4.0);
-        let _t1 = _t0 / (system._parameters.J1 + system._parameters.J3);
-        let _t2 = _t0 / (system._parameters.J2 + system._parameters.J3);
-        let _t3 = _t0 / (system._parameters.J1 + system._parameters.J4);
-        let _t4 = _t0 / (system._parameters.J2 + system._parameters.J4);
-        let _t5 = _t0 / (system._parameters.J1 + system._parameters.J2);
-        let _t6 = _t2 - _t5;
-        let _t7 = _t0 / (system._parameters.J3 + system._parameters.J4);
-        let _t8 = _t4 - _t5;
-        let _t9 = _t1 - _t7;
-        let _t10 = _t2 - _t7;
+        let _t0 = S::one() / (system._parameters.J1 + system._parameters.J3);
+        let _t1 = S::one() / (system._parameters.J2 + system._parameters.J3);
+        let _t2 = h * S::ratio(1.0, 4.0);
+        let _t3 = S::one() / (system._parameters.J1 + system._parameters.J4);
+        let _t4 = S::one() / (system._parameters.J2 + system._parameters.J4);
+        let _t5 = S::one() / (system._parameters.J1 + system._parameters.J2);
+        let _t6 = _t5 - _t1;
+        let _t7 = S::one() / (system._parameters.J3 + system._parameters.J4);
+        let _t8 = _t5 - _t4;
+        let _t9 = _t0 - _t7;
+        let _t10 = _t1 - _t7;
+        let _t11 = h * S::ratio(-1.0, 4.0);
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t1 - _t2,
-            _h1: _t3 - _t4,
-            _h2: -_t6,
-            _h3: _t3 - _t7,
-            _h4: -_t8,
-            _h5: _t9,
-            _h6: _t5 - _t1,
-            _h7: _t4 - _t7,
-            _h8: _t5 - _t3,
-            _h9: _t10,
-            _h10: _t1 - _t3,
-            _h11: _t2 - _t4,
-            _h12: _t6,
-            _h13: _t8,
-            _h14: -_t9,
-            _h15: -_t10,
+            _h0: (_t0 - _t1) * _t2,
+            _h1: (_t3 - _t4) * _t2,
+            _h2: _t6 * _t2,
+            _h3: (_t3 - _t7) * _t2,
+            _h4: _t8 * _t2,
+            _h5: _t9 * _t2,
+            _h6: (_t5 - _t0) * _t2,
+            _h7: (_t4 - _t7) * _t2,
+            _h8: (_t5 - _t3) * _t2,
+            _h9: _t10 * _t2,
+            _h10: (_t0 - _t3) * _t2,
+            _h11: (_t1 - _t4) * _t2,
+            _h12: _t6 * _t11,
+            _h13: _t8 * _t11,
+            _h14: _t9 * _t11,
+            _h15: _t10 * _t11,
         }
     }
 }

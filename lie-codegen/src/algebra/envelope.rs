@@ -57,8 +57,8 @@ pub(super) fn dual(
     Ok(duals.collect())
 }
 
-/// The matrices and a basis of Z; `None` where the closure has another form.
-fn closure(
+/// The matrices, which must be independent, and a basis of Z; `None` where the closure has another form.
+pub(super) fn closure(
     matrices: &[SparseMatrix],
     budget: &Budget,
 ) -> Result<Option<Vec<SparseMatrix>>, Exhausted> {

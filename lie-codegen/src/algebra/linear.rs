@@ -361,7 +361,8 @@ impl Lowering<'_, '_> {
         let Some(integer) = integer else {
             return self.irrational(exponent.origin, "an exponent that is not an integer");
         };
-        let Some(integer) = integer.to_integer().filter(|e| e.abs() <= MAX_EXPONENT) else {
+        let small = |e: &i64| (-MAX_EXPONENT..=MAX_EXPONENT).contains(e);
+        let Some(integer) = integer.to_integer().filter(small) else {
             return self.fail(
                 Kind::Limit,
                 exponent.origin,

@@ -6,6 +6,7 @@ mod constants;
 mod envelope;
 pub mod jacobi;
 mod linear;
+pub mod quadratic;
 pub mod rank;
 pub mod representation;
 mod ring;

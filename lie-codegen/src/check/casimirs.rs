@@ -1,5 +1,6 @@
 //! Casimirs: `{C, x_i} = sum_j dC/dx_j Pi_ji = 0` for all `i`, proven by a normal form.
 
+use super::degree::degree;
 use super::normal::NormalForm;
 use super::proof::{Proof, examine};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
@@ -34,15 +35,17 @@ pub fn check(
     let brackets = brackets(scratch, candidate.expr, poisson);
     let scratch = &*scratch;
     let budget = Budget::new(WORK);
-    let mut normal = NormalForm::new(scratch, &budget);
+    let mut domain = vec![candidate.expr];
+    domain.extend(poisson.entries.iter().map(|(.., value)| *value));
+    let mut normal = NormalForm::within(scratch, &budget, &domain);
     let mut undecided = None;
     for (i, bracket) in &brackets {
         let coordinate = name(Symbol::Coordinate(*i));
         let shown = match examine(&mut normal, scratch, *bracket, name) {
             Proof::Zero => continue,
             Proof::Nonzero(shown) => shown,
-            Proof::Unproven(shown) => {
-                undecided.get_or_insert((coordinate, shown));
+            Proof::Unproven { text, values } => {
+                undecided.get_or_insert((coordinate, text, values));
                 continue;
             }
         };
@@ -61,14 +64,14 @@ pub fn check(
         );
         return None;
     }
-    if let Some((coordinate, shown)) = undecided {
+    if let Some((coordinate, shown, values)) = undecided {
         let shown = shown.map_or_else(String::new, |shown| format!(" = {shown}"));
         report.push(
             Diagnostic::new(
                 Kind::Casimir,
                 candidate.origin,
                 format!(
-                    "`{0}` is unproven: it could not be shown that {{{0}, {coordinate}}}{shown} is zero, although it is at sample points",
+                    "`{0}` is unproven: it could not be shown that {{{0}, {coordinate}}}{shown} is zero, {values}",
                     candidate.name,
                 ),
             )
@@ -76,14 +79,7 @@ pub fn check(
         );
         return None;
     }
-    Some(normal.degree(candidate.expr))
-}
-
-/// The total degree of a function in the coordinates, if it is a polynomial in them and small enough
-/// to tell.
-pub fn degree(graph: &Graph, function: ExprId) -> Option<u32> {
-    let budget = Budget::new(WORK);
-    NormalForm::new(graph, &budget).degree(function)
+    Some(degree(scratch, candidate.expr))
 }
 
 /// The brackets with all coordinates that are not trivially zero.

@@ -138,7 +138,7 @@ pub fn check(
             Proof::Nonzero(shown) => {
                 format!("the cocycle identity fails for ({a}, {b}, {c}): {sums} = {shown}")
             }
-            Proof::Unproven(_) => format!(
+            Proof::Unproven { .. } => format!(
                 "the cocycle identity is unproven for ({a}, {b}, {c}): it could not be shown that {sums} is zero"
             ),
         };

@@ -1,10 +1,28 @@
-//! Constants that stand alone: the values of options on the command line.
+//! Constants: their signs, and the values of those that stand alone, the options on the command line.
 
+use super::confirmation;
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
+use super::normal::{NormalForm, Verdict};
 use crate::diagnostic::{Diagnostic, Report};
+use crate::exact::Budget;
 use crate::front::parse_constant_text;
-use crate::symbolic::Graph;
+use crate::symbolic::{ExprId, Graph};
+
+/// Work allowed for the proof that a constant is zero.
+const WORK: u64 = 500_000;
+
+/// The sign of a constant; `None` where it has no value, or where 67 digits do not tell it from zero and it
+/// cannot be shown to be zero.
+pub fn sign(graph: &Graph, id: ExprId) -> Option<i32> {
+    let value = confirmation::constant(graph, id)?;
+    if let Some(sign) = value.sign() {
+        return Some(sign);
+    }
+    let budget = Budget::new(WORK);
+    let verdict = NormalForm::new(graph, &budget).verdict(id);
+    matches!(verdict, Verdict::Zero).then_some(0)
+}
 
 /// The value of an exact constant (`1/7`, `-1/2`, `cos(11/10)`), in double precision; it need not
 /// be finite there.
@@ -29,6 +47,51 @@ pub fn constant(text: &str) -> Result<f64, Vec<Diagnostic>> {
 mod tests {
     use super::*;
     use crate::diagnostic::Kind;
+
+    #[test]
+    fn signs_are_exact() {
+        // zero, though not in double precision
+        for zero in [
+            "sin(pi)",
+            "sqrt(6) - sqrt(2)*sqrt(3)",
+            "sin(1)^2 + cos(1)^2 - 1",
+            "exp(log(2)/2) - sqrt(2)",
+            "cos(pi/4)*sqrt(2) - 1",
+            "tan(pi/3)^2 - 3",
+            "log(6) - log(2) - log(3)",
+            "asin(1/2)*6 - pi",
+        ] {
+            let text = format!("1/({zero})");
+            let found = constant(&text).err().unwrap_or_default();
+            assert_eq!(found.len(), 1, "{text}: {found:?}");
+            assert_eq!(found[0].message, "division by zero", "{text}");
+            for wrong in ["sqrt", "log"] {
+                let text = format!("{wrong}({zero} - 1e-40)");
+                let found = constant(&text).err().unwrap_or_default();
+                assert_eq!(found.len(), 1, "{text}: {found:?}");
+                assert!(constant(&format!("{wrong}({zero} + 1e-40)")).is_ok());
+            }
+            assert!(constant(&format!("sqrt({zero})")).is_ok());
+            assert!(constant(&format!("log({zero})")).is_err());
+        }
+        // zero in double precision, and not in truth
+        for small in [
+            "1 + 1e-30 - cos(0)",
+            "cos(1e-20) - 1",
+            "tanh(50) - 1",
+            "exp(1e-20) - 1",
+            "sqrt(1 + 1e-25) - 1",
+        ] {
+            assert!(constant(&format!("1/({small})")).is_ok(), "{small}");
+        }
+        assert!(constant("asin(1)").is_ok() && constant("acos(1 + 1e-30)").is_err());
+        assert!(constant("tan(pi/2)").is_err() && constant("tan(pi/2 + 1e-30)").is_ok());
+        // beyond the digits and beyond the prover: refused, not guessed
+        let text = "1/(cos(1e-40) - 1 + 1/2e80)";
+        let found = constant(text).err().unwrap_or_default();
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].message.contains("cannot be decided"), "{found:?}");
+    }
 
     #[test]
     fn constants_are_exact_until_the_end() {

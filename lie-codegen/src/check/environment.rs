@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use crate::ast::{Declaration, Name, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin};
+use crate::front::habits;
 use crate::model::CANONICAL;
 use crate::suggest::did_you_mean;
 use crate::symbolic::{ExprId, Function, Symbol};
@@ -177,7 +178,14 @@ impl<'a> Environment<'a> {
             return diagnostic(format!("`{name}` is a function"))
                 .help(format!("write its argument: `{name}(…)`"));
         }
-        let diagnostic = diagnostic(format!("unknown symbol `{name}`"));
+        if let Some(latin) = habits::in_latin(name)
+            && self.get(&latin).is_some_and(|binding| usable(&binding))
+        {
+            return diagnostic(format!(
+                "unknown symbol `{name}`: it looks like `{latin}`, but its letters are others"
+            ))
+            .help(format!("write `{latin}`"));
+        }
         let mut candidates: Vec<&str> = self
             .bindings
             .iter()
@@ -186,7 +194,14 @@ impl<'a> Environment<'a> {
             .collect();
         candidates.sort_unstable();
         candidates.push("pi");
-        match did_you_mean(name, candidates) {
+        let near = did_you_mean(name, candidates);
+        if near.is_none()
+            && let Some((message, help)) = habits::constant(name)
+        {
+            return diagnostic(message).help(help);
+        }
+        let diagnostic = diagnostic(format!("unknown symbol `{name}`"));
+        match near {
             Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
             None if allowed == Allowed::Constants => {
                 diagnostic.help("only numbers and `pi` may stand here")

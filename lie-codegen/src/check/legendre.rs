@@ -222,6 +222,8 @@ impl Quadratic {
         })
     }
 
+    /// Whether a value at rest and with the default parameters will do as a pivot: no statement about zero, but about
+    /// digits in double precision, in which the system runs. Entries that vanish identically are found by proof.
     fn is_pivot(&self, value: f64) -> bool {
         value.is_finite() && value.abs() > SINGULAR * self.size
     }

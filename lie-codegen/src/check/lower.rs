@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::constant;
 use super::environment::{Allowed, Binding, Environment};
 use crate::algebra::MAX_DEPTH;
 use crate::ast::{Expr, ExprKind, Name};
@@ -19,6 +20,22 @@ const MAX_BITS_TOGETHER: u64 = 1 << 20;
 /// The largest arena that expressions may fill, nodes and operands together.
 const MAX_SIZE: usize = 200_000;
 
+/// An expression in the arena: its normal form, and the form in which it was written.
+#[derive(Clone, Copy)]
+struct Lowered {
+    normal: ExprId,
+    written: ExprId,
+}
+
+impl Lowered {
+    fn plain(id: ExprId) -> Self {
+        Self {
+            normal: id,
+            written: id,
+        }
+    }
+}
+
 /// Lowers expressions to one arena, reporting every mistake in them.
 pub struct Lowering<'a, 'b> {
     /// The arena.
@@ -30,8 +47,8 @@ pub struct Lowering<'a, 'b> {
     /// Which names may stand.
     pub allowed: Allowed,
     depth: usize,
-    /// Values of irrational constants, `None` for what is no such constant.
-    constants: HashMap<ExprId, Option<f64>>,
+    /// Signs of irrational constants, `Some(None)` where they are not decided, `None` for what is no constant.
+    constants: HashMap<ExprId, Option<Option<i32>>>,
 }
 
 impl<'a, 'b> Lowering<'a, 'b> {
@@ -52,8 +69,15 @@ impl<'a, 'b> Lowering<'a, 'b> {
         }
     }
 
-    /// The expression in the arena; `None` if anything was reported.
+    /// The normal form of the expression, of which the arena remembers how it was written; `None` if anything
+    /// was reported.
     pub fn lower(&mut self, expr: &Expr) -> Option<ExprId> {
+        let lowered = self.both(expr)?;
+        self.graph.remember_written(lowered.normal, lowered.written);
+        Some(lowered.normal)
+    }
+
+    fn both(&mut self, expr: &Expr) -> Option<Lowered> {
         if self.depth > MAX_DEPTH {
             return self.fail(
                 Kind::Limit,
@@ -63,9 +87,11 @@ impl<'a, 'b> Lowering<'a, 'b> {
             );
         }
         self.depth += 1;
-        let id = self.lower_kind(expr);
+        let lowered = self.lower_kind(expr);
         self.depth -= 1;
-        self.bounded(id?, expr.origin)
+        let lowered = lowered?;
+        self.bounded(lowered.normal, expr.origin)?;
+        Some(lowered)
     }
 
     fn fail<T>(
@@ -113,52 +139,60 @@ impl<'a, 'b> Lowering<'a, 'b> {
         Some(id)
     }
 
-    fn lower_kind(&mut self, expr: &Expr) -> Option<ExprId> {
+    fn lower_kind(&mut self, expr: &Expr) -> Option<Lowered> {
         match &expr.kind {
-            ExprKind::Number(value) => Some(self.graph.number(value.clone())),
+            ExprKind::Number(value) => Some(Lowered::plain(self.graph.number(value.clone()))),
             ExprKind::Name { index: Some(_), .. } | ExprKind::IndexedSum { .. } => self.fail(
                 Kind::Syntax,
                 expr.origin,
                 "indexed names and sums belong to families of systems, which are not available here", "write the copies out, as in x1, x2, x3"),
             ExprKind::Name { name, index: None } => self.name(name, expr.origin),
             ExprKind::Negative(inner) => {
-                let inner = self.lower(inner)?;
-                Some(self.graph.neg(inner))
+                let inner = self.both(inner)?;
+                Some(Lowered {
+                    normal: self.graph.neg(inner.normal),
+                    written: self.graph.neg(inner.written),
+                })
             }
             ExprKind::Sum(terms) => {
                 // Every term is visited, so that all their mistakes are reported together.
-                let lowered: Vec<_> = terms.iter().map(|(minus, term)| (*minus, self.lower(term))).collect();
-                let mut signed = Vec::with_capacity(lowered.len());
-                for (minus, id) in lowered {
-                    signed.push((id?, if minus { Rational::MINUS_ONE } else { Rational::ONE }));
+                let lowered: Vec<_> = terms.iter().map(|(minus, term)| (*minus, self.both(term))).collect();
+                let (mut signed, mut written) = (Vec::new(), Vec::new());
+                for (minus, term) in lowered {
+                    let (term, sign) = (term?, if minus { Rational::MINUS_ONE } else { Rational::ONE });
+                    signed.push((term.normal, sign.clone()));
+                    written.push((term.written, sign));
                 }
                 self.fits(signed.iter().map(|(id, _)| *id), expr.origin)?;
-                Some(self.graph.linear(&signed))
+                Some(Lowered { normal: self.graph.linear(&signed), written: self.graph.written_sum(&written) })
             }
             ExprKind::Product(factors) => {
-                let lowered: Vec<_> = factors.iter().map(|(divides, factor)| (*divides, self.lower(factor))).collect();
-                let mut powers = Vec::with_capacity(lowered.len());
-                for ((divides, id), (_, factor)) in lowered.into_iter().zip(factors) {
-                    let id = id?;
-                    if divides && (self.graph.is_zero(id) || self.constant(id) == Some(0.0)) {
+                let lowered: Vec<_> = factors.iter().map(|(divides, factor)| (*divides, self.both(factor))).collect();
+                let (mut powers, mut written) = (Vec::new(), Vec::new());
+                for ((divides, lowered), (_, factor)) in lowered.into_iter().zip(factors) {
+                    let lowered = lowered?;
+                    let id = lowered.normal;
+                    if divides && (self.constant_sign(id, factor.origin)? == Some(0)) {
                         return self.fail(Kind::Number, factor.origin, "division by zero", "the divisor is exactly zero; correct it");
                     }
-                    powers.push((id, if divides { Rational::MINUS_ONE } else { Rational::ONE }));
+                    let exponent = if divides { Rational::MINUS_ONE } else { Rational::ONE };
+                    powers.push((id, exponent.clone()));
+                    written.push((lowered.written, exponent));
                 }
                 self.fits(powers.iter().map(|(id, _)| *id), expr.origin)?;
-                Some(self.graph.power_product(&powers))
+                Some(Lowered { normal: self.graph.power_product(&powers), written: self.graph.power_product(&written) })
             }
             ExprKind::Power(base, exponent) => {
-                let (base_id, exponent_id) = (self.lower(base), self.lower(exponent));
+                let (base_id, exponent_id) = (self.both(base), self.both(exponent));
                 self.power(base_id?, exponent_id?, base.origin, exponent.origin)
             }
             ExprKind::Call { function, arguments } => self.call(function, arguments, expr.origin),
         }
     }
 
-    fn name(&mut self, name: &str, origin: Origin) -> Option<ExprId> {
+    fn name(&mut self, name: &str, origin: Origin) -> Option<Lowered> {
         if name == "pi" {
-            return Some(self.graph.pi());
+            return Some(Lowered::plain(self.graph.pi()));
         }
         let known = match self.environment.get(name) {
             Some(Binding::Symbol(symbol)) => Some(self.graph.symbol(symbol)),
@@ -166,7 +200,10 @@ impl<'a, 'b> Lowering<'a, 'b> {
             _ => None,
         };
         match known {
-            Some(id) if self.permitted(id) => Some(id),
+            Some(id) if self.permitted(id) => Some(Lowered {
+                normal: id,
+                written: self.graph.as_written(id),
+            }),
             _ => {
                 let diagnostic = self.environment.unknown(name, origin, self.allowed);
                 self.report.push(diagnostic);
@@ -198,11 +235,12 @@ impl<'a, 'b> Lowering<'a, 'b> {
 
     fn power(
         &mut self,
-        base: ExprId,
-        exponent: ExprId,
+        lowered: Lowered,
+        lowered_exponent: Lowered,
         base_origin: Origin,
         origin: Origin,
-    ) -> Option<ExprId> {
+    ) -> Option<Lowered> {
+        let (base, exponent) = (lowered.normal, lowered_exponent.normal);
         let number = self.graph.as_number(base).cloned();
         let Some(exponent) = self.graph.as_number(exponent).cloned() else {
             // a^b = exp(b log a)
@@ -214,9 +252,15 @@ impl<'a, 'b> Lowering<'a, 'b> {
                     "`a^b` with a variable `b` is `exp(b*log(a))`",
                 );
             }
-            let logarithm = self.graph.call(Function::Log, &[base]);
-            let product = self.graph.mul(exponent, logarithm);
-            return Some(self.graph.call(Function::Exp, &[product]));
+            let mut power = |base, exponent| {
+                let logarithm = self.graph.call(Function::Log, &[base]);
+                let product = self.graph.mul(exponent, logarithm);
+                self.graph.call(Function::Exp, &[product])
+            };
+            return Some(Lowered {
+                normal: power(base, exponent),
+                written: power(lowered.written, lowered_exponent.written),
+            });
         };
         if exponent.abs() > Rational::from(MAX_EXPONENT) {
             return self.fail(
@@ -244,9 +288,13 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 );
             }
         }
-        if let Some(value) = self.constant(base)
-            && (value == 0.0 && exponent.is_negative() || value < 0.0 && !exponent.is_integer())
-        {
+        let needs_sign = exponent.is_negative() || !exponent.is_integer();
+        let sign = if needs_sign && number.is_none() {
+            self.constant_sign(base, base_origin)?
+        } else {
+            None
+        };
+        if sign == Some(0) && exponent.is_negative() || sign == Some(-1) && !exponent.is_integer() {
             return self.fail(
                 Kind::Number,
                 base_origin,
@@ -254,27 +302,58 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 "correct the base, or use another exponent",
             );
         }
-        Some(self.graph.pow(base, &exponent))
+        let quantity = self.written_base(lowered.written);
+        Some(Lowered {
+            normal: self.graph.pow(base, &exponent),
+            written: self.graph.pow(quantity, &exponent),
+        })
     }
 
-    /// The value of a constant that is not rational, such as `sin(2)`.
-    fn constant(&mut self, id: ExprId) -> Option<f64> {
-        if self.graph.as_number(id).is_some() {
-            return None;
+    /// A quotient that is raised to a power stays one quantity.
+    fn written_base(&mut self, id: ExprId) -> ExprId {
+        let (_, product) = self.graph.coefficient(id);
+        let quotient = match self.graph.node(product) {
+            Node::Product(factors) => {
+                factors.len() > 1 && factors.iter().any(|(_, e)| e.is_negative())
+            }
+            _ => false,
+        };
+        if quotient {
+            self.graph.written_product(id)
+        } else {
+            id
         }
-        if let Some(known) = self.constants.get(&id) {
-            return *known;
-        }
-        let constant = self.graph.symbols(id).is_empty();
-        let value = constant.then(|| self.graph.evaluate(id, &|_| f64::NAN));
-        self.constants.insert(id, value);
-        value
     }
 
-    fn call(&mut self, function: &Name, arguments: &[Expr], origin: Origin) -> Option<ExprId> {
+    /// The sign of a constant, exactly: of rational numbers, of irrational ones by rigorous bounds where these
+    /// exclude zero, and by a proof where it is zero. `Some(None)` for what is no constant; a constant of which it
+    /// cannot be decided is reported.
+    fn constant_sign(&mut self, id: ExprId, origin: Origin) -> Option<Option<i32>> {
+        if let Some(number) = self.graph.as_number(id) {
+            let sign = i32::from(!number.is_zero());
+            return Some(Some(if number.is_negative() { -sign } else { sign }));
+        }
+        if !self.constants.contains_key(&id) {
+            let constant = self.graph.symbols(id).is_empty();
+            let sign = constant.then(|| constant::sign(self.graph, id));
+            self.constants.insert(id, sign);
+        }
+        match self.constants[&id] {
+            None => Some(None),
+            Some(Some(sign)) => Some(Some(sign)),
+            Some(None) => self.fail(
+                Kind::Number,
+                origin,
+                "it cannot be decided whether this constant is zero, positive or negative",
+                "write it in a simpler form, or as a number",
+            ),
+        }
+    }
+
+    fn call(&mut self, function: &Name, arguments: &[Expr], origin: Origin) -> Option<Lowered> {
         let lowered: Vec<_> = arguments
             .iter()
-            .map(|argument| self.lower(argument))
+            .map(|argument| self.both(argument))
             .collect();
         let known = Function::from_name(&function.text);
         let arity = match known {
@@ -308,14 +387,13 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 "correct the number of arguments",
             );
         }
-        let lowered: Vec<ExprId> = lowered.into_iter().collect::<Option<_>>()?;
+        let lowered: Vec<Lowered> = lowered.into_iter().collect::<Option<_>>()?;
+        let (normal, written): (Vec<ExprId>, Vec<ExprId>) =
+            lowered.iter().map(|l| (l.normal, l.written)).unzip();
         let Some(known) = known else {
             let half = &Rational::ONE / &Rational::from(2);
-            let negative = self
-                .graph
-                .as_number(lowered[0])
-                .is_some_and(Rational::is_negative);
-            if negative || self.constant(lowered[0]).is_some_and(|value| value < 0.0) {
+            let place = arguments[0].origin;
+            if self.constant_sign(normal[0], place)? == Some(-1) {
                 return self.fail(
                     Kind::Number,
                     origin,
@@ -323,10 +401,12 @@ impl<'a, 'b> Lowering<'a, 'b> {
                     "correct its argument",
                 );
             }
-            return Some(self.graph.pow(lowered[0], &half));
+            return Some(Lowered {
+                normal: self.graph.pow(normal[0], &half),
+                written: self.graph.pow(written[0], &half),
+            });
         };
-        let id = self.graph.call(known, &lowered);
-        if self.constant(id).is_some_and(|value| !value.is_finite()) {
+        if self.is_undefined(known, &normal, arguments)? {
             return self.fail(
                 Kind::Number,
                 origin,
@@ -334,7 +414,37 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 "correct its argument",
             );
         }
-        Some(id)
+        Some(Lowered {
+            normal: self.graph.call(known, &normal),
+            written: self.graph.call(known, &written),
+        })
+    }
+}
+
+impl Lowering<'_, '_> {
+    /// Whether a function of constants is not real or not finite; `None` where that was reported as undecided.
+    fn is_undefined(
+        &mut self,
+        function: Function,
+        lowered: &[ExprId],
+        arguments: &[Expr],
+    ) -> Option<bool> {
+        let (id, place) = (lowered[0], arguments[0].origin);
+        match function {
+            Function::Log => Some(self.constant_sign(id, place)?.is_some_and(|sign| sign <= 0)),
+            Function::Asin | Function::Acos => {
+                // 1 - x^2
+                let square = self.graph.pow(id, &Rational::from(2));
+                let one = self.graph.integer(1);
+                let rest = self.graph.sub(one, square);
+                Some(self.constant_sign(rest, place)? == Some(-1))
+            }
+            Function::Tan => {
+                let cosine = self.graph.call(Function::Cos, &[id]);
+                Some(self.constant_sign(cosine, place)? == Some(0))
+            }
+            _ => Some(false),
+        }
     }
 }
 

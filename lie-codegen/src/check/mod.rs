@@ -5,16 +5,22 @@
 //! identities of other brackets, Casimirs and the domain.
 
 mod algebra;
+mod branches;
 mod casimirs;
 mod cocycle;
 pub mod configuration;
+mod confirmation;
 mod constant;
+mod contradiction;
 mod defaults;
+mod degree;
+mod descent;
 mod discrete;
 pub mod domain;
 mod energy;
 mod entries;
 mod environment;
+mod idle;
 mod independence;
 mod initial;
 mod legendre;
@@ -61,7 +67,14 @@ pub use size::MAX_DIMENSION;
 /// model.
 pub fn check(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     let mut own = Report::new();
+    contradiction::clear();
     let model = stages(declaration, &mut own);
+    if let Some(diagnostic) = contradiction::diagnostic(declaration.name.origin) {
+        own.push(diagnostic);
+    }
+    if let Some(model) = &model {
+        idle::check(declaration, model, &mut own);
+    }
     let failed = own.has_errors();
     let diagnostics = own.into_diagnostics();
     let warnings: Vec<Diagnostic> = diagnostics.iter().filter(|d| d.warning).cloned().collect();
@@ -206,7 +219,7 @@ fn system(
         Structure::General => {
             poisson::jacobi(declaration, &brackets, &mut scratch, report);
             let degrees = poisson.entries.iter();
-            let mut degrees = degrees.map(|(.., value)| casimirs::degree(&graph, *value));
+            let mut degrees = degrees.map(|(.., value)| degree::degree(&graph, *value));
             poisson.degree = degrees.try_fold(0, |most, degree| Some(most.max(degree?)));
         }
     }
@@ -236,7 +249,7 @@ fn system(
     }
     let (pieces, hamiltonian_degree) = if exact {
         let pieces = separable::coordinates(&mut scratch, hamiltonian, dimension);
-        (pieces, casimirs::degree(&scratch, hamiltonian))
+        (pieces, degree::degree(&scratch, hamiltonian))
     } else {
         (Err((0, dimension - 1)), None)
     };
@@ -358,11 +371,16 @@ fn independent(
                     .map(|n| n.text.clone())
                     .or_else(|| free.next())
                     .unwrap_or(candidate.name);
+                let multivalued = branches::jumps(graph, candidate.expr);
+                if multivalued {
+                    report.push(multivalued_casimir(&name, candidate.origin));
+                }
                 kept.push(Casimir {
                     name,
                     origin: candidate.origin,
                     expr: candidate.expr,
                     degree: *degree,
+                    multivalued,
                 });
                 continue;
             }
@@ -380,6 +398,16 @@ fn independent(
         );
     }
     kept
+}
+
+fn multivalued_casimir(name: &str, origin: crate::diagnostic::Origin) -> Diagnostic {
+    let message = format!(
+        "the Casimir `{name}` is multi-valued: an angle in it jumps, and `{name}` with it, although it is constant between \
+         the jumps"
+    );
+    Diagnostic::new(Kind::Casimir, origin, message)
+        .help("its column is written, but no drift is measured; a function of it without jumps, such as its sine, would be followed")
+        .warning()
 }
 
 /// A rational function of the parameters in the arena.

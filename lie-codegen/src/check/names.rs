@@ -115,9 +115,12 @@ fn declare<'a>(
         } else {
             format!("the {what} `{}` has the name of a {other}", name.text)
         };
-        report.push(
-            Diagnostic::new(Kind::DuplicateName, name.origin, message).help("choose another name"),
-        );
+        let help = if name.text.is_ascii() {
+            "choose another name"
+        } else {
+            "choose another name; letters with marks are compared in Unicode's normalisation form C, as Rust does"
+        };
+        report.push(Diagnostic::new(Kind::DuplicateName, name.origin, message).help(help));
         return;
     }
     for space in spaces {

@@ -1,6 +1,7 @@
 //! Defaults of parameters: constants, finite in double precision, rational where they are exact.
 
-use super::environment::{Allowed, Environment};
+use super::constant;
+use super::environment::{Allowed, Binding, Environment};
 use super::lower::Lowering;
 use crate::ast::Declaration;
 use crate::diagnostic::{Diagnostic, Kind, Report};
@@ -26,6 +27,19 @@ pub fn check(
                 report.push(Diagnostic::new(Kind::Number, place, format!("the default of `{name}` is not finite in double precision")).help("choose another default or other units"));
                 return None;
             }
+            if parameter.positive {
+                if constant::sign(graph, default) != Some(1) {
+                    report.push(
+                        Diagnostic::new(Kind::Number, place, format!("the default of the positive parameter `{name}` is not positive"))
+                            .help("choose another default, or do not declare it positive"),
+                    );
+                    return None;
+                }
+                let position = environment.get(name);
+                if let Some(Binding::Symbol(symbol)) = position {
+                    graph.assume_positive(symbol);
+                }
+            }
             let rational = graph.as_number(default).cloned();
             if parameter.exact && rational.is_none() {
                 report.push(
@@ -40,6 +54,7 @@ pub fn check(
                 default,
                 default_value,
                 exact: rational.filter(|_| parameter.exact),
+                positive: parameter.positive,
                 unit: parameter.unit.clone(),
                 description: parameter.description.clone(),
             })

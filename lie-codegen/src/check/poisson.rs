@@ -205,7 +205,8 @@ pub fn jacobi(
     let sums = jacobiator(declaration.state.len(), entries, scratch);
     let scratch = &*scratch;
     let budget = Budget::new(WORK);
-    let mut normal = NormalForm::new(scratch, &budget);
+    let domain: Vec<ExprId> = entries.iter().map(|entry| entry.value).collect();
+    let mut normal = NormalForm::within(scratch, &budget, &domain);
     let mut first: Option<(Diagnostic, usize)> = None;
     for (triple, sum) in &sums {
         let name = |symbol| symbol_name(declaration, symbol);
@@ -213,10 +214,10 @@ pub fn jacobi(
         let (what, shown) = match proof {
             Proof::Zero => continue,
             Proof::Nonzero(shown) => ("fails", shown),
-            Proof::Unproven(shown) => (
-                "is unproven",
-                shown.unwrap_or_else(|| "a long expression".into()),
-            ),
+            Proof::Unproven { text, values } => {
+                let shown = text.unwrap_or_else(|| "a long expression".into());
+                ("is unproven", format!("{shown} is zero, {values}"))
+            }
         };
         if let Some((_, others)) = &mut first {
             *others += usize::from(what == "fails");
@@ -227,7 +228,7 @@ pub fn jacobi(
         let unproven = what != "fails";
         let message = if unproven {
             format!(
-                "the Jacobi identity is unproven for ({a}, {b}, {c}): it could not be shown that {sum} = {shown} is zero, although it is at sample points"
+                "the Jacobi identity is unproven for ({a}, {b}, {c}): it could not be shown that {sum} = {shown}"
             )
         } else {
             format!("the Jacobi identity fails for ({a}, {b}, {c}): {sum} = {shown}")

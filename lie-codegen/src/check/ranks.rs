@@ -1,9 +1,12 @@
-//! Ranks of matrices of expressions, at rational points where that is possible.
+//! Ranks of matrices of expressions: at rational points where that is possible, elsewhere by balls of 67 digits. A
+//! pivot is a ball that excludes zero, so that a rank is never too large; it is too small only where numbers
+//! agree to all these digits.
 
 use std::collections::HashMap;
 
-use super::sample::Samples;
-use crate::exact::{Rational, matrix};
+use super::confirmation;
+use super::sample::{Sample, Samples};
+use crate::exact::{Ball, Rational, matrix};
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
 
 /// Points that are looked at.
@@ -14,15 +17,15 @@ const TRIES: usize = 60;
 const MAX_BITS: u64 = 1 << 16;
 
 /// The greatest rank found at generic points, up to `bound`; `None` where no point is in the domain. Exact
-/// where the entries are rational functions, by elimination in double precision elsewhere.
+/// where the entries are rational functions, by elimination with balls elsewhere.
 pub fn generic(graph: &Graph, rows: &[&Vec<ExprId>], bound: usize) -> Option<usize> {
     let mut best = None;
     let mut evaluated = 0;
     for point in Samples::new().take(TRIES) {
-        let integer = |symbol| Some(point.integer(symbol));
+        let integer = |symbol| Some(point.integer(graph, symbol));
         let found = match at_rationals(graph, rows, &integer, bound) {
             Some(rank) => rank,
-            None => match at_numbers(graph, rows, &|symbol| point.value(symbol)) {
+            None => match at_balls(graph, rows, point) {
                 Some(rank) => rank.min(bound),
                 None => continue,
             },
@@ -50,7 +53,42 @@ pub fn at_rationals(
     Some(matrix::rank(&rows, bound.min(rows.len()).min(columns)))
 }
 
-/// The rank at a point in double precision; `None` where the values are not finite.
+/// The rank at a sample point; `None` where something is not defined.
+fn at_balls(graph: &Graph, rows: &[&Vec<ExprId>], point: Sample) -> Option<usize> {
+    let entries: Vec<ExprId> = rows.iter().flat_map(|row| row.iter().copied()).collect();
+    let columns = rows.first()?.len();
+    let values = confirmation::values(graph, &entries, &|symbol| {
+        let (numerator, exponent) = point.dyadic(graph, symbol);
+        Some(Ball::dyadic(numerator, exponent))
+    })?;
+    let mut rows: Vec<Vec<Ball>> = values
+        .chunks(columns.max(1))
+        .map(<[Ball]>::to_vec)
+        .collect();
+    let precision = confirmation::precision();
+    let mut rank = 0;
+    while rank < rows.len() {
+        let places = (rank..rows.len()).flat_map(|r| (0..columns).map(move |c| (r, c)));
+        let pivots = places.filter(|&(r, c)| rows[r][c].excludes_zero());
+        let Some((row, column)) = pivots.max_by_key(|&(r, c)| rows[r][c].magnitude()) else {
+            break;
+        };
+        rows.swap(rank, row);
+        let pivot = rows[rank].clone();
+        let inverse = pivot[column].recip(precision)?;
+        for other in &mut rows[rank + 1..] {
+            let factor = other[column].mul(&inverse, precision);
+            for c in 0..columns {
+                other[c] = other[c].sub(&factor.mul(&pivot[c], precision), precision);
+            }
+            other[column] = Ball::integer(0);
+        }
+        rank += 1;
+    }
+    Some(rank)
+}
+
+/// The rank at a point in double precision, for the state where a run begins, which is given so; `None` where the values are not finite.
 pub fn at_numbers(
     graph: &Graph,
     rows: &[&Vec<ExprId>],
@@ -64,7 +102,7 @@ pub fn at_numbers(
 }
 
 /// The values at a point, `None` where they are not rational.
-fn exact(
+pub(super) fn exact(
     graph: &Graph,
     roots: &[ExprId],
     value: &dyn Fn(Symbol) -> Option<Rational>,
@@ -79,6 +117,9 @@ fn exact(
                     &sum + &(c * &values[term])
                 })
             }
+            Node::Written(terms) => terms
+                .iter()
+                .fold(Rational::ZERO, |sum, (term, c)| &sum + &(c * &values[term])),
             Node::Product(factors) => {
                 let mut product = Rational::ONE;
                 for (base, exponent) in factors {

@@ -1,6 +1,7 @@
 //! Realizations: a map J from canonical coordinates with `{J_a, J_b} = Pi_ab(J)`, proven by a normal form.
 
 use super::configuration::Configuration;
+use super::descent::{self, Component};
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use super::normal::{NormalForm, Verdict};
@@ -9,7 +10,7 @@ use super::size::plural;
 use crate::ast::{Declaration, Expr};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::{Budget, Rational};
-use crate::model::{CANONICAL, PoissonMatrix, Realization};
+use crate::model::{CANONICAL, Descent, PoissonMatrix, Realization};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for all brackets of one realization.
@@ -141,11 +142,11 @@ pub fn lower(
         origins,
         start,
         given: declared.start.is_some(),
-        quadratic: false,
+        descent: Descent::Degree,
     }))
 }
 
-/// Verifies the brackets, and says whether the components are of degree at most two.
+/// Verifies the brackets, and says whether Gauss methods over the realization descend.
 pub fn check(
     realization: &mut Realization,
     poisson: &PoissonMatrix,
@@ -188,19 +189,30 @@ pub fn check(
         }
     }
     let mut thirds = Vec::new();
-    for slope in slopes.iter().flatten() {
-        for i in 0..2 * half {
+    let mut components: Vec<Component> = Vec::new();
+    for (&value, slopes) in map.iter().zip(&slopes) {
+        let mut component = Component {
+            value,
+            slopes: slopes.clone(),
+            seconds: Vec::new(),
+        };
+        for (slope, i) in slopes
+            .iter()
+            .flat_map(|s| (0..2 * half).map(move |i| (s, i)))
+        {
             let second = scratch.derivative(*slope, Symbol::Input(CANONICAL + i));
+            component.seconds.push(second);
             for j in i..2 * half {
                 thirds.push(scratch.derivative(second, Symbol::Input(CANONICAL + j)));
             }
         }
+        components.push(component);
     }
     thirds.sort_unstable();
     thirds.dedup();
     let scratch = &*scratch;
     let budget = Budget::new(WORK);
-    let mut normal = NormalForm::new(scratch, &budget);
+    let mut normal = NormalForm::within(scratch, &budget, &map);
     for (a, b, difference) in differences {
         let (state, place) = (|k| name(Symbol::Coordinate(k)), realization.origins[b]);
         let (left, right) = (state(a), state(b));
@@ -210,7 +222,7 @@ pub fn check(
                 "the realization is no Poisson map: {{{left}, {right}}} of its components is not that of the \
                  system, the difference is {shown}"
             ),
-            Proof::Unproven(_) => {
+            Proof::Unproven { .. } => {
                 format!(
                     "it could not be shown that {{{left}, {right}}} of the components is that of the system"
                 )
@@ -222,7 +234,11 @@ pub fn check(
         );
         return;
     }
-    realization.quadratic = thirds
+    let quadratic = thirds
         .iter()
         .all(|third| matches!(normal.verdict(*third), Verdict::Zero));
+    realization.descent = match quadratic {
+        true => descent::of(scratch, &components, 2 * half),
+        false => Descent::Degree,
+    };
 }

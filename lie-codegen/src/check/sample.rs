@@ -1,7 +1,10 @@
 //! Points at which functions are looked at, the same in every run.
 
 use crate::exact::Rational;
-use crate::symbolic::Symbol;
+use crate::symbolic::{Graph, Symbol};
+
+/// Values are multiples of this power of two, so that they are the same numbers in any arithmetic.
+const LAST_BIT: i64 = -20;
 
 /// A sequence of generic points.
 pub struct Samples(u64);
@@ -28,7 +31,8 @@ impl Iterator for Samples {
 }
 
 impl Sample {
-    fn bits(self, symbol: Symbol) -> u64 {
+    /// A hash of the point and a symbol.
+    pub fn bits(self, symbol: Symbol) -> u64 {
         let (kind, index) = match symbol {
             Symbol::Parameter(i) => (1, i),
             Symbol::Step => (2, 0),
@@ -45,22 +49,37 @@ impl Sample {
         z ^ (z >> 31)
     }
 
-    /// A value of magnitude 0.1 to 3; positive at the odd points, of either sign at the even ones.
-    pub fn value(self, symbol: Symbol) -> f64 {
+    /// A value: numerator and power of two. Its size is between 0.1 and 3 at most points, at others between 0.01
+    /// and 0.3, or 1 and 30, so that most domains contain some; it is positive at every fourth point and where
+    /// the symbol is, and of either sign at the others.
+    pub fn dyadic(self, graph: &Graph, symbol: Symbol) -> (i64, i64) {
         let bits = self.bits(symbol);
         let unit = (bits >> 11) as f64 / (1u64 << 53) as f64;
-        let size = 0.1 * 30f64.powf(unit);
-        if self.seed.is_multiple_of(2) && bits & 1 == 1 {
-            -size
-        } else {
-            size
-        }
+        let least = match self.seed % 8 {
+            3 => 0.01,
+            7 => 1.0,
+            _ => 0.1,
+        };
+        let size = least * 30f64.powf(unit) * (-LAST_BIT as f64).exp2();
+        let positive = self.seed % 4 == 1 || graph.is_positive(symbol) || bits & 1 == 0;
+        let size = size as i64;
+        (if positive { size } else { -size }, LAST_BIT)
+    }
+
+    /// The same value in double precision.
+    pub fn value(self, graph: &Graph, symbol: Symbol) -> f64 {
+        let (numerator, exponent) = self.dyadic(graph, symbol);
+        numerator as f64 * (exponent as f64).exp2()
     }
 
     /// A small integer that is not zero.
-    pub fn integer(self, symbol: Symbol) -> Rational {
+    pub fn integer(self, graph: &Graph, symbol: Symbol) -> Rational {
         let bits = self.bits(symbol);
         let size = (bits >> 20) as i64 % 97 + 2;
-        Rational::from(if bits & 1 == 1 { -size } else { size })
+        Rational::from(if bits & 1 == 1 && !graph.is_positive(symbol) {
+            -size
+        } else {
+            size
+        })
     }
 }

@@ -10,6 +10,8 @@ use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
 const WORK: u64 = 500_000;
 /// Coefficients of a series.
 const TERMS: usize = 6;
+/// Series begin at smaller powers than this.
+const FARTHEST: u64 = 1 << 32;
 /// The largest arena that the coefficients may fill.
 const MOST: usize = 300_000;
 /// A symbol that no expression contains.
@@ -104,7 +106,9 @@ impl Series {
     fn pow(self, graph: &mut Graph, exponent: &Rational) -> Option<Self> {
         let base = self.stripped(graph)?;
         let start = &Rational::from(base.start) * exponent;
-        let start = start.to_integer()?;
+        let start = start
+            .to_integer()
+            .filter(|start| start.unsigned_abs() < FARTHEST)?;
         let leading = base.coefficients[0];
         let inverse = graph.pow(leading, &Rational::MINUS_ONE);
         let rest: Vec<ExprId> = base
@@ -178,6 +182,13 @@ pub fn in_step(graph: &mut Graph, expression: ExprId) -> Option<Series> {
             }
             Node::Symbol(Symbol::Input(_)) => Series::monomial(graph, 1, id),
             Node::Symbol(_) => Series::monomial(graph, 0, id),
+            Node::Written(terms) => {
+                let parts: Option<Vec<_>> = terms
+                    .iter()
+                    .map(|(term, factor)| Some((known.get(term)?.clone(), factor.clone())))
+                    .collect();
+                Series::sum(graph, &parts?)?
+            }
             Node::Sum { constant, terms } => {
                 let constant = graph.number(constant);
                 let mut parts = vec![(Series::monomial(graph, 0, constant), Rational::ONE)];

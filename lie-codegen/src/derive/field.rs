@@ -73,6 +73,16 @@ fn motion(source: &mut Source, hamiltonian: ExprId) -> Vec<Kernel> {
     let [_, of_field, of_both] = formulas(source.is_lie());
     let arguments = || vec![mu(source)];
     let graph = &source.graph;
+    let mut of_f = Kernel::vector(graph, "vector_field", of_field, arguments(), &field);
+    let mut of_j = Kernel::matrix(
+        graph,
+        "jacobian",
+        "`out_ij = df_i/dmu_j`",
+        arguments(),
+        &jacobian,
+    );
+    let mut both = Kernel::fused(graph, "linearize", of_both, arguments(), &field, &jacobian);
+    Kernel::agree(&mut of_f, &mut of_j, &mut both);
     vec![
         Kernel::scalar("hamiltonian", "`H(mu)`", arguments(), hamiltonian),
         Kernel::vector(
@@ -89,15 +99,9 @@ fn motion(source: &mut Source, hamiltonian: ExprId) -> Vec<Kernel> {
             arguments(),
             &hessian,
         ),
-        Kernel::vector(graph, "vector_field", of_field, arguments(), &field),
-        Kernel::matrix(
-            graph,
-            "jacobian",
-            "`out_ij = df_i/dmu_j`",
-            arguments(),
-            &jacobian,
-        ),
-        Kernel::fused(graph, "linearize", of_both, arguments(), &field, &jacobian),
+        of_f,
+        of_j,
+        both,
     ]
 }
 

@@ -1,6 +1,9 @@
 //! A kernel: named outputs as expressions in its arguments.
 
-use crate::schedule::{Known, Program, Task, schedule};
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+use crate::schedule::{Known, Program, Task, schedule, schedule_beside};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// A vector argument and the symbols of its entries.
@@ -38,6 +41,24 @@ pub struct Kernel {
     pub shape: Shape,
     /// What is to be computed.
     pub task: Task,
+    /// The larger computation that it is a part of, and which of its results are this kernel's.
+    pub whole: Option<(Arc<Whole>, Range<usize>)>,
+}
+
+/// A computation whose parts are kernels too: each of them takes the operations that stand there, so that
+/// kernels which compute the same quantity agree bit for bit.
+#[derive(Debug)]
+pub struct Whole {
+    first: Task,
+    second: Task,
+    program: OnceLock<Program>,
+}
+
+impl Whole {
+    fn program(&self, graph: &mut Graph) -> &Program {
+        self.program
+            .get_or_init(|| schedule_beside(graph, &self.first, &self.second))
+    }
 }
 
 impl Kernel {
@@ -59,6 +80,7 @@ impl Kernel {
             arguments,
             shape: Shape::Scalar,
             task,
+            whole: None,
         }
     }
 
@@ -82,6 +104,7 @@ impl Kernel {
             arguments,
             shape: Shape::Vector(indices),
             task,
+            whole: None,
         }
     }
 
@@ -105,6 +128,7 @@ impl Kernel {
             arguments,
             shape: Shape::Matrix(places),
             task,
+            whole: None,
         }
     }
 
@@ -131,6 +155,7 @@ impl Kernel {
             arguments,
             shape: Shape::VectorAndMatrix(indices, places),
             task,
+            whole: None,
         }
     }
 
@@ -144,7 +169,23 @@ impl Kernel {
 
     /// The cheapest program found.
     pub fn program(&self, graph: &mut Graph) -> Program {
-        schedule(graph, &self.task)
+        match &self.whole {
+            Some((whole, outputs)) => whole.program(graph).part(outputs.clone()),
+            None => schedule(graph, &self.task),
+        }
+    }
+
+    /// Makes two kernels and the one that computes both agree: all three take the same operations.
+    pub fn agree(first: &mut Self, second: &mut Self, both: &mut Self) {
+        let whole = Arc::new(Whole {
+            first: first.task.clone(),
+            second: second.task.clone(),
+            program: OnceLock::new(),
+        });
+        let (split, end) = (first.task.outputs.len(), both.task.outputs.len());
+        first.whole = Some((whole.clone(), 0..split));
+        second.whole = Some((whole.clone(), split..end));
+        both.whole = Some((whole, 0..end));
     }
 }
 

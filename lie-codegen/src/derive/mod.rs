@@ -179,7 +179,8 @@ impl Source {
     pub(crate) fn field_of_h(&mut self) -> Vec<ExprId> {
         let gradient = self.gradient_of_h();
         let mu = self.coordinates();
-        self.poisson_times(&gradient, &mu)
+        let field = self.poisson_times(&gradient, &mu);
+        field.into_iter().map(|f| self.graph.tidy(f)).collect()
     }
 
     /// `df_i/dmu_j`

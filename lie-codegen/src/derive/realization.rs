@@ -16,6 +16,8 @@ pub struct Realization {
     pub start: Vec<ExprId>,
     /// Whether the declaration gives it.
     pub given: bool,
+    /// Whether Gauss methods over it are methods for the state.
+    pub descends: bool,
 }
 
 fn points(count: usize, first: usize) -> Vec<Symbol> {

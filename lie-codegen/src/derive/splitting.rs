@@ -262,3 +262,71 @@ fn hyperbolic(
         definitions.define(source, second),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use crate::compile::{compile_spec, source};
+    use crate::symbolic::Symbol;
+
+    /// On the filiform algebra `[e1, e2] = e3, [e1, e3] = e4, [e1, e4] = e5` the flow of `mu1^2/2` has terms of the
+    /// third order.
+    #[test]
+    fn a_nilpotent_flow_has_all_its_terms() {
+        let spec = r#"{"format": 1, "name": "Filiform",
+            "algebra": {"basis": ["e1", "e2", "e3", "e4", "e5"],
+                        "brackets": ["[e1, e2] = e3", "[e1, e3] = e4", "[e1, e4] = e5"]},
+            "state": ["x", "y", "z", "u", "v"], "hamiltonian": "x^2/2 + y^2"}"#;
+        let model = compile_spec(spec).expect("a spec without mistakes");
+        let mut source = source(&model);
+        let pieces = source.splitting_kernels().expect("H is separable");
+        let flow = pieces.iter().find(|piece| piece.coordinate == 0);
+        let kernel = flow
+            .and_then(|flow| flow.kernel.clone())
+            .expect("a closed form");
+        let (mu, time) = ([0.7, -0.3, 1.1, 0.4, -0.9], 1.3);
+        let mut known = BTreeMap::new();
+        for (symbol, value) in &kernel.task.definitions {
+            let value = source
+                .graph
+                .evaluate(*value, &|symbol| at(symbol, &mu, time, &known));
+            known.insert(*symbol, value);
+        }
+        let values = source.graph.evaluate_all(&kernel.task.outputs, &|symbol| {
+            at(symbol, &mu, time, &known)
+        });
+        let s = time * mu[0];
+        let [_, _, z, u, v] = mu;
+        let expected = [
+            s * z + s * s / 2.0 * u + s * s * s / 6.0 * v,
+            s * u + s * s / 2.0 * v,
+            s * v,
+        ];
+        assert_eq!(values.len(), 3);
+        for (update, (value, expected)) in flow
+            .expect("above")
+            .updates
+            .iter()
+            .zip(values.iter().zip(expected))
+        {
+            let sign = if *update == super::Update::Subtract {
+                -1.0
+            } else {
+                1.0
+            };
+            assert!(
+                (sign * value - expected).abs() < 1e-14,
+                "{value} {expected}"
+            );
+        }
+    }
+
+    fn at(symbol: Symbol, mu: &[f64], time: f64, known: &BTreeMap<Symbol, f64>) -> f64 {
+        match symbol {
+            Symbol::Coordinate(i) => mu[i],
+            Symbol::Time => time,
+            other => known.get(&other).copied().unwrap_or(f64::NAN),
+        }
+    }
+}

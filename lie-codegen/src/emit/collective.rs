@@ -77,6 +77,7 @@ impl Writer<'_> {
             guess: quote! { self.h },
             generic: quote! { ::lie_runtime::generic::Spherical::new(self.system, self.h) },
             coadjoint: true,
+            chart: None,
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -99,6 +100,7 @@ impl Writer<'_> {
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
             generic: quote! { ::lie_runtime::generic::#generic::new(self.system, self.h) },
             coadjoint: true,
+            chart: None,
             result: Some(quote! {
                 let mut equation = ::lie_runtime::generic::#generic::new(self.system, self.h);
                 ::lie_runtime::Equation::set_base(&mut equation, &self.base);
@@ -174,6 +176,13 @@ impl Writer<'_> {
         let doc = format!(
             " The collective Gauss method of order {order}, elimination specialised to the pattern of the system."
         );
+        let chart = (lift == Lift::Representation && self.has_poles()).then(|| {
+            quote! {
+                fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {
+                    self.0.within_chart(unknown)
+                }
+            }
+        });
         let collective = (lift == Lift::Representation).then(|| {
             quote! {
                 ::lie_runtime::generic_equations!(
@@ -194,6 +203,7 @@ impl Writer<'_> {
                 type Unknown = <#inner as ::lie_runtime::Equation<S>>::Unknown;
                 type Matrix = <#inner as ::lie_runtime::Equation<S>>::Matrix;
                 #methods
+                #chart
             }
 
             #hook

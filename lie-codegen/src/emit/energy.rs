@@ -349,6 +349,7 @@ impl Writer<'_> {
                         }
                     },
                     coadjoint: false,
+                    chart: None,
                     result: None,
                 };
                 shared.tokens.extend(writer.fused(&form, &kernels));

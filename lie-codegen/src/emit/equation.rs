@@ -12,6 +12,7 @@ use super::prepared::{Owner, Prepared, step_name};
 use crate::derive::{Kernel, Shape};
 use crate::methods::{Choice, Lift, Retraction};
 use crate::schedule::{Program, Value};
+use crate::structure::spectrum::Spectrum;
 
 /// What distinguishes one fused equation from another.
 pub(super) struct Form {
@@ -28,6 +29,9 @@ pub(super) struct Form {
     pub(super) generic: TokenStream,
     /// Whether the method is of coadjoint form.
     pub(super) coadjoint: bool,
+    /// Of a method along the Cayley map, which ends where an element has real eigenvalues: whether that of the step is
+    /// joined to the identity.
+    pub(super) chart: Option<TokenStream>,
     /// Statements that write the state at the end to `mu`, where no kernel does and it is not `unknown`.
     pub(super) result: Option<TokenStream>,
 }
@@ -146,6 +150,7 @@ impl Writer<'_> {
             guess: quote! { self.h },
             generic: quote! { ::lie_runtime::generic::Midpoint::new(self.system, self.h) },
             coadjoint: false,
+            chart: None,
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -166,6 +171,9 @@ impl Writer<'_> {
             guess: quote! { self.h * S::ratio(1.0, 2.0) },
             generic: quote! { ::lie_runtime::generic::CayleyMidpoint::new(self.system, self.h) },
             coadjoint: true,
+            chart: Some(quote! {
+                ::lie_runtime::generic::cayley_chart_of_step(self.system, self.h, unknown)
+            }),
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -175,6 +183,11 @@ impl Writer<'_> {
         };
         let hook = self.implicit(&method, &name, &quote! { #name::new(self, h) });
         quote! { #equation #hook }
+    }
+
+    /// Whether the Cayley map of the representation has poles along real elements.
+    pub(super) fn has_poles(&self) -> bool {
+        self.known_spectrum() != Some(Spectrum::Imaginary)
     }
 
     /// The struct of a fused equation and its impl.
@@ -297,6 +310,13 @@ impl Writer<'_> {
                 }
             }
         });
+        if let Some(element) = form.chart.as_ref().filter(|_| self.has_poles()) {
+            methods.extend(quote! {
+                fn within_chart(&mut self, unknown: &Self::State) -> S::Mask {
+                    #element
+                }
+            });
+        }
         let table = super::fixed_order::table(
             &format_ident!("{}{}", self.blueprint.name, form.suffix),
             &elimination,

@@ -240,6 +240,7 @@ impl Writer<'_> {
             guess: TokenStream::new(),
             generic: quote! { ::lie_runtime::generic::SecondKind::new(self.system, self.h) },
             coadjoint: true,
+            chart: None,
             result: None,
         };
         let equation = self.fused(&form, &kernels);
@@ -279,6 +280,11 @@ impl Writer<'_> {
                 )
             },
             coadjoint: true,
+            chart: Some(quote! {
+                let mut xi = ::lie_runtime::Poisson::zero_state(self.system);
+                let _ = self.group_factor(unknown, &mut xi);
+                ::lie_runtime::generic::cayley_chart(self.system, &xi)
+            }),
             result: None,
         };
         let equation = self.fused(&form, &kernels);

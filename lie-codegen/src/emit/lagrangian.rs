@@ -14,14 +14,27 @@ impl Writer<'_> {
         let methods: Vec<TokenStream> = kernels.iter().map(|kernel| self.method(kernel)).collect();
         let system = self.system_name();
         let discrete = self.discrete_lagrangian();
+        let branch = self.has_branches().then(|| {
+            quote! {
+                fn branch(&self) -> ::core::option::Option<Self::State> {
+                    self._branch.map(<Self::State>::from)
+                }
+            }
+        });
         Some(quote! {
             #[allow(non_snake_case, clippy::many_single_char_names)]
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::LagrangianPoisson<S> for #system<S> {
                 #(#methods)*
+                #branch
             }
 
             #discrete
         })
+    }
+
+    /// Whether the velocity of a momentum is found along a path, of which the system remembers a point.
+    pub(super) fn has_branches(&self) -> bool {
+        self.source.hamiltonian.is_none() && self.source.lagrangian.is_some()
     }
 
     fn discrete_lagrangian(&mut self) -> Option<TokenStream> {
@@ -67,6 +80,13 @@ impl Writer<'_> {
 /// The methods of `Poisson` for a Hamiltonian that has no expression.
 pub(super) fn energy() -> TokenStream {
     quote! {
+        #[doc = " The system with the velocity of mu as a point of its branch."]
+        fn following(&self, mu: &Self::State) -> ::core::option::Option<Self> {
+            let velocity = ::lie_runtime::lagrangian::legendre::follow(self, mu)?;
+            let _branch = ::core::option::Option::Some(velocity.data.0[0]);
+            ::core::option::Option::Some(Self { _branch, ..::core::clone::Clone::clone(self) })
+        }
+
         #[doc = " `H(mu) = <mu, xi> - l(xi)`, `l'(xi) = mu` by Newton's iteration."]
         fn hamiltonian(&self, mu: &Self::State) -> S {
             ::lie_runtime::lagrangian::legendre::hamiltonian(self, mu)

@@ -56,6 +56,8 @@ pub struct Blueprint {
     pub poisson_degree: Option<u32>,
     /// The total degree of each Casimir, if it is a polynomial.
     pub casimir_degrees: Vec<Option<u32>>,
+    /// Whether each Casimir has several branches.
+    pub multivalued: Vec<bool>,
 }
 
 /// A parameter of the generated struct.
@@ -65,6 +67,8 @@ pub struct Parameter {
     pub name: Ident,
     /// Its default.
     pub default: ExprId,
+    /// Whether it must be positive.
+    pub positive: bool,
     /// Its doc line.
     pub doc: String,
 }

@@ -36,6 +36,12 @@ impl Writer<'_> {
             .is_empty()
             .then(|| quote! { _scalar: ::core::marker::PhantomData });
         let build = self.build();
+        let signs = self.blueprint.parameters.iter().any(|p| p.positive);
+        let errors = if signs {
+            " If a parameter that must be positive is not, or a constant that the system needs is not finite."
+        } else {
+            " If a constant that the system needs is not finite, such as the inverse of a zero."
+        };
         let initial = self.initial_state();
         quote! {
             #(#[doc = #docs])*
@@ -67,7 +73,7 @@ impl Writer<'_> {
                 #[doc = " The system for these parameters; what depends on them alone is computed here, once."]
                 #[doc = ""]
                 #[doc = " # Errors"]
-                #[doc = " If a constant that the system needs is not finite, such as the inverse of a zero."]
+                #[doc = #errors]
                 pub fn system(&self) -> ::core::result::Result<#system<S>, ::lie_runtime::ParameterError> {
                     #build
                 }
@@ -119,11 +125,28 @@ impl Writer<'_> {
         }
         let check = (!checks.is_empty())
             .then(|| quote! { ::lie_runtime::__private::all_finite(&[#checks])?; });
+        let branch = self
+            .has_branches()
+            .then(|| quote! { _branch: ::core::option::Option::None, });
+        let positive = self.blueprint.parameters.iter().filter(|p| p.positive);
+        let positive: Vec<_> = positive
+            .map(|p| {
+                let (name, text) = (&p.name, p.name.to_string());
+                quote! { (self.#name, #text) }
+            })
+            .collect();
+        let signs = (!positive.is_empty())
+            .then(|| quote! { ::lie_runtime::__private::all_positive(&[#(#positive),*])?; });
         quote! {
+            #signs
             #statements
             #lets
             #check
-            ::core::result::Result::Ok(#system { _parameters: ::core::clone::Clone::clone(self), #(#fields),* })
+            ::core::result::Result::Ok(#system {
+                _parameters: ::core::clone::Clone::clone(self),
+                #branch
+                #(#fields),*
+            })
         }
     }
 
@@ -151,12 +174,20 @@ impl Writer<'_> {
         let marker = names
             .is_empty()
             .then(|| quote! { _scalar: ::core::marker::PhantomData });
+        let branch = self.has_branches().then(|| {
+            let size = super::names::index(self.source.dimension);
+            quote! {
+                #[doc = " A velocity of the branch of the Legendre transform; none for that which begins at rest."]
+                _branch: ::core::option::Option<[S; #size]>,
+            }
+        });
         quote! {
             #[doc = #doc]
             #[derive(Clone, Debug, PartialEq)]
             #[allow(non_snake_case)]
             #visibility struct #system<S = f64> {
                 _parameters: #name<S>,
+                #branch
                 #(#fields,)*
             }
 
@@ -193,6 +224,9 @@ impl Writer<'_> {
             .parameters
             .is_empty()
             .then(|| quote! { _scalar: ::core::marker::PhantomData });
+        let branch = self
+            .has_branches()
+            .then(|| quote! { _branch: self._branch.map(|branch| branch.map(_constant)), });
         quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for #system<S> {
                 type Lifted = #system<::lie_runtime::Dual<S>>;
@@ -204,6 +238,7 @@ impl Writer<'_> {
                             #(#names: _constant(self._parameters.#names),)*
                             #marker
                         },
+                        #branch
                         #(#fields: _constant(self.#fields),)*
                     }
                 }

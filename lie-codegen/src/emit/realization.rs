@@ -35,7 +35,14 @@ impl Writer<'_> {
             quote! { out[#i] = { #statements #(#outputs)* }; }
         });
         let start: TokenStream = start.collect();
+        let closed = realization.descends.then(|| {
+            quote! {
+                impl<S: ::lie_runtime::Scalar> ::lie_runtime::ClosedRealization<S> for #system<S> {}
+            }
+        });
         Some(quote! {
+            #closed
+
             #[allow(non_snake_case, clippy::many_single_char_names)]
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::RealizedPoisson<S> for #system<S> {
                 type Point = ::lie_runtime::__private::SVector<S, #count>;

@@ -9,6 +9,7 @@ use super::prepared::{Owner, Prepared};
 use crate::derive::Kernel;
 use crate::exact::Rational;
 use crate::structure::inertia::Body;
+use crate::structure::spectrum::{Spectrum, spectrum};
 use crate::symbolic::ExprId;
 
 impl Writer<'_> {
@@ -34,6 +35,7 @@ impl Writer<'_> {
             .all(|matrix| is_skew(matrix));
         let matrices = representation.matrices.iter().map(|matrix| entries(matrix));
         let dual = dual.iter().map(|matrix| entries(matrix));
+        let spectrum = self.spectrum();
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for #system<S> {
                 type Matrix = ::lie_runtime::__private::SMatrix<S, #size, #size>;
@@ -42,11 +44,32 @@ impl Writer<'_> {
                     dual: &[#(#dual),*],
                     skew: #skew,
                 };
+                #spectrum
 
                 fn zero_matrix(&self) -> Self::Matrix {
                     Self::Matrix::repeat(S::zero())
                 }
             }
+        })
+    }
+
+    /// What is known of the eigenvalues of the representation, where one carries the methods that need it.
+    pub(super) fn known_spectrum(&self) -> Option<Spectrum> {
+        let representation = self.source.matrices.as_ref()?;
+        Some(spectrum(&representation.matrices))
+    }
+
+    /// The constant of the traits that says it.
+    pub(super) fn spectrum(&self) -> Option<TokenStream> {
+        let value = match self.known_spectrum()? {
+            Spectrum::Imaginary => quote! { ::lie_runtime::__private::Spectrum::Imaginary },
+            Spectrum::Bounded(weights) => {
+                let weights = weights.into_iter().map(Literal::f64_unsuffixed);
+                quote! { ::lie_runtime::__private::Spectrum::Bounded(&[#(#weights),*]) }
+            }
+        };
+        Some(quote! {
+            const SPECTRUM: ::lie_runtime::__private::Spectrum = #value;
         })
     }
 

@@ -47,6 +47,14 @@ impl Writer<'_> {
             let degree = option(&self.blueprint.poisson_degree);
             quote! { const POISSON_DEGREE: ::core::option::Option<u32> = #degree; }
         });
+        let multivalued = self.blueprint.multivalued.iter().enumerate();
+        let multivalued: Vec<_> = multivalued
+            .filter(|(_, is)| **is)
+            .map(|(place, _)| super::names::index(place))
+            .collect();
+        let multivalued = (!multivalued.is_empty()).then(|| {
+            quote! { const MULTIVALUED_CASIMIRS: &'static [usize] = &[#(#multivalued),*]; }
+        });
         let coadjoint = self.source.is_lie().then(|| {
             quote! {
                 #[allow(non_snake_case, clippy::many_single_char_names)]
@@ -55,10 +63,13 @@ impl Writer<'_> {
                 }
             }
         });
+        let spectrum = self.spectrum();
         let cayley = cayley.map(|triple| {
             quote! {
                 #[allow(non_snake_case, clippy::many_single_char_names)]
                 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for #system<S> {
+                    #spectrum
+
                     #triple
                 }
             }
@@ -76,6 +87,7 @@ impl Writer<'_> {
                 const CASIMIR_NAMES: &'static [&'static str] = &[#(#casimir_names),*];
                 const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = #degree;
                 const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[#(#degrees),*];
+                #multivalued
                 #poisson_degree
 
                 fn zero_state(&self) -> Self::State {

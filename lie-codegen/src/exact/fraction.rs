@@ -10,8 +10,8 @@ use super::{Monomial, Polynomial, Rational};
 /// The denominator stays factored as it was written, which keeps sums of quotients small without
 /// a multivariate greatest common divisor. Factors are variables, or primitive polynomials without
 /// monomial content; the numerator is freed of them by trial division. The representation is not
-/// unique, but a function is zero exactly where its numerator is.
-#[derive(Clone, Debug, Default)]
+/// unique (`==` compares representations), but a function is zero exactly where its numerator is.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Fraction {
     numerator: Polynomial,
     denominator: BTreeMap<Polynomial, u32>,

@@ -121,6 +121,13 @@ impl Monomial {
         divisor.next().is_none().then(|| Self::new(powers.into()))
     }
 
+    /// The square root where it is a monomial.
+    pub fn square_root(&self) -> Option<Self> {
+        let even = self.powers.iter().all(|(_, e)| e % 2 == 0);
+        let halves = self.powers.iter().map(|&(v, e)| (v, e / 2));
+        even.then(|| Self::new(halves.collect()))
+    }
+
     /// The greatest common divisor.
     pub fn gcd(&self, other: &Self) -> Self {
         let common = self.powers.iter().filter_map(|&(v, e)| {

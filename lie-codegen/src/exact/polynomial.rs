@@ -172,6 +172,41 @@ impl Polynomial {
         Ok(Some(quotient))
     }
 
+    /// The square root with a positive leading coefficient, where it is a polynomial.
+    ///
+    /// # Errors
+    /// [`Exhausted`] where the budget is too small for it.
+    pub fn square_root(&self, budget: &Budget) -> Result<Option<Self>, Exhausted> {
+        let Some((monomial, coefficient)) = self.leading() else {
+            return Ok(None);
+        };
+        let Some(lead) = monomial
+            .square_root()
+            .zip(coefficient.square_root())
+            .map(|(monomial, coefficient)| Self::term(monomial, coefficient))
+        else {
+            return Ok(None);
+        };
+        let lowest = self.0.first_key_value().map(|(m, _)| m.degree());
+        let twice = lead.scale(&Rational::from(2));
+        let (mut root, mut rest) = (lead.clone(), self - &lead.mul(&lead, budget)?);
+        // each round settles one term of the root, from the highest down
+        while let Some((monomial, coefficient)) = rest.leading() {
+            let (leading, factor) = match twice.leading() {
+                Some(term) if Some(monomial.degree()) >= lowest => term,
+                _ => return Ok(None),
+            };
+            let Some(shift) = monomial.divide(leading) else {
+                return Ok(None);
+            };
+            let term = Self::term(shift, coefficient / factor);
+            let change = &root.scale(&Rational::from(2)) + &term;
+            rest = &rest - &change.mul(&term, budget)?;
+            root = &root + &term;
+        }
+        Ok(Some(root))
+    }
+
     /// The rational that leaves integer coefficients without common divisor and a positive leading
     /// one; one for zero.
     pub fn content(&self) -> Rational {
@@ -337,6 +372,27 @@ mod tests {
         assert_eq!(product.divide_exactly(&q, &b).unwrap().unwrap(), p);
         assert_eq!((&product + &x).divide_exactly(&q, &b).unwrap(), None);
         assert_eq!(p.divide_exactly(&Polynomial::default(), &b).unwrap(), None);
+    }
+
+    #[test]
+    fn squares_have_roots() {
+        let b = Budget::new(100_000);
+        let [x, y, z] = variables();
+        let root =
+            &(&x.mul(&y, &b).unwrap().scale(&Rational::from(2)) - &z) + &y.pow(3, &b).unwrap();
+        let square = root.mul(&root, &b).unwrap();
+        assert_eq!(square.square_root(&b).unwrap(), Some(root.clone()));
+        assert_eq!(
+            (-&root).mul(&-&root, &b).unwrap().square_root(&b),
+            Ok(Some(root))
+        );
+        assert_eq!((&square + &z).square_root(&b), Ok(None));
+        assert_eq!(
+            (&square + &Polynomial::constant(Rational::ONE)).square_root(&b),
+            Ok(None)
+        );
+        assert_eq!((-&square).square_root(&b), Ok(None));
+        assert_eq!(square.scale(&Rational::from(3)).square_root(&b), Ok(None));
     }
 
     #[test]

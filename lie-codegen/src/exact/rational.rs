@@ -130,6 +130,19 @@ impl Rational {
         Some(Self::shrink(self.to_big().pow(exponent)))
     }
 
+    /// The square root where it is rational.
+    pub fn square_root(&self) -> Option<Self> {
+        if self.is_negative() {
+            return None;
+        }
+        let value = self.to_big();
+        let root = |n: &BigInt| {
+            let root = n.sqrt();
+            (&root * &root == *n).then_some(root)
+        };
+        Self::from_big(root(value.numer())?, root(value.denom())?)
+    }
+
     /// Size in bits of numerator and denominator together, the measure for size limits.
     pub fn bits(&self) -> u64 {
         match &self.0 {

@@ -18,7 +18,7 @@ use super::names::{Names, arity};
 use super::number;
 use super::operand::{begins_factor, ends_in_function, last_operand, operand_text};
 use super::token::{Cursor, Delimiter, Token, TokenKind, render};
-use super::{families, mistakes};
+use super::{families, habits, mistakes};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Rational;
@@ -47,7 +47,8 @@ pub fn parse(tokens: &[Token], names: &Names, report: &mut Report) -> Option<Exp
         && let Some(token) = parser.cursor.peek()
     {
         let before = parser.cursor.previous();
-        parser.fail(mistakes::unexpected(token, before));
+        let rest = &parser.cursor.rest()[1..];
+        parser.fail(mistakes::unexpected(token, before, rest));
     }
     let expression = expression.filter(|_| !parser.failed)?;
     families::refuse(&expression, report).then_some(expression)
@@ -119,6 +120,13 @@ impl<'a> Parser<'a> {
                 }
                 // `x in` and `x[` never begin a factor.
                 Some(token) if begins_factor(token) => {
+                    let words = [self.cursor.previous(), Some(token)].into_iter().flatten();
+                    let known =
+                        |t: &&Token| t.identifier().is_some_and(|n| self.is_foreign_word(n));
+                    if let Some(word) = words.into_iter().find(known) {
+                        self.fail(mistakes::programming_word(word));
+                        return None;
+                    }
                     let left = last_operand(self.cursor.since(start));
                     self.fail(mistakes::missing_times(left, self.cursor.rest()));
                     divides = false;
@@ -186,7 +194,7 @@ impl<'a> Parser<'a> {
                 self.nested(Self::unary)
             }
             _ => {
-                self.fail(mistakes::unexpected(token, before));
+                self.fail(mistakes::unexpected(token, before, self.cursor.rest()));
                 None
             }
         }
@@ -198,7 +206,10 @@ impl<'a> Parser<'a> {
             return Some(close.origin);
         }
         let diagnostic = match self.cursor.peek() {
-            Some(token) => mistakes::unexpected(token, self.cursor.previous()),
+            Some(token) => {
+                let rest = &self.cursor.rest()[1..];
+                mistakes::unexpected(token, self.cursor.previous(), rest)
+            }
             None => mistakes::unclosed(open),
         };
         self.fail(diagnostic);
@@ -250,6 +261,19 @@ impl<'a> Parser<'a> {
         if name == "sum" && called {
             return self.nested(|parser| families::indexed_sum(parser, token));
         }
+        if called
+            && self.names.knows(name)
+            && arity(name).is_none()
+            && self.cursor.ahead(1).is_some_and(|t| t.kind == CLOSE)
+        {
+            self.fail(mistakes::called_name(name, token.origin));
+            self.cursor.advance();
+            self.cursor.advance();
+            return Some(zero(token.origin));
+        }
+        if let Some(function) = self.bracketed(name) {
+            return self.bracketed_call(&function, token);
+        }
         if called && (arity(name).is_some() || !self.names.knows(name)) {
             return self.nested(|parser| parser.call(name, token));
         }
@@ -264,6 +288,27 @@ impl<'a> Parser<'a> {
             },
             origin,
         })
+    }
+
+    /// Whether a name is a word of programming languages that nobody declared.
+    fn is_foreign_word(&self, name: &str) -> bool {
+        habits::is_word(name) && !self.names.knows(name)
+    }
+
+    /// The function that `Sin[` or `sin[` means.
+    fn bracketed(&self, name: &str) -> Option<String> {
+        let open = TokenKind::Open(Delimiter::Bracket);
+        let lower = name.to_lowercase();
+        let function = arity(&lower).is_some() && !self.names.knows(name);
+        (function && self.cursor.peek()?.kind == open).then_some(lower)
+    }
+
+    fn bracketed_call(&mut self, function: &str, token: &'a Token) -> Option<Expr> {
+        self.cursor.advance();
+        let argument = self.cursor.take_until(|_| false);
+        self.cursor.advance();
+        self.fail(mistakes::bracketed_call(function, argument, token.origin));
+        Some(zero(token.origin))
     }
 
     /// `sin x`, `sin^2(x)`, `sin` alone: what follows is the argument, not a factor without `*`.
@@ -295,16 +340,22 @@ impl<'a> Parser<'a> {
     fn call(&mut self, function: &str, token: &'a Token) -> Option<Expr> {
         let open = self.cursor.advance()?;
         let mut arguments = Vec::new();
+        let mut texts = Vec::new();
         if self.cursor.peek().is_none_or(|t| t.kind != CLOSE) {
-            arguments.push(self.sum()?);
-            while self.cursor.eat(',').is_some() {
+            loop {
+                let start = self.cursor.position();
                 arguments.push(self.sum()?);
+                texts.push(render(self.cursor.since(start)));
+                if self.cursor.eat(',').is_none() {
+                    break;
+                }
             }
         }
         let origin = token.origin.to(self.close(open, Delimiter::Parenthesis)?);
         match arity(function) {
             None => self.fail(mistakes::unknown_function(
                 function,
+                &texts,
                 token.origin,
                 self.names,
             )),

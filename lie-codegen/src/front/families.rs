@@ -15,6 +15,20 @@ pub fn refuse(expression: &Expr, report: &mut Report) -> bool {
     let mut clean = true;
     while let Some(expression) = pending.pop() {
         match &expression.kind {
+            ExprKind::Name {
+                name,
+                index: Some(index),
+            } if index.variable.is_none() => {
+                let message = format!(
+                    "`{name}[{}]`: coordinates are no elements of a list",
+                    index.offset
+                );
+                report.push(
+                    Diagnostic::new(Kind::Syntax, expression.origin, message)
+                        .help("write the name of the coordinate as it stands in the state"),
+                );
+                clean = false;
+            }
             ExprKind::IndexedSum { .. } | ExprKind::Name { index: Some(_), .. } => {
                 report.push(not_built(expression.origin));
                 clean = false;

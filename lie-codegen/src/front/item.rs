@@ -6,6 +6,7 @@ use super::names::Names;
 use super::token::{Cursor, Delimiter, Token, TokenKind, render, span};
 use super::{expression, token};
 use crate::ast::{Algebra, Bracket, Casimir, Energy, Expr, ExprKind, Invariance, Name, Structure};
+use crate::characters::{is_invisible, visible};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// A name and nothing else. `whole` is the place of an empty text.
@@ -25,6 +26,16 @@ pub fn name(tokens: &[Token], whole: Origin, report: &mut Report) -> Option<Name
             );
         } else if text.starts_with("r#") {
             report.push(mistakes::raw_identifier(token));
+        } else if let Some(hidden) = text.chars().find(|c| is_invisible(*c)) {
+            let message = format!(
+                "the name `{}` contains U+{:04X}, which is not seen",
+                visible(text),
+                u32::from(hidden)
+            );
+            report.push(
+                Diagnostic::new(Kind::Syntax, place, message)
+                    .help("type the name anew: names that look the same must be the same"),
+            );
         } else {
             return Some(Name {
                 text: text.to_owned(),

@@ -1,8 +1,10 @@
 //! The mistakes that the expression parser reports, with their remedies.
 
-use super::names::{FUNCTIONS, Names};
+use super::habits;
+use super::names::{FUNCTIONS, Names, arity};
 use super::operand::operand_text;
 use super::token::{Delimiter, Token, TokenKind, render, span};
+use crate::characters::is_invisible;
 use crate::diagnostic::{Diagnostic, Kind, Origin};
 use crate::suggest::did_you_mean;
 
@@ -29,28 +31,21 @@ const LOOKALIKES: &[(char, &str)] = &[
     ('₁', "1"),
     ('₂', "2"),
     ('₃', "3"),
-];
-
-/// Other names of the functions of the grammar.
-const OTHER_NAMES: &[(&str, &str)] = &[
-    ("ln", "log"),
-    ("arcsin", "asin"),
-    ("arccos", "acos"),
-    ("arctan", "atan"),
-    ("arctan2", "atan2"),
-    ("sh", "sinh"),
-    ("ch", "cosh"),
-    ("th", "tanh"),
-    ("tg", "tan"),
+    ('½', "(1/2)"),
+    ('¼', "(1/4)"),
+    ('¾', "(3/4)"),
+    ('⅓', "(1/3)"),
+    ('⅔', "(2/3)"),
 ];
 
 /// What the grammar has.
 const PARTS: &str = "expressions consist of numbers, names, + - * / ^, parentheses and functions";
 
-/// A token that cannot stand where it stands.
-pub fn unexpected(token: &Token, before: Option<&Token>) -> Diagnostic {
+/// A token that cannot stand where it stands; `rest` is what comes behind it.
+pub fn unexpected(token: &Token, before: Option<&Token>, rest: &[Token]) -> Diagnostic {
     let text = render(std::slice::from_ref(token));
     let syntax = |message: String| Diagnostic::new(Kind::Syntax, token.origin, message);
+    let next = rest.first().map(|token| &token.kind);
     let after = match before {
         Some(before) => format!(" after `{}`", render(std::slice::from_ref(before))),
         None => " at the beginning".to_owned(),
@@ -65,14 +60,22 @@ pub fn unexpected(token: &Token, before: Option<&Token>) -> Diagnostic {
         }
         TokenKind::Punctuation(',') if before.is_some_and(ends_operand) => {
             let help = match before.map(|t| &t.kind) {
-                Some(TokenKind::Number(_)) => "a decimal number has a point, as in `0.5`",
+                Some(TokenKind::Number(_)) if matches!(next, Some(TokenKind::Number(_))) => {
+                    "a decimal number has a point, as in `0.5`"
+                }
                 _ => "a comma stands between the two arguments of `atan2` only",
             };
             syntax(format!("unexpected `,`{after}")).help(help)
         }
+        TokenKind::Punctuation('.' | ':') if before.is_some_and(ends_operand) => {
+            point(token, before, rest)
+        }
         TokenKind::Punctuation('.') => {
-            Diagnostic::new(Kind::Number, token.origin, "a number cannot begin with `.`")
-                .help("write the zero, as in `0.5`")
+            let help = match next {
+                Some(TokenKind::Number(digits)) => format!("write `0.{digits}`"),
+                _ => "write the zero, as in `0.5`".to_owned(),
+            };
+            Diagnostic::new(Kind::Number, token.origin, "a number cannot begin with `.`").help(help)
         }
         TokenKind::Punctuation(c) => {
             if let Some((_, sign)) = LOOKALIKES.iter().find(|(other, _)| other == c) {
@@ -87,8 +90,13 @@ pub fn unexpected(token: &Token, before: Option<&Token>) -> Diagnostic {
                 '=' => syntax(format!("unexpected `=`{after}"))
                     .help("write the expression alone, without `=`"),
                 ';' => syntax(format!("unexpected `;`{after}")).help("remove it"),
-                '\'' | '"' | '\\' => syntax(format!("unexpected `{c}`{after}")).help(PARTS),
-                _ => syntax(format!("unexpected `{}`{after}", c.escape_debug())).help(PARTS),
+                _ if is_invisible(*c) || c.is_control() => syntax(format!(
+                    "a character that is not seen, U+{:04X},{after}",
+                    u32::from(*c)
+                ))
+                .help("remove it"),
+                _ => syntax(format!("unexpected `{c}`{after}"))
+                    .help(habits::sign(*c).unwrap_or(PARTS)),
             }
         }
         TokenKind::Close(_) if before.is_some_and(|t| matches!(t.kind, TokenKind::Open(_))) => {
@@ -107,6 +115,63 @@ pub fn unexpected(token: &Token, before: Option<&Token>) -> Diagnostic {
         }
         _ => syntax(format!("unexpected `{text}`{after}")).help(PARTS),
     }
+}
+
+/// A `.` or `:` behind an operand: a module, a method, an operation by elements.
+fn point(token: &Token, before: Option<&Token>, rest: &[Token]) -> Diagnostic {
+    let rest = match rest {
+        [colon, rest @ ..] if token.is(':') && colon.is(':') => rest,
+        rest => rest,
+    };
+    let module = before.and_then(Token::identifier);
+    let (message, help) = match rest.first().map(|t| &t.kind) {
+        Some(TokenKind::Identifier(member)) if module.is_some() => (
+            format!("`{}` is no module here", module.unwrap_or_default()),
+            match arity(member) {
+                Some(_) => format!("write `{}`; functions stand alone", operand_text(rest)),
+                None if member == "pi" => "write `pi`".to_owned(),
+                None => "names and functions stand alone, without a module or an object in front"
+                    .to_owned(),
+            },
+        ),
+        Some(TokenKind::Punctuation(sign @ ('*' | '/' | '^'))) if token.is('.') => (
+            format!("`.{sign}` is not an operator"),
+            format!("write `{sign}`; all quantities are numbers"),
+        ),
+        _ => {
+            let sign = if token.is('.') { '.' } else { ':' };
+            (format!("unexpected `{sign}`"), PARTS.to_owned())
+        }
+    };
+    Diagnostic::new(Kind::Syntax, token.origin, message).help(help)
+}
+
+/// `lambda x: x^2`, `x and y`.
+pub fn programming_word(word: &Token) -> Diagnostic {
+    let text = render(std::slice::from_ref(word));
+    Diagnostic::new(
+        Kind::Syntax,
+        word.origin,
+        format!("`{text}` is a word of programming languages"),
+    )
+    .help("write the formula alone, such as x^2/2 + cos(y)")
+}
+
+/// `pi()`, `x()`.
+pub fn called_name(name: &str, origin: Origin) -> Diagnostic {
+    Diagnostic::new(
+        Kind::Syntax,
+        origin,
+        format!("`{name}` is a name and takes no arguments"),
+    )
+    .help(format!("write `{name}`"))
+}
+
+/// `Sin[x]`.
+pub fn bracketed_call(function: &str, argument: &[Token], origin: Origin) -> Diagnostic {
+    let message = format!("the argument of `{function}` stands in parentheses");
+    Diagnostic::new(Kind::Syntax, origin, message)
+        .help(format!("write `{function}({})`", render(argument)))
 }
 
 fn ends_operand(token: &Token) -> bool {
@@ -213,16 +278,19 @@ pub fn function_without_call(
 }
 
 /// A call of something that is neither a function nor a name.
-pub fn unknown_function(name: &str, origin: Origin, names: &Names) -> Diagnostic {
+pub fn unknown_function(
+    name: &str,
+    arguments: &[String],
+    origin: Origin,
+    names: &Names,
+) -> Diagnostic {
     let functions = || FUNCTIONS.iter().map(|(name, _)| *name);
-    let other = OTHER_NAMES
-        .iter()
-        .find(|(other, _)| *other == name)
-        .map(|(_, name)| *name);
-    let help = if let Some(function) = other.or_else(|| did_you_mean(name, functions())) {
+    let help = if let Some(form) = habits::function(name, arguments) {
+        format!("write `{form}`")
+    } else if let Some(reason) = habits::without(name) {
+        reason.to_owned()
+    } else if let Some(function) = did_you_mean(name, functions()) {
         format!("did you mean `{function}`?")
-    } else if name == "pow" {
-        "a power is written `a^b`".to_owned()
     } else if let Some(near) = did_you_mean(name, names.iter()) {
         format!("did you mean the name `{near}`? A product is written with `*`")
     } else {
@@ -241,10 +309,14 @@ pub fn unknown_function(name: &str, origin: Origin, names: &Names) -> Diagnostic
 
 /// A call with the wrong number of arguments.
 pub fn wrong_arity(name: &str, expected: usize, found: usize, origin: Origin) -> Diagnostic {
-    let form = if expected == 1 {
-        format!("{name}(a)")
-    } else {
-        format!("{name}(a, b)")
+    let form = match (name, found) {
+        ("atan", 2) => "atan2(a, b)".to_owned(),
+        ("log", 2) => {
+            "log(a)/log(b)` for the logarithm of a to the base b, else `log(a)".to_owned()
+        }
+        ("sqrt", 2) => "a^(1/b)` for a root of order b, else `sqrt(a)".to_owned(),
+        _ if expected == 1 => format!("{name}(a)"),
+        _ => format!("{name}(a, b)"),
     };
     let plural = if expected == 1 { "" } else { "s" };
     Diagnostic::new(

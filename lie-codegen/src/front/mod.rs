@@ -5,6 +5,7 @@
 //! expression means the same in both.
 
 pub mod declaration;
+pub mod file;
 pub mod names;
 pub mod spec;
 
@@ -12,12 +13,14 @@ pub(crate) mod place;
 
 mod expression;
 mod families;
+pub(crate) mod habits;
 mod item;
 mod json;
 mod mistakes;
 mod number;
 mod object;
 mod operand;
+mod prose;
 mod rust;
 mod schema;
 mod text;

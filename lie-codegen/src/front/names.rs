@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use unicode_normalization::{IsNormalized, UnicodeNormalization as _, is_nfc_quick};
+
 /// The functions of the grammar with their numbers of arguments.
 pub const FUNCTIONS: &[(&str, usize)] = &[
     ("sqrt", 1),
@@ -18,6 +20,15 @@ pub const FUNCTIONS: &[(&str, usize)] = &[
     ("tanh", 1),
     ("atan2", 2),
 ];
+
+/// A name in normalisation form C, in which rustc compares identifiers: `é` is one name, whether it
+/// is written as one character or as two.
+pub fn normalised(name: &str) -> String {
+    match is_nfc_quick(name.chars()) {
+        IsNormalized::Yes => name.to_owned(),
+        _ => name.nfc().collect(),
+    }
+}
 
 /// Names of the language itself that stand for a value.
 const BUILT_IN: &[&str] = &["pi", "t"];

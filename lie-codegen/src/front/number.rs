@@ -181,7 +181,7 @@ pub fn decimal(literal: &str) -> Result<Rational, Mistake> {
     let exponent: i64 = exponent
         .parse()
         .map_err(|_| too_large("too large an exponent"))?;
-    if exponent.abs() > MAX_EXPONENT {
+    if exponent.unsigned_abs() > MAX_EXPONENT.unsigned_abs() {
         return Err(too_large("too large an exponent"));
     }
     let digits: BigInt = format!("{whole}{fraction}")

@@ -3,7 +3,7 @@
 use super::json::{Member, Type, Value};
 use super::text::Source;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::suggest::did_you_mean;
+use crate::suggest::meant;
 
 /// An object whose keys were checked; every key stands for its first value.
 #[derive(Debug)]
@@ -34,7 +34,7 @@ impl<'a> Object<'a> {
             } else if keys.contains(&key) {
                 members.push(member);
             } else {
-                let near = did_you_mean(key, keys.iter().copied());
+                let near = meant(key, keys.iter().copied());
                 let help = match near {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => format!("the keys of {what} are {}", keys.join(", ")),

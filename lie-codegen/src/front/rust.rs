@@ -3,6 +3,7 @@
 use proc_macro2::token_stream::IntoIter;
 use proc_macro2::{Group, Ident, Literal, Span, TokenStream, TokenTree};
 
+use super::names::normalised;
 use super::token::{Delimiter, Token, TokenKind};
 use crate::diagnostic::Origin;
 
@@ -14,7 +15,8 @@ pub fn tokens(input: TokenStream) -> Vec<Token> {
     while let Some((trees, close)) = open.last_mut() {
         let (kind, span) = match trees.next() {
             Some(TokenTree::Ident(ident)) => {
-                (TokenKind::Identifier(ident.to_string()), ident.span())
+                let name = normalised(&ident.to_string());
+                (TokenKind::Identifier(name), ident.span())
             }
             Some(TokenTree::Punct(punct)) => {
                 (TokenKind::Punctuation(punct.as_char()), punct.span())
@@ -83,7 +85,7 @@ fn delimiter(group: &Group) -> Option<Delimiter> {
 fn literal(literal: &Literal) -> TokenKind {
     let text = literal.to_string();
     if text.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
-        return TokenKind::Number(text);
+        return TokenKind::Number(normalised(&text));
     }
     match syn::Lit::new(literal.clone()) {
         syn::Lit::Str(value) => TokenKind::Text(value.value()),

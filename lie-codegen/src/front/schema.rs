@@ -109,9 +109,13 @@ objects! {
     }
 
     /// A parameter with what people want to know about it.
-    struct DescribedParameter requires ["default"] {
-        /// The default: a number or an exact constant.
-        "default" default: Constant,
+    struct DescribedParameter requires [] {
+        /// The default: a number or an exact constant. It must be there, under this key or under `value`.
+        "default" default: Option<Constant>,
+        /// The default, in other words.
+        "value" value: Option<Constant>,
+        /// Whether the parameter takes positive values only. Proofs use it, and a system with another value is refused.
+        "positive" positive: Option<bool>,
         /// Whether brackets may use the parameter, as an exact number.
         "exact" exact: Option<bool>,
         /// Its unit.

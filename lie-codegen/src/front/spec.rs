@@ -11,7 +11,7 @@ use super::json::{self, Type, Value};
 use super::object::{Object, list, string, strings, wrong_type};
 use super::schema::Spec;
 use super::token::Token;
-use super::{Body, Names, Parsed, expression, item, number};
+use super::{Body, Names, Parsed, expression, file, item, number, prose};
 use crate::ast::{Bracket, Declaration, Energy, Expr, ExprKind, Invariance, Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
@@ -21,6 +21,10 @@ const FORMAT: &str = "1";
 /// Reads the text of a spec file. Every mistake is reported at its bytes in `text`, in the order
 /// of the file; the declaration is there only if there is none.
 pub fn read(text: &str, report: &mut Report) -> Parsed {
+    if let Some(oversized) = file::oversized(text.len()) {
+        report.push(oversized);
+        return Parsed::default();
+    }
     let mut found = Report::new();
     let parsed = document(text, &mut found);
     // The keys may stand in any order, but are read in that of their meaning.
@@ -175,11 +179,16 @@ impl Remainder<'_, '_> {
             .map(|v| (initial(v, &constants, report), v.origin()));
         let description = spec
             .get("description")
-            .and_then(|v| string(v, "`description`", report));
+            .and_then(|v| string(v, "`description`", report))
+            .map(|text| prose::lines(&text, "the description", report));
         let references = spec
             .get("references")
             .map(|v| strings(v, "`references`", report))
             .unwrap_or_default();
+        let references: Vec<String> = references
+            .iter()
+            .map(|text| prose::inline(text, "the reference", report))
+            .collect();
         let run = spec
             .get("run")
             .map(|v| run::read(v, report))
@@ -187,12 +196,8 @@ impl Remainder<'_, '_> {
         Some(Declaration {
             visibility: self.parsed.visibility.clone(),
             name: self.parsed.name.clone()?,
-            description: description
-                .map_or(Vec::new(), |d| d.text.lines().map(str::to_owned).collect()),
-            references: references
-                .into_iter()
-                .map(|r| r.text.into_owned())
-                .collect(),
+            description: description.unwrap_or_default(),
+            references,
             structure: structure?,
             group: group.map_or(Some(None), |name| name.map(Some))?,
             state: self.parsed.state.clone(),

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::names::normalised;
 use super::token::{Delimiter, Token, TokenKind};
 use crate::diagnostic::{Diagnostic, Kind, Origin};
 
@@ -108,8 +109,8 @@ impl<'a> Source<'a> {
                 first.len_utf8()
             };
             let kind = match first {
-                _ if first.is_ascii_digit() => TokenKind::Number(rest[..length].to_owned()),
-                _ if is_start(first) => TokenKind::Identifier(rest[..length].to_owned()),
+                _ if first.is_ascii_digit() => TokenKind::Number(normalised(&rest[..length])),
+                _ if is_start(first) => TokenKind::Identifier(normalised(&rest[..length])),
                 '(' => TokenKind::Open(Delimiter::Parenthesis),
                 '[' => TokenKind::Open(Delimiter::Bracket),
                 '{' => TokenKind::Open(Delimiter::Brace),

@@ -2,7 +2,7 @@
 
 use super::{Availability, CATALOGUE, Choice, Lift, Retraction, Tensor};
 use crate::diagnostic::Kind;
-use crate::model::{Model, Structure};
+use crate::model::{Descent, Model, Structure};
 use crate::structure::{inertia, matrices, separable, spins};
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
@@ -132,22 +132,40 @@ fn tensor(model: &Model, choice: &Choice) -> Option<(String, String)> {
 
 /// Why a collective method has no declared realization to go over.
 fn realization(model: &Model, order: u32) -> Option<(String, String)> {
-    let help =
-        || "use `lie-midpoint` or a composition of it, which work for every Lie algebra".into();
-    match &model.realization {
-        None => Some((
+    let Some(realization) = &model.realization else {
+        return Some((
             "the lift `spec` needs a realization, and none is declared".into(),
             "declare `realization`, a map from canonical coordinates to the state".into(),
-        )),
-        Some(realization) if !realization.quadratic => Some((
-            format!(
-                "the components of the realization are not of degree at most two: the Gauss method of order {order} \
-                 over it does not descend to the state"
-            ),
-            help(),
-        )),
-        Some(_) => None,
-    }
+        ));
+    };
+    let nearest = match order {
+        2 => "use `lie-midpoint`, which works for every Lie algebra".to_owned(),
+        order => format!("use `compose{order}(lie-midpoint)`, which works for every Lie algebra"),
+    };
+    let reason = match realization.descent {
+        Descent::Closed => return None,
+        Descent::Degree => format!(
+            "the components of the realization are not of degree at most two: the Gauss method of order {order} \
+             over it does not descend to the state"
+        ),
+        Descent::Adds { commuting: false } => {
+            "it needs components whose flows, linear maps, are closed under (abc + cba)/2; the closure of those of the \
+             realization adds others, and the step would depend on the point over the state and leave the coadjoint \
+             orbit"
+                .into()
+        }
+        Descent::Adds { commuting: true } => {
+            "the closure of the components of the realization under (abc + cba)/2 adds functions that commute with them: \
+             the step would depend on their values, which the state does not determine"
+                .into()
+        }
+        Descent::Unknown => {
+            "it could not be decided whether the components of the realization are closed under (abc + cba)/2: their \
+             coefficients are not rational functions of the parameters, or there are too many"
+                .into()
+        }
+    };
+    Some((reason, nearest))
 }
 
 /// Why a system is none on `T*G`.

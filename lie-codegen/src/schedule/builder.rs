@@ -114,7 +114,43 @@ impl Builder<'_> {
                 self.settle(signed, settle)
             }
             Node::Sum { constant, terms } => self.convert_sum(&constant, &terms, settle),
+            Node::Written(terms) => {
+                let signed = self.convert_written(&terms);
+                self.settle(signed, settle)
+            }
         }
+    }
+
+    /// A sum from left to right, two terms at a time.
+    fn convert_written(&mut self, terms: &[(ExprId, Rational)]) -> Signed {
+        let mut sum: Option<Signed> = None;
+        for (term, coefficient) in terms {
+            let whole = [(*term, Rational::ONE)];
+            let factors = match self.graph.node(*term) {
+                Node::Product(factors) => factors.to_vec(),
+                _ => whole.to_vec(),
+            };
+            let next = self.term(&factors, coefficient);
+            sum = Some(match sum {
+                Some(sum) => self.two(sum, next),
+                None => next,
+            });
+        }
+        sum.unwrap_or_else(|| {
+            let zero = self.graph.integer(0);
+            (false, self.leaf(zero))
+        })
+    }
+
+    /// The sum of two terms; `b - a` and `a - b` are one quantity.
+    fn two(&mut self, a: Signed, b: Signed) -> Signed {
+        let mut terms = vec![a, b];
+        terms.sort_by_key(|(negative, atom)| (*atom, *negative));
+        let flip = terms[0].0;
+        for term in &mut terms {
+            term.0 ^= flip;
+        }
+        (flip, self.formula.intern(Atom::Sum(terms)))
     }
 
     fn convert_sum(

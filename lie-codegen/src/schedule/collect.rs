@@ -8,9 +8,9 @@ use crate::exact::Rational;
 use crate::symbolic::{ExprId, Graph, Node};
 
 /// A polynomial with more terms is not worth collecting.
-const MOST_TERMS: usize = 3000;
+const MOST_TERMS: usize = 800;
 /// Factors of monomials after which the expansion of a kernel has gone too far.
-const MOST_WORK: usize = 2_000_000;
+const MOST_WORK: usize = 250_000;
 
 /// Bases with positive integer exponents, sorted.
 type Monomial = Vec<(ExprId, i64)>;
@@ -95,7 +95,7 @@ impl Collector {
         }
         match graph.node(id).clone() {
             Node::Number(_) | Node::Pi => Some(Polynomial::from([(Monomial::new(), id)])),
-            Node::Symbol(_) => Some(self.atom(graph, id, 1)),
+            Node::Symbol(_) | Node::Written(_) => Some(self.atom(graph, id, 1)),
             Node::Sum { constant, terms } => {
                 let mut sum = Polynomial::new();
                 let constant = graph.number(constant);

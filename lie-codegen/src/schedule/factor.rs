@@ -30,6 +30,10 @@ pub fn factor(graph: &mut Graph, roots: &[ExprId], known: Known) -> Option<Vec<E
                     changed |= factored;
                     sum
                 }
+                Node::Written(terms) => {
+                    let terms: Vec<_> = terms.iter().map(|(t, c)| (image[t], c.clone())).collect();
+                    graph.rewritten(&terms)
+                }
                 Node::Product(factors) => {
                     let factors: Vec<_> =
                         factors.iter().map(|(b, e)| (image[b], e.clone())).collect();

@@ -34,6 +34,10 @@ pub fn fold(graph: &mut Graph, symbols: &[Symbol], roots: &[ExprId]) -> Option<V
                 terms.push((graph.number(constant), Rational::ONE));
                 graph.linear(&terms)
             }
+            Node::Written(terms) => {
+                let terms: Vec<_> = terms.iter().map(|(t, c)| (image[t], c.clone())).collect();
+                graph.rewritten(&terms)
+            }
             Node::Product(factors) => {
                 let factors: Vec<_> = factors.iter().map(|(b, e)| (image[b], e.clone())).collect();
                 fold_product(graph, factors, &monomials)

@@ -4,11 +4,14 @@ use std::collections::HashMap;
 
 use super::formula::{Atom, AtomId, Formula, Signed};
 use super::program::{Operation, Program, Value};
+use crate::symbolic::Symbol;
 
 /// The straight-line program of a formula.
 pub fn linearise(formula: &Formula) -> Program {
+    let definitions = formula.definitions.iter().copied().collect();
     let mut writer = Writer {
         formula,
+        definitions,
         program: Program::default(),
         values: HashMap::new(),
         negatives: HashMap::new(),
@@ -26,6 +29,7 @@ pub fn linearise(formula: &Formula) -> Program {
 
 struct Writer<'a> {
     formula: &'a Formula,
+    definitions: HashMap<Symbol, Signed>,
     program: Program,
     values: HashMap<AtomId, Value>,
     negatives: HashMap<Value, Value>,
@@ -98,7 +102,13 @@ impl Writer<'_> {
                 None => leaf,
             },
             Atom::Sum(mut terms) => {
-                if let Some(first) = terms.iter().position(|(negative, _)| !negative) {
+                // What was written first stands first.
+                let sum = |atom: &AtomId| matches!(self.formula.atoms[*atom], Atom::Sum(_));
+                let first = terms
+                    .iter()
+                    .position(|(negative, atom)| !negative && sum(atom))
+                    .or_else(|| terms.iter().position(|(negative, _)| !negative));
+                if let Some(first) = first {
                     let term = terms.remove(first);
                     terms.insert(0, term);
                 }
@@ -158,10 +168,6 @@ impl Writer<'_> {
         let Value::Symbol(symbol) = leaf else {
             return None;
         };
-        self.formula
-            .definitions
-            .iter()
-            .find(|(defined, _)| defined == symbol)
-            .map(|(_, signed)| *signed)
+        self.definitions.get(symbol).copied()
     }
 }

@@ -1,18 +1,27 @@
 //! From expressions to straight-line programs with few operations.
 //!
-//! A kernel is rewritten in a few ways (as derived, collected by monomials, factored), each
-//! candidate is lowered to n-ary sums and products, pairs that occur twice are shared over all
-//! outputs of the kernel, and the cheapest candidate is kept. Everything is deterministic.
+//! A kernel is rewritten in a few ways (`forms`: as derived, combined over common powers, collected by
+//! monomials, factored). Each form is lowered to n-ary sums and products, and pairs that occur twice are
+//! shared over all outputs of the kernel. A form has two costs: its operations, and the bound of its
+//! rounding errors (`rounding`) at points where it matters (`points`). What errs more than the form that
+//! was written is out (`judge`), and of the rest the cheapest is kept (`choice`). Everything is
+//! deterministic.
 
 mod builder;
+mod choice;
 mod collect;
+mod combine;
 mod factor;
 mod fold;
+mod forms;
 mod formula;
 mod inverse;
+mod judge;
 mod linearise;
+mod points;
 mod program;
 mod reuse;
+mod rounding;
 mod share;
 
 pub use program::{Counts, Operation, Program, Value};
@@ -52,41 +61,34 @@ pub struct Task {
     pub known: Known,
 }
 
-/// The cheapest straight-line program found for a task.
+/// The cheapest straight-line program found for a task, among those that compute as well as the form in
+/// which it was written.
 pub fn schedule(graph: &mut Graph, task: &Task) -> Program {
-    let roots: Vec<ExprId> = task
-        .definitions
-        .iter()
-        .map(|(_, e)| *e)
-        .chain(task.outputs.iter().copied())
-        .collect();
-    let mut candidates = vec![roots.clone()];
-    if let Some(collected) = collect::collect(graph, &roots, task.known) {
-        candidates.push(collected);
-    }
+    let definitions = task.definitions.iter().map(|(_, e)| *e);
+    let roots: Vec<ExprId> = definitions.chain(task.outputs.iter().copied()).collect();
     let symbols: Vec<Symbol> = task.definitions.iter().map(|(s, _)| *s).collect();
-    for index in 0..candidates.len() {
-        if let Some(folded) = fold::fold(graph, &symbols, &candidates[index]) {
-            candidates.push(folded);
-        }
+    choice::Choice::new(graph, symbols, task.known).program(roots)
+}
+
+/// One program for two tasks, of which the first is computed by the same operations whether alone or beside
+/// the second: alone it is a part of the whole, bit for bit.
+pub fn schedule_beside(graph: &mut Graph, first: &Task, second: &Task) -> Program {
+    let count = first.outputs.len();
+    let mut both = first.clone();
+    both.outputs.extend(&second.outputs);
+    let together = schedule(graph, &both);
+    let (alone, part) = (schedule(graph, first), together.part(0..count));
+    if part.counts.weight() <= alone.counts.weight() {
+        return together;
     }
-    for index in 0..candidates.len() {
-        if let Some(factored) = factor::factor(graph, &candidates[index], task.known) {
-            candidates.push(factored);
-        }
+    let rest = schedule(graph, second);
+    let apart = reuse::reuse(alone.clone().followed_by(&rest));
+    let weight = |alone: &Program, whole: &Program| alone.counts.weight() + whole.counts.weight();
+    if weight(&alone, &apart) < weight(&part, &together) {
+        apart
+    } else {
+        together
     }
-    candidates.dedup();
-    let mut budget = share::BUDGET;
-    candidates
-        .into_iter()
-        .flat_map(|roots| [(roots.clone(), false), (roots, true)])
-        .map(|(roots, group)| {
-            let mut formula = formula::Formula::new(graph, &symbols, &roots, task.known, group);
-            share::share(&mut formula, &mut budget);
-            reuse::reuse(linearise::linearise(&formula))
-        })
-        .min_by_key(|program| program.counts.weight())
-        .unwrap_or_default()
 }
 
 #[cfg(test)]

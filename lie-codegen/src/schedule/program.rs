@@ -17,7 +17,7 @@ pub enum Value {
 }
 
 /// One operation; its result is the temporary of its position.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Operation {
     /// `a + b`
     Add(Value, Value),
@@ -37,7 +37,36 @@ pub enum Operation {
     Call(Function, Vec<Value>),
 }
 
+impl Value {
+    /// The operand with the temporaries at other places.
+    #[must_use]
+    pub fn renumbered(self, place: &dyn Fn(usize) -> usize) -> Self {
+        match self {
+            Value::Temporary(index) => Value::Temporary(place(index)),
+            other => other,
+        }
+    }
+}
+
 impl Operation {
+    /// The operation with the temporaries at other places.
+    #[must_use]
+    pub fn renumbered(&self, place: &dyn Fn(usize) -> usize) -> Self {
+        let at = |value: &Value| value.clone().renumbered(place);
+        match self {
+            Operation::Add(a, b) => Operation::Add(at(a), at(b)),
+            Operation::Sub(a, b) => Operation::Sub(at(a), at(b)),
+            Operation::Mul(a, b) => Operation::Mul(at(a), at(b)),
+            Operation::Div(a, b) => Operation::Div(at(a), at(b)),
+            Operation::Neg(a) => Operation::Neg(at(a)),
+            Operation::Sqrt(a) => Operation::Sqrt(at(a)),
+            Operation::Power(a, exponent) => Operation::Power(at(a), exponent.clone()),
+            Operation::Call(function, arguments) => {
+                Operation::Call(*function, arguments.iter().map(at).collect())
+            }
+        }
+    }
+
     /// Its operands.
     pub fn operands(&self) -> Vec<&Value> {
         match self {
@@ -122,4 +151,110 @@ pub struct Program {
     pub outputs: Vec<Value>,
     /// How many operations there are.
     pub counts: Counts,
+}
+
+impl Program {
+    /// The results in double precision.
+    pub fn evaluate(
+        &self,
+        symbol: &dyn Fn(Symbol) -> f64,
+        prepared: &dyn Fn(ExprId) -> f64,
+    ) -> Vec<f64> {
+        let mut done: Vec<f64> = Vec::with_capacity(self.operations.len());
+        let get = |operand: &Value, done: &[f64]| match operand {
+            Value::Symbol(s) => symbol(*s),
+            Value::Prepared(id) => prepared(*id),
+            Value::Number(number) => number.to_f64(),
+            Value::Temporary(index) => done[*index],
+        };
+        for operation in &self.operations {
+            let at = |operand: &Value| get(operand, &done);
+            let result = match operation {
+                Operation::Add(a, b) => at(a) + at(b),
+                Operation::Sub(a, b) => at(a) - at(b),
+                Operation::Mul(a, b) => at(a) * at(b),
+                Operation::Div(a, b) => at(a) / at(b),
+                Operation::Neg(a) => -at(a),
+                Operation::Sqrt(a) => at(a).sqrt(),
+                Operation::Power(a, exponent) => at(a).powf(exponent.to_f64()),
+                Operation::Call(function, arguments) => {
+                    function.evaluate(&arguments.iter().map(at).collect::<Vec<_>>())
+                }
+            };
+            done.push(result);
+        }
+        let outputs = self.outputs.iter();
+        outputs.map(|output| get(output, &done)).collect()
+    }
+
+    /// The part of the program behind some of its results.
+    #[must_use]
+    pub fn part(&self, outputs: std::ops::Range<usize>) -> Self {
+        let outputs = &self.outputs[outputs];
+        let mut needed = vec![false; self.operations.len()];
+        let mark = |value: &Value, needed: &mut Vec<bool>| {
+            if let Value::Temporary(index) = value {
+                needed[*index] = true;
+            }
+        };
+        for value in outputs {
+            mark(value, &mut needed);
+        }
+        for index in (0..self.operations.len()).rev() {
+            if needed[index] {
+                for value in self.operations[index].operands() {
+                    mark(value, &mut needed);
+                }
+            }
+        }
+        let mut part = Self::default();
+        let mut places = vec![0; self.operations.len()];
+        for (index, operation) in self.operations.iter().enumerate() {
+            if needed[index] {
+                places[index] = part.operations.len();
+                let operation = operation.renumbered(&|index| places[index]);
+                part.counts.record(&operation);
+                part.operations.push(operation);
+            }
+        }
+        let moved = outputs.iter().cloned();
+        part.outputs = moved
+            .map(|value| value.renumbered(&|index| places[index]))
+            .collect();
+        part
+    }
+
+    /// Both programs one after the other.
+    #[must_use]
+    pub fn followed_by(mut self, other: &Self) -> Self {
+        let first = self.operations.len();
+        let shifted = |index| first + index;
+        for operation in &other.operations {
+            self.operations.push(operation.renumbered(&shifted));
+        }
+        let outputs = other.outputs.iter().cloned();
+        self.outputs
+            .extend(outputs.map(|value| value.renumbered(&shifted)));
+        self.counts = self.counts + other.counts;
+        self
+    }
+
+    /// The weight of the operations behind each result by itself.
+    pub fn weights(&self) -> Vec<usize> {
+        let mut weights = Vec::with_capacity(self.outputs.len());
+        let mut seen = vec![usize::MAX; self.operations.len()];
+        for (output, value) in self.outputs.iter().enumerate() {
+            let (mut counts, mut stack) = (Counts::default(), vec![value]);
+            while let Some(value) = stack.pop() {
+                if let Value::Temporary(index) = value
+                    && std::mem::replace(&mut seen[*index], output) != output
+                {
+                    counts.record(&self.operations[*index]);
+                    stack.extend(self.operations[*index].operands());
+                }
+            }
+            weights.push(counts.weight());
+        }
+        weights
+    }
 }

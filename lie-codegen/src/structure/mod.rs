@@ -5,4 +5,5 @@ pub mod inertia;
 pub mod matrices;
 pub mod one_parameter;
 pub mod separable;
+pub mod spectrum;
 pub mod spins;

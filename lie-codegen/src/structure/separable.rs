@@ -48,7 +48,7 @@ pub fn coordinates(
     }
     let graph = &*graph;
     let budget = Budget::new(WORK);
-    let mut normal = NormalForm::new(graph, &budget);
+    let mut normal = NormalForm::within(graph, &budget, &[hamiltonian]);
     for (i, j, second) in mixed {
         if !matches!(normal.verdict(second), Verdict::Zero) {
             return Err((i, j));

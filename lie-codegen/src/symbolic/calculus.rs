@@ -24,7 +24,7 @@ impl Graph {
                 self.derivatives.insert((node, symbol), derivative);
             }
         }
-        Some(self.derivatives[&(id, symbol)])
+        Some(self.tidy(self.derivatives[&(id, symbol)]))
     }
 
     /// An upper bound of what the derivative of one node adds to the size.
@@ -36,7 +36,9 @@ impl Graph {
             _ => 1,
         };
         match self.node(id) {
-            Node::Sum { terms, .. } => terms.iter().map(|(term, _)| inner(term)).sum(),
+            Node::Sum { terms, .. } | Node::Written(terms) => {
+                terms.iter().map(|(term, _)| inner(term)).sum()
+            }
             Node::Product(factors) => {
                 let all = factors.len();
                 let varying = factors.iter().map(|(base, _)| inner(base));
@@ -57,6 +59,13 @@ impl Graph {
                     .map(|(t, c)| (self.derivatives[&(*t, symbol)], c.clone()))
                     .collect();
                 self.linear(&terms)
+            }
+            Node::Written(terms) => {
+                let terms: Vec<_> = terms
+                    .iter()
+                    .map(|(t, c)| (self.derivatives[&(*t, symbol)], c.clone()))
+                    .collect();
+                self.written_sum(&terms)
             }
             Node::Product(factors) => {
                 let mut terms = Vec::new();
@@ -157,6 +166,10 @@ impl Graph {
                         terms.iter().map(|(t, c)| (image[t], c.clone())).collect();
                     terms.push((self.number(constant), Rational::ONE));
                     self.linear(&terms)
+                }
+                Node::Written(terms) => {
+                    let terms: Vec<_> = terms.iter().map(|(t, c)| (image[t], c.clone())).collect();
+                    self.rewritten(&terms)
                 }
                 Node::Product(factors) => {
                     let factors: Vec<_> =

@@ -59,37 +59,46 @@ impl Graph {
                 )
             }
             Node::Product(factors) => product(&Rational::ONE, factors, &inside),
-            Node::Sum { constant, terms } => {
-                let mut text = String::new();
-                for (term, coefficient) in terms {
-                    match (coefficient.is_negative(), text.is_empty()) {
-                        (true, true) => text.push('-'),
-                        (true, false) => text.push_str(" - "),
-                        (false, true) => {}
-                        (false, false) => text.push_str(" + "),
-                    }
-                    let whole = [(*term, Rational::ONE)];
-                    let factors = match self.node(*term) {
-                        Node::Product(factors) => factors,
-                        _ => &whole[..],
-                    };
-                    text.push_str(&product(&coefficient.abs(), factors, &inside).0);
-                }
-                if !constant.is_zero() {
-                    let sign = if constant.is_negative() { "-" } else { "+" };
-                    text.push_str(&format!(" {sign} {}", constant.abs()));
-                }
-                let single = terms.len() == 1 && constant.is_zero() && !text.starts_with('-');
-                (
-                    text,
-                    if single {
-                        Binding::Product
-                    } else {
-                        Binding::Sum
-                    },
-                )
-            }
+            Node::Written(terms) => self.display_sum(&Rational::ZERO, terms, &inside),
+            Node::Sum { constant, terms } => self.display_sum(constant, terms, &inside),
         }
+    }
+
+    fn display_sum(
+        &self,
+        constant: &Rational,
+        terms: &[(ExprId, Rational)],
+        inside: &dyn Fn(&ExprId, Binding) -> String,
+    ) -> (String, Binding) {
+        let mut text = String::new();
+        for (term, coefficient) in terms {
+            match (coefficient.is_negative(), text.is_empty()) {
+                (true, true) => text.push('-'),
+                (true, false) => text.push_str(" - "),
+                (false, true) => {}
+                (false, false) => text.push_str(" + "),
+            }
+            let whole = [(*term, Rational::ONE)];
+            let factors = match self.node(*term) {
+                Node::Product(factors) => &factors[..],
+                Node::Number(one) if one.is_one() => &[],
+                _ => &whole[..],
+            };
+            text.push_str(&product(&coefficient.abs(), factors, inside).0);
+        }
+        if !constant.is_zero() {
+            let sign = if constant.is_negative() { "-" } else { "+" };
+            text.push_str(&format!(" {sign} {}", constant.abs()));
+        }
+        let single = terms.len() == 1 && constant.is_zero() && !text.starts_with('-');
+        (
+            text,
+            if single {
+                Binding::Product
+            } else {
+                Binding::Sum
+            },
+        )
     }
 }
 

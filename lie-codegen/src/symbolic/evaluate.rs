@@ -14,31 +14,42 @@ impl Graph {
     pub fn evaluate_all(&self, roots: &[ExprId], value: &dyn Fn(Symbol) -> f64) -> Vec<f64> {
         let mut values: HashMap<ExprId, f64> = HashMap::new();
         for id in self.dependencies(roots) {
-            let result = match self.node(id) {
-                Node::Number(number) => number.to_f64(),
-                Node::Pi => std::f64::consts::PI,
-                Node::Symbol(symbol) => value(*symbol),
-                Node::Sum { constant, terms } => {
-                    terms.iter().fold(constant.to_f64(), |sum, (t, c)| {
-                        sum + c.to_f64() * values[t]
-                    })
-                }
-                Node::Product(factors) => factors.iter().fold(1.0, |product, (base, exponent)| {
-                    let base = values[base];
-                    product
-                        * match exponent.to_words() {
-                            Some((n, 1)) if n.unsigned_abs() < 1 << 30 => base.powi(n as i32),
-                            Some((1, 2)) => base.sqrt(),
-                            _ => base.powf(exponent.to_f64()),
-                        }
-                }),
-                Node::Call(function, arguments) => {
-                    let arguments: Vec<f64> = arguments.iter().map(|a| values[a]).collect();
-                    function.evaluate(&arguments)
-                }
-            };
+            let result = self.evaluate_node(id, &|part| values[&part], value);
             values.insert(id, result);
         }
         roots.iter().map(|root| values[root]).collect()
+    }
+
+    /// The value of one node, those of its children being known.
+    pub fn evaluate_node(
+        &self,
+        id: ExprId,
+        known: &dyn Fn(ExprId) -> f64,
+        value: &dyn Fn(Symbol) -> f64,
+    ) -> f64 {
+        match self.node(id) {
+            Node::Number(number) => number.to_f64(),
+            Node::Pi => std::f64::consts::PI,
+            Node::Symbol(symbol) => value(*symbol),
+            Node::Sum { constant, terms } => terms.iter().fold(constant.to_f64(), |sum, (t, c)| {
+                sum + c.to_f64() * known(*t)
+            }),
+            Node::Written(terms) => terms
+                .iter()
+                .fold(0.0, |sum, (t, c)| sum + c.to_f64() * known(*t)),
+            Node::Product(factors) => factors.iter().fold(1.0, |product, (base, exponent)| {
+                let base = known(*base);
+                product
+                    * match exponent.to_words() {
+                        Some((n, 1)) if n.unsigned_abs() < 1 << 30 => base.powi(n as i32),
+                        Some((1, 2)) => base.sqrt(),
+                        _ => base.powf(exponent.to_f64()),
+                    }
+            }),
+            Node::Call(function, arguments) => {
+                let arguments: Vec<f64> = arguments.iter().map(|a| known(*a)).collect();
+                function.evaluate(&arguments)
+            }
+        }
     }
 }

@@ -4,6 +4,9 @@
 //! Normal form: a sum is a constant plus distinct terms with rational coefficients (`2*x` is a sum
 //! of one term); a product is distinct bases with rational exponents and has no numeric
 //! coefficient of its own. Sums are flat, products are flat; products of sums are not expanded.
+//!
+//! Beside it stands the form in which an expression was written (see the module `written`): it proves
+//! nothing and is evaluated.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -56,6 +59,8 @@ pub enum Node {
     Product(Box<[(ExprId, Rational)]>),
     /// A function of its arguments.
     Call(Function, Box<[ExprId]>),
+    /// `sum of coefficient * term` from left to right, as it was written: no other sum takes its terms in.
+    Written(Box<[(ExprId, Rational)]>),
 }
 
 /// An arena of expressions.
@@ -64,7 +69,12 @@ pub struct Graph {
     nodes: Vec<Node>,
     index: HashMap<Node, ExprId>,
     pub(super) derivatives: HashMap<(ExprId, Symbol), ExprId>,
+    /// The normal forms of expressions as they were written.
+    pub(super) normal: HashMap<ExprId, ExprId>,
+    /// How an expression in normal form was written.
+    pub(super) written: HashMap<ExprId, ExprId>,
     operands: usize,
+    positive: BTreeSet<Symbol>,
 }
 
 /// A sum under construction.
@@ -78,6 +88,16 @@ impl Graph {
     /// An empty arena.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Declares a symbol positive.
+    pub fn assume_positive(&mut self, symbol: Symbol) {
+        self.positive.insert(symbol);
+    }
+
+    /// Whether a symbol was declared positive.
+    pub fn is_positive(&self, symbol: Symbol) -> bool {
+        self.positive.contains(&symbol)
     }
 
     /// The node of an id.
@@ -95,7 +115,7 @@ impl Graph {
             return id;
         }
         self.operands += match &node {
-            Node::Sum { terms, .. } => terms.len(),
+            Node::Sum { terms, .. } | Node::Written(terms) => terms.len(),
             Node::Product(factors) => factors.len(),
             _ => 0,
         };
@@ -265,7 +285,9 @@ impl Graph {
     pub fn children(&self, id: ExprId) -> Vec<ExprId> {
         match self.node(id) {
             Node::Number(_) | Node::Pi | Node::Symbol(_) => Vec::new(),
-            Node::Sum { terms, .. } => terms.iter().map(|(t, _)| *t).collect(),
+            Node::Sum { terms, .. } | Node::Written(terms) => {
+                terms.iter().map(|(t, _)| *t).collect()
+            }
             Node::Product(factors) => factors.iter().map(|(b, _)| *b).collect(),
             Node::Call(_, arguments) => arguments.to_vec(),
         }

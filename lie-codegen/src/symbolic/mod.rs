@@ -6,6 +6,7 @@ mod evaluate;
 mod function;
 mod graph;
 mod power;
+mod written;
 
 #[cfg(test)]
 mod tests;

@@ -103,7 +103,8 @@ impl Graph {
 
 /// The rational factor that all coefficients of a sum share, with the sign of the first.
 fn content(constant: &Rational, terms: &[(ExprId, Rational)]) -> Rational {
-    let mut content: Option<(i64, i64)> = None;
+    // in wide integers, because the absolute value of the least word is no word
+    let mut content: Option<(i128, i128)> = None;
     for coefficient in terms
         .iter()
         .map(|(_, c)| c)
@@ -112,10 +113,12 @@ fn content(constant: &Rational, terms: &[(ExprId, Rational)]) -> Rational {
         let Some((n, d)) = coefficient.to_words() else {
             return Rational::ONE;
         };
+        let (n, d) = (i128::from(n), i128::from(d));
         let (p, q) = content.unwrap_or((0, 1));
-        let Some(lcm) = (q / q.gcd(&d)).checked_mul(d) else {
+        let lcm = q / q.gcd(&d) * d;
+        if i64::try_from(lcm).is_err() {
             return Rational::ONE;
-        };
+        }
         content = Some((p.gcd(&n), lcm));
     }
     let sign = if terms.first().is_some_and(|(_, c)| c.is_negative()) {
@@ -124,7 +127,7 @@ fn content(constant: &Rational, terms: &[(ExprId, Rational)]) -> Rational {
         1
     };
     content
-        .and_then(|(n, d)| Rational::new(n.checked_mul(sign)?, d))
+        .and_then(|(n, d)| Rational::new(i64::try_from(n * sign).ok()?, i64::try_from(d).ok()?))
         .filter(|content| !content.is_zero())
         .unwrap_or(Rational::ONE)
 }

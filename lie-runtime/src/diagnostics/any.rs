@@ -2,7 +2,8 @@
 
 use crate::driver::Stats;
 use crate::methods::{
-    FactorSink, Facts, Method, Preserves, Retraction, StepFailure, StepReport, Stepper,
+    FactorSink, Facts, Method, Preserves, Retraction, RungeKutta, Stage, StepFailure, StepReport,
+    Stepper,
 };
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
@@ -34,12 +35,26 @@ impl Claims {
     }
 }
 
-/// The group factors of one step, in order: `mu1 = Ad*_(tau_k(xi_k)) … Ad*_(tau_1(xi_1)) mu`.
-pub type Factors<V> = Vec<(Retraction, V)>;
+/// What a step shows of its motion on the group, as values.
+#[derive(Clone, Debug)]
+pub enum Shown<V> {
+    /// `g1 = g tau(xi)`
+    Factor(Retraction, V),
+    /// `h xi` at a stage of a Runge–Kutta method.
+    Velocity(RungeKutta, Stage, V),
+}
 
-impl<V: Clone> FactorSink<V> for Factors<V> {
+/// The motion of one step on the group, in order.
+#[derive(Clone, Debug)]
+pub struct Motions<V>(pub Vec<Shown<V>>);
+
+impl<V: Clone> FactorSink<V> for Motions<V> {
     fn push(&mut self, retraction: Retraction, xi: &V) {
-        Vec::push(self, (retraction, xi.clone()));
+        self.0.push(Shown::Factor(retraction, xi.clone()));
+    }
+
+    fn push_velocity(&mut self, method: RungeKutta, stage: Stage, xi: &V) {
+        self.0.push(Shown::Velocity(method, stage, xi.clone()));
     }
 }
 
@@ -50,14 +65,14 @@ pub trait AnyStepper<S, V> {
     /// # Errors
     /// The failure of the step.
     fn step(&mut self, mu: &mut V) -> Result<StepReport, StepFailure>;
-    /// One step with its group factors, appended to `factors`.
+    /// One step with its motion on the group, appended to `motions`.
     ///
     /// # Errors
     /// The failure of the step.
-    fn step_with_factors(
+    fn step_with_motions(
         &mut self,
         mu: &mut V,
-        factors: &mut Factors<V>,
+        motions: &mut Motions<V>,
     ) -> Result<StepReport, StepFailure>;
     /// Many steps in one loop, with nothing in between: what is timed.
     ///
@@ -71,12 +86,12 @@ impl<S: Scalar, V: State<S>, T: Stepper<S, State = V>> AnyStepper<S, V> for T {
         Stepper::step(self, mu, &mut ())
     }
 
-    fn step_with_factors(
+    fn step_with_motions(
         &mut self,
         mu: &mut V,
-        factors: &mut Factors<V>,
+        motions: &mut Motions<V>,
     ) -> Result<StepReport, StepFailure> {
-        Stepper::step(self, mu, factors)
+        Stepper::step(self, mu, motions)
     }
 
     fn advance(&mut self, mu: &mut V, steps: u64) -> Result<Stats, (u64, StepFailure)> {
@@ -116,5 +131,59 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P> + 'static> AnyMethod<S, P> for M 
         newton: &NewtonOptions,
     ) -> Box<dyn AnyStepper<S, P::State> + 'a> {
         Box::new(self.stepper(system, h, newton))
+    }
+}
+
+/// A method whose type is forgotten, as a method again: the driver runs it. Its constants say nothing.
+pub(crate) struct Forgotten<'m, P: Poisson<f64>>(pub(crate) &'m dyn AnyMethod<f64, P>);
+
+/// The stepper of a [`Forgotten`] method.
+pub(crate) struct ForgottenStepper<'a, V> {
+    stepper: Box<dyn AnyStepper<f64, V> + 'a>,
+    motions: Motions<V>,
+}
+
+impl<P: Poisson<f64>> Facts for Forgotten<'_, P> {
+    const ID: &'static str = "";
+    const ORDER: u32 = 0;
+    const SYMMETRIC: bool = false;
+    const EXPLICIT: bool = false;
+    const PRESERVES: Preserves = Preserves::NOTHING;
+}
+
+impl<P: Poisson<f64>> Method<f64, P> for Forgotten<'_, P> {
+    type Stepper<'a>
+        = ForgottenStepper<'a, P::State>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: f64, newton: &NewtonOptions) -> Self::Stepper<'a> {
+        ForgottenStepper {
+            stepper: self.0.any_stepper(system, h, newton),
+            motions: Motions(Vec::new()),
+        }
+    }
+}
+
+impl<V: State<f64>> Stepper<f64> for ForgottenStepper<'_, V> {
+    type State = V;
+
+    fn step<K: FactorSink<V>>(
+        &mut self,
+        mu: &mut V,
+        sink: &mut K,
+    ) -> Result<StepReport, StepFailure> {
+        if !K::ACTIVE {
+            return self.stepper.step(mu);
+        }
+        self.motions.0.clear();
+        let report = self.stepper.step_with_motions(mu, &mut self.motions);
+        for shown in &self.motions.0 {
+            match shown {
+                Shown::Factor(retraction, xi) => sink.push(*retraction, xi),
+                Shown::Velocity(method, stage, xi) => sink.push_velocity(*method, *stage, xi),
+            }
+        }
+        report
     }
 }

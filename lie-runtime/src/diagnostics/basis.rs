@@ -7,7 +7,8 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-fn norm(a: &[f64]) -> f64 {
+/// The Euclidean norm.
+pub(super) fn norm(a: &[f64]) -> f64 {
     let largest = a.iter().fold(0.0_f64, |m, x| f64::max(m, x.abs()));
     if largest == 0.0 || !largest.is_finite() {
         return largest;

@@ -59,7 +59,7 @@ impl InvariantDrift {
 pub struct Drift {
     /// Of the energy.
     pub energy: InvariantDrift,
-    /// Of the Casimirs.
+    /// Of the Casimirs, without those that have several branches ([`Poisson::MULTIVALUED_CASIMIRS`]).
     pub casimirs: Vec<InvariantDrift>,
 }
 
@@ -72,10 +72,16 @@ pub struct DriftMonitor<S> {
     drift: Drift,
 }
 
+/// Whether the Casimir at a place has one branch only.
+fn single<S: Scalar, P: Poisson<S>>(place: usize) -> bool {
+    !P::MULTIVALUED_CASIMIRS.contains(&place)
+}
+
 impl<S: Scalar> DriftMonitor<S> {
     /// A monitor for a system.
     pub fn new<P: Poisson<S>>() -> Self {
-        let casimirs = P::CASIMIR_NAMES.iter();
+        let names = P::CASIMIR_NAMES.iter().enumerate();
+        let casimirs = names.filter(|(place, _)| single::<S, P>(*place));
         Self {
             energy: S::zero(),
             casimirs: vec![S::zero(); P::CASIMIRS],
@@ -83,7 +89,7 @@ impl<S: Scalar> DriftMonitor<S> {
             drift: Drift {
                 energy: InvariantDrift::new::<S>("energy", None),
                 casimirs: casimirs
-                    .map(|&name| InvariantDrift::new::<S>(name, None))
+                    .map(|(_, &name)| InvariantDrift::new::<S>(name, None))
                     .collect(),
             },
         }
@@ -101,7 +107,9 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
         self.energy = system.energy(mu);
         self.drift.energy.initial = self.energy.to_f64();
         system.casimirs(mu, &mut self.casimirs);
-        for (drift, value) in self.drift.casimirs.iter_mut().zip(&self.casimirs) {
+        let values = self.casimirs.iter().enumerate();
+        let values = values.filter(|(place, _)| single::<S, P>(*place));
+        for (drift, (_, value)) in self.drift.casimirs.iter_mut().zip(values) {
             drift.initial = value.to_f64();
         }
     }
@@ -111,8 +119,9 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
         let change = (system.energy(mu) - self.energy).abs();
         self.drift.energy.record(largest(change), step, steps);
         system.casimirs(mu, &mut self.values);
-        let pairs = self.values.iter().zip(&self.casimirs);
-        for (drift, (&value, &initial)) in self.drift.casimirs.iter_mut().zip(pairs) {
+        let pairs = self.values.iter().zip(&self.casimirs).enumerate();
+        let pairs = pairs.filter(|(place, _)| single::<S, P>(*place));
+        for (drift, (_, (&value, &initial))) in self.drift.casimirs.iter_mut().zip(pairs) {
             drift.record(largest((value - initial).abs()), step, steps);
         }
         ControlFlow::Continue(())
@@ -134,6 +143,27 @@ mod tests {
         assert_eq!(bounded.growth(), Some(1.0));
         assert!((linear.growth().unwrap() - 10.0).abs() < 1e-9);
         assert_eq!(bounded.relative(), Some(1e-3));
+    }
+
+    #[test]
+    fn what_jumps_is_not_followed() {
+        use crate::driver::Progress;
+        use crate::test_systems::{Spring, Winding};
+        let progress = |step| Progress {
+            step,
+            steps: 2,
+            time: 0.1 * step as f64,
+        };
+        let mut monitor = DriftMonitor::new::<Winding>();
+        monitor.start(&Winding(Spring), progress(0), &[-1.0, 0.1].into());
+        let _ = monitor.step(&Winding(Spring), progress(1), &[-1.0, -0.1].into());
+        // the angle has jumped by 2 pi, which is no drift; the square of the radius has none
+        let drift = monitor.drift();
+        assert_eq!(drift.casimirs.len(), 1);
+        assert_eq!(drift.casimirs[0].name, "square");
+        assert_eq!(drift.casimirs[0].max, 0.0);
+        let _ = monitor.step(&Winding(Spring), progress(2), &[-1.0, 0.0].into());
+        assert!((monitor.drift().casimirs[0].max - 0.01).abs() < 1e-15);
     }
 
     #[test]

@@ -17,7 +17,8 @@ mod reference;
 mod symmetry;
 pub mod verify;
 
-pub use any::{AnyMethod, AnyStepper, Claims, Factors};
+pub(crate) use any::Forgotten;
+pub use any::{AnyMethod, AnyStepper, Claims, Motions, Shown};
 pub use drift::{Drift, DriftMonitor, InvariantDrift};
 pub use integrals::{Integral, integrals};
 pub use newton_order::{order_of_iteration, residuals};

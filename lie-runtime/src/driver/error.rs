@@ -1,5 +1,7 @@
 //! Why a run did not reach its end.
 
+use core::fmt;
+
 use super::options::OptionError;
 use super::solution::Solution;
 use super::stats::Stats;
@@ -10,7 +12,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error(
     "step {step} from t = {time} failed: {} (iterations {}, residual {:.1e}); {}",
-    failure.reason, failure.report.iterations, failure.report.residual, failure.reason.remedy()
+    failure.reason, failure.report.iterations, failure.report.residual, self.remedy()
 )]
 pub struct StepError {
     /// The number of the step that failed, from 1.
@@ -21,6 +23,28 @@ pub struct StepError {
     pub failure: StepFailure,
     /// The work of the run up to and with the failed step.
     pub stats: Stats,
+    /// Where the step left the chart of its retraction: the largest of the halved steps that succeeds from the same
+    /// state. It has been tried.
+    pub works: Option<f64>,
+}
+
+impl StepError {
+    /// What to do about it, in one clause.
+    pub fn remedy(&self) -> impl fmt::Display + '_ {
+        Remedy(self)
+    }
+}
+
+struct Remedy<'a>(&'a StepError);
+
+impl fmt::Display for Remedy<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0.failure.reason.remedy())?;
+        match self.0.works {
+            Some(step) => write!(f, "; from this state a step of {step} works"),
+            None => Ok(()),
+        }
+    }
 }
 
 /// A run that could not start, or failed on its way.

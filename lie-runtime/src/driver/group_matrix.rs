@@ -170,3 +170,82 @@ pub(super) fn rational<S: Scalar>(matrix: &GroupMatrix<S>) -> GroupMatrix<S> {
     left.inverse()
         .times(&GroupMatrix::identity(size).plus(&half))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn matrix(entries: [f64; 9]) -> GroupMatrix<f64> {
+        GroupMatrix {
+            size: 3,
+            entries: entries.to_vec(),
+        }
+    }
+
+    /// The largest entry of `A^T A - 1`.
+    fn from_orthogonal(a: &GroupMatrix<f64>) -> f64 {
+        let mut largest = 0.0_f64;
+        for row in 0..3 {
+            for column in 0..3 {
+                let sum: f64 = (0..3).map(|k| a.at(k, row) * a.at(k, column)).sum();
+                let one = if row == column { 1.0 } else { 0.0 };
+                largest = f64::max(largest, (sum - one).abs());
+            }
+        }
+        largest
+    }
+
+    fn distance(a: &GroupMatrix<f64>, b: &GroupMatrix<f64>) -> f64 {
+        let pairs = a.entries.iter().zip(&b.entries);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
+    const TURN: [f64; 9] = [0.0, -0.3, 0.2, 0.3, 0.0, -0.7, -0.2, 0.7, 0.0];
+
+    #[test]
+    fn orthogonalizing_squares_the_distance() {
+        let mut near = exponential(&matrix(TURN));
+        assert!(from_orthogonal(&near) < 1e-15);
+        for (place, entry) in near.entries.iter_mut().enumerate() {
+            *entry += 1e-4 * (place as f64 - 4.0);
+        }
+        let before = from_orthogonal(&near);
+        near.orthogonalize();
+        let once = from_orthogonal(&near);
+        assert!(
+            before > 1e-4 && once < 4.0 * before * before,
+            "{before:e} {once:e}"
+        );
+        for _ in 0..3 {
+            near.orthogonalize();
+        }
+        assert!(from_orthogonal(&near) < 1e-15);
+    }
+
+    #[test]
+    fn exponential_and_cayley_map_of_a_rotation() {
+        // about (a, b, c) by its length: cos 1 + (1 - cos) n n^T + sin [n]
+        let n = [0.7, 0.2, 0.3];
+        let angle = n.iter().map(|x| x * x).sum::<f64>().sqrt();
+        for (map, angle_of_map) in [
+            (exponential as fn(&GroupMatrix<f64>) -> _, angle),
+            (rational, 2.0 * (0.5 * angle).atan()),
+        ] {
+            let mut expected = GroupMatrix::identity(3);
+            let (sine, cosine) = (angle_of_map.sin(), angle_of_map.cos());
+            for r in 0..3 {
+                for c in 0..3 {
+                    let one = if r == c { cosine } else { 0.0 };
+                    let along = n[r] * n[c] / (angle * angle) * (1.0 - cosine);
+                    let turned = sine * TURN[3 * r + c] / angle;
+                    expected.set_at(r, c, one + along + turned);
+                }
+            }
+            let error = distance(&map(&matrix(TURN)), &expected);
+            assert!(error < 1e-15, "{error:e}");
+        }
+        let product = exponential(&matrix(TURN)).inverse();
+        let back = exponential(&matrix(TURN.map(|entry| -entry)));
+        assert!(distance(&product, &back) < 1e-15);
+    }
+}

@@ -98,7 +98,6 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
 ) -> Result<(Stats, Status), IntegrateError> {
     let grid = Grid::new(problem.span, options.step)?;
     let mut rows = grid.rows(&options.save)?.peekable();
-    let system = &problem.system;
     let mut stats = Stats::default();
     let fail = |stats: Stats, index: u64, failure: StepFailure| {
         let mut stats = stats;
@@ -108,61 +107,111 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
             time: grid.time(index),
             failure,
             stats,
+            works: None,
         })
+    };
+    // a step that left its chart: with one that does not, from the state before it
+    let stopped = |system: &P, stats, index, failure: StepFailure, h: f64, mu: &P::State| {
+        let left = failure.reason == FailureReason::OutsideChart;
+        let works = left.then(|| smaller(system, &method, options, h, mu));
+        let error = StepError {
+            works: works.flatten(),
+            ..*fail(stats, index, failure)
+        };
+        IntegrateError::from(Box::new(error))
     };
 
     let mut mu = problem.mu0.clone();
     let mut between = mu.clone();
-    check_start(system, &mu).map_err(|failure| fail(stats, 0, failure))?;
-    let mut stepper = method.stepper(system, S::from_f64(options.step), &options.newton);
     let progress = |index: u64| Progress {
         step: index,
         steps: grid.steps(),
         time: grid.time(index),
     };
-    observer.start(system, progress(0), &mu);
     let mut index = 0;
+    let mut followed = problem.system.following(&mu);
+    check_start(followed.as_ref().unwrap_or(&problem.system), &mu)
+        .map_err(|failure| fail(stats, 0, failure))?;
+    observer.start(
+        followed.as_ref().unwrap_or(&problem.system),
+        progress(0),
+        &mu,
+    );
+    // once, and again with each branch of the system that has to be followed
     loop {
-        while let Some(row) = rows.next_if(|row| row.place.index() == index) {
-            let saved = match row.place {
-                Place::On(_) => &mu,
-                Place::After(_, rest) => {
-                    between.copy_from(&mu);
-                    let mut shorter = method.stepper(system, S::from_f64(rest), &options.newton);
-                    observer.leave_grid();
-                    let mut shown = Shown::to(observer, system);
-                    let report = match shorter.step(&mut between, &mut shown) {
-                        Ok(report) => report,
-                        Err(failure) => return Err(fail(stats, index, failure).into()),
-                    };
-                    check_domain(system, &between, report)
-                        .map_err(|failure| fail(stats, index, failure))?;
-                    stats.add(&report);
-                    &between
+        let system = followed.as_ref().unwrap_or(&problem.system);
+        let mut stepper = method.stepper(system, S::from_f64(options.step), &options.newton);
+        let next = loop {
+            while let Some(row) = rows.next_if(|row| row.place.index() == index) {
+                let saved = match row.place {
+                    Place::On(_) => &mu,
+                    Place::After(_, rest) => {
+                        between.copy_from(&mu);
+                        let mut shorter =
+                            method.stepper(system, S::from_f64(rest), &options.newton);
+                        observer.leave_grid();
+                        let mut shown = Shown::to(observer, system);
+                        let report = match shorter.step(&mut between, &mut shown) {
+                            Ok(report) => report,
+                            Err(failure) => {
+                                return Err(stopped(system, stats, index, failure, rest, &mu));
+                            }
+                        };
+                        check_domain(system, &between, report)
+                            .map_err(|failure| fail(stats, index, failure))?;
+                        stats.add(&report);
+                        &between
+                    }
+                };
+                let looked = observer.row(system, row.time, saved);
+                if matches!(row.place, Place::After(..)) {
+                    observer.return_to_grid();
+                }
+                if looked.is_break() {
+                    return Ok((stats, Status::Stopped));
+                }
+            }
+            if index == grid.steps() {
+                return Ok((stats, Status::Finished));
+            }
+            let report = match stepper.step(&mut mu, &mut Shown::to(observer, system)) {
+                Ok(report) => report,
+                Err(failure) => {
+                    return Err(stopped(system, stats, index, failure, options.step, &mu));
                 }
             };
-            let looked = observer.row(system, row.time, saved);
-            if matches!(row.place, Place::After(..)) {
-                observer.return_to_grid();
-            }
-            if looked.is_break() {
+            check_domain(system, &mu, report).map_err(|failure| fail(stats, index, failure))?;
+            stats.add(&report);
+            index += 1;
+            if observer.step(system, progress(index), &mu).is_break() {
                 return Ok((stats, Status::Stopped));
             }
-        }
-        if index == grid.steps() {
-            return Ok((stats, Status::Finished));
-        }
-        let report = match stepper.step(&mut mu, &mut Shown::to(observer, system)) {
-            Ok(report) => report,
-            Err(failure) => return Err(fail(stats, index, failure).into()),
+            if let Some(next) = system.following(&mu) {
+                break next;
+            }
         };
-        check_domain(system, &mu, report).map_err(|failure| fail(stats, index, failure))?;
-        stats.add(&report);
-        index += 1;
-        if observer.step(system, progress(index), &mu).is_break() {
-            return Ok((stats, Status::Stopped));
-        }
+        drop(stepper);
+        followed = Some(next);
     }
+}
+
+/// Halvings of a step that is too large.
+const HALVINGS: u32 = 30;
+
+/// The largest of the halves, quarters, … of a step that succeeds from a state, if there is one.
+fn smaller<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    system: &P,
+    method: &M,
+    options: &Options,
+    h: f64,
+    mu: &P::State,
+) -> Option<f64> {
+    let mut h = h;
+    (0..HALVINGS).find_map(|_| {
+        h *= 0.5;
+        let mut stepper = method.stepper(system, S::from_f64(h), &options.newton);
+        stepper.step(&mut mu.clone(), &mut ()).ok().map(|_| h)
+    })
 }
 
 /// The energy must be finite after a step, where H is no polynomial: a step may jump over a singularity.

@@ -1,6 +1,7 @@
 //! The equation of methods of coadjoint form along the Cayley map: the Lie–Poisson midpoint method
 //! and the generating-function methods.
 
+use super::chart::cayley_chart;
 use super::generating::Generating2;
 use crate::equation::Equation;
 use crate::generating::GeneratingFunction;
@@ -8,8 +9,9 @@ use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::newton::dense;
 use crate::poisson::CayleyPoisson;
-use crate::scalar::Scalar;
+use crate::scalar::{Mask as _, Scalar};
 use crate::state::State;
+use crate::structure::Spectrum;
 
 /// The method `mu1 = Ad*_(cay xi) mu` of a generating function S, for an algebra with a triple-closed
 /// representation.
@@ -153,6 +155,14 @@ where
         for (row, out) in mu.as_mut_slice().iter_mut().enumerate() {
             *out = self.base.as_slice()[row] + action.as_slice()[row];
         }
+    }
+
+    fn within_chart(&mut self, unknown: &P::State) -> S::Mask {
+        if matches!(P::SPECTRUM, Spectrum::Imaginary) {
+            return S::Mask::splat(true);
+        }
+        self.function.gradient(unknown, &mut self.direction);
+        cayley_chart(self.system, &self.direction)
     }
 
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {

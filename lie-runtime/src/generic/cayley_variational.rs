@@ -1,5 +1,6 @@
 //! The equation of the step of a discrete Lagrangian in Cayley coordinates.
 
+use super::chart::cayley_chart;
 use super::inverse_tangent::dcay_inverse_dual;
 use super::kernels::multiply;
 use crate::equation::Equation;
@@ -149,6 +150,10 @@ where
         self.system.ad_star(unknown, &self.momentum, action);
         mu.copy_from(&self.base);
         mu.axpy(S::one(), action);
+    }
+
+    fn within_chart(&mut self, unknown: &P::State) -> S::Mask {
+        cayley_chart(self.system, unknown)
     }
 
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {

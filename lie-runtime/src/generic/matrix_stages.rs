@@ -1,12 +1,13 @@
 //! The momenta of the stages in a matrix representation.
 
+use super::chart::invertible_along;
 use super::stage_momenta::StageMap;
 use super::tableau::Tableau;
 use crate::matrix::{SquareMatrix, StageMatrix};
 use crate::newton::inverse_pivots_are_safe;
-use crate::scalar::Scalar;
+use crate::scalar::{Mask as _, Scalar};
 use crate::state::{Stages, State};
-use crate::structure::{Entry, MatrixPoisson};
+use crate::structure::{Entry, MatrixPoisson, Spectrum};
 
 /// The stages of a Gauss method on `T*V`, V the space of a representation `rho`, reduced to g*.
 ///
@@ -145,6 +146,32 @@ impl<S: Scalar, M: SquareMatrix<S>, const STAGES: usize> MatrixStages<S, M, STAG
         }
     }
 
+    /// Whether `1 + s A rho(x)` and `1 - s A rho(x)^T` have inverses for every s from 0 to 1.
+    #[cold]
+    fn far_chart(&mut self) -> S::Mask {
+        let size = self.momentum.dimension();
+        let mut all = S::Mask::splat(true);
+        for transposed in [false, true] {
+            for i in 0..STAGES {
+                for j in 0..STAGES {
+                    let (weight, motion) = (self.tableau.a[i][j], &self.motion[j]);
+                    for r in 0..size {
+                        for c in 0..size {
+                            let entry = if transposed {
+                                -motion.get(c, r)
+                            } else {
+                                motion.get(r, c)
+                            };
+                            self.factors.0[i][j].set(r, c, weight * entry);
+                        }
+                    }
+                }
+            }
+            all = all & invertible_along(&self.factors, None);
+        }
+        all
+    }
+
     /// Sets W and `rho(x_j)`.
     fn set<P: MatrixPoisson<S, Matrix = M>>(
         &mut self,
@@ -208,8 +235,32 @@ where
     S: Scalar,
     P: MatrixPoisson<S>,
 {
+    // for antisymmetric matrices and triangular arrangements of them `1 + A rho(x)` has an inverse: Gauss
+    // methods are algebraically stable
+    const EVERYWHERE: bool = matches!(P::SPECTRUM, Spectrum::Imaginary);
+
     fn new(system: &P, tableau: &Tableau<S, STAGES>) -> Self {
         Self::with_zero(&system.zero_matrix(), tableau)
+    }
+
+    fn within_chart(&mut self, x: &Stages<P::State, STAGES>) -> S::Mask {
+        for (motion, x) in self.motion.iter_mut().zip(&x.0) {
+            assemble(P::REPRESENTATION.matrices, x.as_slice(), motion);
+        }
+        let sizes = self.motion.each_ref().map(|motion| size(motion));
+        let mut bound = S::zero();
+        for row in &self.tableau.a {
+            let mut sum = S::zero();
+            for (&weight, &size) in row.iter().zip(&sizes) {
+                sum += weight.abs() * size;
+            }
+            bound = bound.max(sum);
+        }
+        let near = bound.less(S::one());
+        if near.all() {
+            return near;
+        }
+        near | self.far_chart()
     }
 
     fn momenta(
@@ -265,6 +316,20 @@ fn assemble<S: Scalar, M: SquareMatrix<S>>(matrices: &[&[Entry]], coordinates: &
             out.set(row, column, sum);
         }
     }
+}
+
+/// The larger of the largest absolute sums of a row and of a column.
+fn size<S: Scalar, M: SquareMatrix<S>>(matrix: &M) -> S {
+    let mut largest = S::zero();
+    for i in 0..matrix.dimension() {
+        let (mut row, mut column) = (S::zero(), S::zero());
+        for j in 0..matrix.dimension() {
+            row += matrix.get(i, j).abs();
+            column += matrix.get(j, i).abs();
+        }
+        largest = largest.max(row).max(column);
+    }
+    largest
 }
 
 /// `out = a b`

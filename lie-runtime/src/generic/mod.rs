@@ -5,6 +5,7 @@
 
 mod cayley_midpoint;
 mod cayley_variational;
+mod chart;
 mod cohen_hairer;
 mod coordinate_flows;
 mod dexp_slope;
@@ -36,6 +37,8 @@ mod tensor;
 
 pub use cayley_midpoint::{CayleyMidpoint, CayleyRetraction};
 pub use cayley_variational::CayleyVariational;
+pub(crate) use chart::invertible_along;
+pub use chart::{CAYLEY_POLE, cayley_chart, cayley_chart_of_step};
 pub use cohen_hairer::CohenHairerStep;
 pub use coordinate_flows::{CoordinateFlows, piece_direction};
 pub use discrete_body::DiscreteBody;

@@ -123,6 +123,9 @@ where
     S: Scalar,
     P: SpinPoisson<S>,
 {
+    // imaginary quaternions have no real eigenvalues
+    const EVERYWHERE: bool = true;
+
     fn new(_system: &P, tableau: &Tableau<S, STAGES>) -> Self {
         Self {
             tableau: *tableau,

@@ -8,12 +8,14 @@ use crate::matrix::{SquareMatrix, StageMatrix};
 use crate::methods::Retraction;
 use crate::newton::dense;
 use crate::poisson::LiePoisson;
-use crate::scalar::Scalar;
+use crate::scalar::{Mask as _, Scalar};
 use crate::state::{Stages, State};
 
 /// The momenta `M_i` of the stages of a Gauss method on a space over g*, on which elements of the algebra
 /// act linearly, as functions of the elements `x_j = h grad H(m_j)` along which the stages move.
 pub trait StageMap<S: Scalar, P: LiePoisson<S>, const STAGES: usize> {
+    /// Whether [`StageMap::within_chart`] is true for all x.
+    const EVERYWHERE: bool;
     /// The map of a system; it may keep scratch space.
     fn new(system: &P, tableau: &Tableau<S, STAGES>) -> Self;
     /// `out_i = M_i(x_1, ..., x_s)` for a step from mu.
@@ -33,6 +35,11 @@ pub trait StageMap<S: Scalar, P: LiePoisson<S>, const STAGES: usize> {
         out: &mut Stages<P::State, STAGES>,
         slopes: &mut StageMatrix<P::Jacobian, STAGES>,
     );
+    /// The lanes in which the linear systems of the stages have solutions for `s x_j` with every s from 0 to 1, so
+    /// that the step is joined to the identity.
+    fn within_chart(&mut self, _x: &Stages<P::State, STAGES>) -> S::Mask {
+        S::Mask::splat(true)
+    }
     /// The element along which a step moves the group element, where it is not that of the Gauss method
     /// applied to the entries of the declared matrices.
     fn group_factor(
@@ -216,6 +223,14 @@ where
 
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
         dense::solve(factors, residual);
+    }
+
+    fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {
+        if M::EVERYWHERE {
+            return S::Mask::splat(true);
+        }
+        self.set_directions(unknown);
+        self.map.within_chart(&self.x)
     }
 
     fn group_factor(&mut self, unknown: &Self::Unknown, xi: &mut P::State) -> Option<Retraction> {

@@ -45,13 +45,15 @@ pub trait DiscreteLagrangian<S: Scalar> {
 
     /// The point x with `l_d'(x) = mu` near the unit, and `inverse = l_d''(x)^-1`; not finite where there is none.
     ///
-    /// The provided body is Newton's iteration from `x = 0`, see [`legendre::solve`].
+    /// The provided body goes along a path from `x = 0`, see [`legendre::solve`].
     fn start(&self, mu: &Self::State, x: &mut Self::State, inverse: &mut Self::Jacobian) {
         let mut matrix = inverse.clone();
+        x.fill(S::zero());
         legendre::solve(
             |x, out| self.slope(x, out),
             |x, out| self.curvature(x, out),
             mu,
+            legendre::From::Rest,
             x,
             &mut matrix,
         );

@@ -6,39 +6,79 @@
 //! \nabla H(\mu) = \xi, \qquad H''(\mu) = l''(\xi)^{-1}
 //! ```
 //!
-//! The iteration begins at rest, `$\xi = 0$`: its first iterate is the velocity of the part of l that is
-//! quadratic there. Steps are halved until the defect `$l'(\xi) - \mu$` shrinks, so that an iterate neither leaves
-//! the domain of l nor runs away; for a convex l this finds the velocity wherever there is one. Of several
-//! velocities with the same momentum it finds the one that this path leads to. Where there is none, or it lies
-//! beyond a fold, where the determinant of `$l''$` has another sign than at rest, the result is not a number, and the
-//! driver refuses the step.
+//! There may be several velocities with the same momentum. The one that is meant lies at the end of a path of
+//! velocities: from a known one, with the momentum `$\mu_a$`, along `$l'(\xi_s) = \mu_a + s (\mu - \mu_a)$`, s from 0 to 1.
+//! Newton's iteration goes there at once where its steps shrink fast enough that it cannot end elsewhere (by the
+//! theorem of Newton and Kantorovich the path then lies in the ball in which it converges), and in pieces where
+//! they do not. The known velocity is the rest, or that of the branch of a system
+//! ([`LagrangianPoisson::branch`]), which a run carries along with the state.
+//!
+//! From rest the path goes on through folds of `$l'$`, where `$l''$` is singular and s turns round, to the first
+//! velocity with the momentum: where there is just one, it is found behind folds too. From a branch it does not.
+//! Where it ends, the result is not a number, and the driver refuses the step.
 //!
 //! Over dual numbers the iteration goes on after the values have converged until all derivatives have, which
 //! it doubles in order each time: they are exact to round-off. Nothing is allocated.
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::LagrangianPoisson;
+use super::path;
 use crate::matrix::SquareMatrix;
 use crate::newton::exchanging;
 use crate::scalar::{Mask, Scalar};
-use crate::state::State;
+use crate::state::{State, Unknown};
 
-/// More iterations than any start needs that leads to a solution.
-const MAX_ITERATIONS: usize = 100;
-/// The smallest step is 2^-MAX_HALVINGS of Newton's.
-const MAX_HALVINGS: usize = 40;
-/// The last step with damping, in units of round-off.
+/// Iterations towards one momentum. One that shrinks the steps as fast as is asked for needs fewer.
+const ITERATIONS: usize = 24;
+/// The last step that needs another one, in units of round-off.
 const NEAR: f64 = 1024.0;
+/// How much the velocity may differ from that of the branch, relative to its size, before the branch follows.
+const FOLLOW: f64 = 0.125;
 
 /// The velocity of a momentum: `l'(out) = mu`.
 pub fn velocity<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State, out: &mut P::State) {
+    let branch = system.branch();
+    let from = if branch.is_some() {
+        From::Branch
+    } else {
+        From::Rest
+    };
+    match &branch {
+        Some(branch) => out.copy_from(branch),
+        None => out.fill(S::zero()),
+    }
     solve(
         |xi, momentum| system.momentum(xi, momentum),
         |xi, inertia| system.inertia(xi, inertia),
         mu,
+        from,
         out,
         &mut system.zero_jacobian(),
     );
+}
+
+/// The velocity of a momentum, where a branch should go on from it: where it has moved away from that of the branch.
+/// In lanes without a velocity that of the branch, or rest.
+pub fn follow<S: Scalar, P: LagrangianPoisson<S>>(system: &P, mu: &P::State) -> Option<P::State> {
+    let mut xi = system.zero_state();
+    velocity(system, mu, &mut xi);
+    let known = xi.finite();
+    let branch = system.branch();
+    if !known.any() {
+        return None;
+    }
+    let last = branch.clone().unwrap_or_else(|| system.zero_state());
+    let mut moved = S::zero();
+    for (&here, &before) in xi.as_slice().iter().zip(last.as_slice()) {
+        moved = moved.max((here - before).abs());
+    }
+    let far = S::from_f64(FOLLOW) * size(&last);
+    if branch.is_some() && !(known & far.less(moved)).any() {
+        return None;
+    }
+    let mut next = last;
+    next.assign_where(known, &xi);
+    Some(next)
 }
 
 /// The Hamiltonian `H(mu) = <mu, xi> - l(xi)`.
@@ -66,17 +106,27 @@ pub fn hessian<S: Scalar, P: LagrangianPoisson<S>>(
 }
 
 /// The largest value, derivatives left aside.
-fn size<S: Scalar>(vector: &impl State<S>) -> S {
+pub(super) fn size<S: Scalar>(vector: &impl State<S>) -> S {
     let entries = vector.as_slice().iter();
     entries.fold(S::zero(), |norm, entry| norm.max(entry.abs()))
 }
 
-/// Solves `map(xi) = mu`, from `xi = 0`, for a map with the derivative `slope`; `matrix` is space for the latter.
-/// The lanes without a solution are not a number.
+/// Where a path of velocities begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum From {
+    /// At rest: the path may pass folds.
+    Rest,
+    /// At a velocity of the branch that is meant: the path ends at a fold.
+    Branch,
+}
+
+/// Solves `map(xi) = mu` for a map with the derivative `slope`, along a path that begins at `xi`; `matrix` is space for
+/// the latter. The lanes without a solution are not a number.
 pub fn solve<S, V, M>(
     map: impl Fn(&V, &mut V),
     slope: impl Fn(&V, &mut M),
     mu: &V,
+    from: From,
     xi: &mut V,
     matrix: &mut M,
 ) where
@@ -84,68 +134,74 @@ pub fn solve<S, V, M>(
     V: State<S>,
     M: SquareMatrix<S>,
 {
-    let half = S::ratio(1.0, 2.0);
-    let (mut defect, mut step, mut trial) = (mu.clone(), mu.clone(), mu.clone());
-    let mut trial_defect = mu.clone();
-    let write_defect = |xi: &V, out: &mut V| {
-        map(xi, out);
-        out.axpy(-S::one(), mu);
-    };
-    xi.fill(S::zero());
-    write_defect(xi, &mut defect);
-    let mut active = S::Mask::splat(true);
-    let mut failed = S::Mask::splat(false);
-    let mut at_rest = None;
-    for _ in 0..MAX_ITERATIONS {
-        slope(xi, matrix);
-        let round_off = S::from_f64(16.0) * S::epsilon() * (size(mu) + largest(matrix) * size(xi));
-        step.copy_from(&defect);
-        let sign = exchanging::solve(matrix, &mut step);
-        at_rest.get_or_insert(sign);
-        let near = size(&step).less_equal(S::from_f64(NEAR) * S::epsilon() * size(xi))
-            | size(&defect).less_equal(round_off);
-        active = active & !near;
-        if !active.any() {
-            break;
+    let start = xi.clone();
+    let mut step = mu.clone();
+    slope(&start, matrix);
+    let sign_at_start = exchanging::solve(matrix, &mut step);
+    let reached = newton(&map, &slope, mu, xi, matrix);
+    let mut failed = !reached;
+    for lane in 0..S::LANES {
+        let mut end = start.clone();
+        if failed.lane(lane) && path::follow(&map, &slope, mu, from, lane, &mut end, matrix) {
+            let only = S::Mask::from_bits(1 << lane);
+            xi.assign_where(only, &end);
+            failed = failed & !only;
         }
-        let before = size(&defect);
-        let mut factor = S::one();
-        let mut open = active;
-        for _ in 0..MAX_HALVINGS {
-            for (index, entry) in trial.as_mut_slice().iter_mut().enumerate() {
-                let moved = xi.as_slice()[index] - factor * step.as_slice()[index];
-                *entry = S::select(open, moved, *entry);
-            }
-            write_defect(&trial, &mut trial_defect);
-            let enough = (S::one() - half * half * factor) * before;
-            let shrinks = open & size(&trial_defect).less_equal(enough);
-            xi.assign_where(shrinks, &trial);
-            defect.assign_where(shrinks, &trial_defect);
-            open = open & !shrinks;
-            if !open.any() {
-                break;
-            }
-            factor *= half;
-        }
-        // where not even a small step shrinks the defect it is round-off, or there is no solution
-        let small = size(&step).less_equal(S::epsilon().sqrt() * size(xi));
-        failed = failed | (open & !small);
-        active = active & !open;
     }
-    failed = failed | active;
     // values that are near enough are at round-off after one more iteration, and the number of derivatives
     // that are exact doubles in each
     for _ in 0..=(S::DERIVATIVES + 1).ilog2() + u32::from(S::DERIVATIVES > 0) {
-        write_defect(xi, &mut step);
+        map(xi, &mut step);
+        step.axpy(-S::one(), mu);
         slope(xi, matrix);
         let sign = exchanging::solve(matrix, &mut step);
-        failed = failed | (sign * at_rest.unwrap_or(sign)).less(S::zero());
+        failed = failed | (sign * sign_at_start).less(S::zero());
         xi.axpy(-S::one(), &step);
     }
     let not_a_number = S::zero() / S::zero();
     for entry in xi.as_mut_slice() {
         *entry = S::select(failed, not_a_number, *entry);
     }
+}
+
+/// Newton's iteration for `map(xi) = mu` from `xi`. Returns the lanes that have come near the solution with steps each
+/// of which was at most a quarter of the one before.
+pub(super) fn newton<S, V, M>(
+    map: &impl Fn(&V, &mut V),
+    slope: &impl Fn(&V, &mut M),
+    mu: &V,
+    xi: &mut V,
+    matrix: &mut M,
+) -> S::Mask
+where
+    S: Scalar,
+    V: State<S>,
+    M: SquareMatrix<S>,
+{
+    let quarter = S::ratio(1.0, 4.0);
+    let mut step = mu.clone();
+    let mut bound = S::from_f64(f64::INFINITY);
+    let mut open = S::Mask::splat(true);
+    let mut near = S::Mask::splat(false);
+    for _ in 0..ITERATIONS {
+        map(xi, &mut step);
+        step.axpy(-S::one(), mu);
+        slope(xi, matrix);
+        let defect = size(&step);
+        let round_off = S::from_f64(16.0) * S::epsilon() * (size(mu) + largest(matrix) * size(xi));
+        exchanging::solve(matrix, &mut step);
+        let length = size(&step);
+        let close = length.less_equal(S::from_f64(NEAR) * S::epsilon() * size(xi))
+            | (defect.less_equal(round_off) & length.finite());
+        near = near | (open & close);
+        open = open & !close & length.less_equal(bound) & length.finite();
+        xi.subtract_where(open, &step);
+        bound = quarter * length;
+        if !open.any() {
+            break;
+        }
+    }
+    near
 }
 
 /// The largest entry, derivatives left aside.
@@ -172,6 +228,7 @@ mod tests {
             |xi: &V<S>, out: &mut V<S>| out[0] = map(xi[0]),
             |xi: &V<S>, out: &mut SMatrix<S, 1, 1>| out[(0, 0)] = slope(xi[0]),
             &V::from([mu]),
+            From::Rest,
             &mut xi,
             &mut matrix,
         );

@@ -19,6 +19,7 @@
 mod declared;
 mod discrete;
 pub mod legendre;
+mod path;
 
 pub use declared::{DeclaredDiscreteLagrangian, DiscreteLagrangianPoisson};
 pub use discrete::{
@@ -51,6 +52,12 @@ pub trait LagrangianPoisson<S: Scalar>: LiePoisson<S> {
     /// The velocity of a momentum, `l'(out) = mu`; not finite where there is none. It is the gradient of H.
     fn velocity(&self, mu: &Self::State, out: &mut Self::State) {
         self.gradient(mu, out);
+    }
+
+    /// A velocity of the branch that is meant, where several velocities have the same momentum; `None` for that which
+    /// begins at rest. See [`legendre`] and [`Poisson::following`](crate::Poisson::following).
+    fn branch(&self) -> Option<Self::State> {
+        None
     }
 
     /// The Euler–Poincaré equations as a field of velocities: `out = xi'`, `l''(xi) xi' = ad*_xi l'(xi)`; not

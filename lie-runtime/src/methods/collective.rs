@@ -1,8 +1,8 @@
 //! Collective symplectic methods: Gauss on a symplectic space over g*, projected.
 //!
 //! A linear symplectic action of g on a space with the momentum map J gives the Hamiltonian `$H \circ J$`, whose
-//! flow lies over that of H. The Gauss method commutes with everything that leaves `$H \circ J$` unchanged, so
-//! that it descends to g*:
+//! flow lies over that of H. Where the matrices of the action are closed under `(abc + cba)/2`, up to matrices that
+//! commute with them, the Gauss method descends to g*:
 //!
 //! ```math
 //! \mu = J(z_0), \qquad z_1 = \Phi^{\text{Gauss}}_{H \circ J,\, h}(z_0), \qquad \mu_1 = J(z_1)
@@ -31,9 +31,16 @@
 //!   ```
 //!
 //! * [`Collective4::given`](Collective::given) and its kin lift to the points of a realization that the declaration
-//!   gives ([`RealizedPoisson`]). Points over mu are found by a Gauss–Newton iteration; the step does not depend on
-//!   which point it is where the components of J are of degree at most two: they generate affine
-//!   transformations then, with which Gauss methods commute.
+//!   gives ([`RealizedPoisson`](crate::RealizedPoisson)). Points over mu are found by a Gauss–Newton iteration. The
+//!   step does not depend on which point it is where the components of J are of degree at most two and the
+//!   matrices of their flows are closed too ([`ClosedRealization`]).
+//!
+//! Why closed: the stages of the Gauss method over `z_0` are `Q_i z_0`, and `J_k` of such a stage is the quadratic form
+//! of `T_i A_k Q_i` at `z_0`, with `A_k` the matrix of the flow of `J_k` and `T_i` the symplectic adjoint of `Q_i`. In powers
+//! of h it is a series of words in the `A_k` that commutators and `(abc + cba)/2` make of them. Where all
+//! of these are in the span of the `A_k`, its form is a function of mu; where some `B A_k B` is not, the step
+//! depends on the point. That J generates symplectic maps, with which Gauss methods commute, is not enough: there
+//! need not be enough of them to move one point over mu to any other.
 //!
 //! Needs: see [`MatrixPoisson`](crate::MatrixPoisson) and [`SpinPoisson`](crate::SpinPoisson); gradient
 //! and Hessian of H.
@@ -49,7 +56,7 @@ use super::stepper::Method;
 use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
 use crate::scalar::Scalar;
-use crate::structure::RealizedPoisson;
+use crate::structure::ClosedRealization;
 
 /// The lift to `T*V` of the declared representation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -114,7 +121,7 @@ impl<L, const STAGES: usize> Facts for Collective<L, STAGES> {
 impl<S, P, const STAGES: usize> Method<S, P> for Collective<Given, STAGES>
 where
     S: Scalar,
-    P: RealizedPoisson<S>,
+    P: ClosedRealization<S>,
 {
     type Stepper<'a>
         = RealizedStepper<'a, S, P, STAGES>

@@ -58,11 +58,16 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         let good = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
         self.equation.result(&self.unknown, &mut self.next);
         let finite = self.next.finite();
+        let charted = self.equation.within_chart(&self.unknown);
         let resolved = self.equation.resolved(&self.unknown, &self.next);
-        mu.assign_where(good & finite & resolved, &self.next);
+        mu.assign_where(good & finite & charted & resolved, &self.next);
         for (bad, reason) in [
             (good & !finite, FailureReason::NotFinite),
-            (good & finite & !resolved, FailureReason::Unresolved),
+            (good & finite & !charted, FailureReason::OutsideChart),
+            (
+                good & finite & charted & !resolved,
+                FailureReason::Unresolved,
+            ),
         ] {
             if bad.any() {
                 let lanes = bad.bits();

@@ -27,7 +27,8 @@
 //! Needs: a representation whose closure under `(abc + cba)/2` adds nothing but matrices that commute with it
 //! ([`MatrixPoisson`](crate::MatrixPoisson)): those of so(n), sp(2n), u(n), se(n), associative algebras are
 //! closed, su(n) becomes u(n). On others, such as the adjoint representation of su(3), the method would
-//! leave the orbit. Gradient and Hessian of H.
+//! leave the orbit. Gradient and Hessian of H. Steps are refused beyond a pole of the method, where `1 - s A B` is
+//! singular for some s from 0 to 1: only matrices with real eigenvalues have one.
 //!
 //! References: K. Modin, M. Viviani, "Lie–Poisson methods for isospectral flows", Foundations of
 //! Computational Mathematics 20 (2020) 889–921,

@@ -13,7 +13,8 @@
 //! though not exactly.
 //!
 //! exp works for every algebra. Cayley needs a matrix representation whose span is closed under
-//! `(abc + cba)/2`, and then is polynomial: no series.
+//! `(abc + cba)/2`, and then is polynomial: no series. It has a pole where an element has the real eigenvalue 2 or -2: steps
+//! along x are refused where one of the x s, 0 <= s <= 1, has it ([`OutsideChart`](crate::newton::FailureReason)).
 //!
 //! Needs: gradient and Hessian of H, ad*, and for Cayley the triple product.
 //!

@@ -3,8 +3,8 @@
 use super::implicit::clear;
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
-use crate::generic::{Canonical, Gauss, Lifting, direction, gauss_tableau};
-use crate::matrix::StageMatrix;
+use crate::generic::{Canonical, Gauss, Lifting, direction, gauss_tableau, invertible_along};
+use crate::matrix::{SquareMatrix as _, StageMatrix};
 use crate::newton::{FailureReason, Newton, NewtonOptions};
 use crate::scalar::{Mask, Scalar};
 use crate::state::{Stages, State, Unknown};
@@ -27,6 +27,7 @@ where
     solver: Newton<S, Stages<P::Point, STAGES>, StageMatrix<P::PointMatrix, STAGES>>,
     lifting: Lifting<P::State, P::Jacobian, P::Point>,
     end: P::State,
+    motion: StageMatrix<P::PointMatrix, STAGES>,
     /// No step has been made yet.
     fresh: bool,
 }
@@ -50,6 +51,7 @@ where
             solver: Newton::new(&equation, newton),
             lifting: Lifting::new(system),
             end: system.zero_state(),
+            motion: equation.zero_matrix(),
             fresh: true,
         }
     }
@@ -60,6 +62,51 @@ where
     S: Scalar,
     P: RealizedPoisson<S>,
 {
+    /// The lanes in which the stages exist for every part of the step, from `base`: `1 - s A B` has an inverse for s from
+    /// 0 to 1, with `B_j` the matrices of the flows along which the stages move.
+    fn within_chart(&mut self, base: &P::Point) -> S::Mask {
+        let tableau = gauss_tableau::<S, STAGES>();
+        let half = P::POINT_DIM / 2;
+        let mut xi = self.system.zero_state();
+        let mut second = self.system.zero_point_matrix();
+        let mut bound = [S::zero(); STAGES];
+        for (j, row) in tableau.a.iter().enumerate() {
+            self.next.copy_from(base);
+            for (&weight, increment) in row.iter().zip(&self.unknown.0) {
+                self.next.axpy(weight, increment);
+            }
+            self.system.momentum_map(&self.next, &mut self.end);
+            direction(self.system, self.step, &self.end, &mut xi);
+            self.system.curvature(&self.next, &xi, &mut second);
+            let mut size = S::zero();
+            for r in 0..P::POINT_DIM {
+                let mut sum = S::zero();
+                for c in 0..P::POINT_DIM {
+                    // row r of the flow's matrix
+                    let entry = if r < half {
+                        -second.get(half + r, c)
+                    } else {
+                        second.get(r - half, c)
+                    };
+                    sum += entry.abs();
+                    for (i, weights) in tableau.a.iter().enumerate() {
+                        self.motion.0[i][j].set(r, c, weights[j] * entry);
+                    }
+                }
+                size = size.max(sum);
+            }
+            for (bound, weights) in bound.iter_mut().zip(&tableau.a) {
+                *bound += weights[j].abs() * size;
+            }
+        }
+        let largest = bound.iter().fold(S::zero(), |most, &bound| most.max(bound));
+        let near = largest.less(S::one());
+        if near.all() {
+            return near;
+        }
+        near | invertible_along(&self.motion, None)
+    }
+
     /// Gives away `h grad H` at the stages of the step whose increments have been solved for, from `base`.
     fn give_velocities<K: FactorSink<P::State>>(
         &mut self,
@@ -117,6 +164,7 @@ where
                 (failure.report, Some(failure))
             }
         };
+        let charted = self.within_chart(&base);
         equation.result(&self.unknown, &mut self.next);
         self.system.momentum_map(&self.next, &mut self.end);
         let finite = self.end.finite();
@@ -124,6 +172,10 @@ where
         for (bad, reason) in [
             (!lifted, FailureReason::NoLift),
             (lifted & solved & !finite, FailureReason::NotFinite),
+            (
+                lifted & solved & finite & !charted,
+                FailureReason::OutsideChart,
+            ),
         ] {
             if bad.any() {
                 let first = StepFailure {
@@ -138,7 +190,7 @@ where
                 known.lanes |= bad.bits();
             }
         }
-        let good = lifted & solved & finite;
+        let good = lifted & solved & finite & charted;
         mu.assign_where(good, &self.end);
         self.point.assign_where(good, &self.next);
         if K::ACTIVE && good.any() {

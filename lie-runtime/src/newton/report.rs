@@ -34,6 +34,9 @@ pub enum FailureReason {
     /// The updates of the iteration neither grew nor reached round-off.
     #[error("the iteration does not converge")]
     NotConverged,
+    /// The step lies beyond a pole of the Cayley map, or of the rational function that a Gauss method is.
+    #[error("the step leaves the chart of the retraction")]
+    OutsideChart,
     /// No rotation near the identity carries the momentum of the step, see
     /// [`MoserVeselov`](crate::methods::MoserVeselov).
     #[error("no rotation near the identity solves the discrete rigid body")]
@@ -65,6 +68,9 @@ impl FailureReason {
             Self::Singular | Self::Diverged => "take a smaller step",
             Self::NotConverged => {
                 "take a smaller step; a simplified iteration can also be replaced by Newton's"
+            }
+            Self::OutsideChart => {
+                "take a smaller step, or a method along the exponential map, whose chart has no end"
             }
             Self::RotationTooLarge => {
                 "take a smaller step: h times the angular momentum must be below the moments of inertia"

@@ -29,6 +29,8 @@ use crate::driver::{
 };
 use crate::methods::Method;
 use crate::parameter::ParameterError;
+#[cfg(test)]
+use crate::parameter::ParameterFault;
 use crate::poisson::Poisson;
 use crate::state::State;
 use crate::structure::MatrixGroup;
@@ -196,7 +198,7 @@ impl<P: Poisson<f64>> Program<P> {
                     error.time,
                     report.iterations,
                     report.residual,
-                    reason.remedy(),
+                    error.remedy(),
                 );
                 (3, message)
             }

@@ -1,7 +1,11 @@
 //! Systems written by hand, and what tests do with them.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub mod affine_line;
+pub mod body4;
+pub mod folded;
 pub mod heavy_top;
+pub mod logarithmic;
 pub mod nonpolynomial;
 pub mod quartic;
 pub mod quartic_lagrangian;

@@ -1,6 +1,7 @@
 //! The commands that measure many methods on one system: `lie verify`, `lie bench`, `lie stress`.
 
 pub mod bench;
+mod evidence;
 mod files;
 mod growth;
 mod list;

@@ -3,15 +3,28 @@
 use std::collections::BTreeMap;
 
 use lie_codegen::diagnostic::Kind;
+use lie_codegen::judge::Judge;
 use lie_codegen::program::Purpose;
 use serde_json::{Map, Value, json};
 
+use super::evidence::Evidence;
 use super::table::{self, short};
 use super::{Ended, bed, interrupted, list};
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
+
+/// The facts that are measured at the step itself: an order takes many steps, the iteration others of its own.
+const SINGLE: [&str; 7] = [
+    "symmetric",
+    "energy",
+    "quadratic Casimirs",
+    "other Casimirs",
+    "quadratic integrals",
+    "orbit",
+    "Poisson",
+];
 
 /// One line of results.
 struct Finding {
@@ -22,6 +35,8 @@ struct Finding {
     bound: f64,
     verdict: String,
     note: String,
+    /// Not a number where nothing was measured.
+    step: f64,
 }
 
 impl Finding {
@@ -35,6 +50,7 @@ impl Finding {
             bound: number(5)?,
             verdict: (*fields.get(6)?).to_owned(),
             note: (*fields.get(7)?).to_owned(),
+            step: number(8).unwrap_or(f64::NAN),
         })
     }
 
@@ -55,6 +71,9 @@ impl Finding {
             self.fact,
             short(self.measured)
         );
+        if self.step.is_finite() {
+            text.push_str(&format!(" with a step of {}", short(self.step)));
+        }
         if !self.note.is_empty() {
             text.push_str(&format!(" ({})", self.note));
         }
@@ -82,6 +101,7 @@ impl Finding {
         json!({
             "claim": number(self.claim), "measured": number(self.measured),
             "bound": number(self.bound), "verdict": self.verdict, "note": self.note,
+            "step": number(self.step),
         })
     }
 }
@@ -113,6 +133,8 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     numbers.extend(step.map(|step| ("step", step)));
     let mut findings = Vec::new();
     let mut ground = Vec::new();
+    let judge = Judge::of_spec(&bed.spec.source.text, &bed.spec.model, &bed.parameters);
+    let mut evidence = Evidence::before(judge);
     let ended = bed.measure(
         flags,
         program,
@@ -121,7 +143,7 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
         &mut |fields| match fields.first() {
             Some(&"finding") => findings.extend(Finding::read(fields)),
             Some(&"ground") => ground = fields[1..].iter().map(|f| (*f).to_owned()).collect(),
-            _ => {}
+            _ => evidence.take(fields),
         },
     )?;
     if let Ended::Said(word, text) = &ended {
@@ -138,10 +160,10 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     if arguments.json {
         print(&format!(
             "{:#}\n",
-            as_json(&bed.spec.model.name, &ground, &findings)
+            as_json(&bed.spec.model.name, &ground, &findings, &evidence)
         ))?;
     } else {
-        print(&report(&bed.spec.model.name, &ground, &findings))?;
+        print(&report(&bed.spec.model.name, &ground, &findings, &evidence))?;
     }
     if let Ended::Interrupted(code) = ended {
         return Ok(interrupted(flags, code));
@@ -150,7 +172,10 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     for finding in &failed {
         eprintln!("failed: {}", finding.failure());
     }
-    Ok(u8::from(!failed.is_empty()))
+    for failure in evidence.failures() {
+        eprintln!("failed: {failure}");
+    }
+    Ok(u8::from(!failed.is_empty() || !evidence.holds()))
 }
 
 fn facts(findings: &[Finding]) -> Vec<&str> {
@@ -169,14 +194,38 @@ fn methods(findings: &[Finding]) -> Vec<&str> {
     methods
 }
 
-fn report(system: &str, ground: &[String], findings: &[Finding]) -> String {
-    let facts = facts(findings);
+/// The steps at which a method's invariants were measured: where the one asked for failed, smaller ones.
+fn steps(findings: &[Finding], method: &str) -> String {
+    let own = findings
+        .iter()
+        .filter(|finding| finding.method == method && SINGLE.contains(&finding.fact.as_str()))
+        .map(|finding| finding.step.abs());
+    let (least, most) = own
+        .filter(|step| step.is_finite())
+        .fold((f64::INFINITY, 0.0_f64), |(least, most), step| {
+            (least.min(step), most.max(step))
+        });
+    if most == 0.0 {
+        "–".to_owned()
+    } else if least == most {
+        short(most)
+    } else {
+        format!("{} to {}", short(least), short(most))
+    }
+}
+
+fn report(system: &str, ground: &[String], findings: &[Finding], evidence: &Evidence) -> String {
+    // what holds of the form and not of the method is summed up below the table
+    let (folded, facts): (Vec<&str>, Vec<&str>) = facts(findings)
+        .into_iter()
+        .partition(|fact| OF_THE_FORM.contains(fact) && all_hold(findings, fact));
     let by_place: BTreeMap<(&str, &str), &Finding> = findings
         .iter()
         .map(|finding| ((finding.method.as_str(), finding.fact.as_str()), finding))
         .collect();
     let mut rows = vec![
-        std::iter::once("method")
+        ["method", "step"]
+            .into_iter()
             .chain(facts.iter().copied())
             .map(str::to_owned)
             .collect::<Vec<_>>(),
@@ -190,7 +239,8 @@ fn report(system: &str, ground: &[String], findings: &[Finding]) -> String {
             None => "–".to_owned(),
         };
         rows.push(
-            std::iter::once(method.to_owned())
+            [method.to_owned(), steps(findings, method)]
+                .into_iter()
                 .chain(facts.iter().map(cell))
                 .collect(),
         );
@@ -206,7 +256,7 @@ fn report(system: &str, ground: &[String], findings: &[Finding]) -> String {
     format!(
         "{system}: {} methods, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}\n\n{}\n\
          ✓ claimed and measured, ✗ claimed and not measured, no sign: not claimed; relative to the size of the terms\n\
-         {} claims, {failed} fail\n",
+         {}{}{} claims, {failed} fail\n",
         methods(findings).len(),
         number(0),
         ground.get(3).map_or("", String::as_str),
@@ -214,11 +264,43 @@ fn report(system: &str, ground: &[String], findings: &[Finding]) -> String {
         ground.get(5).map_or("", String::as_str),
         number(2),
         table::text(&rows),
+        summary(findings, &folded),
+        evidence.summary(),
         claimed.count(),
     )
 }
 
-fn as_json(system: &str, ground: &[String], findings: &[Finding]) -> Value {
+/// Facts that no method claims of itself: two forms of its code agree, the driver shows its steps.
+const OF_THE_FORM: [&str; 4] = ["generic form", "row exchanges", "rows", "group"];
+
+fn all_hold(findings: &[Finding], fact: &str) -> bool {
+    let of_fact = findings.iter().filter(|finding| finding.fact == fact);
+    of_fact.into_iter().all(|finding| !finding.fails())
+}
+
+/// One line on the facts that hold everywhere.
+fn summary(findings: &[Finding], folded: &[&str]) -> String {
+    let parts: Vec<String> = folded
+        .iter()
+        .map(|fact| {
+            let holds = |f: &&Finding| f.fact == *fact && f.verdict == "holds";
+            let count = findings.iter().filter(holds).count();
+            let what = match *fact {
+                "generic form" => "the generic form makes the same steps",
+                "row exchanges" => "elimination in fixed order",
+                "rows" => "rows on and off the grid",
+                _ => "group element",
+            };
+            format!("{what} ({count})")
+        })
+        .collect();
+    match parts.is_empty() {
+        true => String::new(),
+        false => format!("also hold, of so many methods: {}\n", parts.join(", ")),
+    }
+}
+
+fn as_json(system: &str, ground: &[String], findings: &[Finding], evidence: &Evidence) -> Value {
     let mut all = Map::new();
     for finding in findings {
         let method = all
@@ -235,6 +317,7 @@ fn as_json(system: &str, ground: &[String], findings: &[Finding]) -> Value {
         "step": number(0), "span": number(1), "reference_error": number(2),
         "states": number(3), "linear_integrals": number(4), "quadratic_integrals": number(5),
         "methods": all,
+        "judge": evidence.as_json(),
         "failed": findings.iter().filter(|finding| finding.fails()).count(),
     })
 }

@@ -110,6 +110,9 @@ fn integrate(
             .element(element)
     });
     let mut drift = Drift::new(&columns[layout.invariants.clone()]);
+    for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
+        drift.leave_out(&casimir.name);
+    }
     // Rows that scroll by on the same terminal say enough.
     let scrolls = flags.out.is_none() && io::stdout().is_terminal();
     let bar = Bar::new(!flags.quiet && !scrolls);

@@ -10,7 +10,7 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case)]
 pub struct Pendulum<S = f64> {
-    /// gravity over length [s^-2].
+    /// gravity over length \[s^-2].
     pub g: S,
 }
 
@@ -47,8 +47,8 @@ impl<S: ::lie_runtime::Scalar> Pendulum<S> {
         let _c5 = S::ratio(24.0, 1.0) * _t0;
         let _c6 = self.g * S::ratio(3.0, 1.0);
         let _c7 = self.g * S::ratio(-2.0, 1.0);
-        let _c8 = self.g * S::ratio(4.0, 1.0);
-        let _c9 = self.g * S::ratio(-4.0, 1.0);
+        let _c8 = self.g * S::ratio(-4.0, 1.0);
+        let _c9 = self.g * S::ratio(4.0, 1.0);
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "g", "g"),
@@ -59,8 +59,8 @@ impl<S: ::lie_runtime::Scalar> Pendulum<S> {
                 (_c5, "g", "24*g^2"),
                 (_c6, "g", "3*g"),
                 (_c7, "g", "-2*g"),
-                (_c8, "g", "4*g"),
-                (_c9, "g", "-4*g"),
+                (_c8, "g", "-4*g"),
+                (_c9, "g", "4*g"),
             ],
         )?;
         ::core::result::Result::Ok(PendulumSystem {
@@ -110,9 +110,9 @@ pub struct PendulumSystem<S = f64> {
     _k6: S,
     /// `-2*g`
     _k7: S,
-    /// `4*g`
-    _k8: S,
     /// `-4*g`
+    _k8: S,
+    /// `4*g`
     _k9: S,
 }
 
@@ -175,7 +175,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     #[inline]
     fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
         let [[_L, _, _]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = _L;
         out[1] = self._k1;
     }
@@ -185,7 +185,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = S::one();
     }
 
@@ -195,7 +195,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     #[inline]
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[_, x, y]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -y;
         out[(0, 2)] = x;
         out[(1, 0)] = y;
@@ -225,7 +225,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[_L, x, y]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 2)] = self.g;
         out[(1, 0)] = y;
         out[(1, 2)] = _L;
@@ -247,7 +247,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
         field[0] = self.g * y;
         field[1] = _L * y;
         field[2] = -(_L * x);
-        jacobian.fill(S::zero());
+        jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 2)] = self.g;
         jacobian[(1, 0)] = y;
         jacobian[(1, 2)] = _L;
@@ -270,7 +270,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for PendulumSystem<S> {
         match _index {
             0 => {
                 let [[_, x, y]] = mu.data.0;
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[1] = x * S::ratio(2.0, 1.0);
                 out[2] = y * S::ratio(2.0, 1.0);
             }
@@ -289,7 +289,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for PendulumSystem<S
     fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State) {
         let [[_xi_J, _xi_P1, _xi_P2]] = xi.data.0;
         let [[_eta_J, _eta_P1, _eta_P2]] = eta.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[1] = _xi_P2 * _eta_J - _xi_J * _eta_P2;
         out[2] = _xi_J * _eta_P1 - _xi_P1 * _eta_J;
     }
@@ -312,7 +312,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for PendulumSystem<S
     #[inline]
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_J, _xi_P1, _xi_P2]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_P2;
         out[(0, 2)] = -_xi_P1;
         out[(1, 2)] = _xi_J;
@@ -322,6 +322,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for PendulumSystem<S
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for PendulumSystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 4 additions, 9 multiplications.
@@ -336,7 +337,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for PendulumSyste
         let [[_xi_J, _xi_P1, _xi_P2]] = xi.data.0;
         let [[_eta_J, _eta_P1, _eta_P2]] = eta.data.0;
         let [[_L, x, y]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = (_xi_J * (x * _eta_P1 + y * _eta_P2 + _L * _eta_J * S::ratio(2.0, 1.0))
             + _eta_J * (x * _xi_P1 + y * _xi_P2)) * S::ratio(-1.0, 2.0);
     }
@@ -399,6 +400,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for PendulumSyste
         ],
         skew: false,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -462,7 +464,7 @@ for PendulumGenerating4<'_, S> {
         xi[0] = _L * self.h;
         xi[1] = self._h1;
         xi[2] = self.system.g * y * self.system._k2 * self._h0;
-        hessian.fill(S::zero());
+        hessian.as_mut_slice().fill(S::zero());
         hessian[(0, 0)] = self.h;
         hessian[(2, 2)] = self._h2;
     }
@@ -1132,14 +1134,12 @@ for PendulumCayleyGenerating4<'_, S> {
         let _t1 = self.system._k7 * _t0 * self._h0 + self._h1;
         let _t2 = self.system.g * _u_y * self.system._k2 * self._h0;
         let _t3 = _u_L * self._h2
-            + (_u_L * S::ratio(6.0, 1.0) * _t0 - _u_L * _u_x * self.system._k8
-                + _u_L * S::ratio(2.0, 1.0) * _t0) * self._h0;
-        let _t4 = _t3 * _u_x;
-        let _t5 = _t3 * _u_y;
-        residual[0] = _u_L - _L + _t1 * _u_y - _t2 * _u_x + _t3 * _t3 * _u_L + _t1 * _t4
-            + _t2 * _t5;
-        residual[1] = _u_x - x - _t5;
-        residual[2] = _u_y - y + _t4;
+            + (_u_L * (self.system._k2 * _u_x - _t0 * S::ratio(3.0, 1.0))
+                * S::ratio(-2.0, 1.0) + _u_L * S::ratio(2.0, 1.0) * _t0) * self._h0;
+        residual[0] = _u_L - _L + _t1 * _u_y - _t2 * _u_x
+            + _t3 * (_t3 * _u_L + _t1 * _u_x + _t2 * _u_y);
+        residual[1] = _u_x - x - _t3 * _u_y;
+        residual[2] = _u_y - y + _t3 * _u_x;
     }
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
@@ -1165,10 +1165,10 @@ for PendulumCayleyGenerating4<'_, S> {
         let _t6 = _t1 * _u_x + _t2 * _u_y;
         let _t7 = _u_x - _t4 * _u_y;
         let _t8 = _u_y + _t4 * _u_x;
-        let _t9 = (_u_x * self.system._k9 + _u_L * S::ratio(6.0, 1.0) * (_u_L + _t3)
+        let _t9 = (_u_x * self.system._k8 + _u_L * S::ratio(6.0, 1.0) * (_u_L + _t3)
             + S::ratio(6.0, 1.0) * _t0) * self._h0 + self._h2;
         let _t10 = S::ratio(2.0, 1.0) * _t5 + _t6;
-        let _t11 = _u_L * self.system._k9 * self._h0;
+        let _t11 = _u_L * self.system._k8 * self._h0;
         residual[0] = _u_L - _L + _t1 * _u_y - _t2 * _u_x + _t4 * (_t5 + _t6);
         residual[1] = _t7 - x;
         residual[2] = _t8 - y;
@@ -1192,7 +1192,7 @@ for PendulumCayleyGenerating4<'_, S> {
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = _u_L * _u_L;
         let _t1 = (_u_L * self._h2
-            + (_u_L * S::ratio(6.0, 1.0) * _t0 - _u_L * _u_x * self.system._k8
+            + (_u_L * S::ratio(6.0, 1.0) * _t0 - _u_L * _u_x * self.system._k9
                 + _u_L * S::ratio(2.0, 1.0) * _t0) * self._h0) * S::ratio(2.0, 1.0);
         mu[0] = _L
             - S::ratio(2.0, 1.0)

@@ -116,8 +116,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let [[q, p, z]] = mu.data.0;
         let _t0 = p * p;
-        (_t0 + q * q) * S::ratio(1.0, 2.0) + _t0 * _t0 * S::ratio(1.0, 4.0)
-            + q * z * S::ratio(1.0, 3.0)
+        _t0 * (_t0 + S::ratio(2.0, 1.0)) * S::ratio(1.0, 4.0)
+            + q * (q * S::ratio(3.0, 1.0) + z * S::ratio(2.0, 1.0)) * S::ratio(1.0, 6.0)
     }
 
     /// `out_i = dH/dmu_i`
@@ -137,7 +137,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     #[inline]
     fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[_, p, _]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = S::one();
         out[(0, 2)] = S::ratio(1.0, 3.0);
         out[(1, 1)] = S::one() + p * p * S::ratio(3.0, 1.0);
@@ -150,7 +150,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     #[inline]
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[_, _, z]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -z;
         out[(1, 0)] = z;
     }
@@ -159,35 +159,36 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     ///
     /// ```text
     /// q' = -z*(p + p^3)
-    /// p' = z*(3*q + z)/3
+    /// p' = z*(q + z/3)
     /// ```
     ///
-    /// 3 additions, 6 multiplications.
+    /// 3 additions, 5 multiplications.
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[q, p, z]] = mu.data.0;
-        out.fill(S::zero());
-        out[0] = -(z * (p + p * p * p));
-        out[1] = z * (z + q * S::ratio(3.0, 1.0)) * S::ratio(1.0, 3.0);
+        out.as_mut_slice().fill(S::zero());
+        out[0] = -(z * (p + p * (p * p)));
+        out[1] = z * (q + z * S::ratio(1.0, 3.0));
     }
 
     /// `out_ij = df_i/dmu_j`
     ///
-    /// 5 additions, 5 multiplications.
+    /// 6 additions, 5 multiplications.
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[q, p, z]] = mu.data.0;
         let _t0 = p * p;
-        out.fill(S::zero());
+        let _t1 = z * S::ratio(1.0, 3.0);
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -(z * (S::one() + S::ratio(3.0, 1.0) * _t0));
-        out[(0, 2)] = -p - p * _t0;
+        out[(0, 2)] = -(p + p * _t0);
         out[(1, 0)] = z;
-        out[(1, 2)] = q + z * S::ratio(2.0, 3.0);
+        out[(1, 2)] = _t1 + (q + _t1);
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
     ///
-    /// 7 additions, 9 multiplications.
+    /// 7 additions, 7 multiplications.
     #[inline]
     fn linearize(
         &self,
@@ -198,14 +199,16 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
         let [[q, p, z]] = mu.data.0;
         let _t0 = p * p;
         let _t1 = p + p * _t0;
-        field.fill(S::zero());
+        let _t2 = z * S::ratio(1.0, 3.0);
+        let _t3 = q + _t2;
+        field.as_mut_slice().fill(S::zero());
         field[0] = -(z * _t1);
-        field[1] = z * (z + q * S::ratio(3.0, 1.0)) * S::ratio(1.0, 3.0);
-        jacobian.fill(S::zero());
+        field[1] = z * _t3;
+        jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 1)] = -(z * (S::one() + S::ratio(3.0, 1.0) * _t0));
         jacobian[(0, 2)] = -_t1;
         jacobian[(1, 0)] = z;
-        jacobian[(1, 2)] = q + z * S::ratio(2.0, 3.0);
+        jacobian[(1, 2)] = _t2 + _t3;
     }
 
     /// `out_i = C_i(mu)`
@@ -222,7 +225,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
     fn casimir_gradient(&self, _index: usize, _mu: &Self::State, out: &mut Self::State) {
         match _index {
             0 => {
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[2] = S::one();
             }
 
@@ -240,7 +243,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
     fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State) {
         let [[_xi_Q, _xi_P, _]] = xi.data.0;
         let [[_eta_Q, _eta_P, _]] = eta.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[2] = _xi_Q * _eta_P - _xi_P * _eta_Q;
     }
 
@@ -251,7 +254,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
     fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
         let [[_xi_Q, _xi_P, _]] = xi.data.0;
         let [[_, _, z]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = -(z * _xi_P);
         out[1] = z * _xi_Q;
     }
@@ -262,7 +265,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
     #[inline]
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_Q, _xi_P, _]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 2)] = -_xi_P;
         out[(1, 2)] = _xi_Q;
     }
@@ -270,6 +273,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeisenbergSystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// No operation.
@@ -281,7 +285,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeisenbergSys
         _mu: &Self::State,
         out: &mut Self::State,
     ) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
     }
 }
 
@@ -323,6 +327,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeisenbergSys
         ],
         skew: false,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -333,9 +338,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeisenbergSys
 pub struct HeisenbergGenerating4<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeisenbergSystem<S>,
     h: S,
-    /// `h/3`
-    _h0: S,
     /// `h^3/24`
+    _h0: S,
+    /// `h/3`
     _h1: S,
 }
 
@@ -346,8 +351,8 @@ impl<'a, S: ::lie_runtime::Scalar> HeisenbergGenerating4<'a, S> {
         Self {
             system,
             h,
-            _h0: h * S::ratio(1.0, 3.0),
-            _h1: h * h * h * S::ratio(1.0, 24.0),
+            _h0: h * h * h * S::ratio(1.0, 24.0),
+            _h1: h * S::ratio(1.0, 3.0),
         }
     }
 }
@@ -359,31 +364,28 @@ for HeisenbergGenerating4<'_, S> {
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     /// `xi = grad S(p)`
     ///
-    /// 11 additions, 25 multiplications.
+    /// 11 additions, 23 multiplications.
     #[inline]
     fn gradient(&mut self, _p: &Self::State, xi: &mut Self::State) {
         let [[q, p, z]] = _p.data.0;
-        let _t0 = q * S::ratio(3.0, 1.0);
-        let _t1 = z + _t0;
+        let _t0 = z * S::ratio(1.0, 3.0);
+        let _t1 = q + _t0;
         let _t2 = p * p;
         let _t3 = S::one() + S::ratio(3.0, 1.0) * _t2;
-        let _t4 = z * _t1 * S::ratio(1.0, 3.0);
+        let _t4 = z * _t1;
         let _t5 = _t3 * _t4;
         let _t6 = _t5 + _t5;
         let _t7 = p + p * _t2;
-        let _t8 = z * S::ratio(2.0, 1.0);
-        let _t9 = -(z * _t7);
-        xi[0] = _t1 * self._h0 + z * _t6 * self._h1;
+        let _t8 = -(z * _t7) * S::ratio(2.0, 1.0);
+        xi[0] = _t1 * self.h + z * _t6 * self._h0;
         xi[1] = _t7 * self.h
-            + (p * _t4 * _t4 * S::ratio(6.0, 1.0) - _t3 * _t8 * _t9) * self._h1;
-        xi[2] = q * self._h0
-            + (S::ratio(1.0, 3.0) * (_t0 + _t8) * _t6 - _t7 * S::ratio(2.0, 1.0) * _t9)
-                * self._h1;
+            + (p * _t4 * _t4 * S::ratio(6.0, 1.0) - z * _t3 * _t8) * self._h0;
+        xi[2] = q * self._h1 + (_t1 * _t6 + _t0 * _t6 - _t7 * _t8) * self._h0;
     }
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 27 additions, 52 multiplications.
+    /// 27 additions, 50 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -392,11 +394,11 @@ for HeisenbergGenerating4<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[q, p, z]] = _p.data.0;
-        let _t0 = q * S::ratio(3.0, 1.0);
-        let _t1 = z + _t0;
+        let _t0 = z * S::ratio(1.0, 3.0);
+        let _t1 = q + _t0;
         let _t2 = p * p;
         let _t3 = S::one() + S::ratio(3.0, 1.0) * _t2;
-        let _t4 = z * _t1 * S::ratio(1.0, 3.0);
+        let _t4 = z * _t1;
         let _t5 = _t3 * _t4;
         let _t6 = _t5 + _t5;
         let _t7 = p + p * _t2;
@@ -405,32 +407,32 @@ for HeisenbergGenerating4<'_, S> {
         let _t10 = -(z * _t7);
         let _t11 = z * _t3;
         let _t12 = _t11 * S::ratio(2.0, 1.0);
-        let _t13 = S::ratio(1.0, 3.0) * (_t0 + z * S::ratio(2.0, 1.0));
+        let _t13 = S::ratio(1.0, 3.0) * (z + _t1 * S::ratio(3.0, 1.0));
         let _t14 = _t7 * S::ratio(2.0, 1.0);
         let _t15 = S::ratio(6.0, 1.0) * _t8;
-        let _t16 = self._h1 * (z * (_t15 + _t15));
-        let _t17 = q + z * S::ratio(2.0, 3.0);
+        let _t16 = self._h0 * (z * (_t15 + _t15));
+        let _t17 = _t0 + _t1;
         let _t18 = _t3 * _t17;
         let _t19 = _t18 + _t18;
-        let _t20 = self._h0 + self._h1 * (_t6 + z * _t19);
+        let _t20 = self._h1 + self._h0 * (_t6 + z * _t19);
         let _t21 = -_t7;
-        let _t22 = self._h1
-            * (_t17 * (S::ratio(12.0, 1.0) * _t8) - _t3 * S::ratio(2.0, 1.0) * _t10
+        let _t22 = self._h0
+            * (_t17 * (S::ratio(12.0, 1.0) * _t8) - _t3 * _t10 * S::ratio(2.0, 1.0)
                 - _t21 * _t12);
-        xi[0] = _t1 * self._h0 + z * _t6 * self._h1;
-        xi[1] = _t7 * self.h + (_t8 * _t9 - _t10 * _t12) * self._h1;
-        xi[2] = q * self._h0 + (_t6 * _t13 - _t10 * _t14) * self._h1;
-        hessian[(0, 0)] = self.h + self._h1 * (z * (_t11 + _t11));
+        xi[0] = _t1 * self.h + z * _t6 * self._h0;
+        xi[1] = _t7 * self.h + (_t8 * _t9 - _t10 * _t12) * self._h0;
+        xi[2] = q * self._h1 + (_t6 * _t13 - _t10 * _t14) * self._h0;
+        hessian[(0, 0)] = self.h + self._h0 * (z * (_t11 + _t11));
         hessian[(0, 1)] = _t16;
         hessian[(0, 2)] = _t20;
         hessian[(1, 0)] = _t16;
         hessian[(1, 1)] = _t3 * self.h
-            + self._h1 * (_t4 * _t9 - p * z * _t10 * S::ratio(12.0, 1.0) - -_t11 * _t12);
+            + self._h0 * (_t4 * _t9 - p * z * _t10 * S::ratio(12.0, 1.0) - -_t11 * _t12);
         hessian[(1, 2)] = _t22;
         hessian[(2, 0)] = _t20;
         hessian[(2, 1)] = _t22;
-        hessian[(2, 2)] = self._h1
-            * (S::ratio(2.0, 3.0) * _t6 - _t21 * _t14 + _t19 * _t13);
+        hessian[(2, 2)] = self._h0
+            * (_t6 * S::ratio(2.0, 3.0) - _t21 * _t14 + _t19 * _t13);
     }
 }
 
@@ -572,11 +574,11 @@ impl<
 pub struct HeisenbergGenerating6<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeisenbergSystem<S>,
     h: S,
-    /// `h/3`
-    _h0: S,
     /// `h^3/24`
-    _h1: S,
+    _h0: S,
     /// `h^5/5760`
+    _h1: S,
+    /// `h/3`
     _h2: S,
     /// `h^5/17280`
     _h3: S,
@@ -612,9 +614,9 @@ impl<'a, S: ::lie_runtime::Scalar> HeisenbergGenerating6<'a, S> {
         Self {
             system,
             h,
-            _h0: h * S::ratio(1.0, 3.0),
-            _h1: S::ratio(1.0, 24.0) * _t1,
-            _h2: S::ratio(1.0, 5760.0) * _t2,
+            _h0: S::ratio(1.0, 24.0) * _t1,
+            _h1: S::ratio(1.0, 5760.0) * _t2,
+            _h2: h * S::ratio(1.0, 3.0),
             _h3: S::ratio(1.0, 17280.0) * _t2,
             _h4: S::ratio(1.0, 240.0) * _t2,
             _h5: S::ratio(1.0, 960.0) * _t2,
@@ -637,47 +639,46 @@ for HeisenbergGenerating6<'_, S> {
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     /// `xi = grad S(p)`
     ///
-    /// 25 additions, 59 multiplications.
+    /// 25 additions, 58 multiplications.
     #[inline]
     fn gradient(&mut self, _p: &Self::State, xi: &mut Self::State) {
         let [[q, p, z]] = _p.data.0;
-        let _t0 = q * S::ratio(3.0, 1.0);
-        let _t1 = z + _t0;
-        let _t2 = p * p;
-        let _t3 = S::one() + _t2 * S::ratio(3.0, 1.0);
-        let _t4 = z * S::ratio(1.0, 3.0) * _t1;
-        let _t5 = _t3 * _t4;
-        let _t6 = _t5 + _t5;
-        let _t7 = z * _t6;
-        let _t8 = z * _t5 * S::ratio(-3.0, 1.0);
-        let _t9 = z * S::ratio(-4.0, 1.0);
-        let _t10 = _t8 * _t9;
-        let _t11 = _t10 + (_t10 + z * _t7 * S::ratio(12.0, 1.0));
-        let _t12 = p * (S::one() + _t2);
-        let _t13 = -(z * _t12);
-        let _t14 = z * S::ratio(3.0, 1.0) * _t13;
-        let _t15 = S::ratio(2.0, 1.0) * _t14;
-        let _t16 = S::ratio(3.0, 1.0) * _t4 * _t4 - p * _t15;
-        let _t17 = _t3 * _t11 + _t4 * _t16 * S::ratio(24.0, 1.0);
-        let _t18 = S::ratio(6.0, 1.0) * (p * _t4);
-        let _t19 = z * _t3;
-        let _t20 = S::ratio(2.0, 1.0) * _t13;
-        let _t21 = _t4 * _t18 - _t19 * _t20;
-        let _t22 = S::ratio(3.0, 1.0) * _t21 - _t3 * _t15;
-        let _t23 = _t22 * _t9;
-        let _t24 = _t0 + z * S::ratio(2.0, 1.0);
-        xi[0] = _t1 * self._h0 + _t7 * self._h1 + z * _t17 * self._h2;
-        xi[1] = _t12 * self.h + _t21 * self._h1
-            - self._h2 * (_t23 * _t19 + _t14 * _t16 * S::ratio(8.0, 1.0) - _t11 * _t18);
-        xi[2] = q * self._h0 + (S::ratio(1.0, 3.0) * _t24 * _t6 - _t12 * _t20) * self._h1
-            + (_t24 * _t17 + _t5 * _t7 * S::ratio(36.0, 1.0)
-                - S::ratio(12.0, 1.0) * (_t6 * _t8 + _t13 * _t22)
-                - S::ratio(3.0, 1.0) * _t12 * _t23) * self._h3;
+        let _t0 = q + z * S::ratio(1.0, 3.0);
+        let _t1 = p * p;
+        let _t2 = S::one() + S::ratio(3.0, 1.0) * _t1;
+        let _t3 = z * _t0;
+        let _t4 = _t2 * _t3;
+        let _t5 = _t4 + _t4;
+        let _t6 = z * _t5;
+        let _t7 = z * _t4 * S::ratio(-3.0, 1.0);
+        let _t8 = z * S::ratio(-4.0, 1.0);
+        let _t9 = _t7 * _t8;
+        let _t10 = _t9 + (_t9 + z * _t6 * S::ratio(12.0, 1.0));
+        let _t11 = p + p * _t1;
+        let _t12 = -(z * _t11);
+        let _t13 = z * S::ratio(3.0, 1.0) * _t12;
+        let _t14 = S::ratio(2.0, 1.0) * _t13;
+        let _t15 = S::ratio(3.0, 1.0) * _t3 * _t3 - p * _t14;
+        let _t16 = _t2 * _t10 + _t3 * _t15 * S::ratio(24.0, 1.0);
+        let _t17 = S::ratio(6.0, 1.0) * (p * _t3);
+        let _t18 = z * _t2;
+        let _t19 = _t12 * S::ratio(2.0, 1.0);
+        let _t20 = _t3 * _t17 - _t18 * _t19;
+        let _t21 = S::ratio(3.0, 1.0) * _t20 - _t2 * _t14;
+        let _t22 = _t21 * _t8;
+        let _t23 = z + _t0 * S::ratio(3.0, 1.0);
+        xi[0] = _t0 * self.h + _t6 * self._h0 + z * _t16 * self._h1;
+        xi[1] = _t11 * self.h + _t20 * self._h0
+            - self._h1 * (_t22 * _t18 + _t13 * _t15 * S::ratio(8.0, 1.0) - _t10 * _t17);
+        xi[2] = q * self._h2 + (S::ratio(1.0, 3.0) * _t5 * _t23 - _t11 * _t19) * self._h0
+            + (_t23 * _t16 + _t4 * _t6 * S::ratio(36.0, 1.0)
+                - S::ratio(12.0, 1.0) * (_t5 * _t7 + _t12 * _t21)
+                - _t11 * S::ratio(3.0, 1.0) * _t22) * self._h3;
     }
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 92 additions, 176 multiplications.
+    /// 92 additions, 175 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -686,11 +687,11 @@ for HeisenbergGenerating6<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[q, p, z]] = _p.data.0;
-        let _t0 = q * S::ratio(3.0, 1.0);
-        let _t1 = z + _t0;
+        let _t0 = z * S::ratio(1.0, 3.0);
+        let _t1 = q + _t0;
         let _t2 = p * p;
-        let _t3 = S::one() + _t2 * S::ratio(3.0, 1.0);
-        let _t4 = z * S::ratio(1.0, 3.0) * _t1;
+        let _t3 = S::one() + S::ratio(3.0, 1.0) * _t2;
+        let _t4 = z * _t1;
         let _t5 = _t3 * _t4;
         let _t6 = _t5 + _t5;
         let _t7 = z * _t6;
@@ -700,7 +701,7 @@ for HeisenbergGenerating6<'_, S> {
         let _t11 = _t9 * _t10;
         let _t12 = z * S::ratio(12.0, 1.0);
         let _t13 = _t11 + (_t11 + _t7 * _t12);
-        let _t14 = p * (S::one() + _t2);
+        let _t14 = p + p * _t2;
         let _t15 = -(z * _t14);
         let _t16 = z * S::ratio(3.0, 1.0);
         let _t17 = _t15 * _t16;
@@ -709,7 +710,7 @@ for HeisenbergGenerating6<'_, S> {
         let _t20 = _t4 * _t4;
         let _t21 = _t3 * _t13
             - _t4 * (_t19 - S::ratio(3.0, 1.0) * _t20) * S::ratio(24.0, 1.0);
-        let _t22 = z * self._h2;
+        let _t22 = z * self._h1;
         let _t23 = p * _t4;
         let _t24 = S::ratio(6.0, 1.0) * _t23;
         let _t25 = _t3 * S::ratio(2.0, 1.0);
@@ -717,12 +718,12 @@ for HeisenbergGenerating6<'_, S> {
         let _t27 = z * _t3;
         let _t28 = S::ratio(3.0, 1.0) * _t26 - _t17 * _t25;
         let _t29 = _t28 * _t10;
-        let _t30 = z * S::ratio(2.0, 1.0);
-        let _t31 = p * _t15;
+        let _t30 = p * _t15;
+        let _t31 = z * S::ratio(2.0, 1.0);
         let _t32 = _t20 - _t30 * _t31;
-        let _t33 = _t0 + _t30;
+        let _t33 = z + _t1 * S::ratio(3.0, 1.0);
         let _t34 = S::ratio(1.0, 3.0) * _t33;
-        let _t35 = S::ratio(2.0, 1.0) * _t14;
+        let _t35 = _t14 * S::ratio(2.0, 1.0);
         let _t36 = z * (_t27 + _t27);
         let _t37 = _t27 * _t8 * _t10;
         let _t38 = (_t20 * S::ratio(9.0, 1.0) - _t19) * S::ratio(24.0, 1.0);
@@ -732,11 +733,11 @@ for HeisenbergGenerating6<'_, S> {
         let _t42 = _t17 * S::ratio(48.0, 1.0);
         let _t43 = -_t27;
         let _t44 = _t43 * _t16;
-        let _t45 = self._h1 * _t39
+        let _t45 = self._h0 * _t39
             + (_t3 * _t41 - _t4 * _t42
                 + p * S::ratio(6.0, 1.0) * (_t13 - _t4 * _t44 * S::ratio(8.0, 1.0)))
                 * _t22;
-        let _t46 = q + z * S::ratio(2.0, 3.0);
+        let _t46 = _t0 + _t1;
         let _t47 = _t3 * _t46;
         let _t48 = (_t5 + z * _t47) * S::ratio(-3.0, 1.0);
         let _t49 = (_t9 + z * _t48) * S::ratio(-4.0, 1.0);
@@ -747,9 +748,9 @@ for HeisenbergGenerating6<'_, S> {
         let _t54 = _t15 + z * _t53;
         let _t55 = S::ratio(3.0, 1.0) * _t54;
         let _t56 = _t3 * _t52 + _t46 * _t38 - S::ratio(48.0, 1.0) * _t55 * _t23;
-        let _t57 = self._h0 + self._h2 * (_t21 + z * _t56) + self._h1 * _t51;
+        let _t57 = self._h1 * (_t21 + z * _t56) + self._h0 * _t51 + self._h2;
         let _t58 = S::ratio(6.0, 1.0) * _t20
-            - _t30 * (_t3 * _t43 + S::ratio(6.0, 1.0) * _t31);
+            - (_t3 * _t43 + S::ratio(6.0, 1.0) * _t30) * _t31;
         let _t59 = _t32 * self._h4;
         let _t60 = _t17 * S::ratio(8.0, 1.0);
         let _t61 = _t4 * self._h6;
@@ -759,25 +760,25 @@ for HeisenbergGenerating6<'_, S> {
         let _t65 = _t46 * (S::ratio(12.0, 1.0) * _t23) - _t54 * _t25;
         let _t66 = _t3 * _t60 - _t26 * S::ratio(12.0, 1.0)
             - (S::ratio(3.0, 1.0) * _t65 - _t55 * _t25) * _t64;
-        let _t67 = self._h1 * _t65 - self._h2 * (_t3 * _t29 - _t31 * _t42 + _t27 * _t66)
+        let _t67 = self._h0 * _t65 - self._h1 * (_t3 * _t29 - _t30 * _t42 + _t27 * _t66)
             - _t55 * _t59 + _t46 * self._h5 * (p * _t13 - _t4 * _t60)
             + (_t52 * _t61 + _t53 * _t62) * _t63;
         let _t68 = _t21 * self._h9 - (_t28 * _t53 + _t9 * _t50 + _t6 * _t48) * self._h10
             + (_t7 * _t47 + _t5 * _t51) * self._h11
-            + self._h1 * (S::ratio(2.0, 3.0) * _t6 + _t50 * _t34 - _t53 * _t35);
-        xi[0] = _t1 * self._h0 + _t7 * self._h1 + _t21 * _t22;
-        xi[1] = _t14 * self.h + _t26 * self._h1
-            - self._h2 * (_t27 * _t29 + _t17 * _t32 * S::ratio(24.0, 1.0) - _t13 * _t24);
-        xi[2] = q * self._h0 + (_t6 * _t34 - _t15 * _t35) * self._h1
+            + self._h0 * (_t6 * S::ratio(2.0, 3.0) - _t53 * _t35 + _t50 * _t34);
+        xi[0] = _t1 * self.h + _t7 * self._h0 + _t21 * _t22;
+        xi[1] = _t14 * self.h + _t26 * self._h0
+            - self._h1 * (_t27 * _t29 + _t17 * _t32 * S::ratio(24.0, 1.0) - _t13 * _t24);
+        xi[2] = q * self._h2 + (_t6 * _t34 - _t15 * _t35) * self._h0
             + (_t33 * _t21 + _t5 * _t7 * S::ratio(36.0, 1.0)
                 - S::ratio(12.0, 1.0) * (_t6 * _t9 + _t15 * _t28)
-                - S::ratio(3.0, 1.0) * _t14 * _t29) * self._h3;
-        hessian[(0, 0)] = self.h + _t36 * self._h1
+                - _t14 * S::ratio(3.0, 1.0) * _t29) * self._h3;
+        hessian[(0, 0)] = self.h + _t36 * self._h0
             + (_t3 * (_t37 + (_t37 + _t36 * _t12)) + z * _t38) * _t22;
         hessian[(0, 1)] = _t45;
         hessian[(0, 2)] = _t57;
         hessian[(1, 0)] = _t45;
-        hessian[(1, 1)] = self._h1 * _t58 - _t44 * _t59
+        hessian[(1, 1)] = self._h0 * _t58 - _t44 * _t59
             + (_t4 * _t13 - z * (p * _t29 - _t15 * _t60)) * self._h5
             + (_t41 * _t61 + _t43 * _t62) * _t63
             - _t3
@@ -787,7 +788,7 @@ for HeisenbergGenerating6<'_, S> {
         hessian[(1, 2)] = _t67;
         hessian[(2, 0)] = _t57;
         hessian[(2, 1)] = _t67;
-        hessian[(2, 2)] = _t68 + _t33 * _t56 * self._h3 - _t14 * self._h2 * _t66
+        hessian[(2, 2)] = _t68 + _t33 * _t56 * self._h3 - _t14 * self._h1 * _t66
             - _t15 * (_t65 * self._h12 - _t3 * _t55 * self._h13) * S::ratio(1.0, 1440.0);
     }
 }
@@ -932,11 +933,11 @@ pub struct HeisenbergSecondKind2Equation<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeisenbergSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `h/3`
-    _h0: S,
     /// `h^2/2`
-    _h1: S,
+    _h0: S,
     /// `-h`
+    _h1: S,
+    /// `h/3`
     _h2: S,
 }
 
@@ -948,9 +949,9 @@ impl<'a, S: ::lie_runtime::Scalar> HeisenbergSecondKind2Equation<'a, S> {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * S::ratio(1.0, 3.0),
-            _h1: h * h * S::ratio(1.0, 2.0),
-            _h2: -h,
+            _h0: h * h * S::ratio(1.0, 2.0),
+            _h1: -h,
+            _h2: h * S::ratio(1.0, 3.0),
         }
     }
 }
@@ -983,8 +984,8 @@ for HeisenbergSecondKind2Equation<'_, S> {
         unknown[0] = q;
         unknown[1] = p
             + z
-                * ((z + q * S::ratio(3.0, 1.0)) * self._h0
-                    + -(z * (p + p * (p * p))) * self._h1);
+                * ((q + z * S::ratio(1.0, 3.0)) * self.h
+                    + -(z * (p + p * (p * p))) * self._h0);
         unknown[2] = z;
     }
 
@@ -999,8 +1000,8 @@ for HeisenbergSecondKind2Equation<'_, S> {
         residual[1] = _u_p
             - (p
                 + z
-                    * (-((_u_p + _u_p * (_u_p * _u_p)) * _u_z) * self._h1
-                        + (_u_z + S::ratio(3.0, 1.0) * _u_q) * self._h0));
+                    * (self.h * (_u_q + _u_z * S::ratio(1.0, 3.0))
+                        + -((_u_p + _u_p * (_u_p * _u_p)) * _u_z) * self._h0));
         residual[2] = _u_z - z;
     }
 
@@ -1022,35 +1023,32 @@ for HeisenbergSecondKind2Equation<'_, S> {
         residual[1] = _u_p
             - (p
                 + z
-                    * (-(_t1 * _u_z) * self._h1
-                        + self._h0 * (_u_z + S::ratio(3.0, 1.0) * _u_q)));
+                    * (-(_t1 * _u_z) * self._h0
+                        - self._h1 * (_u_q + _u_z * S::ratio(1.0, 3.0))));
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
-        matrix[(1, 0)] = z * self._h2;
+        matrix[(1, 0)] = z * self._h1;
         matrix[(1, 1)] = S::one()
-            - z * (-((S::one() + S::ratio(3.0, 1.0) * _t0) * _u_z) * self._h1);
-        matrix[(1, 2)] = -(z * (self._h0 - _t1 * self._h1));
+            - z * (-((S::one() + S::ratio(3.0, 1.0) * _t0) * _u_z) * self._h0);
+        matrix[(1, 2)] = -(z * (self._h2 - _t1 * self._h0));
         matrix[(2, 2)] = S::one();
     }
 
     /// `mu1 = m_n`
     ///
-    /// 11 additions, 14 multiplications.
+    /// 10 additions, 13 multiplications.
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
         let _t0 = _u_p * _u_p;
         let _t1 = _u_p + _u_p * _t0;
+        let _t2 = _u_q + _u_z * S::ratio(1.0, 3.0);
         mu[0] = q
             + -(z
                 * (self.h * _t1
-                    + -((_u_q + _u_z * S::ratio(1.0, 3.0)) * _u_z) * self._h1
-                        * (S::one() + S::ratio(3.0, 1.0) * _t0)));
-        mu[1] = p
-            + z
-                * (-(_t1 * _u_z) * self._h1
-                    + (_u_z + S::ratio(3.0, 1.0) * _u_q) * self._h0);
+                    + -(_t2 * _u_z) * self._h0 * (S::one() + S::ratio(3.0, 1.0) * _t0)));
+        mu[1] = p + z * (self.h * _t2 + -(_t1 * _u_z) * self._h0);
         mu[2] = z;
     }
 
@@ -1152,15 +1150,15 @@ for HeisenbergCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`
     ///
-    /// 13 additions, 21 multiplications.
+    /// 13 additions, 20 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
         let _t0 = _u_p * _u_p;
         let _t1 = _u_p + _u_p * _t0;
-        let _t2 = _u_z + _u_q * S::ratio(3.0, 1.0);
-        let _t3 = _u_z * S::ratio(1.0, 3.0) * _t2;
+        let _t2 = _u_q + _u_z * S::ratio(1.0, 3.0);
+        let _t3 = _u_z * _t2;
         let _t4 = S::one() + S::ratio(3.0, 1.0) * _t0;
         let _t5 = _t3 * _t4;
         residual[0] = _u_q - q
@@ -1168,13 +1166,13 @@ for HeisenbergCayleyGenerating4<'_, S> {
                 + (_t3 * _t3 * _u_p * S::ratio(6.0, 1.0)
                     - _u_z * _t4 * (-(_u_z * _t1) * S::ratio(2.0, 1.0))) * self._h1)
                 * _u_z;
-        residual[1] = _u_p - p - (_t2 * self._h2 + (_t5 + _t5) * _u_z * self._h1) * _u_z;
+        residual[1] = _u_p - p - (_t2 * self._h0 + (_t5 + _t5) * _u_z * self._h1) * _u_z;
         residual[2] = _u_z - z;
     }
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 33 additions, 52 multiplications.
+    /// 33 additions, 50 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1186,33 +1184,35 @@ for HeisenbergCayleyGenerating4<'_, S> {
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
         let _t0 = _u_p * _u_p;
         let _t1 = _u_p + _u_p * _t0;
-        let _t2 = _u_z + _u_q * S::ratio(3.0, 1.0);
-        let _t3 = _u_z * S::ratio(1.0, 3.0) * _t2;
-        let _t4 = _t3 * _u_p;
-        let _t5 = _t3 * S::ratio(6.0, 1.0);
-        let _t6 = S::one() + S::ratio(3.0, 1.0) * _t0;
-        let _t7 = _u_z * _t6;
-        let _t8 = -(_u_z * _t1);
-        let _t9 = _t8 * S::ratio(2.0, 1.0);
-        let _t10 = _t1 * self._h0 + (_t4 * _t5 - _t7 * _t9) * self._h1;
-        let _t11 = _t3 * _t6;
+        let _t2 = _u_z * S::ratio(1.0, 3.0);
+        let _t3 = _u_q + _t2;
+        let _t4 = _u_z * _t3;
+        let _t5 = _t4 * _u_p;
+        let _t6 = _t4 * S::ratio(6.0, 1.0);
+        let _t7 = S::one() + S::ratio(3.0, 1.0) * _t0;
+        let _t8 = _u_z * _t7;
+        let _t9 = -(_u_z * _t1);
+        let _t10 = _t1 * self._h0
+            + (_t5 * _t6 - _t8 * (_t9 * S::ratio(2.0, 1.0))) * self._h1;
+        let _t11 = _t4 * _t7;
         let _t12 = _t11 + _t11;
-        let _t13 = _t2 * self._h2 + _t12 * _u_z * self._h1;
-        let _t14 = S::ratio(12.0, 1.0) * _t4;
-        let _t15 = _u_q + _u_z * S::ratio(2.0, 3.0);
-        let _t16 = S::ratio(6.0, 1.0) * _t4;
-        let _t17 = _t15 * _t6;
+        let _t13 = _t3 * self._h0 + _t12 * _u_z * self._h1;
+        let _t14 = S::ratio(12.0, 1.0) * _t5;
+        let _t15 = _t2 + _t3;
+        let _t16 = S::ratio(6.0, 1.0) * _t5;
+        let _t17 = _t15 * _t7;
         residual[0] = _u_q - q + _t10 * _u_z;
         residual[1] = _u_p - p - _t13 * _u_z;
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one() + _u_z * _t14 * self._h1 * _u_z;
-        matrix[(0, 1)] = (_t6 * self._h0
-            + (_t3 * _t5 - _t8 * _u_p * _u_z * S::ratio(12.0, 1.0)
-                - _t7 * (-_t7 * S::ratio(2.0, 1.0))) * self._h1) * _u_z;
+        matrix[(0, 1)] = (_t7 * self._h0
+            + (_t4 * _t6
+                - _u_z * S::ratio(2.0, 1.0)
+                    * (-_t8 * _t7 + _t9 * _u_p * S::ratio(6.0, 1.0))) * self._h1) * _u_z;
         matrix[(0, 2)] = _t10
-            + (_t15 * _t14 - _t6 * _t9 - _t7 * (-_t1 * S::ratio(2.0, 1.0))) * self._h1
+            + (_t15 * _t14 - _t7 * S::ratio(2.0, 1.0) * (_t9 + -_t1 * _u_z)) * self._h1
                 * _u_z;
-        matrix[(1, 0)] = -(((_t7 + _t7) * _u_z * self._h1 + self._h0) * _u_z);
+        matrix[(1, 0)] = -(((_t8 + _t8) * _u_z * self._h1 + self._h0) * _u_z);
         matrix[(1, 1)] = S::one() - (_t16 + _t16) * _u_z * self._h1 * _u_z;
         matrix[(1, 2)] = -_t13
             - (self._h2 + (_t12 + (_t17 + _t17) * _u_z) * self._h1) * _u_z;
@@ -1221,15 +1221,15 @@ for HeisenbergCayleyGenerating4<'_, S> {
 
     /// `mu1 = mu + 2 ad*_y p`
     ///
-    /// 10 additions, 21 multiplications.
+    /// 10 additions, 20 multiplications.
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
         let _t0 = _u_p * _u_p;
         let _t1 = _u_p + _u_p * _t0;
-        let _t2 = _u_z + _u_q * S::ratio(3.0, 1.0);
-        let _t3 = _u_z * S::ratio(1.0, 3.0) * _t2;
+        let _t2 = _u_q + _u_z * S::ratio(1.0, 3.0);
+        let _t3 = _u_z * _t2;
         let _t4 = S::one() + S::ratio(3.0, 1.0) * _t0;
         let _t5 = _u_z * S::ratio(2.0, 1.0);
         let _t6 = _t3 * _t4;
@@ -1237,7 +1237,7 @@ for HeisenbergCayleyGenerating4<'_, S> {
             - (_t1 * self._h0
                 + (_t3 * _t3 * _u_p * S::ratio(6.0, 1.0) - -(_u_z * _t1) * _t4 * _t5)
                     * self._h1) * _t5;
-        mu[1] = p + (_t2 * self._h2 + (_t6 + _t6) * _u_z * self._h1) * _t5;
+        mu[1] = p + (_t2 * self._h0 + (_t6 + _t6) * _u_z * self._h1) * _t5;
         mu[2] = z;
     }
 

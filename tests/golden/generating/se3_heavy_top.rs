@@ -12,13 +12,13 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case)]
 pub struct HeavyTop<S = f64> {
-    /// first principal moment of inertia [kg m^2].
+    /// first principal moment of inertia \[kg m^2].
     pub I1: S,
-    /// second principal moment of inertia [kg m^2].
+    /// second principal moment of inertia \[kg m^2].
     pub I2: S,
-    /// third principal moment of inertia [kg m^2].
+    /// third principal moment of inertia \[kg m^2].
     pub I3: S,
-    /// weight times distance of the centre of mass from the fixed point [N m].
+    /// weight times distance of the centre of mass from the fixed point \[N m].
     pub mgl: S,
     /// direction of the centre of mass, first body axis.
     pub c1: S,
@@ -70,20 +70,27 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _t7 = _t3 - _t5;
         let _t8 = _t3 - _t4;
         let _t9 = _t1 * _t5;
-        let _t10 = _t2 * _t4;
-        let _t11 = _t0 * _t5;
-        let _t12 = _t8 * S::ratio(2.0, 1.0);
-        let _t13 = _t0 * _t4;
-        let _t14 = _t7 * S::ratio(2.0, 1.0);
-        let _t15 = _t2 * _t3;
-        let _t16 = _t1 * _t3;
-        let _t17 = _t6 * S::ratio(2.0, 1.0);
-        let _t18 = _t0 * S::ratio(8.0, 1.0);
-        let _t19 = _t1 * _t9 + _t2 * _t10;
-        let _t20 = _t0 * S::ratio(24.0, 1.0);
-        let _t21 = _t0 * _t11 + _t2 * _t15;
-        let _t22 = _t1 * _t15;
-        let _t23 = _t0 * _t13 + _t1 * _t16;
+        let _t10 = _t8 * _t9;
+        let _t11 = _t2 * _t4;
+        let _t12 = _t7 * _t11;
+        let _t13 = _t0 * S::ratio(2.0, 1.0);
+        let _t14 = _t2 * _t3;
+        let _t15 = _t1 * _t3;
+        let _t16 = _t6 * S::ratio(2.0, 1.0);
+        let _t17 = _t4 * S::ratio(8.0, 1.0);
+        let _t18 = _t4 * S::ratio(4.0, 1.0);
+        let _t19 = _t3 * S::ratio(4.0, 1.0);
+        let _t20 = _t5 * S::ratio(8.0, 1.0);
+        let _t21 = _t5 * S::ratio(4.0, 1.0);
+        let _t22 = _t0 * S::ratio(8.0, 1.0);
+        let _t23 = _t1 * S::ratio(8.0, 1.0);
+        let _t24 = _t2 * S::ratio(8.0, 1.0);
+        let _t25 = _t1 * S::ratio(24.0, 1.0);
+        let _t26 = _t2 * S::ratio(24.0, 1.0);
+        let _t27 = _t0 * S::ratio(24.0, 1.0);
+        let _t28 = _t0 * _t0;
+        let _t29 = _t0 * S::ratio(3.0, 1.0);
+        let _t30 = S::ratio(24.0, 1.0) * _t28;
         let _c0 = _t0;
         let _c1 = _t1;
         let _c2 = _t2;
@@ -93,62 +100,62 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _c6 = _t3;
         let _c7 = _t4;
         let _c8 = _t5;
-        let _c9 = _t6;
+        let _c9 = -_t6;
         let _c10 = _t7;
-        let _c11 = _t8;
-        let _c12 = -_t6;
-        let _c13 = -_t8;
-        let _c14 = -_t4;
-        let _c15 = -_t5;
-        let _c16 = -_t3;
-        let _c17 = -_t1;
-        let _c18 = -_t2;
-        let _c19 = -_t0;
-        let _c20 = _t8 * S::ratio(-2.0, 1.0) * _t9;
-        let _c21 = _t7 * S::ratio(-2.0, 1.0) * _t10;
-        let _c22 = _t11 * _t12;
-        let _c23 = _t13 * _t14;
-        let _c24 = _t6 * S::ratio(-2.0, 1.0) * _t15;
-        let _c25 = _t16 * _t17;
-        let _c26 = _t4 * S::ratio(8.0, 1.0);
+        let _c11 = -_t8;
+        let _c12 = -_t4;
+        let _c13 = -_t5;
+        let _c14 = -_t3;
+        let _c15 = -_t1;
+        let _c16 = -_t2;
+        let _c17 = -_t0;
+        let _c18 = _t8;
+        let _c19 = _t6;
+        let _c20 = S::ratio(-2.0, 1.0) * _t10;
+        let _c21 = S::ratio(-2.0, 1.0) * _t12;
+        let _c22 = _t5 * _t8 * _t13;
+        let _c23 = _t4 * _t7 * _t13;
+        let _c24 = _t6 * S::ratio(-2.0, 1.0) * _t14;
+        let _c25 = _t15 * _t16;
+        let _c26 = _t17;
         let _c27 = _t3 * S::ratio(8.0, 1.0);
         let _c28 = _t0 * S::ratio(4.0, 1.0);
         let _c29 = _t1 * S::ratio(4.0, 1.0);
-        let _c30 = _t8 * S::ratio(4.0, 1.0);
-        let _c31 = _t5 * S::ratio(8.0, 1.0);
+        let _c30 = _t19 - _t18;
+        let _c31 = _t20;
         let _c32 = _t2 * S::ratio(4.0, 1.0);
-        let _c33 = _t7 * S::ratio(4.0, 1.0);
-        let _c34 = _t6 * S::ratio(4.0, 1.0);
-        let _c35 = _t3 * S::ratio(4.0, 1.0);
-        let _c36 = _t4 * S::ratio(4.0, 1.0);
-        let _c37 = _t5 * S::ratio(4.0, 1.0);
+        let _c33 = _t19 - _t21;
+        let _c34 = _t18 - _t21;
+        let _c35 = _t19;
+        let _c36 = _t18;
+        let _c37 = _t21;
         let _c38 = S::ratio(3.0, 1.0) * _t9;
-        let _c39 = S::ratio(3.0, 1.0) * _t10;
-        let _c40 = _t9 * _t18;
-        let _c41 = _t10 * _t18;
+        let _c39 = S::ratio(3.0, 1.0) * _t11;
+        let _c40 = _t9 * _t22;
+        let _c41 = _t11 * _t22;
         let _c42 = _t1 * S::ratio(2.0, 1.0);
-        let _c43 = S::ratio(8.0, 1.0) * _t19;
-        let _c44 = _t19 * S::ratio(24.0, 1.0);
-        let _c45 = _t9 * _t20;
-        let _c46 = _t10 * _t20;
+        let _c43 = _t9 * _t23 + _t11 * _t24;
+        let _c44 = _t9 * _t25 + _t11 * _t26;
+        let _c45 = _t9 * _t27;
+        let _c46 = _t11 * _t27;
         let _c47 = _t2 * S::ratio(2.0, 1.0);
-        let _c48 = S::ratio(8.0, 1.0) * _t21;
-        let _c49 = S::ratio(8.0, 1.0) * _t22;
-        let _c50 = S::ratio(3.0, 1.0) * _t15;
-        let _c51 = S::ratio(3.0, 1.0) * _t11;
-        let _c52 = S::ratio(24.0, 1.0) * _t21;
-        let _c53 = S::ratio(24.0, 1.0) * _t22;
-        let _c54 = _t0 * S::ratio(2.0, 1.0);
-        let _c55 = S::ratio(8.0, 1.0) * _t23;
-        let _c56 = S::ratio(3.0, 1.0) * _t16;
-        let _c57 = S::ratio(3.0, 1.0) * _t13;
-        let _c58 = S::ratio(24.0, 1.0) * _t23;
+        let _c48 = _t20 * _t28 + _t14 * _t24;
+        let _c49 = _t14 * _t23;
+        let _c50 = S::ratio(3.0, 1.0) * _t14;
+        let _c51 = _t5 * _t29;
+        let _c52 = _t5 * _t30 + _t14 * _t26;
+        let _c53 = _t14 * _t25;
+        let _c54 = _t13;
+        let _c55 = _t17 * _t28 + _t15 * _t23;
+        let _c56 = S::ratio(3.0, 1.0) * _t15;
+        let _c57 = _t4 * _t29;
+        let _c58 = _t4 * _t30 + _t15 * _t25;
         let _c59 = _t3 * S::ratio(2.0, 1.0);
         let _c60 = _t4 * S::ratio(2.0, 1.0);
         let _c61 = _t5 * S::ratio(2.0, 1.0);
-        let _c62 = _t9 * _t12;
-        let _c63 = _t10 * _t14;
-        let _c64 = _t15 * _t17;
+        let _c62 = S::ratio(2.0, 1.0) * _t10;
+        let _c63 = S::ratio(2.0, 1.0) * _t12;
+        let _c64 = _t14 * _t16;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "mgl", "mgl*c1"),
@@ -160,17 +167,17 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
                 (_c6, "I1", "1/I1"),
                 (_c7, "I2", "1/I2"),
                 (_c8, "I3", "1/I3"),
-                (_c9, "I2", "1/I2 - 1/I3"),
+                (_c9, "I2", "-1/I2 + 1/I3"),
                 (_c10, "I1", "1/I1 - 1/I3"),
-                (_c11, "I1", "1/I1 - 1/I2"),
-                (_c12, "I2", "-1/I2 + 1/I3"),
-                (_c13, "I1", "-1/I1 + 1/I2"),
-                (_c14, "I2", "-1/I2"),
-                (_c15, "I3", "-1/I3"),
-                (_c16, "I1", "-1/I1"),
-                (_c17, "mgl", "-mgl*c2"),
-                (_c18, "mgl", "-mgl*c3"),
-                (_c19, "mgl", "-mgl*c1"),
+                (_c11, "I1", "-1/I1 + 1/I2"),
+                (_c12, "I2", "-1/I2"),
+                (_c13, "I3", "-1/I3"),
+                (_c14, "I1", "-1/I1"),
+                (_c15, "mgl", "-mgl*c2"),
+                (_c16, "mgl", "-mgl*c3"),
+                (_c17, "mgl", "-mgl*c1"),
+                (_c18, "I1", "1/I1 - 1/I2"),
+                (_c19, "I2", "1/I2 - 1/I3"),
                 (_c20, "I1", "-2*mgl*c2*(1/I1 - 1/I2)/I3"),
                 (_c21, "I1", "-2*mgl*c3*(1/I1 - 1/I3)/I2"),
                 (_c22, "I1", "2*mgl*c1*(1/I1 - 1/I2)/I3"),
@@ -325,27 +332,27 @@ pub struct HeavyTopSystem<S = f64> {
     _k7: S,
     /// `1/I3`
     _k8: S,
-    /// `1/I2 - 1/I3`
+    /// `-1/I2 + 1/I3`
     _k9: S,
     /// `1/I1 - 1/I3`
     _k10: S,
-    /// `1/I1 - 1/I2`
-    _k11: S,
-    /// `-1/I2 + 1/I3`
-    _k12: S,
     /// `-1/I1 + 1/I2`
-    _k13: S,
+    _k11: S,
     /// `-1/I2`
-    _k14: S,
+    _k12: S,
     /// `-1/I3`
-    _k15: S,
+    _k13: S,
     /// `-1/I1`
-    _k16: S,
+    _k14: S,
     /// `-mgl*c2`
-    _k17: S,
+    _k15: S,
     /// `-mgl*c3`
-    _k18: S,
+    _k16: S,
     /// `-mgl*c1`
+    _k17: S,
+    /// `1/I1 - 1/I2`
+    _k18: S,
+    /// `1/I2 - 1/I3`
     _k19: S,
     /// `-2*mgl*c2*(1/I1 - 1/I2)/I3`
     _k20: S,
@@ -521,7 +528,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self._k6;
         out[(1, 1)] = self._k7;
         out[(2, 2)] = self._k8;
@@ -536,7 +543,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         let _t0 = -g3;
         let _t1 = -g1;
         let _t2 = -g2;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -m3;
         out[(0, 2)] = m2;
         out[(0, 4)] = _t0;
@@ -575,9 +582,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         let _t0 = m2 * self._k7;
         let _t1 = m3 * self._k8;
         let _t2 = m1 * self._k6;
-        out[0] = g2 * self._k2 - g3 * self._k1 - m2 * m3 * self._k9;
-        out[1] = g3 * self._k0 - g1 * self._k2 + m1 * m3 * self._k10;
-        out[2] = g1 * self._k1 - g2 * self._k0 - m1 * m2 * self._k11;
+        out[0] = g2 * self._k2 - g3 * self._k1 + m3 * (m2 * self._k9);
+        out[1] = g3 * self._k0 - g1 * self._k2 + m3 * (m1 * self._k10);
+        out[2] = g1 * self._k1 - g2 * self._k0 + m2 * (m1 * self._k11);
         out[3] = g2 * _t1 - g3 * _t0;
         out[4] = g3 * _t2 - g1 * _t1;
         out[5] = g1 * _t0 - g2 * _t2;
@@ -589,31 +596,31 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
-        out.fill(S::zero());
-        out[(0, 1)] = m3 * self._k12;
-        out[(0, 2)] = m2 * self._k12;
+        out.as_mut_slice().fill(S::zero());
+        out[(0, 1)] = m3 * self._k9;
+        out[(0, 2)] = m2 * self._k9;
         out[(0, 4)] = self._k2;
-        out[(0, 5)] = self._k17;
+        out[(0, 5)] = self._k15;
         out[(1, 0)] = m3 * self._k10;
         out[(1, 2)] = m1 * self._k10;
-        out[(1, 3)] = self._k18;
+        out[(1, 3)] = self._k16;
         out[(1, 5)] = self._k0;
-        out[(2, 0)] = m2 * self._k13;
-        out[(2, 1)] = m1 * self._k13;
+        out[(2, 0)] = m2 * self._k11;
+        out[(2, 1)] = m1 * self._k11;
         out[(2, 3)] = self._k1;
-        out[(2, 4)] = self._k19;
-        out[(3, 1)] = g3 * self._k14;
+        out[(2, 4)] = self._k17;
+        out[(3, 1)] = g3 * self._k12;
         out[(3, 2)] = g2 * self._k8;
         out[(3, 4)] = m3 * self._k8;
-        out[(3, 5)] = m2 * self._k14;
+        out[(3, 5)] = m2 * self._k12;
         out[(4, 0)] = g3 * self._k6;
-        out[(4, 2)] = g1 * self._k15;
-        out[(4, 3)] = m3 * self._k15;
+        out[(4, 2)] = g1 * self._k13;
+        out[(4, 3)] = m3 * self._k13;
         out[(4, 5)] = m1 * self._k6;
-        out[(5, 0)] = g2 * self._k16;
+        out[(5, 0)] = g2 * self._k14;
         out[(5, 1)] = g1 * self._k7;
         out[(5, 3)] = m2 * self._k7;
-        out[(5, 4)] = m1 * self._k16;
+        out[(5, 4)] = m1 * self._k14;
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
@@ -627,9 +634,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         jacobian: &mut Self::Jacobian,
     ) {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
-        let _t0 = m2 * self._k12;
+        let _t0 = m2 * self._k9;
         let _t1 = m1 * self._k10;
-        let _t2 = m1 * self._k13;
+        let _t2 = m1 * self._k11;
         let _t3 = m2 * self._k7;
         let _t4 = m3 * self._k8;
         let _t5 = m1 * self._k6;
@@ -639,31 +646,31 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         field[3] = g2 * _t4 - g3 * _t3;
         field[4] = g3 * _t5 - g1 * _t4;
         field[5] = g1 * _t3 - g2 * _t5;
-        jacobian.fill(S::zero());
-        jacobian[(0, 1)] = m3 * self._k12;
+        jacobian.as_mut_slice().fill(S::zero());
+        jacobian[(0, 1)] = m3 * self._k9;
         jacobian[(0, 2)] = _t0;
         jacobian[(0, 4)] = self._k2;
-        jacobian[(0, 5)] = self._k17;
+        jacobian[(0, 5)] = self._k15;
         jacobian[(1, 0)] = m3 * self._k10;
         jacobian[(1, 2)] = _t1;
-        jacobian[(1, 3)] = self._k18;
+        jacobian[(1, 3)] = self._k16;
         jacobian[(1, 5)] = self._k0;
-        jacobian[(2, 0)] = m2 * self._k13;
+        jacobian[(2, 0)] = m2 * self._k11;
         jacobian[(2, 1)] = _t2;
         jacobian[(2, 3)] = self._k1;
-        jacobian[(2, 4)] = self._k19;
-        jacobian[(3, 1)] = g3 * self._k14;
+        jacobian[(2, 4)] = self._k17;
+        jacobian[(3, 1)] = g3 * self._k12;
         jacobian[(3, 2)] = g2 * self._k8;
         jacobian[(3, 4)] = _t4;
-        jacobian[(3, 5)] = m2 * self._k14;
+        jacobian[(3, 5)] = m2 * self._k12;
         jacobian[(4, 0)] = g3 * self._k6;
-        jacobian[(4, 2)] = g1 * self._k15;
-        jacobian[(4, 3)] = m3 * self._k15;
+        jacobian[(4, 2)] = g1 * self._k13;
+        jacobian[(4, 3)] = m3 * self._k13;
         jacobian[(4, 5)] = _t5;
-        jacobian[(5, 0)] = g2 * self._k16;
+        jacobian[(5, 0)] = g2 * self._k14;
         jacobian[(5, 1)] = g1 * self._k7;
         jacobian[(5, 3)] = _t3;
-        jacobian[(5, 4)] = m1 * self._k16;
+        jacobian[(5, 4)] = m1 * self._k14;
     }
 
     /// `out_i = C_i(mu)`
@@ -672,8 +679,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
-        out[0] = g1 * g1 + g2 * g2 + g3 * g3;
-        out[1] = m1 * g1 + m2 * g2 + m3 * g3;
+        out[0] = g3 * g3 + (g1 * g1 + g2 * g2);
+        out[1] = m3 * g3 + (m1 * g1 + m2 * g2);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -683,7 +690,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         match _index {
             0 => {
                 let [[_, _, _, g1, g2, g3]] = mu.data.0;
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[3] = g1 * S::ratio(2.0, 1.0);
                 out[4] = g2 * S::ratio(2.0, 1.0);
                 out[5] = g3 * S::ratio(2.0, 1.0);
@@ -748,7 +755,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeavyTopSystem<S
         let _t0 = -_xi_J2;
         let _t1 = -_xi_J3;
         let _t2 = -_xi_J1;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_J3;
         out[(0, 2)] = _t0;
         out[(0, 4)] = _xi_P3;
@@ -772,6 +779,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeavyTopSystem<S
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 27 additions, 33 multiplications.
@@ -798,7 +806,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSyste
         let _t9 = _t0 + g1 * _eta_P1;
         let _t10 = _xi_J1 * _eta_P1 + _xi_P1 * _eta_J1;
         let _t11 = m1 * _xi_J1 + g1 * _xi_P1;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[0] = (_xi_J1 * (_t0 * S::ratio(2.0, 1.0) + _t2 + _t4) - g1 * (_t5 + _t6)
             + _eta_J1 * (_t7 + _t8)) * S::ratio(-1.0, 2.0);
         out[1] = (_xi_J2 * (_t1 * S::ratio(2.0, 1.0) + _t9 + _t4) - g2 * (_t6 + _t10)
@@ -953,6 +961,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSyste
         ],
         skew: false,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -996,35 +1005,36 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopGenerating4<'a, S> {
     #[must_use]
     pub fn new(system: &'a HeavyTopSystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I1;
-        let _t1 = S::one() / system._parameters.I2;
-        let _t2 = S::one() / system._parameters.I3;
-        let _t3 = system._parameters.mgl * h;
-        let _t4 = system._parameters.c2 * system._parameters.c2;
-        let _t5 = _t3 * (h * _t3);
-        let _t6 = S::ratio(1.0, 12.0) * _t5;
-        let _t7 = _t2 * _t6;
-        let _t8 = system._parameters.c3 * system._parameters.c3;
-        let _t9 = _t1 * _t6;
-        let _t10 = S::ratio(-1.0, 12.0) * _t5;
-        let _t11 = system._parameters.c1 * _t10;
-        let _t12 = system._parameters.c1 * system._parameters.c1;
-        let _t13 = _t0 * _t6;
+        let _t1 = h * (h * h);
+        let _t2 = S::one() / system._parameters.I2;
+        let _t3 = S::one() / system._parameters.I3;
+        let _t4 = system._parameters.mgl * h;
+        let _t5 = system._parameters.mgl * system._parameters.mgl;
+        let _t6 = system._parameters.c2 * _t5;
+        let _t7 = system._parameters.c2 * _t3;
+        let _t8 = _t5 * (system._parameters.c3 * system._parameters.c3);
+        let _t9 = S::ratio(1.0, 12.0) * _t1;
+        let _t10 = system._parameters.c1 * _t5;
+        let _t11 = S::ratio(-1.0, 12.0) * _t1;
+        let _t12 = system._parameters.c3 * _t11;
+        let _t13 = system._parameters.c1 * _t10;
+        let _t14 = _t0 * _t6;
         Self {
             system,
             h,
             _h0: h * _t0,
-            _h1: h * h * h * S::ratio(1.0, 24.0),
-            _h2: h * _t1,
-            _h3: h * _t2,
-            _h4: system._parameters.c1 * _t3,
-            _h5: system._parameters.c2 * _t3,
-            _h6: system._parameters.c3 * _t3,
-            _h7: _t4 * _t7 + _t8 * _t9,
-            _h8: system._parameters.c2 * _t2 * _t11,
-            _h9: system._parameters.c3 * _t1 * _t11,
-            _h10: _t12 * _t7 + _t8 * _t13,
-            _h11: system._parameters.c2 * system._parameters.c3 * _t0 * _t10,
-            _h12: _t12 * _t9 + _t4 * _t13,
+            _h1: S::ratio(1.0, 24.0) * _t1,
+            _h2: h * _t2,
+            _h3: h * _t3,
+            _h4: system._parameters.c1 * _t4,
+            _h5: system._parameters.c2 * _t4,
+            _h6: system._parameters.c3 * _t4,
+            _h7: (_t6 * _t7 + _t2 * _t8) * _t9,
+            _h8: _t10 * _t11 * _t7,
+            _h9: _t2 * _t10 * _t12,
+            _h10: (_t3 * _t13 + _t0 * _t8) * _t9,
+            _h11: _t12 * _t14,
+            _h12: (_t2 * _t13 + system._parameters.c2 * _t14) * _t9,
         }
     }
 }
@@ -1040,7 +1050,7 @@ for HeavyTopGenerating4<'_, S> {
     #[inline]
     fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
         let [[m1, m2, m3, g1, g2, g3]] = p.data.0;
-        let _t0 = m1 * self.system._k11;
+        let _t0 = m1 * self.system._k18;
         let _t1 = self.system._k8
             * (g1 * self.system._k1 - g2 * self.system._k0 - m2 * _t0);
         let _t2 = _t1 + _t1;
@@ -1048,13 +1058,13 @@ for HeavyTopGenerating4<'_, S> {
         let _t4 = self.system._k7
             * (g3 * self.system._k0 - g1 * self.system._k2 + m3 * _t3);
         let _t5 = _t4 + _t4;
-        let _t6 = m2 * self.system._k9;
+        let _t6 = m2 * self.system._k19;
         let _t7 = self.system._k6
             * (g2 * self.system._k2 - g3 * self.system._k1 - m3 * _t6);
         let _t8 = _t7 + _t7;
         xi[0] = m1 * self._h0
-            + (m3 * self.system._k10 * _t5 - m2 * self.system._k11 * _t2) * self._h1;
-        xi[1] = m2 * self._h2 + (-(_t2 * _t0) - m3 * self.system._k9 * _t8) * self._h1;
+            + (m3 * self.system._k10 * _t5 - m2 * self.system._k18 * _t2) * self._h1;
+        xi[1] = m2 * self._h2 + (-(_t2 * _t0) - m3 * self.system._k19 * _t8) * self._h1;
         xi[2] = m3 * self._h3 + (_t5 * _t3 - _t8 * _t6) * self._h1;
         xi[3] = self._h4 + (self.system._k1 * _t2 - self.system._k2 * _t5) * self._h1;
         xi[4] = self._h5 + (self.system._k2 * _t8 - self.system._k0 * _t2) * self._h1;
@@ -1072,8 +1082,8 @@ for HeavyTopGenerating4<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[m1, m2, m3, g1, g2, g3]] = p.data.0;
-        let _t0 = m2 * self.system._k13;
-        let _t1 = m1 * self.system._k13;
+        let _t0 = m2 * self.system._k11;
+        let _t1 = m1 * self.system._k11;
         let _t2 = self.system._k8
             * (g1 * self.system._k1 - g2 * self.system._k0 + m2 * _t1);
         let _t3 = _t2 + _t2;
@@ -1082,8 +1092,8 @@ for HeavyTopGenerating4<'_, S> {
         let _t6 = self.system._k7
             * (g3 * self.system._k0 - g1 * self.system._k2 + m3 * _t5);
         let _t7 = _t6 + _t6;
-        let _t8 = m3 * self.system._k12;
-        let _t9 = m2 * self.system._k12;
+        let _t8 = m3 * self.system._k9;
+        let _t9 = m2 * self.system._k9;
         let _t10 = self.system._k6
             * (g2 * self.system._k2 - g3 * self.system._k1 + m3 * _t9);
         let _t11 = _t10 + _t10;
@@ -1091,7 +1101,7 @@ for HeavyTopGenerating4<'_, S> {
         let _t13 = self.system._k7 * _t4;
         let _t14 = self.system._k8 * _t1;
         let _t15 = _t14 + _t14;
-        let _t16 = self._h1 * (self.system._k13 * _t3 + _t0 * _t15);
+        let _t16 = self._h1 * (self.system._k11 * _t3 + _t0 * _t15);
         let _t17 = self.system._k7 * _t5;
         let _t18 = _t17 + _t17;
         let _t19 = self._h1 * (self.system._k10 * _t7 + _t4 * _t18);
@@ -1101,7 +1111,7 @@ for HeavyTopGenerating4<'_, S> {
         let _t23 = self.system._k6 * _t8;
         let _t24 = self.system._k6 * _t9;
         let _t25 = _t24 + _t24;
-        let _t26 = self._h1 * (self.system._k12 * _t11 + _t8 * _t25);
+        let _t26 = self._h1 * (self.system._k9 * _t11 + _t8 * _t25);
         let _t27 = self._h1 * (m1 * self.system._k20);
         let _t28 = self._h1 * (m1 * self.system._k22 + m3 * self.system._k24);
         let _t29 = self._h1 * (m3 * self.system._k25);
@@ -1454,88 +1464,90 @@ pub struct HeavyTopGenerating6<'a, S: ::lie_runtime::Scalar> {
     _h0: S,
     /// `h^3/24`
     _h1: S,
-    /// `(1/I1 - 1/I2)*h^5/5760`
+    /// `h^5/5760`
     _h2: S,
-    /// `(1/I1 - 1/I3)*h^5/5760`
-    _h3: S,
-    /// `h^5/(5760*I1)`
-    _h4: S,
-    /// `h^5/480`
-    _h5: S,
-    /// `(1/I1 - 1/I2)*h^5/1440`
-    _h6: S,
-    /// `(1/I1 - 1/I3)*h^5/1440`
-    _h7: S,
     /// `h/I2`
-    _h8: S,
-    /// `(1/I2 - 1/I3)*h^5/5760`
-    _h9: S,
-    /// `h^5/(5760*I2)`
-    _h10: S,
-    /// `(1/I2 - 1/I3)*h^5/1440`
-    _h11: S,
+    _h3: S,
     /// `h/I3`
-    _h12: S,
-    /// `h^5/(5760*I3)`
-    _h13: S,
-    /// `mgl*c2*h^5/5760`
-    _h14: S,
-    /// `mgl*c3*h^5/5760`
-    _h15: S,
+    _h4: S,
     /// `mgl*c1*h`
-    _h16: S,
-    /// `mgl*c1*h^5/5760`
-    _h17: S,
+    _h5: S,
     /// `mgl*c2*h`
-    _h18: S,
+    _h6: S,
     /// `mgl*c3*h`
+    _h7: S,
+    /// `(1/I1 - 1/I2)*h^5/5760`
+    _h8: S,
+    /// `(1/I1 - 1/I3)*h^5/5760`
+    _h9: S,
+    /// `h^5/(5760*I1)`
+    _h10: S,
+    /// `h^5/480`
+    _h11: S,
+    /// `(1/I1 - 1/I2)*h^5/1440`
+    _h12: S,
+    /// `(1/I1 - 1/I3)*h^5/1440`
+    _h13: S,
+    /// `(1/I2 - 1/I3)*h^5/5760`
+    _h14: S,
+    /// `h^5/(5760*I2)`
+    _h15: S,
+    /// `(1/I2 - 1/I3)*h^5/1440`
+    _h16: S,
+    /// `h^5/(5760*I3)`
+    _h17: S,
+    /// `mgl*c2*h^5/5760`
+    _h18: S,
+    /// `mgl*c3*h^5/5760`
     _h19: S,
-    /// `mgl*c3*h^5/(480*I2)`
+    /// `mgl*c1*h^5/5760`
     _h20: S,
-    /// `mgl*c2*h^5/(480*I3)`
+    /// `mgl*c3*h^5/(480*I2)`
     _h21: S,
-    /// `mgl*c2*(1/I1 - 1/I2)*h^5/(720*I3)`
+    /// `mgl*c2*h^5/(480*I3)`
     _h22: S,
-    /// `mgl*c3*(1/I1 - 1/I3)*h^5/(720*I2)`
+    /// `mgl*c2*(1/I1 - 1/I2)*h^5/(720*I3)`
     _h23: S,
-    /// `mgl*c1*h^5/(480*I3)`
+    /// `mgl*c3*(1/I1 - 1/I3)*h^5/(720*I2)`
     _h24: S,
-    /// `mgl*c1*(1/I1 - 1/I2)*h^5/(720*I3)`
+    /// `mgl*c1*h^5/(480*I3)`
     _h25: S,
-    /// `mgl*c1*h^5/(480*I2)`
+    /// `mgl*c1*(1/I1 - 1/I2)*h^5/(720*I3)`
     _h26: S,
-    /// `mgl*c1*(1/I1 - 1/I3)*h^5/(720*I2)`
+    /// `mgl*c1*h^5/(480*I2)`
     _h27: S,
-    /// `mgl*c3*h^5/(480*I1)`
+    /// `mgl*c1*(1/I1 - 1/I3)*h^5/(720*I2)`
     _h28: S,
-    /// `mgl*c3*(1/I2 - 1/I3)*h^5/(720*I1)`
+    /// `mgl*c3*h^5/(480*I1)`
     _h29: S,
-    /// `mgl*c2*h^5/(480*I1)`
+    /// `mgl*c3*(1/I2 - 1/I3)*h^5/(720*I1)`
     _h30: S,
-    /// `mgl*c2*(1/I2 - 1/I3)*h^5/(720*I1)`
+    /// `mgl*c2*h^5/(480*I1)`
     _h31: S,
-    /// `mgl^2*c1*c2*h^5/(240*I3)`
+    /// `mgl*c2*(1/I2 - 1/I3)*h^5/(720*I1)`
     _h32: S,
-    /// `mgl^2*c1*c3*h^5/(240*I2)`
+    /// `mgl^2*c1*c2*h^5/(240*I3)`
     _h33: S,
-    /// `h^3*(mgl^2*c2^2/I3 + mgl^2*c3^2/I2)/12`
+    /// `mgl^2*c1*c3*h^5/(240*I2)`
     _h34: S,
-    /// `h^5*(mgl^2*c1^2/I3 + mgl^2*c3^2/I1)/240`
+    /// `h^3*(mgl^2*c2^2/I3 + mgl^2*c3^2/I2)/12`
     _h35: S,
-    /// `mgl^2*c2*c3*h^5/(240*I1)`
+    /// `h^5*(mgl^2*c1^2/I3 + mgl^2*c3^2/I1)/240`
     _h36: S,
-    /// `-mgl^2*c1*c2*h^3/(12*I3)`
+    /// `mgl^2*c2*c3*h^5/(240*I1)`
     _h37: S,
-    /// `h^5*(mgl^2*c1^2/I2 + mgl^2*c2^2/I1)/240`
+    /// `-mgl^2*c1*c2*h^3/(12*I3)`
     _h38: S,
-    /// `-mgl^2*c1*c3*h^3/(12*I2)`
+    /// `h^5*(mgl^2*c1^2/I2 + mgl^2*c2^2/I1)/240`
     _h39: S,
-    /// `h^3*(mgl^2*c1^2/I3 + mgl^2*c3^2/I1)/12`
+    /// `-mgl^2*c1*c3*h^3/(12*I2)`
     _h40: S,
-    /// `-mgl^2*c2*c3*h^3/(12*I1)`
+    /// `h^3*(mgl^2*c1^2/I3 + mgl^2*c3^2/I1)/12`
     _h41: S,
-    /// `h^3*(mgl^2*c1^2/I2 + mgl^2*c2^2/I1)/12`
+    /// `-mgl^2*c2*c3*h^3/(12*I1)`
     _h42: S,
+    /// `h^3*(mgl^2*c1^2/I2 + mgl^2*c2^2/I1)/12`
+    _h43: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> HeavyTopGenerating6<'a, S> {
@@ -1545,84 +1557,88 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopGenerating6<'a, S> {
         let _t0 = S::one() / system._parameters.I1;
         let _t1 = h * h;
         let _t2 = h * _t1;
-        let _t3 = S::one() / system._parameters.I2;
-        let _t4 = _t0 - _t3;
-        let _t5 = _t1 * _t2;
-        let _t6 = S::ratio(1.0, 5760.0) * _t5;
-        let _t7 = S::one() / system._parameters.I3;
-        let _t8 = _t0 - _t7;
-        let _t9 = S::ratio(1.0, 1440.0) * _t5;
-        let _t10 = _t3 - _t7;
-        let _t11 = system._parameters.mgl * _t5;
-        let _t12 = system._parameters.c2 * _t11;
-        let _t13 = system._parameters.mgl * h;
-        let _t14 = system._parameters.c1 * _t11;
-        let _t15 = system._parameters.c3 * _t3;
-        let _t16 = S::ratio(1.0, 480.0) * _t11;
-        let _t17 = _t7 * S::ratio(1.0, 480.0);
-        let _t18 = S::ratio(1.0, 720.0) * (_t7 * _t4);
-        let _t19 = _t8 * S::ratio(1.0, 720.0);
-        let _t20 = _t3 * _t14;
+        let _t3 = _t1 * _t2;
+        let _t4 = S::ratio(1.0, 5760.0) * _t3;
+        let _t5 = S::one() / system._parameters.I2;
+        let _t6 = S::one() / system._parameters.I3;
+        let _t7 = system._parameters.mgl * h;
+        let _t8 = _t0 - _t5;
+        let _t9 = _t0 - _t6;
+        let _t10 = S::ratio(1.0, 1440.0) * _t3;
+        let _t11 = _t5 - _t6;
+        let _t12 = system._parameters.mgl * _t3;
+        let _t13 = system._parameters.c2 * _t12;
+        let _t14 = system._parameters.c1 * _t12;
+        let _t15 = system._parameters.c3 * _t5;
+        let _t16 = S::ratio(1.0, 480.0) * _t12;
+        let _t17 = _t6 * S::ratio(1.0, 480.0);
+        let _t18 = S::ratio(1.0, 720.0) * (_t6 * _t8);
+        let _t19 = _t9 * S::ratio(1.0, 720.0);
+        let _t20 = _t5 * _t14;
         let _t21 = system._parameters.c3 * _t0;
-        let _t22 = _t10 * S::ratio(1.0, 720.0);
-        let _t23 = _t0 * _t12;
-        let _t24 = system._parameters.c2 * _t7;
+        let _t22 = _t11 * S::ratio(1.0, 720.0);
+        let _t23 = _t0 * _t13;
+        let _t24 = system._parameters.c2 * _t6;
         let _t25 = system._parameters.mgl * S::ratio(1.0, 240.0);
         let _t26 = _t14 * _t25;
-        let _t27 = _t2 * (system._parameters.mgl * system._parameters.mgl);
-        let _t28 = S::ratio(1.0, 12.0) * _t27;
-        let _t29 = system._parameters.c1 * system._parameters.c1;
-        let _t30 = _t7 * _t29 + system._parameters.c3 * _t21;
-        let _t31 = _t11 * _t25;
-        let _t32 = S::ratio(-1.0, 12.0) * _t27;
-        let _t33 = system._parameters.c1 * _t32;
-        let _t34 = _t3 * _t29 + system._parameters.c2 * system._parameters.c2 * _t0;
+        let _t27 = system._parameters.mgl * system._parameters.mgl;
+        let _t28 = system._parameters.c2 * _t27;
+        let _t29 = system._parameters.c3 * _t27;
+        let _t30 = S::ratio(1.0, 12.0) * _t2;
+        let _t31 = system._parameters.c1 * _t27;
+        let _t32 = system._parameters.c1 * _t31;
+        let _t33 = _t6 * _t32 + _t21 * _t29;
+        let _t34 = S::ratio(1.0, 240.0) * _t3;
+        let _t35 = S::ratio(-1.0, 12.0) * _t2;
+        let _t36 = _t31 * _t35;
+        let _t37 = _t5 * _t32 + system._parameters.c2 * _t0 * _t28;
         Self {
             system,
             h,
             _h0: _t0 * h,
             _h1: S::ratio(1.0, 24.0) * _t2,
-            _h2: _t4 * _t6,
-            _h3: _t8 * _t6,
-            _h4: _t0 * _t6,
-            _h5: S::ratio(1.0, 480.0) * _t5,
-            _h6: _t4 * _t9,
-            _h7: _t8 * _t9,
-            _h8: _t3 * h,
-            _h9: _t10 * _t6,
-            _h10: _t3 * _t6,
-            _h11: _t10 * _t9,
-            _h12: _t7 * h,
-            _h13: _t7 * _t6,
-            _h14: S::ratio(1.0, 5760.0) * _t12,
-            _h15: system._parameters.c3 * S::ratio(1.0, 5760.0) * _t11,
-            _h16: system._parameters.c1 * _t13,
-            _h17: S::ratio(1.0, 5760.0) * _t14,
-            _h18: system._parameters.c2 * _t13,
-            _h19: system._parameters.c3 * _t13,
-            _h20: _t15 * _t16,
-            _h21: _t12 * _t17,
-            _h22: _t12 * _t18,
-            _h23: _t11 * _t15 * _t19,
-            _h24: _t14 * _t17,
-            _h25: _t14 * _t18,
-            _h26: S::ratio(1.0, 480.0) * _t20,
-            _h27: _t20 * _t19,
-            _h28: _t21 * _t16,
-            _h29: _t11 * _t21 * _t22,
-            _h30: S::ratio(1.0, 480.0) * _t23,
-            _h31: _t23 * _t22,
-            _h32: _t24 * _t26,
-            _h33: _t15 * _t26,
-            _h34: (system._parameters.c2 * _t24 + system._parameters.c3 * _t15) * _t28,
-            _h35: _t30 * _t31,
-            _h36: _t12 * _t25 * _t21,
-            _h37: _t24 * _t33,
-            _h38: _t34 * _t31,
-            _h39: _t15 * _t33,
-            _h40: _t30 * _t28,
-            _h41: system._parameters.c2 * _t21 * _t32,
-            _h42: _t34 * _t28,
+            _h2: _t4,
+            _h3: _t5 * h,
+            _h4: _t6 * h,
+            _h5: system._parameters.c1 * _t7,
+            _h6: system._parameters.c2 * _t7,
+            _h7: system._parameters.c3 * _t7,
+            _h8: _t8 * _t4,
+            _h9: _t9 * _t4,
+            _h10: _t0 * _t4,
+            _h11: S::ratio(1.0, 480.0) * _t3,
+            _h12: _t8 * _t10,
+            _h13: _t9 * _t10,
+            _h14: _t11 * _t4,
+            _h15: _t5 * _t4,
+            _h16: _t11 * _t10,
+            _h17: _t6 * _t4,
+            _h18: S::ratio(1.0, 5760.0) * _t13,
+            _h19: system._parameters.c3 * S::ratio(1.0, 5760.0) * _t12,
+            _h20: S::ratio(1.0, 5760.0) * _t14,
+            _h21: _t15 * _t16,
+            _h22: _t13 * _t17,
+            _h23: _t13 * _t18,
+            _h24: _t12 * _t15 * _t19,
+            _h25: _t14 * _t17,
+            _h26: _t14 * _t18,
+            _h27: S::ratio(1.0, 480.0) * _t20,
+            _h28: _t20 * _t19,
+            _h29: _t21 * _t16,
+            _h30: _t12 * _t21 * _t22,
+            _h31: S::ratio(1.0, 480.0) * _t23,
+            _h32: _t23 * _t22,
+            _h33: _t24 * _t26,
+            _h34: _t15 * _t26,
+            _h35: (_t24 * _t28 + _t15 * _t29) * _t30,
+            _h36: _t33 * _t34,
+            _h37: _t13 * _t21 * _t25,
+            _h38: _t24 * _t36,
+            _h39: _t37 * _t34,
+            _h40: _t15 * _t36,
+            _h41: _t33 * _t30,
+            _h42: _t21 * _t28 * _t35,
+            _h43: _t37 * _t30,
         }
     }
 }
@@ -1638,114 +1654,126 @@ for HeavyTopGenerating6<'_, S> {
     #[inline]
     fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
         let [[m1, m2, m3, g1, g2, g3]] = p.data.0;
-        let _t0 = m1 * self.system._k11;
+        let _t0 = m1 * self.system._k18;
         let _t1 = g1 * self.system._k1 - g2 * self.system._k0 - m2 * _t0;
         let _t2 = self.system._k8 * _t1;
         let _t3 = _t2 + _t2;
-        let _t4 = m1 * self.system._k10;
-        let _t5 = g3 * self.system._k0 - g1 * self.system._k2 + m3 * _t4;
-        let _t6 = self.system._k7 * _t5;
-        let _t7 = _t6 + _t6;
-        let _t8 = m3 * self.system._k10 * _t7 - m2 * self.system._k11 * _t3;
-        let _t9 = m1 * self.system._k6;
-        let _t10 = m2 * self.system._k9;
-        let _t11 = g2 * self.system._k2 - g3 * self.system._k1 - m3 * _t10;
-        let _t12 = self.system._k6 * _t11;
-        let _t13 = _t12 + _t12;
-        let _t14 = -(_t3 * _t0) - m3 * self.system._k9 * _t13;
-        let _t15 = m3 * self.system._k8;
-        let _t16 = m2 * self.system._k7;
-        let _t17 = g1 * _t16 - g2 * _t9;
-        let _t18 = g2 * _t15 - g3 * _t16;
-        let _t19 = _t1 * _t9 - _t11 * _t15 + self.system._k0 * _t17
-            - self.system._k2 * _t18;
-        let _t20 = _t19 * self.system._k26 - _t14 * S::ratio(4.0, 1.0);
-        let _t21 = g3 * _t9 - g1 * _t15;
-        let _t22 = _t5 * _t15 - _t1 * _t16 - self.system._k1 * _t17
-            + self.system._k2 * _t21;
-        let _t23 = _t22 * self.system._k27 - _t8 * S::ratio(4.0, 1.0);
-        let _t24 = _t17 * _t9 - _t18 * _t15
-            + S::ratio(3.0, 1.0) * (g3 * _t12 - g1 * _t2);
-        let _t25 = _t21 * _t15 - _t17 * _t16
-            - S::ratio(3.0, 1.0) * (g3 * _t6 - g2 * _t2);
-        let _t26 = _t19 + S::ratio(3.0, 1.0) * (m3 * _t12 - m1 * _t2);
-        let _t27 = _t22 - (m3 * _t6 - m2 * _t2) * S::ratio(3.0, 1.0);
-        let _t28 = _t24 * self.system._k28 - _t25 * self.system._k29
-            + (m1 * _t26 + m2 * _t27) * self.system._k30;
-        let _t29 = self.system._k2 * _t13 - self.system._k0 * _t3;
-        let _t30 = self.system._k1 * _t3 - self.system._k2 * _t7;
-        let _t31 = _t9 * _t20 - _t16 * _t23
+        let _t4 = m2 * self.system._k18;
+        let _t5 = m1 * self.system._k10;
+        let _t6 = g3 * self.system._k0 - g1 * self.system._k2 + m3 * _t5;
+        let _t7 = self.system._k7 * _t6;
+        let _t8 = _t7 + _t7;
+        let _t9 = m3 * self.system._k10;
+        let _t10 = _t8 * _t9 - _t3 * _t4;
+        let _t11 = m1 * self.system._k6;
+        let _t12 = m2 * self.system._k19;
+        let _t13 = g2 * self.system._k2 - g3 * self.system._k1 - m3 * _t12;
+        let _t14 = self.system._k6 * _t13;
+        let _t15 = _t14 + _t14;
+        let _t16 = m3 * self.system._k19;
+        let _t17 = -(_t3 * _t0) - _t15 * _t16;
+        let _t18 = m3 * self.system._k8;
+        let _t19 = m2 * self.system._k7;
+        let _t20 = g1 * _t19 - g2 * _t11;
+        let _t21 = g2 * _t18 - g3 * _t19;
+        let _t22 = _t1 * _t11 - _t13 * _t18 + self.system._k0 * _t20
+            - self.system._k2 * _t21;
+        let _t23 = _t22 * self.system._k26 - _t17 * S::ratio(4.0, 1.0);
+        let _t24 = g3 * _t11 - g1 * _t18;
+        let _t25 = _t6 * _t18 - _t1 * _t19 - self.system._k1 * _t20
+            + self.system._k2 * _t24;
+        let _t26 = _t25 * self.system._k27 - _t10 * S::ratio(4.0, 1.0);
+        let _t27 = _t20 * _t11 - _t21 * _t18
+            + S::ratio(3.0, 1.0) * (g3 * _t14 - g1 * _t2);
+        let _t28 = _t24 * _t18 - _t20 * _t19
+            - S::ratio(3.0, 1.0) * (g3 * _t7 - g2 * _t2);
+        let _t29 = _t22 + S::ratio(3.0, 1.0) * (m3 * _t14 - m1 * _t2);
+        let _t30 = _t25 - (m3 * _t7 - m2 * _t2) * S::ratio(3.0, 1.0);
+        let _t31 = _t27 * self.system._k28 - _t28 * self.system._k29
+            + (m1 * _t29 + m2 * _t30) * self.system._k30;
+        let _t32 = self.system._k2 * _t15 - self.system._k0 * _t3;
+        let _t33 = self.system._k1 * _t3 - self.system._k2 * _t8;
+        let _t34 = _t11 * _t23 - _t19 * _t26
             + self.system._k8
-                * (_t28
-                    + (_t28
-                        + (g1 * _t29 - g2 * _t30 + m1 * _t14 - m2 * _t8)
+                * (_t31
+                    + (_t31
+                        + (g1 * _t32 - g2 * _t33 + m1 * _t17 - m2 * _t10)
                             * S::ratio(12.0, 1.0)));
-        let _t32 = _t31 * self._h2;
-        let _t33 = _t7 * _t4 - _t13 * _t10;
-        let _t34 = _t11 * _t16 - _t5 * _t9 - self.system._k0 * _t21
-            + self.system._k1 * _t18;
-        let _t35 = _t34 * self.system._k31 - _t33 * S::ratio(4.0, 1.0);
-        let _t36 = _t18 * _t16 - _t21 * _t9
-            - S::ratio(3.0, 1.0) * (g2 * _t12 - g1 * _t6);
-        let _t37 = _t34 - S::ratio(3.0, 1.0) * (m2 * _t12 - m1 * _t6);
-        let _t38 = _t25 * self.system._k32 - _t36 * self.system._k28
-            - (m1 * _t37 + m3 * _t27) * self.system._k33;
-        let _t39 = self.system._k0 * _t7 - self.system._k1 * _t13;
-        let _t40 = _t15 * _t23 - _t9 * _t35
+        let _t35 = _t8 * _t5 - _t15 * _t12;
+        let _t36 = _t13 * _t19 - _t6 * _t11 - self.system._k0 * _t24
+            + self.system._k1 * _t21;
+        let _t37 = _t36 * self.system._k31 - _t35 * S::ratio(4.0, 1.0);
+        let _t38 = _t21 * _t19 - _t24 * _t11
+            - S::ratio(3.0, 1.0) * (g2 * _t14 - g1 * _t7);
+        let _t39 = _t36 - S::ratio(3.0, 1.0) * (m2 * _t14 - m1 * _t7);
+        let _t40 = _t28 * self.system._k32 - _t38 * self.system._k28
+            - (m1 * _t39 + m3 * _t30) * self.system._k33;
+        let _t41 = self.system._k0 * _t8 - self.system._k1 * _t15;
+        let _t42 = _t18 * _t26 - _t11 * _t37
             + self.system._k7
-                * (_t38
-                    + (_t38
+                * (_t40
+                    + (_t40
                         - S::ratio(12.0, 1.0)
-                            * (g1 * _t39 - g3 * _t30 + m1 * _t33 - m3 * _t8)));
-        let _t41 = _t40 * self._h3;
-        let _t42 = self.system._k0 * _t20 - self.system._k1 * _t23
-            - S::ratio(4.0, 1.0) * (_t29 * _t9 - _t30 * _t16);
-        let _t43 = self.system._k2 * _t23 - self.system._k0 * _t35
-            + S::ratio(4.0, 1.0) * (_t39 * _t9 - _t30 * _t15);
-        let _t44 = _t3 * self._h6;
-        let _t45 = _t7 * self._h7;
-        let _t46 = m1 * self._h0 + _t8 * self._h1 - m2 * _t32 + m3 * _t41
-            + (_t1 * _t20 - _t5 * _t35 + S::ratio(4.0, 1.0) * (_t21 * _t39 - _t17 * _t29)
-                - g2 * _t42 + g3 * _t43) * self._h4;
-        let _t47 = _t36 * self.system._k29 - _t24 * self.system._k32
-            + (m2 * _t37 + m3 * _t26) * self.system._k34;
-        let _t48 = _t16 * _t35 - _t15 * _t20
+                            * (g1 * _t41 - g3 * _t33 + m1 * _t35 - m3 * _t10)));
+        let _t43 = self.system._k0 * _t23 - self.system._k1 * _t26
+            - S::ratio(4.0, 1.0) * (_t32 * _t11 - _t33 * _t19);
+        let _t44 = self.system._k2 * _t26 - self.system._k0 * _t37
+            + S::ratio(4.0, 1.0) * (_t41 * _t11 - _t33 * _t18);
+        let _t45 = _t8 * self.system._k33;
+        let _t46 = _t3 * self.system._k30;
+        let _t47 = _t34 * _t4 - _t42 * _t9
+            + S::ratio(12.0, 1.0) * (_t7 * _t35 - _t2 * _t17)
+            - self.system._k6
+                * (_t1 * _t23 - _t6 * _t37
+                    + S::ratio(4.0, 1.0) * (_t24 * _t41 - _t20 * _t32) - g2 * _t43
+                    + g3 * _t44);
+        let _t48 = _t38 * self.system._k29 - _t27 * self.system._k32
+            + (m2 * _t39 + m3 * _t29) * self.system._k34;
+        let _t49 = _t19 * _t37 - _t18 * _t23
             + self.system._k6
-                * (_t47
-                    + (_t47
+                * (_t48
+                    + (_t48
                         + S::ratio(12.0, 1.0)
-                            * (g2 * _t39 - g3 * _t29 + m2 * _t33 - m3 * _t14)));
-        let _t49 = _t48 * self._h9;
-        let _t50 = self.system._k1 * _t35 - self.system._k2 * _t20
-            - S::ratio(4.0, 1.0) * (_t39 * _t16 - _t29 * _t15);
-        let _t51 = _t13 * self._h11;
-        let _t52 = m2 * self._h8 + _t14 * self._h1 - m1 * _t32 - m3 * _t49
-            + (_t11 * _t35 - _t1 * _t23
-                - S::ratio(4.0, 1.0) * (_t18 * _t39 - _t17 * _t30) + g1 * _t42
-                - g3 * _t50) * self._h10;
-        let _t53 = m3 * self._h12 + _t33 * self._h1 + m1 * _t41 - m2 * _t49
-            + (_t5 * _t23 - _t11 * _t20
-                + S::ratio(4.0, 1.0) * (_t18 * _t29 - _t21 * _t30) - g1 * _t43
-                + g2 * _t50) * self._h13;
-        let _t54 = m2 * self._h10;
-        let _t55 = m3 * self._h13;
-        let _t56 = m1 * self._h4;
-        xi[0] = _t46 - (_t6 * _t33 - _t2 * _t14) * self._h5 + _t26 * _t44 - _t37 * _t45;
-        xi[1] = _t52 + self._h5 * (_t12 * _t33 - _t2 * _t8) + _t27 * _t44 + _t37 * _t51;
-        xi[2] = _t53 - self._h5 * (_t12 * _t14 - _t6 * _t8) - _t27 * _t45 + _t26 * _t51;
-        xi[3] = self._h16 + _t30 * self._h1 + _t42 * _t54 - _t43 * _t55
-            - self._h5 * (_t6 * _t39 - _t2 * _t29) + _t31 * self._h14 - _t40 * self._h15;
-        xi[4] = self._h18 + _t29 * self._h1 - _t42 * _t56 + _t50 * _t55
-            + self._h5 * (_t12 * _t39 - _t2 * _t30) - _t31 * self._h17
-            + _t48 * self._h15;
-        xi[5] = self._h19 + _t39 * self._h1 + _t43 * _t56 - _t50 * _t54
-            - self._h5 * (_t12 * _t29 - _t6 * _t30) + _t40 * self._h17
-            - _t48 * self._h14;
+                            * (g2 * _t41 - g3 * _t32 + m2 * _t35 - m3 * _t17)));
+        let _t50 = self.system._k1 * _t37 - self.system._k2 * _t23
+            - S::ratio(4.0, 1.0) * (_t41 * _t19 - _t32 * _t18);
+        let _t51 = _t15 * self.system._k34;
+        let _t52 = _t34 * _t0 + _t49 * _t16
+            - S::ratio(12.0, 1.0) * (_t14 * _t35 - _t2 * _t10)
+            - self.system._k7
+                * (_t13 * _t37 - _t1 * _t26
+                    - S::ratio(4.0, 1.0) * (_t21 * _t41 - _t20 * _t33) + g1 * _t43
+                    - g3 * _t50);
+        let _t53 = _t42 * _t5 - _t49 * _t12
+            - S::ratio(12.0, 1.0) * (_t14 * _t17 - _t7 * _t10)
+            + self.system._k8
+                * (_t6 * _t26 - _t13 * _t23
+                    + S::ratio(4.0, 1.0) * (_t21 * _t32 - _t24 * _t33) - g1 * _t44
+                    + g2 * _t50);
+        xi[0] = m1 * self._h0 + _t10 * self._h1
+            - self._h2 * (_t47 + _t39 * _t45 - _t29 * _t46);
+        xi[1] = m2 * self._h3 + _t17 * self._h1
+            - self._h2 * (_t52 - _t39 * _t51 - _t30 * _t46);
+        xi[2] = m3 * self._h4 + _t35 * self._h1
+            + self._h2 * (_t53 + _t29 * _t51 - _t30 * _t45);
+        xi[3] = self._h5 + _t33 * self._h1
+            + (_t19 * _t43 - _t18 * _t44 + self.system._k1 * _t34
+                - self.system._k2 * _t42
+                - S::ratio(12.0, 1.0) * (_t7 * _t41 - _t2 * _t32)) * self._h2;
+        xi[4] = self._h6 + _t32 * self._h1
+            - (_t11 * _t43 - _t18 * _t50 + self.system._k0 * _t34
+                - self.system._k2 * _t49
+                - S::ratio(12.0, 1.0) * (_t14 * _t41 - _t2 * _t33)) * self._h2;
+        xi[5] = self._h7 + _t41 * self._h1
+            + self._h2
+                * (_t11 * _t44 - _t19 * _t50 + self.system._k0 * _t42
+                    - self.system._k1 * _t49
+                    - S::ratio(12.0, 1.0) * (_t14 * _t32 - _t7 * _t33));
     }
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 866 additions, 1085 multiplications.
+    /// 872 additions, 1122 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1754,8 +1782,8 @@ for HeavyTopGenerating6<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[m1, m2, m3, g1, g2, g3]] = p.data.0;
-        let _t0 = m2 * self.system._k13;
-        let _t1 = m1 * self.system._k13;
+        let _t0 = m2 * self.system._k11;
+        let _t1 = m1 * self.system._k11;
         let _t2 = g1 * self.system._k1 - g2 * self.system._k0 + m2 * _t1;
         let _t3 = self.system._k8 * _t2;
         let _t4 = _t3 + _t3;
@@ -1766,8 +1794,8 @@ for HeavyTopGenerating6<'_, S> {
         let _t9 = _t8 + _t8;
         let _t10 = _t0 * _t4 + _t5 * _t9;
         let _t11 = m1 * self.system._k6;
-        let _t12 = m3 * self.system._k12;
-        let _t13 = m2 * self.system._k12;
+        let _t12 = m3 * self.system._k9;
+        let _t13 = m2 * self.system._k9;
         let _t14 = g2 * self.system._k2 - g3 * self.system._k1 + m3 * _t13;
         let _t15 = self.system._k6 * _t14;
         let _t16 = _t15 + _t15;
@@ -1783,561 +1811,601 @@ for HeavyTopGenerating6<'_, S> {
         let _t25 = _t7 * _t18 - _t2 * _t19 - self.system._k1 * _t20
             + self.system._k2 * _t24;
         let _t26 = _t25 * self.system._k27 - _t10 * S::ratio(4.0, 1.0);
-        let _t27 = g3 * S::ratio(3.0, 1.0);
-        let _t28 = g1 * S::ratio(3.0, 1.0);
-        let _t29 = _t20 * _t11 - _t21 * _t18 + _t15 * _t27 - _t3 * _t28;
-        let _t30 = g2 * S::ratio(3.0, 1.0);
-        let _t31 = _t24 * _t18 - _t20 * _t19 - _t8 * _t27 + _t3 * _t30;
-        let _t32 = m3 * S::ratio(3.0, 1.0);
-        let _t33 = m1 * S::ratio(3.0, 1.0);
-        let _t34 = _t22 + _t15 * _t32 - _t3 * _t33;
-        let _t35 = m1 * self.system._k30;
-        let _t36 = m2 * S::ratio(3.0, 1.0);
-        let _t37 = _t25 - _t8 * _t32 + _t3 * _t36;
-        let _t38 = m2 * self.system._k30;
-        let _t39 = _t29 * self.system._k28 - _t31 * self.system._k29 + _t34 * _t35
-            + _t37 * _t38;
-        let _t40 = self.system._k2 * _t16 - self.system._k0 * _t4;
-        let _t41 = g1 * S::ratio(12.0, 1.0);
-        let _t42 = self.system._k1 * _t4 - self.system._k2 * _t9;
-        let _t43 = g2 * S::ratio(12.0, 1.0);
-        let _t44 = m1 * S::ratio(12.0, 1.0);
-        let _t45 = m2 * S::ratio(12.0, 1.0);
-        let _t46 = _t11 * _t23 - _t19 * _t26 + self.system._k8 * _t39
+        let _t27 = _t20 * _t11 - _t21 * _t18
+            + S::ratio(3.0, 1.0) * (g3 * _t15 - g1 * _t3);
+        let _t28 = _t24 * _t18 - _t20 * _t19
+            - S::ratio(3.0, 1.0) * (g3 * _t8 - g2 * _t3);
+        let _t29 = _t22 + S::ratio(3.0, 1.0) * (m3 * _t15 - m1 * _t3);
+        let _t30 = _t25 - (m3 * _t8 - m2 * _t3) * S::ratio(3.0, 1.0);
+        let _t31 = _t27 * self.system._k28 - _t28 * self.system._k29
+            + (m1 * _t29 + m2 * _t30) * self.system._k30;
+        let _t32 = self.system._k2 * _t16 - self.system._k0 * _t4;
+        let _t33 = self.system._k1 * _t4 - self.system._k2 * _t9;
+        let _t34 = _t11 * _t23 - _t19 * _t26
             + self.system._k8
-                * (_t39 + _t40 * _t41 - _t42 * _t43 + _t17 * _t44 - _t10 * _t45);
-        let _t47 = m2 * self._h2;
-        let _t48 = _t6 * _t9 + _t13 * _t16;
-        let _t49 = _t14 * _t19 - _t7 * _t11 - self.system._k0 * _t24
+                * (_t31
+                    + (_t31
+                        + (g1 * _t32 - g2 * _t33 + m1 * _t17 - m2 * _t10)
+                            * S::ratio(12.0, 1.0)));
+        let _t35 = m2 * self._h8;
+        let _t36 = _t6 * _t9 + _t13 * _t16;
+        let _t37 = _t14 * _t19 - _t7 * _t11 - self.system._k0 * _t24
             + self.system._k1 * _t21;
-        let _t50 = _t49 * self.system._k31 - _t48 * S::ratio(4.0, 1.0);
-        let _t51 = _t21 * _t19 - _t24 * _t11 - _t15 * _t30 + _t8 * _t28;
-        let _t52 = _t49 - _t15 * _t36 + _t8 * _t33;
-        let _t53 = m1 * self.system._k33;
-        let _t54 = m3 * self.system._k33;
-        let _t55 = _t31 * self.system._k32 - _t51 * self.system._k28 - _t52 * _t53
-            - _t37 * _t54;
-        let _t56 = self.system._k0 * _t9 - self.system._k1 * _t16;
-        let _t57 = g3 * S::ratio(12.0, 1.0);
-        let _t58 = m3 * S::ratio(12.0, 1.0);
-        let _t59 = _t18 * _t26 - _t11 * _t50 + self.system._k7 * _t55
+        let _t38 = _t37 * self.system._k31 - _t36 * S::ratio(4.0, 1.0);
+        let _t39 = _t21 * _t19 - _t24 * _t11
+            - S::ratio(3.0, 1.0) * (g2 * _t15 - g1 * _t8);
+        let _t40 = _t37 - S::ratio(3.0, 1.0) * (m2 * _t15 - m1 * _t8);
+        let _t41 = _t28 * self.system._k32 - _t39 * self.system._k28
+            - (m1 * _t40 + m3 * _t30) * self.system._k33;
+        let _t42 = self.system._k0 * _t9 - self.system._k1 * _t16;
+        let _t43 = _t18 * _t26 - _t11 * _t38
             + self.system._k7
-                * (_t55 - _t56 * _t41 + _t42 * _t57 - _t48 * _t44 + _t10 * _t58);
-        let _t60 = m3 * self._h3;
-        let _t61 = self.system._k0 * _t23;
-        let _t62 = _t40 * S::ratio(4.0, 1.0);
-        let _t63 = _t42 * S::ratio(4.0, 1.0);
-        let _t64 = self.system._k1 * _t26 - _t19 * _t63;
-        let _t65 = _t61 - _t11 * _t62 - _t64;
-        let _t66 = g2 * self._h4;
-        let _t67 = self.system._k2 * _t26;
-        let _t68 = _t56 * S::ratio(4.0, 1.0);
-        let _t69 = self.system._k0 * _t50 - _t11 * _t68;
-        let _t70 = _t67 - _t18 * _t63 - _t69;
-        let _t71 = g3 * self._h4;
-        let _t72 = _t8 * self._h5;
-        let _t73 = _t3 * self._h5;
-        let _t74 = _t4 * self._h6;
-        let _t75 = _t9 * self._h7;
-        let _t76 = m1 * self._h0 + _t10 * self._h1 - _t46 * _t47 + _t59 * _t60
-            - _t65 * _t66 + _t70 * _t71
-            + (_t2 * _t23 - _t7 * _t50 + _t24 * _t68 - _t20 * _t62) * self._h4;
-        let _t77 = m1 * self._h2;
-        let _t78 = m2 * self.system._k34;
-        let _t79 = m3 * self.system._k34;
-        let _t80 = _t51 * self.system._k29 - _t29 * self.system._k32 + _t52 * _t78
-            + _t34 * _t79;
-        let _t81 = _t19 * _t50 - _t18 * _t23 + self.system._k6 * _t80
-            + self.system._k6
-                * (_t80 + _t56 * _t43 - _t40 * _t57 + _t48 * _t45 - _t17 * _t58);
-        let _t82 = m3 * self._h9;
-        let _t83 = g1 * self._h10;
-        let _t84 = self.system._k1 * _t50;
-        let _t85 = self.system._k2 * _t23 - _t18 * _t62;
-        let _t86 = _t84 - _t19 * _t68 - _t85;
-        let _t87 = g3 * self._h10;
-        let _t88 = _t15 * self._h5;
-        let _t89 = _t16 * self._h11;
-        let _t90 = m2 * self._h8 + _t17 * self._h1 - _t46 * _t77 - _t81 * _t82
-            + _t65 * _t83 - _t86 * _t87
-            + (_t14 * _t50 - _t2 * _t26 - _t21 * _t68 + _t20 * _t63) * self._h10;
-        let _t91 = m1 * self._h3;
-        let _t92 = m2 * self._h9;
-        let _t93 = g1 * self._h13;
-        let _t94 = g2 * self._h13;
-        let _t95 = m3 * self._h12 + _t48 * self._h1 + _t59 * _t91 - _t81 * _t92
-            - _t70 * _t93 + _t86 * _t94
-            + (_t7 * _t26 - _t14 * _t23 + _t21 * _t62 - _t24 * _t63) * self._h13;
-        let _t96 = m2 * self._h10;
-        let _t97 = m3 * self._h13;
-        let _t98 = m1 * self._h4;
-        let _t99 = self.system._k8 * _t0;
-        let _t100 = _t99 + _t99;
-        let _t101 = self.system._k7 * _t5;
-        let _t102 = _t101 + _t101;
-        let _t103 = _t0 * _t100 + _t5 * _t102;
-        let _t104 = _t48 * self._h5;
-        let _t105 = _t17 * self._h5;
-        let _t106 = self.system._k13 * _t4;
-        let _t107 = _t106 + _t1 * _t100;
-        let _t108 = self.system._k10 * _t9;
-        let _t109 = _t108 + _t6 * _t102;
-        let _t110 = _t34 * self._h6;
-        let _t111 = g2 * self.system._k16;
-        let _t112 = _t11 * _t0 + self.system._k0 * _t111 + self.system._k6 * _t2;
-        let _t113 = _t3 * S::ratio(3.0, 1.0);
-        let _t114 = _t112 - _t113 - _t99 * _t33;
-        let _t115 = _t52 * self._h7;
-        let _t116 = g3 * self.system._k6;
-        let _t117 = -(_t11 * _t5) - self.system._k0 * _t116 - self.system._k6 * _t7;
-        let _t118 = _t8 * S::ratio(3.0, 1.0);
-        let _t119 = _t117 + _t118 + _t101 * _t33;
-        let _t120 = _t117 * self.system._k31 - _t109 * S::ratio(4.0, 1.0);
-        let _t121 = _t112 * self.system._k26 - _t107 * S::ratio(4.0, 1.0);
-        let _t122 = _t100 * self.system._k19;
-        let _t123 = _t20 * S::ratio(4.0, 1.0);
-        let _t124 = self.system._k0 * _t102;
-        let _t125 = _t24 * S::ratio(4.0, 1.0);
-        let _t126 = self.system._k2 * _t116 + _t18 * _t5 - _t19 * _t0
-            - self.system._k1 * _t111;
-        let _t127 = _t126 * self.system._k27 - _t103 * S::ratio(4.0, 1.0);
-        let _t128 = self.system._k1 * _t100 - self.system._k2 * _t102;
-        let _t129 = _t19 * S::ratio(4.0, 1.0);
-        let _t130 = _t11 * S::ratio(4.0, 1.0);
-        let _t131 = _t18 * S::ratio(4.0, 1.0);
-        let _t132 = _t126 - _t101 * _t32 + _t99 * _t36;
-        let _t133 = _t18 * _t116 - _t19 * _t111 - _t101 * _t27 + _t99 * _t30;
-        let _t134 = _t34 * self.system._k30 + _t114 * _t35 + _t132 * _t38
-            - _t133 * self.system._k29
-            + (_t11 * _t111 + self.system._k6 * _t20 - _t99 * _t28) * self.system._k28;
-        let _t135 = _t17 * S::ratio(12.0, 1.0);
-        let _t136 = self.system._k6 * _t23 + _t11 * _t121 - _t19 * _t127
-            + self.system._k8 * _t134
-            + self.system._k8
-                * (_t134 + _t135 - _t103 * _t45 + _t107 * _t44 - _t128 * _t43
-                    + _t122 * _t41);
-        let _t137 = _t133 * self.system._k32 - _t52 * self.system._k33 - _t119 * _t53
-            - _t132 * _t54
-            - (-(_t11 * _t116) - self.system._k6 * _t24 + _t101 * _t28)
-                * self.system._k28;
-        let _t138 = _t48 * S::ratio(12.0, 1.0);
-        let _t139 = _t18 * _t127 - self.system._k6 * _t50 - _t11 * _t120
-            + self.system._k7 * _t137
-            + self.system._k7
-                * (_t137 - _t138 + _t103 * _t58 - _t109 * _t44 + _t128 * _t57
-                    - _t124 * _t41);
-        let _t140 = self._h0 + _t103 * self._h1 - _t101 * _t104 + _t99 * _t105
-            + _t107 * _t73 - _t109 * _t72 + _t100 * _t110 + _t114 * _t74 - _t102 * _t115
-            - _t119 * _t75;
-        let _t141 = _t140
-            + (_t23 * _t0 - _t50 * _t5 - _t7 * _t120 + _t2 * _t121 + _t116 * _t68
-                - _t111 * _t62 - _t122 * _t123 + _t124 * _t125) * self._h4;
-        let _t142 = _t141
-            - (self.system._k0 * _t121 - self.system._k1 * _t127 + _t128 * _t129
-                - _t122 * _t130 - _t40 * self.system._k35) * _t66
-            + (self.system._k2 * _t127 - self.system._k0 * _t120 - _t128 * _t131
-                + _t124 * _t130 + _t56 * self.system._k35) * _t71;
-        let _t143 = self.system._k8 * _t1;
-        let _t144 = _t143 + _t143;
-        let _t145 = self.system._k6 * _t12;
-        let _t146 = _t145 + _t145;
-        let _t147 = _t1 * _t144 + _t12 * _t146;
-        let _t148 = g3 * self.system._k14;
-        let _t149 = g1 * self.system._k7;
-        let _t150 = _t11 * _t1 - _t18 * _t12 - self.system._k2 * _t148
-            + self.system._k0 * _t149;
-        let _t151 = self.system._k26 * _t150 - S::ratio(4.0, 1.0) * _t147;
-        let _t152 = _t106 + _t0 * _t144;
-        let _t153 = -(_t19 * _t1) - self.system._k1 * _t149 - self.system._k7 * _t2;
-        let _t154 = self.system._k27 * _t153 - S::ratio(4.0, 1.0) * _t152;
-        let _t155 = _t150 + _t145 * _t32 - _t143 * _t33;
-        let _t156 = _t113 + _t153 + _t143 * _t36;
-        let _t157 = -(_t19 * _t149) - self.system._k7 * _t20 + _t143 * _t30;
-        let _t158 = _t11 * _t149 - _t18 * _t148 + _t145 * _t27 - _t143 * _t28;
-        let _t159 = _t37 * self.system._k30 + _t155 * _t35 + _t156 * _t38
-            - _t157 * self.system._k29 + _t158 * self.system._k28;
-        let _t160 = _t10 * S::ratio(12.0, 1.0);
-        let _t161 = self.system._k1 * _t144;
-        let _t162 = self.system._k2 * _t146 - self.system._k0 * _t144;
-        let _t163 = _t11 * _t151 - self.system._k7 * _t26 - _t19 * _t154
-            + self.system._k8 * _t159
-            + self.system._k8
-                * (_t159 - _t160 - _t152 * _t45 + _t147 * _t44 - _t161 * _t43
-                    + _t162 * _t41);
-        let _t164 = self.system._k12 * _t16;
-        let _t165 = _t164 + _t13 * _t146;
-        let _t166 = _t19 * _t12 + self.system._k1 * _t148 + self.system._k7 * _t14;
-        let _t167 = _t15 * S::ratio(3.0, 1.0);
-        let _t168 = _t166 - _t167 - _t145 * _t36;
-        let _t169 = self.system._k31 * _t166 - S::ratio(4.0, 1.0) * _t165;
-        let _t170 = _t146 * self.system._k17;
-        let _t171 = self.system._k0 * _t151 - self.system._k1 * _t154 + _t161 * _t129
-            - _t162 * _t130 + _t42 * self.system._k36;
-        let _t172 = _t19 * _t148 + self.system._k7 * _t21 - _t145 * _t30;
-        let _t173 = _t157 * self.system._k32 - _t172 * self.system._k28 - _t168 * _t53
-            - _t156 * _t54;
-        let _t174 = _t143 * _t105 - _t46 * self._h2 - _t163 * _t47 + _t147 * _t73
-            - _t165 * _t72 + _t144 * _t110 + _t155 * _t74 + _t152 * self._h1
-            - _t168 * _t75;
-        let _t175 = _t174
-            + (_t23 * _t1 - _t7 * _t169 + _t2 * _t151 - _t149 * _t62 - _t162 * _t123
-                + _t170 * _t125) * self._h4 - _t171 * _t66
-            + (self.system._k2 * _t154 - self.system._k0 * _t169 - _t161 * _t131
-                + _t170 * _t130) * _t71;
-        let _t176 = _t175
-            + (_t18 * _t154 - _t11 * _t169 + self.system._k7 * _t173
-                + self.system._k7
-                    * (_t173 + _t152 * _t58 - _t165 * _t44 + _t161 * _t57
-                        - _t170 * _t41)) * _t60;
-        let _t177 = self.system._k7 * _t6;
-        let _t178 = _t177 + _t177;
-        let _t179 = self.system._k6 * _t13;
-        let _t180 = _t179 + _t179;
-        let _t181 = _t6 * _t178 + _t13 * _t180;
-        let _t182 = g2 * self.system._k8;
-        let _t183 = g1 * self.system._k15;
-        let _t184 = _t19 * _t13 - _t11 * _t6 + self.system._k1 * _t182
-            - self.system._k0 * _t183;
-        let _t185 = self.system._k31 * _t184 - S::ratio(4.0, 1.0) * _t181;
-        let _t186 = _t108 + _t5 * _t178;
-        let _t187 = _t18 * _t6 + self.system._k2 * _t183 + self.system._k8 * _t7;
-        let _t188 = self.system._k27 * _t187 - S::ratio(4.0, 1.0) * _t186;
-        let _t189 = _t184 - _t179 * _t36 + _t177 * _t33;
-        let _t190 = _t187 - _t118 - _t177 * _t32;
-        let _t191 = _t18 * _t183 + self.system._k8 * _t24 - _t177 * _t27;
-        let _t192 = _t19 * _t182 - _t11 * _t183 - _t179 * _t30 + _t177 * _t28;
-        let _t193 = _t191 * self.system._k32 - _t37 * self.system._k33 - _t189 * _t53
-            - _t190 * _t54 - _t192 * self.system._k28;
-        let _t194 = _t178 * self.system._k18;
-        let _t195 = self.system._k0 * _t178 - self.system._k1 * _t180;
-        let _t196 = self.system._k8 * _t26 - _t11 * _t185 + _t18 * _t188
-            + self.system._k7 * _t193
-            + self.system._k7
-                * (_t160 + _t193 + _t186 * _t58 - _t181 * _t44 + _t194 * _t57
-                    - _t195 * _t41);
-        let _t197 = _t164 + _t12 * _t180;
-        let _t198 = -(_t18 * _t13) - self.system._k2 * _t182 - self.system._k8 * _t14;
-        let _t199 = _t167 + _t198 + _t179 * _t32;
-        let _t200 = self.system._k26 * _t198 - S::ratio(4.0, 1.0) * _t197;
-        let _t201 = self.system._k2 * _t180;
-        let _t202 = self.system._k0 * _t200 - self.system._k1 * _t188 + _t194 * _t129
-            - _t201 * _t130;
-        let _t203 = self.system._k2 * _t188 - self.system._k0 * _t185 - _t194 * _t131
-            + _t195 * _t130 - _t42 * self.system._k37;
-        let _t204 = -(_t18 * _t182) - self.system._k8 * _t21 + _t179 * _t27;
-        let _t205 = _t204 * self.system._k28 - _t191 * self.system._k29 + _t199 * _t35
-            + _t190 * _t38;
-        let _t206 = _t11 * _t200 - _t19 * _t188 + self.system._k8 * _t205
-            + self.system._k8
-                * (_t205 - _t186 * _t45 + _t197 * _t44 - _t194 * _t43 + _t201 * _t41);
-        let _t207 = _t59 * self._h3 + _t196 * _t60 - _t177 * _t104 + _t197 * _t73
-            - _t181 * _t72 - _t178 * _t115 - _t189 * _t75 + _t186 * self._h1
-            + _t199 * _t74;
-        let _t208 = _t207
-            + (_t2 * _t200 - _t50 * _t6 - _t7 * _t185 + _t183 * _t68 - _t201 * _t123
-                + _t195 * _t125) * self._h4 - _t202 * _t66 + _t203 * _t71;
-        let _t209 = _t208 - _t206 * _t47;
-        let _t210 = m2 * self.system._k20 + m3 * self.system._k21;
-        let _t211 = m1 * self.system._k20;
-        let _t212 = m1 * self.system._k21;
-        let _t213 = self.system._k0 * _t19;
-        let _t214 = self.system._k1 * _t11 + _t213;
-        let _t215 = _t214 - m1 * self.system._k38;
-        let _t216 = self.system._k2 * _t11;
-        let _t217 = m3 * self.system._k15;
-        let _t218 = _t216 - self.system._k0 * _t217;
-        let _t219 = _t218 - m1 * self.system._k39;
-        let _t220 = self.system._k2 * _t50;
-        let _t221 = self.system._k1 * _t23;
-        let _t222 = self.system._k31 * _t218 - S::ratio(4.0, 1.0) * _t212;
-        let _t223 = self.system._k26 * _t214 - S::ratio(4.0, 1.0) * _t211;
-        let _t224 = _t20 * self.system._k40;
-        let _t225 = _t24 * self.system._k41;
-        let _t226 = self.system._k2 * _t217 - self.system._k2 * _t18
-            - _t19 * self.system._k42;
-        let _t227 = self.system._k27 * _t226 - S::ratio(4.0, 1.0) * _t210;
-        let _t228 = self.system._k0 * _t223 - self.system._k1 * _t227
-            + _t19 * self.system._k43 + _t11 * self.system._k40;
-        let _t229 = self.system._k2 * _t227 - self.system._k0 * _t222
-            - _t18 * self.system._k43 - _t11 * self.system._k41;
-        let _t230 = _t18 * _t217 - _t19 * _t19 + g3 * self.system._k39
-            + g2 * self.system._k38;
-        let _t231 = _t11 * _t19 - _t113 - g1 * self.system._k38;
-        let _t232 = _t226 + m3 * self.system._k39 + m2 * self.system._k38;
-        let _t233 = _t231 * self.system._k28 - _t230 * self.system._k29 + _t215 * _t35
-            + _t232 * _t38;
-        let _t234 = _t40 * S::ratio(12.0, 1.0);
-        let _t235 = _t11 * _t223 - _t19 * _t227 + self.system._k8 * _t233
-            + self.system._k8
-                * (_t233 + _t234 - _t210 * _t45 + _t211 * _t44 - g2 * self.system._k44
-                    - g1 * self.system._k45);
-        let _t236 = _t118 + -(_t11 * _t217) - g1 * self.system._k39;
-        let _t237 = _t230 * self.system._k32 - _t236 * self.system._k28 - _t219 * _t53
-            - _t232 * _t54;
-        let _t238 = _t56 * S::ratio(12.0, 1.0);
-        let _t239 = _t18 * _t227 - _t11 * _t222 + self.system._k7 * _t237
-            + self.system._k7
-                * (_t237 - _t238 + _t210 * _t58 - _t212 * _t44 + g3 * self.system._k44
-                    + g1 * self.system._k46);
-        let _t240 = _t48 * self._h20 + _t17 * self._h21 + _t34 * self._h22
-            + _t52 * self._h23 + _t210 * self._h1 + _t211 * _t73 - _t212 * _t72
-            + _t215 * _t74 - _t219 * _t75;
-        let _t241 = _t240
-            + (_t220 + _t221 - _t7 * _t222 + _t2 * _t223 + _t217 * _t68 - _t19 * _t62
-                + _t224 - _t225) * self._h4 - _t228 * _t66 + _t229 * _t71;
-        let _t242 = _t241 - _t235 * _t47 + _t239 * _t60;
-        let _t243 = m2 * self.system._k24;
-        let _t244 = self.system._k1 * _t18;
-        let _t245 = self.system._k2 * _t19 + _t244;
-        let _t246 = self.system._k31 * _t245 - S::ratio(4.0, 1.0) * _t243;
-        let _t247 = m1 * self.system._k22 + m3 * self.system._k24;
-        let _t248 = m1 * self.system._k16;
-        let _t249 = self.system._k0 * _t248 - self.system._k0 * _t11
-            - _t18 * self.system._k47;
-        let _t250 = self.system._k26 * _t249 - S::ratio(4.0, 1.0) * _t247;
-        let _t251 = m2 * self.system._k22;
-        let _t252 = _t213 - self.system._k1 * _t248;
-        let _t253 = self.system._k27 * _t252 - S::ratio(4.0, 1.0) * _t251;
-        let _t254 = self.system._k0 * _t250 - self.system._k1 * _t253
-            - _t19 * self.system._k40 - _t11 * self.system._k48;
-        let _t255 = _t18 * self.system._k40;
-        let _t256 = _t11 * self.system._k49;
-        let _t257 = _t255 - self.system._k0 * _t246 + self.system._k2 * _t253 - _t256;
-        let _t258 = _t249 + m3 * self.system._k50 + m1 * self.system._k51;
-        let _t259 = _t245 - m2 * self.system._k50;
-        let _t260 = _t113 + -(_t19 * _t248) - g2 * self.system._k51;
-        let _t261 = _t11 * _t248 - _t18 * _t18 + g3 * self.system._k50
-            + g1 * self.system._k51;
-        let _t262 = _t252 - m2 * self.system._k51;
-        let _t263 = _t261 * self.system._k28 - _t260 * self.system._k29 + _t258 * _t35
-            + _t262 * _t38;
-        let _t264 = _t42 * S::ratio(12.0, 1.0);
-        let _t265 = _t11 * _t250 - _t19 * _t253 + self.system._k8 * _t263
-            + self.system._k8
-                * (_t263 - _t264 - _t251 * _t45 + _t247 * _t44 + g2 * self.system._k45
-                    + g1 * self.system._k52);
-        let _t266 = _t19 * _t18 - _t167 - g2 * self.system._k50;
-        let _t267 = _t260 * self.system._k32 - _t266 * self.system._k28 - _t259 * _t53
-            - _t262 * _t54;
-        let _t268 = g3 * self.system._k45;
-        let _t269 = g1 * self.system._k53;
-        let _t270 = _t18 * _t253 - _t11 * _t246 + self.system._k7 * _t267
-            + self.system._k7 * (_t267 - _t268 + _t251 * _t58 - _t243 * _t44 + _t269);
-        let _t271 = (_t2 * _t250 - _t61 - _t7 * _t246 - _t248 * _t62
-            - _t20 * self.system._k48 - _t24 * self.system._k49) * self._h4
-            - _t65 * self._h4 - _t254 * _t66 + _t257 * _t71;
-        let _t272 = _t271 - _t17 * self._h24 - _t34 * self._h25 + _t251 * self._h1
-            + _t247 * _t73 - _t243 * _t72 + _t258 * _t74 - _t259 * _t75 - _t265 * _t47
-            + _t270 * _t60;
-        let _t273 = m1 * self.system._k23 + m2 * self.system._k25;
-        let _t274 = m2 * self.system._k14;
-        let _t275 = self.system._k1 * _t274 - self.system._k1 * _t19
-            - _t11 * self.system._k54;
-        let _t276 = self.system._k31 * _t275 - S::ratio(4.0, 1.0) * _t273;
-        let _t277 = m3 * self.system._k25;
-        let _t278 = _t244 - self.system._k2 * _t274;
-        let _t279 = self.system._k26 * _t278 - S::ratio(4.0, 1.0) * _t277;
-        let _t280 = _t19 * self.system._k41;
-        let _t281 = m3 * self.system._k23;
-        let _t282 = _t216 + self.system._k0 * _t18;
-        let _t283 = self.system._k27 * _t282 - S::ratio(4.0, 1.0) * _t281;
-        let _t284 = _t256 - _t280 + self.system._k0 * _t279 - self.system._k1 * _t283;
-        let _t285 = self.system._k2 * _t283 - self.system._k0 * _t276
-            + _t18 * self.system._k41 + _t11 * self.system._k55;
-        let _t286 = _t278 - m3 * self.system._k56;
-        let _t287 = _t275 + m2 * self.system._k56 + m1 * self.system._k57;
-        let _t288 = _t11 * _t18 - _t118 - g3 * self.system._k57;
-        let _t289 = _t167 + -(_t18 * _t274) - g3 * self.system._k56;
-        let _t290 = _t282 - m3 * self.system._k57;
-        let _t291 = _t289 * self.system._k28 - _t288 * self.system._k29 + _t286 * _t35
-            + _t290 * _t38;
-        let _t292 = g2 * self.system._k46;
-        let _t293 = _t11 * _t279 - _t19 * _t283 + self.system._k8 * _t291
-            + self.system._k8 * (_t292 - _t269 + _t291 - _t281 * _t45 + _t277 * _t44);
-        let _t294 = _t19 * _t274 - _t11 * _t11 + g2 * self.system._k56
-            + g1 * self.system._k57;
-        let _t295 = _t288 * self.system._k32 - _t294 * self.system._k28 - _t287 * _t53
-            - _t290 * _t54;
-        let _t296 = _t18 * _t283 - _t11 * _t276 + self.system._k7 * _t295
-            + self.system._k7
-                * (_t264 + _t295 + _t281 * _t58 - _t273 * _t44 - g3 * self.system._k46
-                    - g1 * self.system._k58);
-        let _t297 = _t70 * self._h4
-            + self._h4
-                * (_t2 * _t279 - _t7 * _t276 + _t20 * self.system._k49
-                    + _t24 * self.system._k55 - _t69) - _t284 * _t66 + _t285 * _t71
-            - _t48 * self._h26;
-        let _t298 = _t297 - _t52 * self._h27 + _t281 * self._h1 + _t277 * _t73
-            - _t273 * _t72 + _t286 * _t74 - _t287 * _t75 - _t293 * _t47 + _t296 * _t60;
-        let _t299 = _t10 * self._h5;
-        let _t300 = _t52 * self._h11;
-        let _t301 = _t21 * S::ratio(4.0, 1.0);
-        let _t302 = _t52 * self.system._k34 + _t168 * _t78 + _t155 * _t79
-            - _t158 * self.system._k32 + _t172 * self.system._k29;
-        let _t303 = self.system._k7 * _t50 + _t19 * _t169 - _t18 * _t151
-            + self.system._k6 * _t302
-            + self.system._k6
-                * (_t138 + _t302 - _t147 * _t58 + _t165 * _t45 - _t162 * _t57
-                    + _t170 * _t43);
-        let _t304 = self._h8 + _t145 * _t104 - _t143 * _t299 - _t152 * _t73
-            + _t165 * _t88 + _t37 * _t144 * self._h6 + _t156 * _t74 + _t146 * _t300
-            + _t168 * _t89;
-        let _t305 = _t304 + _t147 * self._h1
-            + (_t50 * _t12 - _t26 * _t1 + _t14 * _t169 - _t2 * _t154 - _t148 * _t68
-                + _t149 * _t63 + _t161 * _t123 - _t170 * _t301) * self._h10;
-        let _t306 = _t34 * self.system._k34 + _t189 * _t78 + _t199 * _t79
-            - _t204 * self.system._k32 + _t192 * self.system._k29;
-        let _t307 = _t19 * _t185 - self.system._k8 * _t23 - _t18 * _t200
-            + self.system._k6 * _t306
-            + self.system._k6
-                * (_t306 - _t135 - _t197 * _t58 + _t181 * _t45 - _t201 * _t57
-                    + _t195 * _t43);
-        let _t308 = self.system._k1 * _t185 - self.system._k2 * _t200 + _t201 * _t131
-            - _t195 * _t129 + _t40 * self.system._k37;
-        let _t309 = _t179 * _t104 - _t81 * self._h9 - _t307 * _t82 - _t186 * _t73
-            + _t181 * _t88 + _t180 * _t300 + _t189 * _t89 + _t197 * self._h1
-            + _t190 * _t74;
-        let _t310 = _t309
-            + (_t50 * _t13 + _t14 * _t185 - _t2 * _t188 - _t182 * _t68 + _t194 * _t123
-                - _t195 * _t301) * self._h10 + _t202 * _t83 - _t308 * _t87;
-        let _t311 = _t310 - _t206 * _t77;
-        let _t312 = self.system._k1 * _t222 - self.system._k2 * _t223 - _t255 + _t280;
-        let _t313 = _t236 * self.system._k29 - _t231 * self.system._k32 + _t219 * _t78
-            + _t215 * _t79;
-        let _t314 = _t19 * _t222 - _t18 * _t223 + self.system._k6 * _t313
-            + self.system._k6 * (_t313 - _t211 * _t58 + _t212 * _t45 + _t268 - _t292);
-        let _t315 = _t65 * self._h10
-            + (_t14 * _t222 - _t2 * _t227 + _t20 * self.system._k43
-                + _t21 * self.system._k41 - _t64) * self._h10 + _t228 * _t83
-            - _t312 * _t87 - _t10 * self._h21;
-        let _t316 = _t315 + _t37 * self._h22 - _t210 * _t73 + _t212 * _t88
-            + _t211 * self._h1 + _t232 * _t74 + _t219 * _t89 - _t235 * _t77
-            - _t314 * _t82;
-        let _t317 = self.system._k0 * _t26;
-        let _t318 = _t21 * self.system._k49;
-        let _t319 = self.system._k1 * _t246 - self.system._k2 * _t250
-            + _t18 * self.system._k48 + _t19 * self.system._k49;
-        let _t320 = _t266 * self.system._k29 - _t261 * self.system._k32 + _t259 * _t78
-            + _t258 * _t79;
-        let _t321 = _t19 * _t246 - _t18 * _t250 + self.system._k6 * _t320
-            + self.system._k6
-                * (_t238 + _t320 - _t247 * _t58 + _t243 * _t45 - g3 * self.system._k52
-                    - g2 * self.system._k53);
-        let _t322 = _t48 * self._h28 + _t10 * self._h24 - _t37 * self._h25
-            + _t52 * self._h29 - _t251 * _t73 + _t243 * _t88 + _t247 * self._h1
-            + _t262 * _t74 + _t259 * _t89;
-        let _t323 = _t322
+                * (_t41
+                    + (_t41
+                        - S::ratio(12.0, 1.0)
+                            * (g1 * _t42 - g3 * _t33 + m1 * _t36 - m3 * _t10)));
+        let _t44 = m3 * self._h9;
+        let _t45 = self.system._k0 * _t23;
+        let _t46 = self.system._k1 * _t26;
+        let _t47 = _t33 * _t19;
+        let _t48 = _t45 - _t46 - S::ratio(4.0, 1.0) * (_t32 * _t11 - _t47);
+        let _t49 = self.system._k0 * _t38;
+        let _t50 = self.system._k2 * _t26;
+        let _t51 = _t42 * _t11;
+        let _t52 = _t50 - _t49 + S::ratio(4.0, 1.0) * (_t51 - _t33 * _t18);
+        let _t53 = _t4 * self._h12;
+        let _t54 = _t9 * self._h13;
+        let _t55 = m1 * self._h0 + _t10 * self._h1 - _t34 * _t35 + _t43 * _t44
             + self._h10
-                * (_t220 - _t224 + _t317 + _t14 * _t246 - _t2 * _t253 - _t18 * _t68
-                    + _t248 * _t63 + _t318) + _t254 * _t83 - _t319 * _t87;
-        let _t324 = _t323 - _t265 * _t77 - _t321 * _t82;
-        let _t325 = self.system._k1 * _t276 - self.system._k2 * _t279
-            - _t18 * self.system._k49 - _t19 * self.system._k55;
-        let _t326 = _t294 * self.system._k29 - _t289 * self.system._k32 + _t287 * _t78
-            + _t286 * _t79;
-        let _t327 = _t19 * _t276 - _t18 * _t279 + self.system._k6 * _t326
+                * (_t2 * _t23 - _t7 * _t38
+                    + S::ratio(4.0, 1.0) * (_t24 * _t42 - _t20 * _t32) - g2 * _t48
+                    + g3 * _t52);
+        let _t56 = m1 * self._h8;
+        let _t57 = _t39 * self.system._k29 - _t27 * self.system._k32
+            + (m2 * _t40 + m3 * _t29) * self.system._k34;
+        let _t58 = _t19 * _t38 - _t18 * _t23
             + self.system._k6
-                * (_t326 - _t234 - _t277 * _t58 + _t273 * _t45 + g3 * self.system._k53
-                    + g2 * self.system._k58);
-        let _t328 = self._h10
-            * (_t14 * _t276 - _t84 - _t2 * _t283 - _t274 * _t68 - _t20 * self.system._k41
-                - _t21 * self.system._k55) - _t86 * self._h10 + _t284 * _t83
-            - _t325 * _t87;
-        let _t329 = _t328 - _t48 * self._h30 - _t52 * self._h31 - _t281 * _t73
-            + _t273 * _t88 + _t277 * self._h1 + _t290 * _t74 + _t287 * _t89
-            - _t293 * _t77 - _t327 * _t82;
-        let _t330 = self._h12 - _t179 * _t105 + _t177 * _t299 + _t186 * _t72
-            - _t197 * _t88 - _t37 * _t178 * self._h7 - _t190 * _t75
-            + _t34 * _t180 * self._h11 + _t199 * _t89;
-        let _t331 = _t330 + _t181 * self._h1
-            + (_t26 * _t6 - _t23 * _t13 - _t14 * _t200 + _t7 * _t188 + _t182 * _t62
-                - _t183 * _t63 - _t194 * _t125 + _t201 * _t301) * self._h13;
-        let _t332 = (_t7 * _t227 - _t67 - _t14 * _t223 - _t217 * _t63
-            - _t24 * self.system._k43 - _t21 * self.system._k40) * self._h13
-            - _t70 * self._h13 - _t229 * _t93 + _t312 * _t94;
-        let _t333 = _t332 - _t10 * self._h20 + _t37 * self._h23 + _t210 * _t72
-            - _t211 * _t88 + _t212 * self._h1 - _t232 * _t75 + _t215 * _t89
-            + _t239 * _t91 - _t314 * _t92;
-        let _t334 = _t86 * self._h13
-            + self._h13
-                * (_t7 * _t253 - _t14 * _t250 + _t24 * self.system._k40
-                    + _t21 * self.system._k48 - _t85) - _t257 * _t93 + _t319 * _t94
-            - _t17 * self._h28;
-        let _t335 = _t334 + _t34 * self._h29 + _t251 * _t72 - _t247 * _t88
-            + _t243 * self._h1 - _t262 * _t75 + _t258 * _t89 + _t270 * _t91
-            - _t321 * _t92;
-        let _t336 = _t17 * self._h30 + _t10 * self._h26 - _t37 * self._h27
-            - _t34 * self._h31 + _t281 * _t72 - _t277 * _t88 + _t273 * self._h1
-            - _t290 * _t75 + _t286 * _t89;
-        let _t337 = _t336
-            + self._h13
-                * (_t221 + _t225 + _t317 - _t318 - _t14 * _t279 + _t7 * _t283
-                    + _t274 * _t62 - _t11 * _t63) - _t285 * _t93 + _t325 * _t94;
-        let _t338 = _t337 + _t296 * _t91 - _t327 * _t92;
-        let _t339 = _t3 * self._h32;
-        let _t340 = _t8 * self._h33;
-        let _t341 = _t3 * self._h35 - _t40 * self._h24 + _t8 * self._h36 + _t254 * _t96
-            - _t257 * _t97 + self._h14 * _t265 - self._h15 * _t270 + self._h37;
-        let _t342 = _t284 * _t96 - _t56 * self._h26 - _t3 * self._h36 - _t8 * self._h38
-            - _t285 * _t97 + self._h14 * _t293 - self._h15 * _t296 + self._h39;
-        let _t343 = _t15 * self._h36;
-        let _t344 = _t3 * self._h33 - _t56 * self._h30 + _t15 * self._h38 - _t284 * _t98
-            + _t325 * _t97 - self._h17 * _t293 + self._h15 * _t327 + self._h41;
-        xi[0] = _t76 - _t48 * _t72 + _t17 * _t73 + _t34 * _t74 - _t52 * _t75;
-        xi[1] = _t90 + _t48 * _t88 - _t10 * _t73 + _t37 * _t74 + _t52 * _t89;
-        xi[2] = _t95 - _t17 * _t88 + _t10 * _t72 - _t37 * _t75 + _t34 * _t89;
-        xi[3] = self._h16 + _t42 * self._h1 + _t65 * _t96 - _t70 * _t97 - _t56 * _t72
-            + _t40 * _t73 + _t46 * self._h14 - _t59 * self._h15;
-        xi[4] = self._h18 + _t40 * self._h1 - _t65 * _t98 + _t86 * _t97 + _t56 * _t88
-            - _t42 * _t73 - _t46 * self._h17 + _t81 * self._h15;
-        xi[5] = self._h19 + _t56 * self._h1 + _t70 * _t98 - _t86 * _t96 - _t40 * _t88
-            + _t42 * _t72 + _t59 * self._h17 - _t81 * self._h14;
-        hessian[(0, 0)] = _t142 - _t136 * _t47 + _t139 * _t60;
-        hessian[(0, 1)] = _t176;
-        hessian[(0, 2)] = _t209;
-        hessian[(0, 3)] = _t242;
-        hessian[(0, 4)] = _t272;
-        hessian[(0, 5)] = _t298;
-        hessian[(1, 0)] = _t176;
-        hessian[(1, 1)] = _t305 + _t171 * _t83
-            - (self.system._k1 * _t169 - self.system._k2 * _t151 + _t162 * _t131
-                - _t170 * _t129 - _t56 * self.system._k36) * _t87 - _t163 * _t77
-            - _t303 * _t82;
-        hessian[(1, 2)] = _t311;
-        hessian[(1, 3)] = _t316;
-        hessian[(1, 4)] = _t324;
-        hessian[(1, 5)] = _t329;
-        hessian[(2, 0)] = _t209;
-        hessian[(2, 1)] = _t311;
-        hessian[(2, 2)] = _t331 - _t203 * _t93 + _t308 * _t94 + _t196 * _t91
-            - _t307 * _t92;
-        hessian[(2, 3)] = _t333;
-        hessian[(2, 4)] = _t335;
-        hessian[(2, 5)] = _t338;
-        hessian[(3, 0)] = _t242;
-        hessian[(3, 1)] = _t316;
-        hessian[(3, 2)] = _t333;
-        hessian[(3, 3)] = _t56 * self._h20 + _t40 * self._h21 - _t339 + _t340
-            + _t228 * _t96 - _t229 * _t97 + _t235 * self._h14 - _t239 * self._h15
-            + self._h34;
-        hessian[(3, 4)] = _t341;
-        hessian[(3, 5)] = _t342;
-        hessian[(4, 0)] = _t272;
-        hessian[(4, 1)] = _t324;
-        hessian[(4, 2)] = _t335;
-        hessian[(4, 3)] = _t341;
-        hessian[(4, 4)] = _t339 + _t56 * self._h28 + _t42 * self._h24 - _t343
-            - _t254 * _t98 + _t319 * _t97 - _t265 * self._h17 + self._h15 * _t321
-            + self._h40;
-        hessian[(4, 5)] = _t344;
-        hessian[(5, 0)] = _t298;
-        hessian[(5, 1)] = _t329;
-        hessian[(5, 2)] = _t338;
-        hessian[(5, 3)] = _t342;
-        hessian[(5, 4)] = _t344;
-        hessian[(5, 5)] = _t343 - _t340 + _t40 * self._h30 + _t42 * self._h26
-            + _t285 * _t98 - _t325 * _t96 + self._h17 * _t296 - self._h14 * _t327
-            + self._h42;
+                * (_t57
+                    + (_t57
+                        + S::ratio(12.0, 1.0)
+                            * (g2 * _t42 - g3 * _t32 + m2 * _t36 - m3 * _t17)));
+        let _t59 = m3 * self._h14;
+        let _t60 = self.system._k1 * _t38;
+        let _t61 = self.system._k2 * _t23;
+        let _t62 = _t32 * _t18;
+        let _t63 = _t60 - _t61 - S::ratio(4.0, 1.0) * (_t42 * _t19 - _t62);
+        let _t64 = _t16 * self._h16;
+        let _t65 = m2 * self._h3 + _t17 * self._h1 - _t34 * _t56 - _t58 * _t59
+            + self._h15
+                * (_t14 * _t38 - _t2 * _t26
+                    - S::ratio(4.0, 1.0) * (_t21 * _t42 - _t20 * _t33) + g1 * _t48
+                    - g3 * _t63);
+        let _t66 = m1 * self._h9;
+        let _t67 = m2 * self._h14;
+        let _t68 = m3 * self._h4 + _t36 * self._h1 + _t43 * _t66 - _t58 * _t67
+            + self._h17
+                * (_t7 * _t26 - _t14 * _t23
+                    + S::ratio(4.0, 1.0) * (_t21 * _t32 - _t24 * _t33) - g1 * _t52
+                    + g2 * _t63);
+        let _t69 = m2 * self._h15;
+        let _t70 = m3 * self._h17;
+        let _t71 = m1 * self._h10;
+        let _t72 = self.system._k8 * _t0;
+        let _t73 = _t72 + _t72;
+        let _t74 = self.system._k7 * _t5;
+        let _t75 = _t74 + _t74;
+        let _t76 = _t0 * _t73 + _t5 * _t75;
+        let _t77 = self.system._k11 * (_t4 + m1 * _t73);
+        let _t78 = self.system._k10 * (_t9 + m1 * _t75);
+        let _t79 = g2 * self.system._k14;
+        let _t80 = _t11 * _t0 + self.system._k0 * _t79 + self.system._k6 * _t2;
+        let _t81 = _t80 - S::ratio(3.0, 1.0) * (_t3 + m1 * _t72);
+        let _t82 = g3 * self.system._k6;
+        let _t83 = -(_t11 * _t5) - self.system._k0 * _t82 - self.system._k6 * _t7;
+        let _t84 = _t83 + S::ratio(3.0, 1.0) * (_t8 + m1 * _t74);
+        let _t85 = _t83 * self.system._k31 - _t78 * S::ratio(4.0, 1.0);
+        let _t86 = _t80 * self.system._k26 - _t77 * S::ratio(4.0, 1.0);
+        let _t87 = _t73 * self.system._k17;
+        let _t88 = self.system._k0 * _t75;
+        let _t89 = self.system._k2 * _t82 + _t18 * _t5 - _t19 * _t0
+            - self.system._k1 * _t79;
+        let _t90 = _t89 * self.system._k27 - _t76 * S::ratio(4.0, 1.0);
+        let _t91 = self.system._k1 * _t73 - self.system._k2 * _t75;
+        let _t92 = _t23 * _t0 - _t38 * _t5 - _t7 * _t85 + _t2 * _t86
+            + S::ratio(4.0, 1.0)
+                * (_t42 * _t82 - _t32 * _t79 - _t20 * _t87 + _t24 * _t88)
+            - g2
+                * (self.system._k0 * _t86 - self.system._k1 * _t90
+                    + S::ratio(4.0, 1.0) * (_t19 * _t91 - _t11 * _t87)
+                    - _t32 * self.system._k35);
+        let _t93 = _t89 - S::ratio(3.0, 1.0) * (m3 * _t74 - m2 * _t72);
+        let _t94 = _t18 * _t82 - _t19 * _t79
+            - S::ratio(3.0, 1.0) * (g3 * _t74 - g2 * _t72);
+        let _t95 = g1 * S::ratio(3.0, 1.0);
+        let _t96 = self.system._k30 * (_t29 + m1 * _t81 + m2 * _t93)
+            - _t94 * self.system._k29
+            + (_t11 * _t79 + self.system._k6 * _t20 - _t72 * _t95) * self.system._k28;
+        let _t97 = self.system._k6 * _t23 + _t11 * _t86 - _t19 * _t90
+            + self.system._k8
+                * (_t96
+                    + (_t96
+                        + S::ratio(12.0, 1.0)
+                            * (_t17 - m2 * _t76 + m1 * _t77 - g2 * _t91 + g1 * _t87)));
+        let _t98 = _t94 * self.system._k32
+            - self.system._k33 * (_t40 + m1 * _t84 + m3 * _t93)
+            - (-(_t11 * _t82) - self.system._k6 * _t24 + _t74 * _t95) * self.system._k28;
+        let _t99 = _t18 * _t90 - self.system._k6 * _t38 - _t11 * _t85
+            + self.system._k7
+                * (_t98
+                    + (_t98
+                        - S::ratio(12.0, 1.0)
+                            * (_t36 - m3 * _t76 + m1 * _t78 - g3 * _t91 + g1 * _t88)));
+        let _t100 = self._h0 + _t76 * self._h1
+            - self._h11 * (_t36 * _t74 - _t17 * _t72 - _t3 * _t77 + _t8 * _t78)
+            + self._h12 * (_t29 * _t73 + _t4 * _t81)
+            - self._h13 * (_t40 * _t75 + _t9 * _t84);
+        let _t101 = self.system._k8 * _t1;
+        let _t102 = _t101 + _t101;
+        let _t103 = self.system._k6 * _t12;
+        let _t104 = _t103 + _t103;
+        let _t105 = _t1 * _t102 + _t12 * _t104;
+        let _t106 = g3 * self.system._k12;
+        let _t107 = g1 * self.system._k7;
+        let _t108 = _t11 * _t1 - _t18 * _t12 - self.system._k2 * _t106
+            + self.system._k0 * _t107;
+        let _t109 = self.system._k26 * _t108 - S::ratio(4.0, 1.0) * _t105;
+        let _t110 = self.system._k11 * (_t4 + m2 * _t102);
+        let _t111 = -(_t19 * _t1) - self.system._k1 * _t107 - self.system._k7 * _t2;
+        let _t112 = self.system._k27 * _t111 - S::ratio(4.0, 1.0) * _t110;
+        let _t113 = _t108 + S::ratio(3.0, 1.0) * (m3 * _t103 - m1 * _t101);
+        let _t114 = _t111 + S::ratio(3.0, 1.0) * (_t3 + m2 * _t101);
+        let _t115 = g2 * S::ratio(3.0, 1.0);
+        let _t116 = -(_t19 * _t107) - self.system._k7 * _t20 + _t101 * _t115;
+        let _t117 = _t11 * _t107 - _t18 * _t106
+            + S::ratio(3.0, 1.0) * (g3 * _t103 - g1 * _t101);
+        let _t118 = self.system._k30 * (_t30 + m1 * _t113 + m2 * _t114)
+            - _t116 * self.system._k29 + _t117 * self.system._k28;
+        let _t119 = self.system._k1 * _t102;
+        let _t120 = self.system._k2 * _t104 - self.system._k0 * _t102;
+        let _t121 = _t11 * _t109 - self.system._k7 * _t26 - _t19 * _t112
+            + self.system._k8
+                * (_t118
+                    + (_t118
+                        - S::ratio(12.0, 1.0)
+                            * (_t10 + m2 * _t110 - m1 * _t105 + g2 * _t119
+                                - g1 * _t120)));
+        let _t122 = self.system._k9 * (_t16 + m2 * _t104);
+        let _t123 = _t19 * _t12 + self.system._k1 * _t106 + self.system._k7 * _t14;
+        let _t124 = _t123 - S::ratio(3.0, 1.0) * (_t15 + m2 * _t103);
+        let _t125 = self.system._k31 * _t123 - S::ratio(4.0, 1.0) * _t122;
+        let _t126 = _t104 * self.system._k15;
+        let _t127 = self.system._k0 * _t109 - self.system._k1 * _t112
+            + S::ratio(4.0, 1.0) * (_t19 * _t119 - _t11 * _t120)
+            + _t33 * self.system._k36;
+        let _t128 = _t23 * _t1 - _t7 * _t125 + _t2 * _t109
+            - S::ratio(4.0, 1.0) * (_t32 * _t107 + _t20 * _t120 - _t24 * _t126)
+            - g2 * _t127
+            + g3
+                * (self.system._k2 * _t112 - self.system._k0 * _t125
+                    - S::ratio(4.0, 1.0) * (_t18 * _t119 - _t11 * _t126));
+        let _t129 = _t19 * _t106 + self.system._k7 * _t21 - _t103 * _t115;
+        let _t130 = _t116 * self.system._k32 - _t129 * self.system._k28
+            - self.system._k33 * (m1 * _t124 + m3 * _t114);
+        let _t131 = self._h11 * (_t17 * _t101 + _t3 * _t105 - _t8 * _t122)
+            - self._h8 * (_t34 + m2 * _t121) + self._h12 * (_t29 * _t102 + _t4 * _t113)
+            + _t110 * self._h1;
+        let _t132 = _t131 - _t124 * _t54 + self._h10 * _t128
+            + (_t18 * _t112 - _t11 * _t125
+                + self.system._k7
+                    * (_t130
+                        + (_t130
+                            + S::ratio(12.0, 1.0)
+                                * (m3 * _t110 - m1 * _t122 + g3 * _t119 - g1 * _t126))))
+                * _t44;
+        let _t133 = self.system._k7 * _t6;
+        let _t134 = _t133 + _t133;
+        let _t135 = self.system._k6 * _t13;
+        let _t136 = _t135 + _t135;
+        let _t137 = _t6 * _t134 + _t13 * _t136;
+        let _t138 = g2 * self.system._k8;
+        let _t139 = g1 * self.system._k13;
+        let _t140 = _t19 * _t13 - _t11 * _t6 + self.system._k1 * _t138
+            - self.system._k0 * _t139;
+        let _t141 = self.system._k31 * _t140 - S::ratio(4.0, 1.0) * _t137;
+        let _t142 = self.system._k10 * (_t9 + m3 * _t134);
+        let _t143 = _t18 * _t6 + self.system._k2 * _t139 + self.system._k8 * _t7;
+        let _t144 = self.system._k27 * _t143 - S::ratio(4.0, 1.0) * _t142;
+        let _t145 = _t140 - S::ratio(3.0, 1.0) * (m2 * _t135 - m1 * _t133);
+        let _t146 = _t143 - S::ratio(3.0, 1.0) * (_t8 + m3 * _t133);
+        let _t147 = g3 * S::ratio(3.0, 1.0);
+        let _t148 = _t18 * _t139 + self.system._k8 * _t24 - _t133 * _t147;
+        let _t149 = _t19 * _t138 - _t11 * _t139
+            - S::ratio(3.0, 1.0) * (g2 * _t135 - g1 * _t133);
+        let _t150 = _t148 * self.system._k32
+            - self.system._k33 * (_t30 + m1 * _t145 + m3 * _t146)
+            - _t149 * self.system._k28;
+        let _t151 = _t134 * self.system._k16;
+        let _t152 = self.system._k0 * _t134 - self.system._k1 * _t136;
+        let _t153 = self.system._k8 * _t26 - _t11 * _t141 + _t18 * _t144
+            + self.system._k7
+                * (_t150
+                    + (_t150
+                        + S::ratio(12.0, 1.0)
+                            * (_t10 + m3 * _t142 - m1 * _t137 + g3 * _t151
+                                - g1 * _t152)));
+        let _t154 = self.system._k9 * (_t16 + m3 * _t136);
+        let _t155 = -(_t18 * _t13) - self.system._k2 * _t138 - self.system._k8 * _t14;
+        let _t156 = _t155 + S::ratio(3.0, 1.0) * (_t15 + m3 * _t135);
+        let _t157 = self.system._k26 * _t155 - S::ratio(4.0, 1.0) * _t154;
+        let _t158 = self.system._k2 * _t136;
+        let _t159 = self.system._k0 * _t157 - self.system._k1 * _t144
+            + S::ratio(4.0, 1.0) * (_t19 * _t151 - _t11 * _t158);
+        let _t160 = self.system._k2 * _t144 - self.system._k0 * _t141
+            - S::ratio(4.0, 1.0) * (_t18 * _t151 - _t11 * _t152)
+            - _t33 * self.system._k37;
+        let _t161 = self._h10
+            * (_t2 * _t157 - _t38 * _t6 - _t7 * _t141
+                + S::ratio(4.0, 1.0) * (_t42 * _t139 - _t20 * _t158 + _t24 * _t152)
+                - g2 * _t159 + g3 * _t160);
+        let _t162 = -(_t18 * _t138) - self.system._k8 * _t21 + _t135 * _t147;
+        let _t163 = _t162 * self.system._k28 - _t148 * self.system._k29
+            + self.system._k30 * (m1 * _t156 + m2 * _t146);
+        let _t164 = _t11 * _t157 - _t19 * _t144
+            + self.system._k8
+                * (_t163
+                    + (_t163
+                        - S::ratio(12.0, 1.0)
+                            * (m2 * _t142 - m1 * _t154 + g2 * _t151 - g1 * _t158)));
+        let _t165 = self._h9 * (_t43 + m3 * _t153)
+            - self._h11 * (_t36 * _t133 - _t3 * _t154 + _t8 * _t137)
+            - self._h13 * (_t40 * _t134 + _t9 * _t145) + _t142 * self._h1;
+        let _t166 = _t165 + _t156 * _t53 + _t161 - _t164 * _t35;
+        let _t167 = m2 * self.system._k20 + m3 * self.system._k21;
+        let _t168 = m1 * self.system._k20;
+        let _t169 = m1 * self.system._k21;
+        let _t170 = self.system._k0 * _t19;
+        let _t171 = self.system._k1 * _t11 + _t170;
+        let _t172 = _t171 - m1 * self.system._k38;
+        let _t173 = self.system._k2 * _t11;
+        let _t174 = m3 * self.system._k13;
+        let _t175 = _t173 - self.system._k0 * _t174;
+        let _t176 = _t175 - m1 * self.system._k39;
+        let _t177 = self.system._k2 * _t38;
+        let _t178 = self.system._k1 * _t23;
+        let _t179 = self.system._k31 * _t175 - S::ratio(4.0, 1.0) * _t169;
+        let _t180 = self.system._k26 * _t171 - S::ratio(4.0, 1.0) * _t168;
+        let _t181 = _t20 * self.system._k40;
+        let _t182 = _t24 * self.system._k41;
+        let _t183 = -(self.system._k2 * (_t18 - _t174)) - _t19 * self.system._k42;
+        let _t184 = self.system._k27 * _t183 - S::ratio(4.0, 1.0) * _t167;
+        let _t185 = self.system._k0 * _t180 - self.system._k1 * _t184
+            + _t19 * self.system._k43 + _t11 * self.system._k40;
+        let _t186 = self.system._k2 * _t184 - self.system._k0 * _t179
+            - _t18 * self.system._k43 - _t11 * self.system._k41;
+        let _t187 = self._h10
+            * (_t177 + _t178 - _t7 * _t179 + _t2 * _t180
+                + S::ratio(4.0, 1.0) * (_t42 * _t174 - _t32 * _t19) + _t181 - _t182
+                - g2 * _t185 + g3 * _t186);
+        let _t188 = _t18 * _t174 - _t19 * _t19 + g3 * self.system._k39
+            + g2 * self.system._k38;
+        let _t189 = _t3 * S::ratio(3.0, 1.0);
+        let _t190 = _t11 * _t19 - _t189 - g1 * self.system._k38;
+        let _t191 = _t183 + m3 * self.system._k39 + m2 * self.system._k38;
+        let _t192 = _t190 * self.system._k28 - _t188 * self.system._k29
+            + self.system._k30 * (m1 * _t172 + m2 * _t191);
+        let _t193 = _t11 * _t180 - _t19 * _t184
+            + self.system._k8
+                * (_t192
+                    + (_t192 + S::ratio(12.0, 1.0) * (_t32 - m2 * _t167 + m1 * _t168)
+                        - g2 * self.system._k44 - g1 * self.system._k45));
+        let _t194 = _t8 * S::ratio(3.0, 1.0);
+        let _t195 = -(_t11 * _t174) + _t194 - g1 * self.system._k39;
+        let _t196 = _t188 * self.system._k32 - _t195 * self.system._k28
+            - self.system._k33 * (m1 * _t176 + m3 * _t191);
+        let _t197 = _t18 * _t184 - _t11 * _t179
+            + self.system._k7
+                * (_t196
+                    + (_t196 - S::ratio(12.0, 1.0) * (_t42 - m3 * _t167 + m1 * _t169)
+                        + g3 * self.system._k44 + g1 * self.system._k46));
+        let _t198 = _t36 * self._h21 + _t17 * self._h22 + _t29 * self._h23
+            + _t40 * self._h24 + _t167 * self._h1
+            + self._h11 * (_t3 * _t168 - _t8 * _t169) + _t172 * _t53 - _t176 * _t54;
+        let _t199 = _t198 + _t187 - _t193 * _t35 + _t197 * _t44;
+        let _t200 = m2 * self.system._k24;
+        let _t201 = self.system._k1 * _t18;
+        let _t202 = self.system._k2 * _t19 + _t201;
+        let _t203 = self.system._k31 * _t202 - S::ratio(4.0, 1.0) * _t200;
+        let _t204 = m1 * self.system._k22 + m3 * self.system._k24;
+        let _t205 = m1 * self.system._k14;
+        let _t206 = -(_t18 * self.system._k47) - self.system._k0 * (_t11 - _t205);
+        let _t207 = self.system._k26 * _t206 - S::ratio(4.0, 1.0) * _t204;
+        let _t208 = m2 * self.system._k22;
+        let _t209 = _t170 - self.system._k1 * _t205;
+        let _t210 = self.system._k27 * _t209 - S::ratio(4.0, 1.0) * _t208;
+        let _t211 = self.system._k0 * _t207 - self.system._k1 * _t210
+            - _t19 * self.system._k40 - _t11 * self.system._k48;
+        let _t212 = _t18 * self.system._k40;
+        let _t213 = _t11 * self.system._k49;
+        let _t214 = _t212 - self.system._k0 * _t203 + self.system._k2 * _t210 - _t213;
+        let _t215 = self._h10
+            * (_t48
+                - (_t2 * _t207 - _t45 - _t7 * _t203 - _t32 * S::ratio(4.0, 1.0) * _t205
+                    - _t20 * self.system._k48 - _t24 * self.system._k49) + g2 * _t211
+                - g3 * _t214);
+        let _t216 = _t206 + m3 * self.system._k50 + m1 * self.system._k51;
+        let _t217 = _t202 - m2 * self.system._k50;
+        let _t218 = _t189 + -(_t19 * _t205) - g2 * self.system._k51;
+        let _t219 = _t11 * _t205 - _t18 * _t18 + g3 * self.system._k50
+            + g1 * self.system._k51;
+        let _t220 = _t209 - m2 * self.system._k51;
+        let _t221 = _t219 * self.system._k28 - _t218 * self.system._k29
+            + self.system._k30 * (m1 * _t216 + m2 * _t220);
+        let _t222 = _t11 * _t207 - _t19 * _t210
+            + self.system._k8
+                * (_t221
+                    + (_t221 - S::ratio(12.0, 1.0) * (_t33 + m2 * _t208 - m1 * _t204)
+                        + g2 * self.system._k45 + g1 * self.system._k52));
+        let _t223 = _t15 * S::ratio(3.0, 1.0);
+        let _t224 = _t19 * _t18 - _t223 - g2 * self.system._k50;
+        let _t225 = _t218 * self.system._k32 - _t224 * self.system._k28
+            - self.system._k33 * (m1 * _t217 + m3 * _t220);
+        let _t226 = g3 * self.system._k45;
+        let _t227 = g1 * self.system._k53;
+        let _t228 = _t18 * _t210 - _t11 * _t203
+            + self.system._k7
+                * (_t225
+                    + (_t225 - _t226 + S::ratio(12.0, 1.0) * (m3 * _t208 - m1 * _t200)
+                        + _t227));
+        let _t229 = _t208 * self._h1 - _t215 - _t17 * self._h25 - _t29 * self._h26
+            + self._h11 * (_t3 * _t204 - _t8 * _t200) + _t216 * _t53 - _t217 * _t54
+            - _t222 * _t35;
+        let _t230 = _t229 + _t228 * _t44;
+        let _t231 = m1 * self.system._k23 + m2 * self.system._k25;
+        let _t232 = m2 * self.system._k12;
+        let _t233 = -(self.system._k1 * (_t19 - _t232)) - _t11 * self.system._k54;
+        let _t234 = self.system._k31 * _t233 - S::ratio(4.0, 1.0) * _t231;
+        let _t235 = m3 * self.system._k25;
+        let _t236 = _t201 - self.system._k2 * _t232;
+        let _t237 = self.system._k26 * _t236 - S::ratio(4.0, 1.0) * _t235;
+        let _t238 = _t19 * self.system._k41;
+        let _t239 = m3 * self.system._k23;
+        let _t240 = _t173 + self.system._k0 * _t18;
+        let _t241 = self.system._k27 * _t240 - S::ratio(4.0, 1.0) * _t239;
+        let _t242 = _t213 - _t238 + self.system._k0 * _t237 - self.system._k1 * _t241;
+        let _t243 = self.system._k2 * _t241 - self.system._k0 * _t234
+            + _t18 * self.system._k41 + _t11 * self.system._k55;
+        let _t244 = _t236 - m3 * self.system._k56;
+        let _t245 = _t233 + m2 * self.system._k56 + m1 * self.system._k57;
+        let _t246 = _t11 * _t18 - _t194 - g3 * self.system._k57;
+        let _t247 = _t223 + -(_t18 * _t232) - g3 * self.system._k56;
+        let _t248 = _t240 - m3 * self.system._k57;
+        let _t249 = _t247 * self.system._k28 - _t246 * self.system._k29
+            + self.system._k30 * (m1 * _t244 + m2 * _t248);
+        let _t250 = g2 * self.system._k46;
+        let _t251 = _t11 * _t237 - _t19 * _t241
+            + self.system._k8
+                * (_t249
+                    + (_t250 - _t227 + _t249
+                        - S::ratio(12.0, 1.0) * (m2 * _t239 - m1 * _t235)));
+        let _t252 = _t19 * _t232 - _t11 * _t11 + g2 * self.system._k56
+            + g1 * self.system._k57;
+        let _t253 = _t246 * self.system._k32 - _t252 * self.system._k28
+            - self.system._k33 * (m1 * _t245 + m3 * _t248);
+        let _t254 = _t18 * _t241 - _t11 * _t234
+            + self.system._k7
+                * (_t253
+                    + (_t253 + S::ratio(12.0, 1.0) * (_t33 + m3 * _t239 - m1 * _t231)
+                        - g3 * self.system._k46 - g1 * self.system._k58));
+        let _t255 = self._h10
+            * (_t52
+                + (_t2 * _t237 - _t49 - _t7 * _t234 + _t51 * S::ratio(4.0, 1.0)
+                    + _t20 * self.system._k49 + _t24 * self.system._k55) - g2 * _t242
+                + g3 * _t243) - _t36 * self._h27;
+        let _t256 = _t255 - _t40 * self._h28 + _t239 * self._h1
+            + self._h11 * (_t3 * _t235 - _t8 * _t231) + _t244 * _t53 - _t245 * _t54
+            - _t251 * _t35 + _t254 * _t44;
+        let _t257 = _t38 * _t12 - _t26 * _t1 + _t14 * _t125 - _t2 * _t112
+            - S::ratio(4.0, 1.0)
+                * (_t42 * _t106 - _t33 * _t107 - _t20 * _t119 + _t21 * _t126)
+            + g1 * _t127;
+        let _t258 = self.system._k34 * (_t40 + m2 * _t124 + m3 * _t113)
+            - _t117 * self.system._k32 + _t129 * self.system._k29;
+        let _t259 = self.system._k7 * _t38 + _t19 * _t125 - _t18 * _t109
+            + self.system._k6
+                * (_t258
+                    + (_t258
+                        + S::ratio(12.0, 1.0)
+                            * (_t36 - m3 * _t105 + m2 * _t122 - g3 * _t120
+                                + g2 * _t126)));
+        let _t260 = self._h3
+            + self._h11 * (_t36 * _t103 - _t10 * _t101 - _t3 * _t110 + _t15 * _t122)
+            + self._h12 * (_t30 * _t102 + _t4 * _t114)
+            + self._h16 * (_t40 * _t104 + _t16 * _t124);
+        let _t261 = _t260 + _t105 * self._h1
+            + self._h15
+                * (_t257
+                    - g3
+                        * (self.system._k1 * _t125 - self.system._k2 * _t109
+                            + S::ratio(4.0, 1.0) * (_t18 * _t120 - _t19 * _t126)
+                            - _t42 * self.system._k36)) - _t121 * _t56;
+        let _t262 = self.system._k34 * (_t29 + m2 * _t145 + m3 * _t156)
+            - _t162 * self.system._k32 + _t149 * self.system._k29;
+        let _t263 = _t19 * _t141 - self.system._k8 * _t23 - _t18 * _t157
+            + self.system._k6
+                * (_t262
+                    + (_t262
+                        - S::ratio(12.0, 1.0)
+                            * (_t17 + m3 * _t154 - m2 * _t137 + g3 * _t158
+                                - g2 * _t152)));
+        let _t264 = self.system._k1 * _t141 - self.system._k2 * _t157
+            + S::ratio(4.0, 1.0) * (_t18 * _t158 - _t19 * _t152)
+            + _t32 * self.system._k37;
+        let _t265 = self._h15
+            * (_t38 * _t13 + _t14 * _t141 - _t2 * _t144
+                - S::ratio(4.0, 1.0) * (_t42 * _t138 - _t20 * _t151 + _t21 * _t152)
+                + g1 * _t159 - g3 * _t264);
+        let _t266 = self._h11 * (_t36 * _t135 - _t3 * _t142 + _t15 * _t137)
+            - self._h14 * (_t58 + m3 * _t263) + self._h16 * (_t40 * _t136 + _t16 * _t145)
+            + _t154 * self._h1;
+        let _t267 = _t266 + _t146 * _t53 + _t265 - _t164 * _t56;
+        let _t268 = self.system._k1 * _t179 - self.system._k2 * _t180 - _t212 + _t238;
+        let _t269 = _t195 * self.system._k29 - _t190 * self.system._k32
+            + self.system._k34 * (m2 * _t176 + m3 * _t172);
+        let _t270 = _t19 * _t179 - _t18 * _t180
+            + self.system._k6
+                * (_t269
+                    + (_t269 - S::ratio(12.0, 1.0) * (m3 * _t168 - m2 * _t169) + _t226
+                        - _t250));
+        let _t271 = self._h15
+            * (_t48
+                + (_t14 * _t179 - _t46 - _t2 * _t184 + _t47 * S::ratio(4.0, 1.0)
+                    + _t20 * self.system._k43 + _t21 * self.system._k41) + g1 * _t185
+                - g3 * _t268) - _t10 * self._h22;
+        let _t272 = _t271 + _t30 * self._h23 - self._h11 * (_t3 * _t167 - _t15 * _t169)
+            + _t168 * self._h1 + _t191 * _t53 + _t176 * _t64 - _t193 * _t56
+            - _t270 * _t59;
+        let _t273 = self.system._k0 * _t26;
+        let _t274 = _t21 * self.system._k49;
+        let _t275 = self.system._k1 * _t203 - self.system._k2 * _t207
+            + _t18 * self.system._k48 + _t19 * self.system._k49;
+        let _t276 = self._h15
+            * (_t177 - _t181 + _t273 + _t14 * _t203 - _t2 * _t210
+                - S::ratio(4.0, 1.0) * (_t42 * _t18 - _t33 * _t205) + _t274 + g1 * _t211
+                - g3 * _t275);
+        let _t277 = _t224 * self.system._k29 - _t219 * self.system._k32
+            + self.system._k34 * (m2 * _t217 + m3 * _t216);
+        let _t278 = _t19 * _t203 - _t18 * _t207
+            + self.system._k6
+                * (_t277
+                    + (_t277 + S::ratio(12.0, 1.0) * (_t42 - m3 * _t204 + m2 * _t200)
+                        - g3 * self.system._k52 - g2 * self.system._k53));
+        let _t279 = _t36 * self._h29 + _t10 * self._h25 - _t30 * self._h26
+            + _t40 * self._h30 - self._h11 * (_t3 * _t208 - _t15 * _t200)
+            + _t204 * self._h1 + _t220 * _t53 + _t217 * _t64;
+        let _t280 = _t279 + _t276 - _t222 * _t56 - _t278 * _t59;
+        let _t281 = self.system._k1 * _t234 - self.system._k2 * _t237
+            - _t18 * self.system._k49 - _t19 * self.system._k55;
+        let _t282 = self._h15
+            * (_t63
+                - (_t14 * _t234 - _t60 - _t2 * _t241 - _t42 * S::ratio(4.0, 1.0) * _t232
+                    - _t20 * self.system._k41 - _t21 * self.system._k55) - g1 * _t242
+                + g3 * _t281);
+        let _t283 = _t252 * self.system._k29 - _t247 * self.system._k32
+            + self.system._k34 * (m2 * _t245 + m3 * _t244);
+        let _t284 = _t19 * _t234 - _t18 * _t237
+            + self.system._k6
+                * (_t283
+                    + (_t283 - S::ratio(12.0, 1.0) * (_t32 + m3 * _t235 - m2 * _t231)
+                        + g3 * self.system._k53 + g2 * self.system._k58));
+        let _t285 = _t235 * self._h1 - _t282 - _t36 * self._h31 - _t40 * self._h32
+            - self._h11 * (_t3 * _t239 - _t15 * _t231) + _t248 * _t53 + _t245 * _t64
+            - _t251 * _t56;
+        let _t286 = _t285 - _t284 * _t59;
+        let _t287 = _t26 * _t6 - _t23 * _t13 - _t14 * _t157 + _t7 * _t144
+            + S::ratio(4.0, 1.0)
+                * (_t32 * _t138 - _t33 * _t139 - _t24 * _t151 + _t21 * _t158)
+            - g1 * _t160;
+        let _t288 = self._h4
+            - self._h11 * (_t17 * _t135 - _t10 * _t133 - _t8 * _t142 + _t15 * _t154)
+            - self._h13 * (_t30 * _t134 + _t9 * _t146)
+            + self._h16 * (_t29 * _t136 + _t16 * _t156);
+        let _t289 = self._h17
+            * (_t52
+                - (_t7 * _t184 - _t50 - _t14 * _t180 - _t33 * S::ratio(4.0, 1.0) * _t174
+                    - _t24 * self.system._k43 - _t21 * self.system._k40) + g1 * _t186
+                - g2 * _t268);
+        let _t290 = _t30 * self._h24 - _t289 - _t10 * self._h21
+            + self._h11 * (_t8 * _t167 - _t15 * _t168) + _t169 * self._h1 - _t191 * _t54
+            + _t172 * _t64 + _t197 * _t66;
+        let _t291 = _t290 - _t270 * _t67;
+        let _t292 = self._h17
+            * (_t63
+                + (_t7 * _t210 - _t61 - _t14 * _t207 + _t62 * S::ratio(4.0, 1.0)
+                    + _t24 * self.system._k40 + _t21 * self.system._k48) - g1 * _t214
+                + g2 * _t275) - _t17 * self._h29;
+        let _t293 = _t292 + _t29 * self._h30 + self._h11 * (_t8 * _t208 - _t15 * _t204)
+            + _t200 * self._h1 - _t220 * _t54 + _t216 * _t64 + _t228 * _t66
+            - _t278 * _t67;
+        let _t294 = self._h17
+            * (_t178 + _t182 + _t273 - _t274 - _t14 * _t237 + _t7 * _t241
+                + S::ratio(4.0, 1.0) * (_t32 * _t232 - _t33 * _t11) - g1 * _t243
+                + g2 * _t281);
+        let _t295 = _t17 * self._h31 + _t10 * self._h27 - _t30 * self._h28
+            - _t29 * self._h32 + self._h11 * (_t8 * _t239 - _t15 * _t235)
+            + _t231 * self._h1 - _t248 * _t54 + _t244 * _t64;
+        let _t296 = _t295 + _t294 + _t254 * _t66 - _t284 * _t67;
+        let _t297 = _t3 * self._h33;
+        let _t298 = _t8 * self._h34;
+        let _t299 = _t3 * self._h36 - _t32 * self._h25 + _t8 * self._h37 + _t211 * _t69
+            - _t214 * _t70 + self._h18 * _t222 - self._h19 * _t228 + self._h38;
+        let _t300 = _t242 * _t69 - _t42 * self._h27 - _t3 * self._h37 - _t8 * self._h39
+            - _t243 * _t70 + self._h18 * _t251 - self._h19 * _t254 + self._h40;
+        let _t301 = _t15 * self._h37;
+        let _t302 = _t3 * self._h34 - _t42 * self._h31 + _t15 * self._h39 - _t242 * _t71
+            + _t281 * _t70 - self._h20 * _t251 + self._h19 * _t284 + self._h42;
+        xi[0] = _t55 - (_t8 * _t36 - _t3 * _t17) * self._h11 + _t29 * _t53 - _t40 * _t54;
+        xi[1] = _t65 + self._h11 * (_t15 * _t36 - _t3 * _t10) + _t30 * _t53
+            + _t40 * _t64;
+        xi[2] = _t68 - self._h11 * (_t15 * _t17 - _t8 * _t10) - _t30 * _t54
+            + _t29 * _t64;
+        xi[3] = self._h5 + _t33 * self._h1 + _t48 * _t69 - _t52 * _t70
+            - self._h11 * (_t8 * _t42 - _t3 * _t32) + _t34 * self._h18
+            - _t43 * self._h19;
+        xi[4] = self._h6 + _t32 * self._h1 - _t48 * _t71 + _t63 * _t70
+            + self._h11 * (_t15 * _t42 - _t3 * _t33) - _t34 * self._h20
+            + _t58 * self._h19;
+        xi[5] = self._h7 + _t42 * self._h1 + _t52 * _t71 - _t63 * _t69
+            - self._h11 * (_t15 * _t32 - _t8 * _t33) + _t43 * self._h20
+            - _t58 * self._h18;
+        hessian[(0, 0)] = _t100
+            + self._h10
+                * (_t92
+                    + g3
+                        * (self.system._k2 * _t90 - self.system._k0 * _t85
+                            - S::ratio(4.0, 1.0) * (_t18 * _t91 - _t11 * _t88)
+                            + _t42 * self.system._k35)) - _t97 * _t35 + _t99 * _t44;
+        hessian[(0, 1)] = _t132;
+        hessian[(0, 2)] = _t166;
+        hessian[(0, 3)] = _t199;
+        hessian[(0, 4)] = _t230;
+        hessian[(0, 5)] = _t256;
+        hessian[(1, 0)] = _t132;
+        hessian[(1, 1)] = _t261 - _t259 * _t59;
+        hessian[(1, 2)] = _t267;
+        hessian[(1, 3)] = _t272;
+        hessian[(1, 4)] = _t280;
+        hessian[(1, 5)] = _t286;
+        hessian[(2, 0)] = _t166;
+        hessian[(2, 1)] = _t267;
+        hessian[(2, 2)] = _t288 + _t137 * self._h1 + self._h17 * (_t287 + g2 * _t264)
+            + _t153 * _t66 - _t263 * _t67;
+        hessian[(2, 3)] = _t291;
+        hessian[(2, 4)] = _t293;
+        hessian[(2, 5)] = _t296;
+        hessian[(3, 0)] = _t199;
+        hessian[(3, 1)] = _t272;
+        hessian[(3, 2)] = _t291;
+        hessian[(3, 3)] = _t42 * self._h21 + _t32 * self._h22 - _t297 + _t298
+            + _t185 * _t69 - _t186 * _t70 + _t193 * self._h18 - _t197 * self._h19
+            + self._h35;
+        hessian[(3, 4)] = _t299;
+        hessian[(3, 5)] = _t300;
+        hessian[(4, 0)] = _t230;
+        hessian[(4, 1)] = _t280;
+        hessian[(4, 2)] = _t293;
+        hessian[(4, 3)] = _t299;
+        hessian[(4, 4)] = _t297 + _t42 * self._h29 + _t33 * self._h25 - _t301
+            - _t211 * _t71 + _t275 * _t70 - _t222 * self._h20 + self._h19 * _t278
+            + self._h41;
+        hessian[(4, 5)] = _t302;
+        hessian[(5, 0)] = _t256;
+        hessian[(5, 1)] = _t286;
+        hessian[(5, 2)] = _t296;
+        hessian[(5, 3)] = _t300;
+        hessian[(5, 4)] = _t302;
+        hessian[(5, 5)] = _t301 - _t298 + _t32 * self._h31 + _t33 * self._h27
+            + _t243 * _t71 - _t281 * _t69 + self._h20 * _t254 - self._h18 * _t284
+            + self._h43;
     }
 }
 
@@ -3152,36 +3220,38 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopCayleyGenerating4<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a HeavyTopSystem<S>, h: S) -> Self {
-        let _t0 = system._parameters.mgl * h;
-        let _t1 = S::ratio(1.0, 2.0) * _t0;
-        let _t2 = S::one() / system._parameters.I1;
-        let _t3 = h * S::ratio(1.0, 2.0);
+        let _t0 = h * (h * h);
+        let _t1 = h * S::ratio(1.0, 2.0);
+        let _t2 = system._parameters.mgl * _t1;
+        let _t3 = S::one() / system._parameters.I1;
         let _t4 = S::one() / system._parameters.I3;
         let _t5 = S::one() / system._parameters.I2;
-        let _t6 = h * S::ratio(1.0, 24.0) * (_t0 * _t0);
-        let _t7 = system._parameters.c1 * _t6;
-        let _t8 = system._parameters.c2 * _t4;
-        let _t9 = system._parameters.c1 * _t7;
-        let _t10 = _t6 * (system._parameters.c3 * system._parameters.c3);
-        let _t11 = system._parameters.c2 * _t6;
-        let _t12 = _t2 * _t11;
+        let _t6 = S::ratio(1.0, 24.0) * _t0;
+        let _t7 = system._parameters.mgl * system._parameters.mgl;
+        let _t8 = system._parameters.c1 * _t7;
+        let _t9 = system._parameters.c2 * _t4;
+        let _t10 = system._parameters.c3 * _t6;
+        let _t11 = system._parameters.c1 * _t8;
+        let _t12 = _t7 * (system._parameters.c3 * system._parameters.c3);
+        let _t13 = system._parameters.c2 * _t7;
+        let _t14 = _t3 * _t13;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * h * h * S::ratio(1.0, 48.0),
-            _h1: system._parameters.c3 * _t1,
-            _h2: _t2 * _t3,
-            _h3: system._parameters.c2 * _t1,
-            _h4: _t4 * _t3,
-            _h5: _t5 * _t3,
-            _h6: system._parameters.c1 * _t1,
-            _h7: _t7 * _t8,
-            _h8: system._parameters.c3 * _t5 * _t7,
-            _h9: _t4 * _t9 + _t2 * _t10,
-            _h10: system._parameters.c3 * _t12,
-            _h11: _t5 * _t9 + system._parameters.c2 * _t12,
-            _h12: _t11 * _t8 + _t5 * _t10,
+            _h0: S::ratio(1.0, 48.0) * _t0,
+            _h1: system._parameters.c3 * _t2,
+            _h2: _t3 * _t1,
+            _h3: system._parameters.c2 * _t2,
+            _h4: _t4 * _t1,
+            _h5: _t5 * _t1,
+            _h6: system._parameters.c1 * _t2,
+            _h7: _t6 * _t8 * _t9,
+            _h8: _t5 * _t8 * _t10,
+            _h9: (_t4 * _t11 + _t3 * _t12) * _t6,
+            _h10: _t10 * _t14,
+            _h11: (_t5 * _t11 + system._parameters.c2 * _t14) * _t6,
+            _h12: (_t13 * _t9 + _t5 * _t12) * _t6,
         }
     }
 }
@@ -3218,7 +3288,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t3 = _t2 + _t2;
         let _t4 = _u_g3 * self.system._k1;
         let _t5 = self.system._k2 * _u_g2;
-        let _t6 = self.system._k6 * (_t5 - _t4 - self.system._k9 * _u_m2 * _u_m3);
+        let _t6 = self.system._k6 * (_t5 - _t4 - self.system._k19 * _u_m2 * _u_m3);
         let _t7 = _t6 + _t6;
         let _t8 = self.system._k6 * _u_m1;
         let _t9 = _t8 * _t8;
@@ -3240,9 +3310,9 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t23 = _u_g1 * self.system._k1;
         let _t24 = _t22 + _t23;
         let _t25 = _t0 + _t1;
-        let _t26 = self.system._k8 * (_t23 - _t22 - self.system._k11 * _u_m1 * _u_m2);
+        let _t26 = self.system._k8 * (_t23 - _t22 - self.system._k18 * _u_m1 * _u_m2);
         let _t27 = _t26 + _t26;
-        let _t28 = self.system._k11 * _t27;
+        let _t28 = self.system._k18 * _t27;
         let _t29 = self.system._k10 * _t3;
         let _t30 = _t14 * _t14;
         let _t31 = _t9 + _t11 + _t30;
@@ -3258,7 +3328,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
             * self._h0 + self._h3;
         let _t37 = _u_g1 * self.system._k54 + _u_m1 * _t21;
         let _t38 = _t4 + _t5;
-        let _t39 = self.system._k9 * _t7;
+        let _t39 = self.system._k19 * _t7;
         let _t40 = self.system._k8
             * ((_t14 * _u_m3 * S::ratio(3.0, 1.0) + _t37 + _t19) * _t15
                 - (_t25 - _t8 * _u_m3) * _t21 - (_t38 - _t10 * _u_m3) * _t18)
@@ -3292,7 +3362,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 366 additions, 430 multiplications.
+    /// 369 additions, 429 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -3309,285 +3379,273 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t4 = _t3 + _t3;
         let _t5 = self.system._k1 * _u_g3;
         let _t6 = self.system._k2 * _u_g2;
-        let _t7 = _u_m2 * self.system._k12;
+        let _t7 = _u_m2 * self.system._k9;
         let _t8 = self.system._k6 * (_t6 - _t5 + _u_m3 * _t7);
         let _t9 = _t8 + _t8;
         let _t10 = self.system._k6 * _u_m1;
         let _t11 = _t10 * _t10;
         let _t12 = self.system._k7 * _u_m2;
         let _t13 = _t12 * _t12;
-        let _t14 = _t11 + _t13;
-        let _t15 = self.system._k8 * _u_m3;
-        let _t16 = _t10 * self.system._k0;
-        let _t17 = self.system._k1 * _t12;
-        let _t18 = _t16 + _t17;
+        let _t14 = _t10 * self.system._k0;
+        let _t15 = self.system._k1 * _t12;
+        let _t16 = _t14 + _t15;
+        let _t17 = self.system._k8 * _u_m3;
+        let _t18 = _t17 * S::ratio(2.0, 1.0);
         let _t19 = (self.system._k0 * _t4 - self.system._k1 * _t9
-            + _t14 * self.system._k47 - _t15 * _t18 * S::ratio(2.0, 1.0)) * self._h0
+            + _t11 * self.system._k47 + _t13 * self.system._k47 - _t16 * _t18) * self._h0
             + self._h1;
         let _t20 = _t19 * _u_g2;
         let _t21 = _t10 * _u_m1;
         let _t22 = S::ratio(3.0, 1.0) * _t21;
-        let _t23 = _u_g2 * self.system._k42;
-        let _t24 = _u_g3 * self.system._k47;
-        let _t25 = _t12 * _u_m2;
-        let _t26 = _t15 * _u_m3;
-        let _t27 = _t12 * _u_m1;
-        let _t28 = self.system._k0 * _u_g2;
-        let _t29 = self.system._k1 * _u_g1;
-        let _t30 = _t28 + _t29;
-        let _t31 = _t15 * _u_m1;
-        let _t32 = _t0 + _t1;
-        let _t33 = _u_m1 * self.system._k13;
-        let _t34 = self.system._k8 * (_t29 - _t28 + _u_m2 * _t33);
-        let _t35 = _t34 + _t34;
-        let _t36 = _u_m2 * self.system._k13;
-        let _t37 = self.system._k10 * _u_m3;
-        let _t38 = _t15 * _t15;
-        let _t39 = S::ratio(2.0, 1.0) * (_t38 + _t14);
-        let _t40 = self.system._k6
-            * (S::ratio(2.0, 1.0)
-                * (_t10 * (_t22 + _t23 + _t24 + S::ratio(2.0, 1.0) * (_t25 + _t26))
-                    - _t12 * (_t30 - _t27) - _t15 * (_t32 - _t31))) + _t35 * _t36
-            + _t4 * _t37;
-        let _t41 = _u_m1 * self._h2 + (_t40 + _t10 * _t39) * self._h0;
-        let _t42 = S::ratio(3.0, 1.0) * _t26;
-        let _t43 = _u_g1 * self.system._k54;
-        let _t44 = _t10 * _u_m3;
-        let _t45 = _t12 * _u_m3;
-        let _t46 = _t5 + _t6;
-        let _t47 = self.system._k8
-            * (S::ratio(2.0, 1.0)
-                * (_t15 * (_t42 + _t43 + _t23 + S::ratio(2.0, 1.0) * (_t21 + _t25))
-                    - _t10 * (_t32 - _t44) - _t12 * (_t46 - _t45))) + _t4 * _t2
-            + _t9 * _t7;
-        let _t48 = _u_m3 * self._h4 + (_t47 + _t15 * _t39) * self._h0;
-        let _t49 = _t48 * _u_m3;
-        let _t50 = _t49 + _t19 * _u_g3;
-        let _t51 = _t11 + _t38;
-        let _t52 = self.system._k2 * _t15;
-        let _t53 = _t16 + _t52;
-        let _t54 = (self.system._k2 * _t9 - self.system._k0 * _t35
-            + _t51 * self.system._k42 - _t12 * _t53 * S::ratio(2.0, 1.0)) * self._h0
+        let _t23 = _t12 * S::ratio(2.0, 1.0);
+        let _t24 = _u_g2 * self.system._k42 + _u_m2 * _t23;
+        let _t25 = _u_m3 * _t18 + _u_g3 * self.system._k47;
+        let _t26 = _t10 * S::ratio(2.0, 1.0);
+        let _t27 = self.system._k0 * _u_g2;
+        let _t28 = self.system._k1 * _u_g1;
+        let _t29 = _t27 + _t28;
+        let _t30 = _t0 + _t1;
+        let _t31 = _u_m1 * self.system._k11;
+        let _t32 = self.system._k8 * (_t28 - _t27 + _u_m2 * _t31);
+        let _t33 = _t32 + _t32;
+        let _t34 = _u_m2 * self.system._k11;
+        let _t35 = self.system._k10 * _u_m3;
+        let _t36 = _t17 * _t17;
+        let _t37 = _t11 + _t13;
+        let _t38 = _t36 + _t37;
+        let _t39 = self.system._k6
+            * ((_t22 + _t24 + _t25) * _t26 - (_t29 - _t12 * _u_m1) * _t23
+                - (_t30 - _t17 * _u_m1) * _t18) + _t33 * _t34 + _t4 * _t35 + _t38 * _t26;
+        let _t40 = _u_m1 * self._h2 + _t39 * self._h0;
+        let _t41 = _t17 * _u_m3;
+        let _t42 = S::ratio(3.0, 1.0) * _t41;
+        let _t43 = _u_g1 * self.system._k54 + _u_m1 * _t26;
+        let _t44 = _t5 + _t6;
+        let _t45 = self.system._k8
+            * ((_t42 + _t43 + _t24) * _t18 - (_t30 - _t10 * _u_m3) * _t26
+                - (_t44 - _t12 * _u_m3) * _t23) + _t4 * _t2 + _t9 * _t7 + _t38 * _t18;
+        let _t46 = _u_m3 * self._h4 + _t45 * self._h0;
+        let _t47 = _t46 * _u_m3;
+        let _t48 = _t47 + _t19 * _u_g3;
+        let _t49 = self.system._k2 * _t17;
+        let _t50 = _t14 + _t49;
+        let _t51 = (self.system._k2 * _t9 - self.system._k0 * _t33
+            + _t11 * self.system._k42 + _t36 * self.system._k42 - _t50 * _t23) * self._h0
             + self._h3;
-        let _t55 = _t54 * _u_g2;
-        let _t56 = _t41 * _u_m1;
-        let _t57 = S::ratio(3.0, 1.0) * _t25;
-        let _t58 = _t10 * _u_m2;
-        let _t59 = _t15 * _u_m2;
-        let _t60 = _u_m3 * self.system._k12;
-        let _t61 = self.system._k7
-            * (S::ratio(2.0, 1.0)
-                * (_t12 * (_t57 + _t43 + S::ratio(2.0, 1.0) * (_t21 + _t26) + _t24)
-                    - _t10 * (_t30 - _t58) - _t15 * (_t46 - _t59))) + _t35 * _t33
-            + _t9 * _t60;
-        let _t62 = _u_m2 * self._h5 + (_t61 + _t12 * _t39) * self._h0;
-        let _t63 = _t62 * _u_m2;
-        let _t64 = _t56 + _t63;
-        let _t65 = _t55 + _t64;
-        let _t66 = _t54 * _u_g1;
-        let _t67 = _u_m3 - _t66;
-        let _t68 = _t19 * _u_g1;
-        let _t69 = _u_m2 + _t68;
-        let _t70 = _u_m1 + _t54 * _u_g3;
-        let _t71 = _t52 + _t17;
-        let _t72 = _t13 + _t38;
-        let _t73 = (self.system._k1 * _t35 - self.system._k2 * _t4
-            - _t10 * _t71 * S::ratio(2.0, 1.0) + _t72 * self.system._k54) * self._h0
-            + self._h6;
-        let _t74 = _t73 * _u_g1;
-        let _t75 = _t74 + _t50;
-        let _t76 = _u_m3 + _t73 * _u_g2;
-        let _t77 = _u_m1 - _t20;
-        let _t78 = _u_m2 - _t73 * _u_g3;
-        let _t79 = _t74 + _t65;
-        let _t80 = _t48 * _u_g2 - (_u_g1 + _t62 * _u_g3);
-        let _t81 = _t48 * _u_g1 + (_u_g2 - _t41 * _u_g3);
-        let _t82 = _t62 * _u_g1 - (_u_g3 + _t41 * _u_g2);
-        let _t83 = self.system._k1 * _u_g2 + _t25;
-        let _t84 = _t26 + self.system._k2 * _u_g3;
-        let _t85 = self.system._k8 * _t36;
-        let _t86 = _t85 + _t85;
-        let _t87 = self.system._k7 * _t37;
-        let _t88 = _t87 + _t87;
-        let _t89 = (self.system._k6
-            * (_t11 * S::ratio(6.0, 1.0) + S::ratio(2.0, 1.0) * _t72
-                + (_t22 + _t83 + _t84) * self.system._k35) + _t86 * _t36 + _t88 * _t37
-            + (_t72 + _t11 * S::ratio(3.0, 1.0)) * self.system._k59) * self._h0;
-        let _t90 = _t89 + self._h2;
-        let _t91 = _t63 + _t55 + S::ratio(2.0, 1.0) * _t56 + _t50;
-        let _t92 = _t10 * _t12;
-        let _t93 = S::ratio(4.0, 1.0) * _t92;
-        let _t94 = _t30 - S::ratio(2.0, 1.0) * (_t58 + _t27);
-        let _t95 = (self.system._k7 * (_t93 - self.system._k59 * _t94)
-            + self.system._k13 * (_t35 + _t86 * _u_m1) + self.system._k35 * _t92)
-            * self._h0;
-        let _t96 = _t41 * _u_m2 + _t67;
-        let _t97 = _t10 * _t15;
-        let _t98 = S::ratio(4.0, 1.0) * _t97;
-        let _t99 = _t32 - S::ratio(2.0, 1.0) * (_t44 + _t31);
-        let _t100 = (self.system._k8 * (_t98 - self.system._k59 * _t99)
-            + self.system._k10 * (_t4 + _t88 * _u_m1) + self.system._k35 * _t97)
-            * self._h0;
-        let _t101 = _t69 - _t41 * _u_m3;
-        let _t102 = _t10 * self.system._k42;
-        let _t103 = (-(self.system._k0 * _t86)
-            - self.system._k59 * (self.system._k0 * _t12 - _t102)) * self._h0;
-        let _t104 = -_t82;
-        let _t105 = _t10 * self.system._k47;
-        let _t106 = (self.system._k0 * _t88
-            - self.system._k59 * (self.system._k0 * _t15 - _t105)) * self._h0;
-        let _t107 = _t41 * _t62;
-        let _t108 = self.system._k8 * _t33;
-        let _t109 = _t108 + _t108;
-        let _t110 = (self.system._k6 * (_t93 - self.system._k60 * _t94)
-            + self.system._k13 * (_t35 + _t109 * _u_m2) + self.system._k36 * _t92)
-            * self._h0;
+        let _t52 = _t51 * _u_g2;
+        let _t53 = _t40 * _u_m1;
+        let _t54 = _t12 * _u_m2;
+        let _t55 = S::ratio(3.0, 1.0) * _t54;
+        let _t56 = _u_m3 * self.system._k9;
+        let _t57 = self.system._k7
+            * ((_t55 + _t43 + _t25) * _t23 - (_t29 - _t10 * _u_m2) * _t26
+                - (_t44 - _t17 * _u_m2) * _t18) + _t33 * _t31 + _t9 * _t56 + _t38 * _t23;
+        let _t58 = _u_m2 * self._h5 + _t57 * self._h0;
+        let _t59 = _t58 * _u_m2;
+        let _t60 = _t53 + _t59;
+        let _t61 = _t52 + _t60;
+        let _t62 = _t51 * _u_g1;
+        let _t63 = _u_m3 - _t62;
+        let _t64 = _t19 * _u_g1;
+        let _t65 = _u_m2 + _t64;
+        let _t66 = _u_m1 + _t51 * _u_g3;
+        let _t67 = _t49 + _t15;
+        let _t68 = (self.system._k1 * _t33 - self.system._k2 * _t4 - _t67 * _t26
+            + _t13 * self.system._k54 + _t36 * self.system._k54) * self._h0 + self._h6;
+        let _t69 = _t68 * _u_g1;
+        let _t70 = _t69 + _t48;
+        let _t71 = _u_m3 + _t68 * _u_g2;
+        let _t72 = _u_m1 - _t20;
+        let _t73 = _u_m2 - _t68 * _u_g3;
+        let _t74 = _t69 + _t61;
+        let _t75 = _t46 * _u_g2 - (_u_g1 + _t58 * _u_g3);
+        let _t76 = _t46 * _u_g1 + (_u_g2 - _t40 * _u_g3);
+        let _t77 = _t58 * _u_g1 - (_u_g3 + _t40 * _u_g2);
+        let _t78 = _t12 * _t23;
+        let _t79 = _t17 * _t18;
+        let _t80 = self.system._k1 * _u_g2 + _t54;
+        let _t81 = _t41 + self.system._k2 * _u_g3;
+        let _t82 = self.system._k8 * _t34;
+        let _t83 = _t82 + _t82;
+        let _t84 = self.system._k7 * _t35;
+        let _t85 = _t84 + _t84;
+        let _t86 = self.system._k6
+            * (_t11 * S::ratio(6.0, 1.0) + _t78 + _t79
+                + (_t22 + _t80 + _t81) * self.system._k35) + _t83 * _t34 + _t85 * _t35
+            + (_t13 + _t36 + _t11 * S::ratio(3.0, 1.0)) * self.system._k59;
+        let _t87 = _t86 * self._h0 + self._h2;
+        let _t88 = _t59 + _t52 + S::ratio(2.0, 1.0) * _t53 + _t48;
+        let _t89 = _t10 * _t12;
+        let _t90 = S::ratio(4.0, 1.0) * _t89;
+        let _t91 = _t29 - _u_m2 * _t26 - _u_m1 * _t23;
+        let _t92 = _t33 * self.system._k11;
+        let _t93 = (self.system._k7 * (_t90 - self.system._k59 * _t91) + _t92
+            + _t83 * _t31 + self.system._k35 * _t89) * self._h0;
+        let _t94 = _t40 * _u_m2 + _t63;
+        let _t95 = _t10 * _t17;
+        let _t96 = S::ratio(4.0, 1.0) * _t95;
+        let _t97 = _t30 - _u_m3 * _t26 - _u_m1 * _t18;
+        let _t98 = self.system._k10 * _t4;
+        let _t99 = (self.system._k8 * (_t96 - self.system._k59 * _t97) + _t98
+            + _t85 * _t2 + self.system._k35 * _t95) * self._h0;
+        let _t100 = _t65 - _t40 * _u_m3;
+        let _t101 = _t10 * self.system._k42;
+        let _t102 = (-(self.system._k0 * _t83)
+            - self.system._k59 * (self.system._k0 * _t12 - _t101)) * self._h0;
+        let _t103 = -_t77;
+        let _t104 = _t10 * self.system._k47;
+        let _t105 = (self.system._k0 * _t85
+            - self.system._k59 * (self.system._k0 * _t17 - _t104)) * self._h0;
+        let _t106 = _t40 * _t58;
+        let _t107 = self.system._k8 * _t31;
+        let _t108 = _t107 + _t107;
+        let _t109 = (_t92 + self.system._k6 * (_t90 - self.system._k60 * _t91)
+            + _t108 * _t34 + self.system._k36 * _t89) * self._h0;
+        let _t110 = _t10 * _t26;
         let _t111 = self.system._k0 * _u_g1 + _t21;
-        let _t112 = self.system._k6 * _t60;
+        let _t112 = self.system._k6 * _t56;
         let _t113 = _t112 + _t112;
-        let _t114 = (self.system._k7
-            * (S::ratio(2.0, 1.0) * _t51 + _t13 * S::ratio(6.0, 1.0)
-                + (_t57 + _t111 + _t84) * self.system._k36) + _t109 * _t33 + _t113 * _t60
-            + (_t51 + _t13 * S::ratio(3.0, 1.0)) * self.system._k60) * self._h0;
-        let _t115 = _t114 + self._h5;
-        let _t116 = _t12 * _t15;
-        let _t117 = S::ratio(4.0, 1.0) * _t116;
-        let _t118 = _t46 - S::ratio(2.0, 1.0) * (_t45 + _t59);
-        let _t119 = (self.system._k8 * (_t117 - self.system._k60 * _t118)
-            + self.system._k12 * (_t9 + _t113 * _u_m2) + self.system._k36 * _t116)
-            * self._h0;
-        let _t120 = (self.system._k2 * _t113 - self.system._k0 * _t109
-            - _t53 * self.system._k60) * self._h0;
-        let _t121 = _t12 * self.system._k47;
-        let _t122 = (-(self.system._k1 * _t113)
-            - self.system._k60 * (self.system._k1 * _t15 - _t121)) * self._h0;
-        let _t123 = _t41 * _t48;
-        let _t124 = self.system._k7 * _t2;
-        let _t125 = _t124 + _t124;
-        let _t126 = (self.system._k6 * (_t98 - self.system._k61 * _t99)
-            + self.system._k10 * (_t4 + _t125 * _u_m3) + self.system._k37 * _t97)
-            * self._h0;
-        let _t127 = self.system._k6 * _t7;
-        let _t128 = _t127 + _t127;
-        let _t129 = (self.system._k7 * (_t117 - self.system._k61 * _t118)
-            + self.system._k12 * (_t9 + _t128 * _u_m3) + self.system._k37 * _t116)
-            * self._h0;
-        let _t130 = (self.system._k8
-            * (S::ratio(2.0, 1.0) * _t14 + _t38 * S::ratio(6.0, 1.0)
-                + (_t42 + _t111 + _t83) * self.system._k37) + _t125 * _t2 + _t128 * _t7
-            + (_t14 + _t38 * S::ratio(3.0, 1.0)) * self.system._k61) * self._h0;
-        let _t131 = _t130 + self._h4;
-        let _t132 = _t15 * self.system._k42;
-        let _t133 = (self.system._k2 * _t128
-            - self.system._k61 * (_t12 * self.system._k2 - _t132)) * self._h0;
-        let _t134 = (self.system._k0 * _t125 - self.system._k1 * _t128
-            - _t18 * self.system._k61) * self._h0;
-        let _t135 = _t62 * _t54;
-        let _t136 = _t48 * _t19;
-        let _t137 = _t12 * self.system._k42;
-        let _t138 = -(_t15 * self.system._k47);
-        let _t139 = (self.system._k6 * (_t138 - _t137) - _u_m2 * self.system._k62
+        let _t114 = self.system._k7
+            * (_t79 + _t110 + _t13 * S::ratio(6.0, 1.0)
+                + (_t55 + _t111 + _t81) * self.system._k36) + _t108 * _t31 + _t113 * _t56
+            + (_t11 + _t36 + _t13 * S::ratio(3.0, 1.0)) * self.system._k60;
+        let _t115 = _t114 * self._h0 + self._h5;
+        let _t116 = _t9 * self.system._k9;
+        let _t117 = _t12 * _t17;
+        let _t118 = S::ratio(4.0, 1.0) * _t117;
+        let _t119 = _t44 - _u_m3 * _t23 - _u_m2 * _t18;
+        let _t120 = (_t116 + self.system._k8 * (_t118 - self.system._k60 * _t119)
+            + _t113 * _t7 + self.system._k36 * _t117) * self._h0;
+        let _t121 = (self.system._k2 * _t113 - self.system._k0 * _t108
+            - _t50 * self.system._k60) * self._h0;
+        let _t122 = _t12 * self.system._k47;
+        let _t123 = (-(self.system._k1 * _t113)
+            - self.system._k60 * (self.system._k1 * _t17 - _t122)) * self._h0;
+        let _t124 = _t40 * _t46;
+        let _t125 = self.system._k7 * _t2;
+        let _t126 = _t125 + _t125;
+        let _t127 = (_t98 + self.system._k6 * (_t96 - self.system._k61 * _t97)
+            + _t126 * _t35 + self.system._k37 * _t95) * self._h0;
+        let _t128 = self.system._k6 * _t7;
+        let _t129 = _t128 + _t128;
+        let _t130 = (_t116 + self.system._k7 * (_t118 - self.system._k61 * _t119)
+            + _t129 * _t56 + self.system._k37 * _t117) * self._h0;
+        let _t131 = (self.system._k8
+            * (_t78 + _t110 + _t36 * S::ratio(6.0, 1.0)
+                + (_t42 + _t111 + _t80) * self.system._k37) + _t126 * _t2 + _t129 * _t7
+            + (_t36 * S::ratio(3.0, 1.0) + _t37) * self.system._k61) * self._h0;
+        let _t132 = _t131 + self._h4;
+        let _t133 = _t17 * self.system._k42;
+        let _t134 = (self.system._k2 * _t129
+            - self.system._k61 * (_t12 * self.system._k2 - _t133)) * self._h0;
+        let _t135 = (self.system._k0 * _t126 - self.system._k1 * _t129
+            - _t16 * self.system._k61) * self._h0;
+        let _t136 = _t58 * _t51;
+        let _t137 = _t46 * _t19;
+        let _t138 = _t12 * self.system._k42;
+        let _t139 = -(_t17 * self.system._k47);
+        let _t140 = (self.system._k6 * (_t139 - _t138) - _u_m2 * self.system._k62
             - _u_m3 * self.system._k63) * self._h0;
-        let _t140 = (self.system._k7 * (_t12 * self.system._k28 - _t102)
+        let _t141 = (self.system._k7 * (_t12 * self.system._k28 - _t101)
             - _u_m1 * self.system._k62) * self._h0;
-        let _t141 = (self.system._k8 * (_t15 * self.system._k28 - _t105)
+        let _t142 = (self.system._k8 * (_t17 * self.system._k28 - _t104)
             - _u_m1 * self.system._k63) * self._h0;
-        let _t142 = _t104 * self._h7;
-        let _t143 = _t81 * self._h8;
-        let _t144 = _t12 * self.system._k54;
-        let _t145 = (self.system._k6 * (_t10 * self.system._k29 - _t144)
+        let _t143 = _t103 * self._h7;
+        let _t144 = _t76 * self._h8;
+        let _t145 = _t12 * self.system._k54;
+        let _t146 = (self.system._k6 * (_t10 * self.system._k29 - _t145)
             + _u_m2 * self.system._k22) * self._h0;
-        let _t146 = _t10 * self.system._k54;
-        let _t147 = (self.system._k7 * (_t138 - _t146) + _u_m1 * self.system._k22
+        let _t147 = _t10 * self.system._k54;
+        let _t148 = (self.system._k7 * (_t139 - _t147) + _u_m1 * self.system._k22
             - _u_m3 * self.system._k64) * self._h0;
-        let _t148 = (self.system._k8 * (_t15 * self.system._k29 - _t121)
+        let _t149 = (self.system._k8 * (_t17 * self.system._k29 - _t122)
             - _u_m2 * self.system._k64) * self._h0;
-        let _t149 = _t15 * self.system._k54;
-        let _t150 = (self.system._k6 * (_t10 * self.system._k32 - _t149)
+        let _t150 = _t17 * self.system._k54;
+        let _t151 = (self.system._k6 * (_t10 * self.system._k32 - _t150)
             + _u_m3 * self.system._k23) * self._h0;
-        let _t151 = (self.system._k7 * (_t12 * self.system._k32 - _t132)
+        let _t152 = (self.system._k7 * (_t12 * self.system._k32 - _t133)
             + _u_m3 * self.system._k25) * self._h0;
-        let _t152 = (self.system._k8 * (-_t137 - _t146) + _u_m1 * self.system._k23
+        let _t153 = (self.system._k8 * (-_t138 - _t147) + _u_m1 * self.system._k23
             + _u_m2 * self.system._k25) * self._h0;
-        let _t153 = _t76 - _t62 * _u_m1;
-        let _t154 = _t56 + S::ratio(2.0, 1.0) * _t63 + _t75;
-        let _t155 = _t62 * _u_m3 + _t77;
-        let _t156 = (self.system._k1 * _t86 - self.system._k2 * _t88
-            - _t71 * self.system._k59) * self._h0;
-        let _t157 = -_t80;
-        let _t158 = (self.system._k1 * _t109
-            - (_t10 * self.system._k1 - _t144) * self.system._k60) * self._h0;
-        let _t159 = _t62 * _t48;
-        let _t160 = (-(self.system._k2 * _t125)
-            - (_t10 * self.system._k2 - _t149) * self.system._k61) * self._h0;
-        let _t161 = _t41 * _t73;
-        let _t162 = self._h10 * _t157;
-        let _t163 = _t48 * _u_m1 + _t78;
-        let _t164 = _t70 - _t48 * _u_m2;
-        let _t165 = S::ratio(2.0, 1.0) * _t49 + _t79;
-        residual[0] = _t41 * (_t50 + _t65) - m1 - _t20 + _t62 * _t67 - _t48 * _t69
-            + _t70;
-        residual[1] = _t68 - m2 + _t62 * (_t64 + _t75) - _t41 * _t76 + _t48 * _t77
-            + _t78;
-        residual[2] = _t76 - m3 - _t66 + _t48 * (_t49 + _t79) + _t41 * _t78
-            - _t62 * _t70;
-        residual[3] = -g1 - _t80;
-        residual[4] = _t81 - g2;
-        residual[5] = -g3 - _t82;
-        matrix[(0, 0)] = S::one() + _t41 * _t41 + _t90 * _t91 + _t95 * _t96
-            - _t100 * _t101 + _t103 * _t104 - _t106 * _t81;
-        matrix[(0, 1)] = _t107 - _t48 + _t110 * _t91 + _t115 * _t96 - _t119 * _t101
-            + _t120 * _t104 - _t122 * _t81;
-        matrix[(0, 2)] = _t62 + _t123 + _t126 * _t91 + _t129 * _t96 - _t131 * _t101
-            + _t133 * _t104 - _t134 * _t81;
-        matrix[(0, 3)] = _t139 * _t91 - _t135 - _t136 + _t140 * _t96 - _t141 * _t101
-            - _t142 + _t143;
-        matrix[(0, 4)] = _t41 * _t54 - _t19 + _t145 * _t91 + _t147 * _t96 - _t148 * _t101
-            + _t104 * self._h9 + _t81 * self._h10;
-        matrix[(0, 5)] = _t54 + _t41 * _t19 + _t150 * _t91 + _t151 * _t96 - _t152 * _t101
-            - _t104 * self._h10 - _t81 * self._h11;
-        matrix[(1, 0)] = _t48 + _t107 - _t90 * _t153 + _t95 * _t154 + _t100 * _t155
-            - _t156 * _t104 + _t106 * _t157;
-        matrix[(1, 1)] = S::one() + _t62 * _t62 - _t110 * _t153 + _t115 * _t154
-            + _t119 * _t155 - _t158 * _t104 + _t122 * _t157;
-        matrix[(1, 2)] = _t159 - _t41 - _t126 * _t153 + _t129 * _t154 + _t131 * _t155
-            - _t160 * _t104 + _t134 * _t157;
-        matrix[(1, 3)] = _t19 + _t62 * _t73 - _t139 * _t153 + _t140 * _t154
-            + _t141 * _t155 - _t104 * self._h12 - self._h8 * _t157;
-        matrix[(1, 4)] = _t142 - _t136 - _t161 - _t145 * _t153 + _t147 * _t154
-            + _t148 * _t155 - _t162;
-        matrix[(1, 5)] = _t62 * _t19 - _t73 - _t150 * _t153 + _t151 * _t154
-            + _t152 * _t155 + _t104 * self._h8 + self._h11 * _t157;
-        matrix[(2, 0)] = _t123 - _t62 + _t90 * _t163 - _t95 * _t164 + _t100 * _t165
-            + _t156 * _t81 - _t103 * _t157;
-        matrix[(2, 1)] = _t41 + _t159 + _t110 * _t163 - _t115 * _t164 + _t119 * _t165
-            + _t158 * _t81 - _t120 * _t157;
-        matrix[(2, 2)] = S::one() + _t48 * _t48 + _t126 * _t163 - _t129 * _t164
-            + _t131 * _t165 + _t160 * _t81 - _t133 * _t157;
-        matrix[(2, 3)] = _t48 * _t73 - _t54 + _t139 * _t163 - _t140 * _t164
-            + _t141 * _t165 + _t81 * self._h12 + self._h7 * _t157;
-        matrix[(2, 4)] = _t73 + _t48 * _t54 + _t145 * _t163 - _t147 * _t164
-            + _t148 * _t165 - _t81 * self._h7 - self._h9 * _t157;
-        matrix[(2, 5)] = _t162 - _t135 - _t161 - _t143 + _t150 * _t163 - _t151 * _t164
-            + _t152 * _t165;
-        matrix[(3, 0)] = _t95 * _u_g3 - _t100 * _u_g2;
-        matrix[(3, 1)] = _t115 * _u_g3 - _t119 * _u_g2;
-        matrix[(3, 2)] = _t129 * _u_g3 - _t131 * _u_g2;
-        matrix[(3, 3)] = S::one() + _t140 * _u_g3 - _t141 * _u_g2;
-        matrix[(3, 4)] = _t147 * _u_g3 - _t48 - _t148 * _u_g2;
-        matrix[(3, 5)] = _t62 + _t151 * _u_g3 - _t152 * _u_g2;
-        matrix[(4, 0)] = _t100 * _u_g1 - _t90 * _u_g3;
-        matrix[(4, 1)] = _t119 * _u_g1 - _t110 * _u_g3;
-        matrix[(4, 2)] = _t131 * _u_g1 - _t126 * _u_g3;
-        matrix[(4, 3)] = _t48 - _t139 * _u_g3 + _t141 * _u_g1;
-        matrix[(4, 4)] = S::one() - _t145 * _u_g3 + _t148 * _u_g1;
-        matrix[(4, 5)] = _t152 * _u_g1 - _t41 - _t150 * _u_g3;
-        matrix[(5, 0)] = _t90 * _u_g2 - _t95 * _u_g1;
-        matrix[(5, 1)] = _t110 * _u_g2 - _t115 * _u_g1;
-        matrix[(5, 2)] = _t126 * _u_g2 - _t129 * _u_g1;
-        matrix[(5, 3)] = _t139 * _u_g2 - _t62 - _t140 * _u_g1;
-        matrix[(5, 4)] = _t41 + _t145 * _u_g2 - _t147 * _u_g1;
-        matrix[(5, 5)] = S::one() + _t150 * _u_g2 - _t151 * _u_g1;
+        let _t154 = _t71 - _t58 * _u_m1;
+        let _t155 = _t53 + S::ratio(2.0, 1.0) * _t59 + _t70;
+        let _t156 = _t58 * _u_m3 + _t72;
+        let _t157 = (self.system._k1 * _t83 - self.system._k2 * _t85
+            - _t67 * self.system._k59) * self._h0;
+        let _t158 = -_t75;
+        let _t159 = (self.system._k1 * _t108
+            - (_t10 * self.system._k1 - _t145) * self.system._k60) * self._h0;
+        let _t160 = _t58 * _t46;
+        let _t161 = (-(self.system._k2 * _t126)
+            - (_t10 * self.system._k2 - _t150) * self.system._k61) * self._h0;
+        let _t162 = _t40 * _t68;
+        let _t163 = self._h10 * _t158;
+        let _t164 = _t46 * _u_m1 + _t73;
+        let _t165 = _t66 - _t46 * _u_m2;
+        let _t166 = S::ratio(2.0, 1.0) * _t47 + _t74;
+        residual[0] = _t40 * (_t48 + _t61) - m1 - _t20 + _t58 * _t63 - _t46 * _t65
+            + _t66;
+        residual[1] = _t64 - m2 + _t58 * (_t60 + _t70) - _t40 * _t71 + _t46 * _t72
+            + _t73;
+        residual[2] = _t71 - m3 - _t62 + _t46 * (_t47 + _t74) + _t40 * _t73
+            - _t58 * _t66;
+        residual[3] = -g1 - _t75;
+        residual[4] = _t76 - g2;
+        residual[5] = -g3 - _t77;
+        matrix[(0, 0)] = S::one() + _t40 * _t40 + _t87 * _t88 + _t93 * _t94
+            - _t99 * _t100 + _t102 * _t103 - _t105 * _t76;
+        matrix[(0, 1)] = _t106 - _t46 + _t109 * _t88 + _t115 * _t94 - _t120 * _t100
+            + _t121 * _t103 - _t123 * _t76;
+        matrix[(0, 2)] = _t58 + _t124 + _t127 * _t88 + _t130 * _t94 - _t132 * _t100
+            + _t134 * _t103 - _t135 * _t76;
+        matrix[(0, 3)] = _t140 * _t88 - _t136 - _t137 + _t141 * _t94 - _t142 * _t100
+            - _t143 + _t144;
+        matrix[(0, 4)] = _t40 * _t51 - _t19 + _t146 * _t88 + _t148 * _t94 - _t149 * _t100
+            + _t103 * self._h9 + _t76 * self._h10;
+        matrix[(0, 5)] = _t51 + _t40 * _t19 + _t151 * _t88 + _t152 * _t94 - _t153 * _t100
+            - _t103 * self._h10 - _t76 * self._h11;
+        matrix[(1, 0)] = _t46 + _t106 - _t87 * _t154 + _t93 * _t155 + _t99 * _t156
+            - _t157 * _t103 + _t105 * _t158;
+        matrix[(1, 1)] = S::one() + _t58 * _t58 - _t109 * _t154 + _t115 * _t155
+            + _t120 * _t156 - _t159 * _t103 + _t123 * _t158;
+        matrix[(1, 2)] = _t160 - _t40 - _t127 * _t154 + _t130 * _t155 + _t132 * _t156
+            - _t161 * _t103 + _t135 * _t158;
+        matrix[(1, 3)] = _t19 + _t58 * _t68 - _t140 * _t154 + _t141 * _t155
+            + _t142 * _t156 - _t103 * self._h12 - self._h8 * _t158;
+        matrix[(1, 4)] = _t143 - _t137 - _t162 - _t146 * _t154 + _t148 * _t155
+            + _t149 * _t156 - _t163;
+        matrix[(1, 5)] = _t58 * _t19 - _t68 - _t151 * _t154 + _t152 * _t155
+            + _t153 * _t156 + _t103 * self._h8 + self._h11 * _t158;
+        matrix[(2, 0)] = _t124 - _t58 + _t87 * _t164 - _t93 * _t165 + _t99 * _t166
+            + _t157 * _t76 - _t102 * _t158;
+        matrix[(2, 1)] = _t40 + _t160 + _t109 * _t164 - _t115 * _t165 + _t120 * _t166
+            + _t159 * _t76 - _t121 * _t158;
+        matrix[(2, 2)] = S::one() + _t46 * _t46 + _t127 * _t164 - _t130 * _t165
+            + _t132 * _t166 + _t161 * _t76 - _t134 * _t158;
+        matrix[(2, 3)] = _t46 * _t68 - _t51 + _t140 * _t164 - _t141 * _t165
+            + _t142 * _t166 + _t76 * self._h12 + self._h7 * _t158;
+        matrix[(2, 4)] = _t68 + _t46 * _t51 + _t146 * _t164 - _t148 * _t165
+            + _t149 * _t166 - _t76 * self._h7 - self._h9 * _t158;
+        matrix[(2, 5)] = _t163 - _t136 - _t162 - _t144 + _t151 * _t164 - _t152 * _t165
+            + _t153 * _t166;
+        matrix[(3, 0)] = _t93 * _u_g3 - _t99 * _u_g2;
+        matrix[(3, 1)] = _t115 * _u_g3 - _t120 * _u_g2;
+        matrix[(3, 2)] = _t130 * _u_g3 - _t132 * _u_g2;
+        matrix[(3, 3)] = S::one() + _t141 * _u_g3 - _t142 * _u_g2;
+        matrix[(3, 4)] = _t148 * _u_g3 - _t46 - _t149 * _u_g2;
+        matrix[(3, 5)] = _t58 + _t152 * _u_g3 - _t153 * _u_g2;
+        matrix[(4, 0)] = _t99 * _u_g1 - _t87 * _u_g3;
+        matrix[(4, 1)] = _t120 * _u_g1 - _t109 * _u_g3;
+        matrix[(4, 2)] = _t132 * _u_g1 - _t127 * _u_g3;
+        matrix[(4, 3)] = _t46 - _t140 * _u_g3 + _t142 * _u_g1;
+        matrix[(4, 4)] = S::one() - _t146 * _u_g3 + _t149 * _u_g1;
+        matrix[(4, 5)] = _t153 * _u_g1 - _t40 - _t151 * _u_g3;
+        matrix[(5, 0)] = _t87 * _u_g2 - _t93 * _u_g1;
+        matrix[(5, 1)] = _t109 * _u_g2 - _t115 * _u_g1;
+        matrix[(5, 2)] = _t127 * _u_g2 - _t130 * _u_g1;
+        matrix[(5, 3)] = _t140 * _u_g2 - _t58 - _t141 * _u_g1;
+        matrix[(5, 4)] = _t40 + _t146 * _u_g2 - _t148 * _u_g1;
+        matrix[(5, 5)] = S::one() + _t151 * _u_g2 - _t152 * _u_g1;
     }
 
     /// `mu1 = mu + 2 ad*_y p`
@@ -3611,12 +3669,12 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t11 = _u_g3 * self.system._k1;
         let _t12 = self.system._k2 * _u_g2;
         let _t13 = _t11 + _t12;
-        let _t14 = self.system._k8 * (_t9 - _t8 - self.system._k11 * _u_m1 * _u_m2);
+        let _t14 = self.system._k8 * (_t9 - _t8 - self.system._k18 * _u_m1 * _u_m2);
         let _t15 = _t14 + _t14;
-        let _t16 = self.system._k11 * _t15;
-        let _t17 = self.system._k6 * (_t12 - _t11 - self.system._k9 * _u_m2 * _u_m3);
+        let _t16 = self.system._k18 * _t15;
+        let _t17 = self.system._k6 * (_t12 - _t11 - self.system._k19 * _u_m2 * _u_m3);
         let _t18 = _t17 + _t17;
-        let _t19 = self.system._k9 * _t18;
+        let _t19 = self.system._k19 * _t18;
         let _t20 = _t1 * _t1;
         let _t21 = _t0 * _t0;
         let _t22 = _t4 * _t4;

@@ -14,11 +14,11 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case)]
 pub struct FreeRigidBody<S = f64> {
-    /// first principal moment of inertia [kg m^2].
+    /// first principal moment of inertia \[kg m^2].
     pub I1: S,
-    /// second principal moment of inertia [kg m^2].
+    /// second principal moment of inertia \[kg m^2].
     pub I2: S,
-    /// third principal moment of inertia [kg m^2].
+    /// third principal moment of inertia \[kg m^2].
     pub I3: S,
 }
 
@@ -53,10 +53,9 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
         let _t0 = S::one() / self.I1;
         let _t1 = S::one() / self.I2;
         let _t2 = S::one() / self.I3;
-        let _t3 = S::ratio(4.0, 1.0) / self.I2;
+        let _t3 = S::ratio(4.0, 1.0) / self.I3;
         let _t4 = S::ratio(4.0, 1.0) / self.I1;
-        let _t5 = S::ratio(4.0, 1.0) / self.I3;
-        let _t6 = _t5 - _t4;
+        let _t5 = S::ratio(4.0, 1.0) / self.I2;
         let _c0 = S::ratio(1.0, 2.0) / self.I1;
         let _c1 = S::ratio(1.0, 2.0) / self.I2;
         let _c2 = S::ratio(1.0, 2.0) / self.I3;
@@ -66,19 +65,18 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
         let _c6 = _t2 - _t1;
         let _c7 = _t0 - _t2;
         let _c8 = _t1 - _t0;
-        let _c9 = S::ratio(8.0, 1.0) / self.I2;
+        let _c9 = S::ratio(8.0, 1.0) / self.I3;
         let _c10 = S::ratio(8.0, 1.0) / self.I1;
-        let _c11 = _t4 - _t3;
-        let _c12 = S::ratio(8.0, 1.0) / self.I3;
-        let _c13 = _t6;
-        let _c14 = _t3 - _t5;
-        let _c15 = -_t6;
-        let _c16 = _t4;
-        let _c17 = S::ratio(2.0, 1.0) / self.I1;
-        let _c18 = _t3;
-        let _c19 = S::ratio(2.0, 1.0) / self.I2;
-        let _c20 = _t5;
-        let _c21 = S::ratio(2.0, 1.0) / self.I3;
+        let _c11 = _t3 - _t4;
+        let _c12 = S::ratio(8.0, 1.0) / self.I2;
+        let _c13 = _t4 - _t5;
+        let _c14 = _t5 - _t3;
+        let _c15 = _t4;
+        let _c16 = S::ratio(2.0, 1.0) / self.I1;
+        let _c17 = _t5;
+        let _c18 = S::ratio(2.0, 1.0) / self.I2;
+        let _c19 = _t3;
+        let _c20 = S::ratio(2.0, 1.0) / self.I3;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "I1", "1/(2*I1)"),
@@ -90,19 +88,18 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
                 (_c6, "I2", "-1/I2 + 1/I3"),
                 (_c7, "I1", "1/I1 - 1/I3"),
                 (_c8, "I1", "-1/I1 + 1/I2"),
-                (_c9, "I2", "8/I2"),
+                (_c9, "I3", "8/I3"),
                 (_c10, "I1", "8/I1"),
-                (_c11, "I1", "4/I1 - 4/I2"),
-                (_c12, "I3", "8/I3"),
-                (_c13, "I1", "-4/I1 + 4/I3"),
+                (_c11, "I1", "-4/I1 + 4/I3"),
+                (_c12, "I2", "8/I2"),
+                (_c13, "I1", "4/I1 - 4/I2"),
                 (_c14, "I2", "4/I2 - 4/I3"),
-                (_c15, "I1", "4/I1 - 4/I3"),
-                (_c16, "I1", "4/I1"),
-                (_c17, "I1", "2/I1"),
-                (_c18, "I2", "4/I2"),
-                (_c19, "I2", "2/I2"),
-                (_c20, "I3", "4/I3"),
-                (_c21, "I3", "2/I3"),
+                (_c15, "I1", "4/I1"),
+                (_c16, "I1", "2/I1"),
+                (_c17, "I2", "4/I2"),
+                (_c18, "I2", "2/I2"),
+                (_c19, "I3", "4/I3"),
+                (_c20, "I3", "2/I3"),
             ],
         )?;
         ::core::result::Result::Ok(FreeRigidBodySystem {
@@ -128,7 +125,6 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
             _k18: _c18,
             _k19: _c19,
             _k20: _c20,
-            _k21: _c21,
         })
     }
 
@@ -166,32 +162,30 @@ pub struct FreeRigidBodySystem<S = f64> {
     _k7: S,
     /// `-1/I1 + 1/I2`
     _k8: S,
-    /// `8/I2`
+    /// `8/I3`
     _k9: S,
     /// `8/I1`
     _k10: S,
-    /// `4/I1 - 4/I2`
-    _k11: S,
-    /// `8/I3`
-    _k12: S,
     /// `-4/I1 + 4/I3`
+    _k11: S,
+    /// `8/I2`
+    _k12: S,
+    /// `4/I1 - 4/I2`
     _k13: S,
     /// `4/I2 - 4/I3`
     _k14: S,
-    /// `4/I1 - 4/I3`
-    _k15: S,
     /// `4/I1`
-    _k16: S,
+    _k15: S,
     /// `2/I1`
-    _k17: S,
+    _k16: S,
     /// `4/I2`
-    _k18: S,
+    _k17: S,
     /// `2/I2`
-    _k19: S,
+    _k18: S,
     /// `4/I3`
-    _k20: S,
+    _k19: S,
     /// `2/I3`
-    _k21: S,
+    _k20: S,
 }
 
 impl<S> FreeRigidBodySystem<S> {
@@ -267,7 +261,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self._k3;
         out[(1, 1)] = self._k4;
         out[(2, 2)] = self._k5;
@@ -279,7 +273,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[x, y, z]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -z;
         out[(0, 2)] = y;
         out[(1, 0)] = z;
@@ -300,9 +294,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[x, y, z]] = mu.data.0;
-        out[0] = y * z * self._k6;
-        out[1] = x * z * self._k7;
-        out[2] = x * y * self._k8;
+        out[0] = z * (y * self._k6);
+        out[1] = z * (x * self._k7);
+        out[2] = y * (x * self._k8);
     }
 
     /// `out_ij = df_i/dmu_j`
@@ -311,7 +305,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[x, y, z]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = z * self._k6;
         out[(0, 2)] = y * self._k6;
         out[(1, 0)] = z * self._k7;
@@ -337,7 +331,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
         field[0] = z * _t0;
         field[1] = z * _t1;
         field[2] = y * _t2;
-        jacobian.fill(S::zero());
+        jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 1)] = z * self._k6;
         jacobian[(0, 2)] = _t0;
         jacobian[(1, 0)] = z * self._k7;
@@ -352,7 +346,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[x, y, z]] = mu.data.0;
-        out[0] = x * x + y * y + z * z;
+        out[0] = z * z + (x * x + y * y);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -403,7 +397,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for FreeRigidBodySys
     #[inline]
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_e1, _xi_e2, _xi_e3]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_e3;
         out[(0, 2)] = -_xi_e2;
         out[(1, 0)] = -_xi_e3;
@@ -416,6 +410,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for FreeRigidBodySys
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for FreeRigidBodySystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -476,7 +471,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for FreeRigidBodySystem<S>
             _k18: _constant(self._k18),
             _k19: _constant(self._k19),
             _k20: _constant(self._k20),
-            _k21: _constant(self._k21),
         }
     }
 }
@@ -535,6 +529,7 @@ for FreeRigidBodySystem<S> {
         ],
         skew: true,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -817,30 +812,32 @@ pub struct FreeRigidBodyGenerating6<'a, S: ::lie_runtime::Scalar> {
     _h0: S,
     /// `h^3/24`
     _h1: S,
-    /// `(1/I1 - 1/I2)*h^5/5760`
+    /// `h^5/5760`
     _h2: S,
-    /// `(1/I1 - 1/I3)*h^5/5760`
-    _h3: S,
-    /// `h^5/480`
-    _h4: S,
-    /// `(1/I1 - 1/I2)*h^5/1440`
-    _h5: S,
-    /// `(1/I1 - 1/I3)*h^5/1440`
-    _h6: S,
-    /// `h^5/(5760*I1)`
-    _h7: S,
     /// `h/I2`
-    _h8: S,
-    /// `(1/I2 - 1/I3)*h^5/5760`
-    _h9: S,
-    /// `(1/I2 - 1/I3)*h^5/1440`
-    _h10: S,
-    /// `h^5/(5760*I2)`
-    _h11: S,
+    _h3: S,
     /// `h/I3`
+    _h4: S,
+    /// `(1/I1 - 1/I2)*h^5/5760`
+    _h5: S,
+    /// `(1/I1 - 1/I3)*h^5/5760`
+    _h6: S,
+    /// `h^5/480`
+    _h7: S,
+    /// `(1/I1 - 1/I2)*h^5/1440`
+    _h8: S,
+    /// `(1/I1 - 1/I3)*h^5/1440`
+    _h9: S,
+    /// `h^5/(5760*I1)`
+    _h10: S,
+    /// `(1/I2 - 1/I3)*h^5/5760`
+    _h11: S,
+    /// `(1/I2 - 1/I3)*h^5/1440`
     _h12: S,
-    /// `h^5/(5760*I3)`
+    /// `h^5/(5760*I2)`
     _h13: S,
+    /// `h^5/(5760*I3)`
+    _h14: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyGenerating6<'a, S> {
@@ -850,31 +847,32 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyGenerating6<'a, S> {
         let _t0 = S::one() / system._parameters.I1;
         let _t1 = h * h;
         let _t2 = h * _t1;
-        let _t3 = S::one() / system._parameters.I2;
-        let _t4 = _t0 - _t3;
-        let _t5 = _t1 * _t2;
-        let _t6 = S::ratio(1.0, 5760.0) * _t5;
-        let _t7 = S::one() / system._parameters.I3;
-        let _t8 = _t0 - _t7;
-        let _t9 = S::ratio(1.0, 1440.0) * _t5;
-        let _t10 = _t3 - _t7;
+        let _t3 = _t1 * _t2;
+        let _t4 = S::ratio(1.0, 5760.0) * _t3;
+        let _t5 = S::one() / system._parameters.I2;
+        let _t6 = S::one() / system._parameters.I3;
+        let _t7 = _t0 - _t5;
+        let _t8 = _t0 - _t6;
+        let _t9 = S::ratio(1.0, 1440.0) * _t3;
+        let _t10 = _t5 - _t6;
         Self {
             system,
             h,
             _h0: _t0 * h,
             _h1: S::ratio(1.0, 24.0) * _t2,
-            _h2: _t4 * _t6,
-            _h3: _t8 * _t6,
-            _h4: S::ratio(1.0, 480.0) * _t5,
-            _h5: _t4 * _t9,
-            _h6: _t8 * _t9,
-            _h7: _t0 * _t6,
-            _h8: _t3 * h,
-            _h9: _t10 * _t6,
-            _h10: _t10 * _t9,
-            _h11: _t3 * _t6,
-            _h12: _t7 * h,
-            _h13: _t7 * _t6,
+            _h2: _t4,
+            _h3: _t5 * h,
+            _h4: _t6 * h,
+            _h5: _t7 * _t4,
+            _h6: _t8 * _t4,
+            _h7: S::ratio(1.0, 480.0) * _t3,
+            _h8: _t7 * _t9,
+            _h9: _t8 * _t9,
+            _h10: _t0 * _t4,
+            _h11: _t10 * _t4,
+            _h12: _t10 * _t9,
+            _h13: _t5 * _t4,
+            _h14: _t6 * _t4,
         }
     }
 }
@@ -894,61 +892,65 @@ for FreeRigidBodyGenerating6<'_, S> {
         let _t1 = y * _t0;
         let _t2 = self.system._k5 * _t1;
         let _t3 = _t2 + _t2;
-        let _t4 = x * self.system._k7;
-        let _t5 = z * _t4;
-        let _t6 = self.system._k4 * _t5;
-        let _t7 = _t6 + _t6;
-        let _t8 = y * self.system._k8 * _t3 + z * self.system._k7 * _t7;
-        let _t9 = x * self.system._k3;
-        let _t10 = y * self.system._k6;
-        let _t11 = z * _t10;
-        let _t12 = self.system._k3 * _t11;
-        let _t13 = _t12 + _t12;
-        let _t14 = _t3 * _t0 + z * self.system._k6 * _t13;
-        let _t15 = z * self.system._k5;
-        let _t16 = _t1 * _t9 - _t11 * _t15;
-        let _t17 = _t16 * self.system._k9 - _t14 * S::ratio(4.0, 1.0);
-        let _t18 = y * self.system._k4;
-        let _t19 = _t5 * _t15 - _t1 * _t18;
-        let _t20 = _t19 * self.system._k10 - _t8 * S::ratio(4.0, 1.0);
-        let _t21 = _t16 + S::ratio(3.0, 1.0) * (z * _t12 - x * _t2);
-        let _t22 = _t19 - (z * _t6 - y * _t2) * S::ratio(3.0, 1.0);
-        let _t23 = (x * _t21 + y * _t22) * self.system._k11;
-        let _t24 = (_t9 * _t17 - _t18 * _t20
-            + self.system._k5
-                * (_t23 + (_t23 + (x * _t14 - y * _t8) * S::ratio(12.0, 1.0))))
-            * self._h2;
-        let _t25 = _t7 * _t4 + _t13 * _t10;
-        let _t26 = _t11 * _t18 - _t5 * _t9;
-        let _t27 = _t26 * self.system._k12 - _t25 * S::ratio(4.0, 1.0);
-        let _t28 = _t26 - S::ratio(3.0, 1.0) * (y * _t12 - x * _t6);
-        let _t29 = (x * _t28 + z * _t22) * self.system._k13;
-        let _t30 = (_t15 * _t20 - _t9 * _t27
+        let _t4 = y * self.system._k8;
+        let _t5 = x * self.system._k7;
+        let _t6 = z * _t5;
+        let _t7 = self.system._k4 * _t6;
+        let _t8 = _t7 + _t7;
+        let _t9 = z * self.system._k7;
+        let _t10 = _t3 * _t4 + _t8 * _t9;
+        let _t11 = x * self.system._k3;
+        let _t12 = y * self.system._k6;
+        let _t13 = z * _t12;
+        let _t14 = self.system._k3 * _t13;
+        let _t15 = _t14 + _t14;
+        let _t16 = _t8 * _t5 + _t15 * _t12;
+        let _t17 = y * self.system._k4;
+        let _t18 = _t13 * _t17 - _t6 * _t11;
+        let _t19 = _t18 * self.system._k9 - _t16 * S::ratio(4.0, 1.0);
+        let _t20 = z * self.system._k5;
+        let _t21 = _t6 * _t20 - _t1 * _t17;
+        let _t22 = _t21 * self.system._k10 - _t10 * S::ratio(4.0, 1.0);
+        let _t23 = _t18 - S::ratio(3.0, 1.0) * (y * _t14 - x * _t7);
+        let _t24 = _t21 - (z * _t7 - y * _t2) * S::ratio(3.0, 1.0);
+        let _t25 = (x * _t23 + z * _t24) * self.system._k11;
+        let _t26 = _t20 * _t22 - _t11 * _t19
             + self.system._k4
-                * (_t29 + (_t29 - S::ratio(12.0, 1.0) * (x * _t25 - z * _t8))))
-            * self._h3;
-        let _t31 = _t3 * self._h5;
-        let _t32 = _t7 * self._h6;
-        let _t33 = (y * _t28 + z * _t21) * self.system._k14;
-        let _t34 = (_t18 * _t27 - _t15 * _t17
+                * (_t25 + (_t25 - S::ratio(12.0, 1.0) * (x * _t16 - z * _t10)));
+        let _t27 = z * self.system._k6;
+        let _t28 = _t3 * _t0 + _t15 * _t27;
+        let _t29 = _t1 * _t11 - _t13 * _t20;
+        let _t30 = _t29 * self.system._k12 - _t28 * S::ratio(4.0, 1.0);
+        let _t31 = _t29 + S::ratio(3.0, 1.0) * (z * _t14 - x * _t2);
+        let _t32 = (x * _t31 + y * _t24) * self.system._k13;
+        let _t33 = _t11 * _t30 - _t17 * _t22
+            + self.system._k5
+                * (_t32 + (_t32 + (x * _t28 - y * _t10) * S::ratio(12.0, 1.0)));
+        let _t34 = _t8 * self.system._k11;
+        let _t35 = _t3 * self.system._k13;
+        let _t36 = _t26 * _t9 + self.system._k3 * (_t1 * _t30 - _t6 * _t19) + _t33 * _t4
+            - S::ratio(12.0, 1.0) * (_t7 * _t16 - _t2 * _t28) + _t23 * _t34
+            + _t31 * _t35;
+        let _t37 = (y * _t23 + z * _t31) * self.system._k14;
+        let _t38 = _t17 * _t19 - _t20 * _t30
             + self.system._k3
-                * (_t33 + (_t33 + S::ratio(12.0, 1.0) * (y * _t25 - z * _t14))))
-            * self._h9;
-        let _t35 = _t13 * self._h10;
-        xi[0] = x * self._h0 + _t8 * self._h1 - y * _t24 + z * _t30
-            - (_t6 * _t25 - _t2 * _t14) * self._h4 + _t21 * _t31 - _t28 * _t32
-            + (_t1 * _t17 - _t5 * _t27) * self._h7;
-        xi[1] = y * self._h8 + _t14 * self._h1 - x * _t24 - z * _t34
-            + self._h4 * (_t12 * _t25 - _t2 * _t8) + _t22 * _t31 + _t28 * _t35
-            + (_t11 * _t27 - _t1 * _t20) * self._h11;
-        xi[2] = z * self._h12 + _t25 * self._h1 + x * _t30 - y * _t34
-            - self._h4 * (_t12 * _t14 - _t6 * _t8) - _t22 * _t32 + _t21 * _t35
-            + (_t5 * _t20 - _t11 * _t17) * self._h13;
+                * (_t37 + (_t37 + S::ratio(12.0, 1.0) * (y * _t16 - z * _t28)));
+        let _t39 = _t15 * self.system._k14;
+        let _t40 = _t38 * _t27 + self.system._k4 * (_t13 * _t19 - _t1 * _t22)
+            + _t33 * _t0 + S::ratio(12.0, 1.0) * (_t14 * _t16 - _t2 * _t10) + _t23 * _t39
+            + _t24 * _t35;
+        let _t41 = _t26 * _t5 + _t38 * _t12
+            + self.system._k5 * (_t6 * _t22 - _t13 * _t30)
+            - S::ratio(12.0, 1.0) * (_t14 * _t28 - _t7 * _t10) + _t31 * _t39
+            + _t24 * _t34;
+        xi[0] = x * self._h0 + _t10 * self._h1 + _t36 * self._h2;
+        xi[1] = y * self._h3 + _t28 * self._h1 + self._h2 * _t40;
+        xi[2] = z * self._h4 + _t16 * self._h1 + _t41 * self._h2;
     }
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 268 additions, 370 multiplications.
+    /// 264 additions, 378 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -977,185 +979,176 @@ for FreeRigidBodyGenerating6<'_, S> {
         let _t17 = _t1 * _t4 + _t12 * _t16;
         let _t18 = z * self.system._k5;
         let _t19 = _t2 * _t11 - _t14 * _t18;
-        let _t20 = _t19 * self.system._k9 - _t17 * S::ratio(4.0, 1.0);
+        let _t20 = _t19 * self.system._k12 - _t17 * S::ratio(4.0, 1.0);
         let _t21 = y * self.system._k4;
         let _t22 = _t7 * _t18 - _t2 * _t21;
         let _t23 = _t22 * self.system._k10 - _t10 * S::ratio(4.0, 1.0);
-        let _t24 = z * S::ratio(3.0, 1.0);
-        let _t25 = x * S::ratio(3.0, 1.0);
-        let _t26 = _t19 + _t15 * _t24 - _t3 * _t25;
-        let _t27 = x * self.system._k11;
-        let _t28 = y * S::ratio(3.0, 1.0);
-        let _t29 = _t22 - _t8 * _t24 + _t3 * _t28;
-        let _t30 = y * self.system._k11;
-        let _t31 = _t26 * _t27 + _t29 * _t30;
-        let _t32 = x * S::ratio(12.0, 1.0);
-        let _t33 = y * S::ratio(12.0, 1.0);
-        let _t34 = _t11 * _t20 - _t21 * _t23 + self.system._k5 * _t31
-            + self.system._k5 * (_t31 + _t17 * _t32 - _t10 * _t33);
-        let _t35 = y * self._h2;
-        let _t36 = _t14 * _t21 - _t7 * _t11;
-        let _t37 = _t36 - _t15 * _t28 + _t8 * _t25;
-        let _t38 = x * self.system._k15;
-        let _t39 = z * self.system._k15;
-        let _t40 = -(_t37 * _t38) - _t29 * _t39;
-        let _t41 = _t6 * _t9 + _t13 * _t16;
-        let _t42 = z * S::ratio(12.0, 1.0);
-        let _t43 = _t36 * self.system._k12 - _t41 * S::ratio(4.0, 1.0);
-        let _t44 = self.system._k4 * (_t40 - _t41 * _t32 + _t10 * _t42) - _t11 * _t43
-            + _t18 * _t23 + self.system._k4 * _t40;
-        let _t45 = z * self._h3;
-        let _t46 = _t8 * self._h4;
-        let _t47 = _t3 * self._h4;
-        let _t48 = _t4 * self._h5;
-        let _t49 = _t9 * self._h6;
-        let _t50 = x * self._h2;
-        let _t51 = y * self.system._k14;
-        let _t52 = z * self.system._k14;
-        let _t53 = _t37 * _t51 + _t26 * _t52;
-        let _t54 = _t21 * _t43 - _t18 * _t20 + self.system._k3 * _t53
-            + self.system._k3 * (_t53 + _t41 * _t33 - _t17 * _t42);
-        let _t55 = z * self._h9;
-        let _t56 = _t15 * self._h4;
-        let _t57 = _t16 * self._h10;
-        let _t58 = x * self._h3;
-        let _t59 = y * self._h9;
-        let _t60 = self.system._k4 * _t5;
-        let _t61 = _t41 * self._h4;
-        let _t62 = self.system._k5 * _t0;
-        let _t63 = _t17 * self._h4;
-        let _t64 = self.system._k8 * _t4;
-        let _t65 = _t62 + _t62;
-        let _t66 = _t64 + _t1 * _t65;
-        let _t67 = self.system._k7 * _t9;
-        let _t68 = _t60 + _t60;
-        let _t69 = _t67 + _t6 * _t68;
-        let _t70 = _t26 * self._h5;
-        let _t71 = _t11 * _t0 + self.system._k3 * _t2;
-        let _t72 = _t3 * S::ratio(3.0, 1.0);
-        let _t73 = _t71 - _t72 - _t62 * _t25;
-        let _t74 = _t37 * self._h6;
-        let _t75 = -(_t11 * _t5) - self.system._k3 * _t7;
-        let _t76 = _t8 * S::ratio(3.0, 1.0);
-        let _t77 = _t75 + _t76 + _t60 * _t25;
-        let _t78 = _t0 * _t65 + _t5 * _t68;
-        let _t79 = self.system._k12 * _t75 - S::ratio(4.0, 1.0) * _t69;
-        let _t80 = self.system._k9 * _t71 - S::ratio(4.0, 1.0) * _t66;
-        let _t81 = _t18 * _t5 - _t21 * _t0;
-        let _t82 = self.system._k10 * _t81 - S::ratio(4.0, 1.0) * _t78;
-        let _t83 = _t81 - _t60 * _t24 + _t62 * _t28;
-        let _t84 = _t26 * self.system._k11 + _t73 * _t27 + _t83 * _t30;
-        let _t85 = _t17 * S::ratio(12.0, 1.0);
-        let _t86 = -(_t37 * self.system._k15) - _t77 * _t38 - _t83 * _t39;
-        let _t87 = _t41 * S::ratio(12.0, 1.0);
-        let _t88 = self._h0 - _t60 * _t61 + _t62 * _t63 + _t66 * _t47 - _t69 * _t46
-            + _t65 * _t70 + _t73 * _t48 - _t68 * _t74 - _t77 * _t49 + _t78 * self._h1;
-        let _t89 = _t88 + (_t20 * _t0 - _t43 * _t5 - _t7 * _t79 + _t2 * _t80) * self._h7
-            - (self.system._k3 * _t20 + _t11 * _t80 - _t21 * _t82
-                + self.system._k5 * _t84
-                + self.system._k5 * (_t84 + _t85 - _t78 * _t33 + _t66 * _t32)) * _t35;
-        let _t90 = self.system._k5 * _t1;
-        let _t91 = _t90 + _t90;
-        let _t92 = self.system._k3 * _t12;
-        let _t93 = _t92 + _t92;
-        let _t94 = _t1 * _t91 + _t12 * _t93;
-        let _t95 = _t11 * _t1 - _t18 * _t12;
-        let _t96 = self.system._k9 * _t95 - S::ratio(4.0, 1.0) * _t94;
-        let _t97 = _t64 + _t0 * _t91;
-        let _t98 = -(_t21 * _t1) - self.system._k4 * _t2;
-        let _t99 = self.system._k10 * _t98 - S::ratio(4.0, 1.0) * _t97;
-        let _t100 = _t95 + _t92 * _t24 - _t90 * _t25;
-        let _t101 = _t72 + _t98 + _t90 * _t28;
-        let _t102 = _t29 * self.system._k11 + _t100 * _t27 + _t101 * _t30;
-        let _t103 = _t10 * S::ratio(12.0, 1.0);
-        let _t104 = _t11 * _t96 - self.system._k4 * _t23 - _t21 * _t99
-            + self.system._k5 * _t102
-            + self.system._k5 * (_t102 - _t103 - _t97 * _t33 + _t94 * _t32);
-        let _t105 = self.system._k6 * _t16;
-        let _t106 = _t105 + _t13 * _t93;
-        let _t107 = _t21 * _t12 + self.system._k4 * _t14;
-        let _t108 = _t15 * S::ratio(3.0, 1.0);
-        let _t109 = _t107 - _t108 - _t92 * _t28;
-        let _t110 = self.system._k12 * _t107 - S::ratio(4.0, 1.0) * _t106;
-        let _t111 = -(_t109 * _t38) - _t101 * _t39;
-        let _t112 = _t90 * _t63 - _t34 * self._h2 - _t104 * _t35 + _t94 * _t47
-            - _t106 * _t46 + _t91 * _t70 + _t100 * _t48 + _t97 * self._h1 - _t109 * _t49;
-        let _t113 = _t112 + (_t20 * _t1 - _t7 * _t110 + _t2 * _t96) * self._h7
-            + (_t18 * _t99 - _t11 * _t110 + self.system._k4 * _t111
-                + self.system._k4 * (_t111 + _t97 * _t42 - _t106 * _t32)) * _t45;
-        let _t114 = self.system._k4 * _t6;
-        let _t115 = _t114 + _t114;
-        let _t116 = self.system._k3 * _t13;
-        let _t117 = _t116 + _t116;
-        let _t118 = _t6 * _t115 + _t13 * _t117;
-        let _t119 = _t21 * _t13 - _t11 * _t6;
-        let _t120 = self.system._k12 * _t119 - S::ratio(4.0, 1.0) * _t118;
-        let _t121 = _t67 + _t5 * _t115;
-        let _t122 = _t18 * _t6 + self.system._k5 * _t7;
-        let _t123 = self.system._k10 * _t122 - S::ratio(4.0, 1.0) * _t121;
-        let _t124 = _t119 - _t116 * _t28 + _t114 * _t25;
-        let _t125 = _t122 - _t76 - _t114 * _t24;
-        let _t126 = -(_t29 * self.system._k15) - _t124 * _t38 - _t125 * _t39;
-        let _t127 = self.system._k5 * _t23 - _t11 * _t120 + _t18 * _t123
-            + self.system._k4 * _t126
-            + self.system._k4 * (_t103 + _t126 + _t121 * _t42 - _t118 * _t32);
-        let _t128 = _t105 + _t12 * _t117;
-        let _t129 = -(_t18 * _t13) - self.system._k5 * _t14;
-        let _t130 = _t108 + _t129 + _t116 * _t24;
-        let _t131 = self.system._k9 * _t129 - S::ratio(4.0, 1.0) * _t128;
-        let _t132 = _t130 * _t27 + _t125 * _t30;
-        let _t133 = _t11 * _t131 - _t21 * _t123 + self.system._k5 * _t132
-            + self.system._k5 * (_t132 - _t121 * _t33 + _t128 * _t32);
-        let _t134 = _t44 * self._h3 + _t127 * _t45 - _t114 * _t61 + _t128 * _t47
-            - _t118 * _t46 - _t115 * _t74 - _t124 * _t49 + _t121 * self._h1
-            + _t130 * _t48;
-        let _t135 = _t134 + (_t2 * _t131 - _t43 * _t6 - _t7 * _t120) * self._h7
-            - _t133 * _t35;
-        let _t136 = _t10 * self._h4;
-        let _t137 = _t37 * self._h10;
-        let _t138 = _t37 * self.system._k14 + _t109 * _t51 + _t100 * _t52;
-        let _t139 = self._h8 + _t92 * _t61 - _t90 * _t136 - _t97 * _t47 + _t106 * _t56
-            + _t29 * _t91 * self._h5 + _t101 * _t48 + _t93 * _t137 + _t109 * _t57;
-        let _t140 = _t26 * self.system._k14 + _t124 * _t51 + _t130 * _t52;
-        let _t141 = _t21 * _t120 - self.system._k5 * _t20 - _t18 * _t131
-            + self.system._k3 * _t140
-            + self.system._k3 * (_t140 - _t85 - _t128 * _t42 + _t118 * _t33);
-        let _t142 = _t116 * _t61 - _t54 * self._h9 - _t141 * _t55 - _t121 * _t47
-            + _t118 * _t56 + _t117 * _t137 + _t124 * _t57 + _t128 * self._h1
-            + _t125 * _t48;
-        let _t143 = _t142 + (_t43 * _t13 + _t14 * _t120 - _t2 * _t123) * self._h11
-            - _t133 * _t50;
-        let _t144 = self._h12 - _t116 * _t63 + _t114 * _t136 + _t121 * _t46
-            - _t128 * _t56 - _t29 * _t115 * self._h6 - _t125 * _t49
-            + _t26 * _t117 * self._h10 + _t130 * _t57;
-        xi[0] = x * self._h0 + _t10 * self._h1 - _t34 * _t35 + _t44 * _t45 - _t41 * _t46
-            + _t17 * _t47 + _t26 * _t48 - _t37 * _t49
-            + (_t2 * _t20 - _t7 * _t43) * self._h7;
-        xi[1] = y * self._h8 + _t17 * self._h1 - _t34 * _t50 - _t54 * _t55 + _t41 * _t56
-            - _t10 * _t47 + _t29 * _t48 + _t37 * _t57
-            + (_t14 * _t43 - _t2 * _t23) * self._h11;
-        xi[2] = z * self._h12 + _t41 * self._h1 + _t44 * _t58 - _t54 * _t59 - _t17 * _t56
-            + _t10 * _t46 - _t29 * _t49 + _t26 * _t57
-            + (_t7 * _t23 - _t14 * _t20) * self._h13;
-        hessian[(0, 0)] = _t89
-            + (_t18 * _t82 - self.system._k3 * _t43 - _t11 * _t79
-                + self.system._k4 * _t86
-                + self.system._k4 * (_t86 - _t87 + _t78 * _t42 - _t69 * _t32)) * _t45;
-        hessian[(0, 1)] = _t113;
-        hessian[(0, 2)] = _t135;
-        hessian[(1, 0)] = _t113;
-        hessian[(1, 1)] = _t139 + _t94 * self._h1
-            + (_t43 * _t12 - _t23 * _t1 + _t14 * _t110 - _t2 * _t99) * self._h11
-            - _t104 * _t50
-            - (self.system._k4 * _t43 + _t21 * _t110 - _t18 * _t96
-                + self.system._k3 * _t138
-                + self.system._k3 * (_t87 + _t138 - _t94 * _t42 + _t106 * _t33)) * _t55;
-        hessian[(1, 2)] = _t143;
-        hessian[(2, 0)] = _t135;
-        hessian[(2, 1)] = _t143;
-        hessian[(2, 2)] = _t144 + _t118 * self._h1
-            + (_t23 * _t6 - _t20 * _t13 - _t14 * _t131 + _t7 * _t123) * self._h13
-            + _t127 * _t58 - _t141 * _t59;
+        let _t24 = _t19 + S::ratio(3.0, 1.0) * (z * _t15 - x * _t3);
+        let _t25 = _t22 - (z * _t8 - y * _t3) * S::ratio(3.0, 1.0);
+        let _t26 = (x * _t24 + y * _t25) * self.system._k13;
+        let _t27 = _t11 * _t20 - _t21 * _t23
+            + self.system._k5
+                * (_t26 + (_t26 + (x * _t17 - y * _t10) * S::ratio(12.0, 1.0)));
+        let _t28 = y * self._h5;
+        let _t29 = _t6 * _t9 + _t13 * _t16;
+        let _t30 = _t14 * _t21 - _t7 * _t11;
+        let _t31 = _t30 * self.system._k9 - _t29 * S::ratio(4.0, 1.0);
+        let _t32 = _t30 - S::ratio(3.0, 1.0) * (y * _t15 - x * _t8);
+        let _t33 = (x * _t32 + z * _t25) * self.system._k11;
+        let _t34 = _t18 * _t23 - _t11 * _t31
+            + self.system._k4
+                * (_t33 + (_t33 - S::ratio(12.0, 1.0) * (x * _t29 - z * _t10)));
+        let _t35 = z * self._h6;
+        let _t36 = _t4 * self._h8;
+        let _t37 = _t9 * self._h9;
+        let _t38 = x * self._h5;
+        let _t39 = (y * _t32 + z * _t24) * self.system._k14;
+        let _t40 = _t21 * _t31 - _t18 * _t20
+            + self.system._k3
+                * (_t39 + (_t39 + S::ratio(12.0, 1.0) * (y * _t29 - z * _t17)));
+        let _t41 = z * self._h11;
+        let _t42 = _t16 * self._h12;
+        let _t43 = x * self._h6;
+        let _t44 = y * self._h11;
+        let _t45 = self.system._k4 * _t5;
+        let _t46 = self.system._k5 * _t0;
+        let _t47 = _t46 + _t46;
+        let _t48 = self.system._k8 * (_t4 + x * _t47);
+        let _t49 = _t45 + _t45;
+        let _t50 = self.system._k7 * (_t9 + x * _t49);
+        let _t51 = _t11 * _t0 + self.system._k3 * _t2;
+        let _t52 = _t51 - S::ratio(3.0, 1.0) * (_t3 + x * _t46);
+        let _t53 = -(_t11 * _t5) - self.system._k3 * _t7;
+        let _t54 = _t53 + S::ratio(3.0, 1.0) * (_t8 + x * _t45);
+        let _t55 = _t0 * _t47 + _t5 * _t49;
+        let _t56 = self.system._k9 * _t53 - S::ratio(4.0, 1.0) * _t50;
+        let _t57 = self.system._k12 * _t51 - S::ratio(4.0, 1.0) * _t48;
+        let _t58 = _t18 * _t5 - _t21 * _t0;
+        let _t59 = self.system._k10 * _t58 - S::ratio(4.0, 1.0) * _t55;
+        let _t60 = _t58 - S::ratio(3.0, 1.0) * (z * _t45 - y * _t46);
+        let _t61 = self.system._k13 * (_t24 + x * _t52 + y * _t60);
+        let _t62 = self.system._k11 * (_t32 + x * _t54 + z * _t60);
+        let _t63 = self._h0
+            - self._h7 * (_t29 * _t45 - _t17 * _t46 - _t3 * _t48 + _t8 * _t50)
+            + self._h8 * (_t24 * _t47 + _t4 * _t52)
+            - self._h9 * (_t32 * _t49 + _t9 * _t54);
+        let _t64 = _t63 + _t55 * self._h1
+            + (_t20 * _t0 - _t31 * _t5 - _t7 * _t56 + _t2 * _t57) * self._h10
+            - (self.system._k3 * _t20 + _t11 * _t57 - _t21 * _t59
+                + self.system._k5
+                    * (_t61
+                        + (_t61 + S::ratio(12.0, 1.0) * (_t17 - y * _t55 + x * _t48))))
+                * _t28;
+        let _t65 = self.system._k5 * _t1;
+        let _t66 = _t65 + _t65;
+        let _t67 = self.system._k3 * _t12;
+        let _t68 = _t67 + _t67;
+        let _t69 = _t1 * _t66 + _t12 * _t68;
+        let _t70 = _t11 * _t1 - _t18 * _t12;
+        let _t71 = self.system._k12 * _t70 - S::ratio(4.0, 1.0) * _t69;
+        let _t72 = self.system._k8 * (_t4 + y * _t66);
+        let _t73 = -(_t21 * _t1) - self.system._k4 * _t2;
+        let _t74 = self.system._k10 * _t73 - S::ratio(4.0, 1.0) * _t72;
+        let _t75 = _t70 + S::ratio(3.0, 1.0) * (z * _t67 - x * _t65);
+        let _t76 = _t73 + S::ratio(3.0, 1.0) * (_t3 + y * _t65);
+        let _t77 = self.system._k13 * (_t25 + x * _t75 + y * _t76);
+        let _t78 = _t11 * _t71 - self.system._k4 * _t23 - _t21 * _t74
+            + self.system._k5
+                * (_t77 + (_t77 - S::ratio(12.0, 1.0) * (_t10 + y * _t72 - x * _t69)));
+        let _t79 = self.system._k6 * (_t16 + y * _t68);
+        let _t80 = _t21 * _t12 + self.system._k4 * _t14;
+        let _t81 = _t80 - S::ratio(3.0, 1.0) * (_t15 + y * _t67);
+        let _t82 = self.system._k9 * _t80 - S::ratio(4.0, 1.0) * _t79;
+        let _t83 = self.system._k11 * (x * _t81 + z * _t76);
+        let _t84 = self._h7 * (_t17 * _t65 + _t3 * _t69 - _t8 * _t79)
+            - self._h5 * (_t27 + y * _t78) + self._h8 * (_t24 * _t66 + _t4 * _t75)
+            + _t72 * self._h1;
+        let _t85 = _t84 - _t81 * _t37
+            + (_t20 * _t1 - _t7 * _t82 + _t2 * _t71) * self._h10
+            + (_t18 * _t74 - _t11 * _t82
+                + self.system._k4
+                    * (_t83 + (_t83 + S::ratio(12.0, 1.0) * (z * _t72 - x * _t79))))
+                * _t35;
+        let _t86 = self.system._k4 * _t6;
+        let _t87 = _t86 + _t86;
+        let _t88 = self.system._k3 * _t13;
+        let _t89 = _t88 + _t88;
+        let _t90 = _t6 * _t87 + _t13 * _t89;
+        let _t91 = _t21 * _t13 - _t11 * _t6;
+        let _t92 = self.system._k9 * _t91 - S::ratio(4.0, 1.0) * _t90;
+        let _t93 = self.system._k7 * (_t9 + z * _t87);
+        let _t94 = _t18 * _t6 + self.system._k5 * _t7;
+        let _t95 = self.system._k10 * _t94 - S::ratio(4.0, 1.0) * _t93;
+        let _t96 = _t91 - S::ratio(3.0, 1.0) * (y * _t88 - x * _t86);
+        let _t97 = _t94 - S::ratio(3.0, 1.0) * (_t8 + z * _t86);
+        let _t98 = self.system._k11 * (_t25 + x * _t96 + z * _t97);
+        let _t99 = self.system._k5 * _t23 - _t11 * _t92 + _t18 * _t95
+            + self.system._k4
+                * (_t98 + (_t98 + S::ratio(12.0, 1.0) * (_t10 + z * _t93 - x * _t90)));
+        let _t100 = self.system._k6 * (_t16 + z * _t89);
+        let _t101 = -(_t18 * _t13) - self.system._k5 * _t14;
+        let _t102 = _t101 + S::ratio(3.0, 1.0) * (_t15 + z * _t88);
+        let _t103 = self.system._k12 * _t101 - S::ratio(4.0, 1.0) * _t100;
+        let _t104 = self.system._k13 * (x * _t102 + y * _t97);
+        let _t105 = _t11 * _t103 - _t21 * _t95
+            + self.system._k5
+                * (_t104 + (_t104 - S::ratio(12.0, 1.0) * (y * _t93 - x * _t100)));
+        let _t106 = self._h6 * (_t34 + z * _t99)
+            - self._h7 * (_t29 * _t86 - _t3 * _t100 + _t8 * _t90)
+            - self._h9 * (_t32 * _t87 + _t9 * _t96) + _t93 * self._h1;
+        let _t107 = _t106 + _t102 * _t36
+            + (_t2 * _t103 - _t31 * _t6 - _t7 * _t92) * self._h10 - _t105 * _t28;
+        let _t108 = self.system._k14 * (_t32 + y * _t81 + z * _t75);
+        let _t109 = self._h3
+            + self._h7 * (_t29 * _t67 - _t10 * _t65 - _t3 * _t72 + _t15 * _t79)
+            + self._h8 * (_t25 * _t66 + _t4 * _t76)
+            + self._h12 * (_t32 * _t68 + _t16 * _t81);
+        let _t110 = self.system._k14 * (_t24 + y * _t96 + z * _t102);
+        let _t111 = _t21 * _t92 - self.system._k5 * _t20 - _t18 * _t103
+            + self.system._k3
+                * (_t110
+                    + (_t110 - S::ratio(12.0, 1.0) * (_t17 + z * _t100 - y * _t90)));
+        let _t112 = self._h7 * (_t29 * _t88 - _t3 * _t93 + _t15 * _t90)
+            - self._h11 * (_t40 + z * _t111) + self._h12 * (_t32 * _t89 + _t16 * _t96)
+            + _t100 * self._h1;
+        let _t113 = _t112 + _t97 * _t36
+            + (_t31 * _t13 + _t14 * _t92 - _t2 * _t95) * self._h13 - _t105 * _t38;
+        let _t114 = self._h4
+            - self._h7 * (_t17 * _t88 - _t10 * _t86 - _t8 * _t93 + _t15 * _t100)
+            - self._h9 * (_t25 * _t87 + _t9 * _t97)
+            + self._h12 * (_t24 * _t89 + _t16 * _t102);
+        xi[0] = x * self._h0 + _t10 * self._h1 - _t27 * _t28 + _t34 * _t35
+            - (_t8 * _t29 - _t3 * _t17) * self._h7 + _t24 * _t36 - _t32 * _t37
+            + (_t2 * _t20 - _t7 * _t31) * self._h10;
+        xi[1] = y * self._h3 + _t17 * self._h1 - _t27 * _t38 - _t40 * _t41
+            + self._h7 * (_t15 * _t29 - _t3 * _t10) + _t25 * _t36 + _t32 * _t42
+            + (_t14 * _t31 - _t2 * _t23) * self._h13;
+        xi[2] = z * self._h4 + _t29 * self._h1 + _t34 * _t43 - _t40 * _t44
+            - self._h7 * (_t15 * _t17 - _t8 * _t10) - _t25 * _t37 + _t24 * _t42
+            + (_t7 * _t23 - _t14 * _t20) * self._h14;
+        hessian[(0, 0)] = _t64
+            + (_t18 * _t59 - self.system._k3 * _t31 - _t11 * _t56
+                + self.system._k4
+                    * (_t62
+                        + (_t62 - S::ratio(12.0, 1.0) * (_t29 - z * _t55 + x * _t50))))
+                * _t35;
+        hessian[(0, 1)] = _t85;
+        hessian[(0, 2)] = _t107;
+        hessian[(1, 0)] = _t85;
+        hessian[(1, 1)] = _t109 + _t69 * self._h1
+            + (_t31 * _t12 - _t23 * _t1 + _t14 * _t82 - _t2 * _t74) * self._h13
+            - _t78 * _t38
+            - (self.system._k4 * _t31 + _t21 * _t82 - _t18 * _t71
+                + self.system._k3
+                    * (_t108
+                        + (_t108 + S::ratio(12.0, 1.0) * (_t29 - z * _t69 + y * _t79))))
+                * _t41;
+        hessian[(1, 2)] = _t113;
+        hessian[(2, 0)] = _t107;
+        hessian[(2, 1)] = _t113;
+        hessian[(2, 2)] = _t114 + _t90 * self._h1
+            + (_t23 * _t6 - _t20 * _t13 - _t14 * _t103 + _t7 * _t95) * self._h14
+            + _t99 * _t43 - _t111 * _t44;
     }
 }
 
@@ -1744,56 +1737,56 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t48 = _t47 + _t47;
         let _t49 = (self.system._k3
             * (_t8 * S::ratio(6.0, 1.0) + _t32 * S::ratio(2.0, 1.0)
-                + self.system._k16 * (_t30 + _t31)) + _t46 * _t33 + _t48 * _t34
-            + (_t8 * S::ratio(3.0, 1.0) + _t32) * self.system._k17) * self._h1
+                + self.system._k15 * (_t30 + _t31)) + _t46 * _t33 + _t48 * _t34
+            + (_t8 * S::ratio(3.0, 1.0) + _t32) * self.system._k16) * self._h1
             + self._h3;
         let _t50 = _t38 + _t36 + S::ratio(2.0, 1.0) * _t37;
         let _t51 = _t3 * _t5;
         let _t52 = S::ratio(4.0, 1.0) * _t51;
         let _t53 = _t5 * _u_x + _t3 * _u_y;
-        let _t54 = (self.system._k4 * (_t52 + self.system._k16 * _t53)
-            + self.system._k8 * (_t26 + _t46 * _u_x) + self.system._k16 * _t51)
+        let _t54 = (self.system._k4 * (_t52 + self.system._k15 * _t53)
+            + self.system._k8 * (_t26 + _t46 * _u_x) + self.system._k15 * _t51)
             * self._h1;
         let _t55 = _t3 * _t0;
         let _t56 = S::ratio(4.0, 1.0) * _t55;
         let _t57 = _t0 * _u_x + _t3 * _u_z;
-        let _t58 = (self.system._k5 * (_t56 + _t57 * self.system._k16)
-            + self.system._k7 * (_t13 + _t48 * _u_x) + self.system._k16 * _t55)
+        let _t58 = (self.system._k5 * (_t56 + _t57 * self.system._k15)
+            + self.system._k7 * (_t13 + _t48 * _u_x) + self.system._k15 * _t55)
             * self._h1;
         let _t59 = _t35 * _t28;
         let _t60 = self.system._k5 * _t24;
         let _t61 = _t60 + _t60;
-        let _t62 = (self.system._k3 * (_t52 + _t53 * self.system._k18)
-            + self.system._k8 * (_t26 + _t61 * _u_y) + self.system._k18 * _t51)
+        let _t62 = (self.system._k3 * (_t52 + _t53 * self.system._k17)
+            + self.system._k8 * (_t26 + _t61 * _u_y) + self.system._k17 * _t51)
             * self._h1;
         let _t63 = self.system._k3 * _t27;
         let _t64 = _t63 + _t63;
         let _t65 = (self.system._k4
             * (S::ratio(2.0, 1.0) * _t23 + _t9 * S::ratio(6.0, 1.0)
-                + self.system._k18 * (_t21 + _t22)) + _t61 * _t24 + _t64 * _t27
-            + (_t9 * S::ratio(3.0, 1.0) + _t23) * self.system._k19) * self._h1
+                + self.system._k17 * (_t21 + _t22)) + _t61 * _t24 + _t64 * _t27
+            + (_t9 * S::ratio(3.0, 1.0) + _t23) * self.system._k18) * self._h1
             + self._h0;
         let _t66 = _t5 * _t0;
         let _t67 = S::ratio(4.0, 1.0) * _t66;
         let _t68 = _t0 * _u_y + _t5 * _u_z;
-        let _t69 = (self.system._k5 * (_t67 + _t68 * self.system._k18)
-            + self.system._k6 * (_t16 + _t64 * _u_y) + self.system._k18 * _t66)
+        let _t69 = (self.system._k5 * (_t67 + _t68 * self.system._k17)
+            + self.system._k6 * (_t16 + _t64 * _u_y) + self.system._k17 * _t66)
             * self._h1;
         let _t70 = _t35 * _t19;
         let _t71 = self.system._k4 * _t11;
         let _t72 = _t71 + _t71;
-        let _t73 = (self.system._k3 * (_t56 + _t57 * self.system._k20)
-            + self.system._k7 * (_t13 + _t72 * _u_z) + self.system._k20 * _t55)
+        let _t73 = (self.system._k3 * (_t56 + _t57 * self.system._k19)
+            + self.system._k7 * (_t13 + _t72 * _u_z) + self.system._k19 * _t55)
             * self._h1;
         let _t74 = self.system._k3 * _t14;
         let _t75 = _t74 + _t74;
-        let _t76 = (self.system._k4 * (_t67 + _t68 * self.system._k20)
-            + self.system._k6 * (_t16 + _t75 * _u_z) + self.system._k20 * _t66)
+        let _t76 = (self.system._k4 * (_t67 + _t68 * self.system._k19)
+            + self.system._k6 * (_t16 + _t75 * _u_z) + self.system._k19 * _t66)
             * self._h1;
         let _t77 = (self.system._k5
             * (S::ratio(2.0, 1.0) * _t10 + _t17 * S::ratio(6.0, 1.0)
-                + (_t2 + _t7) * self.system._k20) + _t72 * _t11 + _t75 * _t14
-            + (_t17 * S::ratio(3.0, 1.0) + _t10) * self.system._k21) * self._h1
+                + (_t2 + _t7) * self.system._k19) + _t72 * _t11 + _t75 * _t14
+            + (_t17 * S::ratio(3.0, 1.0) + _t10) * self.system._k20) * self._h1
             + self._h2;
         let _t78 = _u_z - _t43;
         let _t79 = _t37 + _t36 + S::ratio(2.0, 1.0) * _t38;
@@ -1827,42 +1820,43 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
         let _t0 = self.system._k4 * _u_y;
         let _t1 = self.system._k3 * _u_x;
-        let _t2 = _u_x * S::ratio(2.0, 1.0);
-        let _t3 = _t1 * _t2;
-        let _t4 = self.system._k5 * _u_z;
-        let _t5 = _u_z * S::ratio(2.0, 1.0);
-        let _t6 = _t4 * _t5;
-        let _t7 = _t1 * _t1;
-        let _t8 = _t4 * _t4;
-        let _t9 = _u_y * S::ratio(2.0, 1.0);
-        let _t10 = self.system._k5 * (_u_x * _u_y * self.system._k8);
-        let _t11 = (_t10 + _t10) * self.system._k8;
-        let _t12 = self.system._k3 * (_u_y * _u_z * self.system._k6);
-        let _t13 = (_t12 + _t12) * self.system._k6;
-        let _t14 = _t0 * _t0;
-        let _t15 = _t7 + _t14;
-        let _t16 = S::ratio(2.0, 1.0) * (_t8 + _t15);
-        let _t17 = (self.system._k4
-            * (_t0 * S::ratio(2.0, 1.0) * (_t3 + _t6 + _t0 * _u_y * S::ratio(3.0, 1.0))
-                + (_t7 + _t8) * _t9) + _u_x * _t11 + _u_z * _t13 + _t0 * _t16)
+        let _t2 = _t1 * _u_x;
+        let _t3 = self.system._k5 * _u_z;
+        let _t4 = _t3 * _u_z;
+        let _t5 = _t0 * _u_y;
+        let _t6 = _t1 * _t1;
+        let _t7 = _t3 * _t3;
+        let _t8 = self.system._k5 * (_u_x * _u_y * self.system._k8);
+        let _t9 = (_t8 + _t8) * self.system._k8;
+        let _t10 = self.system._k3 * (_u_y * _u_z * self.system._k6);
+        let _t11 = (_t10 + _t10) * self.system._k6;
+        let _t12 = _t0 * _t0;
+        let _t13 = _t6 + _t12;
+        let _t14 = S::ratio(2.0, 1.0) * (_t7 + _t13);
+        let _t15 = (self.system._k4
+            * (S::ratio(2.0, 1.0)
+                * (_t0 * (S::ratio(2.0, 1.0) * (_t2 + _t4) + _t5 * S::ratio(3.0, 1.0))
+                    + _u_y * (_t6 + _t7))) + _u_x * _t9 + _u_z * _t11 + _t0 * _t14)
             * self._h1;
-        let _t18 = _u_y * self._h0 + _t17;
-        let _t19 = _t0 * _t9;
-        let _t20 = self.system._k4 * (self.system._k7 * _u_x * _u_z);
-        let _t21 = self.system._k7 * (_t20 + _t20);
-        let _t22 = _u_z * self._h2
+        let _t16 = _u_y * self._h0 + _t15;
+        let _t17 = self.system._k4 * (self.system._k7 * _u_x * _u_z);
+        let _t18 = self.system._k7 * (_t17 + _t17);
+        let _t19 = _u_z * self._h2
             + (self.system._k5
-                * (_t4 * S::ratio(2.0, 1.0)
-                    * (_t3 + _t19 + _t4 * _u_z * S::ratio(3.0, 1.0)) + _t15 * _t5)
-                + _u_x * _t21 + _u_y * _t13 + _t4 * _t16) * self._h1;
-        let _t23 = (self.system._k3
-            * (_t1 * S::ratio(2.0, 1.0) * (_t19 + _t6 + _t1 * _u_x * S::ratio(3.0, 1.0))
-                + (_t14 + _t8) * _t2) + _u_y * _t11 + _u_z * _t21 + _t1 * _t16)
+                * (S::ratio(2.0, 1.0)
+                    * (_t3
+                        * (S::ratio(2.0, 1.0) * (_t2 + _t5) + _t4 * S::ratio(3.0, 1.0))
+                        + _u_z * _t13)) + _u_x * _t18 + _u_y * _t11 + _t3 * _t14)
+                * self._h1;
+        let _t20 = (self.system._k3
+            * (S::ratio(2.0, 1.0)
+                * (_t1 * (_t2 * S::ratio(3.0, 1.0) + S::ratio(2.0, 1.0) * (_t5 + _t4))
+                    + _u_x * (_t12 + _t7))) + _u_y * _t9 + _u_z * _t18 + _t1 * _t14)
             * self._h1;
-        let _t24 = _u_x * self._h3 + _t23;
-        mu[0] = x - _t18 * _t5 + _t22 * _t9;
-        mu[1] = y + _t24 * _t5 - _t22 * _t2;
-        mu[2] = z - _t24 * _t9 + _t18 * _t2;
+        let _t21 = _u_x * self._h3 + _t20;
+        mu[0] = x - (_t16 * _u_z - _t19 * _u_y) * S::ratio(2.0, 1.0);
+        mu[1] = y + S::ratio(2.0, 1.0) * (_t21 * _u_z - _t19 * _u_x);
+        mu[2] = z - S::ratio(2.0, 1.0) * (_t21 * _u_y - _t16 * _u_x);
     }
 
     #[inline]

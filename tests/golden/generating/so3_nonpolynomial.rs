@@ -109,15 +109,15 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
     /// `H(mu)`
     ///
     /// ```text
-    /// H = sin(x) + exp(y/2) + sqrt(z^2 + 1) + x*y^2*z
+    /// H = sin(x) + exp(y/2) + sqrt(1 + z^2) + x*y^2*z
     /// ```
     ///
     /// 4 additions, 5 multiplications, 3 function calls.
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let [[x, y, z]] = mu.data.0;
-        x.sin() + (y * S::ratio(1.0, 2.0)).exp() + (S::one() + z * z).sqrt()
-            + x * y * y * z
+        x * y * y * z
+            + ((S::one() + z * z).sqrt() + (x.sin() + (y * S::ratio(1.0, 2.0)).exp()))
     }
 
     /// `out_i = dH/dmu_i`
@@ -135,7 +135,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
 
     /// `out_ij = d^2H/dmu_i dmu_j`
     ///
-    /// 4 additions, 12 multiplications, 1 division, 3 function calls.
+    /// 3 additions, 11 multiplications, 1 division, 3 function calls.
     #[inline]
     fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[x, y, z]] = mu.data.0;
@@ -143,8 +143,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         let _t1 = y * y;
         let _t2 = x * S::ratio(2.0, 1.0);
         let _t3 = y * _t2;
-        let _t4 = z * z;
-        let _t5 = S::one() / (S::one() + _t4).sqrt();
+        let _t4 = S::one() / (S::one() + z * z).sqrt();
         out[(0, 0)] = -x.sin();
         out[(0, 1)] = _t0;
         out[(0, 2)] = _t1;
@@ -153,7 +152,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         out[(1, 2)] = _t3;
         out[(2, 0)] = _t1;
         out[(2, 1)] = _t3;
-        out[(2, 2)] = _t5 - _t4 * _t5 * _t5 * _t5;
+        out[(2, 2)] = _t4 * _t4 * _t4;
     }
 
     /// `out_ij = {mu_i, mu_j} = -C_ij^k mu_k`
@@ -162,7 +161,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
     #[inline]
     fn poisson_matrix(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[x, y, z]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = -z;
         out[(0, 2)] = y;
         out[(1, 0)] = z;
@@ -174,61 +173,63 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
     /// `f_j = C_ij^k (dH/dmu_i) mu_k`
     ///
     /// ```text
-    /// x' = -z*(exp(y/2) + 4*x*y*z)/2 + y*(z/sqrt(z^2 + 1) + x*y^2)
-    /// y' = z*(cos(x) + y^2*z) - x*(z/sqrt(z^2 + 1) + x*y^2)
-    /// z' = -y*(cos(x) + y^2*z) + x*(exp(y/2) + 4*x*y*z)/2
+    /// x' = -z*(exp(y/2)/2 + 2*x*y*z) + y*(z/sqrt(1 + z^2) + x*y^2)
+    /// y' = z*(cos(x) + y^2*z) - x*(z/sqrt(1 + z^2) + x*y^2)
+    /// z' = -y*(cos(x) + y^2*z) + x*(exp(y/2)/2 + 2*x*y*z)
     /// ```
     ///
-    /// 7 additions, 15 multiplications, 1 division, 3 function calls.
+    /// 7 additions, 16 multiplications, 1 division, 3 function calls.
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[x, y, z]] = mu.data.0;
-        let _t0 = x * y;
-        let _t1 = z / (S::one() + z * z).sqrt() + y * _t0;
-        let _t2 = S::ratio(1.0, 2.0)
-            * ((y * S::ratio(1.0, 2.0)).exp() + z * S::ratio(4.0, 1.0) * _t0);
-        let _t3 = x.cos() + y * y * z;
-        out[0] = y * _t1 - z * _t2;
-        out[1] = z * _t3 - x * _t1;
-        out[2] = x * _t2 - y * _t3;
+        let _t0 = S::ratio(1.0, 2.0) * (y * S::ratio(1.0, 2.0)).exp()
+            + x * S::ratio(2.0, 1.0) * (y * z);
+        let _t1 = y * y;
+        let _t2 = z * (S::one() / (S::one() + z * z).sqrt()) + x * _t1;
+        let _t3 = x.cos() + z * _t1;
+        out[0] = y * _t2 - z * _t0;
+        out[1] = z * _t3 - x * _t2;
+        out[2] = x * _t0 - y * _t3;
     }
 
     /// `out_ij = df_i/dmu_j`
     ///
-    /// 18 additions, 31 multiplications, 1 division, 4 function calls.
+    /// 20 additions, 27 multiplications, 1 division, 4 function calls.
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[x, y, z]] = mu.data.0;
-        let _t0 = y * y;
-        let _t1 = y * _t0;
-        let _t2 = z * z;
-        let _t3 = y * _t2 * S::ratio(2.0, 1.0);
-        let _t4 = S::one() / (S::one() + _t2).sqrt();
-        let _t5 = z * _t4;
-        let _t6 = (y * S::ratio(1.0, 2.0)).exp();
-        let _t7 = (_t6 + x * z * S::ratio(8.0, 1.0)) * S::ratio(1.0, 4.0);
-        let _t8 = _t4 - _t2 * _t4 * _t4 * _t4;
-        let _t9 = x * y;
-        let _t10 = S::ratio(1.0, 2.0) * _t6 + z * S::ratio(4.0, 1.0) * _t9;
-        let _t11 = x.sin();
-        let _t12 = x * S::ratio(2.0, 1.0);
-        let _t13 = _t9 * _t12;
-        let _t14 = x.cos();
-        let _t15 = z * _t0;
-        out[(0, 0)] = _t1 - _t3;
-        out[(0, 1)] = _t5 + x * S::ratio(3.0, 1.0) * _t0 - z * _t7;
-        out[(0, 2)] = y * _t8 - _t10;
-        out[(1, 0)] = -_t5 - _t11 * z - _t0 * _t12;
-        out[(1, 1)] = _t3 - _t13;
-        out[(1, 2)] = _t14 - x * _t8 + S::ratio(2.0, 1.0) * _t15;
-        out[(2, 0)] = _t11 * y + _t10;
-        out[(2, 1)] = x * _t7 - _t14 - S::ratio(3.0, 1.0) * _t15;
-        out[(2, 2)] = _t13 - _t1;
+        let _t0 = (y * S::ratio(1.0, 2.0)).exp();
+        let _t1 = x * S::ratio(2.0, 1.0);
+        let _t2 = y * z;
+        let _t3 = _t1 * _t2;
+        let _t4 = S::one() / (S::one() + z * z).sqrt();
+        let _t5 = y * y;
+        let _t6 = x * _t5;
+        let _t7 = z * _t4 + _t6;
+        let _t8 = z * _t5;
+        let _t9 = x.cos() + _t8;
+        let _t10 = y * _t5;
+        let _t11 = z * S::ratio(2.0, 1.0);
+        let _t12 = _t2 * _t11;
+        let _t13 = _t0 * S::ratio(1.0, 4.0) + z * _t1;
+        let _t14 = _t4 * (_t4 * _t4);
+        let _t15 = _t3 + (S::ratio(1.0, 2.0) * _t0 + _t3);
+        let _t16 = x.sin();
+        let _t17 = x * y * _t1;
+        out[(0, 0)] = _t10 - _t12;
+        out[(0, 1)] = _t7 - z * _t13 + _t5 * _t1;
+        out[(0, 2)] = y * _t14 - _t15;
+        out[(1, 0)] = -_t6 - _t7 - _t16 * z;
+        out[(1, 1)] = _t12 - _t17;
+        out[(1, 2)] = _t8 + _t9 - x * _t14;
+        out[(2, 0)] = _t16 * y + _t15;
+        out[(2, 1)] = x * _t13 - _t9 - _t5 * _t11;
+        out[(2, 2)] = _t17 - _t10;
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
     ///
-    /// 24 additions, 38 multiplications, 1 division, 4 function calls.
+    /// 23 additions, 33 multiplications, 1 division, 4 function calls.
     #[inline]
     fn linearize(
         &self,
@@ -237,38 +238,37 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         jacobian: &mut Self::Jacobian,
     ) {
         let [[x, y, z]] = mu.data.0;
-        let _t0 = z * z;
-        let _t1 = S::one() / (S::one() + _t0).sqrt();
-        let _t2 = z * _t1;
-        let _t3 = y * y;
-        let _t4 = x * _t3;
-        let _t5 = _t2 + _t4;
-        let _t6 = (y * S::ratio(1.0, 2.0)).exp();
-        let _t7 = x * y;
-        let _t8 = z * S::ratio(4.0, 1.0) * _t7;
-        let _t9 = S::ratio(1.0, 2.0) * (_t6 + _t8);
-        let _t10 = x.cos();
-        let _t11 = z * _t3;
-        let _t12 = _t10 + _t11;
-        let _t13 = y * _t3;
-        let _t14 = y * _t0 * S::ratio(2.0, 1.0);
-        let _t15 = (_t6 + x * z * S::ratio(8.0, 1.0)) * S::ratio(1.0, 4.0);
-        let _t16 = _t1 - _t0 * _t1 * _t1 * _t1;
-        let _t17 = _t8 + S::ratio(1.0, 2.0) * _t6;
-        let _t18 = x.sin();
-        let _t19 = x * S::ratio(2.0, 1.0) * _t7;
-        field[0] = y * _t5 - z * _t9;
-        field[1] = z * _t12 - x * _t5;
-        field[2] = x * _t9 - y * _t12;
-        jacobian[(0, 0)] = _t13 - _t14;
-        jacobian[(0, 1)] = _t2 + S::ratio(3.0, 1.0) * _t4 - z * _t15;
-        jacobian[(0, 2)] = y * _t16 - _t17;
-        jacobian[(1, 0)] = -_t2 - _t18 * z - S::ratio(2.0, 1.0) * _t4;
-        jacobian[(1, 1)] = _t14 - _t19;
-        jacobian[(1, 2)] = _t10 - x * _t16 + S::ratio(2.0, 1.0) * _t11;
-        jacobian[(2, 0)] = _t18 * y + _t17;
-        jacobian[(2, 1)] = x * _t15 - _t10 - S::ratio(3.0, 1.0) * _t11;
-        jacobian[(2, 2)] = _t19 - _t13;
+        let _t0 = (y * S::ratio(1.0, 2.0)).exp();
+        let _t1 = x * S::ratio(2.0, 1.0);
+        let _t2 = y * z;
+        let _t3 = _t1 * _t2;
+        let _t4 = S::ratio(1.0, 2.0) * _t0 + _t3;
+        let _t5 = S::one() / (S::one() + z * z).sqrt();
+        let _t6 = y * y;
+        let _t7 = x * _t6;
+        let _t8 = z * _t5 + _t7;
+        let _t9 = z * _t6;
+        let _t10 = x.cos() + _t9;
+        let _t11 = y * _t6;
+        let _t12 = z * S::ratio(2.0, 1.0);
+        let _t13 = _t2 * _t12;
+        let _t14 = _t0 * S::ratio(1.0, 4.0) + z * _t1;
+        let _t15 = _t5 * (_t5 * _t5);
+        let _t16 = _t3 + _t4;
+        let _t17 = x.sin();
+        let _t18 = x * y * _t1;
+        field[0] = y * _t8 - z * _t4;
+        field[1] = z * _t10 - x * _t8;
+        field[2] = x * _t4 - y * _t10;
+        jacobian[(0, 0)] = _t11 - _t13;
+        jacobian[(0, 1)] = _t8 - z * _t14 + _t6 * _t1;
+        jacobian[(0, 2)] = y * _t15 - _t16;
+        jacobian[(1, 0)] = -_t7 - _t8 - _t17 * z;
+        jacobian[(1, 1)] = _t13 - _t18;
+        jacobian[(1, 2)] = _t9 + _t10 - x * _t15;
+        jacobian[(2, 0)] = _t17 * y + _t16;
+        jacobian[(2, 1)] = x * _t14 - _t10 - _t6 * _t12;
+        jacobian[(2, 2)] = _t18 - _t11;
     }
 
     /// `out_i = C_i(mu)`
@@ -277,7 +277,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[x, y, z]] = mu.data.0;
-        out[0] = z * z + y * y + x * x;
+        out[0] = z * z + (y * y + x * x);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -329,7 +329,7 @@ for NonpolynomialSpinSystem<S> {
     #[inline]
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_e1, _xi_e2, _xi_e3]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_e3;
         out[(0, 2)] = -_xi_e2;
         out[(1, 0)] = -_xi_e3;
@@ -342,6 +342,7 @@ for NonpolynomialSpinSystem<S> {
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for NonpolynomialSpinSystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -438,6 +439,7 @@ for NonpolynomialSpinSystem<S> {
         ],
         skew: true,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -459,12 +461,8 @@ pub struct NonpolynomialSpinGenerating4<'a, S: ::lie_runtime::Scalar> {
     h: S,
     /// `h^3/24`
     _h0: S,
-    /// `h/2`
-    _h1: S,
     /// `2*h`
-    _h2: S,
-    /// `h/4`
-    _h3: S,
+    _h1: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinGenerating4<'a, S> {
@@ -475,9 +473,7 @@ impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinGenerating4<'a, S> {
             system,
             h,
             _h0: h * h * h * S::ratio(1.0, 24.0),
-            _h1: h * S::ratio(1.0, 2.0),
-            _h2: h * S::ratio(2.0, 1.0),
-            _h3: h * S::ratio(1.0, 4.0),
+            _h1: h * S::ratio(2.0, 1.0),
         }
     }
 }
@@ -489,7 +485,7 @@ for NonpolynomialSpinGenerating4<'_, S> {
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     /// `xi = grad S(p)`
     ///
-    /// 56 additions, 93 multiplications, 1 division, 4 function calls.
+    /// 54 additions, 81 multiplications, 1 division, 4 function calls.
     #[inline]
     fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
         let [[x, y, z]] = p.data.0;
@@ -497,65 +493,55 @@ for NonpolynomialSpinGenerating4<'_, S> {
         let _t1 = y * y;
         let _t2 = z * _t1;
         let _t3 = _t0 + _t2;
-        let _t4 = z * z;
-        let _t5 = S::one() / (S::one() + _t4).sqrt();
+        let _t4 = (y * S::ratio(1.0, 2.0)).exp();
+        let _t5 = x * S::ratio(2.0, 1.0);
         let _t6 = z * _t5;
-        let _t7 = x * _t1;
-        let _t8 = _t6 + _t7;
-        let _t9 = (y * S::ratio(1.0, 2.0)).exp();
-        let _t10 = x * z;
-        let _t11 = S::ratio(4.0, 1.0) * _t10;
-        let _t12 = _t9 + y * _t11;
-        let _t13 = S::ratio(1.0, 2.0) * _t12;
-        let _t14 = y * _t8 - z * _t13;
-        let _t15 = _t9 + S::ratio(8.0, 1.0) * _t10;
-        let _t16 = z * _t3 - x * _t8;
-        let _t17 = x * _t13 - y * _t3;
-        let _t18 = z * _t14 + x * _t17;
-        let _t19 = y * S::ratio(2.0, 1.0);
-        let _t20 = _t15 * _t16 * S::ratio(1.0, 4.0) + _t18 * _t19;
-        let _t21 = _t20 + _t20;
-        let _t22 = x.sin();
-        let _t23 = y * _t17;
-        let _t24 = S::ratio(2.0, 1.0) * _t16;
-        let _t25 = _t22 * _t14 - y * (_t23 + z * _t24);
-        let _t26 = -_t25 - _t25;
-        let _t27 = z * _t16 + _t23;
-        let _t28 = _t5 * _t6;
-        let _t29 = _t5 - _t6 * _t28;
-        let _t30 = y * _t14;
-        let _t31 = _t29 * _t17 + y * (_t30 + x * _t24);
-        let _t32 = _t31 + _t31;
-        let _t33 = y * ((_t1 - _t4 * S::ratio(2.0, 1.0)) * _t26 + _t17 * _t24)
-            - _t0 * _t14 * _t14 - _t21 * (z * (_t22 + _t5) + S::ratio(2.0, 1.0) * _t7)
-            + _t27 * _t24;
-        let _t34 = _t30 + x * _t16;
-        let _t35 = x * x;
-        let _t36 = S::ratio(2.0, 1.0)
-            * (_t17 * _t34 + _t14 * _t27 + y * (_t4 - _t35) * _t21)
-            + _t16 * (_t9 * _t16 + _t18 * S::ratio(16.0, 1.0)) * S::ratio(1.0, 8.0)
-            + S::ratio(1.0, 4.0)
-                * (_t32
-                    * (x * _t15 - _t0 * S::ratio(4.0, 1.0) - S::ratio(12.0, 1.0) * _t2)
-                    - _t26
-                        * (z * (_t15 - _t5 * S::ratio(4.0, 1.0))
-                            - S::ratio(12.0, 1.0) * _t7));
-        let _t37 = (_t0 - x * _t29 + S::ratio(2.0, 1.0) * _t2) * _t21
-            - y * ((_t1 - _t35 * S::ratio(2.0, 1.0)) * _t32 - _t14 * _t24) + _t34 * _t24
-            - z * _t17 * _t17 * (_t5 * _t5 * _t5 - _t5 * _t28 * _t28)
-                * S::ratio(3.0, 1.0);
-        xi[0] = _t3 * self.h
-            + (_t33 + S::ratio(1.0, 2.0) * _t32 * (_t9 + (_t22 + _t11) * _t19))
+        let _t7 = S::ratio(1.0, 2.0) * _t4 + y * _t6;
+        let _t8 = z * z;
+        let _t9 = S::one() / (S::one() + _t8).sqrt();
+        let _t10 = x * _t1;
+        let _t11 = z * _t9 + _t10;
+        let _t12 = y * _t11 - z * _t7;
+        let _t13 = _t4 * S::ratio(1.0, 4.0) + _t6;
+        let _t14 = z * _t3 - x * _t11;
+        let _t15 = x * _t7 - y * _t3;
+        let _t16 = z * _t12 + x * _t15;
+        let _t17 = _t13 * _t14 + y * S::ratio(2.0, 1.0) * _t16;
+        let _t18 = _t17 + _t17;
+        let _t19 = x.sin();
+        let _t20 = _t9 * _t9;
+        let _t21 = _t9 * _t20;
+        let _t22 = _t15 * _t21;
+        let _t23 = y * _t12;
+        let _t24 = S::ratio(2.0, 1.0) * _t14;
+        let _t25 = _t22 + y * (_t23 + x * _t24);
+        let _t26 = _t25 + _t25;
+        let _t27 = y * _t15;
+        let _t28 = _t19 * _t12 - y * (_t27 + z * _t24);
+        let _t29 = -_t28 - _t28;
+        let _t30 = z * _t14 + _t27;
+        let _t31 = (_t7 + y * (_t19 + _t6)) * _t26 - _t0 * _t12 * _t12
+            - _t18 * (_t10 + _t11 + _t19 * z)
+            + y * ((_t1 - _t8 * S::ratio(2.0, 1.0)) * _t29 + _t15 * _t24);
+        let _t32 = _t23 + x * _t14;
+        let _t33 = (_t11 - z * _t13 + _t1 * _t5) * _t29
+            - _t26 * (_t3 - x * _t13 + S::ratio(2.0, 1.0) * _t2)
+            + S::ratio(2.0, 1.0)
+                * (_t15 * _t32 + _t12 * _t30 + y * (_t8 - x * x) * _t18);
+        let _t34 = (_t2 + _t3 - x * _t21) * _t18 - _t29 * (_t7 + y * (_t6 - _t21))
+            - y * ((_t1 - x * _t5) * _t26 - _t12 * _t24) + _t32 * _t24;
+        xi[0] = _t3 * self.h + (_t31 + _t30 * _t24) * self._h0;
+        xi[1] = _t7 * self.h
+            + (_t33
+                + _t14 * (_t4 * _t14 + _t16 * S::ratio(16.0, 1.0)) * S::ratio(1.0, 8.0))
                 * self._h0;
-        xi[1] = _t12 * self._h1 + _t36 * self._h0;
-        xi[2] = _t8 * self.h
-            + (_t37 - S::ratio(1.0, 2.0) * _t26 * (_t9 - (_t29 - _t11) * _t19))
-                * self._h0;
+        xi[2] = _t11 * self.h
+            + (_t34 - z * _t15 * S::ratio(3.0, 1.0) * _t20 * _t22) * self._h0;
     }
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 176 additions, 257 multiplications, 1 division, 4 function calls.
+    /// 168 additions, 230 multiplications, 1 division, 4 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -566,157 +552,145 @@ for NonpolynomialSpinGenerating4<'_, S> {
         let [[x, y, z]] = p.data.0;
         let _t0 = x.cos();
         let _t1 = y * z;
-        let _t2 = _t0 + y * _t1;
-        let _t3 = z * z;
-        let _t4 = S::one() / (S::one() + _t3).sqrt();
-        let _t5 = z * _t4;
-        let _t6 = x * y;
-        let _t7 = _t5 + y * _t6;
-        let _t8 = (y * S::ratio(1.0, 2.0)).exp();
-        let _t9 = z * _t6;
-        let _t10 = S::ratio(4.0, 1.0) * _t9;
-        let _t11 = _t8 + _t10;
-        let _t12 = S::ratio(1.0, 2.0) * _t11;
-        let _t13 = y * _t7 - z * _t12;
+        let _t2 = y * _t1;
+        let _t3 = _t0 + _t2;
+        let _t4 = (y * S::ratio(1.0, 2.0)).exp();
+        let _t5 = S::ratio(2.0, 1.0) * _t1;
+        let _t6 = x * _t5;
+        let _t7 = S::ratio(1.0, 2.0) * _t4 + _t6;
+        let _t8 = z * z;
+        let _t9 = S::one() / (S::one() + _t8).sqrt();
+        let _t10 = x * y;
+        let _t11 = y * _t10;
+        let _t12 = z * _t9 + _t11;
+        let _t13 = y * _t12 - z * _t7;
         let _t14 = _t0 * _t13;
-        let _t15 = y * S::ratio(2.0, 1.0);
-        let _t16 = x.sin();
-        let _t17 = _t6 * _t15 + (_t5 + _t16 * z);
-        let _t18 = x * _t12 - y * _t2;
-        let _t19 = z * _t2 - x * _t7;
-        let _t20 = x * z;
-        let _t21 = _t8 + S::ratio(8.0, 1.0) * _t20;
-        let _t22 = _t21 * S::ratio(1.0, 4.0);
-        let _t23 = S::ratio(2.0, 1.0) * (_t13 * _t1 + _t18 * _t6) + _t19 * _t22;
-        let _t24 = _t23 + _t23;
-        let _t25 = y * y;
-        let _t26 = y * _t25;
-        let _t27 = z * _t1;
-        let _t28 = _t26 - S::ratio(2.0, 1.0) * _t27;
-        let _t29 = S::ratio(2.0, 1.0) * _t19;
-        let _t30 = _t16 * _t13;
-        let _t31 = _t1 * _t29 - (_t30 - _t18 * _t25);
-        let _t32 = _t31 + _t31;
-        let _t33 = y * _t19;
-        let _t34 = z * _t19 + y * _t18;
-        let _t35 = _t4 * _t5;
-        let _t36 = _t5 * _t35;
-        let _t37 = _t4 - _t36;
-        let _t38 = _t6 * _t29 + (_t13 * _t25 + _t37 * _t18);
-        let _t39 = _t38 + _t38;
-        let _t40 = _t8 + S::ratio(8.0, 1.0) * _t9;
-        let _t41 = S::ratio(1.0, 2.0) * (_t16 * _t15 + _t40);
-        let _t42 = y * _t13 + x * _t19;
-        let _t43 = x * _t6;
-        let _t44 = _t27 - _t43;
-        let _t45 = _t8 * _t19;
-        let _t46 = z * _t13 + x * _t18;
-        let _t47 = _t45 + _t46 * S::ratio(16.0, 1.0);
-        let _t48 = y * S::ratio(12.0, 1.0);
-        let _t49 = x * _t21 - _t0 * S::ratio(4.0, 1.0) - _t1 * _t48;
-        let _t50 = z * _t21 - _t5 * S::ratio(4.0, 1.0) - _t6 * _t48;
-        let _t51 = _t26 - S::ratio(2.0, 1.0) * _t43;
-        let _t52 = _t0 - x * _t37 + _t1 * _t15;
-        let _t53 = _t4 * _t35;
-        let _t54 = _t35 * _t36;
-        let _t55 = _t53 - _t54;
-        let _t56 = _t18 * _t55;
-        let _t57 = S::ratio(3.0, 1.0) * _t18;
-        let _t58 = S::ratio(1.0, 2.0) * (_t40 - _t37 * _t15);
-        let _t59 = S::ratio(2.0, 1.0) * _t25;
-        let _t60 = _t10 + S::ratio(1.0, 2.0) * _t8;
-        let _t61 = _t16 * y + _t60;
-        let _t62 = -_t17;
-        let _t63 = S::ratio(2.0, 1.0) * (_t34 + _t28 * _t1 + _t61 * _t6) + _t62 * _t22;
-        let _t64 = _t14 + _t16 * _t28 - (_t61 * _t25 + S::ratio(2.0, 1.0) * _t62 * _t1);
-        let _t65 = S::ratio(2.0, 1.0) * _t14;
-        let _t66 = S::ratio(2.0, 1.0) * (_t33 + _t62 * _t6)
-            + (_t28 * _t25 + _t37 * _t61);
-        let _t67 = _t13 * _t30 + _t39 * (y * _t0 + S::ratio(4.0, 1.0) * _t1)
-            - _t24 * (z * _t0 + _t59) - _t17 * (_t63 + _t63) + _t28 * (-_t64 - _t64);
-        let _t68 = S::ratio(3.0, 1.0) * _t25;
-        let _t69 = S::ratio(2.0, 1.0) * _t44;
-        let _t70 = y * S::ratio(3.0, 1.0);
-        let _t71 = _t5 + _t6 * _t70 - z * _t22;
-        let _t72 = x * _t22 - _t0 - _t1 * _t70;
-        let _t73 = _t69 * _t22
-            + (S::ratio(2.0, 1.0) * (_t46 + _t71 * _t1 + _t72 * _t6)
-                + _t45 * S::ratio(1.0, 8.0));
+        let _t15 = x.sin();
+        let _t16 = _t6 + _t7;
+        let _t17 = _t15 * y + _t16;
+        let _t18 = z * _t3 - x * _t12;
+        let _t19 = S::ratio(2.0, 1.0) * _t10;
+        let _t20 = y * y;
+        let _t21 = x * _t7 - y * _t3;
+        let _t22 = _t9 * _t9;
+        let _t23 = _t9 * _t22;
+        let _t24 = _t18 * _t19 + (_t13 * _t20 + _t21 * _t23);
+        let _t25 = _t24 + _t24;
+        let _t26 = _t15 * z + (_t11 + _t12);
+        let _t27 = x * z * S::ratio(2.0, 1.0);
+        let _t28 = _t4 * S::ratio(1.0, 4.0) + _t27;
+        let _t29 = _t28 * _t18 + S::ratio(2.0, 1.0) * (_t13 * _t1 + _t21 * _t10);
+        let _t30 = _t29 + _t29;
+        let _t31 = y * _t20;
+        let _t32 = _t31 - z * _t5;
+        let _t33 = _t15 * _t13;
+        let _t34 = _t18 * _t5 - (_t33 - _t21 * _t20);
+        let _t35 = _t34 + _t34;
+        let _t36 = y * _t18;
+        let _t37 = z * _t18 + y * _t21;
+        let _t38 = y * _t5 + (_t3 - x * _t28);
+        let _t39 = _t12 - z * _t28 + y * _t19;
+        let _t40 = y * _t13 + x * _t18;
+        let _t41 = z * _t1 - x * _t10;
+        let _t42 = _t4 * _t18;
+        let _t43 = z * _t13 + x * _t21;
+        let _t44 = _t42 + _t43 * S::ratio(16.0, 1.0);
+        let _t45 = _t31 - x * _t19;
+        let _t46 = _t2 + _t3 - x * _t23;
+        let _t47 = y * _t23 - _t16;
+        let _t48 = -_t47;
+        let _t49 = _t22 * _t23;
+        let _t50 = z * _t49;
+        let _t51 = _t21 * _t50;
+        let _t52 = _t21 * S::ratio(3.0, 1.0);
+        let _t53 = S::ratio(2.0, 1.0) * _t20;
+        let _t54 = -_t26;
+        let _t55 = S::ratio(2.0, 1.0) * (_t36 + _t54 * _t10)
+            + (_t32 * _t20 + _t17 * _t23);
+        let _t56 = _t28 * _t54 + S::ratio(2.0, 1.0) * (_t37 + _t32 * _t1 + _t17 * _t10);
+        let _t57 = _t14 + _t15 * _t32 - (_t17 * _t20 + _t54 * _t5);
+        let _t58 = S::ratio(2.0, 1.0) * _t14;
+        let _t59 = _t13 * _t33 + _t25 * (y * _t0 + S::ratio(4.0, 1.0) * _t1)
+            - _t30 * (z * _t0 + _t53) + _t17 * (_t55 + _t55) - _t26 * (_t56 + _t56)
+            + _t32 * (-_t57 - _t57);
+        let _t60 = S::ratio(2.0, 1.0) * _t41;
+        let _t61 = -_t38;
+        let _t62 = S::ratio(2.0, 1.0) * (_t40 + _t60 * _t10)
+            + (_t39 * _t20 + _t61 * _t23);
+        let _t63 = _t62 + _t62;
+        let _t64 = _t42 * S::ratio(1.0, 8.0)
+            + (_t28 * _t60 + S::ratio(2.0, 1.0) * (_t43 + _t39 * _t1 + _t61 * _t10));
+        let _t65 = _t64 + _t64;
+        let _t66 = S::ratio(2.0, 1.0) * (_t37 + _t60 * _t1)
+            - (_t15 * _t39 - _t61 * _t20);
+        let _t67 = _t66 + _t66;
+        let _t68 = _t27 + _t28;
+        let _t69 = S::ratio(3.0, 1.0) * _t20;
+        let _t70 = _t17 * _t63 - _t26 * _t65 + _t32 * _t67
+            + S::ratio(4.0, 1.0)
+                * (_t37 * _t60 + _t36 * _t61 + (_t18 * _t21 - _t30 * _t10)) - _t39 * _t58
+            + (_t25 * (_t15 + _t68) - _t35 * (_t8 * S::ratio(2.0, 1.0) - _t69));
+        let _t71 = self._h1 * _t1 + self._h0 * _t70;
+        let _t72 = -_t45;
+        let _t73 = _t47 * _t20 + _t72 * _t23 + (_t46 * _t19 - S::ratio(3.0, 1.0) * _t51);
         let _t74 = _t73 + _t73;
-        let _t75 = S::ratio(2.0, 1.0) * (_t34 + _t69 * _t1)
-            - (_t16 * _t71 - _t72 * _t25);
+        let _t75 = _t28 * _t46 + S::ratio(2.0, 1.0) * (_t40 + _t47 * _t1 + _t72 * _t10);
         let _t76 = _t75 + _t75;
-        let _t77 = _t8 + S::ratio(16.0, 1.0) * _t20;
-        let _t78 = S::ratio(2.0, 1.0) * (_t42 + _t69 * _t6)
-            + (_t71 * _t25 + _t37 * _t72);
-        let _t79 = _t78 + _t78;
-        let _t80 = _t28 * _t76 - _t32 * (_t3 * S::ratio(2.0, 1.0) - _t68) - _t17 * _t74
+        let _t77 = S::ratio(2.0, 1.0) * (_t36 + _t46 * _t1)
+            - (_t15 * _t47 - _t72 * _t20);
+        let _t78 = _t77 + _t77;
+        let _t79 = _t17 * _t74 - _t26 * _t76 + _t32 * _t78 - _t30 * (_t15 + _t23)
+            + S::ratio(2.0, 1.0) * (_t18 * _t18 - _t14 * _t47)
             + S::ratio(4.0, 1.0)
-                * (_t34 * _t69 + _t33 * _t72 + (_t19 * _t18 - _t24 * _t6))
-            + S::ratio(1.0, 4.0) * (_t39 * (_t16 * S::ratio(4.0, 1.0) + _t77));
-        let _t81 = self._h2 * _t1 + self._h0 * (_t80 - _t71 * _t65 + _t79 * _t41);
-        let _t82 = y * _t37 - _t60;
-        let _t83 = -_t51;
-        let _t84 = S::ratio(2.0, 1.0) * (_t42 + _t82 * _t1 + _t83 * _t6) + _t52 * _t22;
-        let _t85 = _t84 + _t84;
-        let _t86 = S::ratio(2.0, 1.0) * (_t33 + _t52 * _t1)
-            - (_t16 * _t82 - _t83 * _t25);
-        let _t87 = _t86 + _t86;
-        let _t88 = _t82 * _t25 + _t37 * _t83
-            - (S::ratio(3.0, 1.0) * _t56 - S::ratio(2.0, 1.0) * _t52 * _t6);
-        let _t89 = _t88 + _t88;
-        let _t90 = _t28 * _t87 - _t24 * (_t16 + _t37) - _t17 * _t85
-            + S::ratio(2.0, 1.0) * (_t19 * _t19 - _t14 * _t82)
-            + S::ratio(4.0, 1.0)
-                * (_t34 * _t52 + _t33 * _t83 + (_t39 * _t6 - _t32 * _t1));
-        let _t91 = self.h * _t25 + self._h0 * (_t90 + _t89 * _t41);
-        let _t92 = x * x;
-        let _t93 = S::ratio(4.0, 1.0) * (_t13 * _t18 + _t34 * _t71 + _t42 * _t72)
-            + _t19 * _t45 * S::ratio(1.0, 16.0)
+                * (_t37 * _t46 + _t36 * _t72 + (_t25 * _t10 - _t35 * _t1));
+        let _t80 = self.h * _t20 + self._h0 * _t79;
+        let _t81 = x * x;
+        let _t82 = S::ratio(1.0, 4.0) * _t44;
+        let _t83 = _t39 * _t67 - _t38 * _t63
+            + S::ratio(4.0, 1.0) * (_t13 * _t21 + _t37 * _t39 + _t40 * _t61)
+            + _t18 * _t42 * S::ratio(1.0, 16.0)
             + S::ratio(1.0, 8.0)
-                * (_t39 * (x * _t8 - S::ratio(48.0, 1.0) * _t1)
-                    - _t32 * (_t8 * z - S::ratio(48.0, 1.0) * _t6));
-        let _t94 = S::ratio(4.0, 1.0)
-            * (_t34 * _t82 + _t42 * _t83 + (_t13 * _t19 + _t24 * _t1))
-            - _t39 * (_t68 - _t92 * S::ratio(2.0, 1.0))
-            - S::ratio(1.0, 4.0)
-                * (_t32 * (_t77 - _t37 * S::ratio(4.0, 1.0)) - _t47 * _t52 - _t49 * _t89
-                    + _t50 * _t87);
-        let _t95 = self._h2 * _t6 + self._h0 * (_t94 + _t69 * _t85);
-        let _t96 = _t24 * (_t59 + x * S::ratio(3.0, 1.0) * _t55)
-            - _t32 * (S::ratio(4.0, 1.0) * _t6 + _t55 * _t70) - _t51 * _t89 + _t52 * _t85
-            - _t18
-                * (_t4 * _t4 * _t4 - S::ratio(6.0, 1.0) * _t35 * _t53
-                    + S::ratio(5.0, 1.0) * _t35 * _t54) * _t57;
-        xi[0] = _t2 * self.h
-            + (_t28 * _t32 - _t13 * _t14 - _t17 * _t24
-                + S::ratio(2.0, 1.0) * (_t18 * _t33 + _t19 * _t34) + _t39 * _t41)
-                * self._h0;
-        xi[1] = _t11 * self._h1
-            + (S::ratio(2.0, 1.0) * (_t18 * _t42 + _t13 * _t34 + _t44 * _t24)
-                + _t19 * _t47 * S::ratio(1.0, 8.0)
-                + S::ratio(1.0, 4.0) * (_t39 * _t49 - _t32 * _t50)) * self._h0;
-        xi[2] = _t7 * self.h
-            + (_t52 * _t24 - _t51 * _t39 - _t56 * _t57
-                + S::ratio(2.0, 1.0) * (_t19 * _t42 + _t13 * _t33) - _t32 * _t58)
+                * (_t25 * (x * _t4 - S::ratio(48.0, 1.0) * _t1)
+                    - _t35 * (_t4 * z - S::ratio(48.0, 1.0) * _t10));
+        let _t84 = _t39 * _t78 - _t38 * _t74
+            + S::ratio(4.0, 1.0)
+                * (_t37 * _t47 + _t40 * _t72 + (_t13 * _t18 + _t30 * _t1)) + _t46 * _t82
+            + _t60 * _t76
+            - (_t25 * (_t69 - _t81 * S::ratio(2.0, 1.0)) + _t35 * (_t68 - _t23));
+        let _t85 = self._h1 * _t10 + self._h0 * _t84;
+        let _t86 = _t30 * (_t53 + x * S::ratio(3.0, 1.0) * _t50) - _t45 * _t74
+            - _t35 * (S::ratio(4.0, 1.0) * _t10 + S::ratio(3.0, 1.0) * _t1 * _t49)
+            + _t46 * _t76 - _t48 * _t78
+            + S::ratio(4.0, 1.0) * (_t36 * _t47 + _t40 * _t46);
+        xi[0] = _t3 * self.h
+            + (_t17 * _t25 - _t13 * _t14 - _t26 * _t30 + _t32 * _t35
+                + S::ratio(2.0, 1.0) * (_t21 * _t36 + _t18 * _t37)) * self._h0;
+        xi[1] = _t7 * self.h
+            + (_t39 * _t35 - _t38 * _t25
+                + S::ratio(2.0, 1.0) * (_t21 * _t40 + _t13 * _t37 + _t41 * _t30)
+                + _t18 * _t44 * S::ratio(1.0, 8.0)) * self._h0;
+        xi[2] = _t12 * self.h
+            + (_t46 * _t30 - _t45 * _t25 - _t48 * _t35
+                + S::ratio(2.0, 1.0) * (_t18 * _t40 + _t13 * _t36) - _t51 * _t52)
                 * self._h0;
         hessian[(0, 0)] = self._h0
-            * (_t67 - _t28 * _t65 + S::ratio(4.0, 1.0) * (_t34 * _t62 + _t33 * _t61)
-                + (_t66 + _t66) * _t41) - _t16 * self.h;
-        hessian[(0, 1)] = _t81;
-        hessian[(0, 2)] = _t91;
-        hessian[(1, 0)] = _t81;
-        hessian[(1, 1)] = _t21 * self._h3
+            * (_t59 - _t32 * _t58 + S::ratio(4.0, 1.0) * (_t37 * _t54 + _t36 * _t17))
+            - _t15 * self.h;
+        hessian[(0, 1)] = _t71;
+        hessian[(0, 2)] = _t80;
+        hessian[(1, 0)] = _t71;
+        hessian[(1, 1)] = _t28 * self.h
             + self._h0
-                * (_t93 + S::ratio(2.0, 1.0) * ((_t3 - _t92) * _t24 + _t44 * _t74)
-                    + S::ratio(1.0, 4.0) * (_t47 * _t69 + _t49 * _t79 - _t50 * _t76));
-        hessian[(1, 2)] = _t95;
-        hessian[(2, 0)] = _t91;
-        hessian[(2, 1)] = _t95;
-        hessian[(2, 2)] = _t37 * self.h
+                * (_t83 + S::ratio(2.0, 1.0) * ((_t8 - _t81) * _t30 + _t41 * _t65)
+                    + _t60 * _t82);
+        hessian[(1, 2)] = _t85;
+        hessian[(2, 0)] = _t80;
+        hessian[(2, 1)] = _t85;
+        hessian[(2, 2)] = self.h * _t23
             + self._h0
-                * (_t96 + S::ratio(4.0, 1.0) * (_t33 * _t82 + _t42 * _t52)
-                    - _t83 * (S::ratio(6.0, 1.0) * _t56) - _t87 * _t58);
+                * (_t86
+                    - _t21 * (S::one() - _t8 * S::ratio(4.0, 1.0)) * _t22 * _t49 * _t52
+                    - _t72 * (S::ratio(6.0, 1.0) * _t51));
     }
 }
 
@@ -880,38 +854,36 @@ pub struct NonpolynomialSpinGenerating6<'a, S: ::lie_runtime::Scalar> {
     h: S,
     /// `h^3/24`
     _h0: S,
-    /// `h^5/11520`
-    _h1: S,
-    /// `h/2`
-    _h2: S,
-    /// `h^5/184320`
-    _h3: S,
-    /// `h^5/480`
-    _h4: S,
-    /// `h^5/1440`
-    _h5: S,
-    /// `h^5/360`
-    _h6: S,
-    /// `h^5/720`
-    _h7: S,
     /// `h^5/5760`
-    _h8: S,
+    _h1: S,
+    /// `h^5/184320`
+    _h2: S,
+    /// `h^5/480`
+    _h3: S,
+    /// `h^5/1440`
+    _h4: S,
+    /// `h^5/360`
+    _h5: S,
+    /// `h^5/720`
+    _h6: S,
     /// `h^5/2880`
-    _h9: S,
+    _h7: S,
     /// `h^5`
-    _h10: S,
+    _h8: S,
     /// `2*h^5`
-    _h11: S,
+    _h9: S,
     /// `5760*h`
-    _h12: S,
+    _h10: S,
+    /// `h^5/11520`
+    _h11: S,
     /// `h^5/23040`
-    _h13: S,
+    _h12: S,
     /// `h^5/368640`
-    _h14: S,
+    _h13: S,
     /// `h^5/46080`
-    _h15: S,
+    _h14: S,
     /// `h^5/1920`
-    _h16: S,
+    _h15: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinGenerating6<'a, S> {
@@ -925,22 +897,21 @@ impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinGenerating6<'a, S> {
             system,
             h,
             _h0: S::ratio(1.0, 24.0) * _t1,
-            _h1: S::ratio(1.0, 11520.0) * _t2,
-            _h2: h * S::ratio(1.0, 2.0),
-            _h3: S::ratio(1.0, 184320.0) * _t2,
-            _h4: S::ratio(1.0, 480.0) * _t2,
-            _h5: S::ratio(1.0, 1440.0) * _t2,
-            _h6: S::ratio(1.0, 360.0) * _t2,
-            _h7: S::ratio(1.0, 720.0) * _t2,
-            _h8: S::ratio(1.0, 5760.0) * _t2,
-            _h9: S::ratio(1.0, 2880.0) * _t2,
-            _h10: _t2,
-            _h11: S::ratio(2.0, 1.0) * _t2,
-            _h12: h * S::ratio(5760.0, 1.0),
-            _h13: S::ratio(1.0, 23040.0) * _t2,
-            _h14: S::ratio(1.0, 368640.0) * _t2,
-            _h15: S::ratio(1.0, 46080.0) * _t2,
-            _h16: S::ratio(1.0, 1920.0) * _t2,
+            _h1: S::ratio(1.0, 5760.0) * _t2,
+            _h2: S::ratio(1.0, 184320.0) * _t2,
+            _h3: S::ratio(1.0, 480.0) * _t2,
+            _h4: S::ratio(1.0, 1440.0) * _t2,
+            _h5: S::ratio(1.0, 360.0) * _t2,
+            _h6: S::ratio(1.0, 720.0) * _t2,
+            _h7: S::ratio(1.0, 2880.0) * _t2,
+            _h8: _t2,
+            _h9: S::ratio(2.0, 1.0) * _t2,
+            _h10: h * S::ratio(5760.0, 1.0),
+            _h11: S::ratio(1.0, 11520.0) * _t2,
+            _h12: S::ratio(1.0, 23040.0) * _t2,
+            _h13: S::ratio(1.0, 368640.0) * _t2,
+            _h14: S::ratio(1.0, 46080.0) * _t2,
+            _h15: S::ratio(1.0, 1920.0) * _t2,
         }
     }
 }
@@ -952,7 +923,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     /// `xi = grad S(p)`
     ///
-    /// 234 additions, 386 multiplications, 1 division, 4 function calls.
+    /// 228 additions, 360 multiplications, 1 division, 4 function calls.
     #[inline]
     fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
         let [[x, y, z]] = p.data.0;
@@ -960,207 +931,199 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t1 = y * y;
         let _t2 = z * _t1;
         let _t3 = _t0 + _t2;
-        let _t4 = z * z;
-        let _t5 = S::one() / (S::one() + _t4).sqrt();
-        let _t6 = x * _t1;
-        let _t7 = z * _t5 + _t6;
-        let _t8 = (y * S::ratio(1.0, 2.0)).exp();
-        let _t9 = x * z;
-        let _t10 = y * S::ratio(4.0, 1.0);
-        let _t11 = _t8 + _t9 * _t10;
-        let _t12 = S::ratio(1.0, 2.0) * _t11;
-        let _t13 = y * _t7 - z * _t12;
-        let _t14 = _t13 * _t13;
-        let _t15 = z * _t3 - x * _t7;
-        let _t16 = _t8 + S::ratio(8.0, 1.0) * _t9;
-        let _t17 = _t16 * S::ratio(1.0, 4.0);
-        let _t18 = x * _t12 - y * _t3;
-        let _t19 = z * _t13 + x * _t18;
-        let _t20 = y * S::ratio(2.0, 1.0);
-        let _t21 = _t15 * _t17 + _t19 * _t20;
-        let _t22 = _t21 + _t21;
-        let _t23 = x.sin();
-        let _t24 = z * (_t23 + _t5) + S::ratio(2.0, 1.0) * _t6;
-        let _t25 = _t4 * S::ratio(2.0, 1.0);
-        let _t26 = _t1 - _t25;
-        let _t27 = y * _t18;
-        let _t28 = S::ratio(2.0, 1.0) * _t15;
-        let _t29 = _t23 * _t13 - y * (_t27 + z * _t28);
-        let _t30 = -_t29;
-        let _t31 = _t30 - _t29;
-        let _t32 = z * _t15 + _t27;
-        let _t33 = _t5 * _t5;
-        let _t34 = _t5 * _t33;
-        let _t35 = _t5 - _t4 * _t34;
-        let _t36 = y * _t13;
-        let _t37 = _t35 * _t18 + y * (_t36 + x * _t28);
-        let _t38 = _t37 + _t37;
-        let _t39 = S::ratio(4.0, 1.0) * _t9;
-        let _t40 = _t8 + (_t23 + _t39) * _t20;
-        let _t41 = y * (_t26 * _t31 + _t18 * _t28) - _t0 * _t14 - _t22 * _t24
-            + _t32 * _t28 + S::ratio(1.0, 2.0) * _t38 * _t40;
-        let _t42 = _t36 + x * _t15;
-        let _t43 = _t18 * _t42 + _t13 * _t32;
-        let _t44 = _t8 * _t15 + _t19 * S::ratio(16.0, 1.0);
-        let _t45 = _t15 * _t44;
-        let _t46 = x * x;
-        let _t47 = _t4 - _t46;
-        let _t48 = y * _t22;
-        let _t49 = x * _t16 - _t0 * S::ratio(4.0, 1.0) - S::ratio(12.0, 1.0) * _t2;
-        let _t50 = z * (_t16 - _t5 * S::ratio(4.0, 1.0)) - S::ratio(12.0, 1.0) * _t6;
-        let _t51 = S::ratio(2.0, 1.0) * (_t47 * _t48 + _t43) + S::ratio(1.0, 8.0) * _t45
-            + S::ratio(1.0, 4.0) * (_t38 * _t49 - _t31 * _t50);
-        let _t52 = _t18 * _t3 - _t13 * _t7;
-        let _t53 = S::ratio(2.0, 1.0) * _t52;
-        let _t54 = S::ratio(1.0, 2.0) * _t8 + _t9 * _t20;
-        let _t55 = _t15 * _t7 - _t18 * _t54;
-        let _t56 = _t13 * _t54 - _t15 * _t3;
-        let _t57 = z * _t55 + x * _t56;
-        let _t58 = S::ratio(24.0, 1.0) * _t43 + S::ratio(3.0, 2.0) * _t45
-            - S::ratio(4.0, 1.0) * _t51 + _t16 * _t53 + y * S::ratio(16.0, 1.0) * _t57;
-        let _t59 = _t15 * S::ratio(24.0, 1.0);
-        let _t60 = S::ratio(12.0, 1.0) * _t14;
-        let _t61 = y * _t56;
-        let _t62 = _t15 * S::ratio(3.0, 1.0);
-        let _t63 = _t32 * _t59 - _t0 * _t60 - S::ratio(4.0, 1.0) * _t41
-            - S::ratio(8.0, 1.0) * (_t23 * _t55 - y * (_t61 + _t18 * _t62 + z * _t53));
-        let _t64 = _t52 + S::ratio(3.0, 1.0) * (z * _t30 - x * _t37);
-        let _t65 = _t56 - S::ratio(3.0, 1.0) * (y * _t30 - x * _t21);
-        let _t66 = _t8 - (_t35 - _t39) * _t20;
-        let _t67 = _t55 - S::ratio(3.0, 1.0) * (z * _t21 - y * _t37);
-        let _t68 = _t64 * _t50 + S::ratio(2.0, 1.0) * _t65 * _t66 - _t26 * _t67 * _t10;
-        let _t69 = _t0 - x * _t35 + S::ratio(2.0, 1.0) * _t2;
-        let _t70 = _t46 * S::ratio(2.0, 1.0);
-        let _t71 = _t1 - _t70;
-        let _t72 = _t33 * _t34;
-        let _t73 = _t4 * _t72;
-        let _t74 = _t34 - _t73;
-        let _t75 = z * _t74;
-        let _t76 = _t18 * _t18;
-        let _t77 = S::ratio(3.0, 1.0) * _t76;
-        let _t78 = _t69 * _t22 - y * (_t71 * _t38 - _t13 * _t28) + _t42 * _t28
-            - _t75 * _t77 - S::ratio(1.0, 2.0) * _t31 * _t66;
-        let _t79 = _t68 + (_t68 + S::ratio(12.0, 1.0) * (y * _t78 - z * _t51));
-        let _t80 = -(y * S::ratio(8.0, 1.0) * _t47 * _t64)
-            - S::ratio(4.0, 1.0) * (_t69 * _t65 - _t67 * _t24);
-        let _t81 = _t80 + (_t80 - S::ratio(12.0, 1.0) * (x * _t78 - z * _t41));
-        let _t82 = S::ratio(2.0, 1.0) * _t81;
-        let _t83 = _t67 - _t55 * S::ratio(3.0, 1.0);
-        let _t84 = _t15 * S::ratio(16.0, 1.0);
-        let _t85 = _t71 * _t65 * _t10 - _t49 * _t64 - S::ratio(2.0, 1.0) * _t67 * _t40;
-        let _t86 = _t85 + (_t85 + S::ratio(12.0, 1.0) * (x * _t51 - y * _t41));
-        let _t87 = _t15 * _t15;
-        let _t88 = S::ratio(72.0, 1.0) * _t87;
-        let _t89 = _t33 * _t73;
-        let _t90 = _t34 - _t4 * (S::ratio(6.0, 1.0) * _t72 - S::ratio(5.0, 1.0) * _t89);
-        let _t91 = _t90 * _t77;
-        let _t92 = _t65 - _t56 * S::ratio(3.0, 1.0);
-        let _t93 = _t64 - _t52 * S::ratio(3.0, 1.0);
-        let _t94 = S::ratio(16.0, 1.0) * _t93;
-        let _t95 = _t3 * _t58 - _t54 * _t63 + y * (y * _t79 + x * _t82 - _t83 * _t84)
-            + _t35 * _t86 + _t13 * _t88
-            - _t18 * S::ratio(12.0, 1.0) * (_t91 - S::ratio(2.0, 1.0) * _t92 * _t75);
-        let _t96 = _t95 - _t42 * _t94;
-        let _t97 = z * _t52 + _t61;
-        let _t98 = S::ratio(16.0, 1.0) * _t52;
-        let _t99 = _t1 * S::ratio(3.0, 1.0);
-        let _t100 = _t38 * (_t8 + _t23 * S::ratio(4.0, 1.0) + S::ratio(16.0, 1.0) * _t9)
-            + S::ratio(16.0, 1.0) * (_t15 * _t18 - x * _t48)
-            - S::ratio(4.0, 1.0) * _t31 * (_t25 - _t99);
-        let _t101 = y * _t55;
-        let _t102 = _t42 * _t59 - S::ratio(4.0, 1.0) * _t78
-            - S::ratio(36.0, 1.0) * _t76 * _t75
-            + S::ratio(8.0, 1.0) * (_t35 * _t56 + y * (_t101 + _t13 * _t62 + x * _t53));
-        let _t103 = _t8 * _t87;
-        let _t104 = _t13 * _t18;
-        let _t105 = S::ratio(192.0, 1.0) * _t104;
-        let _t106 = _t7 * _t63 - _t3 * _t102 - _t44 * _t93 + (x * _t86 + z * _t79) * _t20
-            + _t81 * _t17 + _t15 * (_t103 + _t105) * S::ratio(3.0, 4.0)
-            - S::ratio(16.0, 1.0) * (_t42 * _t92 + _t32 * _t83);
-        let _t107 = _t15 * _t63 - _t13 * _t58;
-        let _t108 = _t54 * _t102 - _t7 * _t58 + y * (y * _t86 + z * _t82 - _t92 * _t84)
-            - _t23 * (_t79 - _t13 * _t60) + _t18 * _t88
-            + _t0 * S::ratio(8.0, 1.0) * _t13 * _t83;
-        let _t109 = _t108 - _t32 * _t94;
-        let _t110 = _t13 * _t102 - _t18 * _t63;
-        let _t111 = S::ratio(8.0, 1.0) * _t52;
-        let _t112 = _t18 * _t58 - _t15 * _t102;
-        let _t113 = _t64 * _t100 + _t106 * _t24
+        let _t4 = (y * S::ratio(1.0, 2.0)).exp();
+        let _t5 = z * S::ratio(2.0, 1.0);
+        let _t6 = x * y;
+        let _t7 = S::ratio(1.0, 2.0) * _t4 + _t5 * _t6;
+        let _t8 = z * z;
+        let _t9 = S::one() / (S::one() + _t8).sqrt();
+        let _t10 = x * _t1;
+        let _t11 = z * _t9 + _t10;
+        let _t12 = y * _t11 - z * _t7;
+        let _t13 = _t12 * _t12;
+        let _t14 = x * _t5;
+        let _t15 = _t4 * S::ratio(1.0, 4.0) + _t14;
+        let _t16 = z * _t3 - x * _t11;
+        let _t17 = x * _t7 - y * _t3;
+        let _t18 = z * _t12 + x * _t17;
+        let _t19 = y * S::ratio(2.0, 1.0);
+        let _t20 = _t15 * _t16 + _t18 * _t19;
+        let _t21 = _t20 + _t20;
+        let _t22 = x.sin();
+        let _t23 = _t10 + _t11 + _t22 * z;
+        let _t24 = _t22 + _t14;
+        let _t25 = _t7 + y * _t24;
+        let _t26 = _t9 * _t9;
+        let _t27 = _t9 * _t26;
+        let _t28 = y * _t12;
+        let _t29 = S::ratio(2.0, 1.0) * _t16;
+        let _t30 = _t17 * _t27 + y * (_t28 + x * _t29);
+        let _t31 = _t30 + _t30;
+        let _t32 = z * _t5;
+        let _t33 = _t1 - _t32;
+        let _t34 = y * _t17;
+        let _t35 = _t22 * _t12 - y * (_t34 + _t16 * _t5);
+        let _t36 = -_t35;
+        let _t37 = _t36 - _t35;
+        let _t38 = z * _t16 + _t34;
+        let _t39 = _t25 * _t31 - _t0 * _t13 - _t21 * _t23
+            + y * (_t33 * _t37 + _t17 * _t29) + _t38 * _t29;
+        let _t40 = _t28 + x * _t16;
+        let _t41 = _t16 * S::ratio(24.0, 1.0);
+        let _t42 = _t2 + _t3 - x * _t27;
+        let _t43 = _t14 - _t27;
+        let _t44 = _t7 + y * _t43;
+        let _t45 = x * S::ratio(2.0, 1.0);
+        let _t46 = x * _t45;
+        let _t47 = _t1 - _t46;
+        let _t48 = _t17 * _t17;
+        let _t49 = _t26 * _t27;
+        let _t50 = z * _t49;
+        let _t51 = S::ratio(3.0, 1.0) * _t50;
+        let _t52 = _t42 * _t21 - _t37 * _t44 - y * (_t47 * _t31 - _t12 * _t29)
+            + _t40 * _t29 - _t48 * _t51;
+        let _t53 = _t12 * _t7 - _t16 * _t3;
+        let _t54 = _t16 * _t11 - _t17 * _t7;
+        let _t55 = y * _t54;
+        let _t56 = _t16 * S::ratio(3.0, 1.0);
+        let _t57 = _t17 * _t3 - _t12 * _t11;
+        let _t58 = _t40 * _t41 - _t52 * S::ratio(4.0, 1.0)
+            - S::ratio(36.0, 1.0) * _t48 * _t50
+            + S::ratio(8.0, 1.0)
+                * (_t53 * _t27 + y * (_t55 + _t12 * _t56 + _t57 * _t45));
+        let _t59 = S::ratio(12.0, 1.0) * _t13;
+        let _t60 = y * _t53;
+        let _t61 = _t38 * _t41 - _t0 * _t59 - _t39 * S::ratio(4.0, 1.0)
+            - S::ratio(8.0, 1.0) * (_t22 * _t54 - y * (_t60 + _t17 * _t56 + _t57 * _t5));
+        let _t62 = _t57 + S::ratio(3.0, 1.0) * (z * _t36 - x * _t30);
+        let _t63 = _t8 - x * x;
+        let _t64 = y * _t63;
+        let _t65 = _t54 - S::ratio(3.0, 1.0) * (z * _t20 - y * _t30);
+        let _t66 = _t53 - S::ratio(3.0, 1.0) * (y * _t36 - x * _t20);
+        let _t67 = S::ratio(4.0, 1.0) * (_t23 * _t65 - _t42 * _t66)
+            - _t62 * S::ratio(8.0, 1.0) * _t64;
+        let _t68 = _t67 + (_t67 - S::ratio(12.0, 1.0) * (x * _t52 - z * _t39));
+        let _t69 = _t4 * _t16 + _t18 * S::ratio(16.0, 1.0);
+        let _t70 = _t62 - _t57 * S::ratio(3.0, 1.0);
+        let _t71 = _t3 - x * _t15 + _t1 * _t5;
+        let _t72 = (_t25 * _t65 - _t71 * _t62 - y * _t47 * _t66) * S::ratio(-4.0, 1.0);
+        let _t73 = _t11 - z * _t15 + _t1 * _t45;
+        let _t74 = _t17 * _t40 + _t12 * _t38;
+        let _t75 = _t16 * _t69;
+        let _t76 = _t73 * _t37 - _t31 * _t71 + S::ratio(2.0, 1.0) * (_t21 * _t64 + _t74)
+            + S::ratio(1.0, 8.0) * _t75;
+        let _t77 = _t72 + (x * _t76 - y * _t39) * S::ratio(12.0, 1.0);
+        let _t78 = _t72 + _t77;
+        let _t79 = S::ratio(4.0, 1.0) * (_t66 * _t44 - _t73 * _t62 - y * _t33 * _t65);
+        let _t80 = _t79 + (_t79 + S::ratio(12.0, 1.0) * (y * _t52 - z * _t76));
+        let _t81 = _t16 * _t16;
+        let _t82 = _t4 * _t81;
+        let _t83 = _t12 * _t17;
+        let _t84 = S::ratio(192.0, 1.0) * _t83;
+        let _t85 = _t66 - _t53 * S::ratio(3.0, 1.0);
+        let _t86 = _t65 - _t54 * S::ratio(3.0, 1.0);
+        let _t87 = _t11 * _t61 - _t3 * _t58 + _t15 * _t68 - _t69 * _t70
+            + (x * _t78 + z * _t80) * _t19 + _t16 * (_t82 + _t84) * S::ratio(3.0, 4.0)
+            - S::ratio(16.0, 1.0) * (_t40 * _t85 + _t38 * _t86);
+        let _t88 = _t57 * S::ratio(8.0, 1.0);
+        let _t89 = z * _t54 + x * _t53;
+        let _t90 = _t74 * S::ratio(24.0, 1.0) + S::ratio(3.0, 2.0) * _t75
+            - _t76 * S::ratio(4.0, 1.0) + _t15 * _t88 + y * S::ratio(16.0, 1.0) * _t89;
+        let _t91 = _t16 * S::ratio(16.0, 1.0);
+        let _t92 = S::ratio(72.0, 1.0) * _t81;
+        let _t93 = _t8 * S::ratio(4.0, 1.0);
+        let _t94 = _t26 * _t48;
+        let _t95 = (S::one() - _t93) * _t94;
+        let _t96 = S::ratio(3.0, 1.0) * _t49 * _t95;
+        let _t97 = _t53 * _t49;
+        let _t98 = S::ratio(16.0, 1.0) * _t70;
+        let _t99 = _t3 * _t90 - _t7 * _t61 + _t72 * _t27 + _t77 * _t27
+            + y * (y * _t80 + _t68 * _t45 - _t86 * _t91) + _t12 * _t92
+            - _t17 * S::ratio(12.0, 1.0)
+                * (_t96 - (_t66 * _t49 - S::ratio(3.0, 1.0) * _t97) * _t5);
+        let _t100 = _t99 - _t40 * _t98;
+        let _t101 = _t16 * _t61 - _t12 * _t90;
+        let _t102 = _t7 * _t58 - _t11 * _t90 + y * (y * _t78 + _t68 * _t5 - _t85 * _t91)
+            - _t22 * (_t80 - _t12 * _t59) + _t17 * _t92
+            + _t0 * _t12 * S::ratio(8.0, 1.0) * _t86;
+        let _t103 = _t102 - _t38 * _t98;
+        let _t104 = _t12 * _t58 - _t17 * _t61;
+        let _t105 = _t17 * _t90 - _t16 * _t58;
+        let _t106 = z * _t57 + _t60;
+        let _t107 = _t1 * S::ratio(3.0, 1.0);
+        let _t108 = _t31 * (_t15 + _t24) - _t37 * (_t32 - _t107)
+            + (_t16 * _t17 - _t21 * _t6) * S::ratio(4.0, 1.0);
+        let _t109 = _t1 * S::ratio(2.0, 1.0);
+        let _t110 = _t21 * (_t22 + _t27) - _t16 * _t29
+            - y * S::ratio(4.0, 1.0) * (x * _t31 - z * _t37);
+        let _t111 = S::ratio(2.0, 1.0) * _t57;
+        let _t112 = S::ratio(2.0, 1.0) * _t68;
+        let _t113 = _t23 * _t87 - _t25 * _t100
             - y
-                * (y * _t107 + _t26 * _t109
-                    + S::ratio(2.0, 1.0) * (z * _t110 + _t15 * _t86) + _t56 * _t111)
+                * (y * _t101 + _t33 * _t103
+                    + S::ratio(2.0, 1.0) * (z * _t104 + _t16 * _t78) + _t53 * _t88)
             + _t0
-                * (_t13 * (_t79 - _t13 * S::ratio(3.0, 1.0) * _t14)
-                    + S::ratio(4.0, 1.0) * _t55 * _t55);
-        let _t114 = _t22 * (_t23 + _t35) - _t15 * _t28 - (x * _t38 - z * _t31) * _t10;
-        let _t115 = _t1 * S::ratio(2.0, 1.0);
-        let _t116 = _t15 * S::ratio(48.0, 1.0);
-        let _t117 = S::ratio(4.0, 1.0) * _t81;
-        let _t118 = _t96 * _t40 + _t97 * _t98
-            - S::ratio(24.0, 1.0) * (_t21 * _t78 - _t37 * _t51)
-            - S::ratio(2.0, 1.0) * (_t113 + _t23 * (_t112 - _t55 * _t60))
-            + S::ratio(8.0, 1.0)
-                * (_t65 * _t114
-                    - _t67
-                        * (_t23 * _t14 - _t22 * (z * _t0 + _t115)
-                            + y * _t38 * (_t0 + z * S::ratio(4.0, 1.0))));
-        let _t119 = y * S::ratio(48.0, 1.0);
-        let _t120 = _t64
-            * (_t103 + S::ratio(64.0, 1.0) * _t104
+                * (_t12 * (_t80 - _t12 * S::ratio(3.0, 1.0) * _t13)
+                    + _t54 * _t54 * S::ratio(4.0, 1.0));
+        let _t114 = _t113 + _t22 * (_t105 - _t54 * _t59) - _t106 * _t88
+            + S::ratio(12.0, 1.0) * (_t20 * _t52 - _t30 * _t76)
+            + S::ratio(4.0, 1.0)
+                * (_t62 * _t108
+                    + _t65
+                        * (_t22 * _t13 - _t21 * (z * _t0 + _t109)
+                            + y * _t31 * (_t0 + z * S::ratio(4.0, 1.0))) - _t66 * _t110);
+        let _t115 = _t55 + x * _t57;
+        let _t116 = y * z;
+        let _t117 = _t62
+            * (_t82 + S::ratio(64.0, 1.0) * _t83
                 + S::ratio(2.0, 1.0)
-                    * (_t38 * (x * _t8 - z * _t119) - _t31 * (_t8 * z - x * _t119))
-                + _t47 * _t22 * S::ratio(32.0, 1.0));
-        let _t121 = _t101 + x * _t52;
-        let _t122 = x * S::ratio(4.0, 1.0);
-        let _t123 = _t31 * (_t8 - S::ratio(4.0, 1.0) * (_t5 - z * (z * _t34 + _t122)))
-            - S::ratio(16.0, 1.0) * (_t13 * _t15 + z * _t48)
-            - S::ratio(4.0, 1.0) * _t38 * (_t70 - _t99);
-        let _t124 = S::ratio(8.0, 1.0)
-            * (_t16 * _t110 - _t120 + _t49 * _t96 - _t109 * _t50
-                + _t52
-                    * (_t105 + S::ratio(3.0, 1.0) * _t103 + S::ratio(32.0, 1.0) * _t57
-                        + _t8 * _t53))
-            + (_t55 * _t97 + _t56 * _t121) * S::ratio(256.0, 1.0);
-        let _t125 = _t124 + (_t30 * _t78 - _t37 * _t41) * S::ratio(384.0, 1.0)
-            - S::ratio(32.0, 1.0) * (_t67 * _t100 - _t65 * _t123)
+                    * (_t31 * (x * _t4 - S::ratio(48.0, 1.0) * _t116)
+                        - _t37 * (_t4 * z - S::ratio(48.0, 1.0) * _t6))
+                + _t63 * _t21 * S::ratio(32.0, 1.0));
+        let _t118 = _t31 * (_t46 - _t107) - _t37 * (_t15 + _t43)
+            + S::ratio(4.0, 1.0) * (_t12 * _t16 + _t21 * _t116);
+        let _t119 = S::ratio(32.0, 1.0) * (_t15 * _t104 - _t71 * _t100 + _t73 * _t103)
+            + (_t54 * _t106 + _t53 * _t115) * S::ratio(256.0, 1.0)
+            + (_t36 * _t52 - _t30 * _t39) * S::ratio(384.0, 1.0)
+            - S::ratio(8.0, 1.0)
+                * (_t117
+                    - _t57
+                        * (_t84 + S::ratio(3.0, 1.0) * _t82 + S::ratio(32.0, 1.0) * _t89
+                            + _t4 * _t111));
+        let _t120 = _t119 - (_t65 * _t108 + _t66 * _t118) * S::ratio(128.0, 1.0)
             + S::ratio(64.0, 1.0)
-                * (y * (x * _t107 + z * _t112 + _t47 * _t106) + _t42 * _t86
-                    + _t32 * _t79);
-        let _t126 = _t35 * _t107 + _t69 * _t106 + _t64 * _t123
+                * (y * (x * _t101 + z * _t105 + _t63 * _t87) + _t40 * _t78
+                    + _t38 * _t80);
+        let _t121 = _t101 * _t27 + _t42 * _t87 - _t103 * _t44
             + y
-                * (y * _t112 - _t71 * _t96
-                    + S::ratio(2.0, 1.0) * (x * _t110 + _t15 * _t79) + _t55 * _t111);
-        let _t127 = _t18
-            * (_t74 * _t86
-                + _t18
-                    * (_t4
-                        * (S::ratio(10.0, 1.0) * _t33 * _t72
-                            - S::ratio(7.0, 1.0) * _t33 * _t89)
-                        - S::ratio(3.0, 1.0) * _t72) * S::ratio(15.0, 1.0) * _t76)
-            + S::ratio(4.0, 1.0) * _t56 * _t56 * _t74;
-        let _t128 = _t109 * _t66 - _t121 * _t98
-            + S::ratio(24.0, 1.0) * (_t30 * _t51 - _t21 * _t41)
-            - S::ratio(2.0, 1.0) * _t126 + _t56 * _t90 * S::ratio(72.0, 1.0) * _t76
-            + S::ratio(8.0, 1.0)
-                * (_t65
-                    * (_t22 * (_t115 + S::ratio(3.0, 1.0) * _t74 * _t9)
-                        - y * _t31 * (_t122 + S::ratio(3.0, 1.0) * _t75) - _t91)
-                    - _t67 * _t114);
-        xi[0] = _t3 * self.h + _t41 * self._h0
-            + (_t118 + (_t15 * _t56 + _t18 * _t53) * _t116 + _t32 * _t117) * self._h1;
-        xi[1] = _t11 * self._h2 + _t51 * self._h0
-            + (_t125
-                + (_t15 * _t103 + (_t18 * _t55 + _t13 * _t56) * S::ratio(512.0, 1.0))
-                    * _t62 + _t44 * _t117) * self._h3;
-        xi[2] = _t7 * self.h + _t78 * self._h0
-            - self._h1
-                * (_t128 + z * S::ratio(6.0, 1.0) * _t127
-                    - (_t15 * _t55 + _t13 * _t53) * _t116 - _t42 * _t117);
+                * (y * _t105 - _t47 * _t100
+                    + S::ratio(2.0, 1.0) * (x * _t104 + _t16 * _t80) + _t54 * _t88);
+        let _t122 = _t121 + _t115 * _t88
+            - S::ratio(12.0, 1.0) * (_t36 * _t76 - _t20 * _t39)
+            - S::ratio(36.0, 1.0) * _t97 * _t95
+            - S::ratio(4.0, 1.0)
+                * (_t62 * _t118
+                    + _t66
+                        * (_t21 * (_t109 + x * _t51)
+                            - y * _t37 * (x * S::ratio(4.0, 1.0) + _t51) - _t96)
+                    - _t65 * _t110);
+        let _t123 = _t122
+            + (S::ratio(3.0, 1.0) - _t93) * S::ratio(45.0, 1.0) * _t50 * _t94 * _t94
+            - z * S::ratio(3.0, 1.0)
+                * (_t17 * (_t72 * _t49 + _t77 * _t49) + _t53 * S::ratio(4.0, 1.0) * _t97)
+            + (_t16 * _t54 + _t12 * _t111) * _t41;
+        xi[0] = _t3 * self.h + _t39 * self._h0
+            - (_t114 - (_t16 * _t53 + _t17 * _t111) * _t41 - _t38 * _t112) * self._h1;
+        xi[1] = _t7 * self.h + _t76 * self._h0
+            + (_t120
+                + (_t16 * _t82 + (_t17 * _t54 + _t12 * _t53) * S::ratio(512.0, 1.0))
+                    * _t56 + _t69 * S::ratio(4.0, 1.0) * _t68) * self._h2;
+        xi[2] = _t11 * self.h + _t52 * self._h0 + (_t123 + _t40 * _t112) * self._h1;
     }
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 1012 additions, 1400 multiplications, 1 division, 4 function calls.
+    /// 1003 additions, 1384 multiplications, 1 division, 4 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -1173,746 +1136,716 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t1 = y * y;
         let _t2 = z * _t1;
         let _t3 = _t0 + _t2;
-        let _t4 = z * z;
-        let _t5 = S::one() / (S::one() + _t4).sqrt();
-        let _t6 = x * _t1;
-        let _t7 = z * _t5 + _t6;
-        let _t8 = (y * S::ratio(1.0, 2.0)).exp();
-        let _t9 = y * S::ratio(4.0, 1.0);
-        let _t10 = x * z;
-        let _t11 = _t8 + _t9 * _t10;
-        let _t12 = S::ratio(1.0, 2.0) * _t11;
-        let _t13 = y * _t7 - z * _t12;
-        let _t14 = _t0 * _t13;
-        let _t15 = _t13 * _t14;
-        let _t16 = x.sin();
-        let _t17 = y * S::ratio(2.0, 1.0);
-        let _t18 = y * _t17;
-        let _t19 = z * (_t16 + _t5) + x * _t18;
-        let _t20 = z * _t3 - x * _t7;
-        let _t21 = _t8 + S::ratio(8.0, 1.0) * _t10;
-        let _t22 = S::ratio(1.0, 4.0) * _t21;
-        let _t23 = x * _t12 - y * _t3;
-        let _t24 = z * _t13 + x * _t23;
-        let _t25 = _t20 * _t22 + _t24 * _t17;
-        let _t26 = _t25 + _t25;
-        let _t27 = _t4 * S::ratio(2.0, 1.0);
-        let _t28 = _t1 - _t27;
-        let _t29 = _t16 * _t13;
-        let _t30 = y * _t23;
-        let _t31 = z * S::ratio(2.0, 1.0);
-        let _t32 = _t20 * _t31;
-        let _t33 = _t29 - y * (_t30 + _t32);
-        let _t34 = -_t33;
-        let _t35 = _t34 - _t33;
-        let _t36 = S::ratio(2.0, 1.0) * _t20;
-        let _t37 = z * _t20;
-        let _t38 = _t37 + _t30;
-        let _t39 = _t5 * _t5;
-        let _t40 = _t5 * _t39;
-        let _t41 = _t5 - _t4 * _t40;
-        let _t42 = y * _t13;
-        let _t43 = x * S::ratio(2.0, 1.0);
-        let _t44 = _t20 * _t43;
-        let _t45 = _t41 * _t23 + y * (_t42 + _t44);
-        let _t46 = _t45 + _t45;
-        let _t47 = S::ratio(4.0, 1.0) * _t10;
-        let _t48 = _t16 + _t47;
-        let _t49 = _t8 + _t48 * _t17;
-        let _t50 = S::ratio(1.0, 2.0) * _t49;
-        let _t51 = y * (_t28 * _t35 + _t23 * _t36) - _t15 - _t19 * _t26 + _t38 * _t36
-            + _t46 * _t50;
-        let _t52 = x * _t20;
-        let _t53 = _t42 + _t52;
-        let _t54 = _t23 * _t53 + _t13 * _t38;
-        let _t55 = _t8 * _t20;
-        let _t56 = _t55 + _t24 * S::ratio(16.0, 1.0);
+        let _t4 = (y * S::ratio(1.0, 2.0)).exp();
+        let _t5 = z * S::ratio(2.0, 1.0);
+        let _t6 = x * _t5;
+        let _t7 = S::ratio(1.0, 2.0) * _t4 + y * _t6;
+        let _t8 = z * z;
+        let _t9 = S::one() / (S::one() + _t8).sqrt();
+        let _t10 = x * _t1;
+        let _t11 = z * _t9 + _t10;
+        let _t12 = y * _t11 - z * _t7;
+        let _t13 = _t0 * _t12;
+        let _t14 = _t12 * _t13;
+        let _t15 = x.sin();
+        let _t16 = _t15 * z + (_t10 + _t11);
+        let _t17 = _t4 * S::ratio(1.0, 4.0);
+        let _t18 = _t17 + _t6;
+        let _t19 = z * _t3 - x * _t11;
+        let _t20 = x * _t7 - y * _t3;
+        let _t21 = z * _t12 + x * _t20;
+        let _t22 = y * S::ratio(2.0, 1.0);
+        let _t23 = _t18 * _t19 + _t21 * _t22;
+        let _t24 = _t23 + _t23;
+        let _t25 = _t15 + _t6;
+        let _t26 = _t7 + y * _t25;
+        let _t27 = _t9 * _t9;
+        let _t28 = _t9 * _t27;
+        let _t29 = y * _t12;
+        let _t30 = x * S::ratio(2.0, 1.0);
+        let _t31 = _t19 * _t30;
+        let _t32 = _t20 * _t28 + y * (_t29 + _t31);
+        let _t33 = _t32 + _t32;
+        let _t34 = z * _t5;
+        let _t35 = _t1 - _t34;
+        let _t36 = _t15 * _t12;
+        let _t37 = y * _t20;
+        let _t38 = _t19 * _t5;
+        let _t39 = _t36 - y * (_t37 + _t38);
+        let _t40 = -_t39;
+        let _t41 = _t40 - _t39;
+        let _t42 = S::ratio(2.0, 1.0) * _t19;
+        let _t43 = z * _t19;
+        let _t44 = _t43 + _t37;
+        let _t45 = _t26 * _t33 - _t14 - _t16 * _t24 + y * (_t35 * _t41 + _t20 * _t42)
+            + _t44 * _t42;
+        let _t46 = x * _t19;
+        let _t47 = _t29 + _t46;
+        let _t48 = _t19 * S::ratio(24.0, 1.0);
+        let _t49 = _t2 + _t3 - x * _t28;
+        let _t50 = _t6 - _t28;
+        let _t51 = _t7 + y * _t50;
+        let _t52 = x * _t30;
+        let _t53 = _t1 - _t52;
+        let _t54 = _t27 * _t28;
+        let _t55 = z * _t54;
+        let _t56 = _t20 * _t55;
         let _t57 = _t20 * _t56;
-        let _t58 = _t4 - x * x;
-        let _t59 = _t58 * _t26;
-        let _t60 = x * _t21 - _t0 * S::ratio(4.0, 1.0) - S::ratio(12.0, 1.0) * _t2;
-        let _t61 = z * (_t21 - _t5 * S::ratio(4.0, 1.0));
-        let _t62 = _t61 - S::ratio(12.0, 1.0) * _t6;
-        let _t63 = S::ratio(2.0, 1.0) * (y * _t59 + _t54) + S::ratio(1.0, 8.0) * _t57
-            + S::ratio(1.0, 4.0) * (_t46 * _t60 - _t35 * _t62);
-        let _t64 = _t23 * _t3 - _t13 * _t7;
-        let _t65 = S::ratio(2.0, 1.0) * _t21;
-        let _t66 = S::ratio(1.0, 2.0) * _t8;
-        let _t67 = _t66 + _t17 * _t10;
-        let _t68 = _t20 * _t7 - _t23 * _t67;
-        let _t69 = _t13 * _t67 - _t20 * _t3;
-        let _t70 = z * _t68 + x * _t69;
-        let _t71 = S::ratio(24.0, 1.0) * _t54 + S::ratio(3.0, 2.0) * _t57
-            - S::ratio(4.0, 1.0) * _t63 + _t64 * _t65 + y * S::ratio(16.0, 1.0) * _t70;
-        let _t72 = _t20 * S::ratio(24.0, 1.0);
-        let _t73 = y * _t69;
-        let _t74 = S::ratio(3.0, 1.0) * _t20;
-        let _t75 = _t23 * _t74;
-        let _t76 = _t38 * _t72 - S::ratio(12.0, 1.0) * _t15 - S::ratio(4.0, 1.0) * _t51
-            - S::ratio(8.0, 1.0) * (_t16 * _t68 - y * (_t73 + _t75 + _t64 * _t31));
-        let _t77 = _t64 + S::ratio(3.0, 1.0) * (z * _t34 - x * _t45);
-        let _t78 = _t69 - S::ratio(3.0, 1.0) * (y * _t34 - x * _t25);
-        let _t79 = _t41 - _t47;
-        let _t80 = _t8 - _t79 * _t17;
-        let _t81 = S::ratio(2.0, 1.0) * _t80;
-        let _t82 = _t68 - S::ratio(3.0, 1.0) * (z * _t25 - y * _t45);
-        let _t83 = _t77 * _t62 + _t78 * _t81 - _t28 * _t82 * _t9;
-        let _t84 = _t0 - x * _t41 + z * _t18;
-        let _t85 = x * _t43;
-        let _t86 = _t1 - _t85;
-        let _t87 = _t23 * _t23;
-        let _t88 = _t39 * _t40;
-        let _t89 = _t40 - _t4 * _t88;
-        let _t90 = z * _t89;
-        let _t91 = S::ratio(3.0, 1.0) * _t90;
-        let _t92 = S::ratio(1.0, 2.0) * _t80;
-        let _t93 = _t84 * _t26 - y * (_t86 * _t46 - _t13 * _t36) + _t53 * _t36
-            - _t87 * _t91 - _t35 * _t92;
-        let _t94 = _t83 + (_t83 + S::ratio(12.0, 1.0) * (y * _t93 - z * _t63));
-        let _t95 = y * _t94;
-        let _t96 = _t58 * _t77;
-        let _t97 = y * S::ratio(8.0, 1.0);
-        let _t98 = -(_t96 * _t97) - S::ratio(4.0, 1.0) * (_t84 * _t78 - _t19 * _t82);
-        let _t99 = _t98 + (_t98 - S::ratio(12.0, 1.0) * (x * _t93 - z * _t51));
-        let _t100 = _t99 * _t43;
-        let _t101 = _t82 - S::ratio(3.0, 1.0) * _t68;
-        let _t102 = _t20 * S::ratio(16.0, 1.0);
-        let _t103 = S::ratio(2.0, 1.0) * _t49;
-        let _t104 = _t86 * _t78 * _t9 - _t60 * _t77 - _t82 * _t103;
-        let _t105 = _t104 + (_t104 + S::ratio(12.0, 1.0) * (x * _t63 - y * _t51));
-        let _t106 = _t20 * _t20;
-        let _t107 = _t106 * S::ratio(72.0, 1.0);
-        let _t108 = _t39 * _t88;
-        let _t109 = _t4 * _t108;
-        let _t110 = _t40
-            - _t4 * (S::ratio(6.0, 1.0) * _t88 - S::ratio(5.0, 1.0) * _t109);
-        let _t111 = _t110 * _t87;
-        let _t112 = S::ratio(3.0, 1.0) * _t111;
-        let _t113 = _t78 - S::ratio(3.0, 1.0) * _t69;
-        let _t114 = S::ratio(2.0, 1.0) * _t90;
-        let _t115 = _t113 * _t114;
-        let _t116 = _t77 - S::ratio(3.0, 1.0) * _t64;
-        let _t117 = S::ratio(16.0, 1.0) * _t116;
-        let _t118 = _t3 * _t71 - _t67 * _t76 + y * (_t95 + _t100 - _t101 * _t102)
-            + _t41 * _t105 + _t13 * _t107 - _t23 * S::ratio(12.0, 1.0) * (_t112 - _t115)
-            - _t53 * _t117;
-        let _t119 = z * _t64;
-        let _t120 = _t119 + _t73;
-        let _t121 = S::ratio(16.0, 1.0) * _t64;
-        let _t122 = _t8 + _t16 * S::ratio(4.0, 1.0) + S::ratio(16.0, 1.0) * _t10;
-        let _t123 = _t46 * _t122;
-        let _t124 = _t20 * _t23;
-        let _t125 = x * _t26;
-        let _t126 = _t1 * S::ratio(3.0, 1.0);
-        let _t127 = _t27 - _t126;
-        let _t128 = S::ratio(4.0, 1.0) * _t127;
-        let _t129 = _t123 + S::ratio(16.0, 1.0) * (_t124 - y * _t125) - _t35 * _t128;
-        let _t130 = y * _t68;
-        let _t131 = _t13 * _t74;
-        let _t132 = _t53 * _t72 - S::ratio(4.0, 1.0) * _t93
-            - S::ratio(36.0, 1.0) * _t90 * _t87
-            + S::ratio(8.0, 1.0) * (_t41 * _t69 + y * (_t130 + _t131 + _t64 * _t43));
-        let _t133 = x * _t105 + z * _t94;
-        let _t134 = _t8 * _t106;
-        let _t135 = _t13 * _t23;
-        let _t136 = _t135 * S::ratio(192.0, 1.0);
-        let _t137 = _t7 * _t76 - _t3 * _t132 - _t56 * _t116 + _t133 * _t17 + _t99 * _t22
-            + _t20 * (_t134 + _t136) * S::ratio(3.0, 4.0)
-            - S::ratio(16.0, 1.0) * (_t53 * _t113 + _t38 * _t101);
-        let _t138 = _t20 * _t76 - _t13 * _t71;
-        let _t139 = y * _t105;
-        let _t140 = _t99 * _t31;
-        let _t141 = _t13 * _t13;
-        let _t142 = S::ratio(12.0, 1.0) * _t141;
-        let _t143 = _t94 - _t13 * _t142;
-        let _t144 = S::ratio(8.0, 1.0) * _t101;
-        let _t145 = _t67 * _t132 - _t7 * _t71 + y * (_t139 + _t140 - _t113 * _t102)
-            - _t16 * _t143 + _t23 * _t107 + _t14 * _t144 - _t38 * _t117;
-        let _t146 = _t13 * _t132 - _t23 * _t76;
-        let _t147 = z * _t146 + _t20 * _t105;
-        let _t148 = S::ratio(8.0, 1.0) * _t64;
-        let _t149 = S::ratio(3.0, 1.0) * _t13;
-        let _t150 = _t13 * (_t94 - _t141 * _t149) + S::ratio(4.0, 1.0) * _t68 * _t68;
-        let _t151 = _t23 * _t71 - _t20 * _t132;
-        let _t152 = _t151 - _t68 * _t142;
-        let _t153 = S::ratio(2.0, 1.0)
-            * (_t77 * _t129 + _t19 * _t137
-                - y
-                    * (y * _t138 + _t28 * _t145 + S::ratio(2.0, 1.0) * _t147
-                        + _t69 * _t148) + _t0 * _t150 + _t16 * _t152);
-        let _t154 = x * _t46 - z * _t35;
-        let _t155 = _t16 + _t41;
-        let _t156 = _t26 * _t155;
-        let _t157 = _t156 - S::ratio(2.0, 1.0) * _t106;
-        let _t158 = _t157 - _t154 * _t9;
-        let _t159 = _t16 * _t141;
-        let _t160 = z * _t0 + _t18;
-        let _t161 = _t26 * _t160;
-        let _t162 = y * _t46;
-        let _t163 = z * S::ratio(4.0, 1.0);
-        let _t164 = _t0 + _t163;
-        let _t165 = _t159 - _t161 + _t162 * _t164;
-        let _t166 = S::ratio(2.0, 1.0) * _t64;
-        let _t167 = _t20 * S::ratio(48.0, 1.0);
-        let _t168 = S::ratio(4.0, 1.0) * _t99;
-        let _t169 = _t118 * _t49 + _t120 * _t121
-            - S::ratio(24.0, 1.0) * (_t25 * _t93 - _t45 * _t63) - _t153
-            + S::ratio(8.0, 1.0) * (_t78 * _t158 - _t82 * _t165)
-            + (_t20 * _t69 + _t23 * _t166) * _t167;
-        let _t170 = x * _t8;
-        let _t171 = y * S::ratio(48.0, 1.0);
-        let _t172 = _t170 - z * _t171;
-        let _t173 = _t8 * z;
-        let _t174 = _t173 - x * _t171;
-        let _t175 = _t46 * _t172 - _t35 * _t174;
-        let _t176 = _t134 + _t135 * S::ratio(64.0, 1.0) + S::ratio(2.0, 1.0) * _t175
-            + S::ratio(32.0, 1.0) * _t59;
-        let _t177 = x * _t64;
-        let _t178 = _t130 + _t177;
-        let _t179 = x * S::ratio(4.0, 1.0);
-        let _t180 = _t8 - S::ratio(4.0, 1.0) * (_t5 - z * (z * _t40 + _t179));
-        let _t181 = _t35 * _t180;
-        let _t182 = _t13 * _t20;
-        let _t183 = z * _t26;
-        let _t184 = _t85 - _t126;
-        let _t185 = S::ratio(4.0, 1.0) * _t184;
-        let _t186 = _t181 - S::ratio(16.0, 1.0) * (_t182 + y * _t183) - _t46 * _t185;
-        let _t187 = _t58 * _t137 + (x * _t138 + z * _t151);
-        let _t188 = S::ratio(8.0, 1.0)
-            * (_t21 * _t146 - _t77 * _t176 + _t60 * _t118 - _t145 * _t62
-                + _t64
-                    * (_t136 + S::ratio(3.0, 1.0) * _t134 + S::ratio(32.0, 1.0) * _t70
-                        + _t8 * _t166))
-            + (_t68 * _t120 + _t69 * _t178) * S::ratio(256.0, 1.0);
-        let _t189 = _t188 + (_t34 * _t93 - _t45 * _t51) * S::ratio(384.0, 1.0)
-            - S::ratio(32.0, 1.0) * (_t82 * _t129 - _t78 * _t186)
-            + S::ratio(64.0, 1.0) * (y * _t187 + _t53 * _t105 + _t38 * _t94);
-        let _t190 = x * _t146 + _t20 * _t94;
-        let _t191 = _t18 + x * _t91;
-        let _t192 = _t26 * _t191;
-        let _t193 = y * _t35;
-        let _t194 = _t179 + _t91;
-        let _t195 = _t192 - _t193 * _t194 - _t112;
-        let _t196 = _t89 * _t105;
-        let _t197 = _t39 * _t109;
-        let _t198 = _t4 * (S::ratio(10.0, 1.0) * _t108 - S::ratio(7.0, 1.0) * _t197)
-            - S::ratio(3.0, 1.0) * _t88;
-        let _t199 = _t198 * _t87;
-        let _t200 = _t23 * S::ratio(15.0, 1.0);
-        let _t201 = _t69 * _t69;
-        let _t202 = _t145 * _t80 - _t178 * _t121
-            + S::ratio(24.0, 1.0) * (_t34 * _t63 - _t25 * _t51)
-            - S::ratio(2.0, 1.0)
-                * (_t41 * _t138 + _t84 * _t137 + _t77 * _t186
-                    + y
-                        * (y * _t151 - _t86 * _t118 + S::ratio(2.0, 1.0) * _t190
-                            + _t68 * _t148));
-        let _t203 = _t202 + _t69 * S::ratio(72.0, 1.0) * _t111
-            + S::ratio(8.0, 1.0) * (_t78 * _t195 - _t82 * _t158)
-            + z * S::ratio(6.0, 1.0)
-                * (_t23 * (_t196 + _t199 * _t200) + S::ratio(4.0, 1.0) * _t89 * _t201);
-        let _t204 = y * _t28;
-        let _t205 = _t66 + y * _t48;
-        let _t206 = -_t19;
-        let _t207 = S::ratio(2.0, 1.0) * (_t37 + y * (_t23 + z * _t204 + x * _t205))
-            + _t206 * _t22;
-        let _t208 = _t207 + _t207;
-        let _t209 = _t46 * _t164;
-        let _t210 = y * (y * _t205 + _t206 * _t31) - (_t14 + _t16 * _t204);
-        let _t211 = _t210 + _t210;
-        let _t212 = S::ratio(4.0, 1.0) * _t20;
-        let _t213 = _t0 * S::ratio(2.0, 1.0);
-        let _t214 = S::ratio(4.0, 1.0) * _t38;
-        let _t215 = _t41 * _t205
-            + y * (y * _t204 + S::ratio(2.0, 1.0) * (_t20 + x * _t206));
-        let _t216 = _t215 + _t215;
-        let _t217 = y * (_t209 + _t28 * _t211 + _t205 * _t212) - _t161 - _t19 * _t208
-            + _t13 * (_t29 - _t204 * _t213) + _t206 * _t214 + _t216 * _t50;
-        let _t218 = _t35 * _t127;
-        let _t219 = _t124 + _t38 * _t204 + _t53 * _t205;
-        let _t220 = S::ratio(4.0, 1.0) * _t219 - _t218
-            + S::ratio(1.0, 4.0) * (_t123 + _t56 * _t206 + _t60 * _t216 - _t211 * _t62)
-            + (_t58 * _t208 - _t26 * _t43) * _t17;
-        let _t221 = S::ratio(4.0, 1.0) * _t53;
-        let _t222 = _t23 * _t90;
-        let _t223 = _t205 * _t222;
-        let _t224 = _t84 * _t208
-            - y * (_t86 * _t216 - S::ratio(4.0, 1.0) * (_t20 * _t204 + _t154))
-            + _t206 * _t221 - S::ratio(6.0, 1.0) * _t223 - _t211 * _t92 - _t157;
-        let _t225 = _t77 * _t9;
-        let _t226 = _t78 * _t155 + _t82 * _t160;
-        let _t227 = x * _t225 + _t226;
-        let _t228 = _t77 * _t127;
-        let _t229 = z * _t78;
-        let _t230 = _t228 + _t229 * _t9;
-        let _t231 = z * _t17;
-        let _t232 = _t23 * _t231;
-        let _t233 = _t20 * _t1;
-        let _t234 = _t7 * _t206 - _t67 * _t205 - _t232 + _t233;
-        let _t235 = S::ratio(3.0, 1.0) * _t159 - _t68 * _t213;
-        let _t236 = _t234 - S::ratio(3.0, 1.0) * (z * _t207 - y * _t215);
-        let _t237 = -_t16;
-        let _t238 = _t67 * _t204 - _t3 * _t206 - _t20 * _t237 + _t13 * _t231;
-        let _t239 = _t238 + S::ratio(3.0, 1.0) * (_t25 - y * _t210 + x * _t207);
-        let _t240 = _t3 * _t205 - _t7 * _t204 + _t23 * _t237 - _t13 * _t1;
-        let _t241 = _t120 + _t75;
-        let _t242 = _t241 * self._h6;
-        let _t243 = S::ratio(3.0, 1.0) * _t106;
-        let _t244 = (_t243 + _t64 * _t17) * self._h7;
-        let _t245 = _t0 * _t26 - _t46 * _t9;
-        let _t246 = _t26 * _t9;
-        let _t247 = _t209 - _t246;
-        let _t248 = _t160 * _t137 - y * _t118 * _t164 - _t16 * _t150 + _t0 * _t152
+        let _t58 = _t49 * _t24 - _t51 * _t41 - y * (_t53 * _t33 - _t12 * _t42)
+            + _t47 * _t42 - S::ratio(3.0, 1.0) * _t57;
+        let _t59 = _t12 * _t7 - _t19 * _t3;
+        let _t60 = _t19 * _t11 - _t20 * _t7;
+        let _t61 = y * _t60;
+        let _t62 = _t19 * S::ratio(3.0, 1.0);
+        let _t63 = _t12 * _t62;
+        let _t64 = _t20 * _t3 - _t12 * _t11;
+        let _t65 = _t47 * _t48 - _t58 * S::ratio(4.0, 1.0) - S::ratio(36.0, 1.0) * _t57
+            + S::ratio(8.0, 1.0) * (_t59 * _t28 + y * (_t61 + _t63 + _t64 * _t30));
+        let _t66 = y * _t59;
+        let _t67 = _t20 * _t62;
+        let _t68 = _t44 * _t48 - S::ratio(12.0, 1.0) * _t14 - _t45 * S::ratio(4.0, 1.0)
+            - S::ratio(8.0, 1.0) * (_t15 * _t60 - y * (_t66 + _t67 + _t64 * _t5));
+        let _t69 = _t8 - x * x;
+        let _t70 = _t64 + S::ratio(3.0, 1.0) * (z * _t40 - x * _t32);
+        let _t71 = _t69 * _t70;
+        let _t72 = y * S::ratio(8.0, 1.0);
+        let _t73 = _t60 - S::ratio(3.0, 1.0) * (z * _t23 - y * _t32);
+        let _t74 = _t59 - S::ratio(3.0, 1.0) * (y * _t40 - x * _t23);
+        let _t75 = S::ratio(4.0, 1.0) * (_t16 * _t73 - _t49 * _t74) - _t71 * _t72;
+        let _t76 = _t75 + (_t75 - S::ratio(12.0, 1.0) * (x * _t58 - z * _t45));
+        let _t77 = _t4 * _t19;
+        let _t78 = _t77 + _t21 * S::ratio(16.0, 1.0);
+        let _t79 = _t70 - _t64 * S::ratio(3.0, 1.0);
+        let _t80 = _t1 * _t5 + (_t3 - x * _t18);
+        let _t81 = y * _t53;
+        let _t82 = (_t26 * _t73 - _t80 * _t70 - _t81 * _t74) * S::ratio(-4.0, 1.0);
+        let _t83 = _t11 - z * _t18 + _t1 * _t30;
+        let _t84 = _t69 * _t24;
+        let _t85 = _t20 * _t47 + _t12 * _t44;
+        let _t86 = _t19 * _t78;
+        let _t87 = _t83 * _t41 - _t80 * _t33 + S::ratio(2.0, 1.0) * (y * _t84 + _t85)
+            + S::ratio(1.0, 8.0) * _t86;
+        let _t88 = _t82 + (x * _t87 - y * _t45) * S::ratio(12.0, 1.0);
+        let _t89 = _t82 + _t88;
+        let _t90 = y * _t35;
+        let _t91 = S::ratio(4.0, 1.0) * (_t51 * _t74 - _t83 * _t70 - _t90 * _t73);
+        let _t92 = _t91 + (_t91 + S::ratio(12.0, 1.0) * (y * _t58 - z * _t87));
+        let _t93 = x * _t89 + z * _t92;
+        let _t94 = _t19 * _t19;
+        let _t95 = _t4 * _t94;
+        let _t96 = _t12 * _t20;
+        let _t97 = _t96 * S::ratio(192.0, 1.0);
+        let _t98 = _t74 - _t59 * S::ratio(3.0, 1.0);
+        let _t99 = _t73 - _t60 * S::ratio(3.0, 1.0);
+        let _t100 = _t11 * _t68 - _t3 * _t65 + _t18 * _t76 - _t78 * _t79 + _t93 * _t22
+            + _t19 * (_t95 + _t97) * S::ratio(3.0, 4.0)
+            - S::ratio(16.0, 1.0) * (_t47 * _t98 + _t44 * _t99);
+        let _t101 = _t64 * S::ratio(8.0, 1.0);
+        let _t102 = z * _t60 + x * _t59;
+        let _t103 = _t85 * S::ratio(24.0, 1.0) + S::ratio(3.0, 2.0) * _t86
+            - _t87 * S::ratio(4.0, 1.0) + _t18 * _t101 + y * S::ratio(16.0, 1.0) * _t102;
+        let _t104 = y * _t92;
+        let _t105 = _t76 * _t30;
+        let _t106 = _t19 * S::ratio(16.0, 1.0);
+        let _t107 = _t94 * S::ratio(72.0, 1.0);
+        let _t108 = _t20 * _t27;
+        let _t109 = S::ratio(3.0, 1.0) * _t54;
+        let _t110 = z * S::ratio(4.0, 1.0);
+        let _t111 = z * _t110;
+        let _t112 = S::one() - _t111;
+        let _t113 = _t20 * _t112;
+        let _t114 = _t108 * _t109 * _t113;
+        let _t115 = _t59 * _t109;
+        let _t116 = S::ratio(16.0, 1.0) * _t79;
+        let _t117 = _t3 * _t103 - _t7 * _t68 + _t82 * _t28 + _t88 * _t28
+            + y * (_t104 + _t105 - _t99 * _t106) + _t12 * _t107
+            - _t20 * S::ratio(12.0, 1.0) * (_t114 - (_t74 * _t54 - _t115) * _t5);
+        let _t118 = _t117 - _t47 * _t116;
+        let _t119 = _t19 * _t68 - _t12 * _t103;
+        let _t120 = y * _t89;
+        let _t121 = _t76 * _t5;
+        let _t122 = _t12 * _t12;
+        let _t123 = S::ratio(12.0, 1.0) * _t122;
+        let _t124 = _t92 - _t12 * _t123;
+        let _t125 = S::ratio(8.0, 1.0) * _t99;
+        let _t126 = _t7 * _t65 - _t11 * _t103 + y * (_t120 + _t121 - _t98 * _t106)
+            - _t15 * _t124 + _t20 * _t107 + _t13 * _t125 - _t44 * _t116;
+        let _t127 = _t12 * _t65 - _t20 * _t68;
+        let _t128 = z * _t127 + _t19 * _t89;
+        let _t129 = _t12 * S::ratio(3.0, 1.0);
+        let _t130 = _t12 * (_t92 - _t122 * _t129) + _t60 * _t60 * S::ratio(4.0, 1.0);
+        let _t131 = _t20 * _t103 - _t19 * _t65;
+        let _t132 = _t131 - _t60 * _t123;
+        let _t133 = z * _t64;
+        let _t134 = _t133 + _t66;
+        let _t135 = _t19 * _t20;
+        let _t136 = x * _t24;
+        let _t137 = _t18 + _t25;
+        let _t138 = _t1 * S::ratio(3.0, 1.0);
+        let _t139 = _t34 - _t138;
+        let _t140 = _t33 * _t137 - _t41 * _t139;
+        let _t141 = (_t135 - y * _t136) * S::ratio(4.0, 1.0) + _t140;
+        let _t142 = _t15 * _t122;
+        let _t143 = y * _t22;
+        let _t144 = z * _t0 + _t143;
+        let _t145 = _t24 * _t144;
+        let _t146 = _t0 + _t110;
+        let _t147 = y * _t33;
+        let _t148 = _t142 - _t145 + _t146 * _t147;
+        let _t149 = x * _t33 - z * _t41;
+        let _t150 = y * S::ratio(4.0, 1.0);
+        let _t151 = _t15 + _t28;
+        let _t152 = _t24 * _t151;
+        let _t153 = _t152 - S::ratio(2.0, 1.0) * _t94;
+        let _t154 = _t153 - _t149 * _t150;
+        let _t155 = S::ratio(2.0, 1.0) * _t64;
+        let _t156 = S::ratio(2.0, 1.0) * _t76;
+        let _t157 = _t16 * _t100 - _t26 * _t118
+            - y * (y * _t119 + _t35 * _t126 + S::ratio(2.0, 1.0) * _t128 + _t59 * _t101)
+            + _t0 * _t130 + _t15 * _t132 - _t134 * _t101;
+        let _t158 = _t157 + S::ratio(12.0, 1.0) * (_t23 * _t58 - _t32 * _t87)
+            + S::ratio(4.0, 1.0) * (_t70 * _t141 + _t73 * _t148 - _t74 * _t154)
+            - (_t19 * _t59 + _t20 * _t155) * _t48;
+        let _t159 = x * _t64;
+        let _t160 = _t61 + _t159;
+        let _t161 = x * _t4;
+        let _t162 = y * S::ratio(48.0, 1.0);
+        let _t163 = _t161 - z * _t162;
+        let _t164 = _t4 * z;
+        let _t165 = _t164 - x * _t162;
+        let _t166 = _t33 * _t163 - _t41 * _t165;
+        let _t167 = _t95 + _t96 * S::ratio(64.0, 1.0) + S::ratio(2.0, 1.0) * _t166
+            + S::ratio(32.0, 1.0) * _t84;
+        let _t168 = _t12 * _t19;
+        let _t169 = z * _t24;
+        let _t170 = _t52 - _t138;
+        let _t171 = _t18 + _t50;
+        let _t172 = _t33 * _t170 - _t41 * _t171;
+        let _t173 = S::ratio(4.0, 1.0) * (_t168 + y * _t169) + _t172;
+        let _t174 = _t69 * _t100 + (x * _t119 + z * _t131);
+        let _t175 = S::ratio(4.0, 1.0) * _t76;
+        let _t176 = S::ratio(32.0, 1.0) * (_t18 * _t127 - _t80 * _t118 + _t83 * _t126)
+            + (_t60 * _t134 + _t59 * _t160) * S::ratio(256.0, 1.0)
+            + (_t40 * _t58 - _t32 * _t45) * S::ratio(384.0, 1.0)
+            - S::ratio(8.0, 1.0)
+                * (_t70 * _t167
+                    - _t64
+                        * (_t97 + S::ratio(3.0, 1.0) * _t95 + S::ratio(32.0, 1.0) * _t102
+                            + _t4 * _t155));
+        let _t177 = _t176 - (_t73 * _t141 + _t74 * _t173) * S::ratio(128.0, 1.0)
+            + S::ratio(64.0, 1.0) * (y * _t174 + _t47 * _t89 + _t44 * _t92)
+            + (_t19 * _t95 + (_t20 * _t60 + _t12 * _t59) * S::ratio(512.0, 1.0)) * _t62;
+        let _t178 = x * _t127 + _t19 * _t92;
+        let _t179 = _t54 * _t108;
+        let _t180 = _t113 * _t179;
+        let _t181 = S::ratio(36.0, 1.0) * _t180;
+        let _t182 = S::ratio(3.0, 1.0) * _t55;
+        let _t183 = _t143 + x * _t182;
+        let _t184 = _t24 * _t183;
+        let _t185 = x * S::ratio(4.0, 1.0);
+        let _t186 = _t185 + _t182;
+        let _t187 = y * _t41;
+        let _t188 = _t184 - _t186 * _t187 - _t114;
+        let _t189 = _t108 * ((S::ratio(3.0, 1.0) - _t111) * _t108);
+        let _t190 = _t82 * _t54 + _t88 * _t54;
+        let _t191 = _t59 * _t59;
+        let _t192 = z * S::ratio(3.0, 1.0);
+        let _t193 = _t119 * _t28 + _t49 * _t100 - _t51 * _t126
+            + y * (y * _t131 - _t53 * _t118 + S::ratio(2.0, 1.0) * _t178 + _t60 * _t101)
+            + _t160 * _t101 - S::ratio(12.0, 1.0) * (_t40 * _t87 - _t23 * _t45);
+        let _t194 = _t193 - _t59 * _t181
+            - S::ratio(4.0, 1.0) * (_t70 * _t173 + _t74 * _t188 - _t73 * _t154)
+            + S::ratio(45.0, 1.0) * _t189 * _t57
+            - (_t20 * _t190 + S::ratio(4.0, 1.0) * _t54 * _t191) * _t192;
+        let _t195 = -_t16;
+        let _t196 = _t18 * _t195
+            + S::ratio(2.0, 1.0) * (_t43 + y * (_t20 + z * _t90 + x * _t26));
+        let _t197 = _t196 + _t196;
+        let _t198 = _t26 * _t28
+            + y * (y * _t90 + S::ratio(2.0, 1.0) * (_t19 + x * _t195));
+        let _t199 = _t198 + _t198;
+        let _t200 = _t33 * _t146;
+        let _t201 = y * (y * _t26 + _t195 * _t5) - (_t13 + _t15 * _t90);
+        let _t202 = _t201 + _t201;
+        let _t203 = _t19 * S::ratio(4.0, 1.0);
+        let _t204 = _t0 * S::ratio(2.0, 1.0);
+        let _t205 = _t44 * S::ratio(4.0, 1.0);
+        let _t206 = _t26 * _t199 - _t145 - _t16 * _t197
+            + y * (_t200 + _t35 * _t202 + _t26 * _t203) + _t12 * (_t36 - _t90 * _t204)
+            + _t195 * _t205;
+        let _t207 = _t135 + _t44 * _t90 + _t47 * _t26;
+        let _t208 = S::ratio(1.0, 4.0) * _t78;
+        let _t209 = _t83 * _t202 - _t80 * _t199 + S::ratio(4.0, 1.0) * _t207
+            + _t195 * _t208 + (_t69 * _t197 - _t24 * _t30) * _t22 + _t140;
+        let _t210 = _t47 * S::ratio(4.0, 1.0);
+        let _t211 = _t26 * _t56;
+        let _t212 = _t49 * _t197 - _t51 * _t202
+            - y * (_t53 * _t199 - S::ratio(4.0, 1.0) * (_t19 * _t90 + _t149))
+            + _t195 * _t210 - S::ratio(6.0, 1.0) * _t211 - _t153;
+        let _t213 = _t70 * _t139;
+        let _t214 = z * _t74;
+        let _t215 = _t213 + _t214 * _t150;
+        let _t216 = y * _t5;
+        let _t217 = _t20 * _t216;
+        let _t218 = _t19 * _t1;
+        let _t219 = _t11 * _t195 - _t7 * _t26 - _t217 + _t218;
+        let _t220 = S::ratio(3.0, 1.0) * _t142 - _t60 * _t204;
+        let _t221 = -_t15;
+        let _t222 = _t3 * _t26 - _t11 * _t90 + _t20 * _t221 - _t12 * _t1;
+        let _t223 = _t222 - S::ratio(3.0, 1.0) * (_t32 - z * _t201 + x * _t198);
+        let _t224 = _t70 * _t150;
+        let _t225 = _t73 * _t144 + _t74 * _t151;
+        let _t226 = x * _t224 + _t225;
+        let _t227 = _t70 * _t137;
+        let _t228 = _t73 * _t146 + _t74 * _t185;
+        let _t229 = _t227 + y * _t228;
+        let _t230 = _t219 - S::ratio(3.0, 1.0) * (z * _t196 - y * _t198);
+        let _t231 = _t7 * _t90 - _t3 * _t195 - _t19 * _t221 + _t12 * _t216;
+        let _t232 = _t231 + S::ratio(3.0, 1.0) * (_t23 - y * _t201 + x * _t196);
+        let _t233 = _t134 + _t67;
+        let _t234 = _t233 * self._h5;
+        let _t235 = S::ratio(3.0, 1.0) * _t94;
+        let _t236 = (_t235 + _t64 * _t22) * self._h6;
+        let _t237 = _t0 * _t24 - _t33 * _t150;
+        let _t238 = _t24 * _t150;
+        let _t239 = _t200 - _t238;
+        let _t240 = _t144 * _t100 - y * _t118 * _t146 - _t15 * _t130 + _t0 * _t132
             - S::ratio(4.0, 1.0)
-                * (_t78 * _t245 - _t77 * _t247 - _t82 * (_t15 + _t16 * (_t183 - _t162)));
-        let _t249 = _t240 - S::ratio(3.0, 1.0) * (_t45 - z * _t210 + x * _t215);
-        let _t250 = _t0 * _t143 + _t29 * _t144;
-        let _t251 = _t77 * _t122;
-        let _t252 = _t82 * _t164 + _t179 * _t78;
-        let _t253 = _t251 + _t252 * _t9;
-        let _t254 = _t53 * S::ratio(48.0, 1.0);
-        let _t255 = _t20 * S::ratio(6.0, 1.0);
-        let _t256 = _t106 * S::ratio(24.0, 1.0) + _t206 * _t254
-            - S::ratio(4.0, 1.0) * _t224 - S::ratio(72.0, 1.0) * _t223
+                * (_t74 * _t237 - _t70 * _t239 - _t73 * (_t14 + _t15 * (_t169 - _t147)));
+        let _t241 = _t47 * S::ratio(48.0, 1.0);
+        let _t242 = _t19 * S::ratio(6.0, 1.0);
+        let _t243 = _t94 * S::ratio(24.0, 1.0) + _t195 * _t241
+            - S::ratio(4.0, 1.0) * _t212 - S::ratio(72.0, 1.0) * _t211
             + S::ratio(8.0, 1.0)
-                * (_t41 * _t238
+                * (_t231 * _t28
                     + y
-                        * (y * _t234 + S::ratio(2.0, 1.0) * (_t64 + x * _t240)
-                            + _t204 * _t255));
-        let _t257 = _t38 * S::ratio(48.0, 1.0);
-        let _t258 = S::ratio(3.0, 1.0) * _t141;
-        let _t259 = _t206 * _t257
-            - S::ratio(4.0, 1.0) * (_t217 + _t16 * (S::ratio(2.0, 1.0) * _t234 - _t258))
+                        * (y * _t219 + S::ratio(2.0, 1.0) * (_t64 + x * _t222)
+                            + _t90 * _t242));
+        let _t244 = _t44 * S::ratio(48.0, 1.0);
+        let _t245 = S::ratio(3.0, 1.0) * _t122;
+        let _t246 = _t195 * _t244
+            - S::ratio(4.0, 1.0) * (_t206 + _t15 * (S::ratio(2.0, 1.0) * _t219 - _t245))
             + S::ratio(8.0, 1.0)
-                * (y * (y * _t238 + _t205 * _t255 + _t240 * _t31)
-                    - _t0 * (_t68 + _t204 * _t149));
-        let _t260 = _t249 - S::ratio(3.0, 1.0) * _t240;
-        let _t261 = z * _t99;
-        let _t262 = -_t251 - _t60 * _t249 - _t236 * _t103 - (_t252 - _t86 * _t239) * _t9;
-        let _t263 = _t262
-            + (_t262 + S::ratio(12.0, 1.0) * (_t63 - y * _t217 + x * _t220));
-        let _t264 = _t62 * _t249
-            + S::ratio(4.0, 1.0) * (_t228 - y * (_t28 * _t236 - _t78 * _t163))
-            + _t239 * _t81;
-        let _t265 = _t264 + (_t264 - S::ratio(12.0, 1.0) * (z * _t220 - y * _t224));
-        let _t266 = _t20 * _t113 + _t23 * _t116;
-        let _t267 = z * _t116 + y * _t113 - _t124 * S::ratio(9.0, 1.0);
-        let _t268 = x * _t116 + y * _t101 - _t182 * S::ratio(9.0, 1.0);
-        let _t269 = _t239 - S::ratio(3.0, 1.0) * _t238;
-        let _t270 = _t236 - S::ratio(3.0, 1.0) * _t234;
-        let _t271 = _t106 * S::ratio(9.0, 1.0);
-        let _t272 = S::ratio(12.0, 1.0) * _t64 - S::ratio(4.0, 1.0) * _t77;
-        let _t273 = _t8 * (_t271 + _t272) + _t135 * S::ratio(576.0, 1.0)
-            - S::ratio(64.0, 1.0) * (z * _t101 + x * _t113);
-        let _t274 = S::ratio(4.0, 1.0) * (_t19 * _t236 - _t84 * _t239 + _t226)
-            - (_t58 * _t249 - _t77 * _t43) * _t97;
-        let _t275 = _t274
-            + (_t274 - S::ratio(12.0, 1.0) * (_t93 - z * _t217 + x * _t224));
-        let _t276 = _t76 * _t1 - _t132 * _t237 - _t3 * _t256 + _t7 * _t259 - _t56 * _t260
-            + S::ratio(2.0, 1.0) * (_t261 + y * (_t105 + x * _t263 + z * _t265));
-        let _t277 = _t248 + _t129 * _t249 + _t204 * _t250 + _t216 * _t253
-            + _t19
-                * (_t276
+                * (y * (y * _t231 + _t26 * _t242 + _t222 * _t5)
+                    - _t0 * (_t60 + _t90 * _t129));
+        let _t247 = S::ratio(4.0, 1.0) * (_t16 * _t230 - _t49 * _t232 + _t225)
+            - (_t69 * _t223 - _t70 * _t30) * _t72;
+        let _t248 = _t247
+            + (_t247 - S::ratio(12.0, 1.0) * (_t58 - z * _t206 + x * _t212));
+        let _t249 = _t223 - S::ratio(3.0, 1.0) * _t222;
+        let _t250 = z * _t76;
+        let _t251 = (_t227 - _t80 * _t223 + _t26 * _t230 + y * (_t228 - _t53 * _t232))
+            * S::ratio(-4.0, 1.0);
+        let _t252 = _t251 + S::ratio(12.0, 1.0) * (_t87 - y * _t206 + x * _t209);
+        let _t253 = _t251 + _t252;
+        let _t254 = S::ratio(4.0, 1.0)
+            * (_t213 - _t83 * _t223 - y * (_t35 * _t230 - _t74 * _t110) + _t51 * _t232);
+        let _t255 = _t254 + (_t254 - S::ratio(12.0, 1.0) * (z * _t209 - y * _t212));
+        let _t256 = _t19 * _t98 + _t20 * _t79;
+        let _t257 = y * _t98 + z * _t79 - _t135 * S::ratio(9.0, 1.0);
+        let _t258 = x * _t79 + y * _t99 - _t168 * S::ratio(9.0, 1.0);
+        let _t259 = _t232 - S::ratio(3.0, 1.0) * _t231;
+        let _t260 = _t230 - S::ratio(3.0, 1.0) * _t219;
+        let _t261 = _t94 * S::ratio(9.0, 1.0);
+        let _t262 = _t64 * S::ratio(12.0, 1.0) - _t70 * S::ratio(4.0, 1.0);
+        let _t263 = S::ratio(1.0, 4.0)
+            * (_t4 * (_t261 + _t262) + _t96 * S::ratio(576.0, 1.0)
+                - S::ratio(64.0, 1.0) * (x * _t98 + z * _t99));
+        let _t264 = _t68 * _t1 - _t65 * _t221 - _t3 * _t243 + _t11 * _t246 + _t18 * _t248
+            - _t78 * _t249
+            + S::ratio(2.0, 1.0) * (_t250 + y * (_t89 + x * _t253 + z * _t255));
+        let _t265 = _t0 * _t124 + _t36 * _t125;
+        let _t266 = _t78 * S::ratio(3.0, 1.0);
+        let _t267 = _t18 * S::ratio(8.0, 1.0);
+        let _t268 = S::ratio(48.0, 1.0) * _t207 + _t195 * _t266
+            - S::ratio(4.0, 1.0) * _t209
+            + S::ratio(16.0, 1.0) * (_t133 + y * (_t59 + z * _t219 + x * _t231))
+            + _t222 * _t267;
+        let _t269 = _t19 * _t79;
+        let _t270 = _t261 - _t79 * _t22;
+        let _t271 = S::ratio(8.0, 1.0) * _t270;
+        let _t272 = S::ratio(2.0, 1.0) * _t55;
+        let _t273 = S::ratio(12.0, 1.0) * (S::ratio(9.0, 1.0) * _t180 - _t98 * _t272);
+        let _t274 = z * _t20;
+        let _t275 = S::ratio(24.0, 1.0) * _t274;
+        let _t276 = _t103 * _t221 - _t68 * _t216 + _t3 * _t268 - _t7 * _t246
+            + _t251 * _t28 + _t252 * _t28
+            + y * (y * _t255 + S::ratio(2.0, 1.0) * (_t76 + x * _t248) - _t260 * _t106);
+        let _t277 = _t240
+            + _t16
+                * (_t264
                     - S::ratio(16.0, 1.0)
-                        * (_t266 + _t204 * _t267 + _t205 * _t268 + _t53 * _t269
-                            + _t38 * _t270)
-                    + S::ratio(1.0, 4.0) * (_t206 * _t273 + _t21 * _t275));
-        let _t278 = _t139 + _t261 - S::ratio(8.0, 1.0) * _t266;
-        let _t279 = _t20 * _t116;
-        let _t280 = y * _t99 - S::ratio(8.0, 1.0) * _t279;
-        let _t281 = S::ratio(3.0, 1.0) * _t56;
-        let _t282 = S::ratio(48.0, 1.0) * _t219 + _t206 * _t281
-            - S::ratio(4.0, 1.0) * _t220
-            + S::ratio(16.0, 1.0) * (_t119 + y * (_t69 + z * _t234 + x * _t238))
-            + _t240 * _t65;
-        let _t283 = _t271 - _t116 * _t17;
-        let _t284 = S::ratio(8.0, 1.0) * _t283;
-        let _t285 = S::ratio(12.0, 1.0) * (_t115 - S::ratio(9.0, 1.0) * _t111);
-        let _t286 = S::ratio(24.0, 1.0) * _t222;
-        let _t287 = _t71 * _t237 - _t76 * _t231 + _t3 * _t282 - _t67 * _t259
-            + y * (y * _t265 + S::ratio(2.0, 1.0) * (_t99 + x * _t275) - _t270 * _t102)
-            + _t41 * _t263;
-        let _t288 = _t49 * self._h1;
-        let _t289 = _t132 * _t231;
-        let _t290 = _t71 * _t1;
-        let _t291 = S::ratio(4.0, 1.0) * (S::ratio(9.0, 1.0) * _t159 + _t101 * _t213);
-        let _t292 = _t289 - _t290 + _t67 * _t256 - _t7 * _t282
-            + y * (y * _t263 + _t275 * _t31 - _t269 * _t102)
+                        * (_t256 + _t90 * _t257 + _t26 * _t258 + _t47 * _t259
+                            + _t44 * _t260) + _t195 * _t263) + _t90 * _t265
+            - _t26
+                * (_t276 - S::ratio(16.0, 1.0) * (_t269 + _t195 * _t258 + _t47 * _t249)
+                    + _t90 * _t271 - _t26 * _t273
+                    + (_t232 * _t54 - _t231 * _t109) * _t275);
+        let _t278 = _t120 + _t250 - S::ratio(8.0, 1.0) * _t256;
+        let _t279 = y * _t76 - S::ratio(8.0, 1.0) * _t269;
+        let _t280 = _t65 * _t216;
+        let _t281 = _t103 * _t1;
+        let _t282 = S::ratio(4.0, 1.0) * (S::ratio(9.0, 1.0) * _t142 + _t99 * _t204);
+        let _t283 = _t280 - _t281 + _t7 * _t243 - _t11 * _t268
+            + y * (y * _t253 + _t248 * _t5 - _t259 * _t106)
             - _t0
-                * (_t94
-                    - S::ratio(4.0, 1.0) * _t13
-                        * (_t258 - S::ratio(6.0, 1.0) * _t234
-                            + S::ratio(2.0, 1.0) * _t236));
-        let _t293 = y * (_t76 * _t206 - _t71 * _t204 - _t13 * _t282 + _t20 * _t259)
-            + _t28
-                * (_t292 - _t16 * (_t265 + _t13 * _t144) + _t204 * _t291
-                    - S::ratio(16.0, 1.0) * (_t206 * _t267 + _t38 * _t260)
-                    + _t205 * _t284);
-        let _t294 = z * self._h11;
-        let _t295 = self._h10 * _t36;
-        let _t296 = _t14 * self._h10;
-        let _t297 = y
-            * (self._h10 * _t293
-                + (_t132 * _t204 - _t76 * _t205 + _t13 * _t256 - _t23 * _t259) * _t294
-                + _t263 * _t295)
-            - _t16
-                * ((_t71 * _t205 - _t132 * _t206 - _t20 * _t256 + _t23 * _t282)
-                    * self._h10 + self._h12);
-        let _t298 = _t38 * self._h10;
-        let _t299 = S::ratio(1.0, 2880.0) * _t298;
-        let _t300 = _t217 * self._h0
-            - (_t93 * _t207 - _t63 * _t215 - _t45 * _t220 + _t25 * _t224) * self._h4
-            + (_t208 * _t227 + _t211 * _t230 + _t234 * _t235 - _t236 * _t165
-                + _t239 * _t158) * self._h5;
-        let _t301 = _t300 + _t240 * _t242 + _t238 * _t244 - _t277 * self._h8
-            + (_t206 * _t278 + _t205 * _t280) * self._h9
-            + (_t287 - S::ratio(16.0, 1.0) * (_t279 + _t206 * _t268 + _t53 * _t260)
-                + _t204 * _t284 + _t205 * _t285 + _t269 * _t286) * _t288;
-        let _t302 = x * _t22 - _t0 - S::ratio(3.0, 1.0) * _t2;
-        let _t303 = y * _t302;
-        let _t304 = S::ratio(3.0, 1.0) * _t6 - S::ratio(1.0, 4.0) * _t61;
-        let _t305 = y * _t304;
-        let _t306 = _t58 * _t17;
-        let _t307 = S::ratio(2.0, 1.0) * (x * (_t23 + _t303) + z * (_t13 + _t305))
-            + (_t55 * S::ratio(1.0, 8.0) + _t306 * _t22);
-        let _t308 = y * (_t305 + S::ratio(2.0, 1.0) * (_t13 + x * _t306))
-            + (_t44 + _t41 * _t302);
-        let _t309 = _t135 + _t38 * _t304 + _t53 * _t302;
-        let _t310 = _t308 + _t308;
-        let _t311 = y * (_t303 + S::ratio(2.0, 1.0) * (_t23 + z * _t306))
-            + (_t32 - _t16 * _t304);
-        let _t312 = _t311 + _t311;
-        let _t313 = _t307 + _t307;
-        let _t314 = S::ratio(4.0, 1.0) * _t309 + S::ratio(1.0, 16.0) * _t134
-            + _t175 * S::ratio(1.0, 8.0)
-            + S::ratio(1.0, 4.0) * (_t56 * _t306 + _t60 * _t310 - _t62 * _t312)
-            + S::ratio(2.0, 1.0) * _t58 * (_t26 + y * _t313);
-        let _t315 = _t46 * _t184;
-        let _t316 = _t182 + _t53 * _t306;
-        let _t317 = _t302 * _t222;
-        let _t318 = _t315 + _t84 * _t313
-            - y * (_t86 * _t310 - S::ratio(4.0, 1.0) * (_t183 + _t20 * _t304))
-            + S::ratio(4.0, 1.0) * _t316 - S::ratio(1.0, 4.0) * _t181
-            - S::ratio(6.0, 1.0) * _t317 - _t312 * _t92;
-        let _t319 = _t8 * S::ratio(1.0, 4.0);
-        let _t320 = _t319 + z * _t43;
-        let _t321 = x * _t17;
-        let _t322 = _t7 * _t306 - _t67 * _t302 - _t23 * _t320 + _t20 * _t321;
-        let _t323 = _t322 + S::ratio(3.0, 1.0) * (_t45 - z * _t307 + y * _t308);
-        let _t324 = _t67 * _t304 - _t3 * _t306 - _t20 * _t231 + _t13 * _t320;
-        let _t325 = _t324 - S::ratio(3.0, 1.0) * (_t34 + y * _t311 - x * _t307);
-        let _t326 = _t124 + _t38 * _t306;
-        let _t327 = _t14 * _t304;
-        let _t328 = y * (_t28 * _t312 - S::ratio(4.0, 1.0) * (_t125 - _t20 * _t302))
-            - _t218 - _t19 * _t313 + S::ratio(4.0, 1.0) * _t326
-            + S::ratio(1.0, 4.0) * _t123 - S::ratio(2.0, 1.0) * _t327 + _t310 * _t50;
-        let _t329 = _t13 * _t321;
-        let _t330 = _t232 - _t7 * _t304 + _t3 * _t302 - _t329;
-        let _t331 = _t330 + S::ratio(3.0, 1.0) * (z * _t311 - x * _t308);
-        let _t332 = y * _t322;
-        let _t333 = S::ratio(48.0, 1.0) * _t316 + x * _t121 - S::ratio(4.0, 1.0) * _t318
+                * (_t92
+                    - _t12 * S::ratio(4.0, 1.0)
+                        * (_t245 - _t219 * S::ratio(6.0, 1.0)
+                            + S::ratio(2.0, 1.0) * _t230));
+        let _t284 = y * (_t68 * _t195 - _t103 * _t90 - _t12 * _t268 + _t19 * _t246)
+            + _t35
+                * (_t283 - _t15 * (_t255 + _t12 * _t125) + _t90 * _t282
+                    - S::ratio(16.0, 1.0) * (_t195 * _t257 + _t44 * _t249)
+                    + _t26 * _t271);
+        let _t285 = z * self._h9;
+        let _t286 = self._h8 * _t42;
+        let _t287 = _t13 * self._h8;
+        let _t288 = y
+            * (self._h8 * _t284
+                + (_t65 * _t90 - _t68 * _t26 + _t12 * _t243 - _t20 * _t246) * _t285
+                + _t253 * _t286)
+            - _t15
+                * ((_t103 * _t26 - _t65 * _t195 - _t19 * _t243 + _t20 * _t268) * self._h8
+                    + self._h10);
+        let _t289 = _t44 * self._h8;
+        let _t290 = S::ratio(1.0, 2880.0) * _t289;
+        let _t291 = _t206 * self._h0
+            - self._h3 * (_t58 * _t196 - _t87 * _t198 - _t32 * _t209 + _t23 * _t212)
+            + self._h4
+                * (_t202 * _t215 + _t219 * _t220 - _t141 * _t223 + _t197 * _t226
+                    - _t199 * _t229 - _t230 * _t148 + _t232 * _t154);
+        let _t292 = -_t80;
+        let _t293 = y * _t292;
+        let _t294 = y * _t83;
+        let _t295 = _t69 * _t22;
+        let _t296 = S::ratio(2.0, 1.0) * (x * (_t20 + _t293) + z * (_t12 + _t294))
+            + (_t18 * _t295 + _t77 * S::ratio(1.0, 8.0));
+        let _t297 = y * (_t294 + S::ratio(2.0, 1.0) * (_t12 + x * _t295))
+            + (_t31 + _t292 * _t28);
+        let _t298 = _t297 + _t297;
+        let _t299 = y * (_t293 + S::ratio(2.0, 1.0) * (_t20 + z * _t295))
+            + (_t38 - _t15 * _t83);
+        let _t300 = _t299 + _t299;
+        let _t301 = _t96 + _t44 * _t83 + _t47 * _t292;
+        let _t302 = _t296 + _t296;
+        let _t303 = _t83 * _t300 - _t80 * _t298 + S::ratio(4.0, 1.0) * _t301
+            + S::ratio(1.0, 16.0) * _t95 + _t166 * S::ratio(1.0, 8.0) + _t295 * _t208
+            + S::ratio(2.0, 1.0) * _t69 * (_t24 + y * _t302);
+        let _t304 = _t168 + _t47 * _t295;
+        let _t305 = _t292 * _t56;
+        let _t306 = _t49 * _t302
+            - y * (_t53 * _t298 - S::ratio(4.0, 1.0) * (_t169 + _t19 * _t83))
+            - _t51 * _t300 + S::ratio(4.0, 1.0) * _t304 - S::ratio(6.0, 1.0) * _t305
+            + _t172;
+        let _t307 = y * _t30;
+        let _t308 = _t11 * _t295 - _t7 * _t292 - _t20 * _t18 + _t19 * _t307;
+        let _t309 = _t12 * _t307;
+        let _t310 = _t217 - _t11 * _t83 + _t3 * _t292 - _t309;
+        let _t311 = _t310 + S::ratio(3.0, 1.0) * (z * _t299 - x * _t297);
+        let _t312 = _t308 + S::ratio(3.0, 1.0) * (_t32 - z * _t296 + y * _t297);
+        let _t313 = _t7 * _t83 - _t3 * _t295 - _t19 * _t216 + _t12 * _t18;
+        let _t314 = _t313 - S::ratio(3.0, 1.0) * (_t40 + y * _t299 - x * _t296);
+        let _t315 = _t135 + _t44 * _t295;
+        let _t316 = _t13 * _t83;
+        let _t317 = _t26 * _t298 - _t16 * _t302
+            + y * (_t35 * _t300 - S::ratio(4.0, 1.0) * (_t136 - _t19 * _t292))
+            + S::ratio(4.0, 1.0) * _t315 - S::ratio(2.0, 1.0) * _t316 + _t140;
+        let _t318 = S::ratio(16.0, 1.0) * _t64;
+        let _t319 = y * _t308;
+        let _t320 = S::ratio(48.0, 1.0) * _t304 + x * _t318 - S::ratio(4.0, 1.0) * _t306
+            - S::ratio(72.0, 1.0) * _t305
             + S::ratio(8.0, 1.0)
-                * (_t41 * _t324
+                * (_t313 * _t28
                     + y
-                        * (_t332 + S::ratio(2.0, 1.0) * (_t68 + x * _t330)
-                            + _t304 * _t255)) - S::ratio(72.0, 1.0) * _t317;
-        let _t334 = _t243 + S::ratio(4.0, 1.0) * _t64;
-        let _t335 = y * _t324;
-        let _t336 = S::ratio(48.0, 1.0) * _t309 + _t306 * _t281
-            - S::ratio(4.0, 1.0) * _t314 + _t330 * _t65 + _t319 * _t334
-            + S::ratio(16.0, 1.0) * (x * (_t69 + _t335) + z * (_t68 + _t332));
-        let _t337 = _t71 * _t302 - _t132 * _t306 - _t20 * _t333 + _t23 * _t336;
-        let _t338 = _t76 * _t321;
-        let _t339 = S::ratio(48.0, 1.0) * _t326 + z * _t121 - S::ratio(24.0, 1.0) * _t327
-            - S::ratio(4.0, 1.0) * _t328
+                        * (_t319 + S::ratio(2.0, 1.0) * (_t60 + x * _t310)
+                            + _t83 * _t242));
+        let _t321 = _t235 + _t64 * S::ratio(4.0, 1.0);
+        let _t322 = y * _t313;
+        let _t323 = S::ratio(48.0, 1.0) * _t301 + _t295 * _t266
+            - S::ratio(4.0, 1.0) * _t303 + _t310 * _t267 + _t17 * _t321
+            + S::ratio(16.0, 1.0) * (x * (_t59 + _t322) + z * (_t60 + _t319));
+        let _t324 = _t103 * _t292 - _t65 * _t295 - _t19 * _t320 + _t20 * _t323;
+        let _t325 = _t68 * _t307;
+        let _t326 = S::ratio(48.0, 1.0) * _t315 + z * _t318 - S::ratio(24.0, 1.0) * _t316
+            - S::ratio(4.0, 1.0) * _t317
             - S::ratio(8.0, 1.0)
-                * (_t16 * _t322
+                * (_t15 * _t308
                     - y
-                        * (_t335 + S::ratio(2.0, 1.0) * (_t69 + z * _t330)
-                            + _t302 * _t255));
-        let _t340 = _t331 - S::ratio(3.0, 1.0) * _t330;
-        let _t341 = _t13 * _t113 + _t23 * _t101;
-        let _t342 = _t325 - S::ratio(3.0, 1.0) * _t324;
-        let _t343 = _t323 - S::ratio(3.0, 1.0) * _t322;
-        let _t344 = _t8 * (_t99 + _t20 * (_t243 + _t272));
-        let _t345 = x * _t82;
-        let _t346 = _t345 - _t229;
-        let _t347 = -(S::ratio(8.0, 1.0)
-            * (_t96 + y * (_t58 * _t331 - S::ratio(2.0, 1.0) * _t346)))
-            - S::ratio(4.0, 1.0) * (_t84 * _t325 - _t19 * _t323);
-        let _t348 = _t347 + (_t347 + S::ratio(12.0, 1.0) * (z * _t328 - x * _t318));
-        let _t349 = _t82 * _t122;
-        let _t350 = _t78 * _t184;
-        let _t351 = y * _t86;
-        let _t352 = S::ratio(1.0, 2.0) * _t77;
-        let _t353 = -_t349 - _t60 * _t331 - S::ratio(4.0, 1.0) * (_t350 - _t351 * _t325)
-            - _t172 * _t352 - _t323 * _t103;
-        let _t354 = _t353
-            + (_t353 - S::ratio(12.0, 1.0) * (_t51 + y * _t328 - x * _t314));
-        let _t355 = y * _t354;
-        let _t356 = _t78 * _t180;
-        let _t357 = _t82 * _t127;
-        let _t358 = _t356 + _t62 * _t331 + _t174 * _t352
-            + S::ratio(4.0, 1.0) * (_t357 - _t204 * _t323) + _t325 * _t81;
-        let _t359 = _t358
-            + (_t358 + S::ratio(12.0, 1.0) * (_t93 - z * _t314 + y * _t318));
-        let _t360 = y * _t359;
-        let _t361 = _t338 - _t289 - _t3 * _t333 + _t7 * _t339 - _t56 * _t340
+                        * (_t322 + S::ratio(2.0, 1.0) * (_t59 + z * _t310)
+                            + _t292 * _t242));
+        let _t327 = x * _t73;
+        let _t328 = _t214 - _t327;
+        let _t329 = S::ratio(4.0, 1.0) * (_t16 * _t312 - _t49 * _t314)
+            - S::ratio(8.0, 1.0)
+                * (_t71 + y * (_t69 * _t311 + S::ratio(2.0, 1.0) * _t328));
+        let _t330 = _t329 + (_t329 + S::ratio(12.0, 1.0) * (z * _t317 - x * _t306));
+        let _t331 = _t311 - S::ratio(3.0, 1.0) * _t310;
+        let _t332 = _t4 * (_t76 + _t19 * (_t235 + _t262));
+        let _t333 = _t12 * _t98 + _t20 * _t99;
+        let _t334 = _t314 - S::ratio(3.0, 1.0) * _t313;
+        let _t335 = _t312 - S::ratio(3.0, 1.0) * _t308;
+        let _t336 = _t74 * _t170 + _t73 * _t137;
+        let _t337 = S::ratio(1.0, 2.0) * _t70;
+        let _t338 = -(S::ratio(4.0, 1.0)
+            * (_t336 - _t80 * _t311 + _t26 * _t312 - _t81 * _t314)) - _t163 * _t337;
+        let _t339 = _t338 - S::ratio(12.0, 1.0) * (_t45 + y * _t317 - x * _t303);
+        let _t340 = _t338 + _t339;
+        let _t341 = y * _t340;
+        let _t342 = _t73 * _t139 + _t74 * _t171;
+        let _t343 = _t165 * _t337
+            + S::ratio(4.0, 1.0) * (_t342 - _t83 * _t311 - _t90 * _t312 + _t51 * _t314);
+        let _t344 = _t343
+            + (_t343 + S::ratio(12.0, 1.0) * (_t58 - z * _t303 + y * _t306));
+        let _t345 = y * _t344;
+        let _t346 = _t325 - _t280 - _t3 * _t320 + _t11 * _t326 + _t18 * _t330
+            - _t78 * _t331 + S::ratio(1.0, 8.0) * _t332
             - S::ratio(16.0, 1.0)
-                * (_t341 + _t304 * _t267 + _t302 * _t268 + _t53 * _t342 + _t38 * _t343);
-        let _t362 = _t361 + S::ratio(1.0, 8.0) * _t344
-            + S::ratio(1.0, 4.0) * (_t306 * _t273 + _t21 * _t348)
-            + S::ratio(2.0, 1.0) * (x * (_t105 + _t355) + z * (_t94 + _t360));
-        let _t363 = _t8 * _t46 + _t35 * _t171 - S::ratio(32.0, 1.0) * _t125;
-        let _t364 = S::ratio(2.0, 1.0) * _t77;
-        let _t365 = _t122 * _t118
-            + S::ratio(8.0, 1.0) * (_t147 + y * (_t138 - _t137 * _t43) + _t23 * _t99)
-            + S::ratio(64.0, 1.0) * (_t64 * _t69 - _t78 * _t154) - _t363 * _t364
-            - S::ratio(16.0, 1.0) * _t82 * _t247;
-        let _t366 = _t20 * _t101 + _t13 * _t116;
-        let _t367 = _t71 * _t231 - _t76 * _t320 + _t3 * _t336 - _t67 * _t339 + _t100
-            + y * (_t360 + S::ratio(2.0, 1.0) * (_t94 + x * _t348) - _t343 * _t102)
-            + _t41 * _t354;
-        let _t368 = _t367 - S::ratio(16.0, 1.0) * (_t366 + _t306 * _t268 + _t53 * _t340)
-            + _t304 * _t284 + _t302 * _t285 + _t342 * _t286;
-        let _t369 = _t76 * _t306 - _t71 * _t304 - _t13 * _t336 + _t20 * _t339;
-        let _t370 = _t132 * _t320 - _t71 * _t321 + _t67 * _t333 - _t7 * _t336 + _t140
-            + y * (_t355 + S::ratio(2.0, 1.0) * (_t105 + z * _t348) - _t342 * _t102)
-            - _t16 * _t359;
-        let _t371 = _t370 - S::ratio(16.0, 1.0) * (_t266 + _t306 * _t267 + _t38 * _t340)
-            + _t304 * _t291 + S::ratio(8.0, 1.0) * (_t302 * _t283 + _t14 * _t343);
-        let _t372 = self._h12
-            + self._h10 * (_t132 * _t304 - _t76 * _t302 + _t13 * _t333 - _t23 * _t339);
-        let _t373 = self._h5
-            * (_t227 * _t313 + _t230 * _t312 + _t235 * _t322 - _t323 * _t165
-                + _t325 * _t158)
-            - self._h4 * (_t93 * _t307 - _t63 * _t308 - _t45 * _t314 + _t25 * _t318);
-        let _t374 = _t373 + _t328 * self._h0 + _t330 * _t242 + _t324 * _t244
-            - self._h8
-                * (_t129 * _t331 + _t16 * _t337 + _t304 * _t250 + _t310 * _t253
-                    + _t19 * _t362);
-        let _t375 = _t374 + (_t365 - _t145 * _t128) * self._h13
-            + self._h9 * (_t306 * _t278 + _t302 * _t280) + _t368 * _t288
+                * (_t333 + _t83 * _t257 + _t292 * _t258 + _t47 * _t334 + _t44 * _t335);
+        let _t347 = _t346 + _t295 * _t263
+            + S::ratio(2.0, 1.0) * (x * (_t89 + _t341) + z * (_t92 + _t345));
+        let _t348 = _t19 * _t99 + _t12 * _t79;
+        let _t349 = _t103 * _t216 - _t68 * _t18 + _t3 * _t323 - _t7 * _t326 + _t105
+            + _t338 * _t28 + _t339 * _t28
+            + y * (_t345 + S::ratio(2.0, 1.0) * (_t92 + x * _t330) - _t335 * _t106);
+        let _t350 = _t349 - S::ratio(16.0, 1.0) * (_t348 + _t295 * _t258 + _t47 * _t331)
+            + _t83 * _t271 - _t292 * _t273 + (_t314 * _t54 - _t313 * _t109) * _t275;
+        let _t351 = _t4 * _t33 - S::ratio(32.0, 1.0) * _t136 + _t41 * _t162;
+        let _t352 = _t70 * _t351
+            - S::ratio(4.0, 1.0) * (_t128 + y * (_t119 - _t100 * _t30) + _t20 * _t76)
+            - S::ratio(32.0, 1.0) * (_t64 * _t59 - _t74 * _t149)
+            + _t73 * _t239 * S::ratio(8.0, 1.0);
+        let _t353 = _t68 * _t295 - _t103 * _t83 - _t12 * _t323 + _t19 * _t326;
+        let _t354 = _t65 * _t18 - _t103 * _t307 + _t7 * _t320 - _t11 * _t323 + _t121
+            + y * (_t341 + S::ratio(2.0, 1.0) * (_t89 + z * _t330) - _t334 * _t106)
+            - _t15 * _t344;
+        let _t355 = _t354 - S::ratio(16.0, 1.0) * (_t256 + _t295 * _t257 + _t44 * _t331)
+            + _t83 * _t282 + S::ratio(8.0, 1.0) * (_t292 * _t270 + _t13 * _t335);
+        let _t356 = self._h10
+            + self._h8 * (_t65 * _t83 - _t68 * _t292 + _t12 * _t320 - _t20 * _t326);
+        let _t357 = self._h4
+            * (_t215 * _t300 + _t220 * _t308 - _t141 * _t311 + _t302 * _t226
+                - _t298 * _t229 - _t312 * _t148 + _t314 * _t154)
+            - self._h3 * (_t58 * _t296 - _t87 * _t297 - _t32 * _t303 + _t23 * _t306);
+        let _t358 = _t357 + _t317 * self._h0 + _t310 * _t234 + _t313 * _t236
+            - self._h1 * (_t15 * _t324 + _t16 * _t347 + _t83 * _t265 - _t26 * _t350)
+            - (_t352 - S::ratio(2.0, 1.0) * (_t137 * _t118 - _t139 * _t126)) * self._h11;
+        let _t359 = _t358 + self._h7 * (_t295 * _t278 + _t292 * _t279)
             + S::ratio(1.0, 5760.0)
                 * (y
-                    * (self._h10 * (y * _t369 + _t28 * _t371)
-                        + S::ratio(2.0, 1.0) * (z * _t372 + _t20 * self._h10 * _t354))
-                    - _t359 * _t296);
-        let _t376 = _t375 + _t348 * _t299;
-        let _t377 = y * _t79 - _t66;
-        let _t378 = -_t351;
-        let _t379 = S::ratio(2.0, 1.0) * (_t52 + y * (_t13 + z * _t377 + x * _t378))
-            + _t84 * _t22;
-        let _t380 = S::ratio(3.0, 1.0) * _t222
-            - (_t41 * _t378 + y * (y * _t377 + _t84 * _t43));
-        let _t381 = -_t380;
-        let _t382 = _t182 + _t38 * _t377 + _t53 * _t378;
-        let _t383 = _t381 - _t380;
-        let _t384 = _t16 * _t377
-            - y * (y * _t378 + S::ratio(2.0, 1.0) * (_t20 + z * _t84));
-        let _t385 = -_t384;
-        let _t386 = _t385 - _t384;
-        let _t387 = _t379 + _t379;
-        let _t388 = _t315 + S::ratio(4.0, 1.0) * _t382
-            - S::ratio(1.0, 4.0) * (_t181 - _t56 * _t84 - _t60 * _t383 + _t62 * _t386)
-            + (_t58 * _t387 + _t26 * _t31) * _t17;
-        let _t389 = _t35 * _t194;
-        let _t390 = _t23 * _t110;
-        let _t391 = S::ratio(3.0, 1.0) * _t23;
-        let _t392 = _t192 + _t84 * _t387 - y * (_t389 + _t86 * _t383 - _t377 * _t212)
-            + _t84 * _t221 - _t386 * _t92 - (_t390 + _t378 * _t114) * _t391;
-        let _t393 = _t7 * _t84 - _t67 * _t378 - _t23 * _t321 + _t20 * _t41;
-        let _t394 = _t393 - S::ratio(3.0, 1.0) * (_t25 + z * _t379 - y * _t381);
-        let _t395 = _t329 - _t233 + _t67 * _t377 - _t3 * _t84;
-        let _t396 = _t395 - S::ratio(3.0, 1.0) * (y * _t385 - x * _t379);
-        let _t397 = _t106 - _t14 * _t377;
-        let _t398 = y * (_t28 * _t386 + S::ratio(4.0, 1.0) * (_t154 + _t20 * _t378))
-            - _t156 - _t19 * _t387 + S::ratio(2.0, 1.0) * _t397 + _t84 * _t214
-            + _t383 * _t50;
-        let _t399 = _t3 * _t378 - _t7 * _t377 + _t23 * _t1 - _t13 * _t41;
-        let _t400 = _t35 * _t9 - _t26 * _t91;
-        let _t401 = _t155 * _t137 - _t64 * _t148 + S::ratio(16.0, 1.0) * _t77 * _t154
-            - S::ratio(4.0, 1.0) * (_t82 * _t245 + _t78 * _t400)
+                    * (self._h8 * (y * _t353 + _t35 * _t355)
+                        + S::ratio(2.0, 1.0) * (z * _t356 + _t19 * self._h8 * _t340))
+                    - _t344 * _t287);
+        let _t360 = _t359 + _t330 * _t290;
+        let _t361 = -_t51;
+        let _t362 = -_t81;
+        let _t363 = _t18 * _t49
+            + S::ratio(2.0, 1.0) * (_t46 + y * (_t12 + z * _t361 + x * _t362));
+        let _t364 = S::ratio(3.0, 1.0) * _t56
+            - (_t362 * _t28 + y * (y * _t361 + _t49 * _t30));
+        let _t365 = -_t364;
+        let _t366 = _t365 - _t364;
+        let _t367 = _t15 * _t361
+            - y * (y * _t362 + S::ratio(2.0, 1.0) * (_t19 + z * _t49));
+        let _t368 = -_t367;
+        let _t369 = _t368 - _t367;
+        let _t370 = _t168 + _t44 * _t361 + _t47 * _t362;
+        let _t371 = _t363 + _t363;
+        let _t372 = _t83 * _t369 - _t80 * _t366 + S::ratio(4.0, 1.0) * _t370
+            + _t49 * _t208 + (_t69 * _t371 + _t24 * _t5) * _t22 + _t172;
+        let _t373 = _t41 * _t186;
+        let _t374 = _t184 + _t49 * _t371 - _t51 * _t369
+            - y * (_t373 + _t53 * _t366 - _t361 * _t203) + _t49 * _t210
+            - _t20 * S::ratio(3.0, 1.0) * (_t112 * _t179 + _t362 * _t272);
+        let _t375 = _t11 * _t49 - _t7 * _t362 - _t20 * _t307 + _t19 * _t28;
+        let _t376 = _t3 * _t362 - _t11 * _t361 + _t20 * _t1 - _t12 * _t28;
+        let _t377 = _t376 + S::ratio(3.0, 1.0) * (_t40 + z * _t368 - x * _t365);
+        let _t378 = _t375 - S::ratio(3.0, 1.0) * (_t23 + z * _t363 - y * _t365);
+        let _t379 = _t309 - _t218 + _t7 * _t361 - _t3 * _t49;
+        let _t380 = _t379 - S::ratio(3.0, 1.0) * (y * _t368 - x * _t363);
+        let _t381 = _t94 - _t13 * _t361;
+        let _t382 = _t26 * _t366 - _t152 - _t16 * _t371
+            + y * (_t35 * _t369 + S::ratio(4.0, 1.0) * (_t149 + _t19 * _t362))
+            + S::ratio(2.0, 1.0) * _t381 + _t49 * _t205;
+        let _t383 = _t41 * _t150 - _t24 * _t182;
+        let _t384 = _t100 * _t151 - _t64 * _t101 + S::ratio(16.0, 1.0) * _t70 * _t149
+            - S::ratio(4.0, 1.0) * (_t73 * _t237 + _t74 * _t383)
             - S::ratio(2.0, 1.0)
-                * (y * (_t146 + S::ratio(2.0, 1.0) * (x * _t118 - z * _t145))
-                    + _t20 * _t99);
-        let _t402 = _t399 + S::ratio(3.0, 1.0) * (_t34 + z * _t385 - x * _t381);
-        let _t403 = _t84 * _t254 - S::ratio(36.0, 1.0) * _t111
-            - S::ratio(4.0, 1.0) * _t392
+                * (y * (_t127 + S::ratio(2.0, 1.0) * (x * _t118 - z * _t126))
+                    + _t19 * _t76);
+        let _t385 = _t49 * _t241 - _t181 - S::ratio(4.0, 1.0) * _t374
             + S::ratio(8.0, 1.0)
-                * (_t41 * _t395 + y * (y * _t393 + _t377 * _t255 + _t399 * _t43))
-            - S::ratio(24.0, 1.0) * (_t69 + _t378 * _t391) * _t90;
-        let _t404 = S::ratio(48.0, 1.0) * _t382
-            + S::ratio(16.0, 1.0) * (_t177 + y * (_t68 + z * _t393 + x * _t395))
-            + _t84 * _t281 - S::ratio(4.0, 1.0) * _t388 + _t399 * _t65;
-        let _t405 = _t71 * _t378 - _t132 * _t84 - _t20 * _t403 + _t23 * _t404;
-        let _t406 = S::ratio(24.0, 1.0) * _t397 + _t84 * _t257
-            - S::ratio(4.0, 1.0) * _t398
+                * (_t379 * _t28 + y * (y * _t375 + _t361 * _t242 + _t376 * _t30))
+            - z * S::ratio(24.0, 1.0) * (_t59 * _t54 + _t20 * _t362 * _t109);
+        let _t386 = S::ratio(48.0, 1.0) * _t370
+            + S::ratio(16.0, 1.0) * (_t159 + y * (_t60 + z * _t375 + x * _t379))
+            + _t49 * _t266 - S::ratio(4.0, 1.0) * _t372 + _t376 * _t267;
+        let _t387 = _t103 * _t362 - _t65 * _t49 - _t19 * _t385 + _t20 * _t386;
+        let _t388 = S::ratio(24.0, 1.0) * _t381 + _t49 * _t244
+            - S::ratio(4.0, 1.0) * _t382
             - S::ratio(8.0, 1.0)
-                * (_t16 * _t393
+                * (_t15 * _t375
                     - y
-                        * (y * _t395 + S::ratio(2.0, 1.0) * (_t64 + z * _t399)
-                            + _t378 * _t255));
-        let _t407 = _t402 - S::ratio(3.0, 1.0) * _t399;
-        let _t408 = x * _t99;
-        let _t409 = _t77 * _t184;
-        let _t410 = -(_t60 * _t402)
-            - S::ratio(4.0, 1.0) * (_t409 - y * (_t86 * _t396 - _t179 * _t82))
-            - _t394 * _t103;
-        let _t411 = _t410 + (_t410 - S::ratio(12.0, 1.0) * (y * _t398 - x * _t388));
-        let _t412 = _t77 * _t180;
-        let _t413 = _t78 * _t194 + _t82 * _t163;
-        let _t414 = _t412 + _t62 * _t402 + _t396 * _t81 + (_t413 - _t28 * _t394) * _t9;
-        let _t415 = _t414
-            + (_t414 - S::ratio(12.0, 1.0) * (_t63 + z * _t388 - y * _t392));
-        let _t416 = _t396 - S::ratio(3.0, 1.0) * _t395;
-        let _t417 = _t394 - S::ratio(3.0, 1.0) * _t393;
-        let _t418 = _t82 * _t155 - _t78 * _t191;
-        let _t419 = S::ratio(4.0, 1.0) * (_t19 * _t394 - _t84 * _t396 + _t418)
-            - (_t58 * _t402 + _t77 * _t31) * _t97;
-        let _t420 = _t419
-            + (_t419 + S::ratio(12.0, 1.0) * (_t51 + z * _t398 - x * _t392));
-        let _t421 = _t76 * _t41 - _t132 * _t1 - _t3 * _t403 + _t7 * _t406 - _t56 * _t407
-            + S::ratio(2.0, 1.0) * (_t408 + y * (_t94 + x * _t411 + z * _t415));
-        let _t422 = _t421
+                        * (y * _t379 + S::ratio(2.0, 1.0) * (_t64 + z * _t376)
+                            + _t362 * _t242));
+        let _t389 = _t74 * _t183 - _t73 * _t151;
+        let _t390 = S::ratio(4.0, 1.0) * (_t16 * _t378 - _t49 * _t380 - _t389)
+            - (_t69 * _t377 + _t70 * _t5) * _t72;
+        let _t391 = _t390
+            + (_t390 + S::ratio(12.0, 1.0) * (_t45 + z * _t382 - x * _t374));
+        let _t392 = _t377 - S::ratio(3.0, 1.0) * _t376;
+        let _t393 = x * _t76;
+        let _t394 = _t70 * _t170;
+        let _t395 = (_t394 - _t80 * _t377 + _t26 * _t378
+            - y * (_t53 * _t380 - S::ratio(4.0, 1.0) * _t327)) * S::ratio(-4.0, 1.0);
+        let _t396 = _t395 - S::ratio(12.0, 1.0) * (y * _t382 - x * _t372);
+        let _t397 = _t395 + _t396;
+        let _t398 = _t70 * _t171;
+        let _t399 = _t74 * _t186 + _t73 * _t110;
+        let _t400 = (_t83 * _t377 - _t398 - _t51 * _t380 + y * (_t35 * _t378 - _t399))
+            * S::ratio(-4.0, 1.0);
+        let _t401 = _t400
+            + (_t400 - S::ratio(12.0, 1.0) * (_t87 + z * _t372 - y * _t374));
+        let _t402 = _t380 - S::ratio(3.0, 1.0) * _t379;
+        let _t403 = _t378 - S::ratio(3.0, 1.0) * _t375;
+        let _t404 = _t68 * _t28 - _t65 * _t1 - _t3 * _t385 + _t11 * _t388 + _t18 * _t391
+            - _t78 * _t392
+            + S::ratio(2.0, 1.0) * (_t393 + y * (_t92 + x * _t397 + z * _t401));
+        let _t405 = _t404
             - S::ratio(16.0, 1.0)
-                * (_t366 + _t377 * _t267 + _t378 * _t268 + _t53 * _t416 + _t38 * _t417)
-            + S::ratio(1.0, 4.0) * (_t84 * _t273 + _t21 * _t420);
-        let _t423 = _t390 * _t113;
-        let _t424 = _t23 * S::ratio(60.0, 1.0) * _t199;
-        let _t425 = _t290 - _t338 + _t3 * _t404 - _t67 * _t406
-            + y * (y * _t415 + _t420 * _t43 - _t417 * _t102) + _t41 * _t411
-            + S::ratio(24.0, 1.0) * _t423 + _t377 * _t284;
-        let _t426 = _t425 - S::ratio(16.0, 1.0) * (_t84 * _t268 + _t53 * _t407)
-            + _t378 * _t285
-            - z * S::ratio(3.0, 1.0)
-                * (_t424 + _t89 * (_t105 - S::ratio(8.0, 1.0) * _t23 * _t416));
-        let _t427 = _t132 * _t321 - _t71 * _t41 + _t67 * _t403 - _t7 * _t404
-            + y * (y * _t411 + S::ratio(2.0, 1.0) * (_t99 + z * _t420) - _t416 * _t102)
-            - _t16 * _t415;
-        let _t428 = _t427 - S::ratio(16.0, 1.0) * (_t279 + _t84 * _t267 + _t38 * _t407)
-            + _t377 * _t291 + S::ratio(8.0, 1.0) * (_t378 * _t283 + _t14 * _t417);
-        let _t429 = self._h12
-            + self._h10 * (_t76 * _t84 - _t71 * _t377 - _t13 * _t404 + _t20 * _t406);
-        let _t430 = _t132 * _t377 - _t76 * _t378 + _t13 * _t403 - _t23 * _t406;
-        let _t431 = self._h5
-            * (_t227 * _t387 + _t230 * _t386 + _t235 * _t393 - _t394 * _t165
-                + _t396 * _t158)
-            - self._h4 * (_t93 * _t379 - _t63 * _t381 - _t45 * _t388 + _t25 * _t392);
-        let _t432 = _t431 + _t398 * self._h0 + _t399 * _t242 + _t395 * _t244
-            - self._h8
-                * (_t401 + _t129 * _t402 + _t16 * _t405 + _t377 * _t250 + _t383 * _t253
-                    + _t19 * _t422);
-        let _t433 = _t432 + self._h9 * (_t84 * _t278 + _t378 * _t280) + _t426 * _t288
+                * (_t348 + _t361 * _t257 + _t362 * _t258 + _t47 * _t402 + _t44 * _t403)
+            + _t49 * _t263;
+        let _t406 = S::ratio(180.0, 1.0) * _t189;
+        let _t407 = _t27 * _t54;
+        let _t408 = (_t74 * _t407 - _t27 * _t115) * _t113;
+        let _t409 = _t281 - _t325 + _t3 * _t386 - _t7 * _t388 + _t395 * _t28
+            + _t396 * _t28 + y * (y * _t401 + _t391 * _t30 - _t403 * _t106)
+            + _t361 * _t271;
+        let _t410 = _t409 - S::ratio(16.0, 1.0) * (_t49 * _t258 + _t47 * _t392)
+            + _t56 * _t406 + S::ratio(24.0, 1.0) * _t408 - _t362 * _t273
+            - (_t190 - _t20 * S::ratio(8.0, 1.0) * (_t380 * _t54 - _t379 * _t109))
+                * _t192;
+        let _t411 = _t65 * _t307 - _t103 * _t28 + _t7 * _t385 - _t11 * _t386
+            + y * (y * _t397 + S::ratio(2.0, 1.0) * (_t76 + z * _t391) - _t402 * _t106)
+            - _t15 * _t401;
+        let _t412 = _t411 - S::ratio(16.0, 1.0) * (_t269 + _t49 * _t257 + _t44 * _t392)
+            + _t361 * _t282 + S::ratio(8.0, 1.0) * (_t362 * _t270 + _t13 * _t403);
+        let _t413 = _t68 * _t49 - _t103 * _t361 - _t12 * _t386 + _t19 * _t388;
+        let _t414 = self._h8 * _t413 + self._h10;
+        let _t415 = _t65 * _t361 - _t68 * _t362 + _t12 * _t385 - _t20 * _t388;
+        let _t416 = self._h4
+            * (_t215 * _t369 + _t220 * _t375 - _t141 * _t377 + _t371 * _t226
+                - _t366 * _t229 - _t378 * _t148 + _t380 * _t154)
+            - self._h3 * (_t58 * _t363 - _t87 * _t365 - _t32 * _t372 + _t23 * _t374);
+        let _t417 = _t416 + _t382 * self._h0 + _t376 * _t234 + _t379 * _t236
+            - self._h1
+                * (_t384 + _t15 * _t387 + _t16 * _t405 + _t361 * _t265 - _t26 * _t410)
+            + self._h7 * (_t49 * _t278 + _t362 * _t279);
+        let _t418 = _t417
             + S::ratio(1.0, 5760.0)
                 * (y
-                    * (_t28 * self._h10 * _t428 + y * _t429 + _t430 * _t294
-                        + _t411 * _t295) - _t415 * _t296);
-        let _t434 = _t433 + _t420 * _t299;
-        let _t435 = _t77 * _t172 + S::ratio(8.0, 1.0) * _t350
-            + S::ratio(2.0, 1.0) * _t349;
-        let _t436 = _t77 * _t174 + S::ratio(8.0, 1.0) * _t357
-            + S::ratio(2.0, 1.0) * _t356;
-        let _t437 = _t178 + _t131;
-        let _t438 = _t136 + _t8 * _t334 + S::ratio(64.0, 1.0) * _t70;
-        let _t439 = _t8 * _t35 - S::ratio(32.0, 1.0) * _t183 + _t46 * _t171;
-        let _t440 = _t8
-            * (_t20 * (_t168 + (_t106 + _t148) * _t74) + S::ratio(8.0, 1.0) * _t146
-                + _t64 * _t121) + _t68 * _t69 * S::ratio(1024.0, 1.0)
-            + S::ratio(128.0, 1.0) * (_t13 * _t105 + _t23 * _t94 + _t187);
-        let _t441 = _t440 + S::ratio(32.0, 1.0) * (_t78 * _t439 - _t82 * _t363)
+                    * (_t35 * self._h8 * _t412 + y * _t414 + _t415 * _t285
+                        + _t397 * _t286) - _t401 * _t287) + _t391 * _t290;
+        let _t419 = _t70 * _t163 + _t336 * S::ratio(8.0, 1.0);
+        let _t420 = _t70 * _t165 + S::ratio(8.0, 1.0) * _t342;
+        let _t421 = _t160 + _t63;
+        let _t422 = _t97 + _t4 * _t321 + S::ratio(64.0, 1.0) * _t102;
+        let _t423 = _t4 * _t41 - S::ratio(32.0, 1.0) * _t169 + _t33 * _t162;
+        let _t424 = _t4
+            * (_t19 * (_t175 + (_t94 + _t101) * _t62) + _t127 * S::ratio(8.0, 1.0)
+                + _t64 * _t318) + _t60 * _t59 * S::ratio(1024.0, 1.0)
+            + S::ratio(128.0, 1.0) * (_t12 * _t89 + _t20 * _t92 + _t174);
+        let _t425 = _t424 + S::ratio(32.0, 1.0) * (_t74 * _t423 - _t73 * _t351)
             - S::ratio(8.0, 1.0)
-                * (_t77
-                    * (_t134
+                * (_t70
+                    * (_t95
                         + S::ratio(2.0, 1.0)
-                            * (_t46 * (_t170 - z * S::ratio(96.0, 1.0))
-                                - _t35 * (_t173 - x * S::ratio(96.0, 1.0)))) - _t118 * _t172
-                    + _t174 * _t145);
-        let _t442 = _t408 + _t95 - S::ratio(8.0, 1.0) * _t366;
-        let _t443 = (_t344 + S::ratio(16.0, 1.0) * _t133 - _t341 * S::ratio(128.0, 1.0))
-            * self._h15;
-        let _t444 = self._h7 * (_t96 - _t346 * _t17);
-        let _t445 = _t53 * self._h10;
-        let _t446 = S::ratio(1.0, 46080.0) * (_t56 * self._h10);
-        let _t447 = self._h4
-            * (_t93 * _t311 - _t51 * _t308 - _t45 * _t328 + _t34 * _t318)
-            - self._h1 * (_t435 * _t310 - _t312 * _t436) + _t314 * self._h0
-            + self._h6 * (_t241 * _t322 + _t437 * _t324);
-        let _t448 = _t447 - self._h8 * (_t129 * _t323 - _t325 * _t186)
-            - self._h13 * (_t176 * _t331 - _t60 * _t368 - _t330 * _t438 + _t62 * _t371)
-            + _t441 * self._h14 + self._h9 * (_t304 * _t278 + _t302 * _t442);
-        let _t449 = _t448 + _t306 * _t443 - _t313 * _t444
+                            * (_t33 * (_t161 - z * S::ratio(96.0, 1.0))
+                                - _t41 * (_t164 - x * S::ratio(96.0, 1.0)))) - _t118 * _t163
+                    + _t165 * _t126);
+        let _t426 = _t393 + _t104 - S::ratio(8.0, 1.0) * _t348;
+        let _t427 = (_t332 + S::ratio(16.0, 1.0) * _t93 - S::ratio(128.0, 1.0) * _t333)
+            * self._h14;
+        let _t428 = (_t71 + _t328 * _t22) * self._h6;
+        let _t429 = _t47 * self._h8;
+        let _t430 = S::ratio(1.0, 46080.0) * (_t78 * self._h8);
+        let _t431 = self._h3
+            * (_t58 * _t299 - _t45 * _t297 - _t32 * _t317 + _t40 * _t306)
+            - self._h11 * (_t419 * _t298 - _t300 * _t420) + _t303 * self._h0
+            + self._h5 * (_t233 * _t308 + _t421 * _t313);
+        let _t432 = _t431 - self._h4 * (_t141 * _t312 + _t314 * _t173)
+            - self._h12 * (_t167 * _t311 - _t310 * _t422)
+            - self._h1 * (_t80 * _t350 - _t83 * _t355) + _t425 * self._h13;
+        let _t433 = _t432 + self._h7 * (_t83 * _t278 + _t292 * _t426) + _t295 * _t427
+            - _t302 * _t428
             + S::ratio(1.0, 2880.0)
-                * (y * self._h10 * (x * _t369 + z * _t337 + _t58 * _t362) + _t354 * _t445
-                    + _t359 * _t298);
-        let _t450 = _t389 - _t246;
-        let _t451 = _t145 * _t180
-            - S::ratio(8.0, 1.0) * (_t190 + y * (_t151 + _t137 * _t31) + _t13 * _t99)
-            - S::ratio(64.0, 1.0) * (_t68 * _t64 - _t82 * _t154) - _t439 * _t364
-            - _t118 * _t185;
-        let _t452 = self._h4
-            * (_t93 * _t385 - _t51 * _t381 - _t45 * _t398 + _t34 * _t392)
-            - self._h1 * (_t435 * _t383 - _t386 * _t436) + _t388 * self._h0
-            + self._h6 * (_t241 * _t393 + _t437 * _t395);
-        let _t453 = _t452 - self._h8 * (_t129 * _t394 - _t396 * _t186)
-            - self._h13
-                * (_t451 - S::ratio(16.0, 1.0) * _t78 * _t450 + _t176 * _t402
-                    - _t21 * _t430 - _t60 * _t426 - _t399 * _t438 + _t62 * _t428);
-        let _t454 = _t453 + self._h9 * (_t377 * _t278 + _t378 * _t442) + _t84 * _t443
-            - _t387 * _t444
-            + S::ratio(1.0, 2880.0)
-                * (y * (x * _t429 + self._h10 * (z * _t405 + _t58 * _t422))
-                    + _t411 * _t445 + _t415 * _t298);
-        let _t455 = _t454 + _t420 * _t446;
-        let _t456 = (_t69 * _t163 * _t198
-            - S::ratio(3.0, 1.0)
-                * (_t88
-                    - _t4
-                        * (S::ratio(15.0, 1.0) * _t108
-                            - _t4 * S::ratio(7.0, 1.0)
-                                * (S::ratio(5.0, 1.0) * _t39 * _t108
-                                    - S::ratio(3.0, 1.0) * _t39 * _t197))) * _t87) * _t200;
-        let _t457 = _t137 * _t191 - y * _t145 * _t194
+                * (y * self._h8 * (x * _t353 + z * _t324 + _t69 * _t347) + _t340 * _t429
+                    + _t344 * _t289);
+        let _t434 = _t373 - _t238;
+        let _t435 = _t70 * _t423
+            + S::ratio(4.0, 1.0) * (_t178 + y * (_t131 + _t100 * _t5) + _t12 * _t76)
+            + S::ratio(32.0, 1.0) * (_t60 * _t64 - _t73 * _t149)
+            + S::ratio(2.0, 1.0) * (_t118 * _t170 - _t126 * _t171);
+        let _t436 = (_t58 * _t368 - _t45 * _t365 - _t32 * _t382 + _t40 * _t374)
+            * self._h3
+            + (_t435 + _t74 * S::ratio(8.0, 1.0) * _t434 - _t419 * _t366 + _t369 * _t420)
+                * self._h11;
+        let _t437 = _t436 + _t372 * self._h0 + (_t233 * _t375 + _t421 * _t379) * self._h5
+            - (_t141 * _t378 + _t380 * _t173) * self._h4
+            - (_t167 * _t377 - _t376 * _t422) * self._h12;
+        let _t438 = _t437 + self._h1 * (_t18 * _t415 - _t80 * _t410 + _t83 * _t412)
+            + (_t361 * _t278 + _t362 * _t426) * self._h7 + _t49 * _t427 - _t371 * _t428
+            + (y * (x * _t414 + self._h8 * (z * _t387 + _t69 * _t405)) + _t397 * _t429
+                + _t401 * _t289) * S::ratio(1.0, 2880.0);
+        let _t439 = _t438 + _t391 * _t430;
+        let _t440 = (_t394 + _t327 * _t150) * _t366 + _t371 * (z * _t224 + _t389)
+            + _t377 * _t173 - _t369 * (_t398 + y * _t399) - _t378 * _t154
+            + _t380 * _t188;
+        let _t441 = _t112 * (_t82 * _t407 + _t88 * _t407)
+            - _t20 * _t20 * _t20 * S::ratio(45.0, 1.0)
+                * (_t54
+                    - z * (_t8 * (_t8 - S::ratio(5.0, 1.0)) + S::ratio(15.0, 1.0)) * _t27
+                        * _t27 * _t27 * _t55);
+        let _t442 = _t100 * _t183 - y * _t126 * _t186
             - S::ratio(12.0, 1.0)
-                * (_t110 * _t201
-                    - _t78 * (_t110 * (_t193 - _t125) + z * S::ratio(5.0, 1.0) * _t199))
-            - S::ratio(3.0, 1.0) * (_t138 * _t90 + _t23 * (_t110 * _t105 + _t456));
-        let _t458 = _t392 * self._h0
-            - self._h4
-                * (_t63 * _t385 - _t51 * _t379 - _t25 * _t398 + _t34 * _t388
-                    + _t395 * (_t112 + _t69 * _t114))
-            - self._h5
-                * ((_t409 + _t345 * _t9) * _t383 - _t387 * (_t418 - z * _t225)
-                    - _t394 * _t158 + _t396 * _t195);
-        let _t459 = _t458 + _t393 * _t244 + _t437 * _t399 * self._h6
-            + self._h8
-                * (_t457 + S::ratio(4.0, 1.0) * (_t77 * _t450 + _t82 * _t400)
-                    + _t84 * _t422 + _t386 * (_t412 + _t413 * _t9) + _t402 * _t186);
-        let _t460 = _t459 + self._h9 * (_t377 * _t280 + _t84 * _t442)
-            - _t378 * (z * (_t196 + _t424) - S::ratio(8.0, 1.0) * _t423) * self._h16
-            - _t80 * _t428 * self._h1
-            + S::ratio(1.0, 5760.0)
-                * (y
-                    * (x * _t430 * self._h11 + self._h10 * (y * _t405 - _t86 * _t426)
-                        + _t415 * _t295) + _t41 * _t429);
-        xi[0] = _t3 * self.h + _t51 * self._h0 + (_t169 + _t38 * _t168) * self._h1;
-        xi[1] = _t11 * self._h2 + _t63 * self._h0
-            + (_t189
-                + (_t20 * _t134 + (_t23 * _t68 + _t13 * _t69) * S::ratio(512.0, 1.0))
-                    * _t74 + _t56 * _t168) * self._h3;
-        xi[2] = _t7 * self.h + _t93 * self._h0
-            - self._h1 * (_t203 - (_t20 * _t68 + _t13 * _t166) * _t167 - _t53 * _t168);
-        hessian[(0, 0)] = _t301 + (_t297 - _t265 * _t296) * S::ratio(1.0, 5760.0)
-            + _t275 * _t299;
-        hessian[(0, 1)] = _t376;
-        hessian[(0, 2)] = _t434;
-        hessian[(1, 0)] = _t376;
-        hessian[(1, 1)] = _t449 + _t21 * _t372 * S::ratio(1.0, 23040.0) + _t348 * _t446;
-        hessian[(1, 2)] = _t455;
-        hessian[(2, 0)] = _t434;
-        hessian[(2, 1)] = _t455;
-        hessian[(2, 2)] = _t460 - self._h10 * _t411 * S::ratio(1.0, 1920.0) * _t222
-            + S::ratio(1.0, 2880.0) * _t420 * _t445;
+                * (_t112 * _t407 * _t191
+                    + _t74
+                        * (_t112 * (_t136 * _t407 - _t407 * _t187)
+                            + S::ratio(5.0, 1.0) * _t55 * _t189));
+        let _t443 = _t442 - S::ratio(3.0, 1.0) * (_t119 * _t55 + _t20 * _t441)
+            + S::ratio(4.0, 1.0) * (_t70 * _t434 + _t73 * _t383) + _t59 * _t55 * _t406
+            + _t413 * _t28 + _t49 * _t405;
+        let _t444 = self.h * _t28
+            - self._h3
+                * (_t87 * _t368 - _t45 * _t363 - _t23 * _t382 + _t40 * _t372
+                    + _t379 * (_t114 + _t59 * _t272)) - self._h4 * _t440
+            + _t374 * self._h0;
+        let _t445 = _t444 + _t375 * _t236 + _t421 * _t376 * self._h5
+            + self._h1 * (_t443 - _t51 * _t412)
+            + self._h7 * (_t361 * _t279 + _t49 * _t426)
+            - _t362
+                * (z * _t190 - S::ratio(60.0, 1.0) * _t56 * _t189
+                    - S::ratio(8.0, 1.0) * _t408) * self._h15;
+        let _t446 = _t445
+            + y
+                * (x * _t415 * self._h9 + self._h8 * (y * _t387 - _t53 * _t410)
+                    + _t401 * _t286) * S::ratio(1.0, 5760.0)
+            - self._h8 * (_t395 * _t54 + _t396 * _t54) * S::ratio(1.0, 1920.0) * _t274;
+        xi[0] = _t3 * self.h + _t45 * self._h0 - (_t158 - _t44 * _t156) * self._h1;
+        xi[1] = _t7 * self.h + _t87 * self._h0 + (_t177 + _t78 * _t175) * self._h2;
+        xi[2] = _t11 * self.h + _t58 * self._h0
+            + (_t194 + (_t19 * _t60 + _t12 * _t155) * _t48 + _t47 * _t156) * self._h1;
+        hessian[(0, 0)] = _t291 + _t222 * _t234 + _t231 * _t236 - self._h1 * _t277
+            + self._h7 * (_t195 * _t278 + _t26 * _t279)
+            + S::ratio(1.0, 5760.0) * (_t288 - _t255 * _t287) + _t248 * _t290;
+        hessian[(0, 1)] = _t360;
+        hessian[(0, 2)] = _t418;
+        hessian[(1, 0)] = _t360;
+        hessian[(1, 1)] = _t433 + _t18 * _t356 * S::ratio(1.0, 5760.0) + _t330 * _t430;
+        hessian[(1, 2)] = _t439;
+        hessian[(2, 0)] = _t418;
+        hessian[(2, 1)] = _t439;
+        hessian[(2, 2)] = _t446 + _t391 * S::ratio(1.0, 2880.0) * _t429;
     }
 }
 
@@ -2078,18 +2011,14 @@ pub struct NonpolynomialSpinSecondKind2Equation<'a, S: ::lie_runtime::Scalar> {
     h: S,
     /// `h^2/2`
     _h0: S,
-    /// `h/2`
-    _h1: S,
-    /// `h^2/8`
-    _h2: S,
     /// `h^2`
-    _h3: S,
-    /// `2*h`
-    _h4: S,
+    _h1: S,
     /// `2*h^2`
-    _h5: S,
-    /// `4*h`
-    _h6: S,
+    _h2: S,
+    /// `2*h`
+    _h3: S,
+    /// `h^2/16`
+    _h4: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinSecondKind2Equation<'a, S> {
@@ -2101,13 +2030,11 @@ impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinSecondKind2Equation<'a, S> {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: S::ratio(1.0, 2.0) * _t0,
-            _h1: h * S::ratio(1.0, 2.0),
-            _h2: _t0 * S::ratio(1.0, 8.0),
-            _h3: _t0,
-            _h4: h * S::ratio(2.0, 1.0),
-            _h5: S::ratio(2.0, 1.0) * _t0,
-            _h6: h * S::ratio(4.0, 1.0),
+            _h0: _t0 * S::ratio(1.0, 2.0),
+            _h1: _t0,
+            _h2: S::ratio(2.0, 1.0) * _t0,
+            _h3: h * S::ratio(2.0, 1.0),
+            _h4: _t0 * S::ratio(1.0, 16.0),
         }
     }
 }
@@ -2133,42 +2060,43 @@ for NonpolynomialSpinSecondKind2Equation<'_, S> {
 
     /// `p_i = (m_(i-1))_i` with `xi = grad S(mu)`
     ///
-    /// 27 additions, 49 multiplications, 3 divisions, 6 function calls.
+    /// 26 additions, 46 multiplications, 3 divisions, 6 function calls.
     #[inline]
     fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
         let [[x, y, z]] = self.base.data.0;
         let _t0 = y * y;
         let _t1 = x.cos() + z * _t0;
         let _t2 = (y * S::ratio(1.0, 2.0)).exp();
-        let _t3 = x * y;
-        let _t4 = z * _t3;
-        let _t5 = S::ratio(1.0, 2.0) * _t2 + S::ratio(2.0, 1.0) * _t4;
-        let _t6 = z * (S::one() / (S::one() + z * z).sqrt()) + y * _t3;
+        let _t3 = y * S::ratio(2.0, 1.0);
+        let _t4 = x * _t3;
+        let _t5 = S::ratio(1.0, 2.0) * _t2 + z * _t4;
+        let _t6 = z * (S::one() / (S::one() + z * z).sqrt()) + x * _t0;
         let _t7 = y * _t1 - x * _t5;
         let _t8 = y * _t6 - z * _t5;
-        let _t9 = y * z;
-        let _t10 = -(z * _t1) - x * _t6;
+        let _t9 = -(z * _t1) - x * _t6;
+        let _t10 = z * _t3;
         let _t11 = (S::ratio(1.0, 2.0)
             * (_t1 * self.h
-                - (_t5 * _t6 - _t7 * _t0 + x.sin() * _t8
-                    - _t9 * (S::ratio(2.0, 1.0) * _t10)) * self._h0))
+                - (_t5 * _t6 - _t7 * _t0 + x.sin() * _t8 - _t9 * _t10) * self._h0))
             .tan();
         let _t12 = S::ratio(2.0, 1.0) * _t11 / (S::one() + _t11 * _t11);
         let _t13 = _t11 * _t12;
         let _t14 = z + (-(y * _t12) - z * _t13);
-        let _t15 = (_t2 + S::ratio(4.0, 1.0) * _t4) * self._h1
-            + ((_t2 + x * z * S::ratio(8.0, 1.0)) * _t10 + S::ratio(4.0, 1.0) * _t1 * _t6
-                + S::ratio(8.0, 1.0) * (_t7 * _t3 + _t8 * _t9)) * self._h2;
-        let _t16 = (S::ratio(1.0, 2.0) * _t15).tan();
-        let _t17 = S::ratio(2.0, 1.0) * _t16 / (S::one() + _t16 * _t16);
+        let _t15 = (S::ratio(1.0, 2.0)
+            * (_t5 * self.h
+                + (_t1 * _t6
+                    + (_t2 * S::ratio(1.0, 4.0) + x * z * S::ratio(2.0, 1.0)) * _t9
+                    + _t7 * _t4 + _t8 * _t10) * self._h0))
+            .tan();
+        let _t16 = S::ratio(2.0, 1.0) * _t15 / (S::one() + _t15 * _t15);
         unknown[0] = x;
         unknown[1] = y + (z * _t12 - y * _t13);
-        unknown[2] = _t14 + (x * _t17 - _t16 * _t17 * _t14);
+        unknown[2] = _t14 + (x * _t16 - _t15 * _t16 * _t14);
     }
 
     /// `r_i = p_i - (m_(i-1))_i`, `m_i = exp(xi_i ad*_(e_i)) m_(i-1)`, `xi = grad S(p)`
     ///
-    /// 30 additions, 49 multiplications, 3 divisions, 6 function calls.
+    /// 29 additions, 47 multiplications, 3 divisions, 6 function calls.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
@@ -2176,35 +2104,35 @@ for NonpolynomialSpinSecondKind2Equation<'_, S> {
         let _t0 = _u_y * _u_y;
         let _t1 = _u_x.cos() + _u_z * _t0;
         let _t2 = (_u_y * S::ratio(1.0, 2.0)).exp();
-        let _t3 = _u_x * _u_y;
-        let _t4 = _u_z * _t3;
-        let _t5 = S::ratio(1.0, 2.0) * _t2 + S::ratio(2.0, 1.0) * _t4;
-        let _t6 = _u_z * (S::one() / (S::one() + _u_z * _u_z).sqrt()) + _u_y * _t3;
-        let _t7 = _t1 * _u_y - _t5 * _u_x;
-        let _t8 = _t6 * _u_y - _t5 * _u_z;
-        let _t9 = -(_t1 * _u_z) - _t6 * _u_x;
-        let _t10 = _u_y * _u_z;
-        let _t11 = ((self.h * _t1
-            - (_t5 * _t6 - _t7 * _t0 + _t8 * _u_x.sin()
-                - _t9 * S::ratio(2.0, 1.0) * _t10) * self._h0) * S::ratio(1.0, 2.0))
+        let _t3 = _u_z * (_u_x * S::ratio(2.0, 1.0));
+        let _t4 = S::ratio(1.0, 2.0) * _t2 + _u_y * _t3;
+        let _t5 = _u_z * (S::one() / (S::one() + _u_z * _u_z).sqrt()) + _u_x * _t0;
+        let _t6 = _t5 * _u_y - _t4 * _u_z;
+        let _t7 = _t1 * _u_y - _t4 * _u_x;
+        let _t8 = -(_t1 * _u_z) - _t5 * _u_x;
+        let _t9 = ((self.h * _t1
+            - (_t4 * _t5 + _t6 * _u_x.sin()
+                - _u_y * (_t7 * _u_y + _t8 * _u_z * S::ratio(2.0, 1.0))) * self._h0)
+            * S::ratio(1.0, 2.0))
             .tan();
-        let _t12 = _t11 * S::ratio(2.0, 1.0) / (S::one() + _t11 * _t11);
-        let _t13 = _t11 * _t12;
-        let _t14 = z + (-(y * _t12) - z * _t13);
-        let _t15 = (_t2 + S::ratio(4.0, 1.0) * _t4) * self._h1
-            + (_t9 * (_t2 + _u_x * _u_z * S::ratio(8.0, 1.0))
-                + _t1 * _t6 * S::ratio(4.0, 1.0)
-                + S::ratio(8.0, 1.0) * (_t7 * _t3 + _t8 * _t10)) * self._h2;
-        let _t16 = (_t15 * S::ratio(1.0, 2.0)).tan();
-        let _t17 = S::ratio(2.0, 1.0) * _t16 / (S::one() + _t16 * _t16);
+        let _t10 = _t9 * S::ratio(2.0, 1.0) / (S::one() + _t9 * _t9);
+        let _t11 = _t9 * _t10;
+        let _t12 = z + (-(y * _t10) - z * _t11);
+        let _t13 = ((self.h * _t4
+            + self._h0
+                * (_t1 * _t5 + _t8 * (_t2 * S::ratio(1.0, 4.0) + _t3)
+                    + _u_y * S::ratio(2.0, 1.0) * (_t7 * _u_x + _t6 * _u_z)))
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t14 = S::ratio(2.0, 1.0) * _t13 / (S::one() + _t13 * _t13);
         residual[0] = _u_x - x;
-        residual[1] = _u_y - (y + (z * _t12 - y * _t13));
-        residual[2] = _u_z - (_t14 + (x * _t17 - _t16 * _t17 * _t14));
+        residual[1] = _u_y - (y + (z * _t10 - y * _t11));
+        residual[2] = _u_z - (_t12 + (x * _t14 - _t13 * _t14 * _t12));
     }
 
     /// `r_i = p_i - (m_(i-1))_i` and `dr/dp`, by `dm_i/dxi_i = ad*_(e_i) m_i`
     ///
-    /// 98 additions, 127 multiplications, 3 divisions, 6 function calls.
+    /// 92 additions, 127 multiplications, 3 divisions, 6 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -2215,139 +2143,131 @@ for NonpolynomialSpinSecondKind2Equation<'_, S> {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
         let _t0 = _u_x.cos();
-        let _t1 = S::one() / (S::one() + _u_z * _u_z).sqrt();
+        let _t1 = _u_y * _u_y;
         let _t2 = _u_z * _t1;
-        let _t3 = _u_y * _u_y;
-        let _t4 = _u_x * _t3;
-        let _t5 = _t2 + _t4;
-        let _t6 = _u_y * S::ratio(1.0, 2.0);
-        let _t7 = _t6.exp();
-        let _t8 = _u_x * S::ratio(2.0, 1.0);
-        let _t9 = _u_y * _u_z;
-        let _t10 = S::ratio(1.0, 2.0) * _t7 + _t8 * _t9;
-        let _t11 = _t10 * self._h0;
-        let _t12 = _t5 * _u_y - _t10 * _u_z;
-        let _t13 = _u_x.sin();
-        let _t14 = _t13 * self._h0;
-        let _t15 = _u_z * _t3;
-        let _t16 = _t0 + _t15;
-        let _t17 = _t16 * _u_y - _t10 * _u_x;
-        let _t18 = _t17 * self._h3;
-        let _t19 = _u_y * (_t18 + _u_z * self._h4);
-        let _t20 = -(_t16 * _u_z) - _t5 * _u_x;
-        let _t21 = _u_z * self._h5;
-        let _t22 = ((self.h * _t0 - _t5 * _t11 - _t12 * _t14
-            + _t6 * (_t19 + _t20 * _t21)) * S::ratio(1.0, 2.0))
+        let _t3 = _t0 + _t2;
+        let _t4 = _u_y * S::ratio(1.0, 2.0);
+        let _t5 = _t4.exp();
+        let _t6 = _u_x * S::ratio(2.0, 1.0);
+        let _t7 = _u_y * _t6;
+        let _t8 = _u_z * _t7;
+        let _t9 = S::ratio(1.0, 2.0) * _t5 + _t8;
+        let _t10 = S::one() / (S::one() + _u_z * _u_z).sqrt();
+        let _t11 = _u_x * _t1;
+        let _t12 = _u_z * _t10 + _t11;
+        let _t13 = _t12 * _u_y - _t9 * _u_z;
+        let _t14 = _u_x.sin();
+        let _t15 = _t3 * _u_y - _t9 * _u_x;
+        let _t16 = _t15 * _u_y;
+        let _t17 = -(_t3 * _u_z) - _t12 * _u_x;
+        let _t18 = _u_z * S::ratio(2.0, 1.0);
+        let _t19 = ((self.h * _t3
+            - self._h0 * (_t9 * _t12 + _t13 * _t14 - _u_y * (_t16 + _t17 * _t18)))
+            * S::ratio(1.0, 2.0))
             .tan();
-        let _t23 = _t22 * S::ratio(2.0, 1.0) / (S::one() + _t22 * _t22);
-        let _t24 = _t22 * _t23;
-        let _t25 = y + (z * _t23 - y * _t24);
-        let _t26 = z + (-(y * _t23) - z * _t24);
-        let _t27 = self._h3 * _u_y;
-        let _t28 = _t20 * self._h3;
-        let _t29 = _u_z * _t28;
-        let _t30 = _t16 * self._h0;
-        let _t31 = _t28 + self._h6;
-        let _t32 = ((_u_z * (_t12 * _t27) + _u_x * (_t29 + _t19) + _t5 * _t30
-            + _t7 * _t31 * S::ratio(1.0, 8.0)) * S::ratio(1.0, 2.0))
+        let _t20 = _t19 * S::ratio(2.0, 1.0) / (S::one() + _t19 * _t19);
+        let _t21 = _t19 * _t20;
+        let _t22 = y + (z * _t20 - y * _t21);
+        let _t23 = z + (-(y * _t20) - z * _t21);
+        let _t24 = _t5 * S::ratio(1.0, 4.0) + _u_z * _t6;
+        let _t25 = _t15 * _u_x + _t13 * _u_z;
+        let _t26 = ((self.h * _t9
+            + self._h0 * (_t3 * _t12 + _t17 * _t24 + _u_y * S::ratio(2.0, 1.0) * _t25))
+            * S::ratio(1.0, 2.0))
             .tan();
-        let _t33 = S::ratio(2.0, 1.0) * _t32 / (S::one() + _t32 * _t32);
-        let _t34 = _t32 * _t33;
-        let _t35 = S::ratio(2.0, 1.0) * _t9;
-        let _t36 = _t5 * self._h0;
-        let _t37 = _t35 * _t36;
-        let _t38 = -_t13;
-        let _t39 = _t3 * _u_y;
-        let _t40 = _t35 * _u_z;
-        let _t41 = _t6
-            * ((_t38 * _u_y - _t10 - _t35 * _u_x) * _t27
-                + (-_t5 - _t4 - _t38 * _u_z) * _t21) - _t37 - _t3 * _t11
-            - _t12 * _t0 * self._h0;
-        let _t42 = _t41
-            - S::ratio(1.0, 2.0) * _t13 * ((_t39 - _t40) * self._h3 + self._h4);
-        let _t43 = _t7 * S::ratio(1.0, 4.0) + _u_z * _t8;
-        let _t44 = _u_y * _t8;
-        let _t45 = _t5 + _t44 * _u_y - _t43 * _u_z;
-        let _t46 = (_t16 - _t43 * _u_x + _t35 * _u_y) * _t27;
-        let _t47 = _t44 * _u_x;
-        let _t48 = -_t40 - _t47;
-        let _t49 = _u_z * (self._h4 + _t48 * self._h3);
-        let _t50 = _t29 - _t43 * _t36 - _t44 * _t11 - _t45 * _t14
-            + _t6 * (_t46 + S::ratio(2.0, 1.0) * _t49 + _t17 * self._h5);
-        let _t51 = _t1 - _t1 * (_t2 * _t2);
-        let _t52 = _t51 * _u_y - _t10 - _t44 * _u_z;
-        let _t53 = _u_y * (self._h4 + (_t39 - _t47) * self._h3);
-        let _t54 = -_t16 - _t15 - _t51 * _u_x;
-        let _t55 = _t6 * (_t20 * self._h5 + _t53 + _t54 * _t21) - _t44 * _t36
-            - _t51 * _t11 - _t52 * _t14;
-        let _t56 = _t34 * _t25 - _t25;
-        let _t57 = x + (-(_t33 * _t26) - x * _t34);
-        let _t58 = _t12 * self._h3;
-        let _t59 = self._h3 * _u_z;
+        let _t27 = S::ratio(2.0, 1.0) * _t26 / (S::one() + _t26 * _t26);
+        let _t28 = _t26 * _t27;
+        let _t29 = _u_y * _t18;
+        let _t30 = _t12 * _t29;
+        let _t31 = -_t14;
+        let _t32 = self._h1 * _u_y;
+        let _t33 = _t1 * _u_y;
+        let _t34 = _t29 * _u_z;
+        let _t35 = _u_y
+            * ((_t31 * _u_y - _t9 - _t29 * _u_x) * _t32
+                + (-_t12 - _t11 - _t31 * _u_z) * _u_z * self._h2)
+            - _t14 * ((_t33 - _t34) * self._h1 + self._h3);
+        let _t36 = S::ratio(1.0, 2.0) * _t35
+            - (_t30 + _t9 * _t1 + _t13 * _t0) * self._h0;
+        let _t37 = _t12 + _t7 * _u_y - _t24 * _u_z;
+        let _t38 = _t3 - _t24 * _u_x + _t29 * _u_y;
+        let _t39 = _t7 * _u_x;
+        let _t40 = self._h3 + (-_t34 - _t39) * self._h1;
+        let _t41 = self._h1 * (_t17 * _u_z + _t16)
+            - self._h0 * (_t12 * _t24 + _t9 * _t7 + _t37 * _t14)
+            + _t4 * (_t38 * _t32 + _t40 * _t18);
+        let _t42 = _t10 * (_t10 * _t10);
+        let _t43 = _t42 * _u_y - _t9 - _t8;
+        let _t44 = (_t33 - _t39) * self._h1 + self._h3;
+        let _t45 = -_t3 - _t2 - _t42 * _u_x;
+        let _t46 = _t4 * (_u_y * _t44 + self._h2 * (_t17 + _t45 * _u_z))
+            - self._h0 * (_t12 * _t7 + _t9 * _t42 + _t43 * _t14);
+        let _t47 = _t28 * _t22 - _t22;
+        let _t48 = x + (-(_t27 * _t23) - x * _t28);
+        let _t49 = ((_t38 * _u_x + _t37 * _u_z) * _t32 + self._h0 * (_t30 + _t3 * _t7)
+            + (_t17 * _t5 + _t25 * S::ratio(16.0, 1.0)) * self._h4
+            + S::ratio(1.0, 2.0) * _t24 * _t40) * _t48;
+        let _t50 = self._h1 * (_t13 * _u_y + _t17 * _u_x)
+            + _u_y * (_t43 * self._h1 * _u_z + _u_x * _t44)
+            + self._h0 * (_t12 * _t1 + _t3 * _t42 + _t45 * _t24);
         residual[0] = _u_x - x;
-        residual[1] = _u_y - _t25;
-        residual[2] = _u_z - (_t26 + (x * _t33 - _t34 * _t26));
+        residual[1] = _u_y - _t22;
+        residual[2] = _u_z - (_t23 + (x * _t27 - _t28 * _t23));
         matrix[(0, 0)] = S::one();
-        matrix[(1, 0)] = -(_t42 * _t26);
-        matrix[(1, 1)] = S::one() - _t50 * _t26;
-        matrix[(1, 2)] = -(_t55 * _t26);
-        matrix[(2, 0)] = -(_t42 * _t56) - _t50 * _t57;
-        matrix[(2, 1)] = -(_t50 * _t56)
-            - (_t37 + _u_x * (_t46 + _t49 + _t18) + _u_z * (_t45 * _t27 + _t58)
-                + _t44 * _t30 + _t7 * (_t31 + _t48 * self._h5) * S::ratio(1.0, 16.0))
-                * _t57;
-        matrix[(2, 2)] = S::one() - _t55 * _t56
-            - (_u_x * (_t28 + _t54 * _t59 + _t53) + _u_y * (_t52 * _t59 + _t58)
-                + _t3 * _t36 + _t51 * _t30 + _t54 * _t7 * self._h2) * _t57;
+        matrix[(1, 0)] = -(_t36 * _t23);
+        matrix[(1, 1)] = S::one() - _t41 * _t23;
+        matrix[(1, 2)] = -(_t46 * _t23);
+        matrix[(2, 0)] = -(_t36 * _t47) - _t41 * _t48;
+        matrix[(2, 1)] = -(_t41 * _t47) - _t49;
+        matrix[(2, 2)] = S::one() - _t46 * _t47 - _t50 * _t48;
     }
 
     /// `mu1 = m_n`
     ///
-    /// 41 additions, 67 multiplications, 4 divisions, 7 function calls.
+    /// 39 additions, 66 multiplications, 4 divisions, 7 function calls.
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
         let _t0 = (_u_y * S::ratio(1.0, 2.0)).exp();
-        let _t1 = _u_x * _u_y;
+        let _t1 = _u_x * S::ratio(2.0, 1.0);
         let _t2 = _u_z * _t1;
-        let _t3 = _u_y * _u_y;
-        let _t4 = _u_x.cos() + _u_z * _t3;
-        let _t5 = S::one() / (S::one() + _u_z * _u_z).sqrt();
-        let _t6 = _u_z * _t5;
-        let _t7 = _t6 + _u_y * _t1;
-        let _t8 = -(_t4 * _u_z) - _t7 * _u_x;
-        let _t9 = S::ratio(1.0, 2.0) * _t0 + S::ratio(2.0, 1.0) * _t2;
-        let _t10 = _t4 * _u_y - _t9 * _u_x;
-        let _t11 = _t7 * _u_y - _t9 * _u_z;
-        let _t12 = _u_y * _u_z;
-        let _t13 = (_t0 + S::ratio(4.0, 1.0) * _t2) * self._h1
-            + (_t8 * (_t0 + _u_x * _u_z * S::ratio(8.0, 1.0))
-                + _t4 * _t7 * S::ratio(4.0, 1.0)
-                + S::ratio(8.0, 1.0) * (_t10 * _t1 + _t11 * _t12)) * self._h2;
-        let _t14 = (_t13 * S::ratio(1.0, 2.0)).tan();
-        let _t15 = S::ratio(2.0, 1.0) * _t14 / (S::one() + _t14 * _t14);
-        let _t16 = _t8 * S::ratio(2.0, 1.0);
-        let _t17 = ((self.h * _t4
-            - (_t9 * _t7 - _t10 * _t3 + _t11 * _u_x.sin() - _t16 * _t12) * self._h0)
+        let _t3 = S::ratio(1.0, 2.0) * _t0 + _u_y * _t2;
+        let _t4 = _u_y * _u_y;
+        let _t5 = _u_x.cos() + _u_z * _t4;
+        let _t6 = S::one() / (S::one() + _u_z * _u_z).sqrt();
+        let _t7 = _u_z * _t6 + _u_x * _t4;
+        let _t8 = -(_t5 * _u_z) - _t7 * _u_x;
+        let _t9 = _t5 * _u_y - _t3 * _u_x;
+        let _t10 = _t7 * _u_y - _t3 * _u_z;
+        let _t11 = ((self.h * _t3
+            + self._h0
+                * (_t5 * _t7 + _t8 * (_t0 * S::ratio(1.0, 4.0) + _t2)
+                    + _u_y * S::ratio(2.0, 1.0) * (_t9 * _u_x + _t10 * _u_z)))
             * S::ratio(1.0, 2.0))
             .tan();
-        let _t18 = _t17 * S::ratio(2.0, 1.0) / (S::one() + _t17 * _t17);
-        let _t19 = _t17 * _t18;
-        let _t20 = z + (-(y * _t18) - z * _t19);
-        let _t21 = _t14 * _t15;
-        let _t22 = x + (-(_t15 * _t20) - x * _t21);
-        let _t23 = ((self.h * _t7
+        let _t12 = S::ratio(2.0, 1.0) * _t11 / (S::one() + _t11 * _t11);
+        let _t13 = ((self.h * _t5
+            - (_t3 * _t7 + _t10 * _u_x.sin()
+                - _u_y * (_t9 * _u_y + _t8 * _u_z * S::ratio(2.0, 1.0))) * self._h0)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t14 = _t13 * S::ratio(2.0, 1.0) / (S::one() + _t13 * _t13);
+        let _t15 = _t13 * _t14;
+        let _t16 = z + (-(y * _t14) - z * _t15);
+        let _t17 = _t11 * _t12;
+        let _t18 = x + (-(_t12 * _t16) - x * _t17);
+        let _t19 = ((self.h * _t7
             - self._h0
-                * (_t4 * _t9 - _t10 * (_t5 - _t5 * _t6 * _t6) - _t11 * _t3 - _t1 * _t16))
+                * (_t5 * _t3 - _t9 * _t6 * _t6 * _t6 - _u_y * (_t10 * _u_y + _t8 * _t1)))
             * S::ratio(1.0, 2.0))
             .tan();
-        let _t24 = S::ratio(2.0, 1.0) * _t23 / (S::one() + _t23 * _t23);
-        let _t25 = y + (z * _t18 - y * _t19);
-        let _t26 = _t23 * _t24;
-        mu[0] = _t22 + (_t24 * _t25 - _t26 * _t22);
-        mu[1] = _t25 + (-(_t24 * _t22) - _t26 * _t25);
-        mu[2] = _t20 + (x * _t15 - _t21 * _t20);
+        let _t20 = S::ratio(2.0, 1.0) * _t19 / (S::one() + _t19 * _t19);
+        let _t21 = y + (z * _t14 - y * _t15);
+        let _t22 = _t19 * _t20;
+        mu[0] = _t18 + (_t20 * _t21 - _t22 * _t18);
+        mu[1] = _t21 + (-(_t20 * _t18) - _t22 * _t21);
+        mu[2] = _t16 + (x * _t12 - _t17 * _t16);
     }
 
     /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 8 multiplications with the solution.
@@ -2412,14 +2332,10 @@ pub struct NonpolynomialSpinCayleyGenerating4<'a, S: ::lie_runtime::Scalar> {
     system: &'a NonpolynomialSpinSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
-    /// `h/4`
+    /// `h/2`
     _h0: S,
     /// `h^3/48`
     _h1: S,
-    /// `h/2`
-    _h2: S,
-    /// `h/8`
-    _h3: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinCayleyGenerating4<'a, S> {
@@ -2430,10 +2346,8 @@ impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinCayleyGenerating4<'a, S> {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * S::ratio(1.0, 4.0),
+            _h0: h * S::ratio(1.0, 2.0),
             _h1: h * h * h * S::ratio(1.0, 48.0),
-            _h2: h * S::ratio(1.0, 2.0),
-            _h3: h * S::ratio(1.0, 8.0),
         }
     }
 }
@@ -2459,103 +2373,80 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`
     ///
-    /// 96 additions, 145 multiplications, 1 division, 4 function calls.
+    /// 83 additions, 122 multiplications, 1 division, 4 function calls.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
         let _t0 = (_u_y * S::ratio(1.0, 2.0)).exp();
-        let _t1 = _u_x * _u_z;
-        let _t2 = S::ratio(4.0, 1.0) * _t1;
-        let _t3 = _t0 + _u_y * _t2;
+        let _t1 = _u_x * S::ratio(2.0, 1.0);
+        let _t2 = _u_z * _t1;
+        let _t3 = S::ratio(1.0, 2.0) * _t0 + _u_y * _t2;
         let _t4 = _u_x.cos();
         let _t5 = _u_y * _u_y;
-        let _t6 = _u_z * _t5;
-        let _t7 = _t4 + _t6;
-        let _t8 = S::ratio(1.0, 2.0) * _t3;
-        let _t9 = _u_x * _t8 - _u_y * _t7;
-        let _t10 = _u_z * _u_z;
-        let _t11 = S::one() / (S::one() + _t10).sqrt();
-        let _t12 = _u_z * _t11;
-        let _t13 = _u_x * _t5;
-        let _t14 = _t12 + _t13;
-        let _t15 = _u_y * _t14 - _u_z * _t8;
-        let _t16 = _t15 * _u_y;
-        let _t17 = _u_z * _t7 - _u_x * _t14;
-        let _t18 = _t16 + _t17 * _u_x;
-        let _t19 = _t9 * _u_y;
-        let _t20 = _t17 * _u_z + _t19;
-        let _t21 = _u_y * S::ratio(2.0, 1.0);
-        let _t22 = S::ratio(1.0, 2.0) * _t0 + _t1 * _t21;
-        let _t23 = _t14 * _t14;
-        let _t24 = _t7 * _t7;
-        let _t25 = _t22 * _t22;
-        let _t26 = _t24 + _t25;
-        let _t27 = _t23 + _t26;
-        let _t28 = _t22 * _u_y;
-        let _t29 = _t14 * _u_z;
-        let _t30 = _t7 * _u_x;
-        let _t31 = S::ratio(2.0, 1.0)
-            * (_t7 * (S::ratio(2.0, 1.0) * (_t28 + _t29) + _t30 * S::ratio(3.0, 1.0))
-                + _u_x * (_t25 + _t23));
-        let _t32 = S::ratio(2.0, 1.0)
-            * (_t14 * (S::ratio(2.0, 1.0) * (_t28 + _t30) + _t29 * S::ratio(3.0, 1.0))
-                + _u_z * _t26);
-        let _t33 = _t0 + S::ratio(8.0, 1.0) * _t1;
-        let _t34 = _t15 * _u_z + _t9 * _u_x;
-        let _t35 = _t17 * _t33 * S::ratio(1.0, 4.0) + _t34 * _t21;
-        let _t36 = _t35 + _t35;
-        let _t37 = S::ratio(2.0, 1.0)
-            * (_t22 * (_t28 * S::ratio(3.0, 1.0) + S::ratio(2.0, 1.0) * (_t30 + _t29))
-                + _u_y * (_t24 + _t23));
-        let _t38 = _t11 * _t12;
-        let _t39 = _t11 - _t12 * _t38;
-        let _t40 = _u_x * S::ratio(2.0, 1.0);
-        let _t41 = _t9 * _t39 + _u_y * (_t16 + _t17 * _t40);
-        let _t42 = _t41 + _t41;
-        let _t43 = _u_x.sin();
-        let _t44 = _u_z * S::ratio(2.0, 1.0);
-        let _t45 = _t15 * _t43 - _u_y * (_t19 + _t17 * _t44);
-        let _t46 = -_t45 - _t45;
-        let _t47 = S::ratio(2.0, 1.0)
-            * (_t9 * _t18 + _t15 * _t20 + _t22 * _t27
-                + _u_y * (_t31 * _u_z + _t32 * _u_x + _t36 * (_t10 - _u_x * _u_x)))
-            + _t17 * (_t17 * _t0 + _t34 * S::ratio(16.0, 1.0)) * S::ratio(1.0, 8.0);
-        let _t48 = _t47
-            + S::ratio(1.0, 4.0)
-                * (_t37 * _t33
-                    + _t42
-                        * (_u_x * _t33 - _t4 * S::ratio(4.0, 1.0)
-                            - S::ratio(12.0, 1.0) * _t6)
-                    - _t46
-                        * (_u_z * (_t33 - _t11 * S::ratio(4.0, 1.0))
-                            - S::ratio(12.0, 1.0) * _t13));
-        let _t49 = _t3 * self._h0 + _t48 * self._h1;
-        let _t50 = _t32 * _t39 + _t36 * (_t4 - _u_x * _t39 + _t5 * _t44)
-            + _u_y
-                * (_t31 * _u_y - _t42 * (_t5 - _u_x * _t40)
-                    + S::ratio(2.0, 1.0) * (_t15 * _t17 + _t37 * _u_x));
-        let _t51 = _t50 + S::ratio(2.0, 1.0) * (_t17 * _t18 + _t14 * _t27)
-            - _t9 * _t9 * _u_z * (_t11 * _t11 * _t11 - _t11 * _t38 * _t38)
-                * S::ratio(3.0, 1.0)
-            - _t46 * S::ratio(1.0, 2.0) * (_t0 - (_t39 - _t2) * _t21);
-        let _t52 = _t14 * self._h2 + _t51 * self._h1;
-        let _t53 = _u_y
-            * (_t32 * _u_y + _t46 * (_t5 - _u_z * _t44)
-                + S::ratio(2.0, 1.0) * (_t17 * _t9 + _t37 * _u_z)) - _t15 * _t15 * _t4
-            - _t31 * _t43 - _t36 * (_u_z * (_t11 + _t43) + _t5 * _t40);
-        let _t54 = _t7 * self._h2
-            + (_t53 + S::ratio(2.0, 1.0) * (_t17 * _t20 + _t7 * _t27)
-                + _t42 * S::ratio(1.0, 2.0) * (_t0 + (_t43 + _t2) * _t21)) * self._h1;
-        let _t55 = _t54 * _u_x + _t49 * _u_y + _t52 * _u_z;
-        residual[0] = _u_x - x + _t49 * _u_z - _t52 * _u_y + _t54 * _t55;
-        residual[1] = _u_y - y - _t54 * _u_z + _t52 * _u_x + _t49 * _t55;
-        residual[2] = _u_z - z - _t49 * _u_x + _t54 * _u_y + _t52 * _t55;
+        let _t6 = _t4 + _u_z * _t5;
+        let _t7 = _u_x * _t3 - _u_y * _t6;
+        let _t8 = S::one() / (S::one() + _u_z * _u_z).sqrt();
+        let _t9 = _t8 * _t8;
+        let _t10 = _t8 * _t9;
+        let _t11 = _t7 * _t10;
+        let _t12 = _u_z * _t8 + _u_x * _t5;
+        let _t13 = _u_y * _t12 - _u_z * _t3;
+        let _t14 = _u_z * _t6 - _u_x * _t12;
+        let _t15 = _t11 + _u_y * (_t13 * _u_y + _t14 * _t1);
+        let _t16 = _t15 + _t15;
+        let _t17 = _u_x.sin();
+        let _t18 = _u_z * S::ratio(2.0, 1.0);
+        let _t19 = _t13 * _t17 - _u_y * (_t7 * _u_y + _t14 * _t18);
+        let _t20 = -_t19 - _t19;
+        let _t21 = _t0 * S::ratio(1.0, 4.0) + _t2;
+        let _t22 = _t6 * _t1;
+        let _t23 = _t12 * _t18;
+        let _t24 = _t6 * _t6;
+        let _t25 = _t12 * _t12;
+        let _t26 = _u_y * S::ratio(2.0, 1.0);
+        let _t27 = _t3 * S::ratio(2.0, 1.0)
+            * (_t22 + _t23 + _t3 * _u_y * S::ratio(3.0, 1.0)) + (_t24 + _t25) * _t26
+            + _t16 * _u_x - _t20 * _u_z;
+        let _t28 = _t3 * _t3;
+        let _t29 = _t24 + _t28;
+        let _t30 = S::ratio(2.0, 1.0) * (_t25 + _t29);
+        let _t31 = _t3 * _t26;
+        let _t32 = _u_z * S::ratio(3.0, 1.0);
+        let _t33 = _t12 * S::ratio(2.0, 1.0) * (_t22 + _t31 + _t12 * _t32) + _t29 * _t18;
+        let _t34 = _t13 * _u_z;
+        let _t35 = _t7 * _u_x;
+        let _t36 = _t14 * _t21 + (_t34 + _t35) * _t26;
+        let _t37 = _t36 + _t36;
+        let _t38 = _t33 - _t37 * _u_x + _t20 * _u_y;
+        let _t39 = _t6 * S::ratio(2.0, 1.0)
+            * (_t31 + _t23 + _t6 * _u_x * S::ratio(3.0, 1.0)) + (_t28 + _t25) * _t1;
+        let _t40 = _t39 + _t37 * _u_z - _t16 * _u_y;
+        let _t41 = _t20 * _t12 - _t16 * _t6 + _t21 * _t27 + _t3 * _t30
+            + (_u_x * _t38 + _u_z * _t40 + _t13 * _t7 * S::ratio(2.0, 1.0)) * _t26
+            + _t14
+                * (_t14 * _t0 + _t34 * S::ratio(32.0, 1.0) + _t35 * S::ratio(32.0, 1.0))
+                * S::ratio(1.0, 8.0);
+        let _t42 = _t3 * self._h0 + _t41 * self._h1;
+        let _t43 = _t14 * S::ratio(4.0, 1.0);
+        let _t44 = _t14 * _t14;
+        let _t45 = _t33 * _t10 - _t20 * _t3
+            + _u_y * (_t20 * _t10 + _u_y * _t40 + _t13 * _t43 + _t27 * _t1)
+            + _t37 * (_t6 - _u_x * _t10) - _t7 * _t9 * _t11 * _t32;
+        let _t46 = _t12 * self._h0 + (_t45 + _t1 * _t44 + _t12 * _t30) * self._h1;
+        let _t47 = _t16 * _t3 - _t13 * _t13 * _t4 - _t39 * _t17
+            + _u_y * (_t16 * _t17 + _u_y * _t38 + _t7 * _t43 + _t27 * _t18)
+            - _t37 * (_t12 + _u_z * _t17);
+        let _t48 = _t6 * self._h0 + (_t47 + _t18 * _t44 + _t6 * _t30) * self._h1;
+        let _t49 = _t48 * _u_x + _t42 * _u_y + _t46 * _u_z;
+        residual[0] = _u_x - x + _t42 * _u_z - _t46 * _u_y + _t48 * _t49;
+        residual[1] = _u_y - y - _t48 * _u_z + _t46 * _u_x + _t42 * _t49;
+        residual[2] = _u_z - z - _t42 * _u_x + _t48 * _u_y + _t46 * _t49;
     }
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 403 additions, 484 multiplications, 1 division, 4 function calls.
+    /// 391 additions, 469 multiplications, 1 division, 4 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -2572,405 +2463,392 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t4 = _u_z * _t1 + _t3;
         let _t5 = _t4 * _u_z;
         let _t6 = S::ratio(3.0, 1.0) * _t5;
-        let _t7 = (_u_y * S::ratio(1.0, 2.0)).exp();
-        let _t8 = S::ratio(1.0, 2.0) * _t7;
-        let _t9 = _u_y * S::ratio(2.0, 1.0);
-        let _t10 = _u_x * _u_z;
-        let _t11 = _t8 + _t9 * _t10;
-        let _t12 = _t11 * _t9;
-        let _t13 = _u_x.cos();
-        let _t14 = _u_z * _t2;
-        let _t15 = _t13 + _t14;
-        let _t16 = _u_x * S::ratio(2.0, 1.0);
-        let _t17 = _t15 * _t16;
-        let _t18 = _t15 * _t15;
-        let _t19 = _t11 * _t11;
-        let _t20 = _t18 + _t19;
-        let _t21 = _u_z * S::ratio(2.0, 1.0);
-        let _t22 = _t4 * S::ratio(2.0, 1.0) * (_t6 + _t12 + _t17) + _t20 * _t21;
-        let _t23 = _t1 * _t1;
-        let _t24 = _u_z * _t23;
-        let _t25 = _t1 * _t24;
-        let _t26 = _t1 - _u_z * _t25;
-        let _t27 = _u_z * _t15;
-        let _t28 = _u_x * _t4;
-        let _t29 = _t27 - _t28;
-        let _t30 = _t7 + S::ratio(8.0, 1.0) * _t10;
-        let _t31 = _t30 * S::ratio(1.0, 4.0);
-        let _t32 = _u_y * _t4;
-        let _t33 = _u_z * S::ratio(4.0, 1.0);
-        let _t34 = _u_x * _u_y;
-        let _t35 = _t7 + _t33 * _t34;
-        let _t36 = S::ratio(1.0, 2.0) * _t35;
-        let _t37 = _t32 - _u_z * _t36;
-        let _t38 = _t37 * _u_z;
-        let _t39 = _u_y * _t15;
-        let _t40 = _u_x * _t36 - _t39;
-        let _t41 = _t40 * _u_x;
-        let _t42 = _t29 * _t31 + (_t38 + _t41) * _t9;
-        let _t43 = _t42 + _t42;
-        let _t44 = _u_y * _u_z;
-        let _t45 = _t13 - _u_x * _t26 + _t9 * _t44;
-        let _t46 = _t15 * _u_x;
-        let _t47 = S::ratio(3.0, 1.0) * _t46;
-        let _t48 = _t4 * _t21;
-        let _t49 = _t4 * _t4;
-        let _t50 = _t19 + _t49;
-        let _t51 = _t15 * S::ratio(2.0, 1.0) * (_t47 + _t12 + _t48) + _t50 * _t16;
-        let _t52 = _t37 * _u_y;
-        let _t53 = _t29 * _t16;
-        let _t54 = _t40 * _t26 + _u_y * (_t52 + _t53);
-        let _t55 = _t54 + _t54;
-        let _t56 = _u_x * _t16;
-        let _t57 = _t2 - _t56;
-        let _t58 = _t29 * S::ratio(2.0, 1.0);
-        let _t59 = _t11 * _u_y;
-        let _t60 = S::ratio(3.0, 1.0) * _t59;
-        let _t61 = _t18 + _t49;
-        let _t62 = _t11 * S::ratio(2.0, 1.0) * (_t60 + _t17 + _t48) + _t61 * _t9;
-        let _t63 = _t62 * _t16;
-        let _t64 = _t52 + _t29 * _u_x;
-        let _t65 = S::ratio(2.0, 1.0) * (_t49 + _t20);
-        let _t66 = _t1 * _t23;
-        let _t67 = _t24 * _t25;
-        let _t68 = _t66 - _t67;
+        let _t7 = _u_x.cos();
+        let _t8 = _u_z * _t2;
+        let _t9 = _t7 + _t8;
+        let _t10 = _t9 * _u_x;
+        let _t11 = (_u_y * S::ratio(1.0, 2.0)).exp();
+        let _t12 = _u_z * S::ratio(2.0, 1.0);
+        let _t13 = _u_x * _u_y;
+        let _t14 = S::ratio(1.0, 2.0) * _t11 + _t12 * _t13;
+        let _t15 = _t14 * _u_y;
+        let _t16 = _t10 + _t15;
+        let _t17 = _t9 * _t9;
+        let _t18 = _t14 * _t14;
+        let _t19 = _t17 + _t18;
+        let _t20 = S::ratio(2.0, 1.0)
+            * (_t4 * (_t6 + S::ratio(2.0, 1.0) * _t16) + _u_z * _t19);
+        let _t21 = _t1 * _t1;
+        let _t22 = _t1 * _t21;
+        let _t23 = _u_z * _t9;
+        let _t24 = _u_x * _t4;
+        let _t25 = _t23 - _t24;
+        let _t26 = _u_x * _t12;
+        let _t27 = _t11 * S::ratio(1.0, 4.0) + _t26;
+        let _t28 = _u_z * _t14;
+        let _t29 = _u_y * _t4;
+        let _t30 = _t29 - _t28;
+        let _t31 = _u_y * _t9;
+        let _t32 = _u_x * _t14;
+        let _t33 = _t32 - _t31;
+        let _t34 = _t30 * _u_z + _t33 * _u_x;
+        let _t35 = _u_y * S::ratio(2.0, 1.0);
+        let _t36 = _t25 * _t27 + _t34 * _t35;
+        let _t37 = _t36 + _t36;
+        let _t38 = _t8 + _t9 - _u_x * _t22;
+        let _t39 = S::ratio(3.0, 1.0) * _t10;
+        let _t40 = _t5 + _t15;
+        let _t41 = _t4 * _t4;
+        let _t42 = _t18 + _t41;
+        let _t43 = S::ratio(2.0, 1.0)
+            * (_t9 * (_t39 + S::ratio(2.0, 1.0) * _t40) + _u_x * _t42);
+        let _t44 = _t30 * _u_y;
+        let _t45 = _u_x * S::ratio(2.0, 1.0);
+        let _t46 = _t25 * _t45;
+        let _t47 = _t33 * _t22 + _u_y * (_t44 + _t46);
+        let _t48 = _t47 + _t47;
+        let _t49 = _u_x * _t45;
+        let _t50 = _t2 - _t49;
+        let _t51 = _t30 * _t25;
+        let _t52 = S::ratio(3.0, 1.0) * _t15;
+        let _t53 = _t10 + _t5;
+        let _t54 = _t17 + _t41;
+        let _t55 = S::ratio(2.0, 1.0)
+            * (_t14 * (_t52 + S::ratio(2.0, 1.0) * _t53) + _u_y * _t54);
+        let _t56 = _t55 * _u_x;
+        let _t57 = _u_x.sin();
+        let _t58 = _t30 * _t57;
+        let _t59 = _t33 * _u_y;
+        let _t60 = _t25 * _t12;
+        let _t61 = _t58 - _u_y * (_t59 + _t60);
+        let _t62 = -_t61 - _t61;
+        let _t63 = _t26 - _t22;
+        let _t64 = _t14 + _u_y * _t63;
+        let _t65 = _t25 * _u_x;
+        let _t66 = _t44 + _t65;
+        let _t67 = _t41 + _t19;
+        let _t68 = _t21 * _t22;
         let _t69 = _u_z * _t68;
-        let _t70 = S::ratio(3.0, 1.0) * _t69;
-        let _t71 = _t40 * _t70;
-        let _t72 = _u_x.sin();
-        let _t73 = _t37 * _t72;
-        let _t74 = _t40 * _u_y;
-        let _t75 = _t29 * _t21;
-        let _t76 = _t73 - _u_y * (_t74 + _t75);
-        let _t77 = -_t76 - _t76;
-        let _t78 = _u_x * _t33;
-        let _t79 = _t26 - _t78;
-        let _t80 = S::ratio(1.0, 2.0) * (_t7 - _t79 * _t9);
-        let _t81 = _t22 * _t26 + _t43 * _t45
-            + _u_y * (_t51 * _u_y - _t55 * _t57 + _t37 * _t58 + _t63) + _t64 * _t58
-            + _t4 * _t65 - _t40 * _t71;
-        let _t82 = _t4 * self._h2 + (_t81 - _t77 * _t80) * self._h1;
-        let _t83 = _t82 * _u_y;
-        let _t84 = _t40 * S::ratio(2.0, 1.0);
-        let _t85 = _t29 * _u_z + _t74;
-        let _t86 = _t37 * S::ratio(2.0, 1.0);
-        let _t87 = _t0 - _u_x * _u_x;
-        let _t88 = _t29 * _t7;
-        let _t89 = _t88 + _t38 * S::ratio(16.0, 1.0) + _t41 * S::ratio(16.0, 1.0);
-        let _t90 = S::ratio(1.0, 4.0)
-            * (_u_x * _t30 - _t13 * S::ratio(4.0, 1.0) - S::ratio(12.0, 1.0) * _t14);
-        let _t91 = _t1 * S::ratio(4.0, 1.0);
-        let _t92 = _u_z * (_t30 - _t91);
-        let _t93 = S::ratio(1.0, 4.0) * (_t92 - S::ratio(12.0, 1.0) * _t3);
-        let _t94 = _t64 * _t84 + _t85 * _t86 + _t11 * _t65
-            + (_t51 * _u_z + _t22 * _u_x + _t43 * _t87) * _t9
-            + _t29 * _t89 * S::ratio(1.0, 8.0) + _t62 * _t31;
-        let _t95 = _t35 * self._h0 + (_t94 + _t55 * _t90 - _t77 * _t93) * self._h1;
-        let _t96 = _u_x + _t95 * _u_z;
-        let _t97 = _t37 * _t13;
-        let _t98 = _u_z * (_t1 + _t72) + _t9 * _t34;
-        let _t99 = _u_z * _t21;
-        let _t100 = _t2 - _t99;
-        let _t101 = _t62 * _t21;
-        let _t102 = _t72 + _t78;
-        let _t103 = S::ratio(1.0, 2.0) * (_t7 + _t102 * _t9);
-        let _t104 = _u_y * (_t22 * _u_y + _t77 * _t100 + _t40 * _t58 + _t101)
-            - _t37 * _t97 - _t51 * _t72 - _t43 * _t98 + _t85 * _t58 + _t15 * _t65;
-        let _t105 = _t15 * self._h2 + (_t104 + _t55 * _t103) * self._h1;
-        let _t106 = _t82 * _u_z;
-        let _t107 = _t105 * _u_x;
-        let _t108 = _t95 * _u_y;
-        let _t109 = _t107 + _t108;
-        let _t110 = _t106 + _t109;
-        let _t111 = _t82 * _u_x;
-        let _t112 = _u_y - _t105 * _u_z;
-        let _t113 = _t105 * _u_y;
-        let _t114 = _u_z - _t95 * _u_x;
-        let _t115 = _t59 + _t5 + _t47;
-        let _t116 = -_t72;
-        let _t117 = _t116 * S::ratio(4.0, 1.0);
-        let _t118 = _t27 + _t28;
-        let _t119 = _t2 * S::ratio(4.0, 1.0);
-        let _t120 = S::ratio(2.0, 1.0) * _t19 + _t118 * _t119;
-        let _t121 = _t39 + _t11 * _u_x;
-        let _t122 = _u_z * _t9;
-        let _t123 = _t122 * S::ratio(4.0, 1.0);
-        let _t124 = S::ratio(2.0, 1.0) * _t49 + _t121 * _t123;
-        let _t125 = _t18 * S::ratio(6.0, 1.0) + _t115 * _t117 + _t120 + _t124;
-        let _t126 = _u_y * _t9;
-        let _t127 = -_t98;
-        let _t128 = _u_y * _t100;
-        let _t129 = _t8 + _u_y * _t102;
-        let _t130 = _t127 * _t31 + (_t75 + (_t40 + _t128 * _u_z + _t129 * _u_x) * _t9);
-        let _t131 = _t130 + _t130;
-        let _t132 = _t15 * S::ratio(4.0, 1.0);
-        let _t133 = _t4 * _t132;
-        let _t134 = _t11 * _u_z + _t32;
-        let _t135 = _t59 + _t46 + _t6;
-        let _t136 = _t133 + _t118 * _t117 + _t134 * _t123 + _t135 * _t119;
-        let _t137 = _u_y * (_t129 * _u_y + _t127 * _t21) - (_t97 + _t128 * _t72);
-        let _t138 = _t137 + _t137;
-        let _t139 = _t29 * S::ratio(4.0, 1.0);
-        let _t140 = _t11 * _t132;
-        let _t141 = _t46 + _t5 + _t60;
-        let _t142 = _t140 + _t121 * _t117 + _t141 * _t123 + _t134 * _t119;
-        let _t143 = S::ratio(2.0, 1.0) * (_t18 * S::ratio(3.0, 1.0) + _t50);
-        let _t144 = S::ratio(4.0, 1.0) * _t85;
-        let _t145 = _t11 * _t122;
-        let _t146 = _t4 * _t2;
-        let _t147 = _t129 * _t26 + _u_y * (_t128 * _u_y + _t58 + _t127 * _t16);
-        let _t148 = _t147 + _t147;
-        let _t149 = _u_y
-            * (_t136 * _u_y + _t138 * _t100 + _t55 * (_t13 + _t33) + _t129 * _t139
-                + _t142 * _t21) - _t125 * _t72 - _t51 * _t13
-            - _t43 * (_u_z * _t13 + _t126);
-        let _t150 = (_t149 - _t131 * _t98
-            + _t37 * (_t73 - _t128 * _t13 * S::ratio(2.0, 1.0)) + _t116 * _t143
-            + _t127 * _t144 + (_t145 + _t146) * _t132 + _t148 * _t103) * self._h1;
-        let _t151 = _t150 - _t72 * self._h2;
-        let _t152 = _t108 + _t106 + _t105 * _t16;
-        let _t153 = self.h * _t44;
-        let _t154 = S::ratio(4.0, 1.0) * _t64;
-        let _t155 = _t15 * _t116;
-        let _t156 = _t11 * S::ratio(4.0, 1.0);
-        let _t157 = S::ratio(2.0, 1.0) * (_t19 * S::ratio(3.0, 1.0) + _t61);
-        let _t158 = _t43 * S::ratio(2.0, 1.0);
-        let _t159 = S::ratio(1.0, 4.0) * _t89;
-        let _t160 = _t2 * S::ratio(3.0, 1.0);
-        let _t161 = _t77 * (_t99 - _t160) - _t101
-            - (_t40 * _t139
-                + _t55 * S::ratio(1.0, 4.0)
-                    * (_t7 + _t72 * S::ratio(4.0, 1.0) + S::ratio(16.0, 1.0) * _t10));
-        let _t162 = _t128 * _t144 + _t129 * _t154 + (_t146 + _t155) * _t156
-            + _t122 * _t157
-            + (_t22 + _t125 * _u_z + _t131 * _t87 + _u_x * (_t136 - _t158)) * _t9;
-        let _t163 = _t153
-            + (_t162 + _t142 * _t31 + _t148 * _t90 + _t127 * _t159 - _t138 * _t93
-                - _t161) * self._h1;
-        let _t164 = _u_z + _t113;
-        let _t165 = _t2 * self._h2;
-        let _t166 = _t62 * S::ratio(2.0, 1.0);
-        let _t167 = S::ratio(2.0, 1.0) * (_t49 * S::ratio(3.0, 1.0) + _t20);
-        let _t168 = _t4 * S::ratio(4.0, 1.0);
-        let _t169 = _t69 * (_t40 * S::ratio(6.0, 1.0));
-        let _t170 = _t43 * (_t72 + _t26) - _t29 * _t58;
-        let _t171 = _t136 * _t26 + _t131 * _t45
+        let _t70 = _t33 * _t69;
+        let _t71 = S::ratio(3.0, 1.0) * _t70;
+        let _t72 = _t20 * _t22 + _t37 * _t38
+            + _u_y * (_t43 * _u_y - _t48 * _t50 + S::ratio(2.0, 1.0) * (_t51 + _t56))
+            - _t62 * _t64 + S::ratio(2.0, 1.0) * (_t25 * _t66 + _t4 * _t67);
+        let _t73 = _t4 * self._h0 + (_t72 - _t33 * _t71) * self._h1;
+        let _t74 = _t73 * _u_y;
+        let _t75 = _t2 * _t12 + (_t9 - _u_x * _t27);
+        let _t76 = _t4 - _u_z * _t27 + _t2 * _t45;
+        let _t77 = _t25 * _u_z;
+        let _t78 = _t77 + _t59;
+        let _t79 = _t0 - _u_x * _u_x;
+        let _t80 = _t37 * _t79 + (_t43 * _u_z + _t20 * _u_x);
+        let _t81 = _t25 * _t11;
+        let _t82 = _t81 + _t34 * S::ratio(16.0, 1.0);
+        let _t83 = _t55 * _t27 - _t48 * _t75 + _t62 * _t76
+            + S::ratio(2.0, 1.0)
+                * (_t33 * _t66 + _t30 * _t78 + _t14 * _t67 + _u_y * _t80)
+            + _t25 * _t82 * S::ratio(1.0, 8.0);
+        let _t84 = _t14 * self._h0 + _t83 * self._h1;
+        let _t85 = _u_x + _t84 * _u_z;
+        let _t86 = _t30 * _t7;
+        let _t87 = _u_z * _t57 + (_t3 + _t4);
+        let _t88 = _t57 + _t26;
+        let _t89 = _t14 + _u_y * _t88;
+        let _t90 = _u_z * _t12;
+        let _t91 = _t2 - _t90;
+        let _t92 = _t25 * _t33;
+        let _t93 = _t55 * _u_z;
+        let _t94 = _t48 * _t89 - _t30 * _t86 - _t43 * _t57 - _t37 * _t87
+            + _u_y * (_t20 * _u_y + _t62 * _t91 + S::ratio(2.0, 1.0) * (_t92 + _t93))
+            + S::ratio(2.0, 1.0) * (_t25 * _t78 + _t9 * _t67);
+        let _t95 = _t9 * self._h0 + _t94 * self._h1;
+        let _t96 = _t73 * _u_z;
+        let _t97 = _t95 * _u_x;
+        let _t98 = _t84 * _u_y;
+        let _t99 = _t97 + _t98;
+        let _t100 = _t96 + _t99;
+        let _t101 = _t73 * _u_x;
+        let _t102 = _u_y - _t95 * _u_z;
+        let _t103 = _t95 * _u_y;
+        let _t104 = _u_z - _t84 * _u_x;
+        let _t105 = -_t57;
+        let _t106 = _t39 + _t40;
+        let _t107 = _u_y * _t12;
+        let _t108 = _t32 + _t31;
+        let _t109 = _t107 * _t108;
+        let _t110 = _t24 + _t23;
+        let _t111 = _t2 * _t110;
+        let _t112 = _t17 * S::ratio(6.0, 1.0) + S::ratio(2.0, 1.0) * _t42
+            + S::ratio(4.0, 1.0) * (_t105 * _t106 + _t109 + _t111);
+        let _t113 = -_t87;
+        let _t114 = _u_y * _t91;
+        let _t115 = _t113 * _t27
+            + S::ratio(2.0, 1.0) * (_t77 + _u_y * (_t33 + _t114 * _u_z + _t89 * _u_x));
+        let _t116 = _t115 + _t115;
+        let _t117 = S::ratio(2.0, 1.0) * _t2;
+        let _t118 = _t89 * _t22
+            + _u_y * (_t114 * _u_y + S::ratio(2.0, 1.0) * (_t25 + _t113 * _u_x));
+        let _t119 = _t118 + _t118;
+        let _t120 = _t9 * _t4;
+        let _t121 = _t28 + _t29;
+        let _t122 = _t6 + _t16;
+        let _t123 = (_t120 + _t105 * _t110 + _t107 * _t121 + _t2 * _t122)
+            * S::ratio(4.0, 1.0);
+        let _t124 = _u_y * (_t89 * _u_y + _t113 * _t12) - (_t86 + _t114 * _t57);
+        let _t125 = _t124 + _t124;
+        let _t126 = _t25 * S::ratio(4.0, 1.0);
+        let _t127 = _t9 * _t14;
+        let _t128 = _t52 + _t53;
+        let _t129 = S::ratio(4.0, 1.0)
+            * (_t127 + _t105 * _t108 + _t107 * _t128 + _t2 * _t121);
+        let _t130 = _t17 * S::ratio(3.0, 1.0) + _t42;
+        let _t131 = _t14 * _t107;
+        let _t132 = _t4 * _t2;
+        let _t133 = _t119 * _t89 - _t112 * _t57 - _t116 * _t87 - _t43 * _t7
+            - _t37 * (_u_z * _t7 + _t117)
             + _u_y
-                * (_t125 * _u_y - _t148 * _t57 + _t166
-                    + (_t142 + _t55 * S::ratio(2.0, 1.0)) * _t16 + _t128 * _t139
-                    - _t77 * _t33);
-        let _t172 = _t165
-            + (_t171 + _t2 * _t167 + _t127 * _t154 + (_t145 + _t155) * _t168
-                - _t138 * _t80 - _t129 * _t169 - _t170) * self._h1;
-        let _t173 = _t105 * _t95;
-        let _t174 = _t7 * S::ratio(1.0, 4.0) + _u_x * _t21;
-        let _t175 = _t174 * S::ratio(4.0, 1.0);
-        let _t176 = _u_x * _t9;
-        let _t177 = _t176 * S::ratio(4.0, 1.0);
-        let _t178 = _t140 + _t115 * _t123 + _t121 * _t175 + _t118 * _t177;
-        let _t179 = _t87 * _t9;
-        let _t180 = _u_x * _t31 - _t13 - S::ratio(3.0, 1.0) * _t14;
-        let _t181 = _t180 * _u_y;
-        let _t182 = S::ratio(3.0, 1.0) * _t3 - S::ratio(1.0, 4.0) * _t92;
-        let _t183 = _t182 * _u_y;
-        let _t184 = _t88 * S::ratio(1.0, 8.0) + _t179 * _t31
-            + ((_t40 + _t181) * _t16 + (_t37 + _t183) * _t21);
-        let _t185 = _t184 + _t184;
-        let _t186 = _t4 * _t156;
-        let _t187 = _t186 + _t118 * _t123 + _t134 * _t175 + _t135 * _t177;
-        let _t188 = _u_y * (_t181 + _t84 + _t179 * _t21) - (_t182 * _t72 - _t75);
-        let _t189 = _t188 + _t188;
-        let _t190 = S::ratio(2.0, 1.0) * _t18 + _t134 * _t177;
-        let _t191 = _t19 * S::ratio(6.0, 1.0) + _t141 * _t175 + _t124 + _t190;
-        let _t192 = _u_x * S::ratio(4.0, 1.0);
-        let _t193 = _t4 * _t176;
-        let _t194 = _t11 * _t174;
-        let _t195 = S::ratio(2.0, 1.0) * _t97;
-        let _t196 = _u_y * (_t183 + _t86 + _t179 * _t16) + (_t180 * _t26 + _t53);
-        let _t197 = _t196 + _t196;
-        let _t198 = _u_y
-            * (_t187 * _u_y + _t189 * _t100 + _t22 * S::ratio(2.0, 1.0) + _t191 * _t21
-                - _t43 * _t192 + _t180 * _t139) - _t178 * _t72 - _t185 * _t98
-            + _t179 * _t144;
-        let _t199 = _t153
-            + (_t198 + (_t193 + _t194) * _t132 + _t122 * _t143 - _t182 * _t195
-                + _t197 * _t103 - _t161) * self._h1;
-        let _t200 = _t15 * _t122;
-        let _t201 = _t37 * _t40 * S::ratio(4.0, 1.0) + _t182 * _t144 + _t180 * _t154
-            + (_t193 + _t200) * _t156 + _t51 * _t21 + _t174 * _t157 + _t22 * _t16
-            + _t87 * _t158;
-        let _t202 = _t201 + (_t178 * _u_z + _t187 * _u_x + _t185 * _t87) * _t9
-            + _t55 * (_u_x * _t7 - S::ratio(48.0, 1.0) * _t44) * S::ratio(1.0, 8.0)
-            - _t77 * (_u_z * _t7 - S::ratio(48.0, 1.0) * _t34) * S::ratio(1.0, 8.0);
-        let _t203 = _t30 * self._h3
-            + (_t202 + _t179 * _t159 + _t191 * _t31 + _t197 * _t90 - _t189 * _t93
-                + _t7 * (_t29 * _t29 + _t166) * S::ratio(1.0, 16.0)) * self._h1;
-        let _t204 = self.h * _t34;
-        let _t205 = _t55 * (_t160 - _t56) - _t63
-            - (_t37 * _t139
-                - _t77 * S::ratio(1.0, 4.0) * (_t7 - _t91 + _t33 * (_t25 + _t192)));
-        let _t206 = _t187 * _t26 + _t185 * _t45
+                * (_t123 * _u_y + _t125 * _t91 + _t48 * (_t7 + _u_z * S::ratio(4.0, 1.0))
+                    + _t89 * _t126 + _t129 * _t12);
+        let _t134 = (_t133 + _t30 * (_t58 - _t114 * _t7 * S::ratio(2.0, 1.0))
+            + _t105 * S::ratio(2.0, 1.0) * _t130
+            + S::ratio(4.0, 1.0) * (_t113 * _t78 + _t9 * (_t131 + _t132))) * self._h1
+            - _t57 * self._h0;
+        let _t135 = _t98 + _t96 + _t95 * _t45;
+        let _t136 = _u_y * _u_z;
+        let _t137 = self.h * _t136;
+        let _t138 = _t9 * _t105;
+        let _t139 = _t18 * S::ratio(3.0, 1.0) + _t54;
+        let _t140 = _t37 * S::ratio(2.0, 1.0);
+        let _t141 = S::ratio(1.0, 4.0) * _t82;
+        let _t142 = _t2 * S::ratio(3.0, 1.0);
+        let _t143 = _t48 * (_t27 + _t88) - _t62 * (_t90 - _t142);
+        let _t144 = _t129 * _t27 - _t119 * _t75 + _t125 * _t76
+            + S::ratio(4.0, 1.0)
+                * (_t92 + _t114 * _t78 + _t89 * _t66 + _t14 * (_t132 + _t138))
+            + S::ratio(2.0, 1.0)
+                * (_t93 + _t107 * _t139
+                    + _u_y
+                        * (_t20 + _t112 * _u_z + _t116 * _t79 + _u_x * (_t123 - _t140)));
+        let _t145 = _t137 + (_t144 + _t113 * _t141 + _t143) * self._h1;
+        let _t146 = _u_z + _t103;
+        let _t147 = _t2 * self._h0;
+        let _t148 = _t37 * (_t57 + _t22);
+        let _t149 = _t25 * _t25;
+        let _t150 = _t41 * S::ratio(3.0, 1.0) + _t19;
+        let _t151 = S::ratio(6.0, 1.0) * _t70;
+        let _t152 = _t123 * _t22 + _t116 * _t38 - _t148
             + _u_y
-                * (_t178 * _u_y - _t197 * _t57 + _t51 * S::ratio(2.0, 1.0) + _t191 * _t16
-                    + _t43 * _t33 + _t182 * _t139) + _t179 * _t154;
-        let _t207 = _t204
-            + (_t206 + (_t194 + _t200) * _t168 + _t176 * _t167 - _t180 * _t169
-                - _t189 * _t80 - _t205) * self._h1;
-        let _t208 = _t105 * _t82;
-        let _t209 = _t26 * S::ratio(4.0, 1.0);
-        let _t210 = _t133 + _t115 * _t119 + _t121 * _t177 + _t118 * _t209;
-        let _t211 = -(_u_y * _t57);
-        let _t212 = _u_y * _t79 - _t8;
-        let _t213 = _t45 * _t31 + (_t53 + (_t37 + _t211 * _u_x + _t212 * _u_z) * _t9);
-        let _t214 = _t213 + _t213;
-        let _t215 = _t49 * S::ratio(6.0, 1.0) + _t135 * _t209 + _t120 + _t190;
-        let _t216 = _t212 * _t72 - _u_y * (_t58 + _t211 * _u_y + _t45 * _t21);
-        let _t217 = -_t216 - _t216;
-        let _t218 = _t186 + _t121 * _t119 + _t141 * _t177 + _t134 * _t209;
-        let _t219 = _t11 * _t176;
-        let _t220 = _t4 * _t26;
-        let _t221 = _t71 - (_t211 * _t26 + _u_y * (_t212 * _u_y + _t45 * _t16));
-        let _t222 = -_t221 - _t221;
-        let _t223 = _u_y
-            * (_t166 + _t215 * _u_y + _t217 * _t100
-                + (_t218 - _t77 * S::ratio(2.0, 1.0)) * _t21 + _t55 * _t192
-                + _t211 * _t139) - _t210 * _t72 - _t214 * _t98;
-        let _t224 = _t165
-            + (_t223 + _t2 * _t143 - _t212 * _t195 + _t45 * _t144
-                + (_t219 + _t220) * _t132 + _t222 * _t103 - _t170) * self._h1;
-        let _t225 = _t15 * _t2;
-        let _t226 = _t212 * _t144 + _t211 * _t154 + (_t220 + _t225) * _t156
-            + _t176 * _t157
-            + (_t51 + _t215 * _u_x + _t214 * _t87 + _u_z * (_t210 + _t158)) * _t9;
-        let _t227 = _t204
-            + (_t226 + _t45 * _t159 + _t218 * _t31 + _t222 * _t90 - _t217 * _t93 - _t205)
+                * (_t112 * _u_y - _t119 * _t50
+                    + S::ratio(2.0, 1.0)
+                        * (_t55 + _u_x * (_t129 + _t48 * S::ratio(2.0, 1.0)))
+                    + S::ratio(4.0, 1.0) * (_t25 * _t114 - _t62 * _u_z));
+        let _t153 = _t147
+            + (_t152 - _t125 * _t64 + S::ratio(2.0, 1.0) * (_t149 + _t2 * _t150)
+                + S::ratio(4.0, 1.0) * (_t113 * _t66 + _t4 * (_t131 + _t138))
+                - _t89 * _t151) * self._h1;
+        let _t154 = _t95 * _t84;
+        let _t155 = -_t75;
+        let _t156 = _t155 * _u_y;
+        let _t157 = _t76 * _u_y;
+        let _t158 = _t79 * _t35;
+        let _t159 = S::ratio(2.0, 1.0) * (_u_x * (_t33 + _t156) + _u_z * (_t30 + _t157))
+            + (_t158 * _t27 + _t81 * S::ratio(1.0, 8.0));
+        let _t160 = _t159 + _t159;
+        let _t161 = _u_y * _t45;
+        let _t162 = S::ratio(4.0, 1.0)
+            * (_t127 + _t107 * _t106 + _t27 * _t108 + _t161 * _t110);
+        let _t163 = _u_y * (_t157 + S::ratio(2.0, 1.0) * (_t30 + _t158 * _u_x))
+            + (_t155 * _t22 + _t46);
+        let _t164 = _t163 + _t163;
+        let _t165 = _t14 * _t4;
+        let _t166 = S::ratio(4.0, 1.0)
+            * (_t165 + _t107 * _t110 + _t27 * _t121 + _t161 * _t122);
+        let _t167 = _u_y * (_t156 + S::ratio(2.0, 1.0) * (_t33 + _t158 * _u_z))
+            - (_t76 * _t57 - _t60);
+        let _t168 = _t167 + _t167;
+        let _t169 = _t161 * _t121;
+        let _t170 = S::ratio(2.0, 1.0) * _t54 + _t18 * S::ratio(6.0, 1.0)
+            + S::ratio(4.0, 1.0) * (_t109 + _t27 * _t128 + _t169);
+        let _t171 = _t4 * _t161;
+        let _t172 = _t14 * _t27;
+        let _t173 = _t164 * _t89 - _t160 * _t87 - _t162 * _t57
+            + _u_y
+                * (_t166 * _u_y + _t168 * _t91
+                    + S::ratio(2.0, 1.0) * (_t20 + _t170 * _u_z)
+                    - S::ratio(4.0, 1.0) * (_t37 * _u_x - _t25 * _t155));
+        let _t174 = _t137
+            + (_t173 + S::ratio(4.0, 1.0) * (_t92 + _t158 * _t78 + _t9 * (_t171 + _t172))
+                + S::ratio(2.0, 1.0) * (_t93 + _t107 * _t130 - _t76 * _t86) + _t143)
                 * self._h1;
-        let _t228 = _t215 * _t26 + _t214 * _t45 + _t43 * (_t126 + _u_x * _t70)
-            - _u_y
-                * (_t77 * (_t192 + _t70) - _t210 * _u_y + _t222 * _t57 - _t212 * _t139
-                    - _t218 * _t16);
-        let _t229 = _t228 + _t26 * _t167 + _t45 * _t154 + (_t219 + _t225) * _t168
-            - _t22 * _t70
-            - _t40 * S::ratio(3.0, 1.0)
-                * (_t40
-                    * (_t66
-                        - _t0
-                            * (S::ratio(6.0, 1.0) * _t23 * _t66
-                                - S::ratio(5.0, 1.0) * _t23 * _t67)) + _t211 * _t68 * _t21);
-        let _t230 = _t26 * self._h2 + (_t229 - _t217 * _t80) * self._h1;
-        let _t231 = _t107 + _t106 + _t95 * _t9;
-        let _t232 = _t95 * _t82;
-        let _t233 = _u_y + _t111;
-        let _t234 = _u_x - _t83;
-        let _t235 = _t82 * _t21 + _t109;
-        residual[0] = _t96 - x - _t83 + _t105 * _t110;
-        residual[1] = _t111 - y + _t112 + _t95 * _t110;
-        residual[2] = _t113 - z + _t114 + _t82 * _t110;
-        matrix[(0, 0)] = S::one() + _t105 * _t105 + _t151 * _t152 + _t163 * _t164
-            - _t172 * _t112;
-        matrix[(0, 1)] = _t173 - _t82 + _t199 * _t152 + _t203 * _t164 - _t207 * _t112;
-        matrix[(0, 2)] = _t95 + _t208 + _t224 * _t152 + _t227 * _t164 - _t230 * _t112;
-        matrix[(1, 0)] = _t82 + _t173 - _t151 * _t114 + _t163 * _t231 + _t172 * _t96;
-        matrix[(1, 1)] = S::one() + _t95 * _t95 - _t199 * _t114 + _t203 * _t231
-            + _t207 * _t96;
-        matrix[(1, 2)] = _t232 - _t105 - _t224 * _t114 + _t227 * _t231 + _t230 * _t96;
-        matrix[(2, 0)] = _t208 - _t95 + _t151 * _t233 - _t163 * _t234 + _t172 * _t235;
-        matrix[(2, 1)] = _t105 + _t232 + _t199 * _t233 - _t203 * _t234 + _t207 * _t235;
-        matrix[(2, 2)] = S::one() + _t82 * _t82 + _t224 * _t233 - _t227 * _t234
-            + _t230 * _t235;
+        let _t175 = _t9 * _t107;
+        let _t176 = _t168 * _t76 + _t170 * _t27 - _t164 * _t75
+            + S::ratio(4.0, 1.0)
+                * (_t30 * _t33 + _t76 * _t78 + _t155 * _t66 + _t14 * (_t171 + _t175))
+            + S::ratio(2.0, 1.0)
+                * (_t27 * _t139 + _u_y * (_t162 * _u_z + _t166 * _u_x + _t160 * _t79)
+                    + _t80);
+        let _t177 = _t176
+            + S::ratio(1.0, 8.0)
+                * (_t48 * (_u_x * _t11 - S::ratio(48.0, 1.0) * _t136)
+                    - _t62 * (_u_z * _t11 - S::ratio(48.0, 1.0) * _t13)) + _t158 * _t141
+            + _t11 * (_t149 + _t55 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 16.0);
+        let _t178 = _t27 * self._h0 + _t177 * self._h1;
+        let _t179 = self.h * _t13;
+        let _t180 = _t48 * (_t142 - _t49) + _t62 * (_t27 + _t63);
+        let _t181 = _t166 * _t22 + _t160 * _t38
+            + _u_y
+                * (_t162 * _u_y - _t164 * _t50
+                    + S::ratio(2.0, 1.0) * (_t43 + _t170 * _u_x)
+                    + S::ratio(4.0, 1.0) * (_t37 * _u_z + _t25 * _t76));
+        let _t182 = (_t181 - _t168 * _t64
+            + S::ratio(4.0, 1.0) * (_t51 + _t158 * _t66 + _t4 * (_t172 + _t175))
+            + S::ratio(2.0, 1.0) * (_t56 + _t161 * _t150) - _t155 * _t151 - _t180)
+            * self._h1;
+        let _t183 = _t179 + _t182;
+        let _t184 = _t95 * _t73;
+        let _t185 = S::ratio(4.0, 1.0)
+            * (_t120 + _t2 * _t106 + _t161 * _t108 + _t22 * _t110);
+        let _t186 = -(_u_y * _t50);
+        let _t187 = -_t64;
+        let _t188 = _t38 * _t27
+            + S::ratio(2.0, 1.0) * (_t65 + _u_y * (_t30 + _t186 * _u_x + _t187 * _u_z));
+        let _t189 = _t188 + _t188;
+        let _t190 = _t71 - (_t186 * _t22 + _u_y * (_t187 * _u_y + _t38 * _t45));
+        let _t191 = -_t190 - _t190;
+        let _t192 = S::ratio(2.0, 1.0) * _t19 + _t41 * S::ratio(6.0, 1.0)
+            + S::ratio(4.0, 1.0) * (_t111 + _t169 + _t22 * _t122);
+        let _t193 = _t187 * _t57
+            - _u_y * (_t186 * _u_y + S::ratio(2.0, 1.0) * (_t25 + _t38 * _u_z));
+        let _t194 = -_t193 - _t193;
+        let _t195 = S::ratio(4.0, 1.0)
+            * (_t165 + _t2 * _t108 + _t161 * _t128 + _t22 * _t121);
+        let _t196 = _t14 * _t161;
+        let _t197 = _t4 * _t22;
+        let _t198 = _t191 * _t89 - _t185 * _t57 - _t189 * _t87 - _t148
+            + _u_y
+                * (_t192 * _u_y + _t194 * _t91
+                    + S::ratio(2.0, 1.0)
+                        * (_t55 + _u_z * (_t195 - _t62 * S::ratio(2.0, 1.0)))
+                    + S::ratio(4.0, 1.0) * (_t48 * _u_x + _t25 * _t186));
+        let _t199 = _t147
+            + (_t198 + S::ratio(2.0, 1.0) * (_t149 + _t2 * _t130 - _t187 * _t86)
+                + S::ratio(4.0, 1.0) * (_t38 * _t78 + _t9 * (_t196 + _t197))) * self._h1;
+        let _t200 = _t9 * _t2;
+        let _t201 = _t195 * _t27 - _t191 * _t75 + _t194 * _t76
+            + S::ratio(4.0, 1.0)
+                * (_t51 + _t187 * _t78 + _t186 * _t66 + _t14 * (_t197 + _t200))
+            + S::ratio(2.0, 1.0)
+                * (_t56 + _t161 * _t139
+                    + _u_y
+                        * (_t43 + _t192 * _u_x + _t189 * _t79 + _u_z * (_t185 + _t140)));
+        let _t202 = _t179 + (_t201 + _t38 * _t141 - _t180) * self._h1;
+        let _t203 = S::ratio(3.0, 1.0) * _t69;
+        let _t204 = _t37 * (_t117 + _u_x * _t203) + _t192 * _t22 + _t189 * _t38
+            - _t194 * _t64
+            + _u_y
+                * (_t185 * _u_y - _t191 * _t50
+                    - _t62 * (_u_x * S::ratio(4.0, 1.0) + _t203) + _t187 * _t126
+                    + _t195 * _t45);
+        let _t205 = _t204 + _t22 * S::ratio(2.0, 1.0) * _t150
+            + S::ratio(4.0, 1.0) * (_t38 * _t66 + _t4 * (_t196 + _t200))
+            - S::ratio(3.0, 1.0)
+                * (_t20 * _t69
+                    + _t33
+                        * (_t33 * (S::one() - _t0 * S::ratio(4.0, 1.0)) * _t21 * _t68
+                            + _t186 * _t12 * _t68));
+        let _t206 = self._h0 * _t22 + _t205 * self._h1;
+        let _t207 = _t97 + _t96 + _t84 * _t35;
+        let _t208 = _t84 * _t73;
+        let _t209 = _u_y + _t101;
+        let _t210 = _u_x - _t74;
+        let _t211 = _t73 * _t12 + _t99;
+        residual[0] = _t85 - x - _t74 + _t95 * _t100;
+        residual[1] = _t101 - y + _t102 + _t84 * _t100;
+        residual[2] = _t103 - z + _t104 + _t73 * _t100;
+        matrix[(0, 0)] = S::one() + _t95 * _t95 + _t134 * _t135 + _t145 * _t146
+            - _t153 * _t102;
+        matrix[(0, 1)] = _t154 - _t73 + _t174 * _t135 + _t178 * _t146 - _t183 * _t102;
+        matrix[(0, 2)] = _t84 + _t184 + _t199 * _t135 + _t202 * _t146 - _t206 * _t102;
+        matrix[(1, 0)] = _t73 + _t154 - _t134 * _t104 + _t145 * _t207 + _t153 * _t85;
+        matrix[(1, 1)] = S::one() + _t84 * _t84 - _t174 * _t104 + _t178 * _t207
+            + _t183 * _t85;
+        matrix[(1, 2)] = _t208 - _t95 - _t199 * _t104 + _t202 * _t207 + _t206 * _t85;
+        matrix[(2, 0)] = _t184 - _t84 + _t134 * _t209 - _t145 * _t210 + _t153 * _t211;
+        matrix[(2, 1)] = _t95 + _t208 + _t174 * _t209 - _t178 * _t210 + _t183 * _t211;
+        matrix[(2, 2)] = S::one() + _t73 * _t73 + _t199 * _t209 - _t202 * _t210
+            + _t206 * _t211;
     }
 
     /// `mu1 = mu + 2 ad*_y p`
     ///
-    /// 89 additions, 140 multiplications, 1 division, 4 function calls.
+    /// 75 additions, 116 multiplications, 1 division, 4 function calls.
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
         let _t0 = (_u_y * S::ratio(1.0, 2.0)).exp();
-        let _t1 = _u_x * _u_z;
-        let _t2 = S::ratio(4.0, 1.0) * _t1;
-        let _t3 = _t0 + _u_y * _t2;
+        let _t1 = _u_x * S::ratio(2.0, 1.0);
+        let _t2 = _u_z * _t1;
+        let _t3 = S::ratio(1.0, 2.0) * _t0 + _u_y * _t2;
         let _t4 = _u_x.cos();
         let _t5 = _u_y * _u_y;
-        let _t6 = _u_z * _t5;
-        let _t7 = _t4 + _t6;
-        let _t8 = S::ratio(1.0, 2.0) * _t3;
-        let _t9 = _u_x * _t8 - _u_y * _t7;
-        let _t10 = _u_z * _u_z;
-        let _t11 = S::one() / (S::one() + _t10).sqrt();
-        let _t12 = _u_z * _t11;
-        let _t13 = _u_x * _t5;
-        let _t14 = _t12 + _t13;
-        let _t15 = _u_y * _t14 - _u_z * _t8;
-        let _t16 = _t15 * _u_y;
-        let _t17 = _u_z * _t7 - _u_x * _t14;
-        let _t18 = _t16 + _t17 * _u_x;
-        let _t19 = _t9 * _u_y;
-        let _t20 = _t17 * _u_z + _t19;
-        let _t21 = _u_y * S::ratio(2.0, 1.0);
-        let _t22 = S::ratio(1.0, 2.0) * _t0 + _t21 * _t1;
-        let _t23 = _t14 * _t14;
-        let _t24 = _t7 * _t7;
-        let _t25 = _t22 * _t22;
-        let _t26 = _t24 + _t25;
-        let _t27 = S::ratio(2.0, 1.0) * (_t23 + _t26);
-        let _t28 = _t22 * _t21;
-        let _t29 = _u_z * S::ratio(2.0, 1.0);
-        let _t30 = _t14 * _t29;
-        let _t31 = _u_x * S::ratio(2.0, 1.0);
-        let _t32 = _t7 * S::ratio(2.0, 1.0)
-            * (_t28 + _t30 + _t7 * _u_x * S::ratio(3.0, 1.0)) + (_t25 + _t23) * _t31;
-        let _t33 = _t7 * _t31;
-        let _t34 = _u_z * S::ratio(3.0, 1.0);
-        let _t35 = _t14 * S::ratio(2.0, 1.0) * (_t28 + _t33 + _t14 * _t34) + _t26 * _t29;
-        let _t36 = _t0 + S::ratio(8.0, 1.0) * _t1;
-        let _t37 = _t36 * S::ratio(1.0, 4.0);
-        let _t38 = _t15 * _u_z;
-        let _t39 = _t9 * _u_x;
-        let _t40 = _t17 * _t37 + (_t38 + _t39) * _t21;
-        let _t41 = _t40 + _t40;
-        let _t42 = _t22 * S::ratio(2.0, 1.0)
-            * (_t33 + _t22 * _u_y * S::ratio(3.0, 1.0) + _t30) + (_t24 + _t23) * _t21;
-        let _t43 = _t11 * _t12;
-        let _t44 = _t11 - _t12 * _t43;
-        let _t45 = _t9 * _t44 + _u_y * (_t16 + _t17 * _t31);
-        let _t46 = _t45 + _t45;
-        let _t47 = _u_x.sin();
-        let _t48 = _t15 * _t47 - _u_y * (_t19 + _t17 * _t29);
-        let _t49 = -_t48 - _t48;
-        let _t50 = _t9 * S::ratio(2.0, 1.0) * _t18 + _t15 * S::ratio(2.0, 1.0) * _t20
-            + _t22 * _t27
-            + (_t32 * _u_z + _t35 * _u_x + _t41 * (_t10 - _u_x * _u_x)) * _t21
-            + _t17
-                * (_t17 * _t0 + _t38 * S::ratio(16.0, 1.0) + _t39 * S::ratio(16.0, 1.0))
+        let _t6 = _t4 + _u_z * _t5;
+        let _t7 = _u_x * _t3 - _u_y * _t6;
+        let _t8 = S::one() / (S::one() + _u_z * _u_z).sqrt();
+        let _t9 = _t8 * _t8;
+        let _t10 = _t8 * _t9;
+        let _t11 = _t7 * _t10;
+        let _t12 = _u_z * _t8 + _u_x * _t5;
+        let _t13 = _u_y * _t12 - _u_z * _t3;
+        let _t14 = _u_z * _t6 - _u_x * _t12;
+        let _t15 = _t11 + _u_y * (_t13 * _u_y + _t14 * _t1);
+        let _t16 = _t15 + _t15;
+        let _t17 = _u_x.sin();
+        let _t18 = _u_z * S::ratio(2.0, 1.0);
+        let _t19 = _t13 * _t17 - _u_y * (_t7 * _u_y + _t14 * _t18);
+        let _t20 = -_t19 - _t19;
+        let _t21 = _t0 * S::ratio(1.0, 4.0) + _t2;
+        let _t22 = _t6 * _t1;
+        let _t23 = _t12 * _t18;
+        let _t24 = _t6 * _t6;
+        let _t25 = _t12 * _t12;
+        let _t26 = _u_y * S::ratio(2.0, 1.0);
+        let _t27 = _t3 * S::ratio(2.0, 1.0)
+            * (_t22 + _t23 + _t3 * _u_y * S::ratio(3.0, 1.0)) + (_t24 + _t25) * _t26
+            + _t16 * _u_x - _t20 * _u_z;
+        let _t28 = _t3 * _t3;
+        let _t29 = _t24 + _t28;
+        let _t30 = S::ratio(2.0, 1.0) * (_t25 + _t29);
+        let _t31 = _t3 * _t26;
+        let _t32 = _u_z * S::ratio(3.0, 1.0);
+        let _t33 = _t12 * S::ratio(2.0, 1.0) * (_t22 + _t31 + _t12 * _t32) + _t29 * _t18;
+        let _t34 = _t13 * _u_z;
+        let _t35 = _t7 * _u_x;
+        let _t36 = _t14 * _t21 + (_t34 + _t35) * _t26;
+        let _t37 = _t36 + _t36;
+        let _t38 = _t33 - _t37 * _u_x + _t20 * _u_y;
+        let _t39 = _t6 * S::ratio(2.0, 1.0)
+            * (_t31 + _t23 + _t6 * _u_x * S::ratio(3.0, 1.0)) + (_t28 + _t25) * _t1;
+        let _t40 = _t39 + _t37 * _u_z - _t16 * _u_y;
+        let _t41 = _t20 * _t12 - _t16 * _t6 + _t21 * _t27 + _t3 * _t30
+            + (_u_x * _t38 + _u_z * _t40 + _t13 * _t7 * S::ratio(2.0, 1.0)) * _t26
+            + _t14
+                * (_t14 * _t0 + _t34 * S::ratio(32.0, 1.0) + _t35 * S::ratio(32.0, 1.0))
                 * S::ratio(1.0, 8.0);
-        let _t51 = _t50 + _t42 * _t37
-            + _t46 * (_u_x * _t36 - _t4 * S::ratio(4.0, 1.0) - S::ratio(12.0, 1.0) * _t6)
-                * S::ratio(1.0, 4.0)
-            - _t49 * S::ratio(1.0, 4.0)
-                * (_u_z * (_t36 - _t11 * S::ratio(4.0, 1.0))
-                    - S::ratio(12.0, 1.0) * _t13);
-        let _t52 = _t3 * self._h0 + _t51 * self._h1;
-        let _t53 = _u_y * _t21;
-        let _t54 = _t17 * S::ratio(2.0, 1.0);
-        let _t55 = _t35 * _t44 + _t41 * (_t4 - _u_x * _t44 + _u_z * _t53)
-            + _u_y
-                * (_t32 * _u_y - _t46 * (_t5 - _u_x * _t31) + _t15 * _t54 + _t42 * _t31);
-        let _t56 = _t55 + _t18 * _t54 + _t14 * _t27
-            - _t9 * _t9 * (_t11 * _t11 * _t11 - _t11 * _t43 * _t43) * _t34
-            - _t49 * S::ratio(1.0, 2.0) * (_t0 - (_t44 - _t2) * _t21);
-        let _t57 = _t14 * self._h2 + _t56 * self._h1;
-        let _t58 = _u_y
-            * (_t35 * _u_y + _t49 * (_t5 - _u_z * _t29) + _t9 * _t54 + _t42 * _t29)
-            - _t15 * _t15 * _t4 - _t32 * _t47
-            - _t41 * (_u_z * (_t11 + _t47) + _u_x * _t53);
-        let _t59 = _t7 * self._h2
-            + (_t58 + _t20 * _t54 + _t7 * _t27
-                + _t46 * S::ratio(1.0, 2.0) * (_t0 + (_t47 + _t2) * _t21)) * self._h1;
-        mu[0] = x - _t52 * _t29 + _t57 * _t21;
-        mu[1] = y + _t59 * _t29 - _t57 * _t31;
-        mu[2] = z + _t52 * _t31 - _t59 * _t21;
+        let _t42 = _t3 * self._h0 + _t41 * self._h1;
+        let _t43 = _t14 * S::ratio(4.0, 1.0);
+        let _t44 = _t14 * _t14;
+        let _t45 = _t33 * _t10 - _t20 * _t3
+            + _u_y * (_t20 * _t10 + _u_y * _t40 + _t13 * _t43 + _t27 * _t1)
+            + _t37 * (_t6 - _u_x * _t10) - _t7 * _t9 * _t11 * _t32;
+        let _t46 = _t12 * self._h0 + (_t45 + _t1 * _t44 + _t12 * _t30) * self._h1;
+        let _t47 = _t16 * _t3 - _t13 * _t13 * _t4 - _t39 * _t17
+            + _u_y * (_t16 * _t17 + _u_y * _t38 + _t7 * _t43 + _t27 * _t18)
+            - _t37 * (_t12 + _u_z * _t17);
+        let _t48 = _t6 * self._h0 + (_t47 + _t18 * _t44 + _t6 * _t30) * self._h1;
+        mu[0] = x - _t42 * _t18 + _t46 * _t26;
+        mu[1] = y + _t48 * _t18 - _t46 * _t1;
+        mu[2] = z + _t42 * _t1 - _t48 * _t26;
     }
 
     #[inline]

@@ -10,13 +10,13 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case)]
 pub struct ManakovTop<S = f64> {
-    /// second moment of mass along the first axis [kg m^2].
+    /// second moment of mass along the first axis \[kg m^2].
     pub J1: S,
-    /// second moment of mass along the second axis [kg m^2].
+    /// second moment of mass along the second axis \[kg m^2].
     pub J2: S,
-    /// second moment of mass along the third axis [kg m^2].
+    /// second moment of mass along the third axis \[kg m^2].
     pub J3: S,
-    /// second moment of mass along the fourth axis [kg m^2].
+    /// second moment of mass along the fourth axis \[kg m^2].
     pub J4: S,
 }
 
@@ -71,8 +71,8 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
         let _t19 = _t9 - _t10;
         let _t20 = S::ratio(4.0, 1.0) / _t3;
         let _t21 = S::ratio(4.0, 1.0) / _t0;
-        let _t22 = S::ratio(4.0, 1.0) / _t2;
-        let _t23 = S::ratio(4.0, 1.0) / _t5;
+        let _t22 = S::ratio(4.0, 1.0) / _t5;
+        let _t23 = S::ratio(4.0, 1.0) / _t2;
         let _t24 = S::ratio(4.0, 1.0) / _t1;
         let _t25 = S::ratio(4.0, 1.0) / _t4;
         let _c0 = S::ratio(1.0, 2.0) / _t0;
@@ -87,60 +87,60 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
         let _c9 = _t9;
         let _c10 = _t10;
         let _c11 = _t11;
-        let _c12 = _t12;
-        let _c13 = _t13;
+        let _c12 = -_t12;
+        let _c13 = -_t13;
         let _c14 = _t6 - _t9;
-        let _c15 = _t14;
+        let _c15 = -_t14;
         let _c16 = _t6 - _t10;
         let _c17 = _t7 - _t11;
-        let _c18 = _t15;
-        let _c19 = _t16;
-        let _c20 = _t17;
+        let _c18 = -_t15;
+        let _c19 = -_t16;
+        let _c20 = -_t17;
         let _c21 = _t9 - _t11;
-        let _c22 = _t18;
-        let _c23 = _t19;
-        let _c24 = -_t12;
-        let _c25 = -_t13;
-        let _c26 = -_t14;
-        let _c27 = -_t15;
-        let _c28 = -_t16;
-        let _c29 = -_t17;
-        let _c30 = -_t18;
-        let _c31 = -_t19;
-        let _c32 = self.J1;
-        let _c33 = self.J2;
-        let _c34 = self.J3;
-        let _c35 = self.J4;
+        let _c22 = -_t18;
+        let _c23 = -_t19;
+        let _c24 = self.J1;
+        let _c25 = self.J2;
+        let _c26 = self.J3;
+        let _c27 = self.J4;
+        let _c28 = _t15;
+        let _c29 = _t16;
+        let _c30 = _t17;
+        let _c31 = _t14;
+        let _c32 = _t18;
+        let _c33 = _t19;
+        let _c34 = _t12;
+        let _c35 = _t13;
         let _c36 = S::ratio(8.0, 1.0) / _t5;
         let _c37 = S::ratio(8.0, 1.0) / _t3;
         let _c38 = S::ratio(8.0, 1.0) / _t2;
         let _c39 = S::ratio(8.0, 1.0) / _t0;
         let _c40 = _t21 - _t20;
-        let _c41 = _t22 - _t23;
+        let _c41 = _t23 - _t22;
         let _c42 = S::ratio(8.0, 1.0) / _t4;
         let _c43 = S::ratio(8.0, 1.0) / _t1;
-        let _c44 = _t21 - _t22;
-        let _c45 = _t20 - _t23;
+        let _c44 = _t21 - _t23;
+        let _c45 = _t20 - _t22;
         let _c46 = _t21 - _t24;
-        let _c47 = _t25 - _t23;
+        let _c47 = _t25 - _t22;
         let _c48 = _t21 - _t25;
-        let _c49 = _t24 - _t23;
+        let _c49 = _t24 - _t22;
         let _c50 = _t24 - _t20;
-        let _c51 = _t22 - _t25;
-        let _c52 = _t24 - _t22;
+        let _c51 = _t23 - _t25;
+        let _c52 = _t24 - _t23;
         let _c53 = _t20 - _t25;
         let _c54 = _t21;
         let _c55 = S::ratio(2.0, 1.0) / _t0;
         let _c56 = S::ratio(2.0, 1.0) / _t1;
         let _c57 = _t24;
         let _c58 = S::ratio(2.0, 1.0) / _t2;
-        let _c59 = _t22;
+        let _c59 = _t23;
         let _c60 = S::ratio(2.0, 1.0) / _t3;
         let _c61 = _t20;
         let _c62 = S::ratio(2.0, 1.0) / _t4;
         let _c63 = _t25;
         let _c64 = S::ratio(2.0, 1.0) / _t5;
-        let _c65 = _t23;
+        let _c65 = _t22;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "J1", "1/(2*(J1 + J2))"),
@@ -155,30 +155,30 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
                 (_c9, "J2", "1/(J2 + J3)"),
                 (_c10, "J2", "1/(J2 + J4)"),
                 (_c11, "J3", "1/(J3 + J4)"),
-                (_c12, "J1", "1/(J1 + J3) - 1/(J2 + J3)"),
-                (_c13, "J1", "1/(J1 + J4) - 1/(J2 + J4)"),
+                (_c12, "J1", "-1/(J1 + J3) + 1/(J2 + J3)"),
+                (_c13, "J1", "-1/(J1 + J4) + 1/(J2 + J4)"),
                 (_c14, "J1", "1/(J1 + J2) - 1/(J2 + J3)"),
-                (_c15, "J1", "1/(J1 + J4) - 1/(J3 + J4)"),
+                (_c15, "J1", "-1/(J1 + J4) + 1/(J3 + J4)"),
                 (_c16, "J1", "1/(J1 + J2) - 1/(J2 + J4)"),
                 (_c17, "J1", "1/(J1 + J3) - 1/(J3 + J4)"),
-                (_c18, "J1", "1/(J1 + J2) - 1/(J1 + J3)"),
-                (_c19, "J2", "1/(J2 + J4) - 1/(J3 + J4)"),
-                (_c20, "J1", "1/(J1 + J2) - 1/(J1 + J4)"),
+                (_c18, "J1", "-1/(J1 + J2) + 1/(J1 + J3)"),
+                (_c19, "J2", "-1/(J2 + J4) + 1/(J3 + J4)"),
+                (_c20, "J1", "-1/(J1 + J2) + 1/(J1 + J4)"),
                 (_c21, "J2", "1/(J2 + J3) - 1/(J3 + J4)"),
-                (_c22, "J1", "1/(J1 + J3) - 1/(J1 + J4)"),
-                (_c23, "J2", "1/(J2 + J3) - 1/(J2 + J4)"),
-                (_c24, "J1", "-1/(J1 + J3) + 1/(J2 + J3)"),
-                (_c25, "J1", "-1/(J1 + J4) + 1/(J2 + J4)"),
-                (_c26, "J1", "-1/(J1 + J4) + 1/(J3 + J4)"),
-                (_c27, "J1", "-1/(J1 + J2) + 1/(J1 + J3)"),
-                (_c28, "J2", "-1/(J2 + J4) + 1/(J3 + J4)"),
-                (_c29, "J1", "-1/(J1 + J2) + 1/(J1 + J4)"),
-                (_c30, "J1", "-1/(J1 + J3) + 1/(J1 + J4)"),
-                (_c31, "J2", "-1/(J2 + J3) + 1/(J2 + J4)"),
-                (_c32, "J1", "J1"),
-                (_c33, "J2", "J2"),
-                (_c34, "J3", "J3"),
-                (_c35, "J4", "J4"),
+                (_c22, "J1", "-1/(J1 + J3) + 1/(J1 + J4)"),
+                (_c23, "J2", "-1/(J2 + J3) + 1/(J2 + J4)"),
+                (_c24, "J1", "J1"),
+                (_c25, "J2", "J2"),
+                (_c26, "J3", "J3"),
+                (_c27, "J4", "J4"),
+                (_c28, "J1", "1/(J1 + J2) - 1/(J1 + J3)"),
+                (_c29, "J2", "1/(J2 + J4) - 1/(J3 + J4)"),
+                (_c30, "J1", "1/(J1 + J2) - 1/(J1 + J4)"),
+                (_c31, "J1", "1/(J1 + J4) - 1/(J3 + J4)"),
+                (_c32, "J1", "1/(J1 + J3) - 1/(J1 + J4)"),
+                (_c33, "J2", "1/(J2 + J3) - 1/(J2 + J4)"),
+                (_c34, "J1", "1/(J1 + J3) - 1/(J2 + J3)"),
+                (_c35, "J1", "1/(J1 + J4) - 1/(J2 + J4)"),
                 (_c36, "J3", "8/(J3 + J4)"),
                 (_c37, "J2", "8/(J2 + J3)"),
                 (_c38, "J1", "8/(J1 + J4)"),
@@ -237,18 +237,18 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
             _k21: _c21,
             _k22: _c22,
             _k23: _c23,
-            _k24: _c24,
-            _k25: _c25,
-            _k26: _c26,
-            _k27: _c27,
+            J1: _c24,
+            J2: _c25,
+            J3: _c26,
+            J4: _c27,
             _k28: _c28,
             _k29: _c29,
             _k30: _c30,
             _k31: _c31,
-            J1: _c32,
-            J2: _c33,
-            J3: _c34,
-            J4: _c35,
+            _k32: _c32,
+            _k33: _c33,
+            _k34: _c34,
+            _k35: _c35,
             _k36: _c36,
             _k37: _c37,
             _k38: _c38,
@@ -325,46 +325,30 @@ pub struct ManakovTopSystem<S = f64> {
     _k10: S,
     /// `1/(J3 + J4)`
     _k11: S,
-    /// `1/(J1 + J3) - 1/(J2 + J3)`
+    /// `-1/(J1 + J3) + 1/(J2 + J3)`
     _k12: S,
-    /// `1/(J1 + J4) - 1/(J2 + J4)`
+    /// `-1/(J1 + J4) + 1/(J2 + J4)`
     _k13: S,
     /// `1/(J1 + J2) - 1/(J2 + J3)`
     _k14: S,
-    /// `1/(J1 + J4) - 1/(J3 + J4)`
+    /// `-1/(J1 + J4) + 1/(J3 + J4)`
     _k15: S,
     /// `1/(J1 + J2) - 1/(J2 + J4)`
     _k16: S,
     /// `1/(J1 + J3) - 1/(J3 + J4)`
     _k17: S,
-    /// `1/(J1 + J2) - 1/(J1 + J3)`
+    /// `-1/(J1 + J2) + 1/(J1 + J3)`
     _k18: S,
-    /// `1/(J2 + J4) - 1/(J3 + J4)`
+    /// `-1/(J2 + J4) + 1/(J3 + J4)`
     _k19: S,
-    /// `1/(J1 + J2) - 1/(J1 + J4)`
+    /// `-1/(J1 + J2) + 1/(J1 + J4)`
     _k20: S,
     /// `1/(J2 + J3) - 1/(J3 + J4)`
     _k21: S,
-    /// `1/(J1 + J3) - 1/(J1 + J4)`
-    _k22: S,
-    /// `1/(J2 + J3) - 1/(J2 + J4)`
-    _k23: S,
-    /// `-1/(J1 + J3) + 1/(J2 + J3)`
-    _k24: S,
-    /// `-1/(J1 + J4) + 1/(J2 + J4)`
-    _k25: S,
-    /// `-1/(J1 + J4) + 1/(J3 + J4)`
-    _k26: S,
-    /// `-1/(J1 + J2) + 1/(J1 + J3)`
-    _k27: S,
-    /// `-1/(J2 + J4) + 1/(J3 + J4)`
-    _k28: S,
-    /// `-1/(J1 + J2) + 1/(J1 + J4)`
-    _k29: S,
     /// `-1/(J1 + J3) + 1/(J1 + J4)`
-    _k30: S,
+    _k22: S,
     /// `-1/(J2 + J3) + 1/(J2 + J4)`
-    _k31: S,
+    _k23: S,
     /// `J1`
     J1: S,
     /// `J2`
@@ -373,6 +357,22 @@ pub struct ManakovTopSystem<S = f64> {
     J3: S,
     /// `J4`
     J4: S,
+    /// `1/(J1 + J2) - 1/(J1 + J3)`
+    _k28: S,
+    /// `1/(J2 + J4) - 1/(J3 + J4)`
+    _k29: S,
+    /// `1/(J1 + J2) - 1/(J1 + J4)`
+    _k30: S,
+    /// `1/(J1 + J4) - 1/(J3 + J4)`
+    _k31: S,
+    /// `1/(J1 + J3) - 1/(J1 + J4)`
+    _k32: S,
+    /// `1/(J2 + J3) - 1/(J2 + J4)`
+    _k33: S,
+    /// `1/(J1 + J3) - 1/(J2 + J3)`
+    _k34: S,
+    /// `1/(J1 + J4) - 1/(J2 + J4)`
+    _k35: S,
     /// `8/(J3 + J4)`
     _k36: S,
     /// `8/(J2 + J3)`
@@ -521,7 +521,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = self._k6;
         out[(1, 1)] = self._k7;
         out[(2, 2)] = self._k8;
@@ -542,7 +542,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
         let _t3 = -m12;
         let _t4 = -m13;
         let _t5 = -m14;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _t0;
         out[(0, 2)] = _t1;
         out[(0, 3)] = m13;
@@ -580,16 +580,16 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
     /// m34' = -m13*m14/(J1 + J3) + m13*m14/(J1 + J4) - m23*m24/(J2 + J3) + m23*m24/(J2 + J4)
     /// ```
     ///
-    /// 9 additions, 24 multiplications.
+    /// 6 additions, 24 multiplications.
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[m12, m13, m14, m23, m24, m34]] = mu.data.0;
-        out[0] = -(m13 * m23 * self._k12) - m14 * m24 * self._k13;
-        out[1] = m12 * m23 * self._k14 - m14 * m34 * self._k15;
-        out[2] = m12 * m24 * self._k16 + m13 * m34 * self._k17;
-        out[3] = -(m12 * m13 * self._k18) - m24 * m34 * self._k19;
-        out[4] = m23 * m34 * self._k21 - m12 * m14 * self._k20;
-        out[5] = -(m13 * m14 * self._k22) - m23 * m24 * self._k23;
+        out[0] = m23 * (m13 * self._k12) + m24 * (m14 * self._k13);
+        out[1] = m23 * (m12 * self._k14) + m34 * (m14 * self._k15);
+        out[2] = m24 * (m12 * self._k16) + m34 * (m13 * self._k17);
+        out[3] = m13 * (m12 * self._k18) + m34 * (m24 * self._k19);
+        out[4] = m14 * (m12 * self._k20) + m34 * (m23 * self._k21);
+        out[5] = m14 * (m13 * self._k22) + m24 * (m23 * self._k23);
     }
 
     /// `out_ij = df_i/dmu_j`
@@ -598,31 +598,31 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[m12, m13, m14, m23, m24, m34]] = mu.data.0;
-        out.fill(S::zero());
-        out[(0, 1)] = m23 * self._k24;
-        out[(0, 2)] = m24 * self._k25;
-        out[(0, 3)] = m13 * self._k24;
-        out[(0, 4)] = m14 * self._k25;
+        out.as_mut_slice().fill(S::zero());
+        out[(0, 1)] = m23 * self._k12;
+        out[(0, 2)] = m24 * self._k13;
+        out[(0, 3)] = m13 * self._k12;
+        out[(0, 4)] = m14 * self._k13;
         out[(1, 0)] = m23 * self._k14;
-        out[(1, 2)] = m34 * self._k26;
+        out[(1, 2)] = m34 * self._k15;
         out[(1, 3)] = m12 * self._k14;
-        out[(1, 5)] = m14 * self._k26;
+        out[(1, 5)] = m14 * self._k15;
         out[(2, 0)] = m24 * self._k16;
         out[(2, 1)] = m34 * self._k17;
         out[(2, 4)] = m12 * self._k16;
         out[(2, 5)] = m13 * self._k17;
-        out[(3, 0)] = m13 * self._k27;
-        out[(3, 1)] = m12 * self._k27;
-        out[(3, 4)] = m34 * self._k28;
-        out[(3, 5)] = m24 * self._k28;
-        out[(4, 0)] = m14 * self._k29;
-        out[(4, 2)] = m12 * self._k29;
+        out[(3, 0)] = m13 * self._k18;
+        out[(3, 1)] = m12 * self._k18;
+        out[(3, 4)] = m34 * self._k19;
+        out[(3, 5)] = m24 * self._k19;
+        out[(4, 0)] = m14 * self._k20;
+        out[(4, 2)] = m12 * self._k20;
         out[(4, 3)] = m34 * self._k21;
         out[(4, 5)] = m23 * self._k21;
-        out[(5, 1)] = m14 * self._k30;
-        out[(5, 2)] = m13 * self._k30;
-        out[(5, 3)] = m24 * self._k31;
-        out[(5, 4)] = m23 * self._k31;
+        out[(5, 1)] = m14 * self._k22;
+        out[(5, 2)] = m13 * self._k22;
+        out[(5, 3)] = m24 * self._k23;
+        out[(5, 4)] = m23 * self._k23;
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
@@ -636,48 +636,48 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
         jacobian: &mut Self::Jacobian,
     ) {
         let [[m12, m13, m14, m23, m24, m34]] = mu.data.0;
-        let _t0 = m13 * self._k24;
-        let _t1 = m14 * self._k25;
+        let _t0 = m13 * self._k12;
+        let _t1 = m14 * self._k13;
         let _t2 = m12 * self._k14;
-        let _t3 = m14 * self._k26;
+        let _t3 = m14 * self._k15;
         let _t4 = m12 * self._k16;
         let _t5 = m13 * self._k17;
-        let _t6 = m12 * self._k27;
-        let _t7 = m24 * self._k28;
-        let _t8 = m12 * self._k29;
+        let _t6 = m12 * self._k18;
+        let _t7 = m24 * self._k19;
+        let _t8 = m12 * self._k20;
         let _t9 = m23 * self._k21;
-        let _t10 = m13 * self._k30;
-        let _t11 = m23 * self._k31;
+        let _t10 = m13 * self._k22;
+        let _t11 = m23 * self._k23;
         field[0] = m23 * _t0 + m24 * _t1;
         field[1] = m23 * _t2 + m34 * _t3;
         field[2] = m24 * _t4 + m34 * _t5;
         field[3] = m13 * _t6 + m34 * _t7;
         field[4] = m14 * _t8 + m34 * _t9;
         field[5] = m14 * _t10 + m24 * _t11;
-        jacobian.fill(S::zero());
-        jacobian[(0, 1)] = m23 * self._k24;
-        jacobian[(0, 2)] = m24 * self._k25;
+        jacobian.as_mut_slice().fill(S::zero());
+        jacobian[(0, 1)] = m23 * self._k12;
+        jacobian[(0, 2)] = m24 * self._k13;
         jacobian[(0, 3)] = _t0;
         jacobian[(0, 4)] = _t1;
         jacobian[(1, 0)] = m23 * self._k14;
-        jacobian[(1, 2)] = m34 * self._k26;
+        jacobian[(1, 2)] = m34 * self._k15;
         jacobian[(1, 3)] = _t2;
         jacobian[(1, 5)] = _t3;
         jacobian[(2, 0)] = m24 * self._k16;
         jacobian[(2, 1)] = m34 * self._k17;
         jacobian[(2, 4)] = _t4;
         jacobian[(2, 5)] = _t5;
-        jacobian[(3, 0)] = m13 * self._k27;
+        jacobian[(3, 0)] = m13 * self._k18;
         jacobian[(3, 1)] = _t6;
-        jacobian[(3, 4)] = m34 * self._k28;
+        jacobian[(3, 4)] = m34 * self._k19;
         jacobian[(3, 5)] = _t7;
-        jacobian[(4, 0)] = m14 * self._k29;
+        jacobian[(4, 0)] = m14 * self._k20;
         jacobian[(4, 2)] = _t8;
         jacobian[(4, 3)] = m34 * self._k21;
         jacobian[(4, 5)] = _t9;
-        jacobian[(5, 1)] = m14 * self._k30;
+        jacobian[(5, 1)] = m14 * self._k22;
         jacobian[(5, 2)] = _t10;
-        jacobian[(5, 3)] = m24 * self._k31;
+        jacobian[(5, 3)] = m24 * self._k23;
         jacobian[(5, 4)] = _t11;
     }
 
@@ -687,8 +687,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m12, m13, m14, m23, m24, m34]] = mu.data.0;
-        out[0] = m12 * m12 + m13 * m13 + m14 * m14 + m23 * m23 + m24 * m24 + m34 * m34;
-        out[1] = m12 * m34 - m13 * m24 + m14 * m23;
+        out[0] = m34 * m34
+            + (m24 * m24 + (m23 * m23 + (m14 * m14 + (m12 * m12 + m13 * m13))));
+        out[1] = m14 * m23 + (m12 * m34 - m13 * m24);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -771,7 +772,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for ManakovTopSystem
         let _t3 = -_xi_E24;
         let _t4 = -_xi_E34;
         let _t5 = -_xi_E12;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _xi_E23;
         out[(0, 2)] = _xi_E24;
         out[(0, 3)] = _t0;
@@ -801,6 +802,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for ManakovTopSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSystem<S> {
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 36 additions, 48 multiplications.
@@ -889,18 +891,18 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for ManakovTopSystem<S> {
             _k21: _constant(self._k21),
             _k22: _constant(self._k22),
             _k23: _constant(self._k23),
-            _k24: _constant(self._k24),
-            _k25: _constant(self._k25),
-            _k26: _constant(self._k26),
-            _k27: _constant(self._k27),
-            _k28: _constant(self._k28),
-            _k29: _constant(self._k29),
-            _k30: _constant(self._k30),
-            _k31: _constant(self._k31),
             J1: _constant(self.J1),
             J2: _constant(self.J2),
             J3: _constant(self.J3),
             J4: _constant(self.J4),
+            _k28: _constant(self._k28),
+            _k29: _constant(self._k29),
+            _k30: _constant(self._k30),
+            _k31: _constant(self._k31),
+            _k32: _constant(self._k32),
+            _k33: _constant(self._k33),
+            _k34: _constant(self._k34),
+            _k35: _constant(self._k35),
             _k36: _constant(self._k36),
             _k37: _constant(self._k37),
             _k38: _constant(self._k38),
@@ -1024,6 +1026,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for ManakovTopSys
         ],
         skew: true,
     };
+    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -1104,45 +1107,45 @@ for ManakovTopGenerating4<'_, S> {
     #[inline]
     fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
         let [[m12, m13, m14, m23, m24, m34]] = p.data.0;
-        let _t0 = m12 * self.system._k18;
-        let _t1 = m24 * self.system._k19;
+        let _t0 = m12 * self.system._k28;
+        let _t1 = m24 * self.system._k29;
         let _t2 = self.system._k9 * (-(m13 * _t0) - m34 * _t1);
         let _t3 = _t2 + _t2;
-        let _t4 = m12 * self.system._k20;
+        let _t4 = m12 * self.system._k30;
         let _t5 = m23 * self.system._k21;
         let _t6 = self.system._k10 * (m34 * _t5 - m14 * _t4);
         let _t7 = _t6 + _t6;
         let _t8 = m12 * self.system._k14;
-        let _t9 = m14 * self.system._k15;
+        let _t9 = m14 * self.system._k31;
         let _t10 = self.system._k7 * (m23 * _t8 - m34 * _t9);
         let _t11 = _t10 + _t10;
         let _t12 = m12 * self.system._k16;
         let _t13 = m13 * self.system._k17;
         let _t14 = self.system._k8 * (m24 * _t12 + m34 * _t13);
         let _t15 = _t14 + _t14;
-        let _t16 = m13 * self.system._k22;
-        let _t17 = m23 * self.system._k23;
+        let _t16 = m13 * self.system._k32;
+        let _t17 = m23 * self.system._k33;
         let _t18 = self.system._k11 * (-(m14 * _t16) - m24 * _t17);
         let _t19 = _t18 + _t18;
-        let _t20 = m13 * self.system._k12;
-        let _t21 = m14 * self.system._k13;
+        let _t20 = m13 * self.system._k34;
+        let _t21 = m14 * self.system._k35;
         let _t22 = self.system._k6 * (-(m23 * _t20) - m24 * _t21);
         let _t23 = _t22 + _t22;
         xi[0] = m12 * self._h0
-            + (m23 * self.system._k14 * _t11 - m13 * self.system._k18 * _t3
-                - m14 * self.system._k20 * _t7 + m24 * self.system._k16 * _t15)
+            + (m23 * self.system._k14 * _t11 - m13 * self.system._k28 * _t3
+                - m14 * self.system._k30 * _t7 + m24 * self.system._k16 * _t15)
                 * self._h1;
         xi[1] = m13 * self._h2
-            + (m34 * self.system._k17 * _t15 - _t3 * _t0 - m14 * self.system._k22 * _t19
-                - m23 * self.system._k12 * _t23) * self._h1;
+            + (m34 * self.system._k17 * _t15 - _t3 * _t0 - m14 * self.system._k32 * _t19
+                - m23 * self.system._k34 * _t23) * self._h1;
         xi[2] = m14 * self._h3
-            + (-(_t7 * _t4) - _t19 * _t16 - m24 * self.system._k13 * _t23
-                - m34 * self.system._k15 * _t11) * self._h1;
+            + (-(_t7 * _t4) - _t19 * _t16 - m24 * self.system._k35 * _t23
+                - m34 * self.system._k31 * _t11) * self._h1;
         xi[3] = m23 * self._h4
-            + (_t11 * _t8 - _t23 * _t20 - m24 * self.system._k23 * _t19
+            + (_t11 * _t8 - _t23 * _t20 - m24 * self.system._k33 * _t19
                 + m34 * self.system._k21 * _t7) * self._h1;
         xi[4] = m24 * self._h5
-            + (_t15 * _t12 - _t23 * _t21 - _t19 * _t17 - m34 * self.system._k19 * _t3)
+            + (_t15 * _t12 - _t23 * _t21 - _t19 * _t17 - m34 * self.system._k29 * _t3)
                 * self._h1;
         xi[5] = m34 * self._h6
             + (_t15 * _t13 - _t11 * _t9 + _t7 * _t5 - _t3 * _t1) * self._h1;
@@ -1159,19 +1162,19 @@ for ManakovTopGenerating4<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[m12, m13, m14, m23, m24, m34]] = p.data.0;
-        let _t0 = m13 * self.system._k27;
-        let _t1 = m12 * self.system._k27;
-        let _t2 = m24 * self.system._k28;
+        let _t0 = m13 * self.system._k18;
+        let _t1 = m12 * self.system._k18;
+        let _t2 = m24 * self.system._k19;
         let _t3 = self.system._k9 * (m13 * _t1 + m34 * _t2);
         let _t4 = _t3 + _t3;
-        let _t5 = m14 * self.system._k29;
-        let _t6 = m12 * self.system._k29;
+        let _t5 = m14 * self.system._k20;
+        let _t6 = m12 * self.system._k20;
         let _t7 = m23 * self.system._k21;
         let _t8 = self.system._k10 * (m14 * _t6 + m34 * _t7);
         let _t9 = _t8 + _t8;
         let _t10 = m23 * self.system._k14;
         let _t11 = m12 * self.system._k14;
-        let _t12 = m14 * self.system._k26;
+        let _t12 = m14 * self.system._k15;
         let _t13 = self.system._k7 * (m23 * _t11 + m34 * _t12);
         let _t14 = _t13 + _t13;
         let _t15 = m24 * self.system._k16;
@@ -1179,22 +1182,22 @@ for ManakovTopGenerating4<'_, S> {
         let _t17 = m13 * self.system._k17;
         let _t18 = self.system._k8 * (m24 * _t16 + m34 * _t17);
         let _t19 = _t18 + _t18;
-        let _t20 = m14 * self.system._k30;
-        let _t21 = m13 * self.system._k30;
-        let _t22 = m23 * self.system._k31;
+        let _t20 = m14 * self.system._k22;
+        let _t21 = m13 * self.system._k22;
+        let _t22 = m23 * self.system._k23;
         let _t23 = self.system._k11 * (m14 * _t21 + m24 * _t22);
         let _t24 = _t23 + _t23;
-        let _t25 = m23 * self.system._k24;
-        let _t26 = m13 * self.system._k24;
-        let _t27 = m14 * self.system._k25;
+        let _t25 = m23 * self.system._k12;
+        let _t26 = m13 * self.system._k12;
+        let _t27 = m14 * self.system._k13;
         let _t28 = self.system._k6 * (m23 * _t26 + m24 * _t27);
         let _t29 = _t28 + _t28;
         let _t30 = m34 * self.system._k17;
-        let _t31 = m24 * self.system._k25;
-        let _t32 = m34 * self.system._k26;
-        let _t33 = m24 * self.system._k31;
+        let _t31 = m24 * self.system._k13;
+        let _t32 = m34 * self.system._k15;
+        let _t33 = m24 * self.system._k23;
         let _t34 = m34 * self.system._k21;
-        let _t35 = m34 * self.system._k28;
+        let _t35 = m34 * self.system._k19;
         let _t36 = self.system._k9 * _t0;
         let _t37 = self.system._k10 * _t5;
         let _t38 = self.system._k7 * _t10;
@@ -1203,12 +1206,12 @@ for ManakovTopGenerating4<'_, S> {
         let _t41 = _t40 + _t40;
         let _t42 = self.system._k8 * _t30;
         let _t43 = _t42 + _t42;
-        let _t44 = self._h1 * (self.system._k27 * _t4 + _t0 * _t41 + _t15 * _t43);
+        let _t44 = self._h1 * (self.system._k18 * _t4 + _t0 * _t41 + _t15 * _t43);
         let _t45 = self.system._k10 * _t6;
         let _t46 = _t45 + _t45;
         let _t47 = self.system._k7 * _t32;
         let _t48 = _t47 + _t47;
-        let _t49 = self._h1 * (self.system._k29 * _t9 + _t5 * _t46 + _t10 * _t48);
+        let _t49 = self._h1 * (self.system._k20 * _t9 + _t5 * _t46 + _t10 * _t48);
         let _t50 = self.system._k10 * _t34;
         let _t51 = _t50 + _t50;
         let _t52 = self.system._k7 * _t11;
@@ -1234,12 +1237,12 @@ for ManakovTopGenerating4<'_, S> {
         let _t72 = _t71 + _t71;
         let _t73 = self.system._k6 * _t31;
         let _t74 = _t73 + _t73;
-        let _t75 = self._h1 * (self.system._k30 * _t24 + _t20 * _t72 + _t25 * _t74);
+        let _t75 = self._h1 * (self.system._k22 * _t24 + _t20 * _t72 + _t25 * _t74);
         let _t76 = self.system._k11 * _t33;
         let _t77 = _t76 + _t76;
         let _t78 = self.system._k6 * _t26;
         let _t79 = _t78 + _t78;
-        let _t80 = self._h1 * (self.system._k24 * _t29 + _t20 * _t77 + _t25 * _t79);
+        let _t80 = self._h1 * (self.system._k12 * _t29 + _t20 * _t77 + _t25 * _t79);
         let _t81 = self.system._k11 * _t22;
         let _t82 = _t81 + _t81;
         let _t83 = self.system._k6 * _t27;
@@ -1247,11 +1250,11 @@ for ManakovTopGenerating4<'_, S> {
         let _t85 = self._h1 * (_t1 * _t56 + _t20 * _t82 + _t25 * _t84 + _t30 * _t58);
         let _t86 = self._h1 * (self.system._k17 * _t19 + _t1 * _t61 + _t30 * _t67);
         let _t87 = self._h1 * (_t6 * _t51 + _t21 * _t77 + _t31 * _t79 + _t32 * _t53);
-        let _t88 = self._h1 * (self.system._k25 * _t29 + _t21 * _t82 + _t31 * _t84);
-        let _t89 = self._h1 * (self.system._k26 * _t14 + _t6 * _t63 + _t32 * _t65);
-        let _t90 = self._h1 * (self.system._k31 * _t24 + _t26 * _t84 + _t33 * _t82);
+        let _t88 = self._h1 * (self.system._k13 * _t29 + _t21 * _t82 + _t31 * _t84);
+        let _t89 = self._h1 * (self.system._k15 * _t14 + _t6 * _t63 + _t32 * _t65);
+        let _t90 = self._h1 * (self.system._k23 * _t24 + _t26 * _t84 + _t33 * _t82);
         let _t91 = self._h1 * (self.system._k21 * _t9 + _t11 * _t65 + _t34 * _t63);
-        let _t92 = self._h1 * (self.system._k28 * _t4 + _t16 * _t67 + _t35 * _t61);
+        let _t92 = self._h1 * (self.system._k19 * _t4 + _t16 * _t67 + _t35 * _t61);
         xi[0] = m12 * self._h0
             + (_t0 * _t4 + _t5 * _t9 + _t10 * _t14 + _t15 * _t19) * self._h1;
         xi[1] = m13 * self._h2
@@ -1703,61 +1706,61 @@ impl<'a, S: ::lie_runtime::Scalar> ManakovTopGenerating6<'a, S> {
         let _t7 = S::one() / (system._parameters.J2 + system._parameters.J3);
         let _t8 = S::one() / (system._parameters.J2 + system._parameters.J4);
         let _t9 = S::one() / (system._parameters.J3 + system._parameters.J4);
-        let _t10 = _t0 * _t4;
-        let _t11 = _t5 * _t4;
-        let _t12 = _t6 * _t4;
-        let _t13 = _t7 * _t4;
-        let _t14 = _t8 * _t4;
-        let _t15 = S::ratio(1.0, 1440.0) * _t3;
-        let _t16 = _t0 * _t15;
-        let _t17 = _t6 * _t15;
-        let _t18 = _t5 * _t15;
-        let _t19 = _t8 * _t15;
-        let _t20 = _t7 * _t15;
-        let _t21 = _t9 * _t4;
-        let _t22 = _t9 * _t15;
+        let _t10 = _t0 - _t5;
+        let _t11 = _t0 - _t6;
+        let _t12 = _t0 - _t7;
+        let _t13 = _t0 - _t8;
+        let _t14 = S::ratio(1.0, 1440.0) * _t3;
+        let _t15 = _t5 - _t6;
+        let _t16 = _t5 - _t7;
+        let _t17 = _t5 - _t9;
+        let _t18 = _t6 - _t8;
+        let _t19 = _t6 - _t9;
+        let _t20 = _t7 - _t8;
+        let _t21 = _t7 - _t9;
+        let _t22 = _t8 - _t9;
         Self {
             system,
             h,
-            _h0: h * _t0,
+            _h0: _t0 * h,
             _h1: S::ratio(1.0, 24.0) * _t2,
             _h2: _t4,
-            _h3: h * _t5,
-            _h4: h * _t6,
-            _h5: h * _t7,
-            _h6: h * _t8,
-            _h7: h * _t9,
-            _h8: _t10 - _t11,
-            _h9: _t10 - _t12,
-            _h10: _t10 - _t13,
-            _h11: _t10 - _t14,
+            _h3: _t5 * h,
+            _h4: _t6 * h,
+            _h5: _t7 * h,
+            _h6: _t8 * h,
+            _h7: _t9 * h,
+            _h8: _t10 * _t4,
+            _h9: _t11 * _t4,
+            _h10: _t12 * _t4,
+            _h11: _t13 * _t4,
             _h12: S::ratio(1.0, 480.0) * _t3,
-            _h13: _t16 - _t17,
-            _h14: _t16 - _t18,
-            _h15: _t16 - _t19,
-            _h16: _t16 - _t20,
-            _h17: _t10,
-            _h18: _t11 - _t12,
-            _h19: _t11 - _t13,
-            _h20: _t11 - _t21,
-            _h21: _t18 - _t17,
-            _h22: _t18 - _t22,
-            _h23: _t18 - _t20,
-            _h24: _t11,
-            _h25: _t12 - _t14,
-            _h26: _t12 - _t21,
-            _h27: _t17 - _t22,
-            _h28: _t17 - _t19,
-            _h29: _t12,
-            _h30: _t13 - _t14,
-            _h31: _t13 - _t21,
-            _h32: _t20 - _t19,
-            _h33: _t20 - _t22,
-            _h34: _t13,
-            _h35: _t14 - _t21,
-            _h36: _t19 - _t22,
-            _h37: _t14,
-            _h38: _t21,
+            _h13: _t11 * _t14,
+            _h14: _t10 * _t14,
+            _h15: _t13 * _t14,
+            _h16: _t12 * _t14,
+            _h17: _t0 * _t4,
+            _h18: _t15 * _t4,
+            _h19: _t16 * _t4,
+            _h20: _t17 * _t4,
+            _h21: _t15 * _t14,
+            _h22: _t17 * _t14,
+            _h23: _t16 * _t14,
+            _h24: _t5 * _t4,
+            _h25: _t18 * _t4,
+            _h26: _t19 * _t4,
+            _h27: _t19 * _t14,
+            _h28: _t18 * _t14,
+            _h29: _t6 * _t4,
+            _h30: _t20 * _t4,
+            _h31: _t21 * _t4,
+            _h32: _t20 * _t14,
+            _h33: _t21 * _t14,
+            _h34: _t7 * _t4,
+            _h35: _t22 * _t4,
+            _h36: _t22 * _t14,
+            _h37: _t8 * _t4,
+            _h38: _t9 * _t4,
         }
     }
 }
@@ -1773,20 +1776,20 @@ for ManakovTopGenerating6<'_, S> {
     #[inline]
     fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
         let [[m12, m13, m14, m23, m24, m34]] = p.data.0;
-        let _t0 = m12 * self.system._k18;
-        let _t1 = m24 * self.system._k19;
+        let _t0 = m12 * self.system._k28;
+        let _t1 = m24 * self.system._k29;
         let _t2 = -(m13 * _t0) - m34 * _t1;
         let _t3 = self.system._k9 * _t2;
         let _t4 = _t3 + _t3;
-        let _t5 = m13 * self.system._k18;
-        let _t6 = m12 * self.system._k20;
+        let _t5 = m13 * self.system._k28;
+        let _t6 = m12 * self.system._k30;
         let _t7 = m23 * self.system._k21;
         let _t8 = m34 * _t7 - m14 * _t6;
         let _t9 = self.system._k10 * _t8;
         let _t10 = _t9 + _t9;
-        let _t11 = m14 * self.system._k20;
+        let _t11 = m14 * self.system._k30;
         let _t12 = m12 * self.system._k14;
-        let _t13 = m14 * self.system._k15;
+        let _t13 = m14 * self.system._k31;
         let _t14 = m23 * _t12 - m34 * _t13;
         let _t15 = self.system._k7 * _t14;
         let _t16 = _t15 + _t15;
@@ -1806,24 +1809,24 @@ for ManakovTopGenerating6<'_, S> {
         let _t30 = _t14 * _t25 - _t20 * _t27 - _t8 * _t28 + _t2 * _t29;
         let _t31 = _t30 * self.system._k36 - _t26 * S::ratio(4.0, 1.0);
         let _t32 = m12 * self.system._k6;
-        let _t33 = m13 * self.system._k12;
-        let _t34 = m14 * self.system._k13;
+        let _t33 = m13 * self.system._k34;
+        let _t34 = m14 * self.system._k35;
         let _t35 = -(m23 * _t33) - m24 * _t34;
         let _t36 = self.system._k6 * _t35;
         let _t37 = _t36 + _t36;
-        let _t38 = m13 * self.system._k22;
-        let _t39 = m23 * self.system._k23;
+        let _t38 = m13 * self.system._k32;
+        let _t39 = m23 * self.system._k33;
         let _t40 = -(m14 * _t38) - m24 * _t39;
         let _t41 = self.system._k11 * _t40;
         let _t42 = _t41 + _t41;
-        let _t43 = m24 * self.system._k23;
+        let _t43 = m24 * self.system._k33;
         let _t44 = m34 * self.system._k21;
         let _t45 = _t16 * _t12 - _t37 * _t33 - _t42 * _t43 + _t10 * _t44;
         let _t46 = m34 * self.system._k11;
         let _t47 = _t35 * _t27 - _t14 * _t32 - _t40 * _t29 + _t8 * _t46;
         let _t48 = _t47 * self.system._k37 - _t45 * S::ratio(4.0, 1.0);
-        let _t49 = m24 * self.system._k13;
-        let _t50 = m34 * self.system._k15;
+        let _t49 = m24 * self.system._k35;
+        let _t50 = m34 * self.system._k31;
         let _t51 = -(_t10 * _t6) - _t42 * _t38 - _t37 * _t49 - _t16 * _t50;
         let _t52 = _t8 * _t32 + _t40 * _t27 - _t35 * _t29 - _t14 * _t46;
         let _t53 = _t52 * self.system._k38 - _t51 * S::ratio(4.0, 1.0);
@@ -1845,12 +1848,12 @@ for ManakovTopGenerating6<'_, S> {
                     + (_t60
                         + S::ratio(12.0, 1.0)
                             * (m14 * _t26 - m12 * _t45 - m34 * _t51 + m23 * _t24)));
-        let _t62 = m34 * self.system._k19;
+        let _t62 = m34 * self.system._k29;
         let _t63 = _t22 * _t18 - _t37 * _t34 - _t42 * _t39 - _t4 * _t62;
         let _t64 = _t35 * _t25 - _t20 * _t32 + _t40 * _t28 - _t2 * _t46;
         let _t65 = _t64 * self.system._k42 - _t63 * S::ratio(4.0, 1.0);
-        let _t66 = m14 * self.system._k22;
-        let _t67 = m23 * self.system._k12;
+        let _t66 = m14 * self.system._k32;
+        let _t67 = m23 * self.system._k34;
         let _t68 = m34 * self.system._k17;
         let _t69 = _t22 * _t68 - _t4 * _t0 - _t42 * _t66 - _t37 * _t67;
         let _t70 = _t2 * _t32 - _t40 * _t25 - _t35 * _t28 + _t20 * _t46;
@@ -1957,7 +1960,7 @@ for ManakovTopGenerating6<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 1625 additions, 1964 multiplications.
+    /// 1671 additions, 2061 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1966,884 +1969,1039 @@ for ManakovTopGenerating6<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[m12, m13, m14, m23, m24, m34]] = p.data.0;
-        let _t0 = m13 * self.system._k27;
-        let _t1 = m12 * self.system._k27;
-        let _t2 = m24 * self.system._k28;
-        let _t3 = m13 * _t1 + m34 * _t2;
-        let _t4 = self.system._k9 * _t3;
-        let _t5 = _t4 + _t4;
-        let _t6 = m14 * self.system._k29;
-        let _t7 = m12 * self.system._k29;
-        let _t8 = m23 * self.system._k21;
-        let _t9 = m14 * _t7 + m34 * _t8;
-        let _t10 = self.system._k10 * _t9;
-        let _t11 = _t10 + _t10;
-        let _t12 = m23 * self.system._k14;
-        let _t13 = m12 * self.system._k14;
-        let _t14 = m14 * self.system._k26;
-        let _t15 = m23 * _t13 + m34 * _t14;
-        let _t16 = self.system._k7 * _t15;
+        let _t0 = m14 * self.system._k8;
+        let _t1 = _t0 - m14 * self.system._k6;
+        let _t2 = m12 * self.system._k6;
+        let _t3 = m23 * self.system._k9;
+        let _t4 = m34 * self.system._k11;
+        let _t5 = m12 * _t0 - m14 * _t2 + m34 * _t3 - m23 * _t4;
+        let _t6 = self.system._k10 * _t5;
+        let _t7 = _t6 + _t6;
+        let _t8 = m13 * self.system._k7;
+        let _t9 = _t8 - m13 * self.system._k6;
+        let _t10 = m24 * self.system._k10;
+        let _t11 = m12 * _t8 - m13 * _t2 - m34 * _t10 + m24 * _t4;
+        let _t12 = self.system._k9 * _t11;
+        let _t13 = _t12 + _t12;
+        let _t14 = _t10 - m24 * self.system._k6;
+        let _t15 = m24 * _t2 + m34 * _t8 - m12 * _t10 - m13 * _t4;
+        let _t16 = self.system._k8 * _t15;
         let _t17 = _t16 + _t16;
-        let _t18 = m24 * self.system._k16;
-        let _t19 = m12 * self.system._k16;
-        let _t20 = m13 * self.system._k17;
-        let _t21 = m24 * _t19 + m34 * _t20;
-        let _t22 = self.system._k8 * _t21;
-        let _t23 = _t22 + _t22;
-        let _t24 = _t0 * _t5 + _t6 * _t11 + _t12 * _t17 + _t18 * _t23;
-        let _t25 = m24 * self.system._k10;
-        let _t26 = _t20 * _t23 + _t14 * _t17 + _t8 * _t11 + _t2 * _t5;
-        let _t27 = m13 * self.system._k7;
-        let _t28 = m14 * self.system._k8;
-        let _t29 = m23 * self.system._k9;
-        let _t30 = _t15 * _t28 - _t21 * _t27 - _t9 * _t29 + _t3 * _t25;
-        let _t31 = _t30 * self.system._k36 - _t26 * S::ratio(4.0, 1.0);
-        let _t32 = m34 * self.system._k11;
-        let _t33 = m14 * self.system._k25;
-        let _t34 = m13 * self.system._k24;
-        let _t35 = m23 * _t34 + m24 * _t33;
-        let _t36 = self.system._k6 * _t35;
-        let _t37 = _t36 + _t36;
-        let _t38 = m23 * self.system._k31;
-        let _t39 = m13 * self.system._k30;
-        let _t40 = m14 * _t39 + m24 * _t38;
-        let _t41 = self.system._k11 * _t40;
-        let _t42 = _t41 + _t41;
-        let _t43 = m34 * self.system._k28;
-        let _t44 = _t19 * _t23 + _t33 * _t37 + _t38 * _t42 + _t43 * _t5;
-        let _t45 = m12 * self.system._k6;
-        let _t46 = _t35 * _t28 - _t21 * _t45 + _t40 * _t29 - _t3 * _t32;
-        let _t47 = _t46 * self.system._k42 - _t44 * S::ratio(4.0, 1.0);
-        let _t48 = m14 * self.system._k30;
-        let _t49 = m23 * self.system._k24;
-        let _t50 = m34 * self.system._k17;
-        let _t51 = _t1 * _t5 + _t48 * _t42 + _t49 * _t37 + _t50 * _t23;
-        let _t52 = _t3 * _t45 - _t40 * _t28 - _t35 * _t29 + _t21 * _t32;
-        let _t53 = _t52 * self.system._k43 - _t51 * S::ratio(4.0, 1.0);
-        let _t54 = _t15 * _t29 - _t3 * _t27 - _t9 * _t28 + _t21 * _t25;
-        let _t55 = _t54 * self.system._k39 - _t24 * S::ratio(4.0, 1.0);
-        let _t56 = m23 * S::ratio(3.0, 1.0);
-        let _t57 = m34 * S::ratio(3.0, 1.0);
-        let _t58 = m12 * S::ratio(3.0, 1.0);
-        let _t59 = m14 * S::ratio(3.0, 1.0);
-        let _t60 = _t52 + _t36 * _t56 - _t22 * _t57 - _t4 * _t58 + _t41 * _t59;
-        let _t61 = m12 * self.system._k46;
-        let _t62 = m24 * S::ratio(3.0, 1.0);
-        let _t63 = m13 * S::ratio(3.0, 1.0);
-        let _t64 = _t54 - _t16 * _t56 - _t22 * _t62 + _t4 * _t63 + _t10 * _t59;
-        let _t65 = m13 * self.system._k46;
-        let _t66 = _t30 - _t16 * _t59 + _t22 * _t63 - _t4 * _t62 + _t10 * _t56;
-        let _t67 = m24 * self.system._k47;
-        let _t68 = _t46 - _t36 * _t59 + _t22 * _t58 + _t4 * _t57 - _t41 * _t56;
-        let _t69 = m34 * self.system._k47;
-        let _t70 = _t60 * _t61 + _t64 * _t65 + _t66 * _t67 + _t68 * _t69;
-        let _t71 = m24 * S::ratio(12.0, 1.0);
-        let _t72 = m34 * S::ratio(12.0, 1.0);
-        let _t73 = m12 * S::ratio(12.0, 1.0);
-        let _t74 = m13 * S::ratio(12.0, 1.0);
-        let _t75 = _t25 * _t31 - _t32 * _t47 + _t45 * _t53 - _t27 * _t55
-            + self.system._k9 * _t70
+        let _t18 = _t3 - m23 * self.system._k6;
+        let _t19 = m23 * _t2 - m34 * _t0 - m12 * _t3 + m14 * _t4;
+        let _t20 = self.system._k7 * _t19;
+        let _t21 = _t20 + _t20;
+        let _t22 = _t1 * _t7 + _t9 * _t13 - _t14 * _t17 - _t18 * _t21;
+        let _t23 = _t3 - m23 * self.system._k11;
+        let _t24 = _t10 - m24 * self.system._k11;
+        let _t25 = _t8 - m13 * self.system._k11;
+        let _t26 = _t0 - m14 * self.system._k11;
+        let _t27 = _t23 * _t7 - _t24 * _t13 + _t25 * _t17 - _t26 * _t21;
+        let _t28 = _t19 * _t0 - _t15 * _t8 - _t5 * _t3 + _t11 * _t10;
+        let _t29 = _t28 * self.system._k36 - _t27 * S::ratio(4.0, 1.0);
+        let _t30 = _t3 - m23 * self.system._k10;
+        let _t31 = m13 * _t0 - m14 * _t8 - m24 * _t3 + m23 * _t10;
+        let _t32 = self.system._k11 * _t31;
+        let _t33 = _t32 + _t32;
+        let _t34 = _t4 - m34 * self.system._k10;
+        let _t35 = _t2 - m12 * self.system._k10;
+        let _t36 = _t0 - m14 * self.system._k10;
+        let _t37 = m13 * _t3 - m23 * _t8 - m24 * _t0 + m14 * _t10;
+        let _t38 = self.system._k6 * _t37;
+        let _t39 = _t38 + _t38;
+        let _t40 = _t34 * _t13 - _t30 * _t33 + _t35 * _t17 - _t36 * _t39;
+        let _t41 = _t37 * _t0 - _t15 * _t2 + _t31 * _t3 - _t11 * _t4;
+        let _t42 = _t41 * self.system._k42 - _t40 * S::ratio(4.0, 1.0);
+        let _t43 = _t0 - m14 * self.system._k7;
+        let _t44 = _t2 - m12 * self.system._k7;
+        let _t45 = _t4 - m34 * self.system._k7;
+        let _t46 = _t3 - m23 * self.system._k7;
+        let _t47 = _t43 * _t33 - _t44 * _t13 - _t45 * _t17 + _t46 * _t39;
+        let _t48 = _t11 * _t2 - _t31 * _t0 - _t37 * _t3 + _t15 * _t4;
+        let _t49 = _t48 * self.system._k43 - _t47 * S::ratio(4.0, 1.0);
+        let _t50 = _t19 * _t3 - _t11 * _t8 - _t5 * _t0 + _t15 * _t10;
+        let _t51 = _t50 * self.system._k39 - _t22 * S::ratio(4.0, 1.0);
+        let _t52 = _t28
+            - S::ratio(3.0, 1.0) * (m14 * _t20 - m13 * _t16 + m24 * _t12 - m23 * _t6);
+        let _t53 = _t41
+            - S::ratio(3.0, 1.0) * (m14 * _t38 - m12 * _t16 - m34 * _t12 + m23 * _t32);
+        let _t54 = _t48
+            + S::ratio(3.0, 1.0) * (m23 * _t38 - m34 * _t16 - m12 * _t12 + m14 * _t32);
+        let _t55 = _t50
+            - (m23 * _t20 + m24 * _t16 - m13 * _t12 - m14 * _t6) * S::ratio(3.0, 1.0);
+        let _t56 = S::ratio(4.0, 1.0)
+            * (_t24 * _t52 - _t34 * _t53 + _t44 * _t54 - _t9 * _t55);
+        let _t57 = _t10 * _t29 - _t4 * _t42 + _t2 * _t49 - _t8 * _t51
             + self.system._k9
-                * (_t70 + _t26 * _t71 - _t44 * _t72 + _t51 * _t73 - _t24 * _t74);
-        let _t76 = m13 * self._h8;
-        let _t77 = m24 * self.system._k31;
-        let _t78 = m34 * self.system._k21;
-        let _t79 = _t13 * _t17 + _t34 * _t37 + _t77 * _t42 + _t78 * _t11;
-        let _t80 = _t35 * _t27 - _t15 * _t45 - _t40 * _t25 + _t9 * _t32;
-        let _t81 = _t80 * self.system._k37 - _t79 * S::ratio(4.0, 1.0);
-        let _t82 = m24 * self.system._k25;
-        let _t83 = m34 * self.system._k26;
-        let _t84 = _t7 * _t11 + _t39 * _t42 + _t82 * _t37 + _t83 * _t17;
-        let _t85 = _t9 * _t45 + _t40 * _t27 - _t35 * _t25 - _t15 * _t32;
-        let _t86 = _t85 * self.system._k38 - _t84 * S::ratio(4.0, 1.0);
-        let _t87 = _t85 + _t36 * _t62 + _t16 * _t57 - _t10 * _t58 - _t41 * _t63;
-        let _t88 = m12 * self.system._k44;
-        let _t89 = m14 * self.system._k44;
-        let _t90 = m23 * self.system._k45;
-        let _t91 = _t80 - _t36 * _t63 + _t16 * _t58 - _t10 * _t57 + _t41 * _t62;
-        let _t92 = m34 * self.system._k45;
-        let _t93 = _t87 * _t88 + _t64 * _t89 - _t66 * _t90 - _t91 * _t92;
-        let _t94 = m23 * S::ratio(12.0, 1.0);
-        let _t95 = m14 * S::ratio(12.0, 1.0);
-        let _t96 = _t32 * _t81 - _t29 * _t31 + _t45 * _t86 - _t28 * _t55
-            + self.system._k10 * _t93
+                * (_t56
+                    + (_t56
+                        + S::ratio(12.0, 1.0)
+                            * (m24 * _t27 - m34 * _t40 + m12 * _t47 - m13 * _t22)));
+        let _t58 = m13 * self._h8;
+        let _t59 = _t10 - m24 * self.system._k9;
+        let _t60 = _t4 - m34 * self.system._k9;
+        let _t61 = _t2 - m12 * self.system._k9;
+        let _t62 = _t8 - m13 * self.system._k9;
+        let _t63 = _t59 * _t33 - _t60 * _t7 + _t61 * _t21 - _t62 * _t39;
+        let _t64 = _t37 * _t8 - _t19 * _t2 - _t31 * _t10 + _t5 * _t4;
+        let _t65 = _t64 * self.system._k37 - _t63 * S::ratio(4.0, 1.0);
+        let _t66 = _t8 - m13 * self.system._k8;
+        let _t67 = _t2 - m12 * self.system._k8;
+        let _t68 = _t4 - m34 * self.system._k8;
+        let _t69 = _t10 - m24 * self.system._k8;
+        let _t70 = _t68 * _t21 - _t66 * _t33 - _t67 * _t7 + _t69 * _t39;
+        let _t71 = _t5 * _t2 + _t31 * _t8 - _t37 * _t10 - _t19 * _t4;
+        let _t72 = _t71 * self.system._k38 - _t70 * S::ratio(4.0, 1.0);
+        let _t73 = _t64
+            - S::ratio(3.0, 1.0) * (m13 * _t38 - m12 * _t20 + m34 * _t6 - m24 * _t32);
+        let _t74 = _t71
+            + S::ratio(3.0, 1.0) * (m24 * _t38 + m34 * _t20 - m12 * _t6 - m13 * _t32);
+        let _t75 = (_t23 * _t52 - _t60 * _t73 - _t67 * _t74 + _t1 * _t55)
+            * S::ratio(-4.0, 1.0);
+        let _t76 = _t4 * _t65 - _t3 * _t29 + _t2 * _t72 - _t0 * _t51
             + self.system._k10
-                * (_t93 - _t26 * _t94 + _t79 * _t72 + _t84 * _t73 - _t24 * _t95);
-        let _t97 = m14 * self._h9;
-        let _t98 = m12 * self.system._k40;
-        let _t99 = m23 * self.system._k40;
-        let _t100 = m14 * self.system._k41;
-        let _t101 = m34 * self.system._k41;
-        let _t102 = _t66 * _t100 - _t91 * _t98 - _t64 * _t99 + _t87 * _t101;
-        let _t103 = _t28 * _t31 - _t45 * _t81 - _t32 * _t86 + _t29 * _t55
-            + self.system._k7 * _t102
+                * (_t75
+                    + (_t75
+                        - S::ratio(12.0, 1.0)
+                            * (m23 * _t27 - m34 * _t63 - m12 * _t70 + m14 * _t22)));
+        let _t77 = m14 * self._h9;
+        let _t78 = S::ratio(4.0, 1.0)
+            * (_t26 * _t52 - _t61 * _t73 - _t68 * _t74 + _t18 * _t55);
+        let _t79 = _t0 * _t29 - _t2 * _t65 - _t4 * _t72 + _t3 * _t51
             + self.system._k7
-                * (_t102 + _t26 * _t95 - _t79 * _t73 - _t84 * _t72 + _t24 * _t94);
-        let _t104 = m23 * self._h10;
-        let _t105 = m12 * self.system._k48;
-        let _t106 = m24 * self.system._k48;
-        let _t107 = m13 * self.system._k49;
-        let _t108 = m34 * self.system._k49;
-        let _t109 = -(_t68 * _t105) - _t64 * _t106 - _t66 * _t107 - _t60 * _t108;
-        let _t110 = _t32 * _t53 - _t27 * _t31 - _t45 * _t47 + _t25 * _t55
-            + self.system._k8 * _t109
+                * (_t78
+                    + (_t78
+                        + S::ratio(12.0, 1.0)
+                            * (m14 * _t27 - m12 * _t63 - m34 * _t70 + m23 * _t22)));
+        let _t80 = m23 * self._h10;
+        let _t81 = (_t25 * _t52 + _t35 * _t53 - _t45 * _t54 - _t14 * _t55)
+            * S::ratio(-4.0, 1.0);
+        let _t82 = _t4 * _t49 - _t8 * _t29 - _t2 * _t42 + _t10 * _t51
             + self.system._k8
-                * (_t109 - _t26 * _t74 - _t44 * _t73 + _t51 * _t72 + _t24 * _t71);
-        let _t111 = m24 * self._h11;
-        let _t112 = _t16 * self._h12;
-        let _t113 = _t22 * self._h12;
-        let _t114 = _t4 * self._h12;
-        let _t115 = _t10 * self._h12;
-        let _t116 = _t11 * self._h13;
-        let _t117 = _t5 * self._h14;
-        let _t118 = _t23 * self._h15;
-        let _t119 = _t17 * self._h16;
-        let _t120 = m12 * self._h0 + _t24 * self._h1 - _t75 * _t76 - _t96 * _t97
-            + _t103 * _t104 + _t110 * _t111 - _t79 * _t112 - _t44 * _t113 + _t51 * _t114;
-        let _t121 = m12 * self._h8;
-        let _t122 = m13 * self.system._k52;
-        let _t123 = m14 * self.system._k52;
-        let _t124 = m23 * self.system._k53;
-        let _t125 = m24 * self.system._k53;
-        let _t126 = _t87 * _t122 + _t60 * _t123 + _t68 * _t124 + _t91 * _t125;
-        let _t127 = _t29 * _t47 - _t25 * _t81 + _t27 * _t86 - _t28 * _t53
-            + self.system._k11 * _t126
+                * (_t81
+                    + (_t81
+                        - S::ratio(12.0, 1.0)
+                            * (m13 * _t27 + m12 * _t40 - m34 * _t47 - m24 * _t22)));
+        let _t83 = m24 * self._h11;
+        let _t84 = _t7 * self._h13;
+        let _t85 = _t13 * self._h14;
+        let _t86 = _t17 * self._h15;
+        let _t87 = _t21 * self._h16;
+        let _t88 = m12 * self._h0 + _t22 * self._h1 - _t57 * _t58 - _t76 * _t77
+            + _t79 * _t80 + _t82 * _t83
+            - (_t20 * _t63 + _t16 * _t40 - _t12 * _t47 - _t6 * _t70) * self._h12;
+        let _t89 = m12 * self._h8;
+        let _t90 = S::ratio(4.0, 1.0)
+            * (_t30 * _t53 - _t59 * _t73 + _t66 * _t74 - _t43 * _t54);
+        let _t91 = _t3 * _t42 - _t10 * _t65 + _t8 * _t72 - _t0 * _t49
             + self.system._k11
-                * (_t126 + _t44 * _t94 - _t79 * _t71 + _t84 * _t74 - _t51 * _t95);
-        let _t128 = m14 * self._h18;
-        let _t129 = m13 * self.system._k50;
-        let _t130 = m23 * self.system._k50;
-        let _t131 = m14 * self.system._k51;
-        let _t132 = m24 * self.system._k51;
-        let _t133 = _t91 * _t129 + _t60 * _t130 + _t68 * _t131 + _t87 * _t132;
-        let _t134 = _t28 * _t47 + _t27 * _t81 - _t25 * _t86 - _t29 * _t53
-            + self.system._k6 * _t133
+                * (_t90
+                    + (_t90
+                        + (m23 * _t40 - m24 * _t63 + m13 * _t70 - m14 * _t47)
+                            * S::ratio(12.0, 1.0)));
+        let _t92 = m14 * self._h18;
+        let _t93 = S::ratio(4.0, 1.0)
+            * (_t36 * _t53 + _t62 * _t73 - _t69 * _t74 - _t46 * _t54);
+        let _t94 = _t0 * _t42 + _t8 * _t65 - _t10 * _t72 - _t3 * _t49
             + self.system._k6
-                * (_t133 + _t44 * _t95 + _t79 * _t74 - _t84 * _t71 - _t51 * _t94);
-        let _t135 = m23 * self._h19;
-        let _t136 = m34 * self._h20;
-        let _t137 = _t36 * self._h12;
-        let _t138 = _t41 * self._h12;
-        let _t139 = _t42 * self._h21;
-        let _t140 = _t23 * self._h22;
-        let _t141 = _t37 * self._h23;
-        let _t142 = m13 * self._h3 + _t51 * self._h1 - _t75 * _t121 - _t127 * _t128
-            - _t134 * _t135 + _t110 * _t136 + _t79 * _t137 - _t26 * _t113 - _t24 * _t114;
-        let _t143 = m12 * self._h9;
-        let _t144 = m13 * self._h18;
-        let _t145 = m24 * self._h25;
-        let _t146 = m34 * self._h26;
-        let _t147 = _t17 * self._h27;
-        let _t148 = _t37 * self._h28;
-        let _t149 = m14 * self._h4 + _t84 * self._h1 - _t96 * _t143 - _t127 * _t144
-            - _t134 * _t145 - _t103 * _t146 + _t44 * _t137 + _t26 * _t112 - _t24 * _t115;
-        let _t150 = m12 * self._h10;
-        let _t151 = m13 * self._h19;
-        let _t152 = m24 * self._h30;
-        let _t153 = m34 * self._h31;
-        let _t154 = _t42 * self._h32;
-        let _t155 = _t11 * self._h33;
-        let _t156 = m23 * self._h5 + _t79 * self._h1 + _t103 * _t150 - _t134 * _t151
-            - _t127 * _t152 + _t96 * _t153 - _t51 * _t137 + _t24 * _t112 - _t26 * _t115;
-        let _t157 = m12 * self._h11;
-        let _t158 = m14 * self._h25;
-        let _t159 = m23 * self._h30;
-        let _t160 = m34 * self._h35;
-        let _t161 = _t5 * self._h36;
-        let _t162 = m24 * self._h6 + _t44 * self._h1 + _t110 * _t157 - _t134 * _t158
-            - _t127 * _t159 - _t75 * _t160 - _t84 * _t137 + _t24 * _t113 + _t26 * _t114;
-        let _t163 = m13 * self._h20;
-        let _t164 = m14 * self._h26;
-        let _t165 = m23 * self._h31;
-        let _t166 = m24 * self._h35;
-        let _t167 = m34 * self._h7 + _t26 * self._h1 + _t110 * _t163 - _t103 * _t164
-            + _t96 * _t165 - _t75 * _t166 - _t84 * _t112 + _t51 * _t113 - _t44 * _t114;
-        let _t168 = self.system._k7 * _t12;
-        let _t169 = _t79 * self._h12;
-        let _t170 = self.system._k8 * _t18;
-        let _t171 = _t44 * self._h12;
-        let _t172 = self.system._k9 * _t0;
-        let _t173 = _t51 * self._h12;
-        let _t174 = self.system._k10 * _t6;
-        let _t175 = _t84 * self._h12;
-        let _t176 = self.system._k27 * _t5;
-        let _t177 = _t172 + _t172;
-        let _t178 = _t170 + _t170;
-        let _t179 = _t176 + _t1 * _t177 + _t50 * _t178;
-        let _t180 = self.system._k29 * _t11;
-        let _t181 = _t174 + _t174;
-        let _t182 = _t168 + _t168;
-        let _t183 = _t180 + _t7 * _t181 + _t83 * _t182;
-        let _t184 = self.system._k14 * _t17;
-        let _t185 = _t184 + _t13 * _t182 + _t78 * _t181;
-        let _t186 = self.system._k16 * _t23;
-        let _t187 = _t186 + _t19 * _t178 + _t43 * _t177;
-        let _t188 = _t87 * self._h13;
-        let _t189 = _t45 * _t6 - _t32 * _t12 + self.system._k6 * _t9;
-        let _t190 = _t10 * S::ratio(3.0, 1.0);
-        let _t191 = _t189 - _t190 + _t168 * _t57 - _t174 * _t58;
-        let _t192 = _t60 * self._h14;
-        let _t193 = _t32 * _t18 + _t45 * _t0 + self.system._k6 * _t3;
-        let _t194 = _t4 * S::ratio(3.0, 1.0);
-        let _t195 = _t193 - _t194 - _t170 * _t57 - _t172 * _t58;
-        let _t196 = _t68 * self._h15;
-        let _t197 = -(_t45 * _t18) - _t32 * _t0 - self.system._k6 * _t21;
-        let _t198 = _t22 * S::ratio(3.0, 1.0);
-        let _t199 = _t197 + _t198 + _t170 * _t58 + _t172 * _t57;
-        let _t200 = _t91 * self._h16;
-        let _t201 = _t32 * _t6 - _t45 * _t12 - self.system._k6 * _t15;
-        let _t202 = _t16 * S::ratio(3.0, 1.0);
-        let _t203 = _t201 + _t202 + _t168 * _t58 - _t174 * _t57;
-        let _t204 = _t0 * _t177 + _t6 * _t181 + _t12 * _t182 + _t18 * _t178;
-        let _t205 = _t197 * self.system._k42 - _t187 * S::ratio(4.0, 1.0);
-        let _t206 = _t201 * self.system._k37 - _t185 * S::ratio(4.0, 1.0);
-        let _t207 = _t189 * self.system._k38 - _t183 * S::ratio(4.0, 1.0);
-        let _t208 = _t193 * self.system._k43 - _t179 * S::ratio(4.0, 1.0);
-        let _t209 = _t20 * _t178 + _t14 * _t182 + _t8 * _t181 + _t2 * _t177;
-        let _t210 = _t28 * _t12 - _t27 * _t18 + _t25 * _t0 - _t29 * _t6;
-        let _t211 = _t210 * self.system._k36 - _t209 * S::ratio(4.0, 1.0);
-        let _t212 = _t29 * _t12 + _t25 * _t18 - _t27 * _t0 - _t28 * _t6;
-        let _t213 = _t212 * self.system._k39 - _t204 * S::ratio(4.0, 1.0);
-        let _t214 = _t212 - _t168 * _t56 - _t170 * _t62 + _t172 * _t63 + _t174 * _t59;
-        let _t215 = _t210 - _t168 * _t59 + _t170 * _t63 - _t172 * _t62 + _t174 * _t56;
-        let _t216 = _t60 * self.system._k46 + _t195 * _t61 + _t214 * _t65 + _t215 * _t67
-            + _t199 * _t69;
-        let _t217 = _t51 * S::ratio(12.0, 1.0);
-        let _t218 = self.system._k6 * _t53 + _t25 * _t211 - _t32 * _t205 + _t45 * _t208
-            - _t27 * _t213 + self.system._k9 * _t216
+                * (_t93
+                    + (_t93
+                        + S::ratio(12.0, 1.0)
+                            * (m14 * _t40 + m13 * _t63 - m24 * _t70 - m23 * _t47)));
+        let _t95 = m23 * self._h19;
+        let _t96 = m34 * self._h20;
+        let _t97 = _t33 * self._h21;
+        let _t98 = _t17 * self._h22;
+        let _t99 = _t39 * self._h23;
+        let _t100 = m13 * self._h3 + _t47 * self._h1 - _t57 * _t89 - _t91 * _t92
+            - _t94 * _t95 + _t82 * _t96
+            + self._h12 * (_t38 * _t63 - _t16 * _t27 - _t12 * _t22 + _t32 * _t70);
+        let _t101 = m12 * self._h9;
+        let _t102 = m13 * self._h18;
+        let _t103 = m24 * self._h25;
+        let _t104 = m34 * self._h26;
+        let _t105 = _t21 * self._h27;
+        let _t106 = _t39 * self._h28;
+        let _t107 = m14 * self._h4 + _t70 * self._h1 - _t76 * _t101 - _t91 * _t102
+            - _t94 * _t103 - _t79 * _t104
+            + self._h12 * (_t38 * _t40 + _t20 * _t27 - _t6 * _t22 - _t32 * _t47);
+        let _t108 = m12 * self._h10;
+        let _t109 = m13 * self._h19;
+        let _t110 = m24 * self._h30;
+        let _t111 = m34 * self._h31;
+        let _t112 = _t33 * self._h32;
+        let _t113 = _t7 * self._h33;
+        let _t114 = m23 * self._h5 + _t63 * self._h1 + _t79 * _t108 - _t94 * _t109
+            - _t91 * _t110 + _t76 * _t111
+            - self._h12 * (_t38 * _t47 - _t20 * _t22 + _t6 * _t27 - _t32 * _t40);
+        let _t115 = m12 * self._h11;
+        let _t116 = m14 * self._h25;
+        let _t117 = m23 * self._h30;
+        let _t118 = m34 * self._h35;
+        let _t119 = _t13 * self._h36;
+        let _t120 = m24 * self._h6 + _t40 * self._h1 + _t82 * _t115 - _t94 * _t116
+            - _t91 * _t117 - _t57 * _t118
+            - self._h12 * (_t38 * _t70 - _t16 * _t22 - _t12 * _t27 + _t32 * _t63);
+        let _t121 = m13 * self._h20;
+        let _t122 = m14 * self._h26;
+        let _t123 = m23 * self._h31;
+        let _t124 = m24 * self._h35;
+        let _t125 = m34 * self._h7 + _t27 * self._h1 + _t82 * _t121 - _t79 * _t122
+            + _t76 * _t123 - _t57 * _t124
+            - self._h12 * (_t20 * _t70 - _t16 * _t47 + _t12 * _t40 - _t6 * _t63);
+        let _t126 = -_t18;
+        let _t127 = self.system._k7 * _t126;
+        let _t128 = -_t14;
+        let _t129 = self.system._k8 * _t128;
+        let _t130 = self.system._k9 * _t9;
+        let _t131 = self.system._k10 * _t1;
+        let _t132 = self.system._k28 * _t13;
+        let _t133 = _t130 + _t130;
+        let _t134 = _t129 + _t129;
+        let _t135 = -_t132 - _t44 * _t133 - _t45 * _t134;
+        let _t136 = self.system._k30 * _t7;
+        let _t137 = _t131 + _t131;
+        let _t138 = _t127 + _t127;
+        let _t139 = _t68 * _t138 - _t136 - _t67 * _t137;
+        let _t140 = self.system._k14 * _t21;
+        let _t141 = _t140 - _t60 * _t137 + _t61 * _t138;
+        let _t142 = self.system._k16 * _t17;
+        let _t143 = _t142 + _t34 * _t133 + _t35 * _t134;
+        let _t144 = _t2 * _t1 - _t4 * _t126 + self.system._k6 * _t5;
+        let _t145 = _t144 - S::ratio(3.0, 1.0) * (_t6 - m34 * _t127 + m12 * _t131);
+        let _t146 = _t4 * _t128 + _t2 * _t9 + self.system._k6 * _t11;
+        let _t147 = _t146 - S::ratio(3.0, 1.0) * (_t12 + m34 * _t129 + m12 * _t130);
+        let _t148 = -(_t2 * _t128) - _t4 * _t9 - self.system._k6 * _t15;
+        let _t149 = _t148 + S::ratio(3.0, 1.0) * (_t16 + m12 * _t129 + m34 * _t130);
+        let _t150 = _t4 * _t1 - _t2 * _t126 - self.system._k6 * _t19;
+        let _t151 = _t150 + S::ratio(3.0, 1.0) * (_t20 + m12 * _t127 - m34 * _t131);
+        let _t152 = _t1 * _t137 + _t9 * _t133 - _t14 * _t134 - _t18 * _t138;
+        let _t153 = _t148 * self.system._k42 - _t143 * S::ratio(4.0, 1.0);
+        let _t154 = _t150 * self.system._k37 - _t141 * S::ratio(4.0, 1.0);
+        let _t155 = _t144 * self.system._k38 - _t139 * S::ratio(4.0, 1.0);
+        let _t156 = _t146 * self.system._k43 - _t135 * S::ratio(4.0, 1.0);
+        let _t157 = _t23 * _t137 - _t24 * _t133 + _t25 * _t134 - _t26 * _t138;
+        let _t158 = _t0 * _t126 - _t8 * _t128 + _t10 * _t9 - _t3 * _t1;
+        let _t159 = _t158 * self.system._k36 - _t157 * S::ratio(4.0, 1.0);
+        let _t160 = _t3 * _t126 + _t10 * _t128 - _t8 * _t9 - _t0 * _t1;
+        let _t161 = _t160 * self.system._k39 - _t152 * S::ratio(4.0, 1.0);
+        let _t162 = _t160
+            - S::ratio(3.0, 1.0)
+                * (m23 * _t127 + m24 * _t129 - m13 * _t130 - m14 * _t131);
+        let _t163 = _t158
+            - S::ratio(3.0, 1.0)
+                * (m14 * _t127 - m13 * _t129 + m24 * _t130 - m23 * _t131);
+        let _t164 = _t54 * self.system._k46
+            - S::ratio(4.0, 1.0)
+                * (_t9 * _t162 - _t44 * _t147 + _t34 * _t149 - _t24 * _t163);
+        let _t165 = self.system._k6 * _t49 + _t10 * _t159 - _t4 * _t153 + _t2 * _t156
+            - _t8 * _t161
             + self.system._k9
-                * (_t216 + _t217 - _t204 * _t74 + _t179 * _t73 - _t187 * _t72
-                    + _t209 * _t71);
-        let _t219 = _t87 * self.system._k44 + _t191 * _t88 + _t214 * _t89 - _t215 * _t90
-            - _t203 * _t92;
-        let _t220 = _t84 * S::ratio(12.0, 1.0);
-        let _t221 = self.system._k6 * _t86 - _t29 * _t211 + _t32 * _t206 + _t45 * _t207
-            - _t28 * _t213 + self.system._k10 * _t219
+                * (_t164
+                    + (_t164
+                        + S::ratio(12.0, 1.0)
+                            * (_t47 - m13 * _t152 + m12 * _t135 - m34 * _t143
+                                + m24 * _t157)));
+        let _t166 = _t74 * self.system._k44
+            - S::ratio(4.0, 1.0)
+                * (_t1 * _t162 - _t67 * _t145 - _t60 * _t151 + _t23 * _t163);
+        let _t167 = self.system._k6 * _t72 - _t3 * _t159 + _t4 * _t154 + _t2 * _t155
+            - _t0 * _t161
             + self.system._k10
-                * (_t219 + _t220 - _t204 * _t95 + _t183 * _t73 + _t185 * _t72
-                    - _t209 * _t94);
-        let _t222 = _t215 * _t100 - _t91 * self.system._k40 - _t203 * _t98 - _t214 * _t99
-            + _t191 * _t101;
-        let _t223 = _t79 * S::ratio(12.0, 1.0);
-        let _t224 = _t28 * _t211 - self.system._k6 * _t81 - _t45 * _t206 - _t32 * _t207
-            + _t29 * _t213 + self.system._k7 * _t222
+                * (_t166
+                    + (_t166
+                        + S::ratio(12.0, 1.0)
+                            * (_t70 - m14 * _t152 + m12 * _t139 + m34 * _t141
+                                - m23 * _t157)));
+        let _t168 = S::ratio(4.0, 1.0)
+            * (_t18 * _t162 - _t68 * _t145 - _t61 * _t151 + _t26 * _t163)
+            - _t73 * self.system._k40;
+        let _t169 = _t0 * _t159 - self.system._k6 * _t65 - _t2 * _t154 - _t4 * _t155
+            + _t3 * _t161
             + self.system._k7
-                * (_t222 - _t223 + _t204 * _t94 - _t183 * _t72 - _t185 * _t73
-                    + _t209 * _t95);
-        let _t225 = -(_t68 * self.system._k48) - _t199 * _t105 - _t214 * _t106
-            - _t215 * _t107 - _t195 * _t108;
-        let _t226 = _t44 * S::ratio(12.0, 1.0);
-        let _t227 = _t32 * _t208 - self.system._k6 * _t47 - _t27 * _t211 - _t45 * _t205
-            + _t25 * _t213 + self.system._k8 * _t225
+                * (_t168
+                    + (_t168
+                        - S::ratio(12.0, 1.0)
+                            * (_t63 - m23 * _t152 + m34 * _t139 + m12 * _t141
+                                - m14 * _t157)));
+        let _t170 = S::ratio(4.0, 1.0)
+            * (_t14 * _t162 + _t45 * _t147 - _t35 * _t149 - _t25 * _t163)
+            - _t53 * self.system._k48;
+        let _t171 = _t4 * _t156 - self.system._k6 * _t42 - _t8 * _t159 - _t2 * _t153
+            + _t10 * _t161
             + self.system._k8
-                * (_t225 - _t226 + _t204 * _t71 + _t179 * _t72 - _t187 * _t73
-                    - _t209 * _t74);
-        let _t228 = self._h0 - _t168 * _t169 - _t170 * _t171 + _t172 * _t173
-            + _t174 * _t175 + _t179 * _t114 + _t183 * _t115 - _t185 * _t112
-            - _t187 * _t113 + _t181 * _t188;
-        let _t229 = _t228 + _t191 * _t116 + _t177 * _t192 + _t195 * _t117 - _t178 * _t196
-            - _t199 * _t118 - _t182 * _t200 - _t203 * _t119 + _t204 * self._h1
-            + (_t53 * _t0 - _t81 * _t12 - _t47 * _t18 + _t86 * _t6 - _t21 * _t205
-                - _t15 * _t206 + _t9 * _t207 + _t3 * _t208) * self._h17;
-        let _t230 = self.system._k17 * _t23;
-        let _t231 = self.system._k8 * _t50;
-        let _t232 = _t231 + _t231;
-        let _t233 = self.system._k9 * _t1;
+                * (_t170
+                    + (_t170
+                        - S::ratio(12.0, 1.0)
+                            * (_t40 - m24 * _t152 - m34 * _t135 + m12 * _t143
+                                + m13 * _t157)));
+        let _t172 = self._h0
+            - self._h12
+                * (_t63 * _t127 + _t40 * _t129 - _t47 * _t130 - _t70 * _t131
+                    - _t12 * _t135 - _t6 * _t139 + _t20 * _t141 + _t16 * _t143);
+        let _t173 = _t172 + self._h13 * (_t74 * _t137 + _t7 * _t145)
+            + self._h14 * (_t54 * _t133 + _t13 * _t147)
+            - self._h15 * (_t53 * _t134 + _t17 * _t149)
+            - self._h16 * (_t73 * _t138 + _t21 * _t151);
+        let _t174 = _t173 + _t152 * self._h1
+            + (_t49 * _t9 - _t65 * _t126 - _t42 * _t128 + _t72 * _t1 - _t15 * _t153
+                - _t19 * _t154 + _t5 * _t155 + _t11 * _t156) * self._h17;
+        let _t175 = self.system._k17 * _t17;
+        let _t176 = -_t44;
+        let _t177 = self.system._k9 * _t176;
+        let _t178 = _t177 + _t177;
+        let _t179 = -_t45;
+        let _t180 = self.system._k8 * _t179;
+        let _t181 = _t180 + _t180;
+        let _t182 = _t175 - _t24 * _t178 + _t25 * _t181;
+        let _t183 = _t10 * _t176 - _t8 * _t179 - self.system._k7 * _t15;
+        let _t184 = self.system._k36 * _t183 - S::ratio(4.0, 1.0) * _t182;
+        let _t185 = self.system._k11 * _t43;
+        let _t186 = _t185 + _t185;
+        let _t187 = self.system._k6 * _t46;
+        let _t188 = _t187 + _t187;
+        let _t189 = _t34 * _t178 - _t30 * _t186 + _t35 * _t181 - _t36 * _t188;
+        let _t190 = _t0 * _t46 - _t2 * _t179 - _t4 * _t176 + _t3 * _t43;
+        let _t191 = self.system._k42 * _t190 - S::ratio(4.0, 1.0) * _t189;
+        let _t192 = _t43 * _t186 - _t44 * _t178 - _t45 * _t181 + _t46 * _t188;
+        let _t193 = _t4 * _t179 - _t3 * _t46 + _t2 * _t176 - _t0 * _t43;
+        let _t194 = self.system._k43 * _t193 - S::ratio(4.0, 1.0) * _t192;
+        let _t195 = _t9 * _t178 - _t132 - _t14 * _t181;
+        let _t196 = _t10 * _t179 - _t8 * _t176 - self.system._k7 * _t11;
+        let _t197 = self.system._k39 * _t196 - S::ratio(4.0, 1.0) * _t195;
+        let _t198 = _t196 + S::ratio(3.0, 1.0) * (_t12 - m24 * _t180 + m13 * _t177);
+        let _t199 = _t193
+            + S::ratio(3.0, 1.0)
+                * (m23 * _t187 - m34 * _t180 - m12 * _t177 + m14 * _t185);
+        let _t200 = _t190
+            - S::ratio(3.0, 1.0)
+                * (m14 * _t187 - m12 * _t180 - m34 * _t177 + m23 * _t185);
+        let _t201 = _t183 + S::ratio(3.0, 1.0) * (_t16 + m13 * _t180 - m24 * _t177);
+        let _t202 = _t55 * self.system._k46
+            - S::ratio(4.0, 1.0)
+                * (_t9 * _t198 - _t44 * _t199 + _t34 * _t200 - _t24 * _t201);
+        let _t203 = _t10 * _t184 - self.system._k7 * _t51 - _t4 * _t191 + _t2 * _t194
+            - _t8 * _t197
+            + self.system._k9
+                * (_t202
+                    + (_t202
+                        - S::ratio(12.0, 1.0)
+                            * (_t22 + m13 * _t195 - m12 * _t192 + m34 * _t189
+                                - m24 * _t182)));
+        let _t204 = self.system._k32 * _t33;
+        let _t205 = _t69 * _t188 - _t204 - _t66 * _t186;
+        let _t206 = self.system._k34 * _t39;
+        let _t207 = _t59 * _t186 - _t206 - _t62 * _t188;
+        let _t208 = _t8 * _t43 - _t10 * _t46 + self.system._k7 * _t31;
+        let _t209 = _t208 - S::ratio(3.0, 1.0) * (_t32 - m24 * _t187 + m13 * _t185);
+        let _t210 = _t8 * _t46 - _t10 * _t43 + self.system._k7 * _t37;
+        let _t211 = _t210 - S::ratio(3.0, 1.0) * (_t38 + m13 * _t187 - m24 * _t185);
+        let _t212 = self.system._k37 * _t210 - S::ratio(4.0, 1.0) * _t207;
+        let _t213 = self.system._k38 * _t208 - S::ratio(4.0, 1.0) * _t205;
+        let _t214 = (_t1 * _t198 - _t67 * _t209 - _t60 * _t211 + _t23 * _t201)
+            * S::ratio(-4.0, 1.0);
+        let _t215 = _t4 * _t212 - _t3 * _t184 + _t2 * _t213 - _t0 * _t197
+            + self.system._k10
+                * (_t214
+                    + (_t214
+                        - S::ratio(12.0, 1.0)
+                            * (m14 * _t195 - m12 * _t205 - m34 * _t207 + m23 * _t182)));
+        let _t216 = S::ratio(4.0, 1.0)
+            * (_t18 * _t198 - _t68 * _t209 - _t61 * _t211 + _t26 * _t201);
+        let _t217 = _t0 * _t184 - _t2 * _t212 - _t4 * _t213 + _t3 * _t197
+            + self.system._k7
+                * (_t216
+                    + (_t216
+                        + S::ratio(12.0, 1.0)
+                            * (m23 * _t195 - m34 * _t205 - m12 * _t207 + m14 * _t182)));
+        let _t218 = S::ratio(4.0, 1.0)
+            * (_t14 * _t198 + _t45 * _t199 - _t35 * _t200 - _t25 * _t201)
+            - _t52 * self.system._k49;
+        let _t219 = _t4 * _t194 - self.system._k7 * _t29 - _t8 * _t184 - _t2 * _t191
+            + _t10 * _t197
+            + self.system._k8
+                * (_t218
+                    + (_t218
+                        - S::ratio(12.0, 1.0)
+                            * (_t27 - m24 * _t195 - m34 * _t192 + m12 * _t189
+                                + m13 * _t182)));
+        let _t220 = self._h14 * (_t54 * _t178 + _t13 * _t199)
+            - self._h8 * (_t57 + m13 * _t203)
+            - self._h12
+                * (_t40 * _t180 - _t47 * _t177 - _t12 * _t192 - _t6 * _t205
+                    + _t20 * _t207 + _t16 * _t189);
+        let _t221 = _t220 - self._h15 * (_t53 * _t181 + _t17 * _t200) + _t195 * self._h1
+            + _t209 * _t84 - _t211 * _t87
+            + (_t49 * _t176 - _t42 * _t179 - _t15 * _t191 - _t19 * _t212 + _t5 * _t213
+                + _t11 * _t194) * self._h17;
+        let _t222 = _t221 - _t215 * _t77 + _t217 * _t80 + _t219 * _t83;
+        let _t223 = self.system._k31 * _t21;
+        let _t224 = -_t67;
+        let _t225 = self.system._k10 * _t224;
+        let _t226 = _t225 + _t225;
+        let _t227 = self.system._k7 * _t68;
+        let _t228 = _t227 + _t227;
+        let _t229 = _t23 * _t226 - _t223 - _t26 * _t228;
+        let _t230 = _t0 * _t68 - _t3 * _t224 + self.system._k8 * _t19;
+        let _t231 = self.system._k36 * _t230 - S::ratio(4.0, 1.0) * _t229;
+        let _t232 = -_t66;
+        let _t233 = self.system._k11 * _t232;
         let _t234 = _t233 + _t233;
-        let _t235 = _t230 + _t20 * _t232 + _t2 * _t234;
-        let _t236 = _t25 * _t1 - _t27 * _t50 - self.system._k7 * _t21;
-        let _t237 = self.system._k36 * _t236 - S::ratio(4.0, 1.0) * _t235;
-        let _t238 = self.system._k6 * _t49;
-        let _t239 = _t238 + _t238;
-        let _t240 = self.system._k11 * _t48;
-        let _t241 = _t240 + _t240;
-        let _t242 = _t19 * _t232 + _t33 * _t239 + _t38 * _t241 + _t43 * _t234;
-        let _t243 = _t28 * _t49 - _t45 * _t50 - _t32 * _t1 + _t29 * _t48;
-        let _t244 = self.system._k42 * _t243 - S::ratio(4.0, 1.0) * _t242;
-        let _t245 = _t1 * _t234 + _t48 * _t241 + _t49 * _t239 + _t50 * _t232;
-        let _t246 = _t32 * _t50 - _t29 * _t49 + _t45 * _t1 - _t28 * _t48;
-        let _t247 = self.system._k43 * _t246 - S::ratio(4.0, 1.0) * _t245;
-        let _t248 = _t176 + _t0 * _t234 + _t18 * _t232;
-        let _t249 = _t25 * _t50 - _t27 * _t1 - self.system._k7 * _t3;
-        let _t250 = self.system._k39 * _t249 - S::ratio(4.0, 1.0) * _t248;
-        let _t251 = _t246 + _t238 * _t56 - _t231 * _t57 - _t233 * _t58 + _t240 * _t59;
-        let _t252 = _t194 + _t249 - _t231 * _t62 + _t233 * _t63;
-        let _t253 = _t198 + _t236 + _t231 * _t63 - _t233 * _t62;
-        let _t254 = _t243 - _t238 * _t59 + _t231 * _t58 + _t233 * _t57 - _t240 * _t56;
-        let _t255 = _t64 * self.system._k46 + _t251 * _t61 + _t252 * _t65 + _t253 * _t67
-            + _t254 * _t69;
-        let _t256 = _t24 * S::ratio(12.0, 1.0);
-        let _t257 = _t25 * _t237 - self.system._k7 * _t55 - _t32 * _t244 + _t45 * _t247
-            - _t27 * _t250 + self.system._k9 * _t255
-            + self.system._k9
-                * (_t255 - _t256 - _t248 * _t74 + _t245 * _t73 - _t242 * _t72
-                    + _t235 * _t71);
-        let _t258 = self.system._k30 * _t42;
-        let _t259 = _t258 + _t39 * _t241 + _t82 * _t239;
-        let _t260 = self.system._k24 * _t37;
-        let _t261 = _t260 + _t34 * _t239 + _t77 * _t241;
-        let _t262 = _t27 * _t48 - _t25 * _t49 + self.system._k7 * _t40;
-        let _t263 = _t41 * S::ratio(3.0, 1.0);
-        let _t264 = _t262 - _t263 + _t238 * _t62 - _t240 * _t63;
-        let _t265 = _t27 * _t49 - _t25 * _t48 + self.system._k7 * _t35;
-        let _t266 = _t36 * S::ratio(3.0, 1.0);
-        let _t267 = _t265 - _t266 - _t238 * _t63 + _t240 * _t62;
-        let _t268 = self.system._k37 * _t265 - S::ratio(4.0, 1.0) * _t261;
-        let _t269 = self.system._k38 * _t262 - S::ratio(4.0, 1.0) * _t259;
-        let _t270 = _t264 * _t88 + _t252 * _t89 - _t253 * _t90 - _t267 * _t92;
-        let _t271 = _t32 * _t268 - _t29 * _t237 + _t45 * _t269 - _t28 * _t250
-            + self.system._k10 * _t270
+        let _t235 = self.system._k6 * _t69;
+        let _t236 = _t235 + _t235;
+        let _t237 = _t59 * _t234 - _t60 * _t226 + _t61 * _t228 - _t62 * _t236;
+        let _t238 = _t8 * _t69 - _t2 * _t68 + _t4 * _t224 - _t10 * _t232;
+        let _t239 = self.system._k37 * _t238 - S::ratio(4.0, 1.0) * _t237;
+        let _t240 = _t68 * _t228 - _t66 * _t234 - _t67 * _t226 + _t69 * _t236;
+        let _t241 = _t2 * _t224 - _t10 * _t69 - _t4 * _t68 + _t8 * _t232;
+        let _t242 = self.system._k38 * _t241 - S::ratio(4.0, 1.0) * _t240;
+        let _t243 = _t1 * _t226 - _t136 - _t18 * _t228;
+        let _t244 = _t3 * _t68 - _t0 * _t224 - self.system._k8 * _t5;
+        let _t245 = self.system._k39 * _t244 - S::ratio(4.0, 1.0) * _t243;
+        let _t246 = _t244 + S::ratio(3.0, 1.0) * (_t6 - m23 * _t227 + m14 * _t225);
+        let _t247 = _t241
+            + S::ratio(3.0, 1.0)
+                * (m24 * _t235 + m34 * _t227 - m12 * _t225 - m13 * _t233);
+        let _t248 = _t238
+            - S::ratio(3.0, 1.0)
+                * (m13 * _t235 - m12 * _t227 + m34 * _t225 - m24 * _t233);
+        let _t249 = _t230 - S::ratio(3.0, 1.0) * (_t20 + m14 * _t227 - m23 * _t225);
+        let _t250 = _t55 * self.system._k44
+            - S::ratio(4.0, 1.0)
+                * (_t1 * _t246 - _t67 * _t247 - _t60 * _t248 + _t23 * _t249);
+        let _t251 = _t4 * _t239 - self.system._k8 * _t51 - _t3 * _t231 + _t2 * _t242
+            - _t0 * _t245
             + self.system._k10
-                * (_t270 - _t248 * _t95 + _t259 * _t73 + _t261 * _t72 - _t235 * _t94);
-        let _t272 = _t253 * _t100 - _t267 * _t98 - _t252 * _t99 + _t264 * _t101;
-        let _t273 = _t28 * _t237 - _t45 * _t268 - _t32 * _t269 + _t29 * _t250
-            + self.system._k7 * _t272
-            + self.system._k7
-                * (_t272 + _t248 * _t94 - _t259 * _t72 - _t261 * _t73 + _t235 * _t95);
-        let _t274 = -(_t66 * self.system._k49) - _t253 * _t107 - _t251 * _t108
-            - _t254 * _t105 - _t252 * _t106;
-        let _t275 = _t26 * S::ratio(12.0, 1.0);
-        let _t276 = _t32 * _t247 - self.system._k7 * _t31 - _t27 * _t237 - _t45 * _t244
-            + _t25 * _t250 + self.system._k8 * _t274
-            + self.system._k8
-                * (_t274 - _t275 + _t248 * _t71 + _t245 * _t72 - _t242 * _t73
-                    - _t235 * _t74);
-        let _t277 = _t233 * _t173 - _t75 * self._h8 - _t257 * _t76 - _t231 * _t171
-            + _t245 * _t114 + _t259 * _t115 - _t261 * _t112 - _t242 * _t113
-            + _t234 * _t192;
-        let _t278 = _t277 + _t251 * _t117 - _t232 * _t196 - _t254 * _t118
-            + _t248 * self._h1 + _t264 * _t116 - _t267 * _t119
-            + (_t53 * _t1 - _t47 * _t50 - _t21 * _t244 - _t15 * _t268 + _t9 * _t269
-                + _t3 * _t247) * self._h17;
-        let _t279 = _t278 - _t271 * _t97 + _t273 * _t104 + _t276 * _t111;
-        let _t280 = self.system._k26 * _t17;
-        let _t281 = self.system._k7 * _t83;
-        let _t282 = _t281 + _t281;
-        let _t283 = self.system._k10 * _t7;
-        let _t284 = _t283 + _t283;
-        let _t285 = _t280 + _t14 * _t282 + _t8 * _t284;
-        let _t286 = _t28 * _t83 - _t29 * _t7 + self.system._k8 * _t15;
-        let _t287 = self.system._k36 * _t286 - S::ratio(4.0, 1.0) * _t285;
-        let _t288 = self.system._k6 * _t82;
-        let _t289 = _t288 + _t288;
-        let _t290 = self.system._k11 * _t39;
-        let _t291 = _t290 + _t290;
-        let _t292 = _t13 * _t282 + _t34 * _t289 + _t77 * _t291 + _t78 * _t284;
-        let _t293 = _t27 * _t82 - _t45 * _t83 + _t32 * _t7 - _t25 * _t39;
-        let _t294 = self.system._k37 * _t293 - S::ratio(4.0, 1.0) * _t292;
-        let _t295 = _t7 * _t284 + _t39 * _t291 + _t82 * _t289 + _t83 * _t282;
-        let _t296 = _t45 * _t7 - _t25 * _t82 - _t32 * _t83 + _t27 * _t39;
-        let _t297 = self.system._k38 * _t296 - S::ratio(4.0, 1.0) * _t295;
-        let _t298 = _t180 + _t6 * _t284 + _t12 * _t282;
-        let _t299 = _t29 * _t83 - _t28 * _t7 - self.system._k8 * _t9;
-        let _t300 = self.system._k39 * _t299 - S::ratio(4.0, 1.0) * _t298;
-        let _t301 = _t296 + _t288 * _t62 + _t281 * _t57 - _t283 * _t58 - _t290 * _t63;
-        let _t302 = _t190 + _t299 - _t281 * _t56 + _t283 * _t59;
-        let _t303 = _t286 - _t202 - _t281 * _t59 + _t283 * _t56;
-        let _t304 = _t293 - _t288 * _t63 + _t281 * _t58 - _t283 * _t57 + _t290 * _t62;
-        let _t305 = _t64 * self.system._k44 + _t301 * _t88 + _t302 * _t89 - _t303 * _t90
-            - _t304 * _t92;
-        let _t306 = _t32 * _t294 - self.system._k8 * _t55 - _t29 * _t287 + _t45 * _t297
-            - _t28 * _t300 + self.system._k10 * _t305
-            + self.system._k10
-                * (_t305 - _t256 - _t298 * _t95 + _t295 * _t73 + _t292 * _t72
-                    - _t285 * _t94);
-        let _t307 = _t258 + _t48 * _t291 + _t49 * _t289;
-        let _t308 = self.system._k25 * _t37;
-        let _t309 = _t308 + _t33 * _t289 + _t38 * _t291;
-        let _t310 = -(_t29 * _t82) - _t28 * _t39 - self.system._k8 * _t40;
-        let _t311 = _t263 + _t310 + _t288 * _t56 + _t290 * _t59;
-        let _t312 = _t28 * _t82 + _t29 * _t39 + self.system._k8 * _t35;
-        let _t313 = _t312 - _t266 - _t288 * _t59 - _t290 * _t56;
-        let _t314 = self.system._k42 * _t312 - S::ratio(4.0, 1.0) * _t309;
-        let _t315 = self.system._k43 * _t310 - S::ratio(4.0, 1.0) * _t307;
-        let _t316 = _t311 * _t61 + _t302 * _t65 + _t303 * _t67 + _t313 * _t69;
-        let _t317 = _t25 * _t287 - _t32 * _t314 + _t45 * _t315 - _t27 * _t300
-            + self.system._k9 * _t316
+                * (_t250
+                    + (_t250
+                        - S::ratio(12.0, 1.0)
+                            * (_t22 + m14 * _t243 - m12 * _t240 - m34 * _t237
+                                + m23 * _t229)));
+        let _t252 = _t43 * _t234 - _t204 + _t46 * _t236;
+        let _t253 = self.system._k35 * _t39;
+        let _t254 = -_t253 - _t30 * _t234 - _t36 * _t236;
+        let _t255 = -(_t3 * _t69) - _t0 * _t232 - self.system._k8 * _t31;
+        let _t256 = _t255 + S::ratio(3.0, 1.0) * (_t32 + m23 * _t235 + m14 * _t233);
+        let _t257 = _t0 * _t69 + _t3 * _t232 + self.system._k8 * _t37;
+        let _t258 = _t257 - S::ratio(3.0, 1.0) * (_t38 + m14 * _t235 + m23 * _t233);
+        let _t259 = self.system._k42 * _t257 - S::ratio(4.0, 1.0) * _t254;
+        let _t260 = self.system._k43 * _t255 - S::ratio(4.0, 1.0) * _t252;
+        let _t261 = (_t9 * _t246 - _t44 * _t256 + _t34 * _t258 - _t24 * _t249)
+            * S::ratio(-4.0, 1.0);
+        let _t262 = _t10 * _t231 - _t4 * _t259 + _t2 * _t260 - _t8 * _t245
             + self.system._k9
-                * (_t316 - _t298 * _t74 + _t307 * _t73 - _t309 * _t72 + _t285 * _t71);
-        let _t318 = _t66 * self.system._k41 + _t303 * _t100 + _t301 * _t101
-            - _t304 * _t98 - _t302 * _t99;
-        let _t319 = self.system._k8 * _t31 + _t28 * _t287 - _t45 * _t294 - _t32 * _t297
-            + _t29 * _t300 + self.system._k7 * _t318
+                * (_t261
+                    + (_t261
+                        - S::ratio(12.0, 1.0)
+                            * (m13 * _t243 - m12 * _t252 + m34 * _t254 - m24 * _t229)));
+        let _t263 = _t52 * self.system._k41
+            + S::ratio(4.0, 1.0)
+                * (_t18 * _t246 - _t68 * _t247 - _t61 * _t248 + _t26 * _t249);
+        let _t264 = self.system._k8 * _t29 + _t0 * _t231 - _t2 * _t239 - _t4 * _t242
+            + _t3 * _t245
             + self.system._k7
-                * (_t275 + _t318 + _t298 * _t94 - _t295 * _t72 - _t292 * _t73
-                    + _t285 * _t95);
-        let _t320 = -(_t313 * _t105) - _t302 * _t106 - _t303 * _t107 - _t311 * _t108;
-        let _t321 = _t32 * _t315 - _t27 * _t287 - _t45 * _t314 + _t25 * _t300
-            + self.system._k8 * _t320
+                * (_t263
+                    + (_t263
+                        + S::ratio(12.0, 1.0)
+                            * (_t27 + m23 * _t243 - m34 * _t240 - m12 * _t237
+                                + m14 * _t229)));
+        let _t265 = S::ratio(4.0, 1.0)
+            * (_t14 * _t246 + _t45 * _t256 - _t35 * _t258 - _t25 * _t249);
+        let _t266 = _t4 * _t260 - _t8 * _t231 - _t2 * _t259 + _t10 * _t245
             + self.system._k8
-                * (_t320 + _t298 * _t71 + _t307 * _t72 - _t309 * _t73 - _t285 * _t74);
-        let _t322 = _t283 * _t175 - _t96 * self._h9 - _t306 * _t97 - _t281 * _t169
-            + _t307 * _t114 + _t295 * _t115 - _t292 * _t112 - _t309 * _t113
-            + _t284 * _t188;
-        let _t323 = _t322 + _t301 * _t116 - _t282 * _t200 - _t304 * _t119
-            + _t298 * self._h1 + _t311 * _t117 - _t313 * _t118
-            + (_t86 * _t7 - _t81 * _t83 - _t21 * _t314 - _t15 * _t294 + _t9 * _t297
-                + _t3 * _t315) * self._h17;
-        let _t324 = _t323 - _t317 * _t76 + _t319 * _t104 + _t321 * _t111;
-        let _t325 = self.system._k21 * _t11;
-        let _t326 = self.system._k7 * _t13;
+                * (_t265
+                    + (_t265
+                        + S::ratio(12.0, 1.0)
+                            * (m24 * _t243 + m34 * _t252 - m12 * _t254 - m13 * _t229)));
+        let _t267 = self._h13 * (_t74 * _t226 + _t7 * _t247)
+            - self._h9 * (_t76 + m14 * _t251)
+            - self._h12
+                * (_t63 * _t227 - _t70 * _t225 - _t12 * _t252 - _t6 * _t240
+                    + _t20 * _t237 + _t16 * _t254);
+        let _t268 = _t267 - self._h16 * (_t73 * _t228 + _t21 * _t248) + _t243 * self._h1
+            + _t256 * _t85 - _t258 * _t86
+            + (_t72 * _t224 - _t65 * _t68 - _t15 * _t259 - _t19 * _t239 + _t5 * _t242
+                + _t11 * _t260) * self._h17;
+        let _t269 = _t268 - _t262 * _t58 + _t264 * _t80 + _t266 * _t83;
+        let _t270 = self.system._k21 * _t7;
+        let _t271 = -_t60;
+        let _t272 = self.system._k10 * _t271;
+        let _t273 = _t272 + _t272;
+        let _t274 = self.system._k7 * _t61;
+        let _t275 = _t274 + _t274;
+        let _t276 = _t270 + _t23 * _t273 - _t26 * _t275;
+        let _t277 = _t0 * _t61 - _t3 * _t271 - self.system._k9 * _t5;
+        let _t278 = self.system._k36 * _t277 - S::ratio(4.0, 1.0) * _t276;
+        let _t279 = self.system._k11 * _t59;
+        let _t280 = _t279 + _t279;
+        let _t281 = -_t62;
+        let _t282 = self.system._k6 * _t281;
+        let _t283 = _t282 + _t282;
+        let _t284 = _t59 * _t280 - _t60 * _t273 + _t61 * _t275 - _t62 * _t283;
+        let _t285 = _t8 * _t281 - _t2 * _t61 + _t4 * _t271 - _t10 * _t59;
+        let _t286 = self.system._k37 * _t285 - S::ratio(4.0, 1.0) * _t284;
+        let _t287 = _t68 * _t275 - _t66 * _t280 - _t67 * _t273 + _t69 * _t283;
+        let _t288 = _t2 * _t271 - _t10 * _t281 - _t4 * _t61 + _t8 * _t59;
+        let _t289 = self.system._k38 * _t288 - S::ratio(4.0, 1.0) * _t287;
+        let _t290 = _t140 + _t1 * _t273 - _t18 * _t275;
+        let _t291 = _t3 * _t61 - _t0 * _t271 + self.system._k9 * _t19;
+        let _t292 = self.system._k39 * _t291 - S::ratio(4.0, 1.0) * _t290;
+        let _t293 = _t291 - S::ratio(3.0, 1.0) * (_t20 + m23 * _t274 - m14 * _t272);
+        let _t294 = _t288
+            + S::ratio(3.0, 1.0)
+                * (m24 * _t282 + m34 * _t274 - m12 * _t272 - m13 * _t279);
+        let _t295 = _t285
+            - S::ratio(3.0, 1.0)
+                * (m13 * _t282 - m12 * _t274 + m34 * _t272 - m24 * _t279);
+        let _t296 = _t277 + S::ratio(3.0, 1.0) * (_t6 - m14 * _t274 + m23 * _t272);
+        let _t297 = S::ratio(4.0, 1.0)
+            * (_t18 * _t293 - _t68 * _t294 - _t61 * _t295 + _t26 * _t296)
+            - _t55 * self.system._k40;
+        let _t298 = self.system._k9 * _t51 + _t0 * _t278 - _t2 * _t286 - _t4 * _t289
+            + _t3 * _t292
+            + self.system._k7
+                * (_t297
+                    + (_t297
+                        + S::ratio(12.0, 1.0)
+                            * (_t22 + m23 * _t290 - m34 * _t287 - m12 * _t284
+                                + m14 * _t276)));
+        let _t299 = _t43 * _t280 - _t206 + _t46 * _t283;
+        let _t300 = self.system._k33 * _t33;
+        let _t301 = -_t300 - _t30 * _t280 - _t36 * _t283;
+        let _t302 = -(_t3 * _t281) - _t0 * _t59 - self.system._k9 * _t37;
+        let _t303 = _t302 + S::ratio(3.0, 1.0) * (_t38 + m23 * _t282 + m14 * _t279);
+        let _t304 = _t0 * _t281 + _t3 * _t59 + self.system._k9 * _t31;
+        let _t305 = _t304 - S::ratio(3.0, 1.0) * (_t32 + m14 * _t282 + m23 * _t279);
+        let _t306 = self.system._k42 * _t304 - S::ratio(4.0, 1.0) * _t301;
+        let _t307 = self.system._k43 * _t302 - S::ratio(4.0, 1.0) * _t299;
+        let _t308 = (_t9 * _t293 - _t44 * _t303 + _t34 * _t305 - _t24 * _t296)
+            * S::ratio(-4.0, 1.0);
+        let _t309 = _t10 * _t278 - _t4 * _t306 + _t2 * _t307 - _t8 * _t292
+            + self.system._k9
+                * (_t308
+                    + (_t308
+                        - S::ratio(12.0, 1.0)
+                            * (m13 * _t290 - m12 * _t299 + m34 * _t301 - m24 * _t276)));
+        let _t310 = -(_t52 * self.system._k45)
+            - S::ratio(4.0, 1.0)
+                * (_t1 * _t293 - _t67 * _t294 - _t60 * _t295 + _t23 * _t296);
+        let _t311 = _t4 * _t286 - self.system._k9 * _t29 - _t3 * _t278 + _t2 * _t289
+            - _t0 * _t292
+            + self.system._k10
+                * (_t310
+                    + (_t310
+                        - S::ratio(12.0, 1.0)
+                            * (_t27 + m14 * _t290 - m12 * _t287 - m34 * _t284
+                                + m23 * _t276)));
+        let _t312 = S::ratio(4.0, 1.0)
+            * (_t14 * _t293 + _t45 * _t303 - _t35 * _t305 - _t25 * _t296);
+        let _t313 = _t4 * _t307 - _t8 * _t278 - _t2 * _t306 + _t10 * _t292
+            + self.system._k8
+                * (_t312
+                    + (_t312
+                        + S::ratio(12.0, 1.0)
+                            * (m24 * _t290 + m34 * _t299 - m12 * _t301 - m13 * _t276)));
+        let _t314 = self._h10 * (_t79 + m23 * _t298)
+            - self._h12
+                * (_t63 * _t274 - _t70 * _t272 - _t12 * _t299 - _t6 * _t287
+                    + _t20 * _t284 + _t16 * _t301)
+            + self._h13 * (_t74 * _t273 + _t7 * _t294);
+        let _t315 = _t314 - self._h16 * (_t73 * _t275 + _t21 * _t295) + _t290 * self._h1
+            + _t303 * _t85 - _t305 * _t86
+            + (_t72 * _t271 - _t65 * _t61 - _t15 * _t306 - _t19 * _t286 + _t5 * _t289
+                + _t11 * _t307) * self._h17;
+        let _t316 = _t315 - _t309 * _t58 - _t311 * _t77 + _t313 * _t83;
+        let _t317 = self.system._k29 * _t13;
+        let _t318 = self.system._k9 * _t34;
+        let _t319 = _t318 + _t318;
+        let _t320 = self.system._k8 * _t35;
+        let _t321 = _t320 + _t320;
+        let _t322 = _t25 * _t321 - _t317 - _t24 * _t319;
+        let _t323 = _t10 * _t34 - _t8 * _t35 + self.system._k10 * _t11;
+        let _t324 = self.system._k36 * _t323 - S::ratio(4.0, 1.0) * _t322;
+        let _t325 = -_t30;
+        let _t326 = self.system._k11 * _t325;
         let _t327 = _t326 + _t326;
-        let _t328 = self.system._k10 * _t78;
-        let _t329 = _t328 + _t328;
-        let _t330 = _t325 + _t14 * _t327 + _t8 * _t329;
-        let _t331 = _t28 * _t13 - _t29 * _t78 - self.system._k9 * _t9;
-        let _t332 = self.system._k36 * _t331 - S::ratio(4.0, 1.0) * _t330;
-        let _t333 = self.system._k6 * _t34;
-        let _t334 = _t333 + _t333;
-        let _t335 = self.system._k11 * _t77;
-        let _t336 = _t335 + _t335;
-        let _t337 = _t13 * _t327 + _t34 * _t334 + _t77 * _t336 + _t78 * _t329;
-        let _t338 = _t27 * _t34 - _t45 * _t13 + _t32 * _t78 - _t25 * _t77;
-        let _t339 = self.system._k37 * _t338 - S::ratio(4.0, 1.0) * _t337;
-        let _t340 = _t7 * _t329 + _t39 * _t336 + _t82 * _t334 + _t83 * _t327;
-        let _t341 = _t45 * _t78 - _t25 * _t34 - _t32 * _t13 + _t27 * _t77;
-        let _t342 = self.system._k38 * _t341 - S::ratio(4.0, 1.0) * _t340;
-        let _t343 = _t184 + _t6 * _t329 + _t12 * _t327;
-        let _t344 = _t29 * _t13 - _t28 * _t78 + self.system._k9 * _t15;
-        let _t345 = self.system._k39 * _t344 - S::ratio(4.0, 1.0) * _t343;
-        let _t346 = _t338 - _t333 * _t63 + _t326 * _t58 - _t328 * _t57 + _t335 * _t62;
-        let _t347 = _t344 - _t202 - _t326 * _t56 + _t328 * _t59;
-        let _t348 = _t190 + _t331 - _t326 * _t59 + _t328 * _t56;
-        let _t349 = _t341 + _t333 * _t62 + _t326 * _t57 - _t328 * _t58 - _t335 * _t63;
-        let _t350 = _t348 * _t100 - _t64 * self.system._k40 - _t346 * _t98 - _t347 * _t99
-            + _t349 * _t101;
-        let _t351 = self.system._k9 * _t55 + _t28 * _t332 - _t45 * _t339 - _t32 * _t342
-            + _t29 * _t345 + self.system._k7 * _t350
-            + self.system._k7
-                * (_t256 + _t350 + _t343 * _t94 - _t340 * _t72 - _t337 * _t73
-                    + _t330 * _t95);
-        let _t352 = _t260 + _t48 * _t336 + _t49 * _t334;
-        let _t353 = self.system._k31 * _t42;
-        let _t354 = _t353 + _t33 * _t334 + _t38 * _t336;
-        let _t355 = -(_t29 * _t34) - _t28 * _t77 - self.system._k9 * _t35;
-        let _t356 = _t266 + _t355 + _t333 * _t56 + _t335 * _t59;
-        let _t357 = _t28 * _t34 + _t29 * _t77 + self.system._k9 * _t40;
-        let _t358 = _t357 - _t263 - _t333 * _t59 - _t335 * _t56;
-        let _t359 = self.system._k42 * _t357 - S::ratio(4.0, 1.0) * _t354;
-        let _t360 = self.system._k43 * _t355 - S::ratio(4.0, 1.0) * _t352;
-        let _t361 = _t356 * _t61 + _t347 * _t65 + _t348 * _t67 + _t358 * _t69;
-        let _t362 = _t25 * _t332 - _t32 * _t359 + _t45 * _t360 - _t27 * _t345
-            + self.system._k9 * _t361
-            + self.system._k9
-                * (_t361 - _t343 * _t74 + _t352 * _t73 - _t354 * _t72 + _t330 * _t71);
-        let _t363 = _t349 * _t88 - _t66 * self.system._k45 - _t348 * _t90 - _t346 * _t92
-            + _t347 * _t89;
-        let _t364 = _t32 * _t339 - self.system._k9 * _t31 - _t29 * _t332 + _t45 * _t342
-            - _t28 * _t345 + self.system._k10 * _t363
-            + self.system._k10
-                * (_t363 - _t275 - _t343 * _t95 + _t340 * _t73 + _t337 * _t72
-                    - _t330 * _t94);
-        let _t365 = -(_t358 * _t105) - _t347 * _t106 - _t348 * _t107 - _t356 * _t108;
-        let _t366 = _t32 * _t360 - _t27 * _t332 - _t45 * _t359 + _t25 * _t345
-            + self.system._k8 * _t365
+        let _t328 = -_t36;
+        let _t329 = self.system._k6 * _t328;
+        let _t330 = _t329 + _t329;
+        let _t331 = _t34 * _t319 - _t30 * _t327 + _t35 * _t321 - _t36 * _t330;
+        let _t332 = _t0 * _t328 - _t2 * _t35 - _t4 * _t34 + _t3 * _t325;
+        let _t333 = self.system._k42 * _t332 - S::ratio(4.0, 1.0) * _t331;
+        let _t334 = _t43 * _t327 - _t44 * _t319 - _t45 * _t321 + _t46 * _t330;
+        let _t335 = _t4 * _t35 - _t3 * _t328 + _t2 * _t34 - _t0 * _t325;
+        let _t336 = self.system._k43 * _t335 - S::ratio(4.0, 1.0) * _t334;
+        let _t337 = _t142 + _t9 * _t319 - _t14 * _t321;
+        let _t338 = _t10 * _t35 - _t8 * _t34 + self.system._k10 * _t15;
+        let _t339 = self.system._k39 * _t338 - S::ratio(4.0, 1.0) * _t337;
+        let _t340 = _t338 - S::ratio(3.0, 1.0) * (_t16 + m24 * _t320 - m13 * _t318);
+        let _t341 = _t335
+            + S::ratio(3.0, 1.0)
+                * (m23 * _t329 - m34 * _t320 - m12 * _t318 + m14 * _t326);
+        let _t342 = _t332
+            - S::ratio(3.0, 1.0)
+                * (m14 * _t329 - m12 * _t320 - m34 * _t318 + m23 * _t326);
+        let _t343 = _t323 - S::ratio(3.0, 1.0) * (_t12 - m13 * _t320 + m24 * _t318);
+        let _t344 = S::ratio(4.0, 1.0)
+            * (_t14 * _t340 + _t45 * _t341 - _t35 * _t342 - _t25 * _t343)
+            - _t55 * self.system._k48;
+        let _t345 = self.system._k10 * _t51 - _t8 * _t324 - _t2 * _t333 + _t4 * _t336
+            + _t10 * _t339
             + self.system._k8
-                * (_t365 + _t343 * _t71 + _t352 * _t72 - _t354 * _t73 - _t330 * _t74);
-        let _t367 = _t103 * self._h10 + _t351 * _t104 - _t326 * _t169 + _t328 * _t175
-            + _t352 * _t114 + _t340 * _t115 - _t337 * _t112 - _t354 * _t113
-            + _t329 * _t188;
-        let _t368 = _t367 + _t349 * _t116 - _t327 * _t200 - _t346 * _t119
-            + _t343 * self._h1 + _t356 * _t117 - _t358 * _t118
-            + (_t86 * _t78 - _t81 * _t13 - _t21 * _t359 - _t15 * _t339 + _t9 * _t342
-                + _t3 * _t360) * self._h17;
-        let _t369 = _t368 - _t362 * _t76 - _t364 * _t97 + _t366 * _t111;
-        let _t370 = self.system._k28 * _t5;
-        let _t371 = self.system._k8 * _t19;
-        let _t372 = _t371 + _t371;
-        let _t373 = self.system._k9 * _t43;
-        let _t374 = _t373 + _t373;
-        let _t375 = _t370 + _t20 * _t372 + _t2 * _t374;
-        let _t376 = _t25 * _t43 - _t27 * _t19 + self.system._k10 * _t3;
-        let _t377 = self.system._k36 * _t376 - S::ratio(4.0, 1.0) * _t375;
-        let _t378 = self.system._k6 * _t33;
-        let _t379 = _t378 + _t378;
-        let _t380 = self.system._k11 * _t38;
-        let _t381 = _t380 + _t380;
-        let _t382 = _t19 * _t372 + _t33 * _t379 + _t38 * _t381 + _t43 * _t374;
-        let _t383 = _t28 * _t33 - _t45 * _t19 - _t32 * _t43 + _t29 * _t38;
-        let _t384 = self.system._k42 * _t383 - S::ratio(4.0, 1.0) * _t382;
-        let _t385 = _t1 * _t374 + _t48 * _t381 + _t49 * _t379 + _t50 * _t372;
-        let _t386 = _t32 * _t19 - _t29 * _t33 + _t45 * _t43 - _t28 * _t38;
-        let _t387 = self.system._k43 * _t386 - S::ratio(4.0, 1.0) * _t385;
-        let _t388 = _t186 + _t0 * _t374 + _t18 * _t372;
-        let _t389 = _t25 * _t19 - _t27 * _t43 + self.system._k10 * _t21;
-        let _t390 = self.system._k39 * _t389 - S::ratio(4.0, 1.0) * _t388;
-        let _t391 = _t383 - _t378 * _t59 + _t371 * _t58 + _t373 * _t57 - _t380 * _t56;
-        let _t392 = _t389 - _t198 - _t371 * _t62 + _t373 * _t63;
-        let _t393 = _t376 - _t194 + _t371 * _t63 - _t373 * _t62;
-        let _t394 = _t386 + _t378 * _t56 - _t371 * _t57 - _t373 * _t58 + _t380 * _t59;
-        let _t395 = -(_t64 * self.system._k48) - _t391 * _t105 - _t392 * _t106
-            - _t393 * _t107 - _t394 * _t108;
-        let _t396 = self.system._k10 * _t55 - _t27 * _t377 - _t45 * _t384 + _t32 * _t387
-            + _t25 * _t390 + self.system._k8 * _t395
-            + self.system._k8
-                * (_t256 + _t395 + _t388 * _t71 + _t385 * _t72 - _t382 * _t73
-                    - _t375 * _t74);
-        let _t397 = _t308 + _t39 * _t381 + _t82 * _t379;
-        let _t398 = _t353 + _t34 * _t379 + _t77 * _t381;
-        let _t399 = _t27 * _t38 - _t25 * _t33 - self.system._k10 * _t35;
-        let _t400 = _t266 + _t399 + _t378 * _t62 - _t380 * _t63;
-        let _t401 = _t27 * _t33 - _t25 * _t38 - self.system._k10 * _t40;
-        let _t402 = _t263 + _t401 - _t378 * _t63 + _t380 * _t62;
-        let _t403 = self.system._k37 * _t401 - S::ratio(4.0, 1.0) * _t398;
-        let _t404 = self.system._k38 * _t399 - S::ratio(4.0, 1.0) * _t397;
-        let _t405 = _t66 * self.system._k47 + _t393 * _t67 + _t391 * _t69 + _t394 * _t61
-            + _t392 * _t65;
-        let _t406 = self.system._k10 * _t31 + _t25 * _t377 - _t32 * _t384 + _t45 * _t387
-            - _t27 * _t390 + self.system._k9 * _t405
+                * (_t344
+                    + (_t344
+                        + S::ratio(12.0, 1.0)
+                            * (_t22 + m24 * _t337 + m34 * _t334 - m12 * _t331
+                                - m13 * _t322)));
+        let _t346 = _t69 * _t330 - _t253 - _t66 * _t327;
+        let _t347 = _t59 * _t327 - _t300 - _t62 * _t330;
+        let _t348 = _t8 * _t325 - _t10 * _t328 - self.system._k10 * _t37;
+        let _t349 = _t348 + S::ratio(3.0, 1.0) * (_t38 + m24 * _t329 - m13 * _t326);
+        let _t350 = _t8 * _t328 - _t10 * _t325 - self.system._k10 * _t31;
+        let _t351 = _t350 + S::ratio(3.0, 1.0) * (_t32 - m13 * _t329 + m24 * _t326);
+        let _t352 = self.system._k37 * _t350 - S::ratio(4.0, 1.0) * _t347;
+        let _t353 = self.system._k38 * _t348 - S::ratio(4.0, 1.0) * _t346;
+        let _t354 = _t52 * self.system._k47
+            - S::ratio(4.0, 1.0)
+                * (_t9 * _t340 - _t44 * _t341 + _t34 * _t342 - _t24 * _t343);
+        let _t355 = self.system._k10 * _t29 + _t10 * _t324 - _t4 * _t333 + _t2 * _t336
+            - _t8 * _t339
             + self.system._k9
-                * (_t275 + _t405 - _t388 * _t74 + _t385 * _t73 - _t382 * _t72
-                    + _t375 * _t71);
-        let _t407 = _t400 * _t88 + _t392 * _t89 - _t393 * _t90 - _t402 * _t92;
-        let _t408 = _t32 * _t403 - _t29 * _t377 + _t45 * _t404 - _t28 * _t390
-            + self.system._k10 * _t407
+                * (_t354
+                    + (_t354
+                        + S::ratio(12.0, 1.0)
+                            * (_t27 - m13 * _t337 + m12 * _t334 - m34 * _t331
+                                + m24 * _t322)));
+        let _t356 = (_t1 * _t340 - _t67 * _t349 - _t60 * _t351 + _t23 * _t343)
+            * S::ratio(-4.0, 1.0);
+        let _t357 = _t4 * _t352 - _t3 * _t324 + _t2 * _t353 - _t0 * _t339
             + self.system._k10
-                * (_t407 - _t388 * _t95 + _t397 * _t73 + _t398 * _t72 - _t375 * _t94);
-        let _t409 = _t393 * _t100 - _t402 * _t98 - _t392 * _t99 + _t400 * _t101;
-        let _t410 = _t28 * _t377 - _t45 * _t403 - _t32 * _t404 + _t29 * _t390
-            + self.system._k7 * _t409
+                * (_t356
+                    + (_t356
+                        - S::ratio(12.0, 1.0)
+                            * (m14 * _t337 - m12 * _t346 - m34 * _t347 + m23 * _t322)));
+        let _t358 = S::ratio(4.0, 1.0)
+            * (_t18 * _t340 - _t68 * _t349 - _t61 * _t351 + _t26 * _t343);
+        let _t359 = _t0 * _t324 - _t2 * _t352 - _t4 * _t353 + _t3 * _t339
             + self.system._k7
-                * (_t409 + _t388 * _t94 - _t397 * _t72 - _t398 * _t73 + _t375 * _t95);
-        let _t411 = _t110 * self._h11 + _t396 * _t111 - _t371 * _t171 + _t373 * _t173
-            + _t385 * _t114 + _t397 * _t115 - _t398 * _t112 - _t382 * _t113
-            + _t374 * _t192;
-        let _t412 = _t411 + _t394 * _t117 - _t372 * _t196 - _t391 * _t118
-            + _t388 * self._h1 + _t400 * _t116 - _t402 * _t119
-            + (_t53 * _t43 - _t47 * _t19 - _t21 * _t384 - _t15 * _t403 + _t9 * _t404
-                + _t3 * _t387) * self._h17;
-        let _t413 = _t412 - _t406 * _t76 - _t408 * _t97 + _t410 * _t104;
-        let _t414 = self.system._k7 * _t14;
-        let _t415 = self.system._k8 * _t20;
-        let _t416 = self.system._k9 * _t2;
-        let _t417 = self.system._k10 * _t8;
-        let _t418 = _t416 + _t416;
-        let _t419 = _t415 + _t415;
-        let _t420 = _t230 + _t1 * _t418 + _t50 * _t419;
-        let _t421 = _t417 + _t417;
-        let _t422 = _t414 + _t414;
-        let _t423 = _t280 + _t7 * _t421 + _t83 * _t422;
-        let _t424 = _t325 + _t13 * _t422 + _t78 * _t421;
-        let _t425 = _t370 + _t19 * _t419 + _t43 * _t418;
-        let _t426 = _t45 * _t8 - _t32 * _t14 - self.system._k11 * _t15;
-        let _t427 = _t202 + _t426 + _t414 * _t57 - _t417 * _t58;
-        let _t428 = _t32 * _t20 + _t45 * _t2 + self.system._k11 * _t21;
-        let _t429 = _t428 - _t198 - _t415 * _t57 - _t416 * _t58;
-        let _t430 = -(_t45 * _t20) - _t32 * _t2 - self.system._k11 * _t3;
-        let _t431 = _t194 + _t430 + _t415 * _t58 + _t416 * _t57;
-        let _t432 = _t32 * _t8 - _t45 * _t14 + self.system._k11 * _t9;
-        let _t433 = _t432 - _t190 + _t414 * _t58 - _t417 * _t57;
-        let _t434 = _t0 * _t418 + _t6 * _t421 + _t12 * _t422 + _t18 * _t419;
-        let _t435 = self.system._k42 * _t430 - S::ratio(4.0, 1.0) * _t425;
-        let _t436 = self.system._k37 * _t432 - S::ratio(4.0, 1.0) * _t424;
-        let _t437 = self.system._k38 * _t426 - S::ratio(4.0, 1.0) * _t423;
-        let _t438 = self.system._k43 * _t428 - S::ratio(4.0, 1.0) * _t420;
-        let _t439 = _t20 * _t419 + _t14 * _t422 + _t8 * _t421 + _t2 * _t418;
-        let _t440 = _t28 * _t14 - _t27 * _t20 + _t25 * _t2 - _t29 * _t8;
-        let _t441 = self.system._k36 * _t440 - S::ratio(4.0, 1.0) * _t439;
-        let _t442 = _t29 * _t14 + _t25 * _t20 - _t27 * _t2 - _t28 * _t8;
-        let _t443 = self.system._k39 * _t442 - S::ratio(4.0, 1.0) * _t434;
-        let _t444 = _t440 - _t414 * _t59 + _t415 * _t63 - _t416 * _t62 + _t417 * _t56;
-        let _t445 = _t442 - _t414 * _t56 - _t415 * _t62 + _t416 * _t63 + _t417 * _t59;
-        let _t446 = _t68 * self.system._k47 + _t444 * _t67 + _t431 * _t69 + _t429 * _t61
-            + _t445 * _t65;
-        let _t447 = _t25 * _t441 - self.system._k11 * _t47 - _t32 * _t435 + _t45 * _t438
-            - _t27 * _t443 + self.system._k9 * _t446
+                * (_t358
+                    + (_t358
+                        + S::ratio(12.0, 1.0)
+                            * (m23 * _t337 - m34 * _t346 - m12 * _t347 + m14 * _t322)));
+        let _t360 = self._h11 * (_t82 + m24 * _t345)
+            - self._h12
+                * (_t40 * _t320 - _t47 * _t318 - _t12 * _t334 - _t6 * _t346
+                    + _t20 * _t347 + _t16 * _t331)
+            + self._h14 * (_t54 * _t319 + _t13 * _t341);
+        let _t361 = _t360 - self._h15 * (_t53 * _t321 + _t17 * _t342) + _t337 * self._h1
+            + _t349 * _t84 - _t351 * _t87
+            + (_t49 * _t34 - _t42 * _t35 - _t15 * _t333 - _t19 * _t352 + _t5 * _t353
+                + _t11 * _t336) * self._h17;
+        let _t362 = _t361 - _t355 * _t58 - _t357 * _t77 + _t359 * _t80;
+        let _t363 = -_t26;
+        let _t364 = self.system._k7 * _t363;
+        let _t365 = self.system._k8 * _t25;
+        let _t366 = -_t24;
+        let _t367 = self.system._k9 * _t366;
+        let _t368 = self.system._k10 * _t23;
+        let _t369 = _t367 + _t367;
+        let _t370 = _t365 + _t365;
+        let _t371 = _t175 - _t44 * _t369 - _t45 * _t370;
+        let _t372 = _t368 + _t368;
+        let _t373 = _t364 + _t364;
+        let _t374 = _t68 * _t373 - _t223 - _t67 * _t372;
+        let _t375 = _t270 - _t60 * _t372 + _t61 * _t373;
+        let _t376 = _t34 * _t369 - _t317 + _t35 * _t370;
+        let _t377 = _t2 * _t23 - _t4 * _t363 - self.system._k11 * _t19;
+        let _t378 = _t377 + S::ratio(3.0, 1.0) * (_t20 + m34 * _t364 - m12 * _t368);
+        let _t379 = _t4 * _t25 + _t2 * _t366 + self.system._k11 * _t15;
+        let _t380 = _t379 - S::ratio(3.0, 1.0) * (_t16 + m34 * _t365 + m12 * _t367);
+        let _t381 = -(_t2 * _t25) - _t4 * _t366 - self.system._k11 * _t11;
+        let _t382 = _t381 + S::ratio(3.0, 1.0) * (_t12 + m12 * _t365 + m34 * _t367);
+        let _t383 = _t4 * _t23 - _t2 * _t363 + self.system._k11 * _t5;
+        let _t384 = _t383 - S::ratio(3.0, 1.0) * (_t6 - m12 * _t364 + m34 * _t368);
+        let _t385 = _t1 * _t372 + _t9 * _t369 - _t14 * _t370 - _t18 * _t373;
+        let _t386 = self.system._k42 * _t381 - S::ratio(4.0, 1.0) * _t376;
+        let _t387 = self.system._k37 * _t383 - S::ratio(4.0, 1.0) * _t375;
+        let _t388 = self.system._k38 * _t377 - S::ratio(4.0, 1.0) * _t374;
+        let _t389 = self.system._k43 * _t379 - S::ratio(4.0, 1.0) * _t371;
+        let _t390 = _t23 * _t372 - _t24 * _t369 + _t25 * _t370 - _t26 * _t373;
+        let _t391 = _t0 * _t363 - _t8 * _t25 + _t10 * _t366 - _t3 * _t23;
+        let _t392 = self.system._k36 * _t391 - S::ratio(4.0, 1.0) * _t390;
+        let _t393 = _t3 * _t363 + _t10 * _t25 - _t8 * _t366 - _t0 * _t23;
+        let _t394 = self.system._k39 * _t393 - S::ratio(4.0, 1.0) * _t385;
+        let _t395 = _t393
+            - S::ratio(3.0, 1.0)
+                * (m23 * _t364 + m24 * _t365 - m13 * _t367 - m14 * _t368);
+        let _t396 = _t391
+            - S::ratio(3.0, 1.0)
+                * (m14 * _t364 - m13 * _t365 + m24 * _t367 - m23 * _t368);
+        let _t397 = _t53 * self.system._k47
+            - S::ratio(4.0, 1.0)
+                * (_t9 * _t395 - _t44 * _t380 + _t34 * _t382 - _t24 * _t396);
+        let _t398 = _t10 * _t392 - self.system._k11 * _t42 - _t4 * _t386 + _t2 * _t389
+            - _t8 * _t394
             + self.system._k9
-                * (_t446 - _t226 - _t434 * _t74 + _t420 * _t73 - _t425 * _t72
-                    + _t439 * _t71);
-        let _t448 = _t427 * _t88 - _t91 * self.system._k45 - _t444 * _t90 - _t433 * _t92
-            + _t445 * _t89;
-        let _t449 = self.system._k11 * _t81 - _t29 * _t441 + _t32 * _t436 + _t45 * _t437
-            - _t28 * _t443 + self.system._k10 * _t448
+                * (_t397
+                    + (_t397
+                        - S::ratio(12.0, 1.0)
+                            * (_t40 + m13 * _t385 - m12 * _t371 + m34 * _t376
+                                - m24 * _t390)));
+        let _t399 = -(_t73 * self.system._k45)
+            - S::ratio(4.0, 1.0)
+                * (_t1 * _t395 - _t67 * _t378 - _t60 * _t384 + _t23 * _t396);
+        let _t400 = self.system._k11 * _t65 - _t3 * _t392 + _t4 * _t387 + _t2 * _t388
+            - _t0 * _t394
             + self.system._k10
-                * (_t223 + _t448 - _t434 * _t95 + _t423 * _t73 + _t424 * _t72
-                    - _t439 * _t94);
-        let _t450 = _t87 * self.system._k41 + _t444 * _t100 + _t427 * _t101
-            - _t433 * _t98 - _t445 * _t99;
-        let _t451 = _t28 * _t441 - self.system._k11 * _t86 - _t45 * _t436 - _t32 * _t437
-            + _t29 * _t443 + self.system._k7 * _t450
+                * (_t399
+                    + (_t399
+                        + S::ratio(12.0, 1.0)
+                            * (_t63 - m14 * _t385 + m12 * _t374 + m34 * _t375
+                                - m23 * _t390)));
+        let _t401 = _t74 * self.system._k41
+            + S::ratio(4.0, 1.0)
+                * (_t18 * _t395 - _t68 * _t378 - _t61 * _t384 + _t26 * _t396);
+        let _t402 = _t0 * _t392 - self.system._k11 * _t72 - _t2 * _t387 - _t4 * _t388
+            + _t3 * _t394
             + self.system._k7
-                * (_t450 - _t220 + _t434 * _t94 - _t423 * _t72 - _t424 * _t73
-                    + _t439 * _t95);
-        let _t452 = -(_t60 * self.system._k49) - _t444 * _t107 - _t429 * _t108
-            - _t431 * _t105 - _t445 * _t106;
-        let _t453 = self.system._k11 * _t53 - _t27 * _t441 - _t45 * _t435 + _t32 * _t438
-            + _t25 * _t443 + self.system._k8 * _t452
+                * (_t401
+                    + (_t401
+                        - S::ratio(12.0, 1.0)
+                            * (_t70 - m23 * _t385 + m34 * _t374 + m12 * _t375
+                                - m14 * _t390)));
+        let _t403 = S::ratio(4.0, 1.0)
+            * (_t14 * _t395 + _t45 * _t380 - _t35 * _t382 - _t25 * _t396)
+            - _t54 * self.system._k49;
+        let _t404 = self.system._k11 * _t49 - _t8 * _t392 - _t2 * _t386 + _t4 * _t389
+            + _t10 * _t394
             + self.system._k8
-                * (_t217 + _t452 + _t434 * _t71 + _t420 * _t72 - _t425 * _t73
-                    - _t439 * _t74);
-        let _t454 = _t416 * _t173 - _t414 * _t169 - _t415 * _t171 + _t417 * _t175
-            + _t420 * _t114 + _t423 * _t115 - _t424 * _t112 - _t425 * _t113
-            + _t421 * _t188;
-        let _t455 = _t454 + _t427 * _t116 + _t418 * _t192 + _t429 * _t117 - _t419 * _t196
-            - _t431 * _t118 - _t422 * _t200 - _t433 * _t119 + _t434 * self._h1
-            + (_t53 * _t2 - _t81 * _t14 - _t47 * _t20 + _t86 * _t8 - _t21 * _t435
-                - _t15 * _t436 + _t9 * _t437 + _t3 * _t438) * self._h17;
-        let _t456 = _t455 - _t447 * _t76 - _t449 * _t97 + _t451 * _t104 + _t453 * _t111;
-        let _t457 = _t26 * self._h12;
-        let _t458 = _t24 * self._h12;
-        let _t459 = _t87 * self._h21;
-        let _t460 = _t64 * self._h14;
-        let _t461 = _t66 * self._h22;
-        let _t462 = _t91 * self._h23;
-        let _t463 = _t87 * self.system._k52 + _t264 * _t122 + _t251 * _t123
-            + _t254 * _t124 + _t267 * _t125;
-        let _t464 = self.system._k7 * _t86 + _t29 * _t244 - _t25 * _t268 + _t27 * _t269
-            - _t28 * _t247 + self.system._k11 * _t463
+                * (_t403
+                    + (_t403
+                        + S::ratio(12.0, 1.0)
+                            * (_t47 + m24 * _t385 + m34 * _t371 - m12 * _t376
+                                - m13 * _t390)));
+        let _t405 = self._h13 * (_t74 * _t372 + _t7 * _t378)
+            - self._h12
+                * (_t63 * _t364 + _t40 * _t365 - _t47 * _t367 - _t70 * _t368
+                    - _t12 * _t371 - _t6 * _t374 + _t20 * _t375 + _t16 * _t376);
+        let _t406 = _t405 + self._h14 * (_t54 * _t369 + _t13 * _t380)
+            - self._h15 * (_t53 * _t370 + _t17 * _t382)
+            - self._h16 * (_t73 * _t373 + _t21 * _t384) + _t385 * self._h1;
+        let _t407 = _t406
+            + (_t49 * _t366 - _t65 * _t363 - _t42 * _t25 + _t72 * _t23 - _t15 * _t386
+                - _t19 * _t387 + _t5 * _t388 + _t11 * _t389) * self._h17;
+        let _t408 = _t407 - _t398 * _t58 - _t400 * _t77 + _t402 * _t80 + _t404 * _t83;
+        let _t409 = _t74 * self.system._k52
+            - S::ratio(4.0, 1.0)
+                * (_t43 * _t199 - _t66 * _t209 + _t59 * _t211 - _t30 * _t200);
+        let _t410 = self.system._k7 * _t72 + _t3 * _t191 - _t10 * _t212 + _t8 * _t213
+            - _t0 * _t194
             + self.system._k11
-                * (_t220 + _t463 - _t245 * _t95 + _t259 * _t74 - _t261 * _t71
-                    + _t242 * _t94);
-        let _t465 = _t91 * self.system._k50 + _t267 * _t129 + _t251 * _t130
-            + _t254 * _t131 + _t264 * _t132;
-        let _t466 = self.system._k7 * _t81 + _t28 * _t244 + _t27 * _t268 - _t25 * _t269
-            - _t29 * _t247 + self.system._k6 * _t465
+                * (_t409
+                    + (_t409
+                        + S::ratio(12.0, 1.0)
+                            * (_t70 - m14 * _t192 + m13 * _t205 - m24 * _t207
+                                + m23 * _t189)));
+        let _t411 = _t73 * self.system._k50
+            - S::ratio(4.0, 1.0)
+                * (_t46 * _t199 + _t69 * _t209 - _t62 * _t211 - _t36 * _t200);
+        let _t412 = self.system._k7 * _t65 + _t0 * _t191 + _t8 * _t212 - _t10 * _t213
+            - _t3 * _t194
             + self.system._k6
-                * (_t223 + _t465 - _t245 * _t94 - _t259 * _t71 + _t261 * _t74
-                    + _t242 * _t95);
-        let _t467 = self._h3 + _t238 * _t169 - _t231 * _t457 - _t233 * _t458
-            + _t240 * _t175 - _t248 * _t114 + _t259 * _t138 + _t261 * _t137
-            - _t235 * _t113 + _t241 * _t459;
-        let _t468 = _t467 + _t264 * _t139 + _t234 * _t460 + _t252 * _t117 - _t232 * _t461
-            - _t253 * _t140 + _t239 * _t462 + _t267 * _t141 + _t245 * self._h1
-            + (_t81 * _t49 - _t31 * _t50 - _t55 * _t1 + _t86 * _t48 - _t21 * _t237
-                + _t35 * _t268 + _t40 * _t269 - _t3 * _t250) * self._h24;
-        let _t469 = _t60 * self.system._k52 + _t301 * _t122 + _t311 * _t123
-            + _t313 * _t124 + _t304 * _t125;
-        let _t470 = _t29 * _t314 - self.system._k8 * _t53 - _t25 * _t294 + _t27 * _t297
-            - _t28 * _t315 + self.system._k11 * _t469
+                * (_t411
+                    + (_t411
+                        + S::ratio(12.0, 1.0)
+                            * (_t63 - m23 * _t192 - m24 * _t205 + m13 * _t207
+                                + m14 * _t189)));
+        let _t413 = self._h3
+            + self._h12
+                * (_t63 * _t187 - _t27 * _t180 - _t22 * _t177 + _t70 * _t185
+                    - _t12 * _t195 + _t32 * _t205 + _t38 * _t207 - _t16 * _t182);
+        let _t414 = _t413 + self._h21 * (_t74 * _t186 + _t33 * _t209)
+            + self._h14 * (_t55 * _t178 + _t13 * _t198)
+            - self._h22 * (_t52 * _t181 + _t17 * _t201)
+            + self._h23 * (_t73 * _t188 + _t39 * _t211);
+        let _t415 = _t414 + _t192 * self._h1
+            + (_t65 * _t46 - _t29 * _t179 - _t51 * _t176 + _t72 * _t43 - _t15 * _t184
+                + _t37 * _t212 + _t31 * _t213 - _t11 * _t197) * self._h24;
+        let _t416 = _t54 * self.system._k52
+            - S::ratio(4.0, 1.0)
+                * (_t43 * _t256 - _t66 * _t247 + _t59 * _t248 - _t30 * _t258);
+        let _t417 = _t3 * _t259 - self.system._k8 * _t49 - _t10 * _t239 + _t8 * _t242
+            - _t0 * _t260
             + self.system._k11
-                * (_t469 - _t217 - _t307 * _t95 + _t295 * _t74 - _t292 * _t71
-                    + _t309 * _t94);
-        let _t471 = _t68 * self.system._k51 + _t313 * _t131 + _t301 * _t132
-            + _t304 * _t129 + _t311 * _t130;
-        let _t472 = self.system._k8 * _t47 + _t28 * _t314 + _t27 * _t294 - _t25 * _t297
-            - _t29 * _t315 + self.system._k6 * _t471
+                * (_t416
+                    + (_t416
+                        - S::ratio(12.0, 1.0)
+                            * (_t47 + m14 * _t252 - m13 * _t240 + m24 * _t237
+                                - m23 * _t254)));
+        let _t418 = _t53 * self.system._k51
+            - S::ratio(4.0, 1.0)
+                * (_t46 * _t256 + _t69 * _t247 - _t62 * _t248 - _t36 * _t258);
+        let _t419 = self.system._k8 * _t42 + _t0 * _t259 + _t8 * _t239 - _t10 * _t242
+            - _t3 * _t260
             + self.system._k6
-                * (_t226 + _t471 - _t307 * _t94 - _t295 * _t71 + _t292 * _t74
-                    + _t309 * _t95);
-        let _t473 = _t288 * _t169 - _t127 * self._h18 - _t470 * _t128 + _t290 * _t175
-            - _t298 * _t114 + _t295 * _t138 + _t292 * _t137 - _t285 * _t113
-            + _t291 * _t459;
-        let _t474 = _t473 + _t301 * _t139 + _t289 * _t462 + _t304 * _t141
-            + _t307 * self._h1 + _t302 * _t117 - _t303 * _t140
-            + (_t81 * _t82 + _t86 * _t39 - _t21 * _t287 + _t35 * _t294 + _t40 * _t297
-                - _t3 * _t300) * self._h24;
-        let _t475 = _t474 - _t317 * _t121 - _t472 * _t135 + _t321 * _t136;
-        let _t476 = _t60 * self.system._k50 + _t346 * _t129 + _t356 * _t130
-            + _t358 * _t131 + _t349 * _t132;
-        let _t477 = _t28 * _t359 - self.system._k9 * _t53 + _t27 * _t339 - _t25 * _t342
-            - _t29 * _t360 + self.system._k6 * _t476
+                * (_t418
+                    + (_t418
+                        + S::ratio(12.0, 1.0)
+                            * (_t40 - m23 * _t252 - m24 * _t240 + m13 * _t237
+                                + m14 * _t254)));
+        let _t420 = self._h12
+            * (_t63 * _t235 + _t70 * _t233 - _t12 * _t243 + _t32 * _t240 + _t38 * _t237
+                - _t16 * _t229) - self._h18 * (_t91 + m14 * _t417)
+            + self._h21 * (_t74 * _t234 + _t33 * _t247);
+        let _t421 = _t420 + self._h23 * (_t73 * _t236 + _t39 * _t248) + _t252 * self._h1
+            + _t246 * _t85 - _t249 * _t98
+            + (_t65 * _t69 + _t72 * _t232 - _t15 * _t231 + _t37 * _t239 + _t31 * _t242
+                - _t11 * _t245) * self._h24;
+        let _t422 = _t421 - _t262 * _t89 - _t419 * _t95 + _t266 * _t96;
+        let _t423 = _t54 * self.system._k50
+            - S::ratio(4.0, 1.0)
+                * (_t46 * _t303 + _t69 * _t294 - _t62 * _t295 - _t36 * _t305);
+        let _t424 = _t0 * _t306 - self.system._k9 * _t49 + _t8 * _t286 - _t10 * _t289
+            - _t3 * _t307
             + self.system._k6
-                * (_t476 - _t217 - _t352 * _t94 - _t340 * _t71 + _t337 * _t74
-                    + _t354 * _t95);
-        let _t478 = _t68 * self.system._k53 + _t358 * _t124 + _t346 * _t125
-            + _t349 * _t122 + _t356 * _t123;
-        let _t479 = self.system._k9 * _t47 + _t29 * _t359 - _t25 * _t339 + _t27 * _t342
-            - _t28 * _t360 + self.system._k11 * _t478
+                * (_t423
+                    + (_t423
+                        - S::ratio(12.0, 1.0)
+                            * (_t47 + m23 * _t299 + m24 * _t287 - m13 * _t284
+                                - m14 * _t301)));
+        let _t425 = _t53 * self.system._k53
+            - S::ratio(4.0, 1.0)
+                * (_t43 * _t303 - _t66 * _t294 + _t59 * _t295 - _t30 * _t305);
+        let _t426 = self.system._k9 * _t42 + _t3 * _t306 - _t10 * _t286 + _t8 * _t289
+            - _t0 * _t307
             + self.system._k11
-                * (_t226 + _t478 - _t352 * _t95 + _t340 * _t74 - _t337 * _t71
-                    + _t354 * _t94);
-        let _t480 = _t333 * _t169 - _t134 * self._h19 - _t477 * _t135 + _t335 * _t175
-            - _t343 * _t114 + _t340 * _t138 + _t337 * _t137 - _t330 * _t113
-            + _t336 * _t459;
-        let _t481 = _t480 + _t349 * _t139 + _t334 * _t462 + _t346 * _t141
-            + _t352 * self._h1 + _t347 * _t117 - _t348 * _t140
-            + (_t81 * _t34 + _t86 * _t77 - _t21 * _t332 + _t35 * _t339 + _t40 * _t342
-                - _t3 * _t345) * self._h24;
-        let _t482 = _t481 - _t362 * _t121 - _t479 * _t128 + _t366 * _t136;
-        let _t483 = _t91 * self.system._k53 + _t391 * _t124 + _t402 * _t125
-            + _t400 * _t122 + _t394 * _t123;
-        let _t484 = _t29 * _t384 - self.system._k10 * _t81 - _t25 * _t403 + _t27 * _t404
-            - _t28 * _t387 + self.system._k11 * _t483
+                * (_t425
+                    + (_t425
+                        + S::ratio(12.0, 1.0)
+                            * (_t40 - m14 * _t299 + m13 * _t287 - m24 * _t284
+                                + m23 * _t301)));
+        let _t427 = self._h12
+            * (_t63 * _t282 + _t70 * _t279 - _t12 * _t290 + _t32 * _t287 + _t38 * _t284
+                - _t16 * _t276) - self._h19 * (_t94 + m23 * _t424)
+            + self._h21 * (_t74 * _t280 + _t33 * _t294);
+        let _t428 = _t427 + self._h23 * (_t73 * _t283 + _t39 * _t295) + _t299 * self._h1
+            + _t293 * _t85 - _t296 * _t98
+            + (_t65 * _t281 + _t72 * _t59 - _t15 * _t278 + _t37 * _t286 + _t31 * _t289
+                - _t11 * _t292) * self._h24;
+        let _t429 = _t428 - _t309 * _t89 - _t426 * _t92 + _t313 * _t96;
+        let _t430 = _t73 * self.system._k53
+            - S::ratio(4.0, 1.0)
+                * (_t43 * _t341 - _t66 * _t349 + _t59 * _t351 - _t30 * _t342);
+        let _t431 = _t3 * _t333 - self.system._k10 * _t65 - _t10 * _t352 + _t8 * _t353
+            - _t0 * _t336
             + self.system._k11
-                * (_t483 - _t223 - _t385 * _t95 + _t397 * _t74 - _t398 * _t71
-                    + _t382 * _t94);
-        let _t485 = _t87 * self.system._k51 + _t391 * _t131 + _t400 * _t132
-            + _t402 * _t129 + _t394 * _t130;
-        let _t486 = _t28 * _t384 - self.system._k10 * _t86 + _t27 * _t403 - _t25 * _t404
-            - _t29 * _t387 + self.system._k6 * _t485
+                * (_t430
+                    + (_t430
+                        - S::ratio(12.0, 1.0)
+                            * (_t63 + m14 * _t334 - m13 * _t346 + m24 * _t347
+                                - m23 * _t331)));
+        let _t432 = _t74 * self.system._k51
+            - S::ratio(4.0, 1.0)
+                * (_t46 * _t341 + _t69 * _t349 - _t62 * _t351 - _t36 * _t342);
+        let _t433 = _t0 * _t333 - self.system._k10 * _t72 + _t8 * _t352 - _t10 * _t353
+            - _t3 * _t336
             + self.system._k6
-                * (_t485 - _t220 - _t385 * _t94 - _t397 * _t71 + _t398 * _t74
-                    + _t382 * _t95);
-        let _t487 = _t378 * _t169 - _t371 * _t457 - _t373 * _t458 + _t380 * _t175
-            - _t388 * _t114 + _t397 * _t138 + _t398 * _t137 - _t375 * _t113
-            + _t381 * _t459;
-        let _t488 = _t487 + _t400 * _t139 + _t374 * _t460 + _t392 * _t117 - _t372 * _t461
-            - _t393 * _t140 + _t379 * _t462 + _t402 * _t141 + _t385 * self._h1
-            + (_t81 * _t33 - _t31 * _t19 - _t55 * _t43 + _t86 * _t38 - _t21 * _t377
-                + _t35 * _t403 + _t40 * _t404 - _t3 * _t390) * self._h24;
-        let _t489 = _t488 - _t406 * _t121 - _t484 * _t128 - _t486 * _t135
-            + _t396 * _t136;
-        let _t490 = _t427 * _t122 + _t429 * _t123 + _t431 * _t124 + _t433 * _t125;
-        let _t491 = _t29 * _t435 - _t25 * _t436 + _t27 * _t437 - _t28 * _t438
-            + self.system._k11 * _t490
+                * (_t432
+                    + (_t432
+                        - S::ratio(12.0, 1.0)
+                            * (_t70 + m23 * _t334 + m24 * _t346 - m13 * _t347
+                                - m14 * _t331)));
+        let _t434 = self._h12
+            * (_t63 * _t329 - _t27 * _t320 - _t22 * _t318 + _t70 * _t326 - _t12 * _t337
+                + _t32 * _t346 + _t38 * _t347 - _t16 * _t322)
+            + self._h21 * (_t74 * _t327 + _t33 * _t349);
+        let _t435 = _t434 + self._h14 * (_t55 * _t319 + _t13 * _t340)
+            - self._h22 * (_t52 * _t321 + _t17 * _t343)
+            + self._h23 * (_t73 * _t330 + _t39 * _t351) + _t334 * self._h1;
+        let _t436 = _t435
+            + (_t65 * _t328 - _t29 * _t35 - _t51 * _t34 + _t72 * _t325 - _t15 * _t324
+                + _t37 * _t352 + _t31 * _t353 - _t11 * _t339) * self._h24;
+        let _t437 = _t436 - _t355 * _t89 - _t431 * _t92 - _t433 * _t95 + _t345 * _t96;
+        let _t438 = (_t43 * _t380 - _t66 * _t378 + _t59 * _t384 - _t30 * _t382)
+            * S::ratio(-4.0, 1.0);
+        let _t439 = _t3 * _t386 - _t10 * _t387 + _t8 * _t388 - _t0 * _t389
             + self.system._k11
-                * (_t490 - _t420 * _t95 + _t423 * _t74 - _t424 * _t71 + _t425 * _t94);
-        let _t492 = _t433 * _t129 + _t429 * _t130 + _t431 * _t131 + _t427 * _t132;
-        let _t493 = _t28 * _t435 + _t27 * _t436 - _t25 * _t437 - _t29 * _t438
-            + self.system._k6 * _t492
+                * (_t438
+                    + (_t438
+                        - S::ratio(12.0, 1.0)
+                            * (m14 * _t371 - m13 * _t374 + m24 * _t375 - m23 * _t376)));
+        let _t440 = (_t46 * _t380 + _t69 * _t378 - _t62 * _t384 - _t36 * _t382)
+            * S::ratio(-4.0, 1.0);
+        let _t441 = _t0 * _t386 + _t8 * _t387 - _t10 * _t388 - _t3 * _t389
             + self.system._k6
-                * (_t492 - _t420 * _t94 - _t423 * _t71 + _t424 * _t74 + _t425 * _t95);
-        let _t494 = _t110 * self._h20 + _t453 * _t136 - _t415 * _t457 - _t416 * _t458
-            - _t434 * _t114 + _t423 * _t138 + _t424 * _t137 - _t439 * _t113
-            + _t418 * _t460;
-        let _t495 = _t494 + _t445 * _t117 - _t419 * _t461 - _t444 * _t140
-            + _t420 * self._h1 + _t427 * _t139 + _t433 * _t141
-            + (_t35 * _t436 - _t31 * _t20 - _t55 * _t2 - _t21 * _t441 + _t40 * _t437
-                - _t3 * _t443) * self._h24;
-        let _t496 = _t495 - _t447 * _t121 - _t491 * _t128 - _t493 * _t135;
-        let _t497 = _t60 * self._h21;
-        let _t498 = _t64 * self._h13;
-        let _t499 = _t66 * self._h27;
-        let _t500 = _t68 * self._h28;
-        let _t501 = self._h4 + _t288 * _t171 + _t281 * _t457 - _t283 * _t458
-            - _t290 * _t173 - _t298 * _t115 - _t307 * _t138 + _t309 * _t137
-            + _t285 * _t112 + _t291 * _t497;
-        let _t502 = _t501 + _t311 * _t139 + _t284 * _t498 + _t302 * _t116 + _t282 * _t499
-            + _t303 * _t147 + _t289 * _t500 + _t313 * _t148 + _t295 * self._h1
-            + (_t47 * _t82 + _t31 * _t83 - _t55 * _t7 - _t53 * _t39 + _t15 * _t287
-                + _t35 * _t314 - _t40 * _t315 - _t9 * _t300) * self._h29;
-        let _t503 = _t333 * _t171 + _t326 * _t457 - _t328 * _t458 - _t335 * _t173
-            - _t343 * _t115 - _t352 * _t138 + _t354 * _t137 + _t330 * _t112
-            + _t336 * _t497;
-        let _t504 = _t503 + _t356 * _t139 + _t329 * _t498 + _t347 * _t116 + _t327 * _t499
-            + _t348 * _t147 + _t334 * _t500 + _t358 * _t148 + _t340 * self._h1
-            + (_t47 * _t34 + _t31 * _t13 - _t55 * _t78 - _t53 * _t77 + _t15 * _t332
-                + _t35 * _t359 - _t40 * _t360 - _t9 * _t345) * self._h29;
-        let _t505 = _t504 - _t364 * _t143 - _t479 * _t144 - _t477 * _t145
-            - _t351 * _t146;
-        let _t506 = _t378 * _t171 - _t134 * self._h25 - _t486 * _t145 - _t380 * _t173
-            - _t388 * _t115 - _t385 * _t138 + _t382 * _t137 + _t375 * _t112
-            + _t381 * _t497;
-        let _t507 = _t506 + _t394 * _t139 + _t379 * _t500 + _t391 * _t148
-            + _t397 * self._h1 + _t392 * _t116 + _t393 * _t147
-            + (_t47 * _t33 - _t53 * _t38 + _t15 * _t377 + _t35 * _t384 - _t40 * _t387
-                - _t9 * _t390) * self._h29;
-        let _t508 = _t507 - _t408 * _t143 - _t484 * _t144 - _t410 * _t146;
-        let _t509 = _t414 * _t457 - _t103 * self._h26 - _t451 * _t146 - _t417 * _t458
-            - _t434 * _t115 - _t420 * _t138 + _t425 * _t137 + _t439 * _t112
-            + _t421 * _t498;
-        let _t510 = _t509 + _t445 * _t116 + _t422 * _t499 + _t444 * _t147
-            + _t423 * self._h1 + _t429 * _t139 + _t431 * _t148
-            + (_t31 * _t14 - _t55 * _t8 + _t15 * _t441 + _t35 * _t435 - _t40 * _t438
-                - _t9 * _t443) * self._h29;
-        let _t511 = _t510 - _t449 * _t143 - _t491 * _t144 - _t493 * _t145;
-        let _t512 = _t68 * self._h32;
-        let _t513 = _t66 * self._h33;
-        let _t514 = _t64 * self._h16;
-        let _t515 = _t60 * self._h23;
-        let _t516 = self._h5 - _t333 * _t173 + _t326 * _t458 - _t328 * _t457
-            + _t335 * _t171 + _t343 * _t112 - _t352 * _t137 + _t354 * _t138
-            - _t330 * _t115 + _t336 * _t512;
-        let _t517 = _t516 + _t358 * _t154 - _t329 * _t513 - _t348 * _t155 - _t327 * _t514
-            - _t347 * _t119 + _t334 * _t515 + _t356 * _t141 + _t337 * self._h1
-            + (_t55 * _t13 - _t53 * _t34 - _t31 * _t78 + _t47 * _t77 - _t9 * _t332
-                + _t40 * _t359 - _t35 * _t360 + _t15 * _t345) * self._h34;
-        let _t518 = _t380 * _t171 - _t127 * self._h30 - _t484 * _t152 - _t378 * _t173
-            + _t388 * _t112 - _t385 * _t137 + _t382 * _t138 - _t375 * _t115
-            + _t381 * _t512;
-        let _t519 = _t518 + _t391 * _t154 + _t379 * _t515 + _t394 * _t141
-            + _t398 * self._h1 - _t392 * _t119 - _t393 * _t155
-            + (_t47 * _t38 - _t53 * _t33 - _t9 * _t377 + _t40 * _t384 - _t35 * _t387
-                + _t15 * _t390) * self._h34;
-        let _t520 = _t519 + _t410 * _t150 - _t486 * _t151 + _t408 * _t153;
-        let _t521 = _t96 * self._h31 + _t449 * _t153 + _t414 * _t458 - _t417 * _t457
-            + _t434 * _t112 - _t420 * _t137 + _t425 * _t138 - _t439 * _t115
-            - _t421 * _t513;
-        let _t522 = _t521 - _t444 * _t155 - _t422 * _t514 - _t445 * _t119
-            + _t424 * self._h1 + _t429 * _t141 + _t431 * _t154
-            + (_t55 * _t14 - _t31 * _t8 - _t9 * _t441 + _t40 * _t435 - _t35 * _t438
-                + _t15 * _t443) * self._h34;
-        let _t523 = _t522 + _t451 * _t150 - _t493 * _t151 - _t491 * _t152;
-        let _t524 = _t66 * self._h36;
-        let _t525 = _t64 * self._h15;
-        let _t526 = self._h6 - _t378 * _t175 + _t371 * _t458 + _t373 * _t457
-            - _t380 * _t169 + _t388 * _t113 - _t397 * _t137 - _t398 * _t138
-            + _t375 * _t114 + _t91 * _t381 * self._h32;
-        let _t527 = _t526 + _t402 * _t154 + _t374 * _t524 + _t393 * _t161 - _t372 * _t525
-            - _t392 * _t118 + _t87 * _t379 * self._h28 + _t400 * _t148
-            + _t382 * self._h1;
-        let _t528 = _t527
-            + (_t55 * _t19 - _t86 * _t33 + _t31 * _t43 - _t81 * _t38 + _t3 * _t377
-                - _t40 * _t403 - _t35 * _t404 + _t21 * _t390) * self._h37;
-        let _t529 = _t415 * _t458 - _t75 * self._h35 - _t447 * _t160 + _t416 * _t457
-            + _t434 * _t113 - _t423 * _t137 - _t424 * _t138 + _t439 * _t114
-            + _t418 * _t524;
-        let _t530 = _t529 + _t444 * _t161 - _t419 * _t525 - _t445 * _t118
-            + _t425 * self._h1 + _t427 * _t148 + _t433 * _t154
-            + (_t55 * _t20 + _t31 * _t2 + _t3 * _t441 - _t40 * _t436 - _t35 * _t437
-                + _t21 * _t443) * self._h37;
-        let _t531 = _t530 + _t453 * _t157 - _t493 * _t158 - _t491 * _t159;
-        let _t532 = self._h7 - _t414 * _t175 + _t415 * _t173 - _t416 * _t171
-            + _t417 * _t169 + _t420 * _t113 - _t423 * _t112 + _t424 * _t115
-            - _t425 * _t114 - _t91 * _t421 * self._h33;
-        let _t533 = _t532 - _t433 * _t155 + _t68 * _t418 * self._h36 + _t431 * _t161
-            - _t60 * _t419 * self._h22 - _t429 * _t140 + _t87 * _t422 * self._h27
-            + _t427 * _t147;
-        let _t534 = _t533 + _t439 * self._h1
-            + (_t53 * _t20 - _t86 * _t14 - _t47 * _t2 + _t81 * _t8 - _t3 * _t435
-                + _t9 * _t436 - _t15 * _t437 + _t21 * _t438) * self._h38;
-        xi[0] = _t120 + _t84 * _t115 + _t87 * _t116 + _t60 * _t117 - _t68 * _t118
-            - _t91 * _t119
-            + (_t9 * _t86 - _t21 * _t47 - _t15 * _t81 + _t3 * _t53) * self._h17;
-        xi[1] = _t142 + _t84 * _t138 + _t87 * _t139 + _t64 * _t117 - _t66 * _t140
-            + _t91 * _t141
-            + (_t35 * _t81 - _t21 * _t31 + _t40 * _t86 - _t3 * _t55) * self._h24;
-        xi[2] = _t149 - _t51 * _t138 + _t60 * _t139 + _t64 * _t116 + _t66 * _t147
-            + _t68 * _t148
-            + (_t15 * _t31 + _t35 * _t47 - _t40 * _t53 - _t9 * _t55) * self._h29;
-        xi[3] = _t156 + _t44 * _t138 + _t68 * _t154 - _t66 * _t155 - _t64 * _t119
-            + _t60 * _t141
-            + (_t40 * _t47 - _t9 * _t31 - _t35 * _t53 + _t15 * _t55) * self._h34;
-        xi[4] = _t162 - _t79 * _t138 + _t91 * _t154 + _t66 * _t161 - _t64 * _t118
-            + _t87 * _t148
-            + (_t3 * _t31 - _t40 * _t81 - _t35 * _t86 + _t21 * _t55) * self._h37;
-        xi[5] = _t167 + _t79 * _t115 - _t91 * _t155 + _t68 * _t161 - _t60 * _t140
-            + _t87 * _t147
-            + (_t9 * _t81 - _t3 * _t47 - _t15 * _t86 + _t21 * _t53) * self._h38;
-        hessian[(0, 0)] = _t229 - _t218 * _t76 - _t221 * _t97 + _t224 * _t104
-            + _t227 * _t111;
-        hessian[(0, 1)] = _t279;
-        hessian[(0, 2)] = _t324;
-        hessian[(0, 3)] = _t369;
-        hessian[(0, 4)] = _t413;
-        hessian[(0, 5)] = _t456;
-        hessian[(1, 0)] = _t279;
-        hessian[(1, 1)] = _t468 - _t257 * _t121 - _t464 * _t128 - _t466 * _t135
-            + _t276 * _t136;
-        hessian[(1, 2)] = _t475;
-        hessian[(1, 3)] = _t482;
-        hessian[(1, 4)] = _t489;
-        hessian[(1, 5)] = _t496;
-        hessian[(2, 0)] = _t324;
-        hessian[(2, 1)] = _t475;
-        hessian[(2, 2)] = _t502 - _t306 * _t143 - _t470 * _t144 - _t472 * _t145
-            - _t319 * _t146;
-        hessian[(2, 3)] = _t505;
-        hessian[(2, 4)] = _t508;
-        hessian[(2, 5)] = _t511;
-        hessian[(3, 0)] = _t369;
-        hessian[(3, 1)] = _t482;
-        hessian[(3, 2)] = _t505;
-        hessian[(3, 3)] = _t517 + _t351 * _t150 - _t477 * _t151 - _t479 * _t152
-            + _t364 * _t153;
-        hessian[(3, 4)] = _t520;
-        hessian[(3, 5)] = _t523;
-        hessian[(4, 0)] = _t413;
-        hessian[(4, 1)] = _t489;
-        hessian[(4, 2)] = _t508;
-        hessian[(4, 3)] = _t520;
-        hessian[(4, 4)] = _t528 + _t396 * _t157 - _t486 * _t158 - _t484 * _t159
-            - _t406 * _t160;
-        hessian[(4, 5)] = _t531;
-        hessian[(5, 0)] = _t456;
-        hessian[(5, 1)] = _t496;
-        hessian[(5, 2)] = _t511;
-        hessian[(5, 3)] = _t523;
-        hessian[(5, 4)] = _t531;
-        hessian[(5, 5)] = _t534 + _t453 * _t163 - _t451 * _t164 + _t449 * _t165
-            - _t447 * _t166;
+                * (_t440
+                    + (_t440
+                        - S::ratio(12.0, 1.0)
+                            * (m23 * _t371 + m24 * _t374 - m13 * _t375 - m14 * _t376)));
+        let _t442 = self._h20 * (_t82 + m34 * _t404)
+            - self._h12
+                * (_t27 * _t365 + _t22 * _t367 + _t12 * _t385 - _t32 * _t374
+                    - _t38 * _t375 + _t16 * _t390)
+            + self._h14 * (_t55 * _t369 + _t13 * _t395);
+        let _t443 = _t442 - self._h22 * (_t52 * _t370 + _t17 * _t396) + _t371 * self._h1
+            + _t378 * _t97 + _t384 * _t99
+            + (_t37 * _t387 - _t29 * _t25 - _t51 * _t366 - _t15 * _t392 + _t31 * _t388
+                - _t11 * _t394) * self._h24;
+        let _t444 = _t443 - _t398 * _t89 - _t439 * _t92 - _t441 * _t95;
+        let _t445 = self._h4
+            + self._h12
+                * (_t40 * _t235 + _t27 * _t227 - _t22 * _t225 - _t47 * _t233
+                    - _t6 * _t243 - _t32 * _t252 + _t38 * _t254 + _t20 * _t229);
+        let _t446 = _t445 + self._h21 * (_t54 * _t234 + _t33 * _t256)
+            + self._h13 * (_t55 * _t226 + _t7 * _t246)
+            + self._h27 * (_t52 * _t228 + _t21 * _t249)
+            + self._h28 * (_t53 * _t236 + _t39 * _t258);
+        let _t447 = _t446 + _t240 * self._h1
+            + (_t42 * _t69 + _t29 * _t68 - _t51 * _t224 - _t49 * _t232 + _t19 * _t231
+                + _t37 * _t259 - _t31 * _t260 - _t5 * _t245) * self._h29;
+        let _t448 = self._h12
+            * (_t40 * _t282 + _t27 * _t274 - _t22 * _t272 - _t47 * _t279 - _t6 * _t290
+                - _t32 * _t299 + _t38 * _t301 + _t20 * _t276)
+            + self._h21 * (_t54 * _t280 + _t33 * _t303);
+        let _t449 = _t448 + self._h13 * (_t55 * _t273 + _t7 * _t293)
+            + self._h27 * (_t52 * _t275 + _t21 * _t296)
+            + self._h28 * (_t53 * _t283 + _t39 * _t305) + _t287 * self._h1;
+        let _t450 = _t449
+            + (_t42 * _t281 + _t29 * _t61 - _t51 * _t271 - _t49 * _t59 + _t19 * _t278
+                + _t37 * _t306 - _t31 * _t307 - _t5 * _t292) * self._h29;
+        let _t451 = _t450 - _t311 * _t101 - _t426 * _t102 - _t424 * _t103
+            - _t298 * _t104;
+        let _t452 = self._h12
+            * (_t40 * _t329 - _t47 * _t326 - _t6 * _t337 - _t32 * _t334 + _t38 * _t331
+                + _t20 * _t322) - self._h25 * (_t94 + m24 * _t433)
+            + self._h21 * (_t54 * _t327 + _t33 * _t341);
+        let _t453 = _t452 + self._h28 * (_t53 * _t330 + _t39 * _t342) + _t346 * self._h1
+            + _t340 * _t84 + _t343 * _t105
+            + (_t42 * _t328 - _t49 * _t325 + _t19 * _t324 + _t37 * _t333 - _t31 * _t336
+                - _t5 * _t339) * self._h29;
+        let _t454 = _t453 - _t357 * _t101 - _t431 * _t102 - _t359 * _t104;
+        let _t455 = self._h12
+            * (_t27 * _t364 - _t22 * _t368 - _t6 * _t385 - _t32 * _t371 + _t38 * _t376
+                + _t20 * _t390) - self._h26 * (_t79 + m34 * _t402)
+            + self._h13 * (_t55 * _t372 + _t7 * _t395);
+        let _t456 = _t455 + self._h27 * (_t52 * _t373 + _t21 * _t396) + _t374 * self._h1
+            + _t380 * _t97 + _t382 * _t106
+            + (_t29 * _t363 - _t51 * _t23 + _t19 * _t392 + _t37 * _t386 - _t31 * _t389
+                - _t5 * _t394) * self._h29;
+        let _t457 = _t456 - _t400 * _t101 - _t439 * _t102 - _t441 * _t103;
+        let _t458 = self._h5
+            - self._h12
+                * (_t47 * _t282 - _t22 * _t274 + _t27 * _t272 - _t40 * _t279
+                    - _t20 * _t290 + _t38 * _t299 - _t32 * _t301 + _t6 * _t276);
+        let _t459 = _t458 + self._h32 * (_t53 * _t280 + _t33 * _t305)
+            - self._h33 * (_t52 * _t273 + _t7 * _t296)
+            - self._h16 * (_t55 * _t275 + _t21 * _t293)
+            + self._h23 * (_t54 * _t283 + _t39 * _t303);
+        let _t460 = _t459 + _t284 * self._h1
+            + (_t51 * _t61 - _t49 * _t281 - _t29 * _t271 + _t42 * _t59 - _t5 * _t278
+                + _t31 * _t306 - _t37 * _t307 + _t19 * _t292) * self._h34;
+        let _t461 = self._h32 * (_t53 * _t327 + _t33 * _t342)
+            - self._h30 * (_t91 + m24 * _t431)
+            - self._h12
+                * (_t47 * _t329 - _t40 * _t326 - _t20 * _t337 + _t38 * _t334
+                    - _t32 * _t331 + _t6 * _t322);
+        let _t462 = _t461 + self._h23 * (_t54 * _t330 + _t39 * _t341) + _t347 * self._h1
+            - _t340 * _t87 - _t343 * _t113
+            + (_t42 * _t325 - _t49 * _t328 - _t5 * _t324 + _t31 * _t333 - _t37 * _t336
+                + _t19 * _t339) * self._h34;
+        let _t463 = _t462 + _t359 * _t108 - _t433 * _t109 + _t357 * _t111;
+        let _t464 = self._h31 * (_t76 + m34 * _t400)
+            + self._h12
+                * (_t22 * _t364 - _t27 * _t368 + _t20 * _t385 - _t38 * _t371
+                    + _t32 * _t376 - _t6 * _t390)
+            - self._h33 * (_t52 * _t372 + _t7 * _t396);
+        let _t465 = _t464 - self._h16 * (_t55 * _t373 + _t21 * _t395) + _t375 * self._h1
+            + _t380 * _t99 + _t382 * _t112
+            + (_t51 * _t363 - _t29 * _t23 - _t5 * _t392 + _t31 * _t386 - _t37 * _t389
+                + _t19 * _t394) * self._h34;
+        let _t466 = _t465 + _t402 * _t108 - _t441 * _t109 - _t439 * _t110;
+        let _t467 = self._h6
+            - self._h12
+                * (_t70 * _t329 - _t22 * _t320 - _t27 * _t318 + _t63 * _t326
+                    - _t16 * _t337 + _t38 * _t346 + _t32 * _t347 - _t12 * _t322);
+        let _t468 = _t467 + self._h32 * (_t73 * _t327 + _t33 * _t351)
+            + self._h36 * (_t52 * _t319 + _t13 * _t343)
+            - self._h15 * (_t55 * _t321 + _t17 * _t340)
+            + self._h28 * (_t74 * _t330 + _t39 * _t349);
+        let _t469 = _t468 + _t331 * self._h1
+            + (_t51 * _t35 - _t72 * _t328 + _t29 * _t34 - _t65 * _t325 + _t11 * _t324
+                - _t31 * _t352 - _t37 * _t353 + _t15 * _t339) * self._h37;
+        let _t470 = self._h12
+            * (_t22 * _t365 + _t27 * _t367 + _t16 * _t385 - _t38 * _t374 - _t32 * _t375
+                + _t12 * _t390) - self._h35 * (_t57 + m34 * _t398)
+            + self._h36 * (_t52 * _t369 + _t13 * _t396);
+        let _t471 = _t470 - self._h15 * (_t55 * _t370 + _t17 * _t395) + _t376 * self._h1
+            + _t378 * _t106 + _t384 * _t112
+            + (_t51 * _t25 + _t29 * _t366 + _t11 * _t392 - _t31 * _t387 - _t37 * _t388
+                + _t15 * _t394) * self._h37;
+        let _t472 = _t471 + _t404 * _t115 - _t441 * _t116 - _t439 * _t117;
+        let _t473 = self._h7
+            - self._h12
+                * (_t70 * _t364 - _t47 * _t365 + _t40 * _t367 - _t63 * _t368
+                    - _t16 * _t371 + _t20 * _t374 - _t6 * _t375 + _t12 * _t376);
+        let _t474 = _t473 - self._h33 * (_t73 * _t372 + _t7 * _t384)
+            + self._h36 * (_t53 * _t369 + _t13 * _t382)
+            - self._h22 * (_t54 * _t370 + _t17 * _t380)
+            + self._h27 * (_t74 * _t373 + _t21 * _t378);
+        let _t475 = _t474 + _t390 * self._h1
+            + (_t49 * _t25 - _t72 * _t363 - _t42 * _t366 + _t65 * _t23 - _t11 * _t386
+                + _t5 * _t387 - _t19 * _t388 + _t15 * _t389) * self._h38;
+        xi[0] = _t88 + _t74 * _t84 + _t54 * _t85 - _t53 * _t86 - _t73 * _t87
+            + (_t5 * _t72 - _t15 * _t42 - _t19 * _t65 + _t11 * _t49) * self._h17;
+        xi[1] = _t100 + _t74 * _t97 + _t55 * _t85 - _t52 * _t98 + _t73 * _t99
+            + (_t37 * _t65 - _t15 * _t29 + _t31 * _t72 - _t11 * _t51) * self._h24;
+        xi[2] = _t107 + _t54 * _t97 + _t55 * _t84 + _t52 * _t105 + _t53 * _t106
+            + (_t19 * _t29 + _t37 * _t42 - _t31 * _t49 - _t5 * _t51) * self._h29;
+        xi[3] = _t114 + _t53 * _t112 - _t52 * _t113 - _t55 * _t87 + _t54 * _t99
+            + (_t31 * _t42 - _t5 * _t29 - _t37 * _t49 + _t19 * _t51) * self._h34;
+        xi[4] = _t120 + _t73 * _t112 + _t52 * _t119 - _t55 * _t86 + _t74 * _t106
+            + (_t11 * _t29 - _t31 * _t65 - _t37 * _t72 + _t15 * _t51) * self._h37;
+        xi[5] = _t125 - _t73 * _t113 + _t53 * _t119 - _t54 * _t98 + _t74 * _t105
+            + (_t5 * _t65 - _t11 * _t42 - _t19 * _t72 + _t15 * _t49) * self._h38;
+        hessian[(0, 0)] = _t174 - _t165 * _t58 - _t167 * _t77 + _t169 * _t80
+            + _t171 * _t83;
+        hessian[(0, 1)] = _t222;
+        hessian[(0, 2)] = _t269;
+        hessian[(0, 3)] = _t316;
+        hessian[(0, 4)] = _t362;
+        hessian[(0, 5)] = _t408;
+        hessian[(1, 0)] = _t222;
+        hessian[(1, 1)] = _t415 - _t203 * _t89 - _t410 * _t92 - _t412 * _t95
+            + _t219 * _t96;
+        hessian[(1, 2)] = _t422;
+        hessian[(1, 3)] = _t429;
+        hessian[(1, 4)] = _t437;
+        hessian[(1, 5)] = _t444;
+        hessian[(2, 0)] = _t269;
+        hessian[(2, 1)] = _t422;
+        hessian[(2, 2)] = _t447 - _t251 * _t101 - _t417 * _t102 - _t419 * _t103
+            - _t264 * _t104;
+        hessian[(2, 3)] = _t451;
+        hessian[(2, 4)] = _t454;
+        hessian[(2, 5)] = _t457;
+        hessian[(3, 0)] = _t316;
+        hessian[(3, 1)] = _t429;
+        hessian[(3, 2)] = _t451;
+        hessian[(3, 3)] = _t460 + _t298 * _t108 - _t424 * _t109 - _t426 * _t110
+            + _t311 * _t111;
+        hessian[(3, 4)] = _t463;
+        hessian[(3, 5)] = _t466;
+        hessian[(4, 0)] = _t362;
+        hessian[(4, 1)] = _t437;
+        hessian[(4, 2)] = _t454;
+        hessian[(4, 3)] = _t463;
+        hessian[(4, 4)] = _t469 + _t345 * _t115 - _t433 * _t116 - _t431 * _t117
+            - _t355 * _t118;
+        hessian[(4, 5)] = _t472;
+        hessian[(5, 0)] = _t408;
+        hessian[(5, 1)] = _t444;
+        hessian[(5, 2)] = _t457;
+        hessian[(5, 3)] = _t466;
+        hessian[(5, 4)] = _t472;
+        hessian[(5, 5)] = _t475 + _t404 * _t121 - _t402 * _t122 + _t400 * _t123
+            - _t398 * _t124;
     }
 }
 
@@ -3149,25 +3307,25 @@ pub struct ManakovTopSecondKind2Equation<'a, S: ::lie_runtime::Scalar> {
     _h0: S,
     /// `h^2/2`
     _h1: S,
-    /// `h^2/(2*(J1 + J2))`
-    _h2: S,
     /// `h/(J1 + J3)`
-    _h3: S,
-    /// `h^2/(2*(J1 + J3))`
-    _h4: S,
+    _h2: S,
     /// `h/(J1 + J4)`
-    _h5: S,
-    /// `h^2/(2*(J1 + J4))`
-    _h6: S,
+    _h3: S,
     /// `h/(J2 + J3)`
-    _h7: S,
-    /// `h^2/(2*(J2 + J3))`
-    _h8: S,
+    _h4: S,
     /// `h/(J2 + J4)`
-    _h9: S,
-    /// `h^2/(2*(J2 + J4))`
-    _h10: S,
+    _h5: S,
     /// `-h/(J1 + J2)`
+    _h6: S,
+    /// `h^2/(2*(J1 + J2))`
+    _h7: S,
+    /// `h^2/(2*(J1 + J3))`
+    _h8: S,
+    /// `h^2/(2*(J1 + J4))`
+    _h9: S,
+    /// `h^2/(2*(J2 + J3))`
+    _h10: S,
+    /// `h^2/(2*(J2 + J4))`
     _h11: S,
     /// `h^2/(2*(J3 + J4))`
     _h12: S,
@@ -3193,16 +3351,16 @@ impl<'a, S: ::lie_runtime::Scalar> ManakovTopSecondKind2Equation<'a, S> {
             h,
             _h0: _t1,
             _h1: _t2,
-            _h2: _t0 * _t2,
-            _h3: h * _t3,
-            _h4: _t3 * _t2,
-            _h5: h * _t4,
-            _h6: _t4 * _t2,
-            _h7: h * _t5,
-            _h8: _t5 * _t2,
-            _h9: h * _t6,
-            _h10: _t6 * _t2,
-            _h11: -_t1,
+            _h2: h * _t3,
+            _h3: h * _t4,
+            _h4: h * _t5,
+            _h5: h * _t6,
+            _h6: -_t1,
+            _h7: _t0 * _t2,
+            _h8: _t3 * _t2,
+            _h9: _t4 * _t2,
+            _h10: _t5 * _t2,
+            _h11: _t6 * _t2,
             _h12: _t7 * _t2,
             _h13: h * _t7,
         }
@@ -3230,128 +3388,138 @@ for ManakovTopSecondKind2Equation<'_, S> {
 
     /// `p_i = (m_(i-1))_i` with `xi = grad S(mu)`
     ///
-    /// 67 additions, 96 multiplications, 5 divisions, 5 function calls.
+    /// 67 additions, 97 multiplications, 5 divisions, 5 function calls.
     #[inline]
     fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
         let [[m12, m13, m14, m23, m24, m34]] = self.base.data.0;
-        let _t0 = m23 * self.system._k9;
-        let _t1 = m13 * self.system._k7;
+        let _t0 = m13 * self.system._k7;
+        let _t1 = m23 * self.system._k9;
         let _t2 = m14 * self.system._k8;
         let _t3 = m24 * self.system._k10;
-        let _t4 = (m12 * self._h0 - _t0 * (_t1 * self._h1) - _t2 * (_t3 * self._h1)
-            + (m13 * _t0 - m23 * _t1 - m24 * _t2 + m14 * _t3) * self._h2)
-            * S::ratio(1.0, 2.0);
-        let _t5 = _t4.tan();
-        let _t6 = _t5 * S::ratio(2.0, 1.0) / (S::one() + _t5 * _t5);
-        let _t7 = _t5 * _t6;
-        let _t8 = m13 + (m23 * _t6 - m13 * _t7);
-        let _t9 = m14 + (m24 * _t6 - m14 * _t7);
-        let _t10 = m12 * self.system._k6;
-        let _t11 = _t10 * self._h1;
-        let _t12 = m34 * self.system._k11;
-        let _t13 = _t12 * self._h1;
-        let _t14 = ((m13 * self._h3 + _t0 * _t11 - _t2 * _t13
-            + (m14 * _t12 - m23 * _t10 - m34 * _t2 - m12 * _t0) * self._h4)
+        let _t4 = ((m12 * self._h0
+            - (_t0 * _t1 + _t2 * _t3
+                - self.system._k6 * (m13 * _t1 - m23 * _t0 - m24 * _t2 + m14 * _t3))
+                * self._h1) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t5 = _t4 * S::ratio(2.0, 1.0) / (S::one() + _t4 * _t4);
+        let _t6 = _t4 * _t5;
+        let _t7 = m13 + (m23 * _t5 - m13 * _t6);
+        let _t8 = m14 + (m24 * _t5 - m14 * _t6);
+        let _t9 = m12 * self.system._k6;
+        let _t10 = m34 * self.system._k11;
+        let _t11 = ((m13 * self._h2
+            + (_t9 * _t1 - _t2 * _t10
+                + self.system._k7 * (m14 * _t10 - m23 * _t9 - m34 * _t2 - m12 * _t1))
+                * self._h1) * S::ratio(1.0, 2.0))
+            .tan();
+        let _t12 = S::ratio(2.0, 1.0) * _t11 / (S::one() + _t11 * _t11);
+        let _t13 = _t11 * _t12;
+        let _t14 = m23 + (-(m13 * _t5) - m23 * _t6);
+        let _t15 = _t14 + (m12 * _t12 - _t13 * _t14);
+        let _t16 = m24 + (-(m14 * _t5) - m24 * _t6);
+        let _t17 = (m14 * self._h3
+            + (_t9 * _t3 + _t0 * _t10
+                + self.system._k8 * (-(m24 * _t9) - m34 * _t0 - m12 * _t3 - m13 * _t10))
+                * self._h1) * S::ratio(1.0, 2.0);
+        let _t18 = _t17.tan();
+        let _t19 = S::ratio(2.0, 1.0) * _t18 / (S::one() + _t18 * _t18);
+        let _t20 = _t18 * _t19;
+        let _t21 = _t16 + (_t19 * (m12 + (-(_t12 * _t14) - m12 * _t13)) - _t20 * _t16);
+        let _t22 = ((m23 * self._h4
+            - self._h1
+                * (_t9 * _t0 + _t3 * _t10
+                    - self.system._k9
+                        * (m13 * _t9 - m12 * _t0 - m34 * _t3 + m24 * _t10)))
             * S::ratio(1.0, 2.0))
             .tan();
-        let _t15 = S::ratio(2.0, 1.0) * _t14 / (S::one() + _t14 * _t14);
-        let _t16 = _t14 * _t15;
-        let _t17 = m23 + (-(m13 * _t6) - m23 * _t7);
-        let _t18 = _t17 + (m12 * _t15 - _t16 * _t17);
-        let _t19 = m24 + (-(m14 * _t6) - m24 * _t7);
-        let _t20 = ((m14 * self._h5 + _t3 * _t11 + _t1 * _t13
-            + (-(m24 * _t10) - m34 * _t1 - m12 * _t3 - m13 * _t12) * self._h6)
+        let _t23 = S::ratio(2.0, 1.0) * _t22 / (S::one() + _t22 * _t22);
+        let _t24 = m34 + (-(_t12 * _t8) - m34 * _t13);
+        let _t25 = _t24 + (_t19 * _t7 - _t20 * _t24);
+        let _t26 = _t22 * _t23;
+        let _t27 = _t25 + (-(_t23 * _t21) - _t26 * _t25);
+        let _t28 = ((m24 * self._h5
+            - self._h1
+                * (_t9 * _t2 - _t1 * _t10
+                    - self.system._k10
+                        * (m14 * _t9 - m12 * _t2 - m34 * _t1 - m23 * _t10)))
             * S::ratio(1.0, 2.0))
             .tan();
-        let _t21 = S::ratio(2.0, 1.0) * _t20 / (S::one() + _t20 * _t20);
-        let _t22 = _t20 * _t21;
-        let _t23 = _t19 + (_t21 * (m12 + (-(_t15 * _t17) - m12 * _t16)) - _t22 * _t19);
-        let _t24 = ((m23 * self._h7 - _t1 * _t11 - _t3 * _t13
-            + (m13 * _t10 - m12 * _t1 - m34 * _t3 + m24 * _t12) * self._h8)
-            * S::ratio(1.0, 2.0))
-            .tan();
-        let _t25 = S::ratio(2.0, 1.0) * _t24 / (S::one() + _t24 * _t24);
-        let _t26 = m34 + (-(_t15 * _t9) - m34 * _t16);
-        let _t27 = _t26 + (_t21 * _t8 - _t22 * _t26);
-        let _t28 = _t24 * _t25;
-        let _t29 = _t27 + (-(_t25 * _t23) - _t28 * _t27);
-        let _t30 = ((m24 * self._h9 - _t2 * _t11 + _t0 * _t13
-            + (m14 * _t10 - m12 * _t2 - m34 * _t0 - m23 * _t12) * self._h10)
-            * S::ratio(1.0, 2.0))
-            .tan();
-        let _t31 = S::ratio(2.0, 1.0) * _t30 / (S::one() + _t30 * _t30);
+        let _t29 = S::ratio(2.0, 1.0) * _t28 / (S::one() + _t28 * _t28);
         unknown[0] = m12;
-        unknown[1] = _t8;
-        unknown[2] = _t9 + (m34 * _t15 - _t16 * _t9);
-        unknown[3] = _t18;
-        unknown[4] = _t23 + (_t25 * _t27 - _t28 * _t23);
-        unknown[5] = _t29 + (_t31 * _t18 - _t30 * _t31 * _t29);
+        unknown[1] = _t7;
+        unknown[2] = _t8 + (m34 * _t12 - _t13 * _t8);
+        unknown[3] = _t15;
+        unknown[4] = _t21 + (_t23 * _t25 - _t26 * _t21);
+        unknown[5] = _t27 + (_t29 * _t15 - _t28 * _t29 * _t27);
     }
 
     /// `r_i = p_i - (m_(i-1))_i`, `m_i = exp(xi_i ad*_(e_i)) m_(i-1)`, `xi = grad S(p)`
     ///
-    /// 73 additions, 96 multiplications, 5 divisions, 5 function calls.
+    /// 73 additions, 97 multiplications, 5 divisions, 5 function calls.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m12, m13, m14, m23, m24, m34]] = self.base.data.0;
         let [[_u_m12, _u_m13, _u_m14, _u_m23, _u_m24, _u_m34]] = unknown.data.0;
-        let _t0 = _u_m23 * self.system._k9;
-        let _t1 = _u_m13 * self.system._k7;
-        let _t2 = _u_m14 * self.system._k8;
-        let _t3 = _u_m24 * self.system._k10;
-        let _t4 = (_u_m12 * self._h0 - _t0 * (_t1 * self._h1) - _t2 * (_t3 * self._h1)
-            + (_t0 * _u_m13 - _t1 * _u_m23 - _t2 * _u_m24 + _t3 * _u_m14) * self._h2)
-            * S::ratio(1.0, 2.0);
-        let _t5 = _t4.tan();
-        let _t6 = _t5 * S::ratio(2.0, 1.0) / (S::one() + _t5 * _t5);
-        let _t7 = _t5 * _t6;
-        let _t8 = m13 + (m23 * _t6 - m13 * _t7);
-        let _t9 = m14 + (m24 * _t6 - m14 * _t7);
-        let _t10 = _u_m12 * self.system._k6;
-        let _t11 = _t10 * self._h1;
-        let _t12 = _u_m34 * self.system._k11;
-        let _t13 = _t12 * self._h1;
-        let _t14 = ((_u_m13 * self._h3 + _t0 * _t11 - _t2 * _t13
-            + (_t12 * _u_m14 - _t10 * _u_m23 - _t2 * _u_m34 - _t0 * _u_m12) * self._h4)
-            * S::ratio(1.0, 2.0))
+        let _t0 = self.system._k7 * _u_m13;
+        let _t1 = self.system._k9 * _u_m23;
+        let _t2 = self.system._k8 * _u_m14;
+        let _t3 = self.system._k10 * _u_m24;
+        let _t4 = ((_u_m12 * self._h0
+            - (_t0 * _t1 + _t2 * _t3
+                - (_t1 * _u_m13 - _t0 * _u_m23 - _t2 * _u_m24 + _t3 * _u_m14)
+                    * self.system._k6) * self._h1) * S::ratio(1.0, 2.0))
             .tan();
-        let _t15 = S::ratio(2.0, 1.0) * _t14 / (S::one() + _t14 * _t14);
-        let _t16 = _t14 * _t15;
-        let _t17 = m23 + (-(m13 * _t6) - m23 * _t7);
-        let _t18 = _t17 + (m12 * _t15 - _t16 * _t17);
-        let _t19 = m24 + (-(m14 * _t6) - m24 * _t7);
-        let _t20 = ((_u_m14 * self._h5 + _t3 * _t11 + _t1 * _t13
-            + (-(_t10 * _u_m24) - _t1 * _u_m34 - _t3 * _u_m12 - _t12 * _u_m13)
-                * self._h6) * S::ratio(1.0, 2.0))
+        let _t5 = _t4 * S::ratio(2.0, 1.0) / (S::one() + _t4 * _t4);
+        let _t6 = _t4 * _t5;
+        let _t7 = m13 + (m23 * _t5 - m13 * _t6);
+        let _t8 = m14 + (m24 * _t5 - m14 * _t6);
+        let _t9 = self.system._k6 * _u_m12;
+        let _t10 = self.system._k11 * _u_m34;
+        let _t11 = ((_u_m13 * self._h2
+            + (_t9 * _t1 - _t2 * _t10
+                + (_t10 * _u_m14 - _t9 * _u_m23 - _t2 * _u_m34 - _t1 * _u_m12)
+                    * self.system._k7) * self._h1) * S::ratio(1.0, 2.0))
             .tan();
-        let _t21 = S::ratio(2.0, 1.0) * _t20 / (S::one() + _t20 * _t20);
-        let _t22 = _t20 * _t21;
-        let _t23 = _t19 + (_t21 * (m12 + (-(_t15 * _t17) - m12 * _t16)) - _t22 * _t19);
-        let _t24 = ((_u_m23 * self._h7 - _t1 * _t11 - _t3 * _t13
-            + (_t10 * _u_m13 - _t1 * _u_m12 - _t3 * _u_m34 + _t12 * _u_m24) * self._h8)
-            * S::ratio(1.0, 2.0))
+        let _t12 = S::ratio(2.0, 1.0) * _t11 / (S::one() + _t11 * _t11);
+        let _t13 = _t11 * _t12;
+        let _t14 = m23 + (-(m13 * _t5) - m23 * _t6);
+        let _t15 = _t14 + (m12 * _t12 - _t13 * _t14);
+        let _t16 = m24 + (-(m14 * _t5) - m24 * _t6);
+        let _t17 = (_u_m14 * self._h3
+            + (_t9 * _t3 + _t0 * _t10
+                + (-(_t9 * _u_m24) - _t0 * _u_m34 - _t3 * _u_m12 - _t10 * _u_m13)
+                    * self.system._k8) * self._h1) * S::ratio(1.0, 2.0);
+        let _t18 = _t17.tan();
+        let _t19 = S::ratio(2.0, 1.0) * _t18 / (S::one() + _t18 * _t18);
+        let _t20 = _t18 * _t19;
+        let _t21 = _t16 + (_t19 * (m12 + (-(_t12 * _t14) - m12 * _t13)) - _t20 * _t16);
+        let _t22 = ((_u_m23 * self._h4
+            - (_t9 * _t0 + _t3 * _t10
+                - (_t9 * _u_m13 - _t0 * _u_m12 - _t3 * _u_m34 + _t10 * _u_m24)
+                    * self.system._k9) * self._h1) * S::ratio(1.0, 2.0))
             .tan();
-        let _t25 = S::ratio(2.0, 1.0) * _t24 / (S::one() + _t24 * _t24);
-        let _t26 = m34 + (-(_t15 * _t9) - m34 * _t16);
-        let _t27 = _t26 + (_t21 * _t8 - _t22 * _t26);
-        let _t28 = _t24 * _t25;
-        let _t29 = _t27 + (-(_t25 * _t23) - _t28 * _t27);
-        let _t30 = ((_u_m24 * self._h9 - _t2 * _t11 + _t0 * _t13
-            + (_t10 * _u_m14 - _t2 * _u_m12 - _t0 * _u_m34 - _t12 * _u_m23) * self._h10)
-            * S::ratio(1.0, 2.0))
+        let _t23 = S::ratio(2.0, 1.0) * _t22 / (S::one() + _t22 * _t22);
+        let _t24 = m34 + (-(_t12 * _t8) - m34 * _t13);
+        let _t25 = _t24 + (_t19 * _t7 - _t20 * _t24);
+        let _t26 = _t22 * _t23;
+        let _t27 = _t25 + (-(_t23 * _t21) - _t26 * _t25);
+        let _t28 = ((_u_m24 * self._h5
+            - (_t9 * _t2 - _t1 * _t10
+                - (_t9 * _u_m14 - _t2 * _u_m12 - _t1 * _u_m34 - _t10 * _u_m23)
+                    * self.system._k10) * self._h1) * S::ratio(1.0, 2.0))
             .tan();
-        let _t31 = S::ratio(2.0, 1.0) * _t30 / (S::one() + _t30 * _t30);
+        let _t29 = S::ratio(2.0, 1.0) * _t28 / (S::one() + _t28 * _t28);
         residual[0] = _u_m12 - m12;
-        residual[1] = _u_m13 - _t8;
-        residual[2] = _u_m14 - (_t9 + (m34 * _t15 - _t16 * _t9));
-        residual[3] = _u_m23 - _t18;
-        residual[4] = _u_m24 - (_t23 + (_t25 * _t27 - _t28 * _t23));
-        residual[5] = _u_m34 - (_t29 + (_t31 * _t18 - _t30 * _t31 * _t29));
+        residual[1] = _u_m13 - _t7;
+        residual[2] = _u_m14 - (_t8 + (m34 * _t12 - _t13 * _t8));
+        residual[3] = _u_m23 - _t15;
+        residual[4] = _u_m24 - (_t21 + (_t23 * _t25 - _t26 * _t21));
+        residual[5] = _u_m34 - (_t27 + (_t29 * _t15 - _t28 * _t29 * _t27));
     }
 
     /// `r_i = p_i - (m_(i-1))_i` and `dr/dp`, by `dm_i/dxi_i = ad*_(e_i) m_i`
     ///
-    /// 207 additions, 236 multiplications, 5 divisions, 5 function calls.
+    /// 207 additions, 237 multiplications, 5 divisions, 5 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -3361,206 +3529,206 @@ for ManakovTopSecondKind2Equation<'_, S> {
     ) {
         let [[m12, m13, m14, m23, m24, m34]] = self.base.data.0;
         let [[_u_m12, _u_m13, _u_m14, _u_m23, _u_m24, _u_m34]] = unknown.data.0;
-        let _t0 = _u_m23 * self.system._k9;
-        let _t1 = _u_m13 * self.system._k7;
+        let _t0 = _u_m13 * self.system._k7;
+        let _t1 = _u_m23 * self.system._k9;
         let _t2 = _u_m14 * self.system._k8;
         let _t3 = _u_m24 * self.system._k10;
-        let _t4 = ((_t0 * _u_m13 - _t1 * _u_m23 - _t2 * _u_m24 + _t3 * _u_m14) * self._h2
-            - _u_m12 * self._h11 - _t0 * (_t1 * self._h1) - _t2 * (_t3 * self._h1))
+        let _t4 = (((_t1 * _u_m13 - _t0 * _u_m23 - _t2 * _u_m24 + _t3 * _u_m14)
+            * self._h7 - _u_m12 * self._h6 - (_t0 * _t1 + _t2 * _t3) * self._h1)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t5 = _t4 * S::ratio(2.0, 1.0) / (S::one() + _t4 * _t4);
+        let _t6 = _t4 * _t5;
+        let _t7 = m13 + (m23 * _t5 - m13 * _t6);
+        let _t8 = m14 + (m24 * _t5 - m14 * _t6);
+        let _t9 = _u_m12 * self.system._k6;
+        let _t10 = _u_m34 * self.system._k11;
+        let _t11 = ((_u_m13 * self._h2 + self._h1 * (_t9 * _t1 - _t2 * _t10)
+            + (_t10 * _u_m14 - _t9 * _u_m23 - _t2 * _u_m34 - _t1 * _u_m12) * self._h8)
+            * S::ratio(1.0, 2.0))
+            .tan();
+        let _t12 = S::ratio(2.0, 1.0) * _t11 / (S::one() + _t11 * _t11);
+        let _t13 = _t11 * _t12;
+        let _t14 = _t8 + (m34 * _t12 - _t13 * _t8);
+        let _t15 = m23 + (-(m13 * _t5) - m23 * _t6);
+        let _t16 = _t15 + (m12 * _t12 - _t13 * _t15);
+        let _t17 = m24 + (-(m14 * _t5) - m24 * _t6);
+        let _t18 = (_u_m14 * self._h3 + self._h1 * (_t9 * _t3 + _t0 * _t10)
+            + (-(_t9 * _u_m24) - _t0 * _u_m34 - _t3 * _u_m12 - _t10 * _u_m13) * self._h9)
             * S::ratio(1.0, 2.0);
-        let _t5 = _t4.tan();
-        let _t6 = _t5 * S::ratio(2.0, 1.0) / (S::one() + _t5 * _t5);
-        let _t7 = _t5 * _t6;
-        let _t8 = m13 + (m23 * _t6 - m13 * _t7);
-        let _t9 = m14 + (m24 * _t6 - m14 * _t7);
-        let _t10 = _u_m12 * self.system._k6;
-        let _t11 = _t10 * self._h1;
-        let _t12 = _u_m34 * self.system._k11;
-        let _t13 = _t12 * self._h1;
-        let _t14 = ((_u_m13 * self._h3 + _t0 * _t11 - _t2 * _t13
-            + (_t12 * _u_m14 - _t10 * _u_m23 - _t2 * _u_m34 - _t0 * _u_m12) * self._h4)
+        let _t19 = _t18.tan();
+        let _t20 = S::ratio(2.0, 1.0) * _t19 / (S::one() + _t19 * _t19);
+        let _t21 = m12 + (-(_t12 * _t15) - m12 * _t13);
+        let _t22 = _t19 * _t20;
+        let _t23 = _t17 + (_t20 * _t21 - _t22 * _t17);
+        let _t24 = ((_u_m23 * self._h4 - self._h1 * (_t9 * _t0 + _t3 * _t10)
+            + (_t9 * _u_m13 - _t0 * _u_m12 - _t3 * _u_m34 + _t10 * _u_m24) * self._h10)
             * S::ratio(1.0, 2.0))
             .tan();
-        let _t15 = S::ratio(2.0, 1.0) * _t14 / (S::one() + _t14 * _t14);
-        let _t16 = _t14 * _t15;
-        let _t17 = _t9 + (m34 * _t15 - _t16 * _t9);
-        let _t18 = m23 + (-(m13 * _t6) - m23 * _t7);
-        let _t19 = _t18 + (m12 * _t15 - _t16 * _t18);
-        let _t20 = m24 + (-(m14 * _t6) - m24 * _t7);
-        let _t21 = ((_u_m14 * self._h5 + _t3 * _t11 + _t1 * _t13
-            + (-(_t10 * _u_m24) - _t1 * _u_m34 - _t3 * _u_m12 - _t12 * _u_m13)
-                * self._h6) * S::ratio(1.0, 2.0))
-            .tan();
-        let _t22 = S::ratio(2.0, 1.0) * _t21 / (S::one() + _t21 * _t21);
-        let _t23 = m12 + (-(_t15 * _t18) - m12 * _t16);
-        let _t24 = _t21 * _t22;
-        let _t25 = _t20 + (_t22 * _t23 - _t24 * _t20);
-        let _t26 = ((_u_m23 * self._h7 - _t1 * _t11 - _t3 * _t13
-            + (_t10 * _u_m13 - _t1 * _u_m12 - _t3 * _u_m34 + _t12 * _u_m24) * self._h8)
+        let _t25 = S::ratio(2.0, 1.0) * _t24 / (S::one() + _t24 * _t24);
+        let _t26 = m34 + (-(_t12 * _t8) - m34 * _t13);
+        let _t27 = _t26 + (_t20 * _t7 - _t22 * _t26);
+        let _t28 = _t24 * _t25;
+        let _t29 = _t23 + (_t25 * _t27 - _t28 * _t23);
+        let _t30 = _t27 + -(_t25 * _t23 + _t28 * _t27);
+        let _t31 = ((_u_m24 * self._h5 - self._h1 * (_t9 * _t2 - _t1 * _t10)
+            + (_t9 * _u_m14 - _t2 * _u_m12 - _t1 * _u_m34 - _t10 * _u_m23) * self._h11)
             * S::ratio(1.0, 2.0))
             .tan();
-        let _t27 = S::ratio(2.0, 1.0) * _t26 / (S::one() + _t26 * _t26);
-        let _t28 = m34 + (-(_t15 * _t9) - m34 * _t16);
-        let _t29 = _t28 + (_t22 * _t8 - _t24 * _t28);
-        let _t30 = _t26 * _t27;
-        let _t31 = _t25 + (_t27 * _t29 - _t30 * _t25);
-        let _t32 = _t29 + -(_t27 * _t25 + _t30 * _t29);
-        let _t33 = ((_u_m24 * self._h9 - _t2 * _t11 + _t0 * _t13
-            + (_t10 * _u_m14 - _t2 * _u_m12 - _t0 * _u_m34 - _t12 * _u_m23) * self._h10)
-            * S::ratio(1.0, 2.0))
-            .tan();
-        let _t34 = S::ratio(2.0, 1.0) * _t33 / (S::one() + _t33 * _t33);
-        let _t35 = _t33 * _t34;
-        let _t36 = (_t0 - _u_m23 * self.system._k7) * self._h2 - _t0 * self._h4;
-        let _t37 = (_t3 - _u_m24 * self.system._k8) * self._h2 - _t3 * self._h6;
-        let _t38 = (_u_m13 * self.system._k9 - _t1) * self._h2 - _t1 * self._h8;
-        let _t39 = (_u_m14 * self.system._k10 - _t2) * self._h2 - _t2 * self._h10;
-        let _t40 = _t20 + -(_t16 * _t20);
-        let _t41 = (_t12 - _u_m34 * self.system._k8) * self._h4 - _t12 * self._h6;
-        let _t42 = -_t10;
-        let _t43 = _t10 * self._h8 + (_t42 - _u_m12 * self.system._k9) * self._h4;
-        let _t44 = (_u_m14 * self.system._k11 - _t2) * self._h4 - _t2 * self._h12;
-        let _t45 = _t16 * _t8 - _t8;
-        let _t46 = -_t9;
-        let _t47 = _t46 + (_t22 * (_t15 * _t8) - _t24 * _t46);
-        let _t48 = -(_t15 * _t20);
-        let _t49 = _t48 + (_t22 * _t18 - _t24 * _t48);
-        let _t50 = _t47 + (_t27 * _t49 - _t30 * _t47);
-        let _t51 = -(_t22 * _t19);
-        let _t52 = _t24 * _t17 - _t17;
-        let _t53 = _t51 + (_t27 * _t52 - _t30 * _t51);
-        let _t54 = _t23 + (-(_t22 * _t20) - _t24 * _t23);
-        let _t55 = _t8 + (-(_t22 * _t28) - _t24 * _t8);
-        let _t56 = _t54 + (_t27 * _t55 - _t30 * _t54);
-        let _t57 = _t10 * self._h10 + (_t42 - _u_m12 * self.system._k10) * self._h6;
-        let _t58 = (_t12 - _u_m34 * self.system._k10) * self._h8 - _t12 * self._h10;
-        let _t59 = _t1 * self._h12 + (-_t1 - _u_m13 * self.system._k11) * self._h6;
-        let _t60 = (_u_m24 * self.system._k11 - _t3) * self._h8 - _t3 * self._h12;
-        let _t61 = _t49 + (-(_t27 * _t47) - _t30 * _t49);
-        let _t62 = _t61 + (_t34 * _t45 - _t35 * _t61);
-        let _t63 = _t52 + (-(_t27 * _t51) - _t30 * _t52);
-        let _t64 = _t63 + (_t34 * _t23 - _t35 * _t63);
-        let _t65 = _t55 + (-(_t27 * _t54) - _t30 * _t55);
-        let _t66 = _t65 + -(_t35 * _t65);
-        let _t67 = _t35 * _t31 - _t31;
-        let _t68 = _t19 + (-(_t34 * _t32) - _t35 * _t19);
+        let _t32 = S::ratio(2.0, 1.0) * _t31 / (S::one() + _t31 * _t31);
+        let _t33 = _t31 * _t32;
+        let _t34 = (_t1 - _u_m23 * self.system._k7) * self._h7 - _t1 * self._h8;
+        let _t35 = (_t3 - _u_m24 * self.system._k8) * self._h7 - _t3 * self._h9;
+        let _t36 = (_u_m13 * self.system._k9 - _t0) * self._h7 - _t0 * self._h10;
+        let _t37 = (_u_m14 * self.system._k10 - _t2) * self._h7 - _t2 * self._h11;
+        let _t38 = _t17 + -(_t13 * _t17);
+        let _t39 = (_t10 - _u_m34 * self.system._k8) * self._h8 - _t10 * self._h9;
+        let _t40 = -_t9;
+        let _t41 = _t9 * self._h10 + (_t40 - _u_m12 * self.system._k9) * self._h8;
+        let _t42 = (_u_m14 * self.system._k11 - _t2) * self._h8 - _t2 * self._h12;
+        let _t43 = _t13 * _t7 - _t7;
+        let _t44 = -_t8;
+        let _t45 = _t44 + (_t20 * (_t12 * _t7) - _t22 * _t44);
+        let _t46 = -(_t12 * _t17);
+        let _t47 = _t46 + (_t20 * _t15 - _t22 * _t46);
+        let _t48 = _t45 + (_t25 * _t47 - _t28 * _t45);
+        let _t49 = -(_t20 * _t16);
+        let _t50 = _t22 * _t14 - _t14;
+        let _t51 = _t49 + (_t25 * _t50 - _t28 * _t49);
+        let _t52 = _t21 + (-(_t20 * _t17) - _t22 * _t21);
+        let _t53 = _t7 + (-(_t20 * _t26) - _t22 * _t7);
+        let _t54 = _t52 + (_t25 * _t53 - _t28 * _t52);
+        let _t55 = _t9 * self._h11 + (_t40 - _u_m12 * self.system._k10) * self._h9;
+        let _t56 = (_t10 - _u_m34 * self.system._k10) * self._h10 - _t10 * self._h11;
+        let _t57 = _t0 * self._h12 + (-_t0 - _u_m13 * self.system._k11) * self._h9;
+        let _t58 = (_u_m24 * self.system._k11 - _t3) * self._h10 - _t3 * self._h12;
+        let _t59 = _t47 + (-(_t25 * _t45) - _t28 * _t47);
+        let _t60 = _t59 + (_t32 * _t43 - _t33 * _t59);
+        let _t61 = _t50 + (-(_t25 * _t49) - _t28 * _t50);
+        let _t62 = _t61 + (_t32 * _t21 - _t33 * _t61);
+        let _t63 = _t53 + (-(_t25 * _t52) - _t28 * _t53);
+        let _t64 = _t63 + -(_t33 * _t63);
+        let _t65 = _t33 * _t29 - _t29;
+        let _t66 = _t16 + (-(_t32 * _t30) - _t33 * _t16);
         residual[0] = _u_m12 - m12;
-        residual[1] = _u_m13 - _t8;
-        residual[2] = _u_m14 - _t17;
-        residual[3] = _u_m23 - _t19;
-        residual[4] = _u_m24 - _t31;
-        residual[5] = _u_m34 - (_t32 + (_t34 * _t19 - _t35 * _t32));
+        residual[1] = _u_m13 - _t7;
+        residual[2] = _u_m14 - _t14;
+        residual[3] = _u_m23 - _t16;
+        residual[4] = _u_m24 - _t29;
+        residual[5] = _u_m34 - (_t30 + (_t32 * _t16 - _t33 * _t30));
         matrix[(0, 0)] = S::one();
-        matrix[(1, 0)] = _t18 * self._h11;
-        matrix[(1, 1)] = S::one() - _t36 * _t18;
-        matrix[(1, 2)] = -(_t37 * _t18);
-        matrix[(1, 3)] = -(_t38 * _t18);
-        matrix[(1, 4)] = -(_t39 * _t18);
-        matrix[(2, 0)] = self._h11 * _t40 - _t36 * _t28;
-        matrix[(2, 1)] = -(_t36 * _t40) - _t28 * self._h3;
-        matrix[(2, 2)] = S::one() - _t37 * _t40 - _t41 * _t28;
-        matrix[(2, 3)] = -(_t38 * _t40) - _t43 * _t28;
-        matrix[(2, 4)] = -(_t39 * _t40);
-        matrix[(2, 5)] = -(_t44 * _t28);
-        matrix[(3, 0)] = self._h11 * _t45 - _t36 * _t23;
-        matrix[(3, 1)] = -(_t36 * _t45) - _t23 * self._h3;
-        matrix[(3, 2)] = -(_t37 * _t45) - _t41 * _t23;
-        matrix[(3, 3)] = S::one() - _t38 * _t45 - _t43 * _t23;
-        matrix[(3, 4)] = -(_t39 * _t45);
-        matrix[(3, 5)] = -(_t44 * _t23);
-        matrix[(4, 0)] = self._h11 * _t50 - _t36 * _t53 - _t37 * _t56 - _t38 * _t32;
-        matrix[(4, 1)] = -(_t36 * _t50) - self._h3 * _t53 - _t41 * _t56 - _t43 * _t32;
-        matrix[(4, 2)] = -(_t37 * _t50) - _t41 * _t53 - _t56 * self._h5;
-        matrix[(4, 3)] = -(_t38 * _t50) - _t43 * _t53 - _t32 * self._h7;
-        matrix[(4, 4)] = S::one() - _t39 * _t50 - _t57 * _t56 - _t58 * _t32;
-        matrix[(4, 5)] = -(_t44 * _t53) - _t59 * _t56 - _t60 * _t32;
-        matrix[(5, 0)] = self._h11 * _t62 - _t36 * _t64 - _t37 * _t66 - _t38 * _t67
-            - _t39 * _t68;
-        matrix[(5, 1)] = -(_t36 * _t62) - self._h3 * _t64 - _t41 * _t66 - _t43 * _t67;
-        matrix[(5, 2)] = -(_t37 * _t62) - _t41 * _t64 - self._h5 * _t66 - _t57 * _t68;
-        matrix[(5, 3)] = -(_t38 * _t62) - _t43 * _t64 - self._h7 * _t67 - _t58 * _t68;
-        matrix[(5, 4)] = -(_t39 * _t62) - _t57 * _t66 - _t58 * _t67 - _t68 * self._h9;
-        matrix[(5, 5)] = S::one() - _t44 * _t64 - _t59 * _t66 - _t60 * _t67
-            - (_t0 * self._h12 + (-_t0 - _u_m23 * self.system._k11) * self._h10) * _t68;
+        matrix[(1, 0)] = _t15 * self._h6;
+        matrix[(1, 1)] = S::one() - _t34 * _t15;
+        matrix[(1, 2)] = -(_t35 * _t15);
+        matrix[(1, 3)] = -(_t36 * _t15);
+        matrix[(1, 4)] = -(_t37 * _t15);
+        matrix[(2, 0)] = self._h6 * _t38 - _t34 * _t26;
+        matrix[(2, 1)] = -(_t34 * _t38) - _t26 * self._h2;
+        matrix[(2, 2)] = S::one() - _t35 * _t38 - _t39 * _t26;
+        matrix[(2, 3)] = -(_t36 * _t38) - _t41 * _t26;
+        matrix[(2, 4)] = -(_t37 * _t38);
+        matrix[(2, 5)] = -(_t42 * _t26);
+        matrix[(3, 0)] = self._h6 * _t43 - _t34 * _t21;
+        matrix[(3, 1)] = -(_t34 * _t43) - _t21 * self._h2;
+        matrix[(3, 2)] = -(_t35 * _t43) - _t39 * _t21;
+        matrix[(3, 3)] = S::one() - _t36 * _t43 - _t41 * _t21;
+        matrix[(3, 4)] = -(_t37 * _t43);
+        matrix[(3, 5)] = -(_t42 * _t21);
+        matrix[(4, 0)] = self._h6 * _t48 - _t34 * _t51 - _t35 * _t54 - _t36 * _t30;
+        matrix[(4, 1)] = -(_t34 * _t48) - self._h2 * _t51 - _t39 * _t54 - _t41 * _t30;
+        matrix[(4, 2)] = -(_t35 * _t48) - _t39 * _t51 - _t54 * self._h3;
+        matrix[(4, 3)] = -(_t36 * _t48) - _t41 * _t51 - _t30 * self._h4;
+        matrix[(4, 4)] = S::one() - _t37 * _t48 - _t55 * _t54 - _t56 * _t30;
+        matrix[(4, 5)] = -(_t42 * _t51) - _t57 * _t54 - _t58 * _t30;
+        matrix[(5, 0)] = self._h6 * _t60 - _t34 * _t62 - _t35 * _t64 - _t36 * _t65
+            - _t37 * _t66;
+        matrix[(5, 1)] = -(_t34 * _t60) - self._h2 * _t62 - _t39 * _t64 - _t41 * _t65;
+        matrix[(5, 2)] = -(_t35 * _t60) - _t39 * _t62 - self._h3 * _t64 - _t55 * _t66;
+        matrix[(5, 3)] = -(_t36 * _t60) - _t41 * _t62 - self._h4 * _t65 - _t56 * _t66;
+        matrix[(5, 4)] = -(_t37 * _t60) - _t55 * _t64 - _t56 * _t65 - _t66 * self._h5;
+        matrix[(5, 5)] = S::one() - _t42 * _t62 - _t57 * _t64 - _t58 * _t65
+            - (_t1 * self._h12 + (-_t1 - _u_m23 * self.system._k11) * self._h11) * _t66;
     }
 
     /// `mu1 = m_n`
     ///
-    /// 103 additions, 130 multiplications, 6 divisions, 6 function calls.
+    /// 103 additions, 132 multiplications, 6 divisions, 6 function calls.
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[m12, m13, m14, m23, m24, m34]] = self.base.data.0;
         let [[_u_m12, _u_m13, _u_m14, _u_m23, _u_m24, _u_m34]] = unknown.data.0;
-        let _t0 = _u_m23 * self.system._k9;
-        let _t1 = _u_m12 * self.system._k6;
-        let _t2 = _t1 * self._h1;
-        let _t3 = _u_m14 * self.system._k8;
-        let _t4 = _u_m34 * self.system._k11;
-        let _t5 = _t4 * self._h1;
-        let _t6 = ((_u_m13 * self._h3 + _t0 * _t2 - _t3 * _t5
-            + (_t4 * _u_m14 - _t1 * _u_m23 - _t3 * _u_m34 - _t0 * _u_m12) * self._h4)
-            * S::ratio(1.0, 2.0))
+        let _t0 = self.system._k6 * _u_m12;
+        let _t1 = self.system._k9 * _u_m23;
+        let _t2 = self.system._k8 * _u_m14;
+        let _t3 = self.system._k11 * _u_m34;
+        let _t4 = ((_u_m13 * self._h2
+            + (_t0 * _t1 - _t2 * _t3
+                + (_t3 * _u_m14 - _t0 * _u_m23 - _t2 * _u_m34 - _t1 * _u_m12)
+                    * self.system._k7) * self._h1) * S::ratio(1.0, 2.0))
             .tan();
-        let _t7 = S::ratio(2.0, 1.0) * _t6 / (S::one() + _t6 * _t6);
-        let _t8 = _u_m13 * self.system._k7;
-        let _t9 = _t8 * self._h1;
-        let _t10 = _u_m24 * self.system._k10;
-        let _t11 = _t10 * self._h1;
-        let _t12 = ((_u_m12 * self._h0 - _t0 * _t9 - _t3 * _t11
-            + (_t0 * _u_m13 - _t8 * _u_m23 - _t3 * _u_m24 + _t10 * _u_m14) * self._h2)
-            * S::ratio(1.0, 2.0))
+        let _t5 = S::ratio(2.0, 1.0) * _t4 / (S::one() + _t4 * _t4);
+        let _t6 = self.system._k7 * _u_m13;
+        let _t7 = self.system._k10 * _u_m24;
+        let _t8 = ((_u_m12 * self._h0
+            - (_t6 * _t1 + _t2 * _t7
+                - (_t1 * _u_m13 - _t6 * _u_m23 - _t2 * _u_m24 + _t7 * _u_m14)
+                    * self.system._k6) * self._h1) * S::ratio(1.0, 2.0))
             .tan();
-        let _t13 = _t12 * S::ratio(2.0, 1.0) / (S::one() + _t12 * _t12);
-        let _t14 = _t12 * _t13;
-        let _t15 = m23 + (-(m13 * _t13) - m23 * _t14);
-        let _t16 = _t6 * _t7;
-        let _t17 = m12 + (-(_t7 * _t15) - m12 * _t16);
-        let _t18 = ((_u_m14 * self._h5 + _t10 * _t2 + _t8 * _t5
-            + (-(_t1 * _u_m24) - _t8 * _u_m34 - _t10 * _u_m12 - _t4 * _u_m13) * self._h6)
-            * S::ratio(1.0, 2.0))
+        let _t9 = _t8 * S::ratio(2.0, 1.0) / (S::one() + _t8 * _t8);
+        let _t10 = _t8 * _t9;
+        let _t11 = m23 + (-(m13 * _t9) - m23 * _t10);
+        let _t12 = _t4 * _t5;
+        let _t13 = m12 + (-(_t5 * _t11) - m12 * _t12);
+        let _t14 = (_u_m14 * self._h3
+            + (_t0 * _t7 + _t6 * _t3
+                + (-(_t0 * _u_m24) - _t6 * _u_m34 - _t7 * _u_m12 - _t3 * _u_m13)
+                    * self.system._k8) * self._h1) * S::ratio(1.0, 2.0);
+        let _t15 = _t14.tan();
+        let _t16 = S::ratio(2.0, 1.0) * _t15 / (S::one() + _t15 * _t15);
+        let _t17 = m24 + (-(m14 * _t9) - m24 * _t10);
+        let _t18 = _t15 * _t16;
+        let _t19 = _t13 + (-(_t16 * _t17) - _t18 * _t13);
+        let _t20 = ((_u_m23 * self._h4
+            - (_t0 * _t6 + _t7 * _t3
+                - (_t0 * _u_m13 - _t6 * _u_m12 - _t7 * _u_m34 + _t3 * _u_m24)
+                    * self.system._k9) * self._h1) * S::ratio(1.0, 2.0))
             .tan();
-        let _t19 = S::ratio(2.0, 1.0) * _t18 / (S::one() + _t18 * _t18);
-        let _t20 = m24 + (-(m14 * _t13) - m24 * _t14);
-        let _t21 = _t18 * _t19;
-        let _t22 = _t17 + (-(_t19 * _t20) - _t21 * _t17);
-        let _t23 = ((_u_m23 * self._h7 - _t8 * _t2 - _t10 * _t5
-            + (_t1 * _u_m13 - _t8 * _u_m12 - _t10 * _u_m34 + _t4 * _u_m24) * self._h8)
-            * S::ratio(1.0, 2.0))
+        let _t21 = S::ratio(2.0, 1.0) * _t20 / (S::one() + _t20 * _t20);
+        let _t22 = m13 + (m23 * _t9 - m13 * _t10);
+        let _t23 = m14 + (m24 * _t9 - m14 * _t10);
+        let _t24 = m34 + (-(_t5 * _t23) - m34 * _t12);
+        let _t25 = _t22 + (-(_t16 * _t24) - _t18 * _t22);
+        let _t26 = _t20 * _t21;
+        let _t27 = _t19 + (_t21 * _t25 - _t26 * _t19);
+        let _t28 = ((_u_m24 * self._h5
+            - (_t0 * _t2 - _t1 * _t3
+                - (_t0 * _u_m14 - _t2 * _u_m12 - _t1 * _u_m34 - _t3 * _u_m23)
+                    * self.system._k10) * self._h1) * S::ratio(1.0, 2.0))
             .tan();
-        let _t24 = S::ratio(2.0, 1.0) * _t23 / (S::one() + _t23 * _t23);
-        let _t25 = m13 + (m23 * _t13 - m13 * _t14);
-        let _t26 = m14 + (m24 * _t13 - m14 * _t14);
-        let _t27 = m34 + (-(_t7 * _t26) - m34 * _t16);
-        let _t28 = _t25 + (-(_t19 * _t27) - _t21 * _t25);
-        let _t29 = _t23 * _t24;
-        let _t30 = _t22 + (_t24 * _t28 - _t29 * _t22);
-        let _t31 = ((_u_m24 * self._h9 - _t3 * _t2 + _t0 * _t5
-            + (_t1 * _u_m14 - _t3 * _u_m12 - _t0 * _u_m34 - _t4 * _u_m23) * self._h10)
-            * S::ratio(1.0, 2.0))
+        let _t29 = S::ratio(2.0, 1.0) * _t28 / (S::one() + _t28 * _t28);
+        let _t30 = _t23 + (m34 * _t5 - _t12 * _t23);
+        let _t31 = _t28 * _t29;
+        let _t32 = _t25 + (-(_t21 * _t19) - _t26 * _t25);
+        let _t33 = ((_u_m34 * self._h13
+            - (_t6 * _t2 + _t1 * _t7
+                - (_t6 * _u_m14 - _t2 * _u_m13 + _t1 * _u_m24 - _t7 * _u_m23)
+                    * self.system._k11) * self._h1) * S::ratio(1.0, 2.0))
             .tan();
-        let _t32 = S::ratio(2.0, 1.0) * _t31 / (S::one() + _t31 * _t31);
-        let _t33 = _t26 + (m34 * _t7 - _t16 * _t26);
-        let _t34 = _t31 * _t32;
-        let _t35 = _t28 + (-(_t24 * _t22) - _t29 * _t28);
-        let _t36 = ((_u_m34 * self._h13 - _t3 * _t9 - _t0 * _t11
-            + (_t8 * _u_m14 - _t3 * _u_m13 + _t0 * _u_m24 - _t10 * _u_m23) * self._h12)
-            * S::ratio(1.0, 2.0))
-            .tan();
-        let _t37 = S::ratio(2.0, 1.0) * _t36 / (S::one() + _t36 * _t36);
-        let _t38 = _t33 + (-(_t32 * _t30) - _t34 * _t33);
-        let _t39 = _t36 * _t37;
-        let _t40 = _t15 + (m12 * _t7 - _t16 * _t15);
-        let _t41 = _t27 + (_t19 * _t25 - _t21 * _t27);
-        let _t42 = _t20 + (_t19 * _t17 - _t21 * _t20);
-        let _t43 = _t41 + (-(_t24 * _t42) - _t29 * _t41);
-        let _t44 = _t40 + (-(_t32 * _t43) - _t34 * _t40);
-        let _t45 = _t42 + (_t24 * _t41 - _t29 * _t42);
-        mu[0] = _t30 + (_t32 * _t33 - _t34 * _t30);
-        mu[1] = _t35 + (_t37 * _t38 - _t39 * _t35);
-        mu[2] = _t38 + (-(_t37 * _t35) - _t39 * _t38);
-        mu[3] = _t44 + (_t37 * _t45 - _t39 * _t44);
-        mu[4] = _t45 + (-(_t37 * _t44) - _t39 * _t45);
-        mu[5] = _t43 + (_t32 * _t40 - _t34 * _t43);
+        let _t34 = S::ratio(2.0, 1.0) * _t33 / (S::one() + _t33 * _t33);
+        let _t35 = _t30 + (-(_t29 * _t27) - _t31 * _t30);
+        let _t36 = _t33 * _t34;
+        let _t37 = _t11 + (m12 * _t5 - _t12 * _t11);
+        let _t38 = _t24 + (_t16 * _t22 - _t18 * _t24);
+        let _t39 = _t17 + (_t16 * _t13 - _t18 * _t17);
+        let _t40 = _t38 + (-(_t21 * _t39) - _t26 * _t38);
+        let _t41 = _t37 + (-(_t29 * _t40) - _t31 * _t37);
+        let _t42 = _t39 + (_t21 * _t38 - _t26 * _t39);
+        mu[0] = _t27 + (_t29 * _t30 - _t31 * _t27);
+        mu[1] = _t32 + (_t34 * _t35 - _t36 * _t32);
+        mu[2] = _t35 + (-(_t34 * _t32) - _t36 * _t35);
+        mu[3] = _t41 + (_t34 * _t42 - _t36 * _t41);
+        mu[4] = _t42 + (-(_t34 * _t41) - _t36 * _t42);
+        mu[5] = _t40 + (_t29 * _t37 - _t31 * _t40);
     }
 
     /// Sparse elimination in the order [0, 5, 1, 2, 3, 4], 0 entries of fill-in: 64 multiplications with the solution.
@@ -3807,24 +3975,24 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t25 = _t8 * _t6;
         let _t26 = _t24 + _t25;
         let _t27 = self.system._k11
-            * (-(self.system._k22 * _u_m13 * _u_m14)
-                - self.system._k23 * _u_m23 * _u_m24);
+            * (-(self.system._k32 * _u_m13 * _u_m14)
+                - self.system._k33 * _u_m23 * _u_m24);
         let _t28 = _t27 + _t27;
-        let _t29 = self.system._k23 * _t28;
+        let _t29 = self.system._k33 * _t28;
         let _t30 = self.system._k9
-            * (-(self.system._k18 * _u_m12 * _u_m13)
-                - self.system._k19 * _u_m24 * _u_m34);
+            * (-(self.system._k28 * _u_m12 * _u_m13)
+                - self.system._k29 * _u_m24 * _u_m34);
         let _t31 = _t30 + _t30;
-        let _t32 = self.system._k19 * _t31;
+        let _t32 = self.system._k29 * _t31;
         let _t33 = self.system._k8
             * (self.system._k16 * _u_m12 * _u_m24 + self.system._k17 * _u_m13 * _u_m34);
         let _t34 = _t33 + _t33;
         let _t35 = self.system._k16 * _t34;
         let _t36 = self.system._k6
-            * (-(self.system._k12 * _u_m13 * _u_m23)
-                - self.system._k13 * _u_m14 * _u_m24);
+            * (-(self.system._k34 * _u_m13 * _u_m23)
+                - self.system._k35 * _u_m14 * _u_m24);
         let _t37 = _t36 + _t36;
-        let _t38 = self.system._k13 * _t37;
+        let _t38 = self.system._k35 * _t37;
         let _t39 = _t0 * _t0;
         let _t40 = self.system._k10
             * (S::ratio(2.0, 1.0)
@@ -3845,12 +4013,12 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t51 = _t13 * _t0;
         let _t52 = _t51 - _t24;
         let _t53 = self.system._k10
-            * (self.system._k21 * _u_m23 * _u_m34 - self.system._k20 * _u_m12 * _u_m14);
+            * (self.system._k21 * _u_m23 * _u_m34 - self.system._k30 * _u_m12 * _u_m14);
         let _t54 = _t53 + _t53;
-        let _t55 = self.system._k20 * _t54;
-        let _t56 = self.system._k18 * _t31;
+        let _t55 = self.system._k30 * _t54;
+        let _t56 = self.system._k28 * _t31;
         let _t57 = self.system._k7
-            * (self.system._k14 * _u_m12 * _u_m23 - self.system._k15 * _u_m14 * _u_m34);
+            * (self.system._k14 * _u_m12 * _u_m23 - self.system._k31 * _u_m14 * _u_m34);
         let _t58 = _t57 + _t57;
         let _t59 = self.system._k14 * _t58;
         let _t60 = self.system._k6
@@ -3862,9 +4030,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
                 + S::ratio(2.0, 1.0) * (_t6 * _t52 + _t8 * (_t17 + _t50))) * self._h1;
         let _t62 = _t41 * _u_m24;
         let _t63 = _t61 * _u_m12;
-        let _t64 = self.system._k22 * _t28;
+        let _t64 = self.system._k32 * _t28;
         let _t65 = self.system._k17 * _t34;
-        let _t66 = self.system._k12 * _t37;
+        let _t66 = self.system._k34 * _t37;
         let _t67 = self.system._k7
             * (S::ratio(2.0, 1.0)
                 * (_t13 * (_t11 + _t43 * S::ratio(3.0, 1.0)) + _t0 * _t16 + _u_m13 * _t23
@@ -3878,7 +4046,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t72 = _t46 - _t15;
         let _t73 = _t19 + _t49;
         let _t74 = _t51 - _t25;
-        let _t75 = self.system._k15 * _t58;
+        let _t75 = self.system._k31 * _t58;
         let _t76 = self.system._k8
             * (S::ratio(2.0, 1.0)
                 * (_t1 * (_t71 + _t2 * S::ratio(3.0, 1.0)) + _t3 * _t72 + _u_m14 * _t73
@@ -3976,23 +4144,23 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t27 = _t0 * _u_m34;
         let _t28 = _t2 * _u_m23;
         let _t29 = _t27 + _t28;
-        let _t30 = _u_m12 * self.system._k29;
+        let _t30 = _u_m12 * self.system._k20;
         let _t31 = self.system._k21 * _u_m23;
         let _t32 = self.system._k10 * (_u_m14 * _t30 + _u_m34 * _t31);
         let _t33 = _t32 + _t32;
-        let _t34 = _u_m14 * self.system._k29;
-        let _t35 = _u_m12 * self.system._k27;
-        let _t36 = _u_m24 * self.system._k28;
+        let _t34 = _u_m14 * self.system._k20;
+        let _t35 = _u_m12 * self.system._k18;
+        let _t36 = _u_m24 * self.system._k19;
         let _t37 = self.system._k9 * (_u_m13 * _t35 + _u_m34 * _t36);
         let _t38 = _t37 + _t37;
-        let _t39 = _u_m13 * self.system._k27;
+        let _t39 = _u_m13 * self.system._k18;
         let _t40 = self.system._k16 * _u_m12;
         let _t41 = self.system._k17 * _u_m13;
         let _t42 = self.system._k8 * (_u_m24 * _t40 + _u_m34 * _t41);
         let _t43 = _t42 + _t42;
         let _t44 = self.system._k16 * _u_m24;
         let _t45 = self.system._k14 * _u_m12;
-        let _t46 = _u_m14 * self.system._k26;
+        let _t46 = _u_m14 * self.system._k15;
         let _t47 = self.system._k7 * (_u_m23 * _t45 + _u_m34 * _t46);
         let _t48 = _t47 + _t47;
         let _t49 = self.system._k14 * _u_m23;
@@ -4028,17 +4196,17 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t74 = _t0 * _u_m24;
         let _t75 = _t5 * _u_m23;
         let _t76 = _t74 + _t75;
-        let _t77 = _u_m13 * self.system._k30;
-        let _t78 = _u_m23 * self.system._k31;
+        let _t77 = _u_m13 * self.system._k22;
+        let _t78 = _u_m23 * self.system._k23;
         let _t79 = self.system._k11 * (_u_m14 * _t77 + _u_m24 * _t78);
         let _t80 = _t79 + _t79;
-        let _t81 = _u_m14 * self.system._k30;
+        let _t81 = _u_m14 * self.system._k22;
         let _t82 = self.system._k17 * _u_m34;
-        let _t83 = _u_m13 * self.system._k24;
-        let _t84 = _u_m14 * self.system._k25;
+        let _t83 = _u_m13 * self.system._k12;
+        let _t84 = _u_m14 * self.system._k13;
         let _t85 = self.system._k6 * (_u_m23 * _t83 + _u_m24 * _t84);
         let _t86 = _t85 + _t85;
-        let _t87 = _u_m23 * self.system._k24;
+        let _t87 = _u_m23 * self.system._k12;
         let _t88 = _t9 * _t2;
         let _t89 = _t51 + _t88;
         let _t90 = _t2 * _t2;
@@ -4060,7 +4228,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t101 = _t16 * _u_m24;
         let _t102 = _t12 * _u_m23;
         let _t103 = _t102 + _t64;
-        let _t104 = _u_m34 * self.system._k28;
+        let _t104 = _u_m34 * self.system._k19;
         let _t105 = self.system._k10
             * (S::ratio(2.0, 1.0)
                 * (_t0 * (_t96 + _t74) + _t2 * (_t22 + _t24) + _t5 * (_t97 + _t71)
@@ -4074,8 +4242,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t110 = _t15 + _t69;
         let _t111 = S::ratio(2.0, 1.0) * _t110;
         let _t112 = _t9 * _u_m14;
-        let _t113 = _u_m34 * self.system._k26;
-        let _t114 = _u_m24 * self.system._k25;
+        let _t113 = _u_m34 * self.system._k15;
+        let _t114 = _u_m24 * self.system._k13;
         let _t115 = _t50 - _t88;
         let _t116 = _t91 + _t56;
         let _t117 = self.system._k8
@@ -4091,7 +4259,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t122 = _t16 * _u_m34;
         let _t123 = _t122 + _t3;
         let _t124 = _t101 + _t65;
-        let _t125 = _u_m24 * self.system._k31;
+        let _t125 = _u_m24 * self.system._k23;
         let _t126 = self.system._k21 * _u_m34;
         let _t127 = self.system._k9
             * (S::ratio(2.0, 1.0)
@@ -4160,7 +4328,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t178 = _t12 * _t177;
         let _t179 = _t5 * _t2 + _t178;
         let _t180 = (self.system._k7 * (self.system._k55 * _t172 + _t176) + _t165 * _t82
-            + self.system._k27 * (_t38 + _t163 * _u_m12) + _t179 * self.system._k55)
+            + self.system._k18 * (_t38 + _t163 * _u_m12) + _t179 * self.system._k55)
             * self._h1;
         let _t181 = _t62 * _u_m13 + _t132;
         let _t182 = _t112 + _t26;
@@ -4170,7 +4338,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t186 = _t16 * _t177;
         let _t187 = _t0 * _t2 - _t186;
         let _t188 = (self.system._k8 * (-(self.system._k55 * _t183) - _t185)
-            + _t167 * _t113 + self.system._k29 * (_t33 + _t161 * _u_m12)
+            + _t167 * _t113 + self.system._k20 * (_t33 + _t161 * _u_m12)
             - _t187 * self.system._k55) * self._h1;
         let _t189 = _t62 * _u_m14 + _t133;
         let _t190 = _t123 - S::ratio(2.0, 1.0) * _t139;
@@ -4197,7 +4365,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t207 = self.system._k9 * _t35;
         let _t208 = _t207 + _t207;
         let _t209 = (self.system._k6 * (_t172 * self.system._k56 + _t176) + _t206 * _t44
-            + self.system._k27 * (_t38 + _t208 * _u_m13) + _t179 * self.system._k56)
+            + self.system._k18 * (_t38 + _t208 * _u_m13) + _t179 * self.system._k56)
             * self._h1;
         let _t210 = S::ratio(2.0, 1.0) * _t92;
         let _t211 = self.system._k11 * _t81;
@@ -4218,7 +4386,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t223 = _t221 * S::ratio(2.0, 1.0);
         let _t224 = _t219 + _t223;
         let _t225 = (self.system._k8 * (self.system._k56 * _t218 + _t222) + _t214 * _t114
-            + self.system._k30 * (_t80 + _t212 * _u_m13) + _t224 * self.system._k56)
+            + self.system._k22 * (_t80 + _t212 * _u_m13) + _t224 * self.system._k56)
             * self._h1;
         let _t226 = S::ratio(2.0, 1.0) * _t103 + _t124;
         let _t227 = _t16 * _t5;
@@ -4228,7 +4396,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t231 = _t229 * S::ratio(2.0, 1.0);
         let _t232 = _t227 + _t231;
         let _t233 = (self.system._k9 * (self.system._k56 * _t226 + _t230) + _t212 * _t125
-            + self.system._k24 * (_t86 + _t214 * _u_m13) + _t232 * self.system._k56)
+            + self.system._k12 * (_t86 + _t214 * _u_m13) + _t232 * self.system._k56)
             * self._h1;
         let _t234 = _t89 * S::ratio(2.0, 1.0);
         let _t235 = _t16 * _u_m23 + _t0 * _u_m14;
@@ -4243,14 +4411,14 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t242 = self.system._k10 * _t30;
         let _t243 = _t242 + _t242;
         let _t244 = (self.system._k6 * (-(_t183 * self.system._k58) - _t185)
-            + _t241 * _t49 + self.system._k29 * (_t33 + _t243 * _u_m14)
+            + _t241 * _t49 + self.system._k20 * (_t33 + _t243 * _u_m14)
             - _t187 * self.system._k58) * self._h1;
         let _t245 = self.system._k6 * _t114;
         let _t246 = _t245 + _t245;
         let _t247 = self.system._k11 * _t77;
         let _t248 = _t247 + _t247;
         let _t249 = (self.system._k7 * (_t218 * self.system._k58 + _t222) + _t246 * _t87
-            + self.system._k30 * (_t80 + _t248 * _u_m14) + _t224 * self.system._k58)
+            + self.system._k22 * (_t80 + _t248 * _u_m14) + _t224 * self.system._k58)
             * self._h1;
         let _t250 = S::ratio(2.0, 1.0) * _t116;
         let _t251 = self.system._k8
@@ -4268,7 +4436,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t258 = _t231 + _t227 * S::ratio(4.0, 1.0);
         let _t259 = _t229 + _t228;
         let _t260 = (self.system._k10 * (self.system._k58 * _t257 + _t258) + _t248 * _t78
-            + self.system._k25 * (_t86 + _t246 * _u_m14) + _t259 * self.system._k58)
+            + self.system._k13 * (_t86 + _t246 * _u_m14) + _t259 * self.system._k58)
             * self._h1;
         let _t261 = _t62 * _t128;
         let _t262 = self.system._k10 * _t126;
@@ -4283,7 +4451,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t269 = self.system._k6 * _t83;
         let _t270 = _t269 + _t269;
         let _t271 = (self.system._k7 * (_t226 * self.system._k60 + _t230) + _t268 * _t81
-            + self.system._k24 * (_t86 + _t270 * _u_m23) + _t232 * self.system._k60)
+            + self.system._k12 * (_t86 + _t270 * _u_m23) + _t232 * self.system._k60)
             * self._h1;
         let _t272 = (self.system._k8 * (_t253 + _t255 * self.system._k60) + _t268 * _t77
             + _t263 * _t30 + _t265 * _t113 + _t270 * _t114 + _t115 * self.system._k60)
@@ -4297,7 +4465,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t276 = _t223 + _t219 * S::ratio(4.0, 1.0);
         let _t277 = _t221 + _t220;
         let _t278 = (self.system._k10 * (self.system._k60 * _t275 + _t276) + _t270 * _t84
-            + self.system._k31 * (_t80 + _t268 * _u_m23) + _t277 * self.system._k60)
+            + self.system._k23 * (_t80 + _t268 * _u_m23) + _t277 * self.system._k60)
             * self._h1;
         let _t279 = _t62 * _t106;
         let _t280 = self.system._k9 * _t104;
@@ -4315,10 +4483,10 @@ for ManakovTopCayleyGenerating4<'_, S> {
             + _t281 * _t35 + _t283 * _t82 + _t288 * _t87 + _t89 * self.system._k62)
             * self._h1;
         let _t290 = (self.system._k8 * (_t257 * self.system._k62 + _t258) + _t286 * _t77
-            + self.system._k25 * (_t86 + _t288 * _u_m24) + _t259 * self.system._k62)
+            + self.system._k13 * (_t86 + _t288 * _u_m24) + _t259 * self.system._k62)
             * self._h1;
         let _t291 = (self.system._k9 * (_t275 * self.system._k62 + _t276) + _t288 * _t83
-            + self.system._k31 * (_t80 + _t286 * _u_m24) + _t277 * self.system._k62)
+            + self.system._k23 * (_t80 + _t286 * _u_m24) + _t277 * self.system._k62)
             * self._h1;
         let _t292 = self.system._k10
             * (_t210 + _t55 * S::ratio(6.0, 1.0) + (_t97 + _t70) * self.system._k63)
@@ -4349,7 +4517,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t311 = _t193 - _t16 * _t306;
         let _t312 = _t9 * _t0 - _t191;
         let _t313 = (self.system._k8 * (-(_t310 * self.system._k64) - _t311)
-            + _t297 * _t30 + self.system._k26 * (_t48 + _t303 * _u_m34)
+            + _t297 * _t30 + self.system._k15 * (_t48 + _t303 * _u_m34)
             - _t312 * self.system._k64) * self._h1;
         let _t314 = _t182 - S::ratio(2.0, 1.0) * _t29;
         let _t315 = _t186 - _t0 * _t306;
@@ -4361,7 +4529,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t319 = _t178 + _t5 * _t306;
         let _t320 = _t9 * _t12 + _t174;
         let _t321 = (self.system._k10 * (_t318 * self.system._k64 + _t319) + _t301 * _t40
-            + self.system._k28 * (_t38 + _t299 * _u_m34) + _t320 * self.system._k64)
+            + self.system._k19 * (_t38 + _t299 * _u_m34) + _t320 * self.system._k64)
             * self._h1;
         let _t322 = _t94 * _t106;
         let _t323 = _t118 * _t128;
@@ -4378,14 +4546,14 @@ for ManakovTopCayleyGenerating4<'_, S> {
             * self._h1;
         let _t331 = _t94 * _t118;
         let _t332 = (self.system._k11 * (-(_t310 * self.system._k58) - _t311)
-            + _t243 * _t31 + self.system._k26 * (_t48 + _t241 * _u_m14)
+            + _t243 * _t31 + self.system._k15 * (_t48 + _t241 * _u_m14)
             - _t312 * self.system._k58) * self._h1;
         let _t333 = _t94 * _t128;
         let _t334 = (self.system._k11 * (-(_t314 * self.system._k60) - _t315)
             + _t265 * _t46 + self.system._k21 * (_t33 + _t263 * _u_m23)
             - _t316 * self.system._k60) * self._h1;
         let _t335 = (self.system._k11 * (_t318 * self.system._k62 + _t319) + _t283 * _t41
-            + self.system._k28 * (_t38 + _t281 * _u_m24) + _t320 * self.system._k62)
+            + self.system._k19 * (_t38 + _t281 * _u_m24) + _t320 * self.system._k62)
             * self._h1;
         let _t336 = _t62 * _t141;
         let _t337 = _t323 + _t336;
@@ -4531,24 +4699,24 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t28 = _t26 + _t27;
         let _t29 = _u_m24 * S::ratio(2.0, 1.0);
         let _t30 = self.system._k11
-            * (-(self.system._k22 * _u_m13 * _u_m14)
-                - self.system._k23 * _u_m23 * _u_m24);
+            * (-(self.system._k32 * _u_m13 * _u_m14)
+                - self.system._k33 * _u_m23 * _u_m24);
         let _t31 = _t30 + _t30;
-        let _t32 = self.system._k22 * _t31;
+        let _t32 = self.system._k32 * _t31;
         let _t33 = self.system._k9
-            * (-(self.system._k18 * _u_m12 * _u_m13)
-                - self.system._k19 * _u_m24 * _u_m34);
+            * (-(self.system._k28 * _u_m12 * _u_m13)
+                - self.system._k29 * _u_m24 * _u_m34);
         let _t34 = _t33 + _t33;
-        let _t35 = self.system._k18 * _t34;
+        let _t35 = self.system._k28 * _t34;
         let _t36 = self.system._k8
             * (self.system._k16 * _u_m12 * _u_m24 + self.system._k17 * _u_m13 * _u_m34);
         let _t37 = _t36 + _t36;
         let _t38 = self.system._k17 * _t37;
         let _t39 = self.system._k6
-            * (-(self.system._k12 * _u_m13 * _u_m23)
-                - self.system._k13 * _u_m14 * _u_m24);
+            * (-(self.system._k34 * _u_m13 * _u_m23)
+                - self.system._k35 * _u_m14 * _u_m24);
         let _t40 = _t39 + _t39;
-        let _t41 = self.system._k12 * _t40;
+        let _t41 = self.system._k34 * _t40;
         let _t42 = _t0 * _t0;
         let _t43 = self.system._k7
             * ((_t0 * _u_m13 * S::ratio(3.0, 1.0) + _t11) * _t12 + _t15 * _t17
@@ -4568,21 +4736,21 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t54 = _t0 * _t16;
         let _t55 = _t54 - _t27;
         let _t56 = self.system._k10
-            * (self.system._k21 * _u_m23 * _u_m34 - self.system._k20 * _u_m12 * _u_m14);
+            * (self.system._k21 * _u_m23 * _u_m34 - self.system._k30 * _u_m12 * _u_m14);
         let _t57 = _t56 + _t56;
-        let _t58 = self.system._k20 * _t57;
+        let _t58 = self.system._k30 * _t57;
         let _t59 = self.system._k7
-            * (self.system._k14 * _u_m12 * _u_m23 - self.system._k15 * _u_m14 * _u_m34);
+            * (self.system._k14 * _u_m12 * _u_m23 - self.system._k31 * _u_m14 * _u_m34);
         let _t60 = _t59 + _t59;
-        let _t61 = self.system._k15 * _t60;
-        let _t62 = self.system._k13 * _t40;
+        let _t61 = self.system._k31 * _t60;
+        let _t62 = self.system._k35 * _t40;
         let _t63 = self.system._k8
             * ((_t1 * _u_m14 * S::ratio(3.0, 1.0) + _t46) * _t47 + _t49 * _t50
                 + _t53 * _t2 + _t55 * _t4) - _u_m13 * _t32 - _u_m12 * _t58
             - _u_m34 * _t61;
         let _t64 = _u_m14 * self._h4
             + (_t63 - _u_m24 * _t62 + _t55 * _t50 + (_t21 + _t53) * _t47) * self._h1;
-        let _t65 = self.system._k23 * _t31;
+        let _t65 = self.system._k33 * _t31;
         let _t66 = self.system._k21 * _t57;
         let _t67 = self.system._k14 * _t60;
         let _t68 = self.system._k9
@@ -4591,7 +4759,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
             + _u_m12 * _t67;
         let _t69 = _u_m23 * self._h5
             + (_t68 - _u_m13 * _t41 + _t55 * _t47 + (_t22 + _t53) * _t50) * self._h1;
-        let _t70 = self.system._k19 * _t34;
+        let _t70 = self.system._k29 * _t34;
         let _t71 = self.system._k16 * _t37;
         let _t72 = self.system._k10
             * ((_t16 * _u_m24 * S::ratio(3.0, 1.0) + _t11) * _t17 + _t15 * _t12

@@ -140,7 +140,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
     /// No operation.
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 0)] = S::one();
         out[(1, 1)] = S::one();
         out[(2, 2)] = S::one();
@@ -156,7 +156,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
         let [[_, _, _, a1, a2]] = mu.data.0;
         let _t0 = -a1;
         let _t1 = -a2;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 3)] = _t0;
         out[(1, 3)] = a1;
         out[(1, 4)] = _t1;
@@ -196,7 +196,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[b1, b2, b3, a1, a2]] = mu.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 3)] = a1 * S::ratio(-4.0, 1.0);
         out[(1, 3)] = a1 * S::ratio(4.0, 1.0);
         out[(1, 4)] = a2 * S::ratio(-4.0, 1.0);
@@ -229,7 +229,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
         field[2] = _t1;
         field[3] = a1 * _t2;
         field[4] = a2 * _t3;
-        jacobian.fill(S::zero());
+        jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 3)] = a1 * S::ratio(-4.0, 1.0);
         jacobian[(1, 3)] = a1 * S::ratio(4.0, 1.0);
         jacobian[(1, 4)] = a2 * S::ratio(-4.0, 1.0);
@@ -248,7 +248,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[b1, b2, b3, _, _]] = mu.data.0;
-        out[0] = b1 + b2 + b3;
+        out[0] = b3 + (b1 + b2);
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -256,7 +256,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
     fn casimir_gradient(&self, _index: usize, _mu: &Self::State, out: &mut Self::State) {
         match _index {
             0 => {
-                out.fill(S::zero());
+                out.as_mut_slice().fill(S::zero());
                 out[0] = S::one();
                 out[1] = S::one();
                 out[2] = S::one();
@@ -276,7 +276,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for TodaLatticeSyste
     fn ad(&self, xi: &Self::State, eta: &Self::State, out: &mut Self::State) {
         let [[_xi_h1, _xi_h2, _xi_h3, _xi_e1, _xi_e2]] = xi.data.0;
         let [[_eta_h1, _eta_h2, _eta_h3, _eta_e1, _eta_e2]] = eta.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[3] = _eta_e1 * (_xi_h1 - _xi_h2) - _xi_e1 * (_eta_h1 - _eta_h2);
         out[4] = _eta_e2 * (_xi_h2 - _xi_h3) - _xi_e2 * (_eta_h2 - _eta_h3);
     }
@@ -303,7 +303,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for TodaLatticeSyste
     #[inline]
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian) {
         let [[_xi_h1, _xi_h2, _xi_h3, _xi_e1, _xi_e2]] = xi.data.0;
-        out.fill(S::zero());
+        out.as_mut_slice().fill(S::zero());
         out[(0, 3)] = -_xi_e1;
         out[(1, 3)] = _xi_e1;
         out[(1, 4)] = -_xi_e2;
@@ -422,7 +422,7 @@ for TodaLatticeGenerating4<'_, S> {
         xi[2] = b3 * self.h + _t4 * _t5 * self._h0;
         xi[3] = a1 * self._h1 + (_t2 * _t6 - _t10 * _t11) * self._h0;
         xi[4] = a2 * self._h1 + (_t4 * _t12 - a2 * S::ratio(8.0, 1.0) * _t13) * self._h0;
-        hessian.fill(S::zero());
+        hessian.as_mut_slice().fill(S::zero());
         hessian[(0, 0)] = self.h + self._h0 * (_t0 * a1);
         hessian[(0, 1)] = _t15;
         hessian[(0, 3)] = _t17;

@@ -19,32 +19,46 @@ pub(super) enum Atom {
         exponent: Fraction,
         /// Position of the scale.
         slot: usize,
-        /// Whether it is not real.
+        /// Whether the exponent is imaginary, not real.
         complex: bool,
     },
-    /// The positive `base^(1/scale)`.
+    /// `|base|^(1/scale)`, where the base is a factor, or a prime number.
     Root {
         /// The base.
         base: Fraction,
+        /// `|base|`, as the base times its sign.
+        absolute: Fraction,
         /// Position of the scale.
         slot: usize,
     },
-    /// `log |argument|` of a variable, a prime number or a primitive polynomial.
-    Logarithm(Polynomial),
+    /// `log |argument|` of a factor, or a prime number.
+    Logarithm(Fraction),
+    /// 1 where a factor is positive, -1 where it is negative.
+    Sign(Fraction),
     /// A function without a simpler form.
     Opaque(Function, Vec<Fraction>),
 }
 
+impl Atom {
+    /// The factor that it is a function of.
+    pub fn base(&self) -> Option<&Fraction> {
+        match self {
+            Atom::Root { base, .. } | Atom::Logarithm(base) | Atom::Sign(base) => Some(base),
+            _ => None,
+        }
+    }
+}
+
 impl NormalForm<'_> {
-    /// The variable of a symbol, of pi or of the imaginary unit.
-    pub(super) fn atom(&mut self, atom: Atom) -> Fraction {
+    /// The variable of an atom that is known by what it contains.
+    pub(super) fn atom(&mut self, atom: Atom) -> usize {
         let found = self.atoms.iter().position(|known| match (known, &atom) {
             (Atom::Symbol(a), Atom::Symbol(b)) => a == b,
-            (Atom::Logarithm(a), Atom::Logarithm(b)) => a == b,
+            (Atom::Logarithm(a), Atom::Logarithm(b)) | (Atom::Sign(a), Atom::Sign(b)) => a == b,
             (Atom::Pi, Atom::Pi) | (Atom::Imaginary, Atom::Imaginary) => true,
             _ => false,
         });
-        Fraction::variable(found.unwrap_or_else(|| self.push(atom)))
+        found.unwrap_or_else(|| self.push(atom))
     }
 
     /// Adds an atom that is not there yet.
@@ -127,11 +141,22 @@ impl NormalForm<'_> {
 
     /// Whether the imaginary unit or an imaginary exponent occurs.
     pub(super) fn is_complex(&self, value: &Fraction) -> bool {
-        self.variables(value).any(|v| match &self.atoms[v] {
+        self.variables(value).any(|v| self.is_complex_atom(v))
+    }
+
+    /// Whether a variable is not real.
+    pub(super) fn is_complex_atom(&self, v: usize) -> bool {
+        match &self.atoms[v] {
             Atom::Imaginary => true,
             Atom::Exponential { complex, .. } => *complex,
             _ => false,
-        })
+        }
+    }
+
+    /// Whether a function is a rational function of symbols and pi, which are algebraically independent.
+    pub(super) fn is_plain(&self, value: &Fraction) -> bool {
+        self.variables(value)
+            .all(|v| matches!(self.atoms[v], Atom::Symbol(_) | Atom::Pi))
     }
 
     /// Whether a polynomial does not depend on the coordinates.
@@ -145,8 +170,7 @@ impl NormalForm<'_> {
             Atom::Symbol(symbol) => !matches!(symbol, Symbol::Coordinate(_)),
             Atom::Pi | Atom::Imaginary => true,
             Atom::Exponential { exponent, .. } => constant(exponent),
-            Atom::Root { base, .. } => constant(base),
-            Atom::Logarithm(argument) => self.is_constant(argument),
+            Atom::Root { base, .. } | Atom::Logarithm(base) | Atom::Sign(base) => constant(base),
             Atom::Opaque(_, arguments) => arguments.iter().all(constant),
         })
     }

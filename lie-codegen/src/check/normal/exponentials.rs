@@ -28,57 +28,61 @@ impl NormalForm<'_> {
         base.pow(exponent, self.budget)?.ok_or(Stop::Undefined)
     }
 
-    /// `exp(exponent)`.
+    /// `exp(exponent)` of a real exponent.
     pub(super) fn exponential(&mut self, exponent: &Fraction) -> Result<Fraction, Stop> {
         let (logarithms, rest) = self.split_logarithms(exponent);
         let mut product = Fraction::from(Rational::ONE);
         for (argument, power) in logarithms {
-            // exp(c log f) = f^c
-            let factor = match power.to_integer() {
-                Some(integer) => self.integer_power(&argument.into(), integer)?,
-                None => self.power(&argument.into(), &power)?,
-            };
+            // exp(c log |f|) = |f|^c
+            let factor = self.factor_power(&argument, &power)?;
             product = product.mul(&factor, self.budget)?;
         }
-        if rest.is_zero() {
-            return Ok(product);
-        }
-        let basis: Vec<(usize, usize, Fraction)> = self
-            .atoms
-            .iter()
-            .enumerate()
-            .filter_map(|(v, atom)| match atom {
-                Atom::Exponential { exponent, slot, .. } => Some((v, *slot, exponent.clone())),
-                _ => None,
-            })
-            .collect();
-        let factor = match self.combination(&rest, &basis)? {
-            Some(coefficients) => {
-                let mut factor = Fraction::from(Rational::ONE);
-                for ((v, slot, _), coefficient) in basis.iter().zip(&coefficients) {
-                    if !coefficient.is_zero() {
-                        let power = self.scaled_power(*v, *slot, coefficient)?;
-                        factor = factor.mul(&power, self.budget)?;
-                    }
-                }
-                factor
-            }
-            None => {
-                let slot = self.next_slot();
-                let complex = self.is_complex(&rest);
-                let v = self.push(Atom::Exponential {
-                    exponent: rest,
-                    slot,
-                    complex,
-                });
-                self.scaled_power(v, slot, &Rational::ONE)?
-            }
-        };
+        let factor = self.in_basis(&rest, false)?;
         Ok(product.mul(&factor, self.budget)?)
     }
 
-    /// Splits `sum of c log f` with rational `c` off a polynomial exponent.
-    fn split_logarithms(&self, exponent: &Fraction) -> (Vec<(Polynomial, Rational)>, Fraction) {
+    /// `exp(exponent)` in the basis of exponents that are imaginary, or real.
+    pub(super) fn in_basis(
+        &mut self,
+        exponent: &Fraction,
+        complex: bool,
+    ) -> Result<Fraction, Stop> {
+        if exponent.is_zero() {
+            return Ok(Rational::ONE.into());
+        }
+        let known = self.atoms.iter().enumerate();
+        let basis: Vec<(usize, usize, Fraction)> = known
+            .filter_map(|(v, atom)| match atom {
+                Atom::Exponential {
+                    exponent,
+                    slot,
+                    complex: kind,
+                } if *kind == complex => Some((v, *slot, exponent.clone())),
+                _ => None,
+            })
+            .collect();
+        if let Some(coefficients) = self.combination(exponent, &basis)? {
+            let mut product = Fraction::from(Rational::ONE);
+            for ((v, slot, _), coefficient) in basis.iter().zip(&coefficients) {
+                if !coefficient.is_zero() {
+                    let power = self.scaled_power(*v, *slot, coefficient)?;
+                    product = product.mul(&power, self.budget)?;
+                }
+            }
+            return Ok(product);
+        }
+        let slot = self.next_slot();
+        let exponent = exponent.clone();
+        let v = self.push(Atom::Exponential {
+            exponent,
+            slot,
+            complex,
+        });
+        self.scaled_power(v, slot, &Rational::ONE)
+    }
+
+    /// Splits `sum of c log |f|` with rational `c` off a polynomial exponent.
+    fn split_logarithms(&self, exponent: &Fraction) -> (Vec<(Fraction, Rational)>, Fraction) {
         if exponent.denominator().next().is_some() {
             return (Vec::new(), exponent.clone());
         }
@@ -118,11 +122,12 @@ impl NormalForm<'_> {
         let common = Fraction::from(common);
         let mut columns = Vec::new();
         for element in all() {
-            columns.push(
-                self.reduce(&element.mul(&common, self.budget)?)?
-                    .numerator()
-                    .clone(),
-            );
+            let column = self.reduce(&element.mul(&common, self.budget)?)?;
+            // only numerators over one denominator can be compared
+            if column.denominator().next().is_some() {
+                return Ok(None);
+            }
+            columns.push(column.numerator().clone());
         }
         let monomials: BTreeSet<_> = columns
             .iter()

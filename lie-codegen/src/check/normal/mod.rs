@@ -1,26 +1,34 @@
 //! A normal form that proves expressions to be zero: rational functions over atoms.
 //!
-//! Atoms are symbols, pi, the imaginary unit, exponentials, roots, logarithms and the functions
+//! An identity is one that holds wherever everything in it is real and defined (but for sets without inner
+//! points), so that `exp(log(-x)) = -x` is one and `exp(log(x^2)/2) = x` is none: that is |x|.
+//!
+//! Atoms are symbols, pi, the imaginary unit, exponentials, roots, logarithms, signs and the functions
 //! that have no simpler form. Exponentials are written in a basis of exponents that is linearly
 //! independent over the rationals, so that `exp(a) exp(b) = exp(a + b)` holds by itself, and with
 //! `sin a = (exp(i a) - exp(-i a))/(2 i)` the identities of the trigonometric and hyperbolic
-//! functions hold too. Roots obey `r^q = base`, logarithms are taken apart by factors.
+//! functions hold too. Roots and logarithms are those of the absolute values of factors (see `factors`), which
+//! are the factors times their signs (see `signs`).
 //!
-//! What is found to be zero is zero. What is not may be zero still where atoms other than symbols
-//! are left: then nothing is decided.
+//! What is found to be zero is zero: every such verdict is confirmed at points of both signs in many digits
+//! (see `confirmation`), and where no point is found in the domain, nothing is decided. What is not found to be
+//! zero may be zero still where atoms other than symbols are left: then nothing is decided either.
 
+mod angles;
 mod atoms;
 mod exponentials;
-mod logarithms;
+mod factors;
 mod primes;
 mod reduce;
-mod roots;
+mod signs;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
+use super::confirmation::{Confirmation, Finding};
 use crate::exact::{Budget, Exhausted, Fraction, Polynomial, Rational};
 use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
 use atoms::Atom;
+use signs::{Fact, Relations, facts};
 
 /// What the normal form says of an expression.
 #[derive(Clone, Debug)]
@@ -31,6 +39,8 @@ pub enum Verdict {
     Nonzero(Fraction),
     /// Neither could be shown.
     Undecided,
+    /// The prover says that it is zero, and it is not: a mistake of the compiler, which is kept for the report.
+    Contradicted,
 }
 
 /// Why a conversion ends early.
@@ -61,24 +71,82 @@ pub struct NormalForm<'a> {
     /// Denominators of the exponents of exponentials and roots, in the order of their creation.
     scales: Vec<i64>,
     values: HashMap<ExprId, Fraction>,
+    /// Functions of which the domain is looked at, and nothing beyond it.
+    domain: Vec<ExprId>,
+    /// What is known on the domain.
+    facts: BTreeSet<(ExprId, Fact)>,
+    /// Whether the relations say what follows from the facts.
+    established: bool,
+    relations: Relations,
+    confirmation: Confirmation<'a>,
 }
 
 impl<'a> NormalForm<'a> {
     /// A conversion that knows nothing yet.
     pub fn new(graph: &'a Graph, budget: &'a Budget) -> Self {
+        Self::within(graph, budget, &[])
+    }
+
+    /// A conversion of functions on the domain where these are real and defined too: of derivatives on that of
+    /// the function.
+    pub fn within(graph: &'a Graph, budget: &'a Budget, domain: &[ExprId]) -> Self {
         Self {
             graph,
             budget,
             atoms: Vec::new(),
             scales: Vec::new(),
             values: HashMap::new(),
+            domain: domain.to_vec(),
+            facts: facts(graph, domain),
+            established: false,
+            relations: Relations::default(),
+            confirmation: Confirmation::new(graph, domain),
         }
     }
 
     /// Whether an expression is identically zero.
     pub fn verdict(&mut self, id: ExprId) -> Verdict {
+        match self.unconfirmed(id) {
+            Verdict::Zero => match self.confirmation.of(id) {
+                Finding::Zero => Verdict::Zero,
+                Finding::Unknown => Verdict::Undecided,
+                Finding::Nonzero => {
+                    super::contradiction::keep(self.graph, id);
+                    Verdict::Contradicted
+                }
+            },
+            other => other,
+        }
+    }
+
+    /// Whether an expression is not zero at some point of the domain, by rigorous bounds.
+    pub fn finding(&mut self, id: ExprId) -> Finding {
+        self.confirmation.of(id)
+    }
+
+    /// The verdict of the normal form alone.
+    fn unconfirmed(&mut self, id: ExprId) -> Verdict {
+        self.enter(id);
         self.refined(|form| form.decide(id))
             .unwrap_or(Verdict::Undecided)
+    }
+
+    /// Takes up the facts of the domain of an expression, in place of those of the one before.
+    fn enter(&mut self, id: ExprId) {
+        let mut roots = self.domain.clone();
+        roots.push(id);
+        let facts = facts(self.graph, &roots);
+        if facts != self.facts {
+            self.forget();
+            self.facts = facts;
+        }
+    }
+
+    fn forget(&mut self) {
+        self.atoms.clear();
+        self.values.clear();
+        self.relations.clear();
+        self.established = false;
     }
 
     /// Does something, again with finer roots as long as it asks for them.
@@ -86,10 +154,7 @@ impl<'a> NormalForm<'a> {
         for _ in 0..REFINEMENTS {
             match work(self) {
                 Ok(value) => return Some(value),
-                Err(Stop::Refine) => {
-                    self.atoms.clear();
-                    self.values.clear();
-                }
+                Err(Stop::Refine) => self.forget(),
                 Err(Stop::Exhausted | Stop::Undefined) => return None,
             }
         }
@@ -98,7 +163,21 @@ impl<'a> NormalForm<'a> {
 
     /// The total degree in the coordinates, if the expression is a polynomial in them.
     pub fn degree(&mut self, id: ExprId) -> Option<u32> {
+        let degree = self.unconfirmed_degree(id)?;
+        match self.confirmation.of_degree(id, degree) {
+            Finding::Zero => Some(degree),
+            Finding::Unknown => None,
+            Finding::Nonzero => {
+                super::contradiction::keep(self.graph, id);
+                None
+            }
+        }
+    }
+
+    fn unconfirmed_degree(&mut self, id: ExprId) -> Option<u32> {
+        self.enter(id);
         let value = self.refined(|form| {
+            form.establish()?;
             let value = form.convert(id)?;
             form.reduce(&value)
         })?;
@@ -138,14 +217,16 @@ impl<'a> NormalForm<'a> {
     }
 
     fn decide(&mut self, id: ExprId) -> Result<Verdict, Stop> {
+        self.establish()?;
         let value = self.convert(id)?;
-        if self.vanishes(&value)? {
+        if value.is_zero() {
             return Ok(Verdict::Zero);
         }
-        let proven = self
-            .variables(&value)
-            .all(|v| matches!(self.atoms[v], Atom::Symbol(_) | Atom::Pi));
-        Ok(if proven {
+        let value = self.reduce(&value)?;
+        if value.is_zero() {
+            return Ok(Verdict::Zero);
+        }
+        Ok(if self.is_plain(&value) {
             Verdict::Nonzero(value)
         } else {
             Verdict::Undecided
@@ -170,8 +251,8 @@ impl<'a> NormalForm<'a> {
         let graph = self.graph;
         match graph.node(id) {
             Node::Number(value) => Ok(value.clone().into()),
-            Node::Pi => Ok(self.atom(Atom::Pi)),
-            Node::Symbol(symbol) => Ok(self.atom(Atom::Symbol(*symbol))),
+            Node::Pi => Ok(Fraction::variable(self.atom(Atom::Pi))),
+            Node::Symbol(symbol) => Ok(Fraction::variable(self.atom(Atom::Symbol(*symbol)))),
             Node::Sum { constant, terms } => {
                 // Polynomial terms are collected in place, which matters for long sums.
                 let mut polynomial = Polynomial::constant(constant.clone());
@@ -189,17 +270,31 @@ impl<'a> NormalForm<'a> {
                 }
                 Ok(sum.add(&polynomial.into(), self.budget)?)
             }
+            Node::Written(terms) => {
+                let mut sum = Fraction::default();
+                for (term, coefficient) in terms {
+                    sum = sum.add(&self.values[term].scale(coefficient), self.budget)?;
+                }
+                Ok(sum)
+            }
             Node::Product(factors) => {
                 let mut product = Fraction::from(Rational::ONE);
                 for (base, exponent) in factors {
-                    let base = self.values[base].clone();
                     let power = match exponent.to_integer() {
-                        Some(integer) => self.integer_power(&base, integer)?,
-                        None => self.power(&base, exponent)?,
+                        Some(integer) => {
+                            let base = self.values[base].clone();
+                            self.integer_power(&base, integer)?
+                        }
+                        None => self.fractional_power(*base, exponent)?,
                     };
                     product = product.mul(&power, self.budget)?;
                 }
                 Ok(product)
+            }
+            Node::Call(Function::Log, arguments) => self.logarithm(arguments[0]),
+            Node::Call(function @ (Function::Sin | Function::Cos | Function::Tan), arguments) => {
+                let power = self.rotation_of(arguments[0])?;
+                self.circular(*function, &power)
             }
             Node::Call(function, arguments) => {
                 let arguments: Vec<Fraction> =
@@ -214,7 +309,6 @@ impl<'a> NormalForm<'a> {
         let argument = &arguments[0];
         match function {
             Function::Exp => self.exponential(argument),
-            Function::Log => self.logarithm(argument),
             Function::Sinh | Function::Cosh | Function::Tanh => {
                 let power = self.exponential(argument)?;
                 let inverse = self.reciprocal(&power)?;
@@ -226,26 +320,33 @@ impl<'a> NormalForm<'a> {
                     _ => Ok(difference.mul(&self.reciprocal(&sum)?, self.budget)?),
                 }
             }
-            Function::Sin | Function::Cos | Function::Tan => {
-                let unit = self.atom(Atom::Imaginary);
-                let exponent = unit.mul(argument, self.budget)?;
-                let exponent = self.reduce(&exponent)?;
-                let power = self.exponential(&exponent)?;
-                let inverse = self.reciprocal(&power)?;
-                let sum = power.add(&inverse, self.budget)?;
-                // 1/i = -i
-                let difference = power
-                    .sub(&inverse, self.budget)?
-                    .mul(&unit.neg(), self.budget)?;
-                match function {
-                    Function::Sin => Ok(difference.scale(&half)),
-                    Function::Cos => Ok(sum.scale(&half)),
-                    _ => Ok(difference.mul(&self.reciprocal(&sum)?, self.budget)?),
+            Function::Asin | Function::Atan if argument.numerator().content().is_negative() => {
+                Ok(self.call(function, &[argument.neg()])?.neg())
+            }
+            _ => {
+                let value = argument.as_constant();
+                match value.and_then(|value| self.known_angle(function, &value)) {
+                    Some(angle) => Ok(angle),
+                    None => self.opaque(function, arguments),
                 }
             }
-            Function::Asin | Function::Acos | Function::Atan | Function::Atan2 => {
-                self.opaque(function, arguments)
-            }
+        }
+    }
+
+    /// Sine, cosine or tangent of an angle a from `exp(i a)`.
+    fn circular(&mut self, function: Function, power: &Fraction) -> Result<Fraction, Stop> {
+        let half = &Rational::ONE / &Rational::from(2);
+        let unit = self.unit();
+        let inverse = self.reciprocal(power)?;
+        let sum = power.add(&inverse, self.budget)?;
+        // 1/i = -i
+        let difference = power
+            .sub(&inverse, self.budget)?
+            .mul(&unit.neg(), self.budget)?;
+        match function {
+            Function::Sin => Ok(difference.scale(&half)),
+            Function::Cos => Ok(sum.scale(&half)),
+            _ => Ok(difference.mul(&self.reciprocal(&sum)?, self.budget)?),
         }
     }
 }

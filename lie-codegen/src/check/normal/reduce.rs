@@ -1,4 +1,5 @@
-//! The relations between atoms: `i^2 = -1` and `r^q = base`.
+//! The relations between atoms: `i^2 = -1`, `r^q = |base|`, `s^2 = 1` and those between signs,
+//! `exp(i pi/q)^q = -1`.
 
 use std::collections::BTreeMap;
 
@@ -25,16 +26,28 @@ impl NormalForm<'_> {
         Ok(result)
     }
 
+    fn order(&self, slot: usize) -> Result<u32, Stop> {
+        u32::try_from(self.scales[slot]).map_err(|_| Stop::Exhausted)
+    }
+
     /// The base of an atom refers to earlier atoms only, so that one descending pass is enough.
     fn reduce_polynomial(&self, polynomial: &Polynomial) -> Result<Fraction, Stop> {
         let mut value = Fraction::from(polynomial.clone());
         for v in (0..self.atoms.len()).rev() {
             let (order, base) = match &self.atoms[v] {
                 Atom::Imaginary => (2, Fraction::from(Rational::MINUS_ONE)),
-                Atom::Root { base, slot } => (
-                    u32::try_from(self.scales[*slot]).map_err(|_| Stop::Exhausted)?,
-                    base.clone(),
-                ),
+                Atom::Root { absolute, slot, .. } => (self.order(*slot)?, absolute.clone()),
+                Atom::Exponential {
+                    exponent,
+                    slot,
+                    complex: true,
+                } if self.is_half_turn(exponent) => {
+                    (self.order(*slot)?, Fraction::from(Rational::MINUS_ONE))
+                }
+                Atom::Sign(_) => match self.relations.get(v) {
+                    Some(equal) => (1, equal.value()),
+                    None => (2, Fraction::from(Rational::ONE)),
+                },
                 _ => continue,
             };
             if value
@@ -60,8 +73,9 @@ impl NormalForm<'_> {
                 sum = sum.add(&factor.mul(&part.into(), self.budget)?, self.budget)?;
             }
             for (factor, exponent) in value.denominator() {
+                let exponent = i32::try_from(exponent).map_err(|_| Stop::Exhausted)?;
                 let inverse = Fraction::from(factor.clone())
-                    .pow(-(exponent as i32), self.budget)?
+                    .pow(-exponent, self.budget)?
                     .ok_or(Stop::Undefined)?;
                 sum = sum.mul(&inverse, self.budget)?;
             }

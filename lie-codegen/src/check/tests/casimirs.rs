@@ -95,7 +95,7 @@ fn what_is_none_is_refused_with_the_bracket() {
 #[test]
 fn what_cannot_be_decided_is_refused_as_unproven() {
     for casimir in [
-        "x^2 + y^2 + z^2 + x*(sqrt(x^2*y^2) - sqrt(x^2)*sqrt(y^2))",
+        "x^2 + y^2 + z^2 + x*(cos(pi/5) - (1 + sqrt(5))/4)",
         "x^2 + y^2 + z^2 + y*(asin(x/9) + acos(x/9) - pi/2)",
         "x^2 + y^2 + z^2 + x*(sqrt(3 + 2*sqrt(2)) - 1 - sqrt(2))",
     ] {
@@ -177,6 +177,7 @@ fn names_skip_what_is_taken() {
         .collect();
     let expected = [("C1", "x"), ("C3", "y"), ("C4", "z")];
     assert_eq!(names, expected.map(|(n, e)| (n, e.to_string(), Some(1))));
-    assert_eq!(warnings.len(), 1);
+    let left_out = warnings.iter().filter(|d| d.kind == Kind::Casimir);
+    assert_eq!(left_out.count(), 1);
     assert_eq!(model.generic_rank, 0);
 }

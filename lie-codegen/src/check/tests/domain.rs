@@ -9,6 +9,7 @@ fn what_is_not_finite_points_at_the_entry() {
             ("hamiltonian", &hamiltonian),
             ("initial", initial),
             ("parameters", r#"{"k": 0}"#),
+            ("casimirs", r#"["C = k + x^2 + y^2 + z^2"]"#),
         ]))
     };
     assert_eq!(

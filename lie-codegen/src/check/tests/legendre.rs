@@ -393,3 +393,26 @@ fn discrete_lagrangians_without_a_limit_are_refused() {
         }
     }
 }
+
+/// Behind folds of a Lagrangian that is not convex there is a velocity where it is the only one of its momentum.
+#[test]
+fn a_velocity_behind_folds() {
+    let lagrangian = |initial: &str| {
+        so3(&[
+            ("hamiltonian", "null"),
+            ("velocity", r#"["u", "v", "w"]"#),
+            (
+                "lagrangian",
+                r#""u^2/2 - u^4/4 + 3*u^6/60 + v^2 + w^2*3/2""#,
+            ),
+            ("initial", initial),
+        ])
+        .replace("\"hamiltonian\": null,\n", "")
+    };
+    for x in [
+        "0.2", "0.41", "0.42", "0.83", "0.97", "1", "1.03", "-1", "40",
+    ] {
+        let (model, diagnostics) = run(&lagrangian(&format!("[{x}, 0.9, 0.8]")));
+        assert!(model.is_some(), "{x}: {diagnostics:#?}");
+    }
+}

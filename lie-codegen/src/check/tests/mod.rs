@@ -2,11 +2,15 @@ mod algebra;
 mod casimirs;
 mod configuration;
 mod domain;
+mod extremes;
+mod idle;
 mod legendre;
 mod limits;
 mod names;
 mod poisson;
 mod random;
+mod realization;
+mod soundness;
 
 use super::*;
 use crate::diagnostic::Origin;

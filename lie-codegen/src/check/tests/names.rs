@@ -147,3 +147,62 @@ fn lengths() {
         &["basis"],
     );
 }
+
+#[test]
+fn names_are_compared_in_normal_form() {
+    // `é` as one character and as two, and the sign of the ohm, which is a capital omega.
+    let text = so3(&[
+        ("state", r#"["\u00e9", "y", "z"]"#),
+        ("parameters", r#"{"\u2126": 2}"#),
+        ("hamiltonian", "\"e\u{301}^2/\u{3a9} + 2*\u{e9}\""),
+    ]);
+    let found = model(&text);
+    assert_eq!(found.coordinates[0].text, "\u{e9}");
+    assert_eq!(found.parameters[0].name, "\u{3a9}");
+    let text = so3(&[
+        ("state", "[\"e\u{301}\", \"\u{e9}\", \"z\"]"),
+        ("hamiltonian", r#""z""#),
+    ]);
+    expect(
+        &text,
+        &["duplicate-name at \u{e9}: `\u{e9}` is declared twice"],
+    );
+    let (_, diagnostics) = run(&text);
+    let help = diagnostics[0].help.as_deref().unwrap();
+    assert!(help.contains("normalisation form C"), "{help}");
+}
+
+#[test]
+fn names_have_no_characters_that_are_not_seen() {
+    let text = so3(&[
+        ("state", "[\"x\", \"x\u{fe0f}\", \"z\"]"),
+        ("hamiltonian", r#""x""#),
+    ]);
+    expect(
+        &text,
+        &["syntax at x\u{fe0f}: the name `x\\u{fe0f}` contains U+FE0F, which is not seen"],
+    );
+}
+
+#[test]
+fn constants_of_other_languages() {
+    for (text, says) in [
+        ("π*x", "did you mean `pi`?"),
+        ("e^x", "is written `exp(x)`"),
+        ("inf*x", "a finite value"),
+        ("NaN + x", "a finite value"),
+        ("i*x", "all quantities are real"),
+        // Cyrillic, and the wide form.
+        ("\u{445}^2", "write `x`"),
+        ("\u{ff58}^2", "write `x`"),
+        ("omega*x", "declare `omega` as a parameter"),
+    ] {
+        let (_, diagnostics) = run(&so3(&[("hamiltonian", &format!("{text:?}"))]));
+        let [found] = diagnostics.as_slice() else {
+            panic!("{text}: {diagnostics:?}")
+        };
+        assert_eq!(found.kind, Kind::UnknownSymbol, "{text}");
+        let help = found.help.as_deref().unwrap_or_default();
+        assert!(help.contains(says), "{text}: {help}");
+    }
+}

@@ -179,7 +179,7 @@ fn matrix(entry: &Entry<'_>, names: &Names, report: &mut Report) -> Option<Matri
     Some(Matrix { name, rows, origin })
 }
 
-/// `{ I1 = 2.0; exact k = 1/3; }`: the names that could be read, and the parameters without mistakes.
+/// `{ I1 = 2.0, positive; exact k = 1/3; }`: the names that could be read, and the parameters without mistakes.
 pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> (Vec<Name>, Vec<Parameter>) {
     let (mut names, mut parameters) = (Vec::new(), Vec::new());
     for entry in entries {
@@ -202,6 +202,7 @@ pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> (Vec<Name>, V
             continue;
         };
         names.push(name.clone());
+        let (value, positive) = positive(value, report);
         if value.is_empty() {
             report.push(item::missing_constant(name.origin));
         } else if let Some(default) = item::constant(value, report) {
@@ -210,10 +211,29 @@ pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> (Vec<Name>, V
                 name,
                 default,
                 exact,
+                positive,
                 unit: None,
                 description,
             });
         }
     }
     (names, parameters)
+}
+
+/// Splits `, positive` off the default of a parameter.
+fn positive<'a>(value: &'a [Token], report: &mut Report) -> (&'a [Token], bool) {
+    let [default @ .., comma, word] = value else {
+        return (value, false);
+    };
+    let Some(text) = word.identifier().filter(|_| comma.is(',')) else {
+        return (value, false);
+    };
+    if text != "positive" {
+        let message = format!("unknown word `{text}` behind the default of a parameter");
+        report.push(
+            Diagnostic::new(Kind::Syntax, word.origin, message)
+                .help("write `, positive` for a parameter that takes positive values only"),
+        );
+    }
+    (default, true)
 }

@@ -97,7 +97,7 @@ pub fn split<'a>(tokens: &'a [Token], report: &mut Report) -> Vec<Entry<'a>> {
             let stray = cursor.advance();
             if let Some(last) = stray.or(cursor.previous()) {
                 let diagnostic = match stray {
-                    Some(stray) => mistakes::unexpected(stray, tokens.last()),
+                    Some(stray) => mistakes::unexpected(stray, tokens.last(), &[]),
                     None => {
                         Diagnostic::new(Kind::Syntax, last.origin, "`;` is missing").help("add it")
                     }

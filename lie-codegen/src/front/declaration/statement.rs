@@ -3,7 +3,7 @@
 use super::entry::{Entry, docs, inside, split};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::front::token::{Cursor, Delimiter, Token, TokenKind, render};
-use crate::suggest::did_you_mean;
+use crate::suggest::meant;
 
 /// The words that begin a statement, and what follows each: enough to notice a missing `;`.
 const KEYWORDS: &[(&str, Follows)] = &[
@@ -125,12 +125,10 @@ pub fn statements<'a>(tokens: &'a [Token], report: &mut Report) -> Vec<Statement
                 report.push(unknown(token, cursor.peek()));
                 // A misspelt keyword stands for the one that was meant, so that nothing else
                 // seems missing and its own mistakes are found too.
-                let meant = word
-                    .and_then(|word| {
-                        did_you_mean(word, KEYWORDS.iter().map(|(keyword, _)| *keyword))
-                    })
+                let keyword = word
+                    .and_then(|word| meant(word, KEYWORDS.iter().map(|(keyword, _)| *keyword)))
                     .filter(|keyword| fits(&cursor, keyword));
-                if let Some(keyword) = meant {
+                if let Some(keyword) = keyword {
                     let rest = rest(&mut cursor, keyword, report);
                     statements.push(Statement {
                         docs,
@@ -220,7 +218,7 @@ fn fits(cursor: &Cursor<'_>, keyword: &str) -> bool {
 fn unknown(token: &Token, next: Option<&Token>) -> Diagnostic {
     let text = render(std::slice::from_ref(token));
     let words = || KEYWORDS.iter().map(|(word, _)| *word);
-    let help = match did_you_mean(&text, words()) {
+    let help = match meant(&text, words()) {
         Some(near) => format!("did you mean `{near}`?"),
         None if token.kind == TokenKind::Open(Delimiter::Bracket) || text == "basis" => {
             "brackets and `basis` stand inside `algebra { … }`".into()

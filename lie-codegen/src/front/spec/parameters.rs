@@ -2,11 +2,11 @@
 
 use super::quantity;
 use crate::ast::{Name, Parameter};
-use crate::diagnostic::Report;
-use crate::front::item;
+use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, string, wrong_type};
 use crate::front::schema::DescribedParameter;
+use crate::front::{item, prose};
 
 /// What was found.
 #[derive(Default)]
@@ -36,6 +36,7 @@ pub fn read(value: Value<'_>, report: &mut Report) -> Parameters {
                 name,
                 default,
                 exact: false,
+                positive: false,
                 unit: None,
                 description: None,
             })
@@ -52,23 +53,33 @@ fn described(
     report: &mut Report,
 ) -> Option<Parameter> {
     let object = Object::read(value, what, DescribedParameter::KEYS, report)?;
-    object.require(what, DescribedParameter::REQUIRED, report);
-    let mut text = |key: &str| {
-        Some(
-            string(object.get(key)?, &format!("`{key}`"), report)?
-                .text
-                .into_owned(),
-        )
+    let (default, value) = (object.get("default"), object.get("value"));
+    if let (Some(_), Some(value)) = (default, value) {
+        let message = format!("{what} has both `default` and `value`, which mean the same");
+        report.push(
+            Diagnostic::new(Kind::Schema, value.origin(), message).help("remove one of the two"),
+        );
+    }
+    let needed = match value {
+        Some(_) => DescribedParameter::REQUIRED,
+        None => &["default"],
     };
-    let (unit, description) = (text("unit"), text("description"));
-    let exact = object.get("exact").map(|v| {
-        if v.boolean().is_none() {
-            report.push(wrong_type(&v, "`exact`", "a boolean"));
-        }
-        v.boolean() == Some(true)
-    });
+    object.require(what, needed, report);
+    let mut text = |key: &str, place: &str| string(object.get(key)?, place, report);
+    let (unit, description) = (text("unit", "`unit`"), text("description", "`description`"));
+    let unit = unit.map(|text| prose::inline(&text, "the unit", report));
+    let description = description.map(|text| prose::paragraph(&text, "the description", report));
+    let mut flag = |key: &str| {
+        object.get(key).is_some_and(|v| {
+            if v.boolean().is_none() {
+                report.push(wrong_type(&v, &format!("`{key}`"), "a boolean"));
+            }
+            v.boolean() == Some(true)
+        })
+    };
+    let (exact, positive) = (flag("exact"), flag("positive"));
     let default = quantity(
-        object.get("default")?,
+        default.or(value)?,
         &format!("the default of {what}"),
         None,
         report,
@@ -76,7 +87,8 @@ fn described(
     Some(Parameter {
         name: name?,
         default,
-        exact: exact == Some(true),
+        exact,
+        positive,
         unit,
         description,
     })

@@ -381,3 +381,17 @@ fn brackets_of_coordinates() {
         one(Kind::Syntax, "1")
     );
 }
+
+#[test]
+fn parameters_may_be_positive() {
+    let text = BODY.replacen("I1 = 2.0; I2 = 2e0;", "I1 = 2.0, positive; I2 = 2e0;", 1);
+    let text = text.replacen("exact k = 1/3;", "exact k = 1/3, positive;", 1);
+    let parameters = declared(&text).parameters;
+    let read: Vec<_> = parameters.iter().map(|p| (p.positive, p.exact)).collect();
+    assert_eq!(read, [(true, false), (false, false), (true, true)]);
+    assert_eq!(explicit(&parameters[0].default), "2");
+    let found = changed("I1 = 2.0;", "I1 = 2.0, positve;");
+    assert_eq!(found, [(Kind::Syntax, "positve".into())]);
+    let found = changed("I1 = 2.0;", "I1 = , positive;");
+    assert_eq!(found.len(), 1, "{found:?}");
+}

@@ -141,8 +141,8 @@ fn functions() {
         mistake("sni(x)"),
         (Kind::UnknownFunction, "sni", "did you mean `sin`?".into())
     );
-    assert_eq!(mistake("ln(x)").2, "did you mean `log`?");
-    assert_eq!(mistake("pow(x, 2)").2, "a power is written `a^b`");
+    assert_eq!(mistake("ln(x)").2, "write `log(x)`");
+    assert_eq!(mistake("pow(x, 2)").2, "write `x^2`");
     assert!(
         mistake("gamma(x)")
             .2
@@ -243,7 +243,14 @@ fn families_are_read_and_refused() {
         place
     };
     assert_eq!(not_built("1 + x[i+1]^2"), "x[i+1]");
-    assert_eq!(not_built("x[0]"), "x[0]");
+    assert_eq!(
+        mistake("x[0]"),
+        (
+            Kind::Syntax,
+            "x[0]",
+            "write the name of the coordinate as it stands in the state".into()
+        )
+    );
     assert_eq!(not_built("x[i-2]"), "x[i-2]");
     assert_eq!(
         not_built("2*sum(i in 0..N: x[i]^2)"),

@@ -28,6 +28,9 @@ pub struct Finding {
     pub bound: f64,
     /// Whether it holds.
     pub verdict: Verdict,
+    /// The step of the measurement, which is smaller than the one asked for where that failed; of an order the
+    /// largest one that counts. Not a number where nothing was measured.
+    pub step: f64,
     /// What else there is to say.
     pub note: String,
 }
@@ -47,8 +50,14 @@ impl Finding {
             measured,
             bound,
             verdict,
+            step: f64::NAN,
             note: String::new(),
         }
+    }
+
+    /// Something that must be equal to the last bit.
+    pub(crate) fn exact(fact: &'static str, difference: f64) -> Self {
+        Self::zero(fact, true, difference, 0.0)
     }
 
     /// Something that is claimed to be at least `bound`.
@@ -70,6 +79,7 @@ impl Finding {
             measured,
             bound,
             verdict,
+            step: f64::NAN,
             note: String::new(),
         }
     }
@@ -87,8 +97,15 @@ impl Finding {
             measured: 0.0,
             bound: 0.0,
             verdict: Verdict::Absent,
+            step: f64::NAN,
             note: note.to_owned(),
         }
+    }
+
+    /// Adds the step of the measurement.
+    pub(super) fn at(mut self, step: f64) -> Self {
+        self.step = step;
+        self
     }
 
     pub(super) fn note(mut self, note: String) -> Self {

@@ -4,9 +4,11 @@ use super::super::integrals::{Integral, integrals};
 use super::super::orbit::orbit_distance;
 use super::super::random::Random;
 use super::super::reference::reference;
+use super::group::{self, GroupCheck};
 use crate::matrix::SquareMatrix;
-use crate::poisson::{LiePoisson, Poisson};
+use crate::poisson::{LiePoisson, Lift, Poisson};
 use crate::state::{State, Unknown};
+use crate::structure::MatrixGroup;
 
 /// States near the initial one, on which nothing vanishes by accident, and with it.
 const GENERIC: usize = 3;
@@ -16,7 +18,7 @@ const SPANS: [f64; 3] = [8.0, 32.0, 128.0];
 const RELIABLE: f64 = 1e-9;
 
 /// States, steps, reference solutions and first integrals of a system.
-pub struct Ground<P: Poisson<f64>> {
+pub struct Ground<P: Lift<f64>> {
     /// The states at which everything is measured: the initial one, then seeded ones near it.
     pub states: Vec<P::State>,
     /// The step of the measurements.
@@ -34,6 +36,8 @@ pub struct Ground<P: Poisson<f64>> {
     pub structure: f64,
     /// The distance of a state from the coadjoint orbit of another, where there are orbits.
     pub orbit: Option<OrbitDistance<P>>,
+    /// The check of the group element, where there are matrices.
+    pub group: Option<GroupCheck<P>>,
 }
 
 /// The distance of the second state from the orbit of the first.
@@ -62,7 +66,7 @@ impl<V: State<f64>> Exact<V> {
     }
 }
 
-impl<P: Poisson<f64>> Ground<P> {
+impl<P: Lift<f64>> Ground<P> {
     /// Prepares the measurements around an initial state. `step` replaces the step that is found.
     ///
     /// # Errors
@@ -123,6 +127,7 @@ impl<P: Poisson<f64>> Ground<P> {
             quadratic,
             structure,
             orbit: None,
+            group: None,
         })
     }
 
@@ -134,6 +139,18 @@ impl<P: Poisson<f64>> Ground<P> {
     {
         Self {
             orbit: Some(orbit_distance::<P>),
+            ..self
+        }
+    }
+
+    /// The same for a system whose algebra has matrices.
+    #[must_use]
+    pub fn with_group(self) -> Self
+    where
+        P: Lift<f64> + MatrixGroup<f64> + Clone,
+    {
+        Self {
+            group: Some(group::finding::<P>),
             ..self
         }
     }

@@ -2,7 +2,8 @@
 
 use super::findings::Finding;
 use super::ground::Ground;
-use super::{PER_STEP, Subject, smaller_steps};
+use super::{PER_STEP, smaller_steps};
+use crate::diagnostics::any::AnyMethod;
 use crate::diagnostics::integrals::Integral;
 use crate::methods::StepFailure;
 use crate::newton::NewtonOptions;
@@ -31,15 +32,15 @@ struct Group<'a, P: Poisson<f64>> {
 pub(super) fn findings<P: Lift<f64>>(
     system: &P,
     ground: &Ground<P>,
-    subject: &Subject<P>,
+    method: &dyn AnyMethod<f64, P>,
 ) -> Vec<Finding> {
-    groups(system, ground, subject)
+    groups(system, ground, method)
         .iter()
         .map(|group| {
             if group.members.is_empty() {
                 return Finding::absent(group.fact, "none");
             }
-            let all = |h: f64| measure(system, ground, subject, group, h);
+            let all = |h: f64| measure(system, ground, method, group, h);
             match smaller_steps(ground.step, all) {
                 Ok(((drift, excess), h)) => {
                     // the bound differs between members: the largest excess decides
@@ -48,11 +49,7 @@ pub(super) fn findings<P: Lift<f64>>(
                     } else {
                         bound(0.0)
                     };
-                    let mut finding = Finding::zero(group.fact, group.claimed, drift, bound);
-                    if h != ground.step {
-                        finding = finding.note(format!("step {h:.2e}"));
-                    }
-                    finding
+                    Finding::zero(group.fact, group.claimed, drift, bound).at(h)
                 }
                 Err(failure) => Finding::unmeasured(group.fact, group.claimed, &failure),
             }
@@ -67,9 +64,9 @@ fn bound(defect: f64) -> f64 {
 fn groups<'a, P: Lift<f64>>(
     system: &'a P,
     ground: &'a Ground<P>,
-    subject: &Subject<P>,
+    method: &dyn AnyMethod<f64, P>,
 ) -> Vec<Group<'a, P>> {
-    let kept = subject.method.claims().preserves;
+    let kept = method.claims().preserves;
     let quadratic_energy = P::HAMILTONIAN_DEGREE.is_some_and(|degree| degree <= 2);
     let energy = Watched {
         value: Box::new(|mu| system.hamiltonian(mu)),
@@ -85,6 +82,7 @@ fn groups<'a, P: Lift<f64>>(
         let of_kind = move |index: &usize| degree(*index).is_some_and(|d| d <= 2) == quadratic;
         (0..P::CASIMIRS)
             .filter(of_kind)
+            .filter(|index| !P::MULTIVALUED_CASIMIRS.contains(index))
             .map(|index| casimir(system, index))
             .collect()
     };
@@ -152,7 +150,7 @@ fn integral<P: Poisson<f64>>(integral: &Integral) -> Watched<'_, P> {
 fn measure<P: Lift<f64>>(
     system: &P,
     ground: &Ground<P>,
-    subject: &Subject<P>,
+    method: &dyn AnyMethod<f64, P>,
     group: &Group<'_, P>,
     h: f64,
 ) -> Result<(f64, f64), StepFailure> {
@@ -163,7 +161,7 @@ fn measure<P: Lift<f64>>(
             let first: Vec<f64> = group.members.iter().map(|m| (m.value)(start)).collect();
             let mut sizes: Vec<f64> = group.members.iter().map(|m| (m.size)(start)).collect();
             let mut mu = start.clone();
-            let mut stepper = subject.method.any_stepper(system, h, &newton);
+            let mut stepper = method.any_stepper(system, h, &newton);
             for _ in 0..STEPS {
                 stepper.step(&mut mu)?;
                 for ((member, first), size) in group.members.iter().zip(&first).zip(&mut sizes) {

@@ -4,15 +4,21 @@
 //! to the size of the terms. The measurements are made at steps of about a third of the system's own time,
 //! where a fact that does not hold misses its bound by orders of magnitude.
 
+mod controls;
 mod findings;
 mod ground;
+mod group;
 mod invariants;
 mod order;
+mod plain;
 
+pub use controls::broken_measurements;
 pub use findings::{Finding, Verdict};
 pub(crate) use ground::rate;
 pub use ground::{Exact, Ground, OrbitDistance};
+pub use group::GroupCheck;
 pub(crate) use order::relative_error;
+pub use plain::PlainSteps;
 
 use super::any::AnyMethod;
 use super::newton_order::{order_of_iteration, residual_floor, residuals};
@@ -20,7 +26,7 @@ use super::poisson_defect::tangent_map;
 use super::symmetry::symmetry_defect;
 use crate::methods::StepFailure;
 use crate::newton::NewtonOptions;
-use crate::poisson::{Lift, Poisson};
+use crate::poisson::Lift;
 use crate::scalar::Dual;
 use crate::state::{State, Unknown};
 
@@ -39,6 +45,8 @@ pub struct Subject<P: Lift<f64>> {
     pub composed: bool,
     /// Of an adaptive method: the same with both tolerances of this size.
     pub with_tolerance: Option<ByTolerance<P>>,
+    /// Of a method with a fused equation: the same method on the generic one.
+    pub plain: Option<Box<PlainSteps>>,
 }
 
 /// Round-off of one step, in units of epsilon times the size of what is measured: the state after a step is
@@ -46,6 +54,9 @@ pub struct Subject<P: Lift<f64>> {
 const PER_STEP: f64 = 16.0;
 /// The least order of a Newton iteration: between 1, of a wrong Jacobian, and 2.
 const NEWTON: f64 = 1.25;
+
+/// The part of all steps that may need row exchanges.
+const EXCHANGES: f64 = 0.1;
 
 /// Measures everything that `subject` claims.
 pub fn verify<P: Lift<f64>>(
@@ -55,11 +66,15 @@ pub fn verify<P: Lift<f64>>(
     subject: &Subject<P>,
 ) -> Vec<Finding> {
     let mut findings = vec![order::finding(system, ground, subject)];
-    findings.push(symmetry(system, ground, subject));
+    findings.push(symmetry(system, ground, &*subject.method));
     findings.extend(iterations(system, ground, subject));
-    findings.extend(invariants::findings(system, ground, subject));
-    findings.push(orbit(system, ground, subject));
-    findings.push(poisson(lifted, ground, subject));
+    findings.extend(invariants::findings(system, ground, &*subject.method));
+    findings.push(orbit(system, ground, &*subject.method));
+    findings.push(poisson::<P>(lifted, ground, &*subject.lifted));
+    findings.extend(plain::finding(system, ground, subject));
+    if let Some(check) = ground.group {
+        findings.push(check(system, ground, subject));
+    }
     findings
 }
 
@@ -83,7 +98,7 @@ fn smaller_steps<T>(
 }
 
 /// The largest of a measurement over the states and over steps forwards and backwards.
-fn worst<P: Poisson<f64>>(
+fn worst<P: Lift<f64>>(
     ground: &Ground<P>,
     fact: &'static str,
     claimed: bool,
@@ -105,13 +120,17 @@ fn worst<P: Poisson<f64>>(
         Ok(largest)
     };
     match smaller_steps(ground.step, all) {
-        Ok((value, _)) => Finding::zero(fact, claimed, value, bound),
+        Ok((value, step)) => Finding::zero(fact, claimed, value, bound).at(step),
         Err(failure) => Finding::unmeasured(fact, claimed, &failure),
     }
 }
 
-fn symmetry<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
-    let claims = subject.method.claims();
+fn symmetry<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+) -> Finding {
+    let claims = method.claims();
     let newton = NewtonOptions::default();
     worst(
         ground,
@@ -119,14 +138,14 @@ fn symmetry<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) 
         claims.symmetric,
         4.0 * PER_STEP * f64::EPSILON,
         |h, mu| {
-            let defect = symmetry_defect(system, &*subject.method, h, mu, &newton)?;
+            let defect = symmetry_defect(system, method, h, mu, &newton)?;
             Ok(defect / mu.max_norm())
         },
     )
 }
 
-fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
-    let claimed = subject.method.claims().preserves.orbit;
+fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, method: &dyn AnyMethod<f64, P>) -> Finding {
+    let claimed = method.claims().preserves.orbit;
     let Some(orbit_distance) = ground.orbit else {
         return if claimed {
             Finding::zero("orbit", claimed, f64::NAN, 0.0).note("no algebra is known".to_owned())
@@ -142,18 +161,19 @@ fn orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> 
         4.0 * PER_STEP * f64::EPSILON,
         |h, mu| {
             let mut end = mu.clone();
-            subject
-                .method
-                .any_stepper(system, h, &newton)
-                .step(&mut end)?;
+            method.any_stepper(system, h, &newton).step(&mut end)?;
             let scale = mu.max_norm().max(end.max_norm());
             Ok(orbit_distance(system, mu, &end) / scale)
         },
     )
 }
 
-fn poisson<P: Lift<f64>>(lifted: &P::Lifted, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
-    let kept = subject.method.claims().preserves;
+fn poisson<P: Lift<f64>>(
+    lifted: &P::Lifted,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<Dual<f64>, P::Lifted>,
+) -> Finding {
+    let kept = method.claims().preserves;
     let constant = P::POISSON_DEGREE == Some(0);
     let claimed = kept.poisson || (kept.constant_poisson && constant);
     let newton = NewtonOptions::default();
@@ -164,7 +184,7 @@ fn poisson<P: Lift<f64>>(lifted: &P::Lifted, ground: &Ground<P>, subject: &Subje
         claimed,
         operations * f64::EPSILON,
         |h, mu| {
-            let map = tangent_map(lifted, &*subject.lifted, h, mu.as_slice(), &newton)?;
+            let map = tangent_map(lifted, method, h, mu.as_slice(), &newton)?;
             let defect = map.poisson_defect(lifted, mu.as_slice());
             let norm = map.norm().max(1.0);
             let size = ground.structure * mu.max_norm().max(largest(&map.end));
@@ -197,10 +217,12 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
         }
         Ok(())
     });
-    if let Err(failure) = measured {
-        return vec![Finding::unmeasured("explicit", claims.explicit, &failure)];
-    }
+    let step = match measured {
+        Ok(((), step)) => step,
+        Err(failure) => return vec![Finding::unmeasured("explicit", claims.explicit, &failure)],
+    };
     let explicit = Finding::zero("explicit", claims.explicit, f64::from(most), 0.0)
+        .at(step)
         .note(format!("{most} iterations"));
     if most == 0 {
         return vec![explicit];
@@ -213,8 +235,41 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
     } else {
         format!("at round-off at once, at most {most} iterations")
     };
-    let newton = Finding::at_least("Newton", true, slowest, 2.0, NEWTON).note(note);
-    vec![explicit, newton, residual(system, ground, subject)]
+    let newton = Finding::at_least("Newton", true, slowest, 2.0, NEWTON)
+        .at(step)
+        .note(note);
+    let exchanges = exchanges(system, ground, subject);
+    vec![
+        explicit,
+        newton,
+        residual(system, ground, subject),
+        exchanges,
+    ]
+}
+
+/// How many steps, as a part of all, fall back to row exchanges: the elimination in fixed order is made for steps of the
+/// system's own size, where it needs none.
+fn exchanges<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
+    let newton = NewtonOptions::default();
+    let own = ground.step.abs().min(ground.natural_step);
+    let measured = smaller_steps(own, |h| {
+        let (mut fallen, mut steps) = (0, 0);
+        for mu in &ground.states {
+            for h in [h, -h, 0.3 * h] {
+                let mut state = mu.clone();
+                let mut stepper = subject.method.any_stepper(system, h, &newton);
+                for _ in 0..4 {
+                    fallen += u32::from(stepper.step(&mut state)?.pivoted != 0);
+                    steps += 1;
+                }
+            }
+        }
+        Ok(f64::from(fallen) / f64::from(steps))
+    });
+    match measured {
+        Ok((part, _)) => Finding::zero("row exchanges", true, part, EXCHANGES),
+        Err(failure) => Finding::unmeasured("row exchanges", true, &failure),
+    }
 }
 
 /// Whether the iteration that evaluates residuals alone, after one Jacobian, comes to the same state: the

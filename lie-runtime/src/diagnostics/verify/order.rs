@@ -3,9 +3,10 @@
 use super::findings::Finding;
 use super::ground::{Exact, Ground};
 use super::{Made, Subject};
+use crate::diagnostics::any::AnyMethod;
 use crate::driver::Stats;
 use crate::newton::NewtonOptions;
-use crate::poisson::{Lift, Poisson};
+use crate::poisson::Lift;
 use crate::state::State;
 
 /// Numbers of steps over the span, by factors of about the fourth root of 2.
@@ -31,7 +32,26 @@ pub(super) fn finding<P: Lift<f64>>(
     ground: &Ground<P>,
     subject: &Subject<P>,
 ) -> Finding {
-    let order = subject.method.claims().order;
+    let adaptive = subject.with_tolerance.as_deref();
+    measured(system, ground, &*subject.method, adaptive)
+}
+
+/// Of a method with steps of a fixed size.
+pub(super) fn finding_of<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+) -> Finding {
+    measured(system, ground, method, None)
+}
+
+fn measured<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+    adaptive: Option<&dyn Fn(f64) -> Made<f64, P>>,
+) -> Finding {
+    let order = method.claims().order;
     let claim = f64::from(order);
     let bound = claim - f64::max(SLACK, RELATIVE_SLACK * claim);
     let mut exact_everywhere = true;
@@ -39,16 +59,14 @@ pub(super) fn finding<P: Lift<f64>>(
     let mut best: Vec<(f64, f64)> = Vec::new();
     for exact in &ground.exact {
         let floor = (20.0 * exact.error).max(100.0 * f64::EPSILON);
-        let measured = match &subject.with_tolerance {
+        let measured = match adaptive {
             Some(make) => by_tolerance(system, ground, exact, make, floor),
-            None => by_step(system, ground, exact, &subject.method, floor),
+            None => by_step(system, ground, exact, method, floor),
         };
         let mut above: Vec<(f64, f64)> = measured.iter().filter(|p| p.1 > floor).copied().collect();
-        if subject.with_tolerance.is_none() && slope(tail(&above)) < bound {
+        if adaptive.is_none() && slope(tail(&above)) < bound {
             // a method may amplify round-off, as differences divided by small increments do
-            above.retain(|&(h, error)| {
-                error > NOISE * noise(system, ground, exact, &subject.method, h)
-            });
+            above.retain(|&(h, error)| error > NOISE * noise(system, ground, exact, method, h));
         }
         exact_everywhere &= measured.len() >= 3 && above.is_empty();
         for (_, error) in &measured {
@@ -76,7 +94,9 @@ pub(super) fn finding<P: Lift<f64>>(
     }
     let last = tail(&best);
     let note = format!("errors {:.1e} to {:.1e}", last[0].1, last[last.len() - 1].1);
-    Finding::at_least("order", true, slope(last), claim, bound).note(note)
+    Finding::at_least("order", true, slope(last), claim, bound)
+        .at(last[0].0)
+        .note(note)
 }
 
 /// The points of the slope: those of the smallest steps.
@@ -85,11 +105,11 @@ fn tail(points: &[(f64, f64)]) -> &[(f64, f64)] {
 }
 
 /// How much the end of a run moves when its start moves by a few units of round-off, relative to the state.
-fn noise<P: Poisson<f64>>(
+fn noise<P: Lift<f64>>(
     system: &P,
     ground: &Ground<P>,
     exact: &Exact<P::State>,
-    method: &Made<f64, P>,
+    method: &dyn AnyMethod<f64, P>,
     h: f64,
 ) -> f64 {
     let steps = (exact.span / h).abs().round() as u64;
@@ -113,11 +133,11 @@ fn noise<P: Poisson<f64>>(
 }
 
 /// Errors over steps of a fixed size, the largest over the states, and the size of round-off in them.
-fn by_step<P: Poisson<f64>>(
+fn by_step<P: Lift<f64>>(
     system: &P,
     ground: &Ground<P>,
     exact: &Exact<P::State>,
-    method: &Made<f64, P>,
+    method: &dyn AnyMethod<f64, P>,
     floor: f64,
 ) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
@@ -136,7 +156,7 @@ fn by_step<P: Poisson<f64>>(
 }
 
 /// Errors of an adaptive method over the mean of its own steps.
-fn by_tolerance<P: Poisson<f64>>(
+fn by_tolerance<P: Lift<f64>>(
     system: &P,
     ground: &Ground<P>,
     exact: &Exact<P::State>,
@@ -147,7 +167,7 @@ fn by_tolerance<P: Poisson<f64>>(
     for k in 0..24 {
         let tolerance = 10_f64.powf(-3.0 - 0.5 * f64::from(k));
         // one step of the grid: the span
-        let Some((error, stats)) = error(system, ground, exact, &make(tolerance), exact.span, 1)
+        let Some((error, stats)) = error(system, ground, exact, &*make(tolerance), exact.span, 1)
         else {
             continue;
         };
@@ -163,11 +183,11 @@ fn by_tolerance<P: Poisson<f64>>(
 }
 
 /// The largest error at the end of the span relative to the state, and the work of all runs.
-fn error<P: Poisson<f64>>(
+fn error<P: Lift<f64>>(
     system: &P,
     ground: &Ground<P>,
     exact: &Exact<P::State>,
-    method: &Made<f64, P>,
+    method: &dyn AnyMethod<f64, P>,
     h: f64,
     steps: u64,
 ) -> Option<(f64, Stats)> {

@@ -7,6 +7,8 @@
 //! it is at, but not later than two seconds after.
 
 mod bench;
+mod driven;
+mod kernels;
 mod stress;
 mod timing;
 mod verify;

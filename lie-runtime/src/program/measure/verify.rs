@@ -1,31 +1,43 @@
 //! The program behind `lie verify`.
 //!
 //! Further keys: `seed`, `step`. Lines: `ground <step> <span> <error of the references> <states> <linear
-//! integrals> <quadratic integrals>`, then one `finding <label> <fact> <claim> <measured> <bound> <verdict> <note>`
-//! for each fact of each method.
+//! integrals> <quadratic integrals>`, then the kernels at the states (see [`super::kernels`]), the end of the reference
+//! solution from each (`reference <span> <start> <end>`), one `broken <fact>` for each measurement that lets a spoiled map
+//! pass, and one `finding <label> <fact> <claim> <measured> <bound> <verdict> <note> <step>` for each fact of each method.
 
 use super::super::{Build, Tolerances};
-use super::{Ended, Request, Session, main, prepare, serve};
+use super::kernels::{self, Kernels};
+use super::{Ended, Request, Session, driven, main, prepare, serve};
 use crate::diagnostics::AnyMethod;
-use crate::diagnostics::verify::{Ground, Subject, Verdict, verify};
+use crate::diagnostics::random::Random;
+use crate::diagnostics::verify::{
+    Finding, Ground, PlainSteps, Subject, Verdict, broken_measurements, verify,
+};
+use crate::lagrangian::{DiscreteLagrangianPoisson, LagrangianPoisson};
 use crate::methods::Method;
+use crate::newton::NewtonOptions;
 use crate::parameter::ParameterError;
-use crate::poisson::{LiePoisson, Lift};
+use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 use crate::scalar::Dual;
+use crate::state::State;
+use crate::structure::{MatrixGroup, RealizedPoisson};
 use std::io::{BufRead, Write};
 use std::process::ExitCode;
 
 type MakeSubject<P> = Box<dyn Fn() -> Subject<P>>;
+type MakePlain = Box<dyn Fn(&[f64]) -> Option<Box<PlainSteps>>>;
 
 /// A program that verifies methods on one system.
 pub struct Verify<P: Lift<f64>> {
     defaults: Vec<f64>,
     build: Box<Build<P>>,
-    with_orbits: fn(Ground<P>) -> Ground<P>,
+    grounds: Vec<fn(Ground<P>) -> Ground<P>>,
+    kernels: Vec<Kernels<P>>,
     subjects: Vec<(&'static str, MakeSubject<P>)>,
+    plain: Vec<(&'static str, MakePlain)>,
 }
 
-impl<P: Lift<f64> + 'static> Verify<P> {
+impl<P: Lift<f64> + Clone + 'static> Verify<P> {
     /// A program from the default parameters and the function that makes a system of parameters.
     pub fn new(
         defaults: &[f64],
@@ -34,21 +46,101 @@ impl<P: Lift<f64> + 'static> Verify<P> {
         Self {
             defaults: defaults.to_vec(),
             build: Box::new(build),
-            with_orbits: |ground| ground,
+            grounds: Vec::new(),
+            kernels: vec![kernels::poisson],
             subjects: Vec::new(),
+            plain: Vec::new(),
         }
     }
 
-    /// Measures the distance from coadjoint orbits too.
+    /// Measures the distance from coadjoint orbits too, and writes the kernels of the algebra.
     #[must_use]
-    pub fn with_orbits(self) -> Self
+    pub fn with_orbits(mut self) -> Self
     where
         P: LiePoisson<f64>,
     {
-        Self {
-            with_orbits: Ground::with_orbits,
-            ..self
-        }
+        self.grounds.push(Ground::with_orbits);
+        self.kernels.push(kernels::algebra);
+        self
+    }
+
+    /// Follows the group element too.
+    #[must_use]
+    pub fn with_group(mut self) -> Self
+    where
+        P: MatrixGroup<f64>,
+    {
+        self.grounds.push(Ground::with_group);
+        self
+    }
+
+    /// Writes the kernel of the Cayley map.
+    #[must_use]
+    pub fn with_cayley(mut self) -> Self
+    where
+        P: CayleyPoisson<f64>,
+    {
+        self.kernels.push(kernels::cayley);
+        self
+    }
+
+    /// Writes the kernels of the Lagrangian.
+    #[must_use]
+    pub fn with_lagrangian(mut self) -> Self
+    where
+        P: LagrangianPoisson<f64>,
+    {
+        self.kernels.push(kernels::lagrangian);
+        self
+    }
+
+    /// Writes the kernels of the discrete Lagrangian.
+    #[must_use]
+    pub fn with_discrete(mut self) -> Self
+    where
+        P: DiscreteLagrangianPoisson<f64>,
+    {
+        self.kernels.push(kernels::discrete);
+        self
+    }
+
+    /// Writes the kernels of the realization.
+    #[must_use]
+    pub fn with_realization(mut self) -> Self
+    where
+        P: RealizedPoisson<f64>,
+    {
+        self.kernels.push(kernels::realization);
+        self
+    }
+
+    /// Compares the steps of a method with those on another system, the same one without fused equations.
+    #[must_use]
+    pub fn plain<Q, M>(
+        mut self,
+        label: &'static str,
+        build: impl Fn(&[f64]) -> Result<Q, ParameterError> + 'static,
+        make: impl Fn(&Tolerances) -> M + Copy + 'static,
+    ) -> Self
+    where
+        Q: Poisson<f64> + 'static,
+        M: Method<f64, Q> + 'static,
+    {
+        let steps = move |parameters: &[f64]| -> Option<Box<PlainSteps>> {
+            let system = build(parameters).ok()?;
+            let method: Box<dyn AnyMethod<f64, Q>> = Box::new(make(&Tolerances::default()));
+            Some(Box::new(move |start, h, steps| {
+                let mut mu = system.zero_state();
+                mu.as_mut_slice().copy_from_slice(start);
+                let mut stepper = method.any_stepper(&system, h, &NewtonOptions::default());
+                for _ in 0..steps {
+                    stepper.step(&mut mu)?;
+                }
+                Ok(mu.as_slice().to_vec())
+            }))
+        };
+        self.plain.push((label, Box::new(steps)));
+        self
     }
 
     /// Adds a method under the name by which requests ask for it.
@@ -129,7 +221,10 @@ impl<P: Lift<f64> + 'static> Verify<P> {
         session.stage(0, request.methods.len() as u64, "the reference solution")?;
         let ground = Ground::new(&system, &mu, seed, request.number("step"))
             .map_err(|text| (2, format!("ground {text}")))?;
-        let ground = (self.with_orbits)(ground);
+        let ground = self
+            .grounds
+            .iter()
+            .fold(ground, |ground, more| more(ground));
         session.line(&[
             "ground",
             &format!("{:?}", ground.step),
@@ -139,6 +234,7 @@ impl<P: Lift<f64> + 'static> Verify<P> {
             &ground.linear.len().to_string(),
             &ground.quadratic.len().to_string(),
         ]);
+        self.evidence(&system, &ground, seed, session);
         let lifted = system.lift();
         let all = request.methods.len() as u64;
         for (done, label) in request.methods.iter().enumerate() {
@@ -146,27 +242,60 @@ impl<P: Lift<f64> + 'static> Verify<P> {
             let Some((_, make)) = self.subjects.iter().find(|(known, _)| known == label) else {
                 return Err((2, format!("request no method `{label}` in this program")));
             };
-            for finding in verify(&system, &lifted, &ground, &make()) {
-                let verdict = match finding.verdict {
-                    Verdict::Holds => "holds",
-                    Verdict::Fails => "fails",
-                    Verdict::NotClaimed => "not-claimed",
-                    Verdict::Absent => "absent",
-                };
-                session.line(&[
-                    "finding",
-                    label,
-                    finding.fact,
-                    &format!("{:?}", finding.claim),
-                    &format!("{:?}", finding.measured),
-                    &format!("{:?}", finding.bound),
-                    verdict,
-                    &finding.note,
-                ]);
+            let mut subject = make();
+            let plain = self.plain.iter().find(|(known, _)| known == label);
+            subject.plain = plain.and_then(|(_, make)| make(&request.parameters));
+            if done == 0 {
+                for fact in broken_measurements(&system, &lifted, &ground, &subject) {
+                    session.line(&["broken", fact]);
+                }
+            }
+            let rows = driven::finding(&system, &ground, &subject);
+            let findings = verify(&system, &lifted, &ground, &subject);
+            for finding in findings.into_iter().chain([rows]) {
+                report(label, &finding, session);
             }
         }
         Ok(())
     }
+
+    /// What a judge may look at: kernels at the states, and the ends of the reference solution.
+    fn evidence(&self, system: &P, ground: &Ground<P>, seed: u64, session: &mut Session<'_>) {
+        let mut random = Random::new(seed.wrapping_add(1));
+        for mu in &ground.states {
+            for kernels in &self.kernels {
+                let mut line = |fields: &[&str]| session.line(fields);
+                let mut writer = kernels::Writer::new(system, mu, &mut random, &mut line);
+                kernels(system, &mut writer);
+            }
+        }
+        let exact = &ground.exact[0];
+        for (mu, end) in ground.states.iter().zip(&exact.ends) {
+            let span = format!("{:?}", exact.span);
+            let [mu, end] = [mu, end].map(|state| kernels::text(state.as_slice()));
+            session.line(&["reference", &span, &mu, &end]);
+        }
+    }
+}
+
+fn report(label: &str, finding: &Finding, session: &mut Session<'_>) {
+    let verdict = match finding.verdict {
+        Verdict::Holds => "holds",
+        Verdict::Fails => "fails",
+        Verdict::NotClaimed => "not-claimed",
+        Verdict::Absent => "absent",
+    };
+    session.line(&[
+        "finding",
+        label,
+        finding.fact,
+        &format!("{:?}", finding.claim),
+        &format!("{:?}", finding.measured),
+        &format!("{:?}", finding.bound),
+        verdict,
+        &finding.note,
+        &format!("{:?}", finding.step),
+    ]);
 }
 
 fn subject<P, M>(make: &impl Fn(&Tolerances) -> M, composed: bool) -> Subject<P>
@@ -180,5 +309,6 @@ where
         lifted: Box::new(make(&tolerances)),
         composed,
         with_tolerance: None,
+        plain: None,
     }
 }

@@ -2,6 +2,7 @@
 
 use lie_codegen::check::domain;
 use lie_codegen::diagnostic::Kind;
+use lie_codegen::front::names::normalised;
 use lie_codegen::suggest::did_you_mean;
 
 use super::super::values::Given;
@@ -26,7 +27,8 @@ impl Planner<'_> {
                     .push(message.help("write it like `--param I1=2`"));
                 continue;
             };
-            let name = text[..equals].trim();
+            let name = normalised(text[..equals].trim());
+            let name = name.as_str();
             let Some(index) = names.iter().position(|known| *known == name) else {
                 let message = given
                     .part(0..equals)
@@ -43,9 +45,16 @@ impl Planner<'_> {
                 let message = given.wrong(format!("`{name}` is set twice"));
                 self.mistakes.push(message.help("set it once"));
             }
-            if let Some(value) = self.keep(given.part(equals + 1..text.len()).number()) {
-                values[index] = value;
+            let part = given.part(equals + 1..text.len());
+            let Some(value) = self.keep(part.number()) else {
+                continue;
+            };
+            if declared[index].positive && value <= 0.0 {
+                let message = part.wrong(format!("the parameter `{name}` must be positive"));
+                let help = "give it a positive value; the spec declares it positive, and proofs rely on that";
+                self.mistakes.push(message.help(help));
             }
+            values[index] = value;
         }
         (self.mistakes.len() == before).then_some(values)
     }

@@ -115,7 +115,8 @@ pub(super) fn claimed<P: Poisson<f64>>(claims: &Claims) -> Vec<bool> {
     let quadratic = P::HAMILTONIAN_DEGREE.is_some_and(|degree| degree <= 2);
     let casimirs = (0..P::CASIMIRS).map(|index| {
         let degree = P::CASIMIR_DEGREES.get(index).copied().flatten();
-        kept.casimirs || (kept.quadratic_casimirs && degree.is_some_and(|degree| degree <= 2))
+        let quadratic = kept.quadratic_casimirs && degree.is_some_and(|degree| degree <= 2);
+        (kept.casimirs || quadratic) && !P::MULTIVALUED_CASIMIRS.contains(&index)
     });
     std::iter::once(kept.energy || (kept.quadratic_invariants && quadratic))
         .chain(casimirs)

@@ -1,0 +1,268 @@
+//! Values of many digits, with rigorous bounds, at points on all sides of the branches.
+//!
+//! A verdict of the prover is confirmed by them: an expression that is zero has balls that contain zero at
+//! every point of its domain. Rational functions are looked at in a prime field instead, which costs next to
+//! nothing.
+
+mod points;
+mod residues;
+
+use std::collections::{HashMap, HashSet};
+use std::sync::OnceLock;
+
+use super::sample::Samples;
+use crate::exact::{Ball, Precision, Rational};
+use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+use points::Points;
+use residues::Residues;
+
+/// Bits of a ball: about 67 digits.
+const BITS: u64 = 224;
+
+/// Lines along which a degree is looked at, and degrees that are.
+const LINES: usize = 16;
+const HIGHEST: u32 = 12;
+
+/// What the values say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finding {
+    /// The function is zero at all points, as far as the digits reach.
+    Zero,
+    /// It is not zero at one of them, which is certain.
+    Nonzero,
+    /// No point was found in the domain.
+    Unknown,
+}
+
+/// The values of the expressions of one arena at sample points.
+pub struct Confirmation<'a> {
+    graph: &'a Graph,
+    domain: Vec<ExprId>,
+    points: Points<'a>,
+    residues: Residues<'a>,
+    balls: HashMap<usize, HashMap<ExprId, Option<Ball>>>,
+}
+
+/// The precision of all balls here.
+pub fn precision() -> &'static Precision {
+    static PRECISION: OnceLock<Precision> = OnceLock::new();
+    PRECISION.get_or_init(|| Precision::new(BITS))
+}
+
+impl<'a> Confirmation<'a> {
+    /// Values of functions where those of `domain` are defined too.
+    pub fn new(graph: &'a Graph, domain: &[ExprId]) -> Self {
+        Self {
+            graph,
+            domain: domain.to_vec(),
+            points: Points::new(graph),
+            residues: Residues::new(graph),
+            balls: HashMap::new(),
+        }
+    }
+
+    /// What the values of an expression say.
+    pub fn of(&mut self, id: ExprId) -> Finding {
+        if let Some(zero) = self.residues.vanishes(id) {
+            return if zero {
+                Finding::Zero
+            } else {
+                Finding::Nonzero
+            };
+        }
+        let roots: Vec<ExprId> = self.domain.iter().copied().chain([id]).collect();
+        let parts = self.graph.dependencies(&roots);
+        let mut finding = Finding::Unknown;
+        for point in self.points.of(&parts) {
+            if !self.evaluate(&parts, point) {
+                continue;
+            }
+            if let Some(Some(value)) = self.balls[&point].get(&id) {
+                if value.excludes_zero() {
+                    return Finding::Nonzero;
+                }
+                finding = Finding::Zero;
+            }
+        }
+        finding
+    }
+
+    /// Whether an expression is a polynomial of a degree d in the coordinates along a line, as far as values
+    /// tell: the difference of order d + 1 of its values at equal distances is zero.
+    pub fn of_degree(&mut self, id: ExprId, degree: u32) -> Finding {
+        if self.residues.vanishes(id).is_some() || degree > HIGHEST {
+            return Finding::Zero;
+        }
+        let graph = self.graph;
+        let precision = precision();
+        let mut finding = Finding::Unknown;
+        for sample in Samples::new().take(LINES) {
+            let at = |step: i64| {
+                values(graph, &[id], &|symbol| {
+                    let (numerator, exponent) = sample.dyadic(graph, symbol);
+                    // short steps stay in the domain
+                    let shift = match symbol {
+                        Symbol::Coordinate(_) => {
+                            step * (1 + (sample.bits(symbol) >> 50) as i64 % 64)
+                        }
+                        _ => 0,
+                    };
+                    Some(Ball::dyadic(numerator + shift, exponent))
+                })
+            };
+            let (mut sum, mut weight) = (Ball::integer(0), Rational::ONE);
+            let order = i64::from(degree) + 1;
+            let mut complete = true;
+            for step in 0..=order {
+                let Some(value) = at(step).and_then(|mut values| values.pop()) else {
+                    complete = false;
+                    break;
+                };
+                sum = sum.add(
+                    &value.mul(&precision.rational(&weight), precision),
+                    precision,
+                );
+                let ratio = Rational::new(step - order, step + 1).unwrap_or(Rational::ZERO);
+                weight = &weight * &ratio;
+            }
+            if complete && sum.excludes_zero() {
+                return Finding::Nonzero;
+            }
+            if complete {
+                finding = Finding::Zero;
+            }
+        }
+        finding
+    }
+
+    /// Computes the balls at a point; whether all of them are defined.
+    fn evaluate(&mut self, parts: &[ExprId], point: usize) -> bool {
+        let graph = self.graph;
+        let sample = self.points.sample(point);
+        let known = self.balls.entry(point).or_default();
+        let mut defined = true;
+        for &part in parts {
+            if !known.contains_key(&part) {
+                let value = value(graph, part, known, &|symbol| {
+                    let (numerator, exponent) = sample.dyadic(graph, symbol);
+                    Some(Ball::dyadic(numerator, exponent))
+                });
+                known.insert(part, value);
+            }
+            defined &= known[&part].is_some();
+        }
+        defined
+    }
+}
+
+/// The value of an expression without symbols; `None` where it has none, or too few digits to tell.
+pub fn constant(graph: &Graph, id: ExprId) -> Option<Ball> {
+    values(graph, &[id], &|_| None)?.pop()
+}
+
+/// The values of expressions; `None` where one of them has none, or too few digits to tell.
+pub fn values(
+    graph: &Graph,
+    roots: &[ExprId],
+    symbol: &dyn Fn(Symbol) -> Option<Ball>,
+) -> Option<Vec<Ball>> {
+    let mut known = HashMap::new();
+    for part in graph.dependencies(roots) {
+        let value = value(graph, part, &known, symbol)?;
+        known.insert(part, Some(value));
+    }
+    roots.iter().map(|root| known[root].clone()).collect()
+}
+
+/// The ball of one node, those of its parts being known.
+fn value(
+    graph: &Graph,
+    id: ExprId,
+    known: &HashMap<ExprId, Option<Ball>>,
+    symbol: &dyn Fn(Symbol) -> Option<Ball>,
+) -> Option<Ball> {
+    let precision = precision();
+    let of = |id: &ExprId| known.get(id)?.as_ref();
+    match graph.node(id) {
+        Node::Number(value) => Some(precision.rational(value)),
+        Node::Pi => Some(precision.pi()),
+        Node::Symbol(name) => symbol(*name),
+        Node::Sum { constant, terms } => {
+            let mut sum = precision.rational(constant);
+            for (term, coefficient) in terms {
+                let part = of(term)?.mul(&precision.rational(coefficient), precision);
+                sum = sum.add(&part, precision);
+            }
+            Some(sum)
+        }
+        // proofs are about normal forms
+        Node::Written(_) => None,
+        Node::Product(factors) => {
+            let mut product = Ball::integer(1);
+            for (base, exponent) in factors {
+                let power = of(base)?.power(exponent, precision)?;
+                product = product.mul(&power, precision);
+            }
+            product.bounded()
+        }
+        Node::Call(function, arguments) => {
+            let x = of(&arguments[0])?;
+            call(*function, x, arguments.get(1).and_then(of))
+        }
+    }
+}
+
+fn call(function: Function, x: &Ball, second: Option<&Ball>) -> Option<Ball> {
+    let precision = precision();
+    match function {
+        Function::Exp => x.exp(precision),
+        Function::Log => x.log(precision),
+        Function::Sin => Some(x.sin_cos(precision)?.0),
+        Function::Cos => Some(x.sin_cos(precision)?.1),
+        Function::Tan => {
+            let (sine, cosine) = x.sin_cos(precision)?;
+            sine.div(&cosine, precision)
+        }
+        Function::Asin => x.asin(precision),
+        Function::Acos => x.acos(precision),
+        Function::Atan => x.atan(precision),
+        Function::Sinh => Some(x.sinh_cosh(precision)?.0),
+        Function::Cosh => Some(x.sinh_cosh(precision)?.1),
+        Function::Tanh => {
+            let (sine, cosine) = x.sinh_cosh(precision)?;
+            sine.div(&cosine, precision)
+        }
+        Function::Atan2 => x.atan2(second?, precision),
+    }
+}
+
+/// The nodes with branches among these, each by what changes its sign there.
+fn branches(graph: &Graph, parts: &[ExprId]) -> Vec<ExprId> {
+    let mut found = Vec::new();
+    let mut seen = HashSet::new();
+    let mut add = |id: ExprId| {
+        let factors: Vec<ExprId> = match graph.node(id) {
+            Node::Product(factors) => factors.iter().map(|(base, _)| *base).collect(),
+            _ => vec![id],
+        };
+        found.extend(factors.into_iter().filter(|id| seen.insert(*id)));
+    };
+    for &id in parts {
+        match graph.node(id) {
+            Node::Symbol(_) => add(id),
+            Node::Product(factors) => {
+                let fractional = factors.iter().filter(|(_, e)| !e.is_integer());
+                fractional.for_each(|(base, _)| add(graph.coefficient(*base).1));
+            }
+            Node::Call(Function::Log | Function::Atan2, arguments) => {
+                let parts = arguments.iter();
+                parts.for_each(|argument| add(graph.coefficient(*argument).1));
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests;

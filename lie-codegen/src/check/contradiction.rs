@@ -1,0 +1,50 @@
+//! Contradictions of the compiler with itself: a verdict of the prover that numbers refute.
+//!
+//! There should be none. Verdicts are asked for in many places, few of which have a report at hand, hence
+//! the first contradiction is kept here until the checks end, which refuse the declaration because of it.
+
+use std::cell::RefCell;
+
+use crate::diagnostic::{Diagnostic, Kind, Origin};
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// Longer expressions are not printed.
+const LONGEST: usize = 200;
+
+thread_local! {
+    static FOUND: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// Keeps an expression that was taken for zero, or for a polynomial of a degree, and is not.
+pub fn keep(graph: &Graph, id: ExprId) {
+    let name = |symbol: Symbol| match symbol {
+        Symbol::Parameter(i) => format!("parameter{i}"),
+        Symbol::Step => "h".into(),
+        Symbol::Time => "t".into(),
+        Symbol::Coordinate(i) => format!("state{i}"),
+        Symbol::Input(i) => format!("input{i}"),
+    };
+    let text = graph.display(id, &name);
+    let short = text.chars().count() <= LONGEST;
+    let text = if short {
+        text
+    } else {
+        "a long expression".into()
+    };
+    FOUND.with_borrow_mut(|found| *found = found.take().or(Some(text)));
+}
+
+/// Forgets what an earlier check left.
+pub fn clear() {
+    FOUND.take();
+}
+
+/// The mistake, if there was one.
+pub fn diagnostic(origin: Origin) -> Option<Diagnostic> {
+    let text = FOUND.take()?;
+    let message = format!(
+        "the compiler contradicts itself: it proves something of `{text}` that its values at a point refute"
+    );
+    let help = "this is a mistake of the compiler, not of the declaration; please report it with the declaration";
+    Some(Diagnostic::new(Kind::Limit, origin, message).help(help))
+}

@@ -1,0 +1,114 @@
+//! What other languages write gets a remedy that works when it is applied to the letter.
+
+use super::*;
+
+/// The first mistake: message and remedy.
+fn first(text: &str) -> (String, String) {
+    let diagnostics = parse(text).expect_err(text);
+    let first = diagnostics.into_iter().next().expect("a mistake");
+    (first.message, first.help.expect("a remedy"))
+}
+
+/// Text, the part of it that is wrong, and what the remedy writes instead.
+const APPLIED: &[(&str, &str, &str)] = &[
+    // Python and NumPy
+    ("1 + np.sin(x)", "np.sin(x)", "sin(x)"),
+    ("math.sqrt(x^2 + 1)", "math.sqrt(x^2 + 1)", "sqrt(x^2+1)"),
+    ("np.pi*x", "np.pi", "pi"),
+    ("std::exp(-x)", "std::exp(-x)", "exp(-x)"),
+    ("x**2", "**", "^"),
+    ("pow(x + y, 2)", "pow(x + y, 2)", "(x+y)^2"),
+    ("abs(x)", "abs(x)", "sqrt(x^2)"),
+    ("log10(x^2)", "log10(x^2)", "log(x^2)/log(10)"),
+    ("log2(x)", "log2(x)", "log(x)/log(2)"),
+    ("arctan2(y, x)", "arctan2(y, x)", "atan2(y, x)"),
+    ("hypot(x, y)", "hypot(x, y)", "sqrt(x^2 + y^2)"),
+    ("cbrt(x)", "cbrt(x)", "x^(1/3)"),
+    ("expm1(x)", "expm1(x)", "(exp(x) - 1)"),
+    ("arcsinh(x)", "arcsinh(x)", "log(x + sqrt(x^2 + 1))"),
+    ("atanh(x)", "atanh(x)", "log((1 + x)/(1 - x))/2"),
+    ("1_000*x", "1_000", "1000"),
+    (".5*x", ".5", "0.5"),
+    // Matlab and Julia
+    ("x.^2", ".^", "^"),
+    ("x .* y", ".*", "*"),
+    ("x./y", "./", "/"),
+    ("pi()*x", "pi()", "pi"),
+    ("y()^2", "y()", "y"),
+    ("2x", "2x", "2*x"),
+    ("sec(x)", "sec(x)", "1/cos(x)"),
+    ("coth(x)", "coth(x)", "1/tanh(x)"),
+    // Mathematica and LaTeX
+    ("Sin[x]^2", "Sin[x]", "sin(x)"),
+    ("sqrt[x^2 + 1]", "sqrt[x^2 + 1]", "sqrt(x^2+1)"),
+    ("x y", "x y", "x*y"),
+    ("sin^2(x)", "sin^2(x)", "sin(x)^2"),
+    ("sqrt x", "sqrt x", "sqrt(x)"),
+    ("ln(x)", "ln(x)", "log(x)"),
+    // characters
+    ("x²", "²", "^2"),
+    ("x·y", "x·y", "x*y"),
+    ("x×y", "×", "*"),
+    ("x−y", "−", "-"),
+    ("½*x", "½", "(1/2)"),
+];
+
+#[test]
+fn remedies_work_to_the_letter() {
+    for (text, wrong, right) in APPLIED {
+        let (message, help) = first(text);
+        assert!(
+            help.starts_with(&format!("write `{right}`"))
+                || help.ends_with(&format!("written `{right}`")),
+            "{text}: {message}: {help}"
+        );
+        let mended = text.replacen(wrong, right, 1);
+        assert!(parse(&mended).is_ok(), "{text} becomes {mended}");
+    }
+}
+
+#[test]
+fn what_the_grammar_does_not_have_is_said_to_be_missing() {
+    for (text, says) in [
+        ("max(x, y)", "a Hamiltonian is smooth"),
+        ("min(x, y)", "a Hamiltonian is smooth"),
+        ("sign(x)", "a Hamiltonian is smooth"),
+        ("norm(x)", "in the components"),
+        ("diff(x^2, x)", "derivatives are taken by the compiler"),
+        ("x < y", "no comparisons"),
+        ("x > 0 ? x : y", "no comparisons"),
+        ("|x|", "`sqrt(x^2)`"),
+        ("x'", "nothing to transpose"),
+        ("x % 2", "no remainder"),
+        ("x^2 # kinetic", "no comments"),
+        ("x @ y", "no matrix products"),
+        ("\\frac{x}{2}", "LaTeX is not read"),
+        ("$x^2$", "LaTeX is not read"),
+        ("“x^2”", "without quotes"),
+        ("'x^2'", "nothing to transpose"),
+        ("lambda x: x^2", "the formula alone"),
+        ("x and y", "the formula alone"),
+        ("x[0]^2", "the name of the coordinate"),
+        ("x.dot(y)", "without a module or an object"),
+        ("x^2, y^2", "a comma stands between the two arguments"),
+        ("0,5*x", "a decimal number has a point"),
+        ("atan(x, y)", "`atan2(a, b)`"),
+        ("log(x, 2)", "`log(a)/log(b)`"),
+        ("x\u{200b} + y", "remove it"),
+    ] {
+        let (message, help) = first(text);
+        assert!(help.contains(says), "{text}: {message}: {help}");
+    }
+    let hidden = first("x\u{200b} + y").0;
+    assert!(hidden.contains("U+200B"), "{hidden}");
+}
+
+#[test]
+fn declared_names_are_no_habits() {
+    let names: Names = ["and", "Sin", "x"].into_iter().collect();
+    let mut report = Report::new();
+    parse_expression_text("and*Sin + x", 0, &names, &mut report).expect("an expression");
+    parse_expression_text("x and", 0, &names, &mut report);
+    let found = report.into_diagnostics();
+    assert!(found[0].message.starts_with("`*` is missing"), "{found:?}");
+}

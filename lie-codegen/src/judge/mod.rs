@@ -1,0 +1,307 @@
+//! A judge of generated kernels: the declaration interpreted as it was written.
+//!
+//! Nothing is shared with what the compiler does after parsing: names are looked up in the syntax tree, derivatives are
+//! taken by jets, brackets are read off the declared ones, and systems on `T*G` or of the time are read as what they
+//! mean. Every expected value comes with a bound of the round-off that the written formula has there, inputs known to one
+//! unit in their last place: a kernel that differs by many such units computes something else.
+
+mod interpret;
+mod kernels;
+mod linear;
+mod number;
+mod solution;
+mod system;
+#[cfg(test)]
+mod tests;
+
+use crate::ast::{Declaration, Energy};
+use crate::diagnostic::{Origin, Report};
+use crate::front::{Body, spec};
+use crate::model::Model;
+use kernels::{Expected, Kernels, inputs, known};
+use number::{Jet, Number, Rounded};
+use system::Declared;
+
+/// A kernel that differs by so many units of its round-off is wrong.
+const UNITS: f64 = 8.0;
+/// A solution that differs by more than this part of the state is another.
+const SOLUTION: f64 = 1e-9;
+/// The same for what is only known by a limit, as a part of the largest entry.
+const LIMIT: f64 = 1e-5;
+
+/// What a kernel gave for its arguments.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    /// The kernel, `casimir_gradient K` for that of the Casimir K.
+    pub kernel: String,
+    /// Its vector arguments.
+    pub arguments: Vec<Vec<f64>>,
+    /// What it wrote, matrices by rows.
+    pub values: Vec<f64>,
+    /// The gradient of H at the state, near which the velocity of a Lagrangian is sought.
+    pub velocity: Vec<f64>,
+}
+
+/// How a kernel compares with the declaration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// The largest difference in units of what is allowed: 1 at most for a kernel that is right.
+    pub excess: f64,
+    /// The entry where it is.
+    pub entry: usize,
+    /// Its value.
+    pub value: f64,
+    /// What it should be.
+    pub expected: f64,
+}
+
+/// The judge of one system.
+#[derive(Debug)]
+pub struct Judge {
+    kernels: Kernels,
+    /// The place of each Casimir of the model among the declared ones.
+    casimirs: Vec<usize>,
+}
+
+impl Judge {
+    /// The judge of a spec that passed its checks, for values of the parameters.
+    pub fn of_spec(text: &str, model: &Model, parameters: &[f64]) -> Option<Self> {
+        let Some(Body::Declaration(declaration)) = spec::read(text, &mut Report::new()).body else {
+            return None;
+        };
+        Some(Self::new(&declaration, model, parameters))
+    }
+
+    /// The judge of a declaration that passed its checks.
+    pub fn new(declaration: &Declaration, model: &Model, parameters: &[f64]) -> Self {
+        let place = |origin: Origin| {
+            let mut declared = declaration.casimirs.iter();
+            declared.position(|casimir| match (casimir.value.origin, origin) {
+                (Origin::Text { start: a, .. }, Origin::Text { start: b, .. }) => a == b,
+                (Origin::Span(a), Origin::Span(b)) => format!("{a:?}") == format!("{b:?}"),
+                _ => false,
+            })
+        };
+        Self {
+            casimirs: model
+                .casimirs
+                .iter()
+                .filter_map(|c| place(c.origin))
+                .collect(),
+            kernels: Kernels::new(Declared {
+                declaration: declaration.clone(),
+                configuration: model.configuration.clone(),
+                parameters: parameters.to_vec(),
+            }),
+        }
+    }
+
+    /// Compares; `None` for a kernel that the judge does not know.
+    pub fn judge(&self, sample: &Sample) -> Option<Verdict> {
+        let (expected, of_limit) = self.expected(sample)?;
+        if expected.len() != sample.values.len() {
+            return Some(Verdict {
+                excess: f64::INFINITY,
+                entry: 0,
+                value: f64::NAN,
+                expected: f64::NAN,
+            });
+        }
+        let largest = expected.iter().flatten().map(|e| e.value.abs());
+        let limit = if of_limit {
+            LIMIT * largest.fold(0.0, f64::max)
+        } else {
+            0.0
+        };
+        let mut worst = Verdict {
+            excess: 0.0,
+            entry: 0,
+            value: 0.0,
+            expected: 0.0,
+        };
+        for (entry, (&value, expected)) in sample.values.iter().zip(&expected).enumerate() {
+            let Some(expected) = expected else { continue };
+            let difference = (value - expected.value).abs();
+            let allowed = UNITS * f64::EPSILON * expected.error + limit + f64::MIN_POSITIVE;
+            let excess = difference / allowed;
+            // a bound that is no number bounds nothing, and a kernel that is none is wrong where the declaration is one
+            let excess = if expected.value.is_finite() && !value.is_finite() {
+                f64::INFINITY
+            } else if excess.is_nan() {
+                0.0
+            } else {
+                excess
+            };
+            if excess > worst.excess {
+                worst = Verdict {
+                    excess,
+                    entry,
+                    value,
+                    expected: expected.value,
+                };
+            }
+        }
+        Some(worst)
+    }
+
+    /// How far a state at a time is from the solution of the declared equations, in units of what is allowed: 1 at most for one
+    /// that is right. `None` where the solution is too much work, or not had from the declaration alone.
+    pub fn solution(&self, start: &[f64], span: f64, end: &[f64]) -> Option<f64> {
+        let declared = &self.kernels.declared;
+        if !matches!(declared.declaration.energy, Energy::Hamiltonian(_)) {
+            return None;
+        }
+        let (expected, _) = solution::solution(declared, start, span)?;
+        let size = expected.iter().fold(0.0_f64, |m, x| f64::max(m, x.abs()));
+        let pairs = expected.iter().zip(end);
+        let largest = pairs.fold(0.0_f64, |m, (a, b)| {
+            let gap = (a - b).abs();
+            if gap.is_nan() {
+                f64::INFINITY
+            } else {
+                m.max(gap)
+            }
+        });
+        Some(largest / (SOLUTION * size))
+    }
+
+    /// What the kernel should give, and whether that is known by a limit alone.
+    fn expected(&self, sample: &Sample) -> Option<(Expected, bool)> {
+        let kernels = &self.kernels;
+        let discrete = matches!(
+            kernels.declared.declaration.energy,
+            Energy::DiscreteLagrangian { .. }
+        );
+        let (name, index) = match sample.kernel.split_once(' ') {
+            Some((name, index)) => (name, index.parse().ok()?),
+            None => (sample.kernel.as_str(), 0),
+        };
+        let exact = |values: Vec<Rounded>| Some((known(values), false));
+        match (name, sample.arguments.as_slice()) {
+            ("ad", [xi, eta]) => exact(kernels.ad(xi, eta)),
+            ("ad_star", [xi, mu]) => exact(kernels.ad_star(xi, mu)),
+            ("ad_star_matrix", [xi]) => exact(kernels.ad_star_matrix(xi)),
+            // the matrices of a larger algebra are the compiler's own
+            ("triple", [x, z, mu]) if kernels.declared.configuration.is_none() => {
+                exact(kernels.triple(x, z, mu)?)
+            }
+            ("casimirs", [mu]) => exact(self.casimirs(mu)),
+            ("casimir_gradient", [mu]) => {
+                let casimir = &kernels.declared.declaration.casimirs[*self.casimirs.get(index)?];
+                exact(kernels.slope_of(&casimir.value, mu))
+            }
+            ("lagrangian" | "momentum" | "inertia", [xi])
+                if kernels.declared.configuration.is_none() =>
+            {
+                Some((self.lagrangian(name, xi), discrete))
+            }
+            ("discrete_lagrangian" | "discrete_slope" | "discrete_curvature", [h, x]) => {
+                exact(self.discrete(name, *h.first()?, x))
+            }
+            ("momentum_map" | "pullback" | "pushforward" | "curvature", [z, ..]) => {
+                let along = sample.arguments.get(1).map_or(&[][..], Vec::as_slice);
+                exact(self.realization(name, z, along)?)
+            }
+            (_, [mu, ..]) => {
+                let at = kernels.at(mu, &sample.velocity);
+                let values = match name {
+                    "hamiltonian" => at.hamiltonian(),
+                    "energy" => at.energy(),
+                    "gradient" => at.gradient(),
+                    "hessian" => at.hessian(),
+                    "poisson_matrix" => return Some((at.poisson(), false)),
+                    "poisson_slope" => {
+                        return Some((at.poisson_slope(sample.arguments.get(1)?), false));
+                    }
+                    "vector_field" => at.field(),
+                    "jacobian" => at.jacobian(),
+                    "linearize" => [at.field(), at.jacobian()].concat(),
+                    _ => return None,
+                };
+                Some((values, discrete))
+            }
+            _ => None,
+        }
+    }
+
+    fn casimirs(&self, mu: &[f64]) -> Vec<Rounded> {
+        let declared = &self.kernels.declared;
+        let mu = inputs(mu);
+        let value = |&place: &usize| {
+            let casimir = &declared.declaration.casimirs[place];
+            declared.function(&casimir.value, &mu)
+        };
+        self.casimirs.iter().map(value).collect()
+    }
+
+    fn lagrangian(&self, name: &str, xi: &[f64]) -> Expected {
+        let declared = &self.kernels.declared;
+        let of = |xi: &[Jet<Jet<Rounded>>]| declared.lagrangian(xi, &[]);
+        let (value, slope, second) = self.kernels.function(xi, of);
+        known(chosen(
+            name,
+            ["lagrangian", "momentum"],
+            value,
+            slope,
+            second,
+        ))
+    }
+
+    fn discrete(&self, name: &str, h: f64, x: &[f64]) -> Vec<Rounded> {
+        let declared = &self.kernels.declared;
+        let of = |x: &[Jet<Jet<Rounded>>]| declared.discrete(&Jet::rounded(h, 1.0), x);
+        let (value, slope, second) = self.kernels.function(x, of);
+        let names = ["discrete_lagrangian", "discrete_slope"];
+        chosen(name, names, value, slope, second)
+    }
+
+    fn realization(&self, name: &str, z: &[f64], along: &[f64]) -> Option<Vec<Rounded>> {
+        let declared = &self.kernels.declared;
+        let n = declared.declaration.state.len();
+        let components = (0..n).map(|k| {
+            let of = |z: &[Jet<Jet<Rounded>>]| match declared.momentum_map(z) {
+                Some(map) => map[k].clone(),
+                None => Jet::rounded(f64::NAN, 0.0),
+            };
+            self.kernels.function(z, of)
+        });
+        let components: Vec<_> = components.collect();
+        let along = inputs(along);
+        let combine = |of: fn(&(Rounded, Vec<Rounded>, Vec<Rounded>)) -> &Vec<Rounded>| {
+            let entries = components.first().map_or(0, |c| of(c).len());
+            let sum = |place: usize| {
+                let terms = components.iter().zip(&along);
+                Rounded::sum(terms.map(|(c, xi)| of(c)[place].mul(xi)))
+            };
+            (0..entries).map(sum).collect::<Vec<_>>()
+        };
+        Some(match name {
+            "momentum_map" => components.iter().map(|c| c.0).collect(),
+            "pullback" => combine(|c| &c.1),
+            "curvature" => combine(|c| &c.2),
+            _ => {
+                let row = |c: &(Rounded, Vec<Rounded>, Vec<Rounded>)| {
+                    Rounded::sum(c.1.iter().zip(&along).map(|(slope, v)| slope.mul(v)))
+                };
+                components.iter().map(row).collect()
+            }
+        })
+    }
+}
+
+/// Value, gradient or second derivatives, by the name of the kernel.
+fn chosen(
+    name: &str,
+    [value_name, slope_name]: [&str; 2],
+    value: Rounded,
+    slope: Vec<Rounded>,
+    second: Vec<Rounded>,
+) -> Vec<Rounded> {
+    if name == value_name {
+        vec![value]
+    } else if name == slope_name {
+        slope
+    } else {
+        second
+    }
+}

@@ -1,0 +1,368 @@
+//! A declaration as it was written, with values for its parameters: energy, brackets, Casimirs over any numbers.
+
+use super::interpret::{Scope, size};
+use super::linear;
+use super::number::{Jet, Number};
+use crate::ast::{Algebra, Declaration, Energy, Expr, Invariance, Name, Structure};
+use crate::check::configuration::{Configuration, TIME};
+
+/// Newton's iterations of a Legendre transform, from a velocity that is nearly right.
+const ITERATIONS: usize = 6;
+/// The step at which the limit of a discrete Lagrangian is taken, extrapolated.
+const SMALL: f64 = 1e-4;
+
+/// The declared system.
+///
+/// Systems on `T*G` and systems of the time are read as what they mean, `g' = g xi`, `mu' = ad*_xi mu - g^T dH/dg` and a
+/// canonical pair of the time and its momentum, whatever larger algebra the compiler makes of them.
+#[derive(Clone, Debug)]
+pub(super) struct Declared {
+    pub(super) declaration: Declaration,
+    pub(super) configuration: Option<Configuration>,
+    pub(super) parameters: Vec<f64>,
+}
+
+impl Declared {
+    /// The number of coordinates.
+    pub(super) fn dimension(&self) -> usize {
+        let own = self.declaration.state.len();
+        self.configuration
+            .as_ref()
+            .map_or(own, Configuration::dimension)
+    }
+
+    fn has_time(&self) -> bool {
+        self.configuration.as_ref().is_some_and(|c| c.time)
+    }
+
+    /// The nodes of the energy and of the abbreviations.
+    pub(super) fn size(&self) -> usize {
+        let lets = self.declaration.lets.iter().map(|(_, value)| size(value));
+        lets.sum::<usize>() + size(self.declaration.energy.expression())
+    }
+
+    fn parameters<T: Number>(&self) -> Scope<T> {
+        let mut scope = Scope::new();
+        let pairs = self.declaration.parameters.iter().zip(&self.parameters);
+        for (parameter, &value) in pairs {
+            let units = if value.fract() == 0.0 { 0.0 } else { 1.0 };
+            scope.bind(&parameter.name.text, T::rounded(value, units));
+        }
+        scope
+    }
+
+    /// Parameters and coordinates, without the abbreviations.
+    fn coordinates<T: Number>(&self, mu: &[T]) -> Scope<T> {
+        let mut scope = self.parameters();
+        for (name, value) in self.declaration.state.iter().zip(mu) {
+            scope.bind(&name.text, value.clone());
+        }
+        if let Some(configuration) = &self.configuration {
+            let entries = configuration.entries();
+            for (place, name) in entries.iter().enumerate() {
+                scope.bind(name, mu[configuration.momenta + place].clone());
+            }
+            if configuration.time {
+                scope.bind(TIME, mu[self.dimension() - 2].clone());
+            }
+        }
+        scope
+    }
+
+    fn abbreviate<T: Number>(&self, scope: &mut Scope<T>) {
+        for (name, value) in &self.declaration.lets {
+            let value = scope.evaluate(value);
+            scope.bind(&name.text, value);
+        }
+    }
+
+    fn state<T: Number>(&self, mu: &[T]) -> Scope<T> {
+        let mut scope = self.coordinates(mu);
+        self.abbreviate(&mut scope);
+        scope
+    }
+
+    /// The energy as it was declared; of a Lagrangian `<mu, xi> - l(xi)` with `l'(xi) = mu`, xi near `velocity`.
+    pub(super) fn energy<T: Number>(&self, mu: &[T], velocity: &[f64]) -> T {
+        match &self.declaration.energy {
+            Energy::Hamiltonian(value) => self.state(mu).evaluate(value),
+            _ => {
+                let xi = self.velocity(mu, velocity);
+                let pairs = xi.iter().zip(mu).map(|(xi, mu)| xi.mul(mu));
+                T::sum(pairs).sub(&self.lagrangian(&xi, mu))
+            }
+        }
+    }
+
+    /// The energy with the momentum of the time.
+    pub(super) fn hamiltonian<T: Number>(&self, mu: &[T], velocity: &[f64]) -> T {
+        let energy = self.energy(mu, velocity);
+        match &self.configuration {
+            Some(configuration) if configuration.time => energy.add(&mu[configuration.momenta - 1]),
+            _ => energy,
+        }
+    }
+
+    /// l(xi), also where it is the limit `l_d(h, h xi)/h` of a discrete one.
+    pub(super) fn lagrangian<T: Number>(&self, xi: &[T], mu: &[T]) -> T {
+        let Energy::DiscreteLagrangian { .. } = &self.declaration.energy else {
+            let mut scope = self.coordinates(mu);
+            self.bind_velocity(&mut scope, xi);
+            self.abbreviate(&mut scope);
+            return scope.evaluate(self.declaration.energy.expression());
+        };
+        let at = |h: f64| {
+            let h = T::rounded(h, 0.0);
+            let x: Vec<T> = xi.iter().map(|xi| xi.mul(&h)).collect();
+            self.discrete(&h, &x).div(&h)
+        };
+        // the error is even or odd in h: both are gone to second order
+        let (one, two) = (at(SMALL), at(-SMALL));
+        one.add(&two).div(&T::integer(2))
+    }
+
+    /// `l_d(h, x)`
+    pub(super) fn discrete<T: Number>(&self, h: &T, x: &[T]) -> T {
+        let mut scope = self.parameters();
+        self.bind_velocity(&mut scope, x);
+        scope.bind("h", h.clone());
+        if let Some(group) = &self.declaration.group {
+            for (name, value) in self.cayley_entries(&group.text, x) {
+                scope.bind(&name, value);
+            }
+        }
+        self.abbreviate(&mut scope);
+        scope.evaluate(self.declaration.energy.expression())
+    }
+
+    fn bind_velocity<T: Number>(&self, scope: &mut Scope<T>, xi: &[T]) {
+        for (name, value) in self.declaration.energy.velocity().iter().zip(xi) {
+            scope.bind(&name.text, value.clone());
+        }
+    }
+
+    /// The entries of `(1 - X/2)^-1 (1 + X/2)`.
+    fn cayley_entries<T: Number>(&self, group: &str, x: &[T]) -> Vec<(String, T)> {
+        let Some(matrices) = self.matrices::<T>() else {
+            return Vec::new();
+        };
+        let size = matrices.first().map_or(0, Vec::len);
+        let half = |sign: i32| -> Vec<Vec<T>> {
+            let entry = |r: usize, c: usize| {
+                let terms = matrices.iter().zip(x).map(|(m, x)| m[r][c].mul(x));
+                let sum = T::sum(terms).div(&T::integer(2 * sign));
+                sum.add(&T::integer(i32::from(r == c)))
+            };
+            (0..size)
+                .map(|r| (0..size).map(|c| entry(r, c)).collect())
+                .collect()
+        };
+        let g = linear::solve(half(-1), half(1));
+        let names = crate::check::configuration::entries_of(group, size);
+        names.into_iter().zip(g.into_iter().flatten()).collect()
+    }
+
+    /// `l'(xi) = mu`, by Newton's iteration over the numbers themselves.
+    pub(super) fn velocity<T: Number>(&self, mu: &[T], near: &[f64]) -> Vec<T> {
+        let n = self.declaration.state.len();
+        let start = |k: usize| near.get(k).copied().unwrap_or(0.0);
+        let mut xi: Vec<T> = (0..n).map(|k| T::rounded(start(k), 0.0)).collect();
+        for _ in 0..ITERATIONS {
+            let (slope, second) = self.derivatives(&xi, n, |xi, lift| {
+                let mu: Vec<_> = mu.iter().map(lift).collect();
+                self.lagrangian(xi, &mu)
+            });
+            let gap = (0..n).map(|i| vec![mu[i].sub(&slope[i])]).collect();
+            let step = linear::solve(second, gap);
+            for (xi, step) in xi.iter_mut().zip(step) {
+                *xi = xi.add(&step[0]);
+            }
+        }
+        xi
+    }
+
+    /// First and second derivatives of a function of n variables.
+    pub(super) fn derivatives<T: Number>(
+        &self,
+        at: &[T],
+        n: usize,
+        function: impl Fn(&[Jet<Jet<T>>], fn(&T) -> Jet<Jet<T>>) -> Jet<Jet<T>>,
+    ) -> (Vec<T>, Vec<Vec<T>>) {
+        let lift: fn(&T) -> Jet<Jet<T>> =
+            |value| Jet::variable(Jet::variable(value.clone(), false), false);
+        let mut slope = Vec::new();
+        let mut second = vec![vec![T::integer(0); n]; n];
+        for i in 0..n {
+            for j in i..n {
+                let varied: Vec<_> = at
+                    .iter()
+                    .enumerate()
+                    .map(|(k, value)| {
+                        let first = Jet::variable(value.clone(), k == i);
+                        let change = T::integer(i32::from(k == j));
+                        Jet {
+                            at: first,
+                            slope: Jet::variable(change, false),
+                        }
+                    })
+                    .collect();
+                let value = function(&varied, lift);
+                if j == i {
+                    slope.push(value.at.slope.clone());
+                }
+                second[i][j] = value.slope.slope.clone();
+                second[j][i] = value.slope.slope;
+            }
+        }
+        (slope, second)
+    }
+
+    /// A function of the state that was declared.
+    pub(super) fn function<T: Number>(&self, expr: &Expr, mu: &[T]) -> T {
+        self.state(mu).evaluate(expr)
+    }
+
+    /// The components of the realization at a point.
+    pub(super) fn momentum_map<T: Number>(&self, z: &[T]) -> Option<Vec<T>> {
+        let realization = self.declaration.realization.as_ref()?;
+        let mut scope = self.parameters();
+        for (name, value) in realization.names().zip(z) {
+            scope.bind(&name.text, value.clone());
+        }
+        self.abbreviate(&mut scope);
+        let component = |name: &Name| {
+            let found = realization.map.iter().find(|(n, _)| n.text == name.text);
+            found.map(|(_, value)| scope.evaluate(value))
+        };
+        self.declaration.state.iter().map(component).collect()
+    }
+
+    /// The declared matrices, in the order of the basis.
+    pub(super) fn matrices<T: Number>(&self) -> Option<Vec<Vec<Vec<T>>>> {
+        let algebra = self.declaration.algebra()?;
+        let mut scope = self.parameters();
+        self.abbreviate(&mut scope);
+        let matrix = |name: &Name| {
+            let found = algebra.matrices.iter().find(|m| m.name.text == name.text)?;
+            let rows = found.rows.iter();
+            Some(
+                rows.map(|row| row.iter().map(|e| scope.evaluate(e)).collect())
+                    .collect(),
+            )
+        };
+        algebra.basis.iter().map(matrix).collect()
+    }
+
+    /// The Poisson matrix `{mu_i, mu_j}`.
+    pub(super) fn poisson<T: Number>(&self, mu: &[T]) -> Vec<Vec<T>> {
+        let n = self.dimension();
+        let mut matrix = vec![vec![T::integer(0); n]; n];
+        let mut set = |i: usize, j: usize, value: T| {
+            matrix[j][i] = value.neg();
+            matrix[i][j] = value;
+        };
+        match &self.declaration.structure {
+            Structure::General { brackets, .. } => {
+                let scope = self.state(mu);
+                for bracket in brackets {
+                    let (i, j) = self.pair(&self.declaration.state, bracket);
+                    set(i, j, scope.evaluate(&bracket.value));
+                }
+                if let (true, Some(configuration)) = (self.has_time(), &self.configuration) {
+                    set(n - 2, configuration.momenta - 1, T::integer(1));
+                }
+            }
+            Structure::Lie { algebra, cocycle } => {
+                for (i, j, value) in self.brackets(algebra, mu) {
+                    set(i, j, value);
+                }
+                if self.configuration.is_some() {
+                    self.configured(mu, &mut set);
+                }
+                let scope = self.parameters();
+                let mut constants = Vec::new();
+                for bracket in cocycle {
+                    let (i, j) = self.pair(&self.declaration.state, bracket);
+                    constants.push((i, j, scope.evaluate(&bracket.value)));
+                }
+                for (i, j, value) in constants {
+                    let sum = matrix[i][j].add(&value);
+                    matrix[j][i] = sum.neg();
+                    matrix[i][j] = sum;
+                }
+            }
+        }
+        matrix
+    }
+
+    fn pair(&self, names: &[Name], bracket: &crate::ast::Bracket) -> (usize, usize) {
+        let place = |name: &Name| names.iter().position(|n| n.text == name.text);
+        (
+            place(&bracket.left).unwrap_or(0),
+            place(&bracket.right).unwrap_or(0),
+        )
+    }
+
+    /// `{mu_i, mu_j} = -<mu, [e_i, e_j]>`, of a right-invariant system with the other sign.
+    fn brackets<T: Number>(&self, algebra: &Algebra, mu: &[T]) -> Vec<(usize, usize, T)> {
+        let left = self.declaration.invariance == Invariance::Left;
+        let sign = |value: T| if left { value.neg() } else { value };
+        if let Some(brackets) = &algebra.brackets {
+            // the value is linear in the basis: its names stand for the coordinates
+            let mut scope = self.parameters();
+            self.abbreviate(&mut scope);
+            for (name, value) in algebra.basis.iter().zip(mu) {
+                scope.bind(&name.text, value.clone());
+            }
+            let written = brackets.iter().map(|bracket| {
+                let (i, j) = self.pair(&algebra.basis, bracket);
+                (i, j, sign(scope.evaluate(&bracket.value)))
+            });
+            return written.filter(|(i, j, _)| i != j).collect();
+        }
+        let matrices = self.matrices::<T>().unwrap_or_default();
+        let mut all = Vec::new();
+        for i in 0..matrices.len() {
+            for j in i + 1..matrices.len() {
+                let commutator = linear::difference(
+                    &linear::product(&matrices[i], &matrices[j]),
+                    &linear::product(&matrices[j], &matrices[i]),
+                );
+                let coordinates = linear::coordinates(&matrices, &commutator);
+                let pairs = coordinates.iter().zip(mu).map(|(c, mu)| c.mul(mu));
+                all.push((i, j, sign(T::sum(pairs))));
+            }
+        }
+        all
+    }
+
+    /// `{g, mu_i} = g rho(e_i)`, or `rho(e_i) g`, and `{t, p} = 1`.
+    fn configured<T: Number>(&self, mu: &[T], set: &mut impl FnMut(usize, usize, T)) {
+        let Some(configuration) = &self.configuration else {
+            return;
+        };
+        if let (Some((_, size)), Some(matrices)) = (&configuration.group, self.matrices::<T>()) {
+            let (first, size) = (configuration.momenta, *size);
+            let g = &mu[first..first + size * size];
+            let left = self.declaration.invariance == Invariance::Left;
+            for (i, rho) in matrices.iter().enumerate() {
+                for a in 0..size {
+                    for b in 0..size {
+                        let terms = (0..size).map(|c| {
+                            if left {
+                                g[a * size + c].mul(&rho[c][b])
+                            } else {
+                                rho[a][c].mul(&g[c * size + b])
+                            }
+                        });
+                        set(first + a * size + b, i, T::sum(terms));
+                    }
+                }
+            }
+        }
+        if configuration.time {
+            let n = self.dimension();
+            set(n - 2, configuration.momenta - 1, mu[n - 1].clone());
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Which form of a task becomes the program.
+
+use super::forms::{self, Roots};
+use super::formula::Formula;
+use super::judge::Judge;
+use super::program::Program;
+use super::{Known, linearise, points, reuse, share};
+use crate::symbolic::{Graph, Symbol};
+
+/// Forms whose repeated pairs are searched.
+const MOST_SHARED: usize = 4;
+/// A form that has so many times the operations of the shortest before sharing is hopeless.
+const HOPELESS: usize = 2;
+
+/// The choice of a program for one task.
+pub struct Choice<'a> {
+    graph: &'a mut Graph,
+    symbols: Vec<Symbol>,
+    known: Known,
+    budget: usize,
+}
+
+/// A form, and its program before pairs are shared.
+struct Trial {
+    roots: Roots,
+    group: bool,
+    program: Program,
+}
+
+impl<'a> Choice<'a> {
+    pub fn new(graph: &'a mut Graph, symbols: Vec<Symbol>, known: Known) -> Self {
+        Self {
+            graph,
+            symbols,
+            known,
+            budget: share::BUDGET,
+        }
+    }
+
+    /// The program of the roots.
+    pub fn program(mut self, roots: Roots) -> Program {
+        // What is prepared is computed as it stands, once.
+        if self.known == Known::Nothing {
+            let trial = self.trial(roots, false);
+            return self.shared(&trial);
+        }
+        let references = forms::references(self.graph, &roots);
+        let trials: Vec<Trial> = references
+            .iter()
+            .map(|form| self.trial(form.clone(), false))
+            .collect();
+        let points = points::points(self.graph, &self.symbols, &roots);
+        let programs: Vec<&Program> = trials.iter().map(|trial| &trial.program).collect();
+        let judge = Judge::new(self.graph, points, &programs);
+        let trials = self.admitted(trials, &references, &judge);
+        self.best(trials, &judge)
+    }
+
+    fn formula(&mut self, roots: &Roots, group: bool) -> Formula {
+        Formula::new(self.graph, &self.symbols, roots, self.known, group)
+    }
+
+    fn trial(&mut self, roots: Roots, group: bool) -> Trial {
+        let formula = self.formula(&roots, group);
+        Trial {
+            program: reuse::reuse(linearise::linearise(&formula)),
+            roots,
+            group,
+        }
+    }
+
+    /// The program of a trial with pairs shared.
+    fn shared(&mut self, trial: &Trial) -> Program {
+        let mut formula = self.formula(&trial.roots, trial.group);
+        share::share(&mut formula, &mut self.budget);
+        reuse::reuse(linearise::linearise(&formula))
+    }
+
+    /// All forms that may stand for the written one, with their variants; at least one.
+    fn admitted(
+        &mut self,
+        mut trials: Vec<Trial>,
+        references: &[Roots],
+        judge: &Judge,
+    ) -> Vec<Trial> {
+        for form in forms::rewritten(self.graph, references, self.known) {
+            trials.push(self.trial(form, false));
+        }
+        let losses: Vec<Vec<f64>> = trials
+            .iter()
+            .map(|trial| judge.losses(self.graph, &trial.program))
+            .collect();
+        let mixed = self.mixed(&trials, &losses);
+        let mut admitted: Vec<Trial> = vec![self.trial(mixed, false)];
+        for (trial, losses) in trials.into_iter().zip(&losses) {
+            let good = losses.iter().all(|loss| Judge::admits(*loss));
+            if good && trial.roots != admitted[0].roots {
+                admitted.push(trial);
+            }
+        }
+        self.varied(promising(admitted))
+    }
+
+    /// The trials with their variants, and the best of them with common coefficients pulled out.
+    fn varied(&mut self, trials: Vec<Trial>) -> Vec<Trial> {
+        let mut variants: Vec<Roots> = Vec::new();
+        for trial in &trials {
+            for form in forms::variants(self.graph, &self.symbols, &trial.roots, self.known) {
+                forms::add(&mut variants, form);
+            }
+        }
+        let plain = variants.into_iter().map(|form| self.trial(form, false));
+        let mut trials = promising(plain.collect());
+        for index in 0..trials.len() {
+            let grouped = self.trial(trials[index].roots.clone(), true);
+            if grouped.program != trials[index].program {
+                trials.push(grouped);
+            }
+        }
+        promising(trials)
+    }
+
+    /// Of every output the form that is cheapest by itself; where none is good enough, the best.
+    fn mixed(&self, trials: &[Trial], losses: &[Vec<f64>]) -> Roots {
+        let first = self.symbols.len();
+        let mut roots = trials[0].roots.clone();
+        let weights: Vec<Vec<usize>> = trials.iter().map(|t| t.program.weights()).collect();
+        for output in 0..roots.len() - first {
+            let admitted = (0..trials.len())
+                .filter(|t| Judge::admits(losses[*t][output]))
+                .min_by_key(|t| weights[*t][output]);
+            let chosen = admitted.or_else(|| {
+                (0..trials.len()).min_by(|a, b| losses[*a][output].total_cmp(&losses[*b][output]))
+            });
+            if let Some(chosen) = chosen {
+                roots[first + output] = trials[chosen].roots[first + output];
+            }
+        }
+        roots
+    }
+
+    /// The cheapest program after sharing among the most promising trials.
+    fn best(&mut self, trials: Vec<Trial>, judge: &Judge) -> Program {
+        let mut programs: Vec<Program> = trials.iter().map(|trial| self.shared(trial)).collect();
+        programs.sort_by_key(|program| program.counts.weight());
+        let losses: Vec<f64> = programs
+            .iter()
+            .map(|program| judge.worst(self.graph, program))
+            .collect();
+        let admitted = losses.iter().position(|loss| Judge::admits(*loss));
+        let least = || (0..losses.len()).min_by(|a, b| losses[*a].total_cmp(&losses[*b]));
+        let chosen = admitted.or_else(least).unwrap_or(0);
+        programs.swap_remove(chosen)
+    }
+}
+
+/// The trials that may still win, the shortest first.
+fn promising(mut trials: Vec<Trial>) -> Vec<Trial> {
+    trials.sort_by_key(|trial| trial.program.counts.weight());
+    let shortest = trials[0].program.counts.weight();
+    trials.retain(|trial| trial.program.counts.weight() <= HOPELESS * shortest);
+    trials.truncate(MOST_SHARED);
+    trials
+}

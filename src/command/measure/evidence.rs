@@ -1,0 +1,188 @@
+//! What the built program shows of itself, before a judge who interprets the declaration.
+
+use std::collections::BTreeMap;
+
+use lie_codegen::judge::{Judge, Sample, Verdict};
+use serde_json::{Value, json};
+
+use super::table::short;
+
+/// A spoiled value differs by this part of the largest: the judge must notice.
+const SPOILED: f64 = 1e-4;
+
+/// What was judged so far.
+pub struct Evidence {
+    judge: Option<Judge>,
+    /// The worst of each kernel.
+    kernels: BTreeMap<String, Verdict>,
+    samples: usize,
+    /// Kernels of which the judge let a spoiled value pass at every state.
+    blind: BTreeMap<String, bool>,
+    /// The largest distance of a reference solution from the judge's own, relative to what is allowed.
+    reference: Option<f64>,
+    /// Measurements that let a spoiled map pass.
+    broken: Vec<String>,
+}
+
+fn numbers(text: &str) -> Vec<f64> {
+    let words = text.split_whitespace();
+    words.map(|word| word.parse().unwrap_or(f64::NAN)).collect()
+}
+
+impl Evidence {
+    /// Nothing yet.
+    pub fn before(judge: Option<Judge>) -> Self {
+        Self {
+            judge,
+            kernels: BTreeMap::new(),
+            samples: 0,
+            blind: BTreeMap::new(),
+            reference: None,
+            broken: Vec::new(),
+        }
+    }
+
+    /// Takes a line of the program.
+    pub fn take(&mut self, fields: &[&str]) {
+        match fields {
+            ["kernel", name, arguments, values, velocity] => self.kernel(&Sample {
+                kernel: (*name).to_owned(),
+                arguments: arguments.split('|').map(numbers).collect(),
+                values: numbers(values),
+                velocity: numbers(velocity),
+            }),
+            ["reference", span, start, end] => {
+                let (Some(judge), Ok(span)) = (&self.judge, span.parse()) else {
+                    return;
+                };
+                if let Some(excess) = judge.solution(&numbers(start), span, &numbers(end)) {
+                    self.reference =
+                        Some(self.reference.map_or(excess, |worst| larger(worst, excess)));
+                }
+            }
+            ["broken", fact] => self.broken.push((*fact).to_owned()),
+            _ => {}
+        }
+    }
+
+    fn kernel(&mut self, sample: &Sample) {
+        let Some(judge) = &self.judge else { return };
+        let Some(verdict) = judge.judge(sample) else {
+            return;
+        };
+        self.samples += 1;
+        let worst = self.kernels.entry(sample.kernel.clone());
+        let worst = worst.or_insert_with(|| verdict.clone());
+        if verdict.excess > worst.excess {
+            *worst = verdict;
+        }
+        if let Some(spoiled) = spoiled(sample) {
+            let seen = judge
+                .judge(&spoiled)
+                .is_some_and(|verdict| verdict.excess > 1.0);
+            let blind = self.blind.entry(sample.kernel.clone()).or_insert(true);
+            *blind &= !seen;
+        }
+    }
+
+    /// Whether nothing speaks against the program.
+    pub fn holds(&self) -> bool {
+        self.failures().is_empty()
+    }
+
+    /// What speaks against it.
+    pub fn failures(&self) -> Vec<String> {
+        let mut failures = Vec::new();
+        if self.judge.is_none() {
+            failures.push("the declaration cannot be interpreted".to_owned());
+        }
+        if self.kernels.is_empty() {
+            failures.push("no kernel was shown to the judge".to_owned());
+        }
+        for (kernel, verdict) in &self.kernels {
+            if verdict.excess > 1.0 || verdict.excess.is_nan() {
+                failures.push(format!(
+                    "{kernel}: entry {} is {:?}, and {:?} by the declaration as it was written",
+                    verdict.entry, verdict.value, verdict.expected
+                ));
+            }
+        }
+        for (kernel, _) in self.blind.iter().filter(|(_, blind)| **blind) {
+            failures.push(format!(
+                "{kernel}: a spoiled value passes, it is not judged"
+            ));
+        }
+        if let Some(excess) = self.reference.filter(|excess| !(*excess <= 1.0)) {
+            failures.push(format!(
+                "the reference solution is {} times as far from that of the declaration as is allowed",
+                short(excess)
+            ));
+        }
+        for fact in &self.broken {
+            failures.push(format!(
+                "{fact}: a spoiled map passes, the measurement says nothing"
+            ));
+        }
+        failures
+    }
+
+    /// One line.
+    pub fn summary(&self) -> String {
+        let excess = self.kernels.values().map(|verdict| verdict.excess);
+        let worst = excess.fold(0.0, larger);
+        let solution = match self.reference {
+            Some(_) => ", and so does the reference solution",
+            None => "",
+        };
+        format!(
+            "{} kernels, {} samples: {} of the round-off allowed from the declaration as written{solution}\n",
+            self.kernels.len(),
+            self.samples,
+            short(worst),
+        )
+    }
+
+    /// The same as data.
+    pub fn as_json(&self) -> Value {
+        let kernels: serde_json::Map<String, Value> = self
+            .kernels
+            .iter()
+            .map(|(name, verdict)| (name.clone(), number(verdict.excess)))
+            .collect();
+        json!({
+            "kernels": kernels,
+            "reference": self.reference.map(number),
+            "broken_measurements": self.broken,
+            "failures": self.failures(),
+        })
+    }
+}
+
+fn number(value: f64) -> Value {
+    if value.is_finite() {
+        json!(value)
+    } else {
+        Value::Null
+    }
+}
+
+/// The larger of two numbers; what is none wins.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        f64::max(a, b)
+    }
+}
+
+/// The same sample with its largest value spoiled; none of a kernel that is zero.
+fn spoiled(sample: &Sample) -> Option<Sample> {
+    let sizes = sample.values.iter().map(|value| value.abs());
+    let largest = sizes.clone().fold(0.0, f64::max);
+    let place = sizes
+        .clone()
+        .position(|size| size == largest && size > 0.0)?;
+    let mut spoiled = sample.clone();
+    spoiled.values[place] += SPOILED * largest;
+    Some(spoiled)
+}
