@@ -101,12 +101,11 @@ impl Rows {
         self.buffer.clear();
         // Of what was sent last, the first rows may have arrived.
         let (good, arrived) = (self.destination.length(), self.destination.arrived());
-        let more = self
-            .ends
-            .iter()
-            .filter(|end| (good + 1..=arrived).contains(end));
+        let came = |end: &&u64| (good + 1..=arrived).contains(*end);
+        let mut more = self.ends.iter().filter(came);
         self.arrived += more.clone().count() as u64;
-        self.destination.cut(more.last().copied().unwrap_or(good));
+        let whole = more.next_back().copied();
+        self.destination.cut(whole.unwrap_or(good));
         self.count()?;
         let mut end = Vec::new();
         self.form.end("failed", &mut end);
