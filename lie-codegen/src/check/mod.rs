@@ -5,6 +5,7 @@
 //! identities of other brackets, Casimirs and the domain.
 
 mod algebra;
+mod breadth;
 mod casimirs;
 mod cocycle;
 pub mod configuration;
@@ -30,6 +31,7 @@ mod poisson;
 mod proof;
 mod ranks;
 mod realization;
+pub(crate) mod residues;
 mod sample;
 mod series;
 mod size;
@@ -195,7 +197,12 @@ fn system(
     }
     let functions: Vec<_> = candidates.iter().map(|c| (c.expr, c.origin)).collect();
     let energy = (hamiltonian, declaration.energy.expression().origin);
-    size::derived(&scratch, &poisson, energy, &functions, report);
+    let place = declaration
+        .algebra()
+        .map_or(declaration.place(), |algebra| algebra.origin);
+    if breadth::check(&scratch, (&poisson, place), energy, report) {
+        size::derived(&scratch, &poisson, energy, &functions, report);
+    }
     if report.has_errors() {
         return None;
     }
