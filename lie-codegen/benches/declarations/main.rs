@@ -5,7 +5,7 @@
 //! the distribution of the times and the worst 20 with their kernels. A procedural macro is built
 //! without optimisation by cargo: the same with `--profile unoptimised`. Arguments after `--`:
 //! `--count N`, `--seed N`, `--worst N`, `--only I,J,…` (these declarations alone), `--list FILE`
-//! (the worst with their text, as Markdown), `--progress`.
+//! (the worst with their text, as Markdown), `--progress`, `--spec FILE,…` (these specs and nothing drawn).
 //!
 //! Times are processor time of this thread. Beside them stand counts that are the same on every machine:
 //! the nodes and operands of the arena when all kernels are scheduled, and the operations of all kernels.
@@ -131,6 +131,7 @@ struct Arguments {
     worst: usize,
     only: Option<Vec<usize>>,
     list: Option<String>,
+    specs: Option<String>,
     progress: bool,
 }
 
@@ -142,6 +143,7 @@ impl Arguments {
             worst: 20,
             only: None,
             list: None,
+            specs: None,
             progress: false,
         };
         let mut words = std::env::args().skip(1);
@@ -162,6 +164,7 @@ impl Arguments {
                         list.split(',').map(|n| number(n.to_owned())).collect();
                     arguments.only = Some(numbers?);
                 }
+                "--spec" => arguments.specs = Some(value()?),
                 "--list" => arguments.list = Some(value()?),
                 "--progress" => arguments.progress = true,
                 _ => return Err(format!("unknown argument `{word}`")),
@@ -171,9 +174,26 @@ impl Arguments {
     }
 }
 
+fn read(files: &str) -> Result<Vec<Declaration>, String> {
+    let files = files.split(',').enumerate();
+    files
+        .map(|(index, path)| {
+            let spec = std::fs::read_to_string(path).map_err(|error| format!("{path}: {error}"))?;
+            Ok(Declaration {
+                index,
+                family: "spec",
+                spec,
+            })
+        })
+        .collect()
+}
+
 fn main() -> Result<(), String> {
     let arguments = Arguments::read()?;
-    let declarations = draw::declarations(arguments.seed, arguments.count);
+    let declarations = match &arguments.specs {
+        Some(files) => read(files)?,
+        None => draw::declarations(arguments.seed, arguments.count),
+    };
     let wanted = |index: usize| match &arguments.only {
         Some(only) => only.contains(&index),
         None => true,

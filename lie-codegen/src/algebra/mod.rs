@@ -26,4 +26,4 @@ pub use representation::{Representation, TripleEntry};
 pub use scope::Scope;
 
 /// Work allowed for the exact checks of one algebra: seconds, not minutes.
-pub(crate) const WORK: u64 = 50_000_000;
+pub(crate) const WORK: u64 = 20_000_000;

@@ -11,7 +11,7 @@ use crate::model::Parameter;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the identity.
-const WORK: u64 = 20_000_000;
+const WORK: u64 = 5_000_000;
 
 /// Reports constants that use parameters which are not exact: the identity must hold for what the
 /// brackets of the algebra may depend on, and these are exact.

@@ -7,6 +7,7 @@
 //! roots and functions of the coordinates take part, the normal form decides.
 
 use super::normal::NormalForm;
+use super::residues;
 use crate::exact::{Budget, Rational, Residue};
 use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
 
@@ -64,33 +65,6 @@ impl Growth {
     }
 }
 
-/// The value of something at a point: all from the same seed in every run.
-fn drawn(point: usize, kind: u64, index: u64) -> Residue {
-    // splitmix64
-    let mut z = (point as u64 + 1)
-        .wrapping_mul(0x9e37_79b9_7f4a_7c15)
-        .wrapping_add(kind.wrapping_mul(0xd1b5_4a32_d192_ed03))
-        .wrapping_add(index.wrapping_mul(0x8cb9_2ba7_2f3d_8dd7));
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    Residue::from_bits(z ^ (z >> 31))
-}
-
-fn of_symbol(point: usize, symbol: Symbol) -> Residue {
-    let (kind, index) = match symbol {
-        Symbol::Parameter(i) => (1, i),
-        Symbol::Step => (2, 0),
-        Symbol::Time => (3, 0),
-        Symbol::Coordinate(i) => (4, i),
-        Symbol::Input(i) => (5, i),
-    };
-    drawn(point, kind, index as u64)
-}
-
-const PI: u64 = 6;
-const CONSTANT: u64 = 7;
-const DIRECTION: u64 = 8;
-
 /// A constant or a coordinate.
 fn leaf(degree: i64, value: impl Fn(usize) -> Option<Residue>) -> Option<Growth> {
     let growth = Growth {
@@ -116,10 +90,10 @@ fn growths(graph: &Graph, function: ExprId) -> Vec<Option<Growth>> {
         let growth = match graph.node(*id) {
             Node::Number(value) => leaf(0, |_| Residue::of(value)),
             // transcendental, so that no relation holds for it
-            Node::Pi => leaf(0, |point| Some(drawn(point, PI, 0))),
+            Node::Pi => leaf(0, |point| Some(residues::of_pi(point))),
             Node::Symbol(symbol) => {
                 let degree = i64::from(matches!(symbol, Symbol::Coordinate(_)));
-                leaf(degree, |point| Some(of_symbol(point, *symbol)))
+                leaf(degree, |point| Some(residues::of_symbol(point, *symbol)))
             }
             Node::Sum { constant, terms } => {
                 let terms = terms.iter().map(|(term, c)| Some((of(term)?, c)));
@@ -138,7 +112,7 @@ fn growths(graph: &Graph, function: ExprId) -> Vec<Option<Growth>> {
                 let constant = arguments
                     .iter()
                     .all(|a| of(a).is_some_and(Growth::is_constant));
-                let value = |point| Some(drawn(point, CONSTANT, id.index() as u64));
+                let value = |point| Some(residues::of_constant(point, id.index() as u64));
                 leaf(0, value).filter(|_| constant).map(|leaf| Growth {
                     opaque: true,
                     uncertain: *function != Function::Exp,
@@ -191,7 +165,8 @@ fn product<'a>(
                 .to_words()
                 .map_or(0, |(n, d)| n.wrapping_mul(1009) ^ d);
             for (point, leading) in all.leading.iter_mut().enumerate() {
-                let value = drawn(point, CONSTANT, (base.index() as u64) << 32 ^ place as u64);
+                let value =
+                    residues::of_constant(point, (base.index() as u64) << 32 ^ place as u64);
                 *leading = leading.map(|l| l.times(value));
             }
             all.opaque = true;
@@ -221,7 +196,7 @@ fn leaves_its_polynomial(graph: &Graph, function: ExprId, degree: i64) -> bool {
     }
     let parts = graph.dependencies(&[function]);
     let values: Option<Vec<Residue>> = (0..degree + 2)
-        .map(|step| on_line(graph, &parts, Residue::from_bits(step as u64)))
+        .map(|step| residues::on_line(graph, &parts, Residue::from_bits(step as u64)))
         .collect();
     let Some(mut values) = values else {
         return false;
@@ -235,6 +210,7 @@ fn leaves_its_polynomial(graph: &Graph, function: ExprId, degree: i64) -> bool {
     values.iter().any(|value| !value.is_zero())
 }
 
+<<<<<<< HEAD
 /// The value at a point of a line modulo the prime; `None` at poles and with roots or functions.
 fn on_line(graph: &Graph, parts: &[ExprId], step: Residue) -> Option<Residue> {
     let mut values: Vec<Residue> = Vec::with_capacity(parts.len());
@@ -275,6 +251,8 @@ fn on_line(graph: &Graph, parts: &[ExprId], step: Residue) -> Option<Residue> {
     values.last().copied()
 }
 
+=======
+>>>>>>> bounds
 /// The degree of a function some terms of which are beyond the structure: these alone go through the
 /// normal form.
 fn parts(graph: &Graph, function: ExprId, growths: &[Option<Growth>]) -> Option<u32> {

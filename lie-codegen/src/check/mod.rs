@@ -5,7 +5,11 @@
 //! identities of other brackets, Casimirs and the domain.
 
 mod algebra;
+<<<<<<< HEAD
 mod branches;
+=======
+mod breadth;
+>>>>>>> bounds
 mod casimirs;
 mod cocycle;
 pub mod configuration;
@@ -35,6 +39,7 @@ mod poisson;
 mod proof;
 mod ranks;
 mod realization;
+pub(crate) mod residues;
 mod sample;
 mod series;
 mod size;
@@ -207,7 +212,12 @@ fn system(
     }
     let functions: Vec<_> = candidates.iter().map(|c| (c.expr, c.origin)).collect();
     let energy = (hamiltonian, declaration.energy.expression().origin);
-    size::derived(&scratch, &poisson, energy, &functions, report);
+    let place = declaration
+        .algebra()
+        .map_or(declaration.place(), |algebra| algebra.origin);
+    if breadth::check(&scratch, (&poisson, place), energy, report) {
+        size::derived(&scratch, &poisson, energy, &functions, report);
+    }
     if report.has_errors() {
         return None;
     }

@@ -14,7 +14,7 @@ use crate::model::{CANONICAL, Descent, PoissonMatrix, Realization};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for all brackets of one realization.
-const WORK: u64 = 20_000_000;
+const WORK: u64 = 5_000_000;
 
 /// Lowers a realization; `Some(None)` where none is declared.
 pub fn lower(

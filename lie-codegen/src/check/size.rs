@@ -8,6 +8,10 @@ use crate::symbolic::{ExprId, Graph, Symbol};
 /// Kernels are straight-line code; above this dimension no compiler gets through them.
 pub const MAX_DIMENSION: usize = 256;
 
+/// Each parameter is a field of the generated type and a word of every system; a quadratic H with a parameter
+/// for every coefficient has as many in 76 dimensions.
+const MOST_PARAMETERS: usize = 3_000;
+
 /// The largest arena that the derivatives of a system may fill, nodes and operands together. A
 /// dense quadratic H on so(7) with a parameter for every coefficient takes a tenth of it.
 const MOST_DERIVED: usize = 300_000;
@@ -35,6 +39,20 @@ pub fn check(declaration: &Declaration, report: &mut Report) -> bool {
                 format!("the dimension {dimension} is above the limit of {MAX_DIMENSION}"),
             )
             .help("kernels are straight-line code; declare a smaller system"),
+        );
+        return false;
+    }
+    if let Some(parameter) = declaration.parameters.get(MOST_PARAMETERS) {
+        let count = declaration.parameters.len();
+        report.push(
+            Diagnostic::new(
+                Kind::Limit,
+                parameter.name.origin,
+                format!(
+                    "the number of parameters, {count}, is above the limit of {MOST_PARAMETERS}"
+                ),
+            )
+            .help("write what never varies as numbers, or express many parameters by few"),
         );
         return false;
     }

@@ -91,6 +91,8 @@ impl Fraction {
             }
             .reduce(budget);
         }
+        // Long denominators are work too, where each factor is short.
+        budget.spend((self.denominator.len() + other.denominator.len()) as u64)?;
         let mut common = self.denominator.clone();
         for (factor, &exponent) in &other.denominator {
             let entry = common.entry(factor.clone()).or_insert(0);
@@ -299,6 +301,8 @@ impl Fraction {
                 continue;
             }
             while *exponent > 0 && factor.degree() <= self.numerator.degree() {
+                // what the division copies, whether or not it succeeds
+                budget.spend(1 + self.numerator.terms().len() as u64 / 8)?;
                 let Some(quotient) = self.numerator.divide_exactly(factor, budget)? else {
                     break;
                 };

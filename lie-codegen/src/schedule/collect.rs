@@ -8,7 +8,14 @@ use crate::exact::Rational;
 use crate::symbolic::{ExprId, Graph, Node};
 
 /// A polynomial with more terms is not worth collecting.
+<<<<<<< HEAD
 const MOST_TERMS: usize = 800;
+=======
+const MOST_TERMS: usize = 3000;
+/// A prepared coefficient of more terms is not worth collecting either: each of its partial sums is an
+/// expression of its own.
+const MOST_SUMMANDS: usize = 1000;
+>>>>>>> bounds
 /// Factors of monomials after which the expansion of a kernel has gone too far.
 const MOST_WORK: usize = 250_000;
 
@@ -104,6 +111,12 @@ impl Collector {
                     self.spend(done[term].keys().map(Vec::len).sum())?;
                     for (monomial, inner) in &done[term] {
                         let scaled = graph.scale(*inner, coefficient);
+                        let earlier = sum.get(monomial).map(|known| graph.node(*known));
+                        if let Some(Node::Sum { terms, .. }) = earlier
+                            && terms.len() > MOST_SUMMANDS
+                        {
+                            return None;
+                        }
                         add_to(graph, &mut sum, monomial.clone(), scaled);
                     }
                 }

@@ -6,6 +6,7 @@
 
 use super::one_parameter::{self, Block, Entry};
 use crate::check::normal::{NormalForm, Verdict};
+use crate::check::residues::is_nonzero;
 use crate::exact::Budget;
 use crate::model::Model;
 use crate::symbolic::{ExprId, Graph, Symbol};
@@ -50,12 +51,14 @@ pub fn coordinates(
     let budget = Budget::new(WORK);
     let mut normal = NormalForm::within(graph, &budget, &[hamiltonian]);
     for (i, j, second) in mixed {
-        if !matches!(normal.verdict(second), Verdict::Zero) {
+        if is_nonzero(graph, second) || !matches!(normal.verdict(second), Verdict::Zero) {
             return Err((i, j));
         }
     }
-    let mut moves =
-        |slope: ExprId| !graph.is_zero(slope) && !matches!(normal.verdict(slope), Verdict::Zero);
+    let mut moves = |slope: ExprId| {
+        is_nonzero(graph, slope)
+            || (!graph.is_zero(slope) && !matches!(normal.verdict(slope), Verdict::Zero))
+    };
     Ok((0..dimension).filter(|&i| moves(slopes[i])).collect())
 }
 

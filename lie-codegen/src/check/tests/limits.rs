@@ -141,6 +141,59 @@ fn large_dimensions() {
 }
 
 #[test]
+fn matrices_with_too_many_entries() {
+    let names =
+        |letter: &str| -> Vec<String> { (0..130).map(|i| format!("{letter}{i}")).collect() };
+    let pairs = || (0..130).flat_map(|i| (i + 1..130).map(move |j| (i, j)));
+    let spec = |brackets: Vec<String>, hamiltonian: Vec<String>| {
+        let algebra = format!(r#"{{"basis": {:?}, "brackets": {brackets:?}}}"#, names("e"));
+        system(
+            &[
+                ("algebra", &algebra),
+                ("state", &format!("{:?}", names("x"))),
+                ("hamiltonian", &format!("{:?}", hamiltonian.join(" + "))),
+            ],
+            &[],
+        )
+    };
+    let one = || vec!["[e0, e1] = e2".to_owned()];
+    let dense = spec(one(), pairs().map(|(i, j)| format!("x{i}*x{j}")).collect());
+    expect(&dense, &["limit at x0*x1"]);
+    assert!(errors(&dense)[0].contains("mixes 8385 pairs"));
+    // the same number of pairs in one factor
+    let sum = names("x").join(" + ");
+    expect(
+        &spec(one(), vec![format!("sin({sum})")]),
+        &["limit at sin("],
+    );
+    // 384 pairs in many terms
+    let band = pairs()
+        .filter(|(i, j)| j - i < 4)
+        .map(|(i, j)| format!("x{i}*x{j}"));
+    model(&spec(one(), band.collect()));
+    let bracket = |(i, j): (usize, usize)| format!("[e{i}, e{j}] = e{j} - e{i}");
+    let full = spec(pairs().map(bracket).collect(), vec!["x0^2".into()]);
+    let found = errors(&full);
+    assert!(
+        found[0].contains("8385 pairs of coordinates have a bracket"),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn too_many_parameters() {
+    let parameters = |count: usize| {
+        let each: Vec<String> = (0..count).map(|i| format!(r#""p{i}": 2"#)).collect();
+        so3(&[
+            ("parameters", &format!("{{{}}}", each.join(", "))),
+            ("hamiltonian", r#""p7*x^2""#),
+        ])
+    };
+    expect(&parameters(3001), &["limit at p3000"]);
+    model(&parameters(3000));
+}
+
+#[test]
 fn deep_trees_do_not_exhaust_the_stack() {
     let origin = Origin::Text { start: 0, end: 0 };
     let leaf = Expr {

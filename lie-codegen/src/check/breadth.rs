@@ -1,0 +1,85 @@
+//! How many entries the Poisson matrix and the Hessian have: each is a line of straight-line code.
+
+use std::collections::BTreeMap;
+
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::model::PoissonMatrix;
+use crate::symbolic::{ExprId, Graph, Node, Symbol};
+
+/// The most entries above the diagonal that may differ from zero. That of gl(16), n = 256, has 4,000, and
+/// neither the search for common terms nor the compiler behind it gets through many more.
+const MOST_ENTRIES: usize = 6_000;
+
+/// A set of coordinates, 64 in a word.
+type Set = Vec<u64>;
+
+/// Checks that neither matrix is too full; whether they are not.
+pub fn check(
+    graph: &Graph,
+    poisson: (&PoissonMatrix, Origin),
+    hamiltonian: (ExprId, Origin),
+    report: &mut Report,
+) -> bool {
+    let (matrix, place) = poisson;
+    let brackets = matrix.entries.len();
+    if brackets > MOST_ENTRIES {
+        let message = format!(
+            "{brackets} pairs of coordinates have a bracket that is not zero, more than the limit of {MOST_ENTRIES}"
+        );
+        report.push(Diagnostic::new(Kind::Limit, place, message).help(
+            "kernels are straight-line code; choose a basis in which more brackets vanish, or a smaller system",
+        ));
+        return false;
+    }
+    let (energy, place) = hamiltonian;
+    let mixed = mixed_pairs(graph, energy, matrix.dimension);
+    if mixed > MOST_ENTRIES {
+        let message = format!(
+            "the Hamiltonian mixes {mixed} pairs of coordinates, more than the limit of {MOST_ENTRIES}"
+        );
+        report.push(Diagnostic::new(Kind::Limit, place, message).help(
+            "kernels are straight-line code; choose coordinates in which more mixed terms vanish, or a smaller system",
+        ));
+        return false;
+    }
+    true
+}
+
+/// An upper bound of the nonzero entries of the Hessian above the diagonal: pairs of coordinates that occur
+/// together in one term.
+fn mixed_pairs(graph: &Graph, energy: ExprId, dimension: usize) -> usize {
+    let empty: Set = vec![0; dimension.div_ceil(64)];
+    let unite = |set: &mut Set, other: &Set| {
+        set.iter_mut()
+            .zip(other)
+            .for_each(|(word, more)| *word |= more);
+    };
+    let contains = |set: &Set, i: usize| (set[i / 64] >> (i % 64)) & 1 == 1;
+    let mut sets: BTreeMap<ExprId, Set> = BTreeMap::new();
+    for id in graph.dependencies(&[energy]) {
+        let mut set = empty.clone();
+        if let Node::Symbol(Symbol::Coordinate(i)) = graph.node(id) {
+            set[i / 64] |= 1 << (i % 64);
+        }
+        for child in graph.children(id) {
+            unite(&mut set, &sets[&child]);
+        }
+        sets.insert(id, set);
+    }
+    let mut rows = vec![empty; dimension];
+    let terms = match graph.node(energy) {
+        Node::Sum { terms, .. } => terms.iter().map(|(term, _)| *term).collect(),
+        _ => vec![energy],
+    };
+    for term in terms {
+        let set = &sets[&term];
+        for (i, row) in rows.iter_mut().enumerate() {
+            if contains(set, i) {
+                unite(row, set);
+            }
+        }
+    }
+    let ones = |row: &Set| -> u32 { row.iter().map(|word| word.count_ones()).sum() };
+    let both: u32 = rows.iter().map(|row| ones(row).saturating_sub(1)).sum();
+    both as usize / 2
+}

@@ -1,0 +1,88 @@
+//! Values of expressions modulo a prime, at points that are the same in every run.
+//!
+//! A rational function of coordinates and parameters whose value is not zero does not vanish
+//! identically: that is proven, whatever it would take to write the function out.
+
+use crate::exact::Residue;
+use crate::symbolic::{ExprId, Graph, Node, Symbol};
+
+/// Pi, which obeys no relation.
+const PI: u64 = 6;
+/// Roots and functions of parameters.
+const CONSTANT: u64 = 7;
+/// The direction of the line.
+const DIRECTION: u64 = 8;
+
+/// A value for something at a point.
+fn drawn(point: usize, kind: u64, index: u64) -> Residue {
+    // splitmix64
+    let mut z = (point as u64 + 1)
+        .wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        .wrapping_add(kind.wrapping_mul(0xd1b5_4a32_d192_ed03))
+        .wrapping_add(index.wrapping_mul(0x8cb9_2ba7_2f3d_8dd7));
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    Residue::from_bits(z ^ (z >> 31))
+}
+
+/// The value of a symbol.
+pub fn of_symbol(point: usize, symbol: Symbol) -> Residue {
+    let (kind, index) = match symbol {
+        Symbol::Parameter(i) => (1, i),
+        Symbol::Step => (2, 0),
+        Symbol::Time => (3, 0),
+        Symbol::Coordinate(i) => (4, i),
+        Symbol::Input(i) => (5, i),
+    };
+    drawn(point, kind, index as u64)
+}
+
+/// The value of pi, of which only algebra is asked.
+pub fn of_pi(point: usize) -> Residue {
+    drawn(point, PI, 0)
+}
+
+/// A value for a constant that is neither a number nor a symbol.
+pub fn of_constant(point: usize, index: u64) -> Residue {
+    drawn(point, CONSTANT, index)
+}
+
+/// Whether an expression is a rational function that does not vanish.
+pub fn is_nonzero(graph: &Graph, id: ExprId) -> bool {
+    let parts = graph.dependencies(&[id]);
+    on_line(graph, &parts, Residue::ZERO).is_some_and(|value| !value.is_zero())
+}
+
+/// The value of the last of the parts at a point of a line through the coordinates; `None` at poles and
+/// with roots or functions. The parts are in ascending order.
+pub fn on_line(graph: &Graph, parts: &[ExprId], step: Residue) -> Option<Residue> {
+    let mut values: Vec<Residue> = Vec::with_capacity(parts.len());
+    for id in parts {
+        let of = |child: &ExprId| Some(values[parts.binary_search(child).ok()?]);
+        let value = match graph.node(*id) {
+            Node::Number(value) => Residue::of(value)?,
+            Node::Pi => of_pi(0),
+            Node::Symbol(symbol @ Symbol::Coordinate(i)) => {
+                of_symbol(0, *symbol).plus(step.times(drawn(0, DIRECTION, *i as u64)))
+            }
+            Node::Symbol(symbol) => of_symbol(0, *symbol),
+            Node::Sum { constant, terms } => {
+                let mut sum = Residue::of(constant)?;
+                for (term, coefficient) in terms {
+                    sum = sum.plus(of(term)?.times(Residue::of(coefficient)?));
+                }
+                sum
+            }
+            Node::Product(factors) => {
+                let mut product = Residue::ONE;
+                for (base, exponent) in factors {
+                    product = product.times(of(base)?.power(exponent.to_integer()?)?);
+                }
+                product
+            }
+            Node::Call(..) => return None,
+        };
+        values.push(value);
+    }
+    values.last().copied()
+}
