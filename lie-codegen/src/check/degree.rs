@@ -210,49 +210,6 @@ fn leaves_its_polynomial(graph: &Graph, function: ExprId, degree: i64) -> bool {
     values.iter().any(|value| !value.is_zero())
 }
 
-<<<<<<< HEAD
-/// The value at a point of a line modulo the prime; `None` at poles and with roots or functions.
-fn on_line(graph: &Graph, parts: &[ExprId], step: Residue) -> Option<Residue> {
-    let mut values: Vec<Residue> = Vec::with_capacity(parts.len());
-    for id in parts {
-        let of = |child: &ExprId| Some(values[parts.binary_search(child).ok()?]);
-        let value = match graph.node(*id) {
-            Node::Number(value) => Residue::of(value)?,
-            Node::Pi => drawn(0, PI, 0),
-            Node::Symbol(symbol) => match symbol {
-                Symbol::Coordinate(i) => {
-                    of_symbol(0, *symbol).plus(step.times(drawn(0, DIRECTION, *i as u64)))
-                }
-                _ => of_symbol(0, *symbol),
-            },
-            Node::Sum { constant, terms } => {
-                let constant = Residue::of(constant)?;
-                terms.iter().try_fold(constant, |sum, (term, c)| {
-                    Some(sum.plus(of(term)?.times(Residue::of(c)?)))
-                })?
-            }
-            Node::Written(terms) => {
-                let zero = Residue::of(&Rational::ZERO)?;
-                terms.iter().try_fold(zero, |sum, (term, c)| {
-                    Some(sum.plus(of(term)?.times(Residue::of(c)?)))
-                })?
-            }
-            Node::Product(factors) => {
-                factors
-                    .iter()
-                    .try_fold(Residue::ONE, |product, (base, exponent)| {
-                        Some(product.times(of(base)?.power(exponent.to_integer()?)?))
-                    })?
-            }
-            Node::Call(..) => return None,
-        };
-        values.push(value);
-    }
-    values.last().copied()
-}
-
-=======
->>>>>>> bounds
 /// The degree of a function some terms of which are beyond the structure: these alone go through the
 /// normal form.
 fn parts(graph: &Graph, function: ExprId, growths: &[Option<Growth>]) -> Option<u32> {

@@ -5,11 +5,8 @@
 //! identities of other brackets, Casimirs and the domain.
 
 mod algebra;
-<<<<<<< HEAD
 mod branches;
-=======
 mod breadth;
->>>>>>> bounds
 mod casimirs;
 mod cocycle;
 pub mod configuration;

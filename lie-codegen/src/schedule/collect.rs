@@ -8,14 +8,10 @@ use crate::exact::Rational;
 use crate::symbolic::{ExprId, Graph, Node};
 
 /// A polynomial with more terms is not worth collecting.
-<<<<<<< HEAD
 const MOST_TERMS: usize = 800;
-=======
-const MOST_TERMS: usize = 3000;
 /// A prepared coefficient of more terms is not worth collecting either: each of its partial sums is an
 /// expression of its own.
 const MOST_SUMMANDS: usize = 1000;
->>>>>>> bounds
 /// Factors of monomials after which the expansion of a kernel has gone too far.
 const MOST_WORK: usize = 250_000;
 
