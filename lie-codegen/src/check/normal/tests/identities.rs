@@ -58,8 +58,15 @@ impl Source {
         };
         self.graph.symbol(symbol)
     }
-    /// A small expression.
+    /// A small expression that is not zero: `log(0)` would cancel in the arena.
     fn part(&mut self) -> ExprId {
+        let id = self.any_part();
+        if self.graph.is_zero(id) {
+            return self.symbol();
+        }
+        id
+    }
+    fn any_part(&mut self) -> ExprId {
         let (a, b) = (self.symbol(), self.symbol());
         let c = self.below(3) as i64 + 1;
         match self.below(12) {
