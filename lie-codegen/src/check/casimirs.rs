@@ -60,7 +60,7 @@ pub fn check(
                 candidate.origin,
                 format!("`{}` is not a Casimir: {why}", candidate.name),
             )
-            .help("a Casimir commutes with every coordinate; correct it or remove it"),
+            .help("a Casimir commutes with every coordinate: either it is wrong, or the sign or the coefficient of a bracket is"),
         );
         return None;
     }

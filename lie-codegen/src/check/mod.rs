@@ -39,6 +39,7 @@ mod realization;
 pub(crate) mod residues;
 mod sample;
 mod series;
+mod sign;
 mod size;
 mod velocity;
 
@@ -231,15 +232,28 @@ fn system(
         }
     }
     let mut degrees = Vec::new();
+    let mut found = Report::new();
     for candidate in &candidates {
         degrees.push(casimirs::check(
             candidate,
             &mut scratch,
             &poisson,
             &symbol_name,
-            report,
+            &mut found,
         ));
     }
+    let failed = found.has_errors();
+    let mut found = found.into_diagnostics();
+    if failed && on_algebra {
+        sign::explain(
+            declaration,
+            &exact_constants,
+            &candidates,
+            &mut scratch,
+            &mut found,
+        );
+    }
+    found.into_iter().for_each(|d| report.push(d));
     if let Some(realization) = &mut realization {
         realization::check(realization, &poisson, &mut scratch, &symbol_name, report);
     }

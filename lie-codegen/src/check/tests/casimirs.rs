@@ -181,3 +181,27 @@ fn names_skip_what_is_taken() {
     assert_eq!(left_out.count(), 1);
     assert_eq!(model.generic_rank, 0);
 }
+
+#[test]
+fn the_bracket_with_the_wrong_sign_is_named() {
+    // so(3) with one sign changed is so(2, 1): the Jacobi identity holds, the sphere is no Casimir.
+    let help = |brackets: &str, casimirs: &str| {
+        let algebra = format!(r#"{{"basis": ["e1", "e2", "e3"], "brackets": {brackets}}}"#);
+        let (_, found) = run(&so3(&[("algebra", &algebra), ("casimirs", casimirs)]));
+        assert_eq!(found.len(), 1, "{found:#?}");
+        assert_eq!(found[0].kind, Kind::Casimir);
+        assert!(found[0].message.contains(" = "), "the residual is named");
+        found[0].help.clone().unwrap_or_default()
+    };
+    let sphere = r#"["x^2 + y^2 + z^2"]"#;
+    let wrong = r#"["[e1, e2] = e3", "[e2, e3] = e1", "[e1, e3] = e2"]"#;
+    let named = help(wrong, sphere);
+    assert!(
+        named.starts_with("with the other sign of [e1, e3] the Jacobi"),
+        "{named}"
+    );
+    // The Casimir itself is wrong: no sign mends it.
+    let right = r#"["[e1, e2] = e3", "[e2, e3] = e1", "[e3, e1] = e2"]"#;
+    let both = help(right, r#"["x^2 + y^2 + 2*z^2"]"#);
+    assert!(both.contains("either it is wrong, or the sign"), "{both}");
+}
