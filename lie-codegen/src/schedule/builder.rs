@@ -1,7 +1,9 @@
 //! From expressions to the atoms of a formula: coefficients split off, signs pulled out, divisions
 //! chosen.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashMap as HashMap;
 
 use super::Known;
 use super::collect::is_known;
@@ -37,7 +39,7 @@ pub fn build(
 ) -> (Formula, BTreeSet<ExprId>) {
     let formula = Formula {
         atoms: Vec::new(),
-        index: HashMap::new(),
+        index: HashMap::default(),
         definitions: Vec::new(),
         outputs: Vec::new(),
     };
@@ -46,9 +48,9 @@ pub fn build(
         known,
         group,
         flipped,
-        cache: HashMap::new(),
+        cache: HashMap::default(),
         inverse: BTreeMap::new(),
-        converted: HashMap::new(),
+        converted: HashMap::default(),
         formula,
     };
     let order = builder.graph.dependencies(roots);

@@ -1,7 +1,9 @@
 //! Collection: every root as a polynomial in what the kernel varies, with coefficients in what is
 //! known beforehand. `y*z/I3 - z*y/I2` becomes `(1/I3 - 1/I2)*y*z`: one prepared coefficient.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap as HashMap;
 
 use super::Known;
 use crate::exact::Rational;
@@ -23,11 +25,11 @@ type Polynomial = BTreeMap<Monomial, ExprId>;
 pub fn collect(graph: &mut Graph, roots: &[ExprId], known: Known) -> Option<Vec<ExprId>> {
     let mut collector = Collector {
         known,
-        prepared: HashMap::new(),
-        rebuilt: HashMap::new(),
+        prepared: HashMap::default(),
+        rebuilt: HashMap::default(),
         work: 0,
     };
-    let mut polynomials: HashMap<ExprId, Polynomial> = HashMap::new();
+    let mut polynomials: HashMap<ExprId, Polynomial> = HashMap::default();
     for id in graph.dependencies(roots) {
         let polynomial = collector.expand(graph, id, &polynomials)?;
         polynomials.insert(id, polynomial);

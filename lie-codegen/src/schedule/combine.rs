@@ -2,7 +2,9 @@
 //! `1/r - z^2/r^3` with `r^2 = 1 + z^2` becomes `1/r^3`: the terms that cancel are gone before they are
 //! computed.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Graph, Node};
@@ -17,7 +19,7 @@ type Terms = Vec<(ExprId, Rational)>;
 
 /// The combined roots; `None` where nothing can be combined.
 pub fn combine(graph: &mut Graph, roots: &[ExprId]) -> Option<Vec<ExprId>> {
-    let mut image: HashMap<ExprId, ExprId> = HashMap::new();
+    let mut image: HashMap<ExprId, ExprId> = HashMap::default();
     for id in graph.dependencies(roots) {
         let of = |terms: &[(ExprId, Rational)]| -> Terms {
             terms.iter().map(|(t, c)| (image[t], c.clone())).collect()

@@ -1,6 +1,8 @@
 //! Factoring: `a*x + b*x + c` becomes `x*(a + b) + c`, greedily by the factor that most terms share.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap as HashMap;
 
 use super::Known;
 use super::collect::is_known;
@@ -12,8 +14,8 @@ const LONGEST: usize = 400;
 
 /// The factored roots; `None` where nothing can be factored.
 pub fn factor(graph: &mut Graph, roots: &[ExprId], known: Known) -> Option<Vec<ExprId>> {
-    let mut image: HashMap<ExprId, ExprId> = HashMap::new();
-    let mut cache = HashMap::new();
+    let mut image: HashMap<ExprId, ExprId> = HashMap::default();
+    let mut cache = HashMap::default();
     let mut changed = false;
     for id in graph.dependencies(roots) {
         let new = if is_known(graph, id, known, &mut cache) {

@@ -1,7 +1,7 @@
 //! Folding: a product that contains the monomial of a definition uses the definition. With
 //! `y = (h/(2 I)) m` defined, `(h/I) m z` becomes `2 y z`.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
@@ -25,7 +25,7 @@ pub fn fold(graph: &mut Graph, symbols: &[Symbol], roots: &[ExprId]) -> Option<V
         return None;
     }
     let outputs = &roots[symbols.len()..];
-    let mut image: HashMap<ExprId, ExprId> = HashMap::new();
+    let mut image: HashMap<ExprId, ExprId> = HashMap::default();
     for id in graph.dependencies(outputs) {
         let new = match graph.node(id).clone() {
             Node::Number(_) | Node::Pi | Node::Symbol(_) => id,

@@ -1,6 +1,8 @@
 //! Expressions as n-ary sums and products of atoms, signs and divisions made explicit.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
+
+use rustc_hash::FxHashMap as HashMap;
 
 use super::program::Value;
 use super::{Known, builder};

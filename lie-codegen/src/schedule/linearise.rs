@@ -1,6 +1,6 @@
 //! Atoms into binary operations, each just before its first use.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::formula::{Atom, AtomId, Formula, Signed};
 use super::program::{Operation, Program, Value};
@@ -13,8 +13,8 @@ pub fn linearise(formula: &Formula) -> Program {
         formula,
         definitions,
         program: Program::default(),
-        values: HashMap::new(),
-        negatives: HashMap::new(),
+        values: HashMap::default(),
+        negatives: HashMap::default(),
     };
     for signed in &formula.outputs {
         let value = writer.signed(*signed);

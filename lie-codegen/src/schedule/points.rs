@@ -2,7 +2,7 @@
 //! points where a sum that somebody wrote nearly cancels, each of them and all together (a system near
 //! equilibrium). The same task has the same points.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::formula::Formula;
 use super::program::{Operation, Program, Value};
@@ -131,7 +131,7 @@ impl Scene<'_> {
         positive: bool,
         exponent: impl Fn(&mut Random) -> i32,
     ) -> Point {
-        let mut point = Point::new();
+        let mut point = Point::default();
         for symbol in free {
             let parameter = matches!(symbol, Symbol::Parameter(_) | Symbol::Step);
             let size = 0.5 + 1.5 * self.random.unit();

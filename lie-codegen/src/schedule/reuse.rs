@@ -1,13 +1,13 @@
 //! Reuse: an operation that was done before is not done again. The passes before share what is equal as an
 //! expression; when long products are written as pairs, more can become equal.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::program::{Counts, Operation, Program};
 
 /// The program without repeated operations.
 pub fn reuse(program: Program) -> Program {
-    let mut places: HashMap<Operation, usize> = HashMap::new();
+    let mut places: HashMap<Operation, usize> = HashMap::default();
     let mut kept: Vec<Operation> = Vec::with_capacity(program.operations.len());
     // where the result of each operation is now
     let mut moved: Vec<usize> = Vec::with_capacity(program.operations.len());

@@ -3,7 +3,7 @@
 //! Stability of Numerical Algorithms, 2002, section 3.3). It depends on the program alone and not on how the
 //! errors happen to fall, so that forms of one expression can be compared by it.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::program::{Operation, Program, Value};
 use crate::exact::Rational;
@@ -148,7 +148,7 @@ impl<'a> Place<'a> {
         Self {
             graph,
             value,
-            constants: HashMap::new(),
+            constants: HashMap::default(),
         }
     }
 

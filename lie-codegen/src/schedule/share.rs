@@ -1,7 +1,9 @@
 //! Sharing: pairs of factors, then pairs of terms, that occur more than once become quantities.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashMap as HashMap;
 
 use super::formula::{Atom, AtomId, Formula, Signed};
 
@@ -92,7 +94,7 @@ fn share_pairs(
         ..Index::default()
     };
     for (atom, new) in pairs.iter().enumerate() {
-        index.update(atom, &HashMap::new(), new);
+        index.update(atom, &HashMap::default(), new);
     }
     while let Some(pair) = index.best().filter(|_| index.budget > 0) {
         let users: Vec<AtomId> = index.users[&pair].atoms.keys().copied().collect();
@@ -101,11 +103,11 @@ fn share_pairs(
             Atom::Product(_) => formula.intern(Atom::Product(vec![left, right])),
             _ => formula.intern(Atom::Sum(vec![(false, left), (opposite, right)])),
         };
-        pairs.resize(formula.atoms.len(), HashMap::new());
+        pairs.resize(formula.atoms.len(), HashMap::default());
         for user in users {
             // The pair itself stays as it is and takes part no more.
             let new = if user == shared {
-                HashMap::new()
+                HashMap::default()
             } else {
                 replace(formula, user, pair, shared);
                 let mut new = pairs_of(&formula.atoms[user]);
@@ -121,7 +123,7 @@ fn share_pairs(
 
 fn product_pairs(atom: &Atom) -> HashMap<Pair, usize> {
     let Atom::Product(factors) = atom else {
-        return HashMap::new();
+        return HashMap::default();
     };
     let mut powers: Vec<(AtomId, usize)> = Vec::new();
     for &factor in factors {
@@ -130,7 +132,7 @@ fn product_pairs(atom: &Atom) -> HashMap<Pair, usize> {
             _ => powers.push((factor, 1)),
         }
     }
-    let mut pairs = HashMap::new();
+    let mut pairs = HashMap::default();
     if powers.len() > LONGEST {
         return pairs;
     }
@@ -162,9 +164,9 @@ fn replace_product_pair(formula: &mut Formula, user: AtomId, (a, b, _): Pair, sh
 
 fn sum_pairs(atom: &Atom) -> HashMap<Pair, usize> {
     let Atom::Sum(terms) = atom else {
-        return HashMap::new();
+        return HashMap::default();
     };
-    let mut pairs = HashMap::new();
+    let mut pairs = HashMap::default();
     if terms.len() > LONGEST {
         return pairs;
     }

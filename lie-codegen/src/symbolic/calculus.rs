@@ -1,6 +1,6 @@
 //! Exact differentiation and substitution.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::Function;
 use super::graph::{ExprId, Graph, Node, Symbol};
@@ -156,7 +156,7 @@ impl Graph {
         roots: &[ExprId],
         replace: &dyn Fn(Symbol) -> Option<ExprId>,
     ) -> Vec<ExprId> {
-        let mut image: HashMap<ExprId, ExprId> = HashMap::new();
+        let mut image: HashMap<ExprId, ExprId> = HashMap::default();
         for id in self.dependencies(roots) {
             let new = match self.node(id).clone() {
                 Node::Number(_) | Node::Pi => id,

@@ -1,6 +1,6 @@
 //! Expressions as text, in the grammar of the language.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use num_traits::One;
 
@@ -22,7 +22,7 @@ enum Binding {
 impl Graph {
     /// The expression as text that the parser reads back (shortened with `…` where it is very long).
     pub fn display(&self, id: ExprId, name: &dyn Fn(Symbol) -> String) -> String {
-        let mut texts: HashMap<ExprId, (String, Binding)> = HashMap::new();
+        let mut texts: HashMap<ExprId, (String, Binding)> = HashMap::default();
         for node in self.dependencies(&[id]) {
             let mut text = self.display_node(node, name, &texts);
             if text.0.len() > LONGEST {

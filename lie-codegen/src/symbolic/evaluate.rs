@@ -1,6 +1,6 @@
 //! Evaluation in double precision: the oracle that generated code is tested against.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::graph::{ExprId, Graph, Node, Symbol};
 
@@ -12,7 +12,7 @@ impl Graph {
 
     /// The values of several expressions, shared subexpressions evaluated once.
     pub fn evaluate_all(&self, roots: &[ExprId], value: &dyn Fn(Symbol) -> f64) -> Vec<f64> {
-        let mut values: HashMap<ExprId, f64> = HashMap::new();
+        let mut values: HashMap<ExprId, f64> = HashMap::default();
         for id in self.dependencies(roots) {
             let result = self.evaluate_node(id, &|part| values[&part], value);
             values.insert(id, result);

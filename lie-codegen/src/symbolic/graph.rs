@@ -8,7 +8,9 @@
 //! Beside it stands the form in which an expression was written (see the module `written`): it proves
 //! nothing and is evaluated.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::{FxHashMap as HashMap, FxHashSet};
 
 use super::Function;
 use crate::exact::Rational;
@@ -295,7 +297,7 @@ impl Graph {
 
     /// Everything that the roots are made of, themselves included, in ascending order.
     pub fn dependencies(&self, roots: &[ExprId]) -> Vec<ExprId> {
-        let mut seen: BTreeSet<ExprId> = roots.iter().copied().collect();
+        let mut seen: FxHashSet<ExprId> = roots.iter().copied().collect();
         let mut stack: Vec<ExprId> = roots.to_vec();
         while let Some(id) = stack.pop() {
             for child in self.children(id) {
@@ -304,7 +306,9 @@ impl Graph {
                 }
             }
         }
-        seen.into_iter().collect()
+        let mut order: Vec<ExprId> = seen.into_iter().collect();
+        order.sort_unstable();
+        order
     }
 
     /// The symbols in an expression.

@@ -3,7 +3,7 @@
 //! near y, `3*x - 3*y` is not. So the sums and quotients that somebody wrote in parentheses are kept as
 //! quantities of their own, through differentiation and substitution, beside the normal form.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::graph::{ExprId, Graph, Node};
 use crate::exact::Rational;
@@ -13,7 +13,8 @@ impl Graph {
     pub fn written_sum(&mut self, terms: &[(ExprId, Rational)]) -> ExprId {
         let one = self.integer(1);
         let mut kept: Vec<(ExprId, Rational)> = Vec::with_capacity(terms.len());
-        let mut places: HashMap<ExprId, usize> = HashMap::with_capacity(terms.len());
+        let mut places: HashMap<ExprId, usize> =
+            HashMap::with_capacity_and_hasher(terms.len(), Default::default());
         for (id, scale) in terms {
             let (inner, term) = self.coefficient(*id);
             let (term, coefficient) = match self.as_number(term) {
