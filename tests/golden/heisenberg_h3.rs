@@ -183,7 +183,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
         out[(0, 1)] = -(z * (S::one() + S::ratio(3.0, 1.0) * _t0));
         out[(0, 2)] = -(p + p * _t0);
         out[(1, 0)] = z;
-        out[(1, 2)] = _t1 + (q + _t1);
+        out[(1, 2)] = q + _t1 + _t1;
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
@@ -208,7 +208,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
         jacobian[(0, 1)] = -(z * (S::one() + S::ratio(3.0, 1.0) * _t0));
         jacobian[(0, 2)] = -_t1;
         jacobian[(1, 0)] = z;
-        jacobian[(1, 2)] = _t2 + _t3;
+        jacobian[(1, 2)] = _t3 + _t2;
     }
 
     /// `out_i = C_i(mu)`
@@ -1109,7 +1109,7 @@ for HeisenbergCayleyMidpoint<'_, S> {
         matrix[(0, 2)] = self._h0 * _t1;
         matrix[(1, 0)] = _u_z * self._h2;
         matrix[(1, 1)] = S::one();
-        matrix[(1, 2)] = (_u_z + _t3) * self._h3;
+        matrix[(1, 2)] = (_t3 + _u_z) * self._h3;
         matrix[(2, 2)] = S::one();
     }
 
@@ -1462,11 +1462,11 @@ for HeisenbergGonzalezGradient<S> {
         _out[0] = _t0 * _t6 + _t7 * S::ratio(1.0, 2.0) + (z + _u_z) * S::ratio(1.0, 6.0);
         _out[1] = _t8 + _t1 * (_t9 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
         _out[2] = _t10 * _t6 + _t7 * S::ratio(1.0, 6.0);
-        _slopes[(0, 0)] = _t0 * _t13 + _t14;
+        _slopes[(0, 0)] = _t14 + _t0 * _t13;
         _slopes[(0, 1)] = _t0 * _t15;
         _slopes[(0, 2)] = _t0 * _t16 + S::ratio(1.0, 6.0);
         _slopes[(1, 0)] = _t4 * _t13;
-        _slopes[(1, 1)] = _t4 * _t15 + _t9 * S::ratio(3.0, 8.0) + _t14;
+        _slopes[(1, 1)] = _t14 + _t4 * _t15 + _t9 * S::ratio(3.0, 8.0);
         _slopes[(1, 2)] = _t4 * _t16;
         _slopes[(2, 0)] = S::ratio(1.0, 6.0) + _t10 * _t13;
         _slopes[(2, 1)] = _t10 * _t15;
@@ -1604,14 +1604,14 @@ for HeisenbergMeanValue<'_, S> {
         let _t2 = p - _u_p;
         let _t3 = -_t2;
         let _t4 = _t3 * _t3 + S::ratio(4.0, 1.0);
-        let _t5 = _t1 * (_t1 * _t1 + _t4) * S::ratio(1.0, 8.0) * self._h0;
+        let _t5 = _t1 * (_t4 + _t1 * _t1) * S::ratio(1.0, 8.0) * self._h0;
         let _t6 = (q + _u_q) * S::ratio(1.0, 2.0) + _t0 * S::ratio(1.0, 6.0);
         residual[0] = _u_q - q + _t0 * _t5;
         residual[1] = -(_t6 * _t0 * self._h0) - _t2;
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = _t0
-            * (_t1 * (_t1 * S::ratio(3.0, 1.0) + _t3 * S::ratio(2.0, 1.0)) + _t4)
+            * (_t4 + _t1 * (_t1 * S::ratio(3.0, 1.0) + _t3 * S::ratio(2.0, 1.0)))
             * self._h1;
         matrix[(0, 2)] = _t5;
         matrix[(1, 0)] = _t0 * self._h2;
@@ -1878,14 +1878,14 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergItohAbe<
         let _t2 = p - _u_p;
         let _t3 = -_t2;
         let _t4 = _t3 * _t3 + S::ratio(4.0, 1.0);
-        let _t5 = _t1 * (_t1 * _t1 + _t4) * S::ratio(1.0, 8.0) * self._h0;
+        let _t5 = _t1 * (_t4 + _t1 * _t1) * S::ratio(1.0, 8.0) * self._h0;
         let _t6 = _t0 * S::ratio(1.0, 6.0) + (q + _u_q) * S::ratio(1.0, 2.0);
         residual[0] = _u_q - q + _t0 * _t5;
         residual[1] = -(_t6 * _t0 * self._h0) - _t2;
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = _t0
-            * (_t1 * (_t1 * S::ratio(3.0, 1.0) + _t3 * S::ratio(2.0, 1.0)) + _t4)
+            * (_t4 + _t1 * (_t1 * S::ratio(3.0, 1.0) + _t3 * S::ratio(2.0, 1.0)))
             * self._h1;
         matrix[(0, 2)] = _t5;
         matrix[(1, 0)] = _t0 * self._h2;

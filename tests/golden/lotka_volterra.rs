@@ -317,7 +317,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[y1, y2, y3]] = mu.data.0;
-        out[0] = y3.log() + (y1.log() * self._k0 - self.b * y2.log());
+        out[0] = y1.log() * self._k0 - self.b * y2.log() + y3.log();
     }
 
     /// `out_ij = d(Pi(mu) xi)_i/dmu_j`

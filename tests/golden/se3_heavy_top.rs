@@ -419,8 +419,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
-        out[0] = g3 * g3 + (g1 * g1 + g2 * g2);
-        out[1] = m3 * g3 + (m1 * g1 + m2 * g2);
+        out[0] = g1 * g1 + g2 * g2 + g3 * g3;
+        out[1] = m1 * g1 + m2 * g2 + m3 * g3;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -547,11 +547,11 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSyste
         let _t10 = _xi_J1 * _eta_P1 + _xi_P1 * _eta_J1;
         let _t11 = m1 * _xi_J1 + g1 * _xi_P1;
         out.as_mut_slice().fill(S::zero());
-        out[0] = (_xi_J1 * (_t0 * S::ratio(2.0, 1.0) + _t2 + _t4) - g1 * (_t5 + _t6)
+        out[0] = (_xi_J1 * (_t2 + _t0 * S::ratio(2.0, 1.0) + _t4) - g1 * (_t5 + _t6)
             + _eta_J1 * (_t7 + _t8)) * S::ratio(-1.0, 2.0);
-        out[1] = (_xi_J2 * (_t1 * S::ratio(2.0, 1.0) + _t9 + _t4) - g2 * (_t6 + _t10)
+        out[1] = (_xi_J2 * (_t9 + _t1 * S::ratio(2.0, 1.0) + _t4) - g2 * (_t6 + _t10)
             + _eta_J2 * (_t8 + _t11)) * S::ratio(-1.0, 2.0);
-        out[2] = (_xi_J3 * (_t3 * S::ratio(2.0, 1.0) + _t9 + _t2) - g3 * (_t5 + _t10)
+        out[2] = (_xi_J3 * (_t9 + _t3 * S::ratio(2.0, 1.0) + _t2) - g3 * (_t5 + _t10)
             + _eta_J3 * (_t7 + _t11)) * S::ratio(-1.0, 2.0);
     }
 }
@@ -1656,7 +1656,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
         let _t5 = _t4 * _u_m3;
         let _t6 = _t2 * _u_g1 - (_u_g3 + _t0 * _u_g2);
         let _t7 = -_t6;
-        let _t8 = _t4 * _u_g1 + (_u_g2 - _t0 * _u_g3);
+        let _t8 = _u_g2 - _t0 * _u_g3 + _t4 * _u_g1;
         let _t9 = _t4 * _u_g2 - (_u_g1 + _t2 * _u_g3);
         let _t10 = -_t9;
         residual[0] = _u_m1 - m1 + _t0 * _t1 + _t0 * _t3 + _t0 * _t5 + _t7 * self._h3
@@ -1690,7 +1690,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
         let _t5 = _t4 * _u_m3;
         let _t6 = _t2 * _u_g1 - (_u_g3 + _t0 * _u_g2);
         let _t7 = -_t6;
-        let _t8 = _t4 * _u_g1 + (_u_g2 - _t0 * _u_g3);
+        let _t8 = _u_g2 - _t0 * _u_g3 + _t4 * _u_g1;
         let _t9 = _u_m2 * self._h5;
         let _t10 = _t4 * _u_g2 - (_u_g1 + _t2 * _u_g3);
         let _t11 = -_t10;

@@ -336,8 +336,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m1, m2, m3, p1, p2, p3]] = mu.data.0;
-        out[0] = p3 * p3 + (p1 * p1 + p2 * p2);
-        out[1] = m3 * p3 + (m1 * p1 + m2 * p2);
+        out[0] = p1 * p1 + p2 * p2 + p3 * p3;
+        out[1] = m1 * p1 + m2 * p2 + m3 * p3;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -465,11 +465,11 @@ for KirchhoffBodySystem<S> {
         let _t10 = _xi_J1 * _eta_P1 + _xi_P1 * _eta_J1;
         let _t11 = m1 * _xi_J1 + p1 * _xi_P1;
         out.as_mut_slice().fill(S::zero());
-        out[0] = (_xi_J1 * (_t0 * S::ratio(2.0, 1.0) + _t2 + _t4) - p1 * (_t5 + _t6)
+        out[0] = (_xi_J1 * (_t2 + _t0 * S::ratio(2.0, 1.0) + _t4) - p1 * (_t5 + _t6)
             + _eta_J1 * (_t7 + _t8)) * S::ratio(-1.0, 2.0);
-        out[1] = (_xi_J2 * (_t1 * S::ratio(2.0, 1.0) + _t9 + _t4) - p2 * (_t6 + _t10)
+        out[1] = (_xi_J2 * (_t9 + _t1 * S::ratio(2.0, 1.0) + _t4) - p2 * (_t6 + _t10)
             + _eta_J2 * (_t8 + _t11)) * S::ratio(-1.0, 2.0);
-        out[2] = (_xi_J3 * (_t3 * S::ratio(2.0, 1.0) + _t9 + _t2) - p3 * (_t5 + _t10)
+        out[2] = (_xi_J3 * (_t9 + _t3 * S::ratio(2.0, 1.0) + _t2) - p3 * (_t5 + _t10)
             + _eta_J3 * (_t7 + _t11)) * S::ratio(-1.0, 2.0);
     }
 }
@@ -741,7 +741,7 @@ for KirchhoffBodyMidpoint<'_, S> {
             + _t6 * (_t6 * self.h + _t11) * S::ratio(1.0, 24.0);
         residual[4] = _u_p2 - p2 - _t6 * _t13 - _t9 * S::ratio(1.0, 32.0) * (_t5 + _t8);
         residual[5] = _u_p3 - p3 + _t1 * _t13
-            - _t9 * S::ratio(1.0, 48.0) * (_t0 * self._h2 + _t12);
+            - _t9 * S::ratio(1.0, 48.0) * (_t12 + _t0 * self._h2);
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = -(_t1 * self._h11) - _t3 * self._h12;
         matrix[(0, 2)] = _t6 * self._h11 - _t14;
@@ -753,7 +753,7 @@ for KirchhoffBodyMidpoint<'_, S> {
         matrix[(1, 3)] = _t6 * self._h17 - _t3 * self._h15 - _t14;
         matrix[(1, 4)] = _t7 * self._h16;
         matrix[(1, 5)] = _t9 * self._h17 - _t20;
-        matrix[(2, 0)] = _t0 * self._h13 + _t22;
+        matrix[(2, 0)] = _t22 + _t0 * self._h13;
         matrix[(2, 1)] = _t19 + _t7 * self._h13;
         matrix[(2, 2)] = S::one() - _t23;
         matrix[(2, 3)] = _t0 * self._h15 - _t1 * self._h18 - _t3 * self._h16;
@@ -1642,8 +1642,8 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t4 = _t3 * _u_p3;
         let _t5 = (_u_m3 * S::ratio(1.0, 2.0) - _u_p2 * S::ratio(1.0, 8.0)) * self._h0;
         let _t6 = (_u_m2 * S::ratio(2.0, 3.0) + _u_p3 * S::ratio(1.0, 6.0)) * self._h0;
-        let _t7 = _t5 * _u_m3 + (_t2 * _u_m1 + _t6 * _u_m2);
-        let _t8 = _t0 * _u_p2 + _t7;
+        let _t7 = _t2 * _u_m1 + _t6 * _u_m2 + _t5 * _u_m3;
+        let _t8 = _t7 + _t0 * _u_p2;
         let _t9 = _u_m3 - _t0 * _u_p1;
         let _t10 = _u_m2 + _t3 * _u_p1;
         let _t11 = _u_m1 - _t3 * _u_p2;
@@ -1651,10 +1651,10 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t13 = _t12 * _u_p3;
         let _t14 = _t12 * _u_p1;
         let _t15 = _t12 * _u_p2;
-        residual[0] = _t1 - m1 + _t2 * (_t4 + _t8) + _t6 * _t9 - _t5 * _t10 + _t11;
-        residual[1] = _t6 * (_t4 + _t14 + _t7) - m2 - _t13 + _t10 - _t2 * (_u_m3 + _t15)
+        residual[0] = _t11 - m1 + _t1 + _t2 * (_t8 + _t4) + _t6 * _t9 - _t5 * _t10;
+        residual[1] = _t10 - m2 - _t13 + _t6 * (_t7 + _t4 + _t14) - _t2 * (_u_m3 + _t15)
             + _t5 * _t11;
-        residual[2] = _t15 - m3 + _t5 * (_t14 + _t8) + _t9 + _t2 * (_u_m2 - _t13)
+        residual[2] = _t9 - m3 + _t15 + _t5 * (_t8 + _t14) + _t2 * (_u_m2 - _t13)
             - _t6 * (_u_m1 + _t1);
         residual[3] = _u_p1 - p1 + _t6 * _u_p3 - _t5 * _u_p2;
         residual[4] = _u_p2 - p2 - _t2 * _u_p3 + _t5 * _u_p1;
@@ -1692,7 +1692,7 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t16 = _t15 * self._h3;
         let _t17 = _t16 * _u_m2;
         let _t18 = _t13 + _t17;
-        let _t19 = _t12 + _t18;
+        let _t19 = _t18 + _t12;
         let _t20 = _t16 * _t11;
         let _t21 = _t5 * _t8;
         let _t22 = _t20 + _t21;
@@ -1700,17 +1700,17 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t24 = _t23 + _u_p1 * S::ratio(8.0, 1.0);
         let _t25 = _t24 * self._h5;
         let _t26 = _t25 * _u_p1;
-        let _t27 = _t26 + _t9;
+        let _t27 = _t9 + _t26;
         let _t28 = _t2 * _t25;
         let _t29 = _t21 + _t28;
         let _t30 = _t1 * S::ratio(30.0, 1.0);
         let _t31 = _u_m1 * S::ratio(15.0, 1.0);
         let _t32 = _t24 * S::ratio(6.0, 1.0);
-        let _t33 = _t26 + _t19;
+        let _t33 = _t19 + _t26;
         let _t34 = _t20 + _t28;
         let _t35 = _u_p2 * S::ratio(3.0, 1.0);
         let _t36 = _u_p3 * S::ratio(2.0, 1.0);
-        let _t37 = _t17 + _t12 + _t13 * S::ratio(2.0, 1.0) + _t9;
+        let _t37 = _t9 + _t17 + _t12 + _t13 * S::ratio(2.0, 1.0);
         let _t38 = _t2 * _t16;
         let _t39 = _t2 * _u_m2 - _t11 * _u_p1;
         let _t40 = _t2 * _u_p3 - _t5 * _u_p1;
@@ -1719,22 +1719,22 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t43 = _t2 * _u_p2 - _t16 * _u_p1;
         let _t44 = _t16 * _u_m1 - _t25 * _u_p2;
         let _t45 = _t16 * _u_p3 - _t5 * _u_p2;
-        let _t46 = _u_p1 + _t45;
-        let _t47 = _t13 + _t17 * S::ratio(2.0, 1.0) + _t27;
+        let _t46 = _t45 + _u_p1;
+        let _t47 = _t27 + _t13 + _t17 * S::ratio(2.0, 1.0);
         let _t48 = _t16 * _t5;
         let _t49 = _t16 * _u_m3 - _t8 * _u_p2;
         let _t50 = _u_m2 * S::ratio(10.0, 1.0);
         let _t51 = _t36 - _t35;
         let _t52 = _t5 * _u_m1 - _t25 * _u_p3;
         let _t53 = _t5 * _u_m2 - _t11 * _u_p3;
-        let _t54 = _t6 * S::ratio(2.0, 1.0) + _t33;
+        let _t54 = _t33 + _t6 * S::ratio(2.0, 1.0);
         residual[0] = _u_m1 - m1 + _t2 * (_t9 + _t19) - _u_p1 * _t22
             + (S::ratio(4.0, 1.0) * (_u_m3 * _t15 - _u_p2 * _t7)
                 + S::ratio(3.0, 1.0) * (_u_m2 * _t4 - _u_p3 * _t10)) * self._h4;
         residual[1] = _u_m2 - m2 + _t16 * (_t18 + _t27) - _u_p2 * _t29
             - (_u_m3 * _t30 + _t4 * _t31 + _u_p3 * _t32
                 - _u_p1 * _t7 * S::ratio(20.0, 1.0)) * self._h6;
-        residual[2] = _u_m3 - m3 + _t5 * (_t6 + _t33) - _u_p3 * _t34
+        residual[2] = _u_m3 - m3 + _t5 * (_t33 + _t6) - _u_p3 * _t34
             + (_u_m2 * _t30 - _u_m1 * _t15 * S::ratio(20.0, 1.0) + _u_p2 * _t32
                 + _u_p1 * _t10 * S::ratio(15.0, 1.0)) * self._h6;
         residual[3] = _u_p1 - p1
@@ -1757,7 +1757,7 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         matrix[(1, 3)] = _t16 * _t25 - _t43 * self._h11 + self._h1 * _t44
             + (_t50 - _u_m3 * S::ratio(15.0, 1.0) + _u_p3 * S::ratio(56.0, 1.0))
                 * self._h12;
-        matrix[(1, 4)] = (_u_m1 + _t49) * self._h2 - _t29;
+        matrix[(1, 4)] = (_t49 + _u_m1) * self._h2 - _t29;
         matrix[(1, 5)] = _t16 * _t8 + _t47 * self._h3 + _t45 * self._h10
             - (_t31 - _u_p1 * S::ratio(56.0, 1.0)) * self._h12;
         matrix[(2, 0)] = _t41 - _t40 * self._h1 - (_t14 - _t51) * self._h7
@@ -1783,7 +1783,7 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         matrix[(4, 5)] = _t1 * self._h17;
         matrix[(5, 0)] = _u_p2 * self._h0;
         matrix[(5, 1)] = _u_p1 * self._h18;
-        matrix[(5, 3)] = (_u_m2 * S::ratio(8.0, 1.0) + _t51) * self._h7;
+        matrix[(5, 3)] = (_t51 + _u_m2 * S::ratio(8.0, 1.0)) * self._h7;
         matrix[(5, 4)] = _t2;
         matrix[(5, 5)] = S::one() - _u_p1 * self._h3;
         matrix[(4, 1)] = S::zero();

@@ -198,12 +198,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for Sl2QuadraticSystem<
         let _t5 = e * S::ratio(1.0, 2.0);
         let _t6 = _t3 - (_t3 + e * S::ratio(1.0, 5.0)) * S::ratio(2.0, 1.0);
         out[(0, 0)] = e * S::ratio(-2.0, 5.0);
-        out[(0, 1)] = _t4 - S::ratio(2.0, 1.0) * (e + _t1);
-        out[(0, 2)] = S::ratio(2.0, 1.0) * (f + _t2) - _t5;
+        out[(0, 1)] = _t4 - S::ratio(2.0, 1.0) * (_t1 + e);
+        out[(0, 2)] = S::ratio(2.0, 1.0) * (_t2 + f) - _t5;
         out[(1, 0)] = _t5 - _t2;
         out[(1, 1)] = e * S::ratio(2.0, 5.0) - _t6;
         out[(1, 2)] = -h;
-        out[(2, 0)] = _t0 + _t1 - _t4;
+        out[(2, 0)] = _t1 + _t0 - _t4;
         out[(2, 1)] = h - f * S::ratio(2.0, 5.0);
         out[(2, 2)] = _t6;
     }
@@ -231,12 +231,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for Sl2QuadraticSystem<
         field[1] = e * _t4 - h * _t2;
         field[2] = h * _t1 - f * _t4;
         jacobian[(0, 0)] = e * S::ratio(-2.0, 5.0);
-        jacobian[(0, 1)] = _t5 - S::ratio(2.0, 1.0) * (e + _t1);
-        jacobian[(0, 2)] = S::ratio(2.0, 1.0) * (f + _t2) - _t6;
+        jacobian[(0, 1)] = _t5 - S::ratio(2.0, 1.0) * (_t1 + e);
+        jacobian[(0, 2)] = S::ratio(2.0, 1.0) * (_t2 + f) - _t6;
         jacobian[(1, 0)] = _t6 - _t2;
         jacobian[(1, 1)] = e * S::ratio(2.0, 5.0) - _t7;
         jacobian[(1, 2)] = -h;
-        jacobian[(2, 0)] = _t0 + _t1 - _t5;
+        jacobian[(2, 0)] = _t1 + _t0 - _t5;
         jacobian[(2, 1)] = h - f * S::ratio(2.0, 5.0);
         jacobian[(2, 2)] = _t7;
     }
@@ -1265,18 +1265,18 @@ for Sl2QuadraticCayleyMidpoint<'_, S> {
             - (_t0 * _t5 + _t0 * _t6 - _t5 + _t6) * S::ratio(2.0, 1.0);
         residual[1] = _u_e - e + _u_e * _t1 - _t0 * _t7 - _t2 * _t6 + _t7 - _u_e * _t8;
         residual[2] = _u_f - f + _u_f * _t1 - _t0 * _t4 - _t3 * _t5 - _t4 + _u_f * _t8;
-        matrix[(0, 0)] = S::one() - _t1 + _t3 * _t2 - _t10 * self._h1 + _t12;
+        matrix[(0, 0)] = _t12 + S::one() - _t1 + _t3 * _t2 - _t10 * self._h1;
         matrix[(0, 1)] = S::ratio(2.0, 1.0) * (_t3 - _t13) + self.h * _t11
             - self._h2 * _t10 + self._h0 * _t7 - _t15;
-        matrix[(0, 2)] = self._h0 * _t4 - S::ratio(2.0, 1.0) * (_t2 + _t16)
-            - self.h * _t14 + _t17;
+        matrix[(0, 2)] = _t17 - S::ratio(2.0, 1.0) * (_t2 + _t16) - self.h * _t14
+            + self._h0 * _t4;
         matrix[(1, 0)] = _t2 - _t16 - _t17;
-        matrix[(1, 1)] = _t18 * self._h4 - _t8 - _t6 * self._h1 + _t19 - _t12;
+        matrix[(1, 1)] = _t19 - _t8 + _t18 * self._h4 - _t6 * self._h1 - _t12;
         matrix[(1, 2)] = self._h0 * _t18 - _t2 * _t2 - self.h * _t6;
         matrix[(2, 0)] = _t15 - _t3 - _t13 - self._h3 * _t20 - _t5 * self._h2;
         matrix[(2, 1)] = self._h2 * _t14 - _t3 * _t3 - self.h * _t5 - self._h0 * _t20
             - _t4 * self._h3;
-        matrix[(2, 2)] = _t8 - _t20 * self._h4 - _t5 * self._h1 + _t19;
+        matrix[(2, 2)] = _t19 + _t8 - _t20 * self._h4 - _t5 * self._h1;
     }
 
     /// `mu1 = mu + ad*_x m = mu + h f(m)`

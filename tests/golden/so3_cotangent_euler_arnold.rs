@@ -470,7 +470,7 @@ for CotangentEulerArnoldSystem<S> {
         out[(10, 0)] = r33 * self._k3;
         out[(10, 2)] = r31 * self._k7;
         out[(10, 9)] = _t14;
-        out[(10, 11)] = _t5 + _t6;
+        out[(10, 11)] = _t6 + _t5;
         out[(11, 0)] = r32 * self._k8;
         out[(11, 1)] = r31 * _t9;
         out[(11, 3)] = r31 * _t11;
@@ -583,7 +583,7 @@ for CotangentEulerArnoldSystem<S> {
         jacobian[(10, 0)] = r33 * self._k3;
         jacobian[(10, 2)] = r31 * self._k7;
         jacobian[(10, 9)] = _t16;
-        jacobian[(10, 11)] = _t6 + _t7;
+        jacobian[(10, 11)] = _t7 + _t6;
         jacobian[(11, 0)] = r32 * self._k8;
         jacobian[(11, 1)] = r31 * _t11;
         jacobian[(11, 3)] = r31 * _t13;
@@ -598,12 +598,12 @@ for CotangentEulerArnoldSystem<S> {
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[_, _, _, r11, r12, r13, r21, r22, r23, r31, r32, r33]] = mu.data.0;
-        out[0] = r13 * r13 + (r11 * r11 + r12 * r12);
-        out[1] = r13 * r23 + (r21 * r11 + r12 * r22);
-        out[2] = r33 * r13 + (r11 * r31 + r12 * r32);
-        out[3] = r23 * r23 + (r21 * r21 + r22 * r22);
-        out[4] = r33 * r23 + (r21 * r31 + r22 * r32);
-        out[5] = r33 * r33 + (r31 * r31 + r32 * r32);
+        out[0] = r11 * r11 + r12 * r12 + r13 * r13;
+        out[1] = r21 * r11 + r12 * r22 + r13 * r23;
+        out[2] = r11 * r31 + r12 * r32 + r33 * r13;
+        out[3] = r21 * r21 + r22 * r22 + r23 * r23;
+        out[4] = r21 * r31 + r22 * r32 + r33 * r23;
+        out[5] = r31 * r31 + r32 * r32 + r33 * r33;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -2491,7 +2491,7 @@ for CotangentEulerArnoldGonzalez<'_, S> {
         let _t75 = _t73 - _t74;
         let _t76 = _t72 + _t75;
         let _t77 = _t69 + _t76;
-        let _t78 = _t66 + _t77;
+        let _t78 = _t77 + _t66;
         let _t79 = (_t10 + _t9) * S::ratio(1.0, 36.0);
         let _t80 = _t13 * _t79
             + S::ratio(1.0, 72.0)
@@ -2555,7 +2555,7 @@ for CotangentEulerArnoldGonzalez<'_, S> {
         let _t131 = S::one() + _t54 * _t130;
         let _t132 = _t126 - _t114;
         let _t133 = _t120 - _t132;
-        let _t134 = _t115 + _t133;
+        let _t134 = _t133 + _t115;
         let _t135 = _t61 + _t54 * _t99;
         let _t136 = _t121 - _t132;
         let _t137 = _t102 * self._h0;
@@ -2572,7 +2572,7 @@ for CotangentEulerArnoldGonzalez<'_, S> {
         let _t148 = _t1 * _t23 - _t38 * _t54;
         let _t149 = _t147 + _t148;
         let _t150 = _t146 + _t149;
-        let _t151 = _t143 + _t150;
+        let _t151 = _t150 + _t143;
         let _t152 = _t0 * _t49;
         let _t153 = _t143 - _t152;
         let _t154 = _t146 + _t153;
@@ -2631,13 +2631,13 @@ for CotangentEulerArnoldGonzalez<'_, S> {
         matrix[(0, 0)] = S::one() - self._h1 * (_t47 * _t65 - _t78 * _t64);
         matrix[(0, 1)] = (_t21 - _t18 * _t81 + _t80 * _t86) * self._h2;
         matrix[(0, 2)] = (_t0 * _t88
-            - S::ratio(2.0, 1.0) * (_t17 + _t87 * (_t70 + _t85))) * self._h3;
+            - S::ratio(2.0, 1.0) * (_t17 + _t87 * (_t85 + _t70))) * self._h3;
         matrix[(0, 3)] = self._h4 * (_t18 * _t92 - _t86 * _t91);
         matrix[(0, 4)] = (_t29 - _t26 * _t94 - _t93 * _t96) * self._h2;
-        matrix[(0, 5)] = self._h0 * (_t25 - _t30 * _t98 + _t97 * (_t73 + _t95));
+        matrix[(0, 5)] = self._h0 * (_t25 - _t30 * _t98 + _t97 * (_t95 + _t73));
         matrix[(0, 6)] = self._h5 * (_t26 * _t101 + _t96 * _t100);
         matrix[(0, 7)] = (_t37 - _t34 * _t103 - _t102 * (_t104 - _t68)) * self._h2;
-        matrix[(0, 8)] = self._h0 * (_t33 - _t38 * _t106 + _t105 * (_t67 + _t104));
+        matrix[(0, 8)] = self._h0 * (_t33 - _t38 * _t106 + _t105 * (_t104 + _t67));
         matrix[(0, 9)] = _t107 * self._h0 * (_t76 + _t84);
         matrix[(0, 10)] = (_t46 - _t42 * _t109 - _t108 * (_t77 - _t82)) * self._h2;
         matrix[(0, 11)] = self._h0 * (_t41 - _t47 * _t111 + _t110 * _t78);
@@ -2646,7 +2646,7 @@ for CotangentEulerArnoldGonzalez<'_, S> {
                 - _t18 * _t123 * S::ratio(5.0, 1.0));
         matrix[(1, 1)] = S::one() - self._h4 * (_t26 * _t125 - _t128 * _t124);
         matrix[(1, 2)] = self._h6
-            * (_t43 * _t88 - S::ratio(2.0, 1.0) * (_t50 + _t87 * (_t113 + _t127)));
+            * (_t43 * _t88 - S::ratio(2.0, 1.0) * (_t50 + _t87 * (_t127 + _t113)));
         matrix[(1, 3)] = (_t26 * _t129 - S::ratio(24.0, 1.0) * (_t29 + _t90 * _t128))
             * self._h7;
         matrix[(1, 4)] = (_t34 * _t131 - _t134 * _t130) * self._h8;
@@ -2654,7 +2654,7 @@ for CotangentEulerArnoldGonzalez<'_, S> {
         matrix[(1, 6)] = self._h0 * (_t37 - _t34 * _t135 + _t99 * _t134);
         matrix[(1, 7)] = _t136 * _t137;
         matrix[(1, 8)] = (_t55 - _t24 * _t106 - _t105 * (_t138 - _t119)) * self._h2;
-        matrix[(1, 9)] = self._h0 * (_t46 - _t42 * _t139 + _t107 * (_t118 + _t138));
+        matrix[(1, 9)] = self._h0 * (_t46 - _t42 * _t139 + _t107 * (_t138 + _t118));
         matrix[(1, 10)] = _t136 * _t140;
         matrix[(1, 11)] = (_t18 * _t142
             + S::ratio(10.0, 1.0) * (_t58 - _t59 * _t111 - _t110 * _t122)) * self._h9;
@@ -2673,7 +2673,7 @@ for CotangentEulerArnoldGonzalez<'_, S> {
             + S::ratio(4.0, 1.0) * (_t33 - _t38 * _t135 + _t99 * _t157)) * self._h8;
         matrix[(2, 7)] = self._h0 * (_t55 - _t24 * _t103 - _t102 * (_t159 - _t145));
         matrix[(2, 8)] = _t105 * _t158;
-        matrix[(2, 9)] = (_t41 - _t47 * _t139 + _t107 * (_t144 + _t159)) * self._h2;
+        matrix[(2, 9)] = (_t41 - _t47 * _t139 + _t107 * (_t159 + _t144)) * self._h2;
         matrix[(2, 10)] = self._h0 * (_t58 - _t59 * _t109 - _t108 * (_t150 - _t152));
         matrix[(2, 11)] = self._h1 * (_t0 * _t142 - _t151 * _t141);
         matrix[(3, 0)] = _t63 * _t162;

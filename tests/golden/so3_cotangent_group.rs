@@ -499,7 +499,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CotangentBodySystem
         out[(10, 0)] = _R33 * self._k3;
         out[(10, 2)] = _R31 * self._k7;
         out[(10, 9)] = _t14;
-        out[(10, 11)] = _t5 + _t6;
+        out[(10, 11)] = _t6 + _t5;
         out[(11, 0)] = _R32 * self._k8;
         out[(11, 1)] = _R31 * _t9;
         out[(11, 3)] = _R31 * _t11;
@@ -614,7 +614,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CotangentBodySystem
         jacobian[(10, 0)] = _R33 * self._k3;
         jacobian[(10, 2)] = _R31 * self._k7;
         jacobian[(10, 9)] = _t16;
-        jacobian[(10, 11)] = _t6 + _t7;
+        jacobian[(10, 11)] = _t7 + _t6;
         jacobian[(11, 0)] = _R32 * self._k8;
         jacobian[(11, 1)] = _R31 * _t11;
         jacobian[(11, 3)] = _R31 * _t13;
@@ -631,12 +631,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CotangentBodySystem
         let [[_, _, _, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = mu
             .data
             .0;
-        out[0] = _R13 * _R13 + (_R11 * _R11 + _R12 * _R12);
-        out[1] = _R13 * _R23 + (_R21 * _R11 + _R12 * _R22);
-        out[2] = _R33 * _R13 + (_R11 * _R31 + _R12 * _R32);
-        out[3] = _R23 * _R23 + (_R21 * _R21 + _R22 * _R22);
-        out[4] = _R33 * _R23 + (_R21 * _R31 + _R22 * _R32);
-        out[5] = _R33 * _R33 + (_R31 * _R31 + _R32 * _R32);
+        out[0] = _R11 * _R11 + _R12 * _R12 + _R13 * _R13;
+        out[1] = _R21 * _R11 + _R12 * _R22 + _R13 * _R23;
+        out[2] = _R11 * _R31 + _R12 * _R32 + _R33 * _R13;
+        out[3] = _R21 * _R21 + _R22 * _R22 + _R23 * _R23;
+        out[4] = _R21 * _R31 + _R22 * _R32 + _R33 * _R23;
+        out[5] = _R31 * _R31 + _R32 * _R32 + _R33 * _R33;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -868,13 +868,13 @@ for CotangentBodySystem<S> {
         let _t16 = _xi_L1 * _eta_R21 + _xi_R21 * _eta_L1;
         let _t17 = _xi_L1 * _eta_R31 + _xi_R31 * _eta_L1;
         out.as_mut_slice().fill(S::zero());
-        out[0] = (_xi_L1 * (_t0 * S::ratio(2.0, 1.0) + _t2 + _t4) + _eta_L1 * (_t5 + _t6)
+        out[0] = (_xi_L1 * (_t2 + _t0 * S::ratio(2.0, 1.0) + _t4) + _eta_L1 * (_t5 + _t6)
             - _R21 * (_t7 + _t8) - _R11 * (_t9 + _t10) - _R31 * (_t11 + _t12))
             * S::ratio(-1.0, 2.0);
-        out[1] = (_xi_L2 * (_t1 * S::ratio(2.0, 1.0) + _t13 + _t4)
+        out[1] = (_xi_L2 * (_t13 + _t1 * S::ratio(2.0, 1.0) + _t4)
             + _eta_L2 * (_t6 + _t14) - _R12 * (_t10 + _t15) - _R22 * (_t8 + _t16)
             - _R32 * (_t12 + _t17)) * S::ratio(-1.0, 2.0);
-        out[2] = (_xi_L3 * (_t3 * S::ratio(2.0, 1.0) + _t13 + _t2)
+        out[2] = (_xi_L3 * (_t13 + _t3 * S::ratio(2.0, 1.0) + _t2)
             + _eta_L3 * (_t5 + _t14) - _R33 * (_t11 + _t17) - _R13 * (_t9 + _t15)
             - _R23 * (_t7 + _t16)) * S::ratio(-1.0, 2.0);
     }
@@ -2523,8 +2523,8 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         let _t6 = _u_m2 * _u_R11;
         let _t7 = (_u_m2 * self.system._k5 + _u_R11 * S::ratio(1.0, 3.0) * _t6)
             * self._h1;
-        let _t8 = _t5 * _u_m3 + (_t2 * _u_m1 + _t7 * _u_m2);
-        let _t9 = _t0 * _u_R12 + _t8;
+        let _t8 = _t2 * _u_m1 + _t7 * _u_m2 + _t5 * _u_m3;
+        let _t9 = _t8 + _t0 * _u_R12;
         let _t10 = _u_m3 - _t0 * _u_R11;
         let _t11 = _u_m2 + _t3 * _u_R31;
         let _t12 = _u_m1 - _t3 * _u_R32;
@@ -2533,10 +2533,10 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         let _t15 = _t13 * _u_R11 + _t14 * _u_R21;
         let _t16 = _t13 * _u_R13 + _t14 * _u_R23;
         let _t17 = _t5 * self._h4;
-        residual[0] = _t1 - m1 + _t2 * (_t4 + _t9) + _t7 * _t10 - _t5 * _t11 + _t12;
-        residual[1] = _t7 * (_t4 + _t8 + _t15) - m2 + _t11
+        residual[0] = _t12 - m1 + _t1 + _t2 * (_t9 + _t4) + _t7 * _t10 - _t5 * _t11;
+        residual[1] = _t11 - m2 + _t7 * (_t8 + _t4 + _t15)
             - _t2 * (_u_m3 + _t13 * _u_R12 + _t14 * _u_R22) + _t5 * _t12 - _t16;
-        residual[2] = _t5 * (_t9 + _t15) - m3 + _t10 + _t2 * (_u_m2 - _t16)
+        residual[2] = _t10 - m3 + _t5 * (_t9 + _t15) + _t2 * (_u_m2 - _t16)
             - _t7 * (_u_m1 + _t1) + _t14 * (_u_R22 + _t13 * self._h4);
         residual[3] = _u_R11 - _R11 + _t7 * _u_R13 - _t14 * _t17;
         residual[4] = _u_R12 - _R12 - _t2 * _u_R13 + _t5 * _u_R11;
@@ -2587,8 +2587,8 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         let _t19 = _u_R12 * self._h0;
         let _t20 = _u_m2 * self._h3 * _t5;
         let _t21 = _t20 * _u_R11;
-        let _t22 = _t21 + _t9;
-        let _t23 = _t19 * _u_R21 + _t22;
+        let _t22 = _t9 + _t21;
+        let _t23 = _t22 + _t19 * _u_R21;
         let _t24 = _t19 * _u_R23 - (_u_m2 - _t20 * _u_R13);
         let _t25 = -_t24;
         let _t26 = _u_m1 + _t1;
@@ -2611,7 +2611,7 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         let _t43 = _t2 * _t20;
         let _t44 = -(_t10 * _t12);
         let _t45 = _u_m1 * self.h;
-        let _t46 = self.h * (_t4 + _t21 + _t14) + S::ratio(4.0, 1.0) * _t37;
+        let _t46 = self.h * (_t14 + _t4 + _t21) + S::ratio(4.0, 1.0) * _t37;
         let _t47 = _t31 * S::ratio(4.0, 1.0);
         let _t48 = _u_R11 * S::ratio(2.0, 1.0);
         let _t49 = _u_m2 * S::ratio(1.0, 6.0);
@@ -2625,24 +2625,24 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         let _t57 = -_t2;
         let _t58 = _t39 * self._h15;
         let _t59 = -_t7;
-        residual[0] = _t1 - m1 + _t2 * (_t3 + _t9 + _t14) + _t7 * _t15 - _t10 * _t17
-            + _t18;
+        residual[0] = _t18 - m1 + _t1 + _t2 * (_t9 + _t3 + _t14) + _t7 * _t15
+            - _t10 * _t17;
         residual[1] = _t16 - m2 + _t7 * (_t14 + _t23)
             - _t2 * (_u_m3 + _t20 * _u_R12 + _t19 * _u_R22) + _t10 * _t18 - _t24;
-        residual[2] = _t10 * (_t11 + _t3 + _t23) - m3 + _t15 + _t2 * _t25 - _t7 * _t26
+        residual[2] = _t15 - m3 + _t10 * (_t23 + _t11 + _t3) + _t2 * _t25 - _t7 * _t26
             + _t19 * (_u_R22 + _t20 * self._h4);
         residual[3] = _t28 - _R11 - _t19 * _t27;
         residual[4] = _u_R12 - _R12 - _t30;
-        residual[5] = _t31 * self._h4 - _R13 + _t32;
+        residual[5] = _t32 - _R13 + _t31 * self._h4;
         residual[6] = _u_R21 - _R21 - _t10 * _u_R22 + _t7 * _u_R23;
-        residual[7] = _t0 * _t27 - _R22 + _t33;
+        residual[7] = _t33 - _R22 + _t0 * _t27;
         residual[8] = _u_R23 - _R23 + _t2 * _u_R22 - _t34 * self._h4;
-        residual[9] = _t7 * _u_R33 - _R31 + _t35;
+        residual[9] = _t35 - _R31 + _t7 * _u_R33;
         residual[10] = _u_R32 - _R32 - _t2 * _u_R33 + _t10 * _u_R31;
         residual[11] = _u_R33 - _R33 - _t7 * _u_R31 + _t2 * _u_R32;
         matrix[(0, 0)] = S::one() - _t36 - self._h6 * (_t8 + _t13)
             + self.system._k10 * _t37
-            + (_t2 * (_u_m1 * self._h7 + _t38)
+            + (_t2 * (_t38 + _u_m1 * self._h7)
                 - _t10 * (_u_R31 * self.h - _u_m3 * self._h8)) * S::ratio(1.0, 10.0);
         matrix[(0, 1)] = _t2 * _t7 - _t10 + self.h * (_t15 + _t2 * _u_m2) * _t40;
         matrix[(0, 2)] = _t7 + _t2 * _t41 - self._h2 * _t17;
@@ -2654,12 +2654,12 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         matrix[(0, 6)] = _t31 + self._h0 * _t32;
         matrix[(0, 9)] = _t44;
         matrix[(0, 10)] = -_t12;
-        matrix[(0, 11)] = self._h5 * (_t8 + _t14) + S::ratio(2.0, 5.0) * _t37
+        matrix[(0, 11)] = self._h5 * (_t14 + _t8) + S::ratio(2.0, 5.0) * _t37
             + _t2 * S::ratio(1.0, 5.0) * (_t45 + _t12 * S::ratio(5.0, 1.0));
         matrix[(1, 0)] = self._h5 * _t35 - _u_m3 * self._h10
-            + _t7 * (_u_m1 * self._h8 + _t38) * S::ratio(1.0, 10.0)
+            + _t7 * (_t38 + _u_m1 * self._h8) * S::ratio(1.0, 10.0)
             - _t19 * S::ratio(1.0, 2.0) * (_u_R22 * self._h11 + _t20 * self.system._k11);
-        matrix[(1, 1)] = S::one() + _t7 * _t7 + (_t8 * self._h12 + _t46) * _t40
+        matrix[(1, 1)] = S::one() + _t7 * _t7 + (_t46 + _t8 * self._h12) * _t40
             - S::ratio(1.0, 3.0) * (self.h * _t32 + _t47) * _t5;
         matrix[(1, 2)] = _t7 * _t41 - _t2 + self._h2 * _t18;
         matrix[(1, 3)] = _t7 * _t20 * S::ratio(6.0, 1.0)
@@ -3502,7 +3502,7 @@ for CotangentBodyGonzalez<'_, S> {
         let _t75 = _t73 - _t74;
         let _t76 = _t72 + _t75;
         let _t77 = _t69 + _t76;
-        let _t78 = _t66 + _t77;
+        let _t78 = _t77 + _t66;
         let _t79 = (_t10 + _t9) * S::ratio(1.0, 36.0);
         let _t80 = _t13 * _t79
             + S::ratio(1.0, 72.0)
@@ -3566,7 +3566,7 @@ for CotangentBodyGonzalez<'_, S> {
         let _t131 = S::one() + _t54 * _t130;
         let _t132 = _t126 - _t114;
         let _t133 = _t120 - _t132;
-        let _t134 = _t115 + _t133;
+        let _t134 = _t133 + _t115;
         let _t135 = _t61 + _t54 * _t99;
         let _t136 = _t121 - _t132;
         let _t137 = _t102 * self._h0;
@@ -3583,7 +3583,7 @@ for CotangentBodyGonzalez<'_, S> {
         let _t148 = _t1 * _t23 - _t38 * _t54;
         let _t149 = _t147 + _t148;
         let _t150 = _t146 + _t149;
-        let _t151 = _t143 + _t150;
+        let _t151 = _t150 + _t143;
         let _t152 = _t0 * _t49;
         let _t153 = _t143 - _t152;
         let _t154 = _t146 + _t153;
@@ -3642,13 +3642,13 @@ for CotangentBodyGonzalez<'_, S> {
         matrix[(0, 0)] = S::one() - self._h1 * (_t47 * _t65 - _t78 * _t64);
         matrix[(0, 1)] = (_t21 - _t18 * _t81 + _t80 * _t86) * self._h2;
         matrix[(0, 2)] = (_t0 * _t88
-            - S::ratio(2.0, 1.0) * (_t17 + _t87 * (_t70 + _t85))) * self._h3;
+            - S::ratio(2.0, 1.0) * (_t17 + _t87 * (_t85 + _t70))) * self._h3;
         matrix[(0, 3)] = self._h4 * (_t18 * _t92 - _t86 * _t91);
         matrix[(0, 4)] = (_t29 - _t26 * _t94 - _t93 * _t96) * self._h2;
-        matrix[(0, 5)] = self._h0 * (_t25 - _t30 * _t98 + _t97 * (_t73 + _t95));
+        matrix[(0, 5)] = self._h0 * (_t25 - _t30 * _t98 + _t97 * (_t95 + _t73));
         matrix[(0, 6)] = self._h5 * (_t26 * _t101 + _t96 * _t100);
         matrix[(0, 7)] = (_t37 - _t34 * _t103 - _t102 * (_t104 - _t68)) * self._h2;
-        matrix[(0, 8)] = self._h0 * (_t33 - _t38 * _t106 + _t105 * (_t67 + _t104));
+        matrix[(0, 8)] = self._h0 * (_t33 - _t38 * _t106 + _t105 * (_t104 + _t67));
         matrix[(0, 9)] = _t107 * self._h0 * (_t76 + _t84);
         matrix[(0, 10)] = (_t46 - _t42 * _t109 - _t108 * (_t77 - _t82)) * self._h2;
         matrix[(0, 11)] = self._h0 * (_t41 - _t47 * _t111 + _t110 * _t78);
@@ -3657,7 +3657,7 @@ for CotangentBodyGonzalez<'_, S> {
                 - _t18 * _t123 * S::ratio(5.0, 1.0));
         matrix[(1, 1)] = S::one() - self._h4 * (_t26 * _t125 - _t128 * _t124);
         matrix[(1, 2)] = self._h6
-            * (_t43 * _t88 - S::ratio(2.0, 1.0) * (_t50 + _t87 * (_t113 + _t127)));
+            * (_t43 * _t88 - S::ratio(2.0, 1.0) * (_t50 + _t87 * (_t127 + _t113)));
         matrix[(1, 3)] = (_t26 * _t129 - S::ratio(24.0, 1.0) * (_t29 + _t90 * _t128))
             * self._h7;
         matrix[(1, 4)] = (_t34 * _t131 - _t134 * _t130) * self._h8;
@@ -3665,7 +3665,7 @@ for CotangentBodyGonzalez<'_, S> {
         matrix[(1, 6)] = self._h0 * (_t37 - _t34 * _t135 + _t99 * _t134);
         matrix[(1, 7)] = _t136 * _t137;
         matrix[(1, 8)] = (_t55 - _t24 * _t106 - _t105 * (_t138 - _t119)) * self._h2;
-        matrix[(1, 9)] = self._h0 * (_t46 - _t42 * _t139 + _t107 * (_t118 + _t138));
+        matrix[(1, 9)] = self._h0 * (_t46 - _t42 * _t139 + _t107 * (_t138 + _t118));
         matrix[(1, 10)] = _t136 * _t140;
         matrix[(1, 11)] = (_t18 * _t142
             + S::ratio(10.0, 1.0) * (_t58 - _t59 * _t111 - _t110 * _t122)) * self._h9;
@@ -3684,7 +3684,7 @@ for CotangentBodyGonzalez<'_, S> {
             + S::ratio(4.0, 1.0) * (_t33 - _t38 * _t135 + _t99 * _t157)) * self._h8;
         matrix[(2, 7)] = self._h0 * (_t55 - _t24 * _t103 - _t102 * (_t159 - _t145));
         matrix[(2, 8)] = _t105 * _t158;
-        matrix[(2, 9)] = (_t41 - _t47 * _t139 + _t107 * (_t144 + _t159)) * self._h2;
+        matrix[(2, 9)] = (_t41 - _t47 * _t139 + _t107 * (_t159 + _t144)) * self._h2;
         matrix[(2, 10)] = self._h0 * (_t58 - _t59 * _t109 - _t108 * (_t150 - _t152));
         matrix[(2, 11)] = self._h1 * (_t0 * _t142 - _t151 * _t141);
         matrix[(3, 0)] = _t63 * _t162;

@@ -346,7 +346,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for DiscreteBodySystem<
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m1, m2, m3]] = mu.data.0;
-        out[0] = m3 * m3 + (m1 * m1 + m2 * m2);
+        out[0] = m1 * m1 + m2 * m2 + m3 * m3;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -518,10 +518,10 @@ for DiscreteBodySystem<S> {
         let _t0 = _xi_e3 * _xi_e3;
         let _t1 = _xi_e1 * _xi_e1;
         let _t2 = _xi_e2 * _xi_e2;
-        let _t3 = S::one() / (S::one() + (_t0 + (_t1 + _t2)) * S::ratio(1.0, 4.0));
+        let _t3 = S::one() / (S::one() + (_t1 + _t2 + _t0) * S::ratio(1.0, 4.0));
         let _t4 = S::one() / _h * _t3;
         let _t5 = _t3 * _t4;
-        let _t6 = (self.I3 * _t0 + (self.I1 * _t1 + self.I2 * _t2)) * _t5;
+        let _t6 = (self.I1 * _t1 + self.I2 * _t2 + self.I3 * _t0) * _t5;
         let _t7 = _t3 * _t6;
         let _t8 = _xi_e1 * S::ratio(1.0, 4.0);
         let _t9 = _xi_e2 * (_t7 - self._k16 * _t5) * _t8;
@@ -1833,7 +1833,7 @@ for DiscreteBodyCayleyMidpoint<'_, S> {
         let _t4 = _u_m2 * self._h1;
         let _t5 = _t4 * _u_m2;
         let _t6 = _t3 + _t5;
-        let _t7 = _t2 + _t6;
+        let _t7 = _t6 + _t2;
         let _t8 = _u_m2 * self._h3;
         let _t9 = _u_m1 * self._h4;
         let _t10 = _u_m1 * self._h5;

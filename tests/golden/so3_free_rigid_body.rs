@@ -283,7 +283,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[x, y, z]] = mu.data.0;
-        out[0] = z * z + (x * x + y * y);
+        out[0] = x * x + y * y + z * z;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -1656,7 +1656,7 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
         let _t4 = _u_y * self._h1;
         let _t5 = _t4 * _u_y;
         let _t6 = _t3 + _t5;
-        let _t7 = _t2 + _t6;
+        let _t7 = _t6 + _t2;
         let _t8 = _u_y * self._h3;
         let _t9 = _u_x * self._h4;
         let _t10 = _u_x * self._h5;

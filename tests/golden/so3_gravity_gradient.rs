@@ -643,9 +643,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for SatelliteSystem<S> 
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[_, _, _, _, _, _, _R21, _R22, _R23, _R31, _R32, _R33]] = mu.data.0;
-        out[0] = _R23 * _R23 + (_R21 * _R21 + _R22 * _R22);
-        out[1] = _R33 * _R33 + (_R31 * _R31 + _R32 * _R32);
-        out[2] = _R23 * _R33 + (_R21 * _R31 + _R22 * _R32);
+        out[0] = _R21 * _R21 + _R22 * _R22 + _R23 * _R23;
+        out[1] = _R31 * _R31 + _R32 * _R32 + _R33 * _R33;
+        out[2] = _R21 * _R31 + _R22 * _R32 + _R23 * _R33;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -843,13 +843,13 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for SatelliteSyst
         let _t16 = _xi_J1 * _eta_R31 + _xi_R31 * _eta_J1;
         let _t17 = _xi_J1 * _eta_R11 + _xi_R11 * _eta_J1;
         out.as_mut_slice().fill(S::zero());
-        out[0] = (_xi_J1 * (_t0 * S::ratio(2.0, 1.0) + _t2 + _t4) + _eta_J1 * (_t5 + _t6)
+        out[0] = (_xi_J1 * (_t2 + _t0 * S::ratio(2.0, 1.0) + _t4) + _eta_J1 * (_t5 + _t6)
             - _R21 * (_t7 + _t8) - _R31 * (_t9 + _t10) - _R11 * (_t11 + _t12))
             * S::ratio(-1.0, 2.0);
-        out[1] = (_xi_J2 * (_t1 * S::ratio(2.0, 1.0) + _t13 + _t4)
+        out[1] = (_xi_J2 * (_t13 + _t1 * S::ratio(2.0, 1.0) + _t4)
             + _eta_J2 * (_t6 + _t14) - _R22 * (_t8 + _t15) - _R32 * (_t10 + _t16)
             - _R12 * (_t12 + _t17)) * S::ratio(-1.0, 2.0);
-        out[2] = (_xi_J3 * (_t3 * S::ratio(2.0, 1.0) + _t13 + _t2)
+        out[2] = (_xi_J3 * (_t13 + _t3 * S::ratio(2.0, 1.0) + _t2)
             + _eta_J3 * (_t5 + _t14) - _R23 * (_t7 + _t15) - _R33 * (_t9 + _t16)
             - _R13 * (_t11 + _t17)) * S::ratio(-1.0, 2.0);
     }
@@ -2590,7 +2590,7 @@ for SatelliteCayleyMidpoint<'_, S> {
         let _t5 = _t3 * _u_R23 + _t4 * _u_R33;
         let _t6 = (_u_Pi3 * self.system._k10 - self.system.n * _u_R23) * self._h1;
         let _t7 = (_u_Pi2 * self.system._k9 - self.system.n * _u_R22) * self._h1;
-        let _t8 = _t6 * _u_Pi3 + (_t2 * _u_Pi1 + _t7 * _u_Pi2);
+        let _t8 = _t2 * _u_Pi1 + _t7 * _u_Pi2 + _t6 * _u_Pi3;
         let _t9 = _u_R32 * self._h3;
         let _t10 = _t8 + (_t0 * _u_R22 + _t9 * _u_R32);
         let _t11 = _u_Pi3 - _t0 * _u_R21;
@@ -2601,16 +2601,15 @@ for SatelliteCayleyMidpoint<'_, S> {
         let _t16 = _u_R31 * self._h5;
         let _t17 = _t14 * _u_R21 + _t16 * _u_R31;
         let _t18 = _t14 * _u_R22;
-        let _t19 = _t7 * (_t8 + _t5 + _t17) - _Pi2 - _t15
+        residual[0] = _t13 - _Pi1 + _t1 + _t2 * (_t5 + _t10)
+            + _t7 * (_t11 - _t9 * _u_R31) - _t6 * (_t12 + _t4 * _u_R31)
+            + _u_R32 * _u_R33 * self._h4;
+        residual[1] = _t12 - _Pi2 - _t15 + _t7 * (_t8 + _t5 + _t17)
             - _t2 * (_u_Pi3 + _t18 + _t16 * _u_R32) + _t6 * (_t13 - _t4 * _u_R32)
             - _u_R31 * _u_R33 * self._h6;
-        let _t20 = _t18 - _Pi3 + _t6 * (_t17 + _t10)
+        residual[2] = _t11 - _Pi3 + _t18 + _t6 * (_t17 + _t10)
             + _t2 * (_u_Pi2 - _t15 - _t16 * _u_R33) - _t7 * (_u_Pi1 + _t1 + _t9 * _u_R33)
             + _u_R31 * _u_R32 * self._h7;
-        residual[0] = _t1 - _Pi1 + _t2 * (_t5 + _t10) + _t7 * (_t11 - _t9 * _u_R31)
-            - _t6 * (_t4 * _u_R31 + _t12) + _u_R32 * _u_R33 * self._h4 + _t13;
-        residual[1] = _t19 + _t12;
-        residual[2] = _t20 + _t11;
         residual[3] = _u_R11 - _R11 - _t6 * _u_R12 + _t7 * _u_R13;
         residual[4] = _u_R12 - _R12 + _t6 * _u_R11 - _t2 * _u_R13;
         residual[5] = _u_R13 - _R13 - _t7 * _u_R11 + _t2 * _u_R12;
@@ -2647,7 +2646,7 @@ for SatelliteCayleyMidpoint<'_, S> {
         let _t6 = _t5 * self._h1;
         let _t7 = _t6 * _u_Pi3;
         let _t8 = _u_Pi3 * self._h0;
-        let _t9 = _t3 * _u_R33 + (_t7 + _t8 * _u_R23);
+        let _t9 = _t7 + _t8 * _u_R23 + _t3 * _u_R33;
         let _t10 = _t2 * _u_Pi1;
         let _t11 = self.system._k9 * _u_Pi2;
         let _t12 = _t11 - self.system.n * _u_R22;
@@ -2669,7 +2668,7 @@ for SatelliteCayleyMidpoint<'_, S> {
         let _t28 = _t24 + _t19;
         let _t29 = _t22 * _u_R23 + _t23 * _u_R33;
         let _t30 = _t16 * _u_R23 + _t17 * _u_R33;
-        let _t31 = _t14 + _t10 * S::ratio(2.0, 1.0) + _t18 + _t9;
+        let _t31 = _t18 + _t14 + _t10 * S::ratio(2.0, 1.0) + _t9;
         let _t32 = _t2 * _t13;
         let _t33 = _t2 * _u_Pi2 - _t20;
         let _t34 = self._h0 * (_t2 * _u_R22 - _t13 * _u_R21);
@@ -2683,7 +2682,7 @@ for SatelliteCayleyMidpoint<'_, S> {
         let _t42 = _t2 * _u_R32 - _t13 * _u_R31;
         let _t43 = _t2 * _u_R33 - _t6 * _u_R31;
         let _t44 = _t13 * _u_Pi1 - _t26;
-        let _t45 = _t10 + _t14 * S::ratio(2.0, 1.0) + _t25;
+        let _t45 = _t25 + _t10 + _t14 * S::ratio(2.0, 1.0);
         let _t46 = _t13 * _t6;
         let _t47 = _t13 * _u_Pi3 - _t27;
         let _t48 = self._h0 * (_t13 * _u_R23 - _t6 * _u_R22);
@@ -2692,7 +2691,7 @@ for SatelliteCayleyMidpoint<'_, S> {
         let _t51 = _t13 * _u_R33 - _t6 * _u_R32;
         let _t52 = _t6 * _u_Pi1 - _t29;
         let _t53 = _t6 * _u_Pi2 - _t30;
-        let _t54 = _t7 * S::ratio(2.0, 1.0) + _t28;
+        let _t54 = _t28 + _t7 * S::ratio(2.0, 1.0);
         let _t55 = _t5 * self._h15;
         let _t56 = _t1 * self._h15;
         let _t57 = _t12 * self._h15;
@@ -2702,7 +2701,7 @@ for SatelliteCayleyMidpoint<'_, S> {
         residual[1] = _u_Pi2 - _Pi2 + _t13 * (_t15 + _t25) - _t2 * _t26 - _t6 * _t27
             + self._h1
                 * (_u_Pi1 * _t4 - _u_Pi3 * _t0 - _u_R31 * _u_R33 * self.system._k17);
-        residual[2] = _u_Pi3 - _Pi3 + _t6 * (_t7 + _t28) - _t2 * _t29 - _t13 * _t30
+        residual[2] = _u_Pi3 - _Pi3 + _t6 * (_t28 + _t7) - _t2 * _t29 - _t13 * _t30
             - self._h1
                 * (_u_Pi1 * _t11 - _u_Pi2 * _t0 - _u_R31 * _u_R32 * self.system._k25);
         residual[3] = _u_R11 - _R11 + self._h1 * (_u_R13 * _t12 - _u_R12 * _t5);

@@ -343,7 +343,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for GyrostatSystem<S> {
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[_M1, _M2, _M3]] = mu.data.0;
-        out[0] = _M3 * _M3 + (_M1 * _M1 + _M2 * _M2);
+        out[0] = _M1 * _M1 + _M2 * _M2 + _M3 * _M3;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -1779,7 +1779,7 @@ for GyrostatCayleyMidpoint<'_, S> {
         let _t5 = _u_M2 * self._h1;
         let _t6 = _t5 * _u_M2;
         let _t7 = _t4 + _t6;
-        let _t8 = _t3 + _t7;
+        let _t8 = _t7 + _t3;
         let _t9 = self.system._k7 * _t1;
         let _t10 = (_t9 + self.system._k5 * _u_M3) * self._h7;
         let _t11 = (_t9 + self.system._k4 * _u_M3) * self._h7;
@@ -1800,7 +1800,7 @@ for GyrostatCayleyMidpoint<'_, S> {
         matrix[(1, 2)] = _t5 * _t15 - _u_M1 * self._h10;
         matrix[(2, 0)] = _t0 * _t14 + _u_M2 * self._h6;
         matrix[(2, 1)] = _t5 * _t14 + _t12;
-        matrix[(2, 2)] = S::one() + _t2 * _t2 - self._h2 * (_u_M3 * _t14 + _t7);
+        matrix[(2, 2)] = S::one() + _t2 * _t2 - self._h2 * (_t7 + _u_M3 * _t14);
     }
 
     /// `mu1 = mu + ad*_x m = mu + h f(m)`

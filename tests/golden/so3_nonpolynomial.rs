@@ -116,8 +116,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let [[x, y, z]] = mu.data.0;
-        x * y * y * z
-            + ((S::one() + z * z).sqrt() + (x.sin() + (y * S::ratio(1.0, 2.0)).exp()))
+        x.sin() + (y * S::ratio(1.0, 2.0)).exp() + (S::one() + z * z).sqrt()
+            + x * y * y * z
     }
 
     /// `out_i = dH/dmu_i`
@@ -213,7 +213,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         let _t12 = _t2 * _t11;
         let _t13 = _t0 * S::ratio(1.0, 4.0) + z * _t1;
         let _t14 = _t4 * (_t4 * _t4);
-        let _t15 = _t3 + (S::ratio(1.0, 2.0) * _t0 + _t3);
+        let _t15 = S::ratio(1.0, 2.0) * _t0 + _t3 + _t3;
         let _t16 = x.sin();
         let _t17 = x * y * _t1;
         out[(0, 0)] = _t10 - _t12;
@@ -221,8 +221,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         out[(0, 2)] = y * _t14 - _t15;
         out[(1, 0)] = -_t6 - _t7 - _t16 * z;
         out[(1, 1)] = _t12 - _t17;
-        out[(1, 2)] = _t8 + _t9 - x * _t14;
-        out[(2, 0)] = _t16 * y + _t15;
+        out[(1, 2)] = _t9 + _t8 - x * _t14;
+        out[(2, 0)] = _t15 + _t16 * y;
         out[(2, 1)] = x * _t13 - _t9 - _t5 * _t11;
         out[(2, 2)] = _t17 - _t10;
     }
@@ -254,7 +254,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         let _t13 = _t2 * _t12;
         let _t14 = _t0 * S::ratio(1.0, 4.0) + z * _t1;
         let _t15 = _t5 * (_t5 * _t5);
-        let _t16 = _t3 + _t4;
+        let _t16 = _t4 + _t3;
         let _t17 = x.sin();
         let _t18 = x * y * _t1;
         field[0] = y * _t8 - z * _t4;
@@ -265,8 +265,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         jacobian[(0, 2)] = y * _t15 - _t16;
         jacobian[(1, 0)] = -_t7 - _t8 - _t17 * z;
         jacobian[(1, 1)] = _t13 - _t18;
-        jacobian[(1, 2)] = _t9 + _t10 - x * _t15;
-        jacobian[(2, 0)] = _t17 * y + _t16;
+        jacobian[(1, 2)] = _t10 + _t9 - x * _t15;
+        jacobian[(2, 0)] = _t16 + _t17 * y;
         jacobian[(2, 1)] = x * _t14 - _t10 - _t6 * _t12;
         jacobian[(2, 2)] = _t18 - _t11;
     }
@@ -277,7 +277,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[x, y, z]] = mu.data.0;
-        out[0] = z * z + (y * y + x * x);
+        out[0] = y * y + x * x + z * z;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -1313,7 +1313,7 @@ for NonpolynomialSpinCayleyMidpoint<'_, S> {
         let _t15 = _t14 * self._h0;
         let _t16 = _t15 * _u_y;
         let _t17 = _t10 + _t16;
-        let _t18 = _t9 + _t17;
+        let _t18 = _t17 + _t9;
         let _t19 = _u_x.sin();
         let _t20 = _t16 + _t9 + _t3 * _t12;
         let _t21 = self._h0 * _t20;
@@ -1332,7 +1332,7 @@ for NonpolynomialSpinCayleyMidpoint<'_, S> {
         let _t34 = _t23 - _u_x * self.h * _t19;
         let _t35 = _t15 * S::ratio(1.0, 2.0);
         let _t36 = _u_x * _t25;
-        let _t37 = S::ratio(2.0, 1.0) * _t9 + _t17;
+        let _t37 = _t17 + S::ratio(2.0, 1.0) * _t9;
         let _t38 = self._h0 * _t37;
         let _t39 = _t8 * S::ratio(1.0, 2.0);
         residual[0] = _u_x - x + _t3 * _t18 + self._h0 * (_u_z * _t14 - _u_y * _t7);
@@ -1343,15 +1343,15 @@ for NonpolynomialSpinCayleyMidpoint<'_, S> {
         matrix[(0, 1)] = _t20 * _t26 - self._h0 * (_t7 - _u_z * _t27 + _t0 * _t12)
             + _t29 * _t24;
         matrix[(0, 2)] = _t0 * _t21 + self._h0 * (_t14 + _u_y * (_t13 - _t30))
-            + (self._h2 * _t6 + _t32) * _t24;
-        matrix[(1, 0)] = _t33 * _t26 + self._h0 * (_t6 + _t7 + _u_z * _t19)
-            + (self.h * _t1 + _t34) * _t35;
+            + (_t32 + self._h2 * _t6) * _t24;
+        matrix[(1, 0)] = _t33 * _t26 + self._h0 * (_t7 + _t6 + _u_z * _t19)
+            + (_t34 + self.h * _t1) * _t35;
         matrix[(1, 1)] = S::one() - (_t4 - _u_x * _u_x) * _t25
             + _t15 * (_t15 + _u_y * _t28) + self._h0 * _t27 * _t33;
-        matrix[(1, 2)] = _t33 * _t36 - self._h0 * (_t1 + _t2 - _u_x * _t30)
-            + (self.h * _t6 + _t32) * _t35;
+        matrix[(1, 2)] = _t33 * _t36 - self._h0 * (_t2 + _t1 - _u_x * _t30)
+            + (_t32 + self.h * _t6) * _t35;
         matrix[(2, 0)] = _t0 * _t38 - self._h0 * (_t14 + _u_y * (_t19 + _t13))
-            + (self._h2 * _t1 + _t34) * _t39;
+            + (_t34 + self._h2 * _t1) * _t39;
         matrix[(2, 1)] = _t37 * _t36
             + self._h0 * (_t2 - _u_x * _t27 + S::ratio(2.0, 1.0) * _t1) + _t29 * _t39;
         matrix[(2, 2)] = S::one() + _t30 * _t38 + (_t0 - _u_x * _t12) * _t22
@@ -2905,9 +2905,9 @@ for NonpolynomialSpinSphericalMidpoint<'_, S> {
         let _t26 = _t2 * _d_y;
         let _t27 = _t0 * _d_y;
         let _t28 = _t6.sin();
-        let _t29 = -(_t17 * (_t13 + _t14 + _t1 * _t28));
+        let _t29 = -(_t17 * (_t14 + _t13 + _t1 * _t28));
         let _t30 = S::ratio(2.0, 1.0) * (_t10 - _t6 * _t6) * _t18;
-        let _t31 = _t17 * (_t15 + _t16 - _t6 * _t23);
+        let _t31 = _t17 * (_t16 + _t15 - _t6 * _t23);
         let _t32 = _t5 * _t29 + _t2 * _t30 + _t0 * _t31;
         let _t33 = _t17 * (_t9 + _t3 * (_t8 + _t28));
         let _t34 = -(_t17 * (_t16 - _t6 * _t21 + S::ratio(2.0, 1.0) * _t15));

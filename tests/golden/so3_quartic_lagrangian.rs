@@ -163,7 +163,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for QuarticBodySystem<S
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[x1, x2, x3]] = mu.data.0;
-        out[0] = x3 * x3 + (x1 * x1 + x2 * x2);
+        out[0] = x1 * x1 + x2 * x2 + x3 * x3;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.

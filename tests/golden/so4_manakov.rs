@@ -483,9 +483,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m12, m13, m14, m23, m24, m34]] = mu.data.0;
-        out[0] = m34 * m34
-            + (m24 * m24 + (m23 * m23 + (m14 * m14 + (m12 * m12 + m13 * m13))));
-        out[1] = m14 * m23 + (m12 * m34 - m13 * m24);
+        out[0] = m12 * m12 + m13 * m13 + m14 * m14 + m23 * m23 + m24 * m24 + m34 * m34;
+        out[1] = m12 * m34 - m13 * m24 + m14 * m23;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -637,17 +636,17 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSys
         let _t21 = _t15 + _t3;
         let _t22 = _t8 - _t17;
         let _t23 = _t11 + _t19;
-        out[0] = (_xi_E12 * (_t0 * S::ratio(2.0, 1.0) + _t7) + m34 * _t10
+        out[0] = (_xi_E12 * (_t7 + _t0 * S::ratio(2.0, 1.0)) + m34 * _t10
             + _eta_E12 * _t13) * S::ratio(-1.0, 2.0);
-        out[1] = (_xi_E13 * (_t1 * S::ratio(2.0, 1.0) + _t16) + m24 * _t18
+        out[1] = (_xi_E13 * (_t16 + _t1 * S::ratio(2.0, 1.0)) + m24 * _t18
             + _eta_E13 * _t20) * S::ratio(-1.0, 2.0);
-        out[2] = (_xi_E14 * (_t4 * S::ratio(2.0, 1.0) + _t21) + m23 * _t22
+        out[2] = (_xi_E14 * (_t21 + _t4 * S::ratio(2.0, 1.0)) + m23 * _t22
             + _eta_E14 * _t23) * S::ratio(-1.0, 2.0);
-        out[3] = (_xi_E23 * (_t5 * S::ratio(2.0, 1.0) + _t21) + m14 * _t22
+        out[3] = (_xi_E23 * (_t21 + _t5 * S::ratio(2.0, 1.0)) + m14 * _t22
             + _eta_E23 * _t23) * S::ratio(-1.0, 2.0);
-        out[4] = (_xi_E24 * (_t2 * S::ratio(2.0, 1.0) + _t16) + m13 * _t18
+        out[4] = (_xi_E24 * (_t16 + _t2 * S::ratio(2.0, 1.0)) + m13 * _t18
             + _eta_E24 * _t20) * S::ratio(-1.0, 2.0);
-        out[5] = (_xi_E34 * (S::ratio(2.0, 1.0) * _t14 + _t7) + m12 * _t10
+        out[5] = (_xi_E34 * (_t7 + S::ratio(2.0, 1.0) * _t14) + m12 * _t10
             + _eta_E34 * _t13) * S::ratio(-1.0, 2.0);
     }
 }
@@ -1938,17 +1937,17 @@ for ManakovTopCayleyMidpoint<'_, S> {
         let _t21 = _t6 + _t20;
         let _t22 = _t13 - _t18;
         let _t23 = _t11 + _t20;
-        residual[0] = _u_m12 - m12 + _t0 * (_t2 + _t12) + _u_m34 * _t15
+        residual[0] = _u_m12 - m12 + _t0 * (_t12 + _t2) + _u_m34 * _t15
             + _u_m13 * _u_m23 * self._h5 + _u_m14 * _u_m24 * self._h6;
-        residual[1] = _u_m13 - m13 + _t4 * (_t17 + _t12) + _u_m24 * _t19
+        residual[1] = _u_m13 - m13 + _t4 * (_t12 + _t17) + _u_m24 * _t19
             - _u_m12 * _u_m23 * self._h8 + _u_m14 * _u_m34 * self._h9;
-        residual[2] = _u_m14 - m14 + _t7 * (_t8 + _t21) + _u_m23 * _t22
+        residual[2] = _u_m14 - m14 + _t7 * (_t21 + _t8) + _u_m23 * _t22
             - _u_m12 * _u_m24 * self._h10 - _u_m13 * _u_m34 * self._h11;
-        residual[3] = _u_m23 - m23 + _t9 * (_t10 + _t21) + _u_m14 * _t22
+        residual[3] = _u_m23 - m23 + _t9 * (_t21 + _t10) + _u_m14 * _t22
             + _u_m12 * _u_m13 * self._h12 + _u_m24 * _u_m34 * self._h13;
-        residual[4] = _u_m24 - m24 + _t1 * (_t3 + _t23) + _u_m13 * _t19
+        residual[4] = _u_m24 - m24 + _t1 * (_t23 + _t3) + _u_m13 * _t19
             + _u_m12 * _u_m14 * self._h14 - _u_m23 * _u_m34 * self._h15;
-        residual[5] = _u_m34 - m34 + _t16 * (_t5 + _t23) + _u_m12 * _t15
+        residual[5] = _u_m34 - m34 + _t16 * (_t23 + _t5) + _u_m12 * _t15
             + _u_m13 * _u_m14 * self._h16 + _u_m23 * _u_m24 * self._h17;
     }
 
@@ -2022,17 +2021,17 @@ for ManakovTopCayleyMidpoint<'_, S> {
         let _t55 = _t9 * _t52;
         let _t56 = _t9 * _t49;
         let _t57 = _t4 * _t49;
-        residual[0] = _u_m12 - m12 + _t0 * (_t1 + _t12) + _u_m34 * _t15 + _u_m23 * _t16
+        residual[0] = _u_m12 - m12 + _t0 * (_t12 + _t1) + _u_m34 * _t15 + _u_m23 * _t16
             + _u_m24 * _t17;
-        residual[1] = _u_m13 - m13 + _t2 * (_t3 + _t21) + _u_m24 * _t23 - _u_m23 * _t24
+        residual[1] = _u_m13 - m13 + _t2 * (_t21 + _t3) + _u_m24 * _t23 - _u_m23 * _t24
             + _u_m34 * _t25;
-        residual[2] = _u_m14 - m14 + _t7 * (_t8 + _t26) + _u_m23 * _t27 - _u_m24 * _t28
+        residual[2] = _u_m14 - m14 + _t7 * (_t26 + _t8) + _u_m23 * _t27 - _u_m24 * _t28
             - _u_m34 * _t29;
-        residual[3] = _u_m23 - m23 + _t9 * (_t10 + _t26) + _u_m14 * _t27 + _u_m13 * _t30
+        residual[3] = _u_m23 - m23 + _t9 * (_t26 + _t10) + _u_m14 * _t27 + _u_m13 * _t30
             + _u_m34 * _t31;
-        residual[4] = _u_m24 - m24 + _t4 * (_t5 + _t21) + _u_m13 * _t23 + _u_m14 * _t32
+        residual[4] = _u_m24 - m24 + _t4 * (_t21 + _t5) + _u_m13 * _t23 + _u_m14 * _t32
             - _u_m34 * _t33;
-        residual[5] = _u_m34 - m34 + _t18 * (_t19 + _t12) + _u_m12 * _t15 + _u_m14 * _t34
+        residual[5] = _u_m34 - m34 + _t18 * (_t12 + _t19) + _u_m12 * _t15 + _u_m14 * _t34
             + _u_m24 * _t35;
         matrix[(0, 0)] = S::one() + _t0 * _t0 * S::ratio(3.0, 1.0) + self._h0 * _t12;
         matrix[(0, 1)] = _t37 + _u_m34 * _t38 + _u_m23 * self._h5;

@@ -336,7 +336,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for Su3QuadraticSystem<
         out[(1, 5)] = _t14;
         out[(1, 6)] = _t7 - _t15;
         out[(1, 7)] = _t2;
-        out[(2, 0)] = _t2 + _t16;
+        out[(2, 0)] = _t16 + _t2;
         out[(2, 1)] = _t8;
         out[(2, 3)] = x8 * S::ratio(-1.0, 8.0);
         out[(2, 4)] = x1 * S::ratio(1.0, 12.0) - _t5 - _t6;
@@ -451,7 +451,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for Su3QuadraticSystem<
         jacobian[(1, 5)] = _t25;
         jacobian[(1, 6)] = _t10 - _t26;
         jacobian[(1, 7)] = _t4;
-        jacobian[(2, 0)] = _t4 + _t27;
+        jacobian[(2, 0)] = _t27 + _t4;
         jacobian[(2, 1)] = _t12;
         jacobian[(2, 3)] = x8 * S::ratio(-1.0, 8.0);
         jacobian[(2, 4)] = x1 * S::ratio(1.0, 12.0) - _t8 - _t9;
@@ -589,8 +589,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for Su3QuadraticSyst
             + _xi_S13 * _eta_S12 - _xi_S23 * _t4 + _eta_S23 * _t5;
         out[5] = _xi_S13 * _eta_A12 - _xi_A12 * _eta_S13 + _xi_S12 * _eta_A13
             - _xi_A13 * _eta_S12 + _xi_A23 * _t4 - _eta_A23 * _t5;
-        out[6] = (_xi_A12 * _eta_S12 - _xi_S12 * _eta_A12 + _t6) * S::ratio(2.0, 1.0);
-        out[7] = S::ratio(2.0, 1.0) * (_xi_A23 * _eta_S23 - _xi_S23 * _eta_A23 + _t6);
+        out[6] = (_t6 + _xi_A12 * _eta_S12 - _xi_S12 * _eta_A12) * S::ratio(2.0, 1.0);
+        out[7] = S::ratio(2.0, 1.0) * (_t6 + _xi_A23 * _eta_S23 - _xi_S23 * _eta_A23);
     }
 
     /// `ad*_xi mu = Pi(mu) xi`: `out_j = C_ij^k xi^i mu_k`

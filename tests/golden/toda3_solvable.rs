@@ -248,7 +248,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[b1, b2, b3, _, _]] = mu.data.0;
-        out[0] = b3 + (b1 + b2);
+        out[0] = b1 + b2 + b3;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.

@@ -1167,9 +1167,9 @@ for PendulumCayleyGenerating4<'_, S> {
         let _t8 = _u_y + _t4 * _u_x;
         let _t9 = (_u_x * self.system._k8 + _u_L * S::ratio(6.0, 1.0) * (_u_L + _t3)
             + S::ratio(6.0, 1.0) * _t0) * self._h0 + self._h2;
-        let _t10 = S::ratio(2.0, 1.0) * _t5 + _t6;
+        let _t10 = _t6 + S::ratio(2.0, 1.0) * _t5;
         let _t11 = _u_L * self.system._k8 * self._h0;
-        residual[0] = _u_L - _L + _t1 * _u_y - _t2 * _u_x + _t4 * (_t5 + _t6);
+        residual[0] = _u_L - _L + _t1 * _u_y - _t2 * _u_x + _t4 * (_t6 + _t5);
         residual[1] = _t7 - x;
         residual[2] = _t8 - y;
         matrix[(0, 0)] = S::one() + _t4 * _t4 + _t9 * _t10 + _t11 * _t8;

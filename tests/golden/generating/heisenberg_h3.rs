@@ -183,7 +183,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
         out[(0, 1)] = -(z * (S::one() + S::ratio(3.0, 1.0) * _t0));
         out[(0, 2)] = -(p + p * _t0);
         out[(1, 0)] = z;
-        out[(1, 2)] = _t1 + (q + _t1);
+        out[(1, 2)] = q + _t1 + _t1;
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
@@ -208,7 +208,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S>
         jacobian[(0, 1)] = -(z * (S::one() + S::ratio(3.0, 1.0) * _t0));
         jacobian[(0, 2)] = -_t1;
         jacobian[(1, 0)] = z;
-        jacobian[(1, 2)] = _t2 + _t3;
+        jacobian[(1, 2)] = _t3 + _t2;
     }
 
     /// `out_i = C_i(mu)`
@@ -411,7 +411,7 @@ for HeisenbergGenerating4<'_, S> {
         let _t14 = _t7 * S::ratio(2.0, 1.0);
         let _t15 = S::ratio(6.0, 1.0) * _t8;
         let _t16 = self._h0 * (z * (_t15 + _t15));
-        let _t17 = _t0 + _t1;
+        let _t17 = _t1 + _t0;
         let _t18 = _t3 * _t17;
         let _t19 = _t18 + _t18;
         let _t20 = self._h1 + self._h0 * (_t6 + z * _t19);
@@ -737,7 +737,7 @@ for HeisenbergGenerating6<'_, S> {
             + (_t3 * _t41 - _t4 * _t42
                 + p * S::ratio(6.0, 1.0) * (_t13 - _t4 * _t44 * S::ratio(8.0, 1.0)))
                 * _t22;
-        let _t46 = _t0 + _t1;
+        let _t46 = _t1 + _t0;
         let _t47 = _t3 * _t46;
         let _t48 = (_t5 + z * _t47) * S::ratio(-3.0, 1.0);
         let _t49 = (_t9 + z * _t48) * S::ratio(-4.0, 1.0);
@@ -1198,7 +1198,7 @@ for HeisenbergCayleyGenerating4<'_, S> {
         let _t12 = _t11 + _t11;
         let _t13 = _t3 * self._h0 + _t12 * _u_z * self._h1;
         let _t14 = S::ratio(12.0, 1.0) * _t5;
-        let _t15 = _t2 + _t3;
+        let _t15 = _t3 + _t2;
         let _t16 = S::ratio(6.0, 1.0) * _t5;
         let _t17 = _t15 * _t7;
         residual[0] = _u_q - q + _t10 * _u_z;

@@ -679,8 +679,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
-        out[0] = g3 * g3 + (g1 * g1 + g2 * g2);
-        out[1] = m3 * g3 + (m1 * g1 + m2 * g2);
+        out[0] = g1 * g1 + g2 * g2 + g3 * g3;
+        out[1] = m1 * g1 + m2 * g2 + m3 * g3;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -807,11 +807,11 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSyste
         let _t10 = _xi_J1 * _eta_P1 + _xi_P1 * _eta_J1;
         let _t11 = m1 * _xi_J1 + g1 * _xi_P1;
         out.as_mut_slice().fill(S::zero());
-        out[0] = (_xi_J1 * (_t0 * S::ratio(2.0, 1.0) + _t2 + _t4) - g1 * (_t5 + _t6)
+        out[0] = (_xi_J1 * (_t2 + _t0 * S::ratio(2.0, 1.0) + _t4) - g1 * (_t5 + _t6)
             + _eta_J1 * (_t7 + _t8)) * S::ratio(-1.0, 2.0);
-        out[1] = (_xi_J2 * (_t1 * S::ratio(2.0, 1.0) + _t9 + _t4) - g2 * (_t6 + _t10)
+        out[1] = (_xi_J2 * (_t9 + _t1 * S::ratio(2.0, 1.0) + _t4) - g2 * (_t6 + _t10)
             + _eta_J2 * (_t8 + _t11)) * S::ratio(-1.0, 2.0);
-        out[2] = (_xi_J3 * (_t3 * S::ratio(2.0, 1.0) + _t9 + _t2) - g3 * (_t5 + _t10)
+        out[2] = (_xi_J3 * (_t9 + _t3 * S::ratio(2.0, 1.0) + _t2) - g3 * (_t5 + _t10)
             + _eta_J3 * (_t7 + _t11)) * S::ratio(-1.0, 2.0);
     }
 }
@@ -3317,7 +3317,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t30 = _t14 * _t14;
         let _t31 = _t9 + _t11 + _t30;
         let _t32 = self.system._k6
-            * ((_t8 * _u_m1 * S::ratio(3.0, 1.0) + _t19 + _t20) * _t21
+            * ((_t19 + _t8 * _u_m1 * S::ratio(3.0, 1.0) + _t20) * _t21
                 - (_t24 - _t10 * _u_m1) * _t18 - (_t25 - _t14 * _u_m1) * _t15)
             - _u_m2 * _t28 + _u_m3 * _t29;
         let _t33 = _u_m1 * self._h2 + (_t32 + _t31 * _t21) * self._h0;
@@ -3330,17 +3330,17 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t38 = _t4 + _t5;
         let _t39 = self.system._k19 * _t7;
         let _t40 = self.system._k8
-            * ((_t14 * _u_m3 * S::ratio(3.0, 1.0) + _t37 + _t19) * _t15
+            * ((_t37 + _t14 * _u_m3 * S::ratio(3.0, 1.0) + _t19) * _t15
                 - (_t25 - _t8 * _u_m3) * _t21 - (_t38 - _t10 * _u_m3) * _t18)
             + _u_m1 * _t29 - _u_m2 * _t39;
         let _t41 = _u_m3 * self._h4 + (_t40 + _t31 * _t15) * self._h0;
         let _t42 = self.system._k7
-            * ((_t10 * _u_m2 * S::ratio(3.0, 1.0) + _t37 + _t20) * _t18
+            * ((_t37 + _t10 * _u_m2 * S::ratio(3.0, 1.0) + _t20) * _t18
                 - (_t24 - _t8 * _u_m2) * _t21 - (_t38 - _t14 * _u_m2) * _t15)
             - _u_m1 * _t28 - _u_m3 * _t39;
         let _t43 = _u_m2 * self._h5 + (_t42 + _t31 * _t18) * self._h0;
-        let _t44 = _t41 * _u_m3 + (_t33 * _u_m1 + _t43 * _u_m2);
-        let _t45 = _t36 * _u_g2 + _t44;
+        let _t44 = _t33 * _u_m1 + _t43 * _u_m2 + _t41 * _u_m3;
+        let _t45 = _t44 + _t36 * _u_g2;
         let _t46 = _t36 * _u_g1;
         let _t47 = _t16 * _u_g1;
         let _t48 = _u_m1 + _t36 * _u_g3;
@@ -3349,11 +3349,11 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t50 = _t49 * _u_g1;
         let _t51 = _u_m3 + _t49 * _u_g2;
         let _t52 = _u_m2 - _t49 * _u_g3;
-        residual[0] = _t33 * (_t34 + _t45) - m1 - _t17 + _t43 * (_u_m3 - _t46)
-            - _t41 * (_u_m2 + _t47) + _t48;
-        residual[1] = _t47 - m2 + _t43 * (_t34 + _t50 + _t44) - _t33 * _t51
-            + _t41 * (_u_m1 - _t17) + _t52;
-        residual[2] = _t51 - m3 - _t46 + _t41 * (_t50 + _t45) + _t33 * _t52
+        residual[0] = _t48 - m1 - _t17 + _t33 * (_t45 + _t34) + _t43 * (_u_m3 - _t46)
+            - _t41 * (_u_m2 + _t47);
+        residual[1] = _t52 - m2 + _t47 + _t43 * (_t44 + _t34 + _t50) - _t33 * _t51
+            + _t41 * (_u_m1 - _t17);
+        residual[2] = _t51 - m3 - _t46 + _t41 * (_t45 + _t50) + _t33 * _t52
             - _t43 * _t48;
         residual[3] = _u_g1 - g1 + _t43 * _u_g3 - _t41 * _u_g2;
         residual[4] = _u_g2 - g2 - _t33 * _u_g3 + _t41 * _u_g1;
@@ -3412,9 +3412,9 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t35 = self.system._k10 * _u_m3;
         let _t36 = _t17 * _t17;
         let _t37 = _t11 + _t13;
-        let _t38 = _t36 + _t37;
+        let _t38 = _t37 + _t36;
         let _t39 = self.system._k6
-            * ((_t22 + _t24 + _t25) * _t26 - (_t29 - _t12 * _u_m1) * _t23
+            * ((_t24 + _t22 + _t25) * _t26 - (_t29 - _t12 * _u_m1) * _t23
                 - (_t30 - _t17 * _u_m1) * _t18) + _t33 * _t34 + _t4 * _t35 + _t38 * _t26;
         let _t40 = _u_m1 * self._h2 + _t39 * self._h0;
         let _t41 = _t17 * _u_m3;
@@ -3422,7 +3422,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t43 = _u_g1 * self.system._k54 + _u_m1 * _t26;
         let _t44 = _t5 + _t6;
         let _t45 = self.system._k8
-            * ((_t42 + _t43 + _t24) * _t18 - (_t30 - _t10 * _u_m3) * _t26
+            * ((_t43 + _t42 + _t24) * _t18 - (_t30 - _t10 * _u_m3) * _t26
                 - (_t44 - _t12 * _u_m3) * _t23) + _t4 * _t2 + _t9 * _t7 + _t38 * _t18;
         let _t46 = _u_m3 * self._h4 + _t45 * self._h0;
         let _t47 = _t46 * _u_m3;
@@ -3438,12 +3438,12 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t55 = S::ratio(3.0, 1.0) * _t54;
         let _t56 = _u_m3 * self.system._k9;
         let _t57 = self.system._k7
-            * ((_t55 + _t43 + _t25) * _t23 - (_t29 - _t10 * _u_m2) * _t26
+            * ((_t43 + _t55 + _t25) * _t23 - (_t29 - _t10 * _u_m2) * _t26
                 - (_t44 - _t17 * _u_m2) * _t18) + _t33 * _t31 + _t9 * _t56 + _t38 * _t23;
         let _t58 = _u_m2 * self._h5 + _t57 * self._h0;
         let _t59 = _t58 * _u_m2;
         let _t60 = _t53 + _t59;
-        let _t61 = _t52 + _t60;
+        let _t61 = _t60 + _t52;
         let _t62 = _t51 * _u_g1;
         let _t63 = _u_m3 - _t62;
         let _t64 = _t19 * _u_g1;
@@ -3453,13 +3453,13 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t68 = (self.system._k1 * _t33 - self.system._k2 * _t4 - _t67 * _t26
             + _t13 * self.system._k54 + _t36 * self.system._k54) * self._h0 + self._h6;
         let _t69 = _t68 * _u_g1;
-        let _t70 = _t69 + _t48;
+        let _t70 = _t48 + _t69;
         let _t71 = _u_m3 + _t68 * _u_g2;
         let _t72 = _u_m1 - _t20;
         let _t73 = _u_m2 - _t68 * _u_g3;
-        let _t74 = _t69 + _t61;
+        let _t74 = _t61 + _t69;
         let _t75 = _t46 * _u_g2 - (_u_g1 + _t58 * _u_g3);
-        let _t76 = _t46 * _u_g1 + (_u_g2 - _t40 * _u_g3);
+        let _t76 = _u_g2 - _t40 * _u_g3 + _t46 * _u_g1;
         let _t77 = _t58 * _u_g1 - (_u_g3 + _t40 * _u_g2);
         let _t78 = _t12 * _t23;
         let _t79 = _t17 * _t18;
@@ -3471,17 +3471,17 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t85 = _t84 + _t84;
         let _t86 = self.system._k6
             * (_t11 * S::ratio(6.0, 1.0) + _t78 + _t79
-                + (_t22 + _t80 + _t81) * self.system._k35) + _t83 * _t34 + _t85 * _t35
+                + (_t80 + _t22 + _t81) * self.system._k35) + _t83 * _t34 + _t85 * _t35
             + (_t13 + _t36 + _t11 * S::ratio(3.0, 1.0)) * self.system._k59;
         let _t87 = _t86 * self._h0 + self._h2;
-        let _t88 = _t59 + _t52 + S::ratio(2.0, 1.0) * _t53 + _t48;
+        let _t88 = _t48 + _t59 + _t52 + S::ratio(2.0, 1.0) * _t53;
         let _t89 = _t10 * _t12;
         let _t90 = S::ratio(4.0, 1.0) * _t89;
         let _t91 = _t29 - _u_m2 * _t26 - _u_m1 * _t23;
         let _t92 = _t33 * self.system._k11;
         let _t93 = (self.system._k7 * (_t90 - self.system._k59 * _t91) + _t92
             + _t83 * _t31 + self.system._k35 * _t89) * self._h0;
-        let _t94 = _t40 * _u_m2 + _t63;
+        let _t94 = _t63 + _t40 * _u_m2;
         let _t95 = _t10 * _t17;
         let _t96 = S::ratio(4.0, 1.0) * _t95;
         let _t97 = _t30 - _u_m3 * _t26 - _u_m1 * _t18;
@@ -3507,7 +3507,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t113 = _t112 + _t112;
         let _t114 = self.system._k7
             * (_t79 + _t110 + _t13 * S::ratio(6.0, 1.0)
-                + (_t55 + _t111 + _t81) * self.system._k36) + _t108 * _t31 + _t113 * _t56
+                + (_t111 + _t55 + _t81) * self.system._k36) + _t108 * _t31 + _t113 * _t56
             + (_t11 + _t36 + _t13 * S::ratio(3.0, 1.0)) * self.system._k60;
         let _t115 = _t114 * self._h0 + self._h5;
         let _t116 = _t9 * self.system._k9;
@@ -3532,8 +3532,8 @@ for HeavyTopCayleyGenerating4<'_, S> {
             + _t129 * _t56 + self.system._k37 * _t117) * self._h0;
         let _t131 = (self.system._k8
             * (_t78 + _t110 + _t36 * S::ratio(6.0, 1.0)
-                + (_t42 + _t111 + _t80) * self.system._k37) + _t126 * _t2 + _t129 * _t7
-            + (_t36 * S::ratio(3.0, 1.0) + _t37) * self.system._k61) * self._h0;
+                + (_t111 + _t42 + _t80) * self.system._k37) + _t126 * _t2 + _t129 * _t7
+            + (_t37 + _t36 * S::ratio(3.0, 1.0)) * self.system._k61) * self._h0;
         let _t132 = _t131 + self._h4;
         let _t133 = _t17 * self.system._k42;
         let _t134 = (self.system._k2 * _t129
@@ -3568,8 +3568,8 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t153 = (self.system._k8 * (-_t138 - _t147) + _u_m1 * self.system._k23
             + _u_m2 * self.system._k25) * self._h0;
         let _t154 = _t71 - _t58 * _u_m1;
-        let _t155 = _t53 + S::ratio(2.0, 1.0) * _t59 + _t70;
-        let _t156 = _t58 * _u_m3 + _t72;
+        let _t155 = _t70 + _t53 + S::ratio(2.0, 1.0) * _t59;
+        let _t156 = _t72 + _t58 * _u_m3;
         let _t157 = (self.system._k1 * _t83 - self.system._k2 * _t85
             - _t67 * self.system._k59) * self._h0;
         let _t158 = -_t75;
@@ -3580,14 +3580,14 @@ for HeavyTopCayleyGenerating4<'_, S> {
             - (_t10 * self.system._k2 - _t150) * self.system._k61) * self._h0;
         let _t162 = _t40 * _t68;
         let _t163 = self._h10 * _t158;
-        let _t164 = _t46 * _u_m1 + _t73;
+        let _t164 = _t73 + _t46 * _u_m1;
         let _t165 = _t66 - _t46 * _u_m2;
-        let _t166 = S::ratio(2.0, 1.0) * _t47 + _t74;
-        residual[0] = _t40 * (_t48 + _t61) - m1 - _t20 + _t58 * _t63 - _t46 * _t65
-            + _t66;
-        residual[1] = _t64 - m2 + _t58 * (_t60 + _t70) - _t40 * _t71 + _t46 * _t72
-            + _t73;
-        residual[2] = _t71 - m3 - _t62 + _t46 * (_t47 + _t74) + _t40 * _t73
+        let _t166 = _t74 + S::ratio(2.0, 1.0) * _t47;
+        residual[0] = _t66 - m1 - _t20 + _t40 * (_t48 + _t61) + _t58 * _t63
+            - _t46 * _t65;
+        residual[1] = _t73 - m2 + _t64 + _t58 * (_t60 + _t70) - _t40 * _t71
+            + _t46 * _t72;
+        residual[2] = _t71 - m3 - _t62 + _t46 * (_t74 + _t47) + _t40 * _t73
             - _t58 * _t66;
         residual[3] = -g1 - _t75;
         residual[4] = _t76 - g2;
@@ -3680,7 +3680,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t22 = _t4 * _t4;
         let _t23 = _t20 + _t21 + _t22;
         let _t24 = self.system._k7
-            * ((_t0 * _u_m2 * S::ratio(3.0, 1.0) + _t3 + _t6) * _t7
+            * ((_t3 + _t0 * _u_m2 * S::ratio(3.0, 1.0) + _t6) * _t7
                 - (_t10 - _t1 * _u_m2) * _t2 - (_t13 - _t4 * _u_m2) * _t5) - _u_m1 * _t16
             - _u_m3 * _t19;
         let _t25 = (_u_m2 * self._h5 + (_t24 + _t23 * _t7) * self._h0)
@@ -3693,7 +3693,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t31 = _t30 + _t30;
         let _t32 = self.system._k10 * _t31;
         let _t33 = self.system._k8
-            * ((_t4 * _u_m3 * S::ratio(3.0, 1.0) + _t3 + _t26) * _t5
+            * ((_t3 + _t4 * _u_m3 * S::ratio(3.0, 1.0) + _t26) * _t5
                 - (_t29 - _t1 * _u_m3) * _t2 - (_t13 - _t0 * _u_m3) * _t7) + _u_m1 * _t32
             - _u_m2 * _t19;
         let _t34 = (_u_m3 * self._h4 + (_t33 + _t23 * _t5) * self._h0)
@@ -3708,7 +3708,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
             + _t20 * self.system._k47 + _t21 * self.system._k47 - (_t35 + _t38) * _t5)
             * self._h0 + self._h1) * S::ratio(2.0, 1.0);
         let _t40 = self.system._k6
-            * ((_t1 * _u_m1 * S::ratio(3.0, 1.0) + _t26 + _t6) * _t2
+            * ((_t26 + _t1 * _u_m1 * S::ratio(3.0, 1.0) + _t6) * _t2
                 - (_t10 - _t0 * _u_m1) * _t7 - (_t29 - _t4 * _u_m1) * _t5) - _u_m2 * _t16
             + _u_m3 * _t32;
         let _t41 = (_u_m1 * self._h2 + (_t40 + _t23 * _t2) * self._h0)

@@ -346,7 +346,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[x, y, z]] = mu.data.0;
-        out[0] = z * z + (x * x + y * y);
+        out[0] = x * x + y * y + z * z;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -1634,7 +1634,7 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t11 = (_t10 + _t10) * self.system._k6;
         let _t12 = _t0 * _t0;
         let _t13 = _t6 + _t12;
-        let _t14 = S::ratio(2.0, 1.0) * (_t7 + _t13);
+        let _t14 = S::ratio(2.0, 1.0) * (_t13 + _t7);
         let _t15 = (self.system._k4
             * (S::ratio(2.0, 1.0)
                 * (_t0 * (S::ratio(2.0, 1.0) * (_t2 + _t4) + _t5 * S::ratio(3.0, 1.0))
@@ -1692,7 +1692,7 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t15 = self.system._k3 * (_u_z * _t14);
         let _t16 = _t15 + _t15;
         let _t17 = _t0 * _t0;
-        let _t18 = S::ratio(2.0, 1.0) * (_t17 + _t10);
+        let _t18 = S::ratio(2.0, 1.0) * (_t10 + _t17);
         let _t19 = _u_z * self._h2
             + (self.system._k5
                 * (S::ratio(2.0, 1.0)
@@ -1726,7 +1726,7 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t37 = _t35 * _u_x;
         let _t38 = _t28 * _u_y;
         let _t39 = _t37 + _t38;
-        let _t40 = _t36 + _t39;
+        let _t40 = _t39 + _t36;
         let _t41 = _t19 * _u_x;
         let _t42 = _u_y - _t35 * _u_z;
         let _t43 = _t28 * _u_x;
@@ -1737,8 +1737,8 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t48 = _t47 + _t47;
         let _t49 = (self.system._k3
             * (_t8 * S::ratio(6.0, 1.0) + _t32 * S::ratio(2.0, 1.0)
-                + self.system._k15 * (_t30 + _t31)) + _t46 * _t33 + _t48 * _t34
-            + (_t8 * S::ratio(3.0, 1.0) + _t32) * self.system._k16) * self._h1
+                + self.system._k15 * (_t31 + _t30)) + _t46 * _t33 + _t48 * _t34
+            + (_t32 + _t8 * S::ratio(3.0, 1.0)) * self.system._k16) * self._h1
             + self._h3;
         let _t50 = _t38 + _t36 + S::ratio(2.0, 1.0) * _t37;
         let _t51 = _t3 * _t5;
@@ -1763,8 +1763,8 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t64 = _t63 + _t63;
         let _t65 = (self.system._k4
             * (S::ratio(2.0, 1.0) * _t23 + _t9 * S::ratio(6.0, 1.0)
-                + self.system._k17 * (_t21 + _t22)) + _t61 * _t24 + _t64 * _t27
-            + (_t9 * S::ratio(3.0, 1.0) + _t23) * self.system._k18) * self._h1
+                + self.system._k17 * (_t22 + _t21)) + _t61 * _t24 + _t64 * _t27
+            + (_t23 + _t9 * S::ratio(3.0, 1.0)) * self.system._k18) * self._h1
             + self._h0;
         let _t66 = _t5 * _t0;
         let _t67 = S::ratio(4.0, 1.0) * _t66;
@@ -1785,17 +1785,17 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
             * self._h1;
         let _t77 = (self.system._k5
             * (S::ratio(2.0, 1.0) * _t10 + _t17 * S::ratio(6.0, 1.0)
-                + (_t2 + _t7) * self.system._k19) + _t72 * _t11 + _t75 * _t14
-            + (_t17 * S::ratio(3.0, 1.0) + _t10) * self.system._k20) * self._h1
+                + (_t7 + _t2) * self.system._k19) + _t72 * _t11 + _t75 * _t14
+            + (_t10 + _t17 * S::ratio(3.0, 1.0)) * self.system._k20) * self._h1
             + self._h2;
         let _t78 = _u_z - _t43;
         let _t79 = _t37 + _t36 + S::ratio(2.0, 1.0) * _t38;
         let _t80 = _t28 * _t19;
         let _t81 = _u_y + _t41;
         let _t82 = _u_x - _t20;
-        let _t83 = S::ratio(2.0, 1.0) * _t36 + _t39;
+        let _t83 = _t39 + S::ratio(2.0, 1.0) * _t36;
         residual[0] = _t29 - x - _t20 + _t35 * _t40;
-        residual[1] = _t41 - y + _t42 + _t28 * _t40;
+        residual[1] = _t42 - y + _t41 + _t28 * _t40;
         residual[2] = _t44 - z - _t43 + _t19 * _t40;
         matrix[(0, 0)] = S::one() + _t35 * _t35 + _t49 * _t50 + _t54 * _t44
             - _t58 * _t42;
@@ -1832,7 +1832,7 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t11 = (_t10 + _t10) * self.system._k6;
         let _t12 = _t0 * _t0;
         let _t13 = _t6 + _t12;
-        let _t14 = S::ratio(2.0, 1.0) * (_t7 + _t13);
+        let _t14 = S::ratio(2.0, 1.0) * (_t13 + _t7);
         let _t15 = (self.system._k4
             * (S::ratio(2.0, 1.0)
                 * (_t0 * (S::ratio(2.0, 1.0) * (_t2 + _t4) + _t5 * S::ratio(3.0, 1.0))

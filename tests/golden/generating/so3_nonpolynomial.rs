@@ -116,8 +116,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let [[x, y, z]] = mu.data.0;
-        x * y * y * z
-            + ((S::one() + z * z).sqrt() + (x.sin() + (y * S::ratio(1.0, 2.0)).exp()))
+        x.sin() + (y * S::ratio(1.0, 2.0)).exp() + (S::one() + z * z).sqrt()
+            + x * y * y * z
     }
 
     /// `out_i = dH/dmu_i`
@@ -213,7 +213,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         let _t12 = _t2 * _t11;
         let _t13 = _t0 * S::ratio(1.0, 4.0) + z * _t1;
         let _t14 = _t4 * (_t4 * _t4);
-        let _t15 = _t3 + (S::ratio(1.0, 2.0) * _t0 + _t3);
+        let _t15 = S::ratio(1.0, 2.0) * _t0 + _t3 + _t3;
         let _t16 = x.sin();
         let _t17 = x * y * _t1;
         out[(0, 0)] = _t10 - _t12;
@@ -221,8 +221,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         out[(0, 2)] = y * _t14 - _t15;
         out[(1, 0)] = -_t6 - _t7 - _t16 * z;
         out[(1, 1)] = _t12 - _t17;
-        out[(1, 2)] = _t8 + _t9 - x * _t14;
-        out[(2, 0)] = _t16 * y + _t15;
+        out[(1, 2)] = _t9 + _t8 - x * _t14;
+        out[(2, 0)] = _t15 + _t16 * y;
         out[(2, 1)] = x * _t13 - _t9 - _t5 * _t11;
         out[(2, 2)] = _t17 - _t10;
     }
@@ -254,7 +254,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         let _t13 = _t2 * _t12;
         let _t14 = _t0 * S::ratio(1.0, 4.0) + z * _t1;
         let _t15 = _t5 * (_t5 * _t5);
-        let _t16 = _t3 + _t4;
+        let _t16 = _t4 + _t3;
         let _t17 = x.sin();
         let _t18 = x * y * _t1;
         field[0] = y * _t8 - z * _t4;
@@ -265,8 +265,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
         jacobian[(0, 2)] = y * _t15 - _t16;
         jacobian[(1, 0)] = -_t7 - _t8 - _t17 * z;
         jacobian[(1, 1)] = _t13 - _t18;
-        jacobian[(1, 2)] = _t9 + _t10 - x * _t15;
-        jacobian[(2, 0)] = _t17 * y + _t16;
+        jacobian[(1, 2)] = _t10 + _t9 - x * _t15;
+        jacobian[(2, 0)] = _t16 + _t17 * y;
         jacobian[(2, 1)] = x * _t14 - _t10 - _t6 * _t12;
         jacobian[(2, 2)] = _t18 - _t11;
     }
@@ -277,7 +277,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSy
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[x, y, z]] = mu.data.0;
-        out[0] = z * z + (y * y + x * x);
+        out[0] = y * y + x * x + z * z;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -521,14 +521,14 @@ for NonpolynomialSpinGenerating4<'_, S> {
         let _t29 = -_t28 - _t28;
         let _t30 = z * _t14 + _t27;
         let _t31 = (_t7 + y * (_t19 + _t6)) * _t26 - _t0 * _t12 * _t12
-            - _t18 * (_t10 + _t11 + _t19 * z)
+            - _t18 * (_t11 + _t10 + _t19 * z)
             + y * ((_t1 - _t8 * S::ratio(2.0, 1.0)) * _t29 + _t15 * _t24);
         let _t32 = _t23 + x * _t14;
         let _t33 = (_t11 - z * _t13 + _t1 * _t5) * _t29
             - _t26 * (_t3 - x * _t13 + S::ratio(2.0, 1.0) * _t2)
             + S::ratio(2.0, 1.0)
                 * (_t15 * _t32 + _t12 * _t30 + y * (_t8 - x * x) * _t18);
-        let _t34 = (_t2 + _t3 - x * _t21) * _t18 - _t29 * (_t7 + y * (_t6 - _t21))
+        let _t34 = (_t3 + _t2 - x * _t21) * _t18 - _t29 * (_t7 + y * (_t6 - _t21))
             - y * ((_t1 - x * _t5) * _t26 - _t12 * _t24) + _t32 * _t24;
         xi[0] = _t3 * self.h + (_t31 + _t30 * _t24) * self._h0;
         xi[1] = _t7 * self.h
@@ -566,17 +566,17 @@ for NonpolynomialSpinGenerating4<'_, S> {
         let _t13 = y * _t12 - z * _t7;
         let _t14 = _t0 * _t13;
         let _t15 = x.sin();
-        let _t16 = _t6 + _t7;
-        let _t17 = _t15 * y + _t16;
+        let _t16 = _t7 + _t6;
+        let _t17 = _t16 + _t15 * y;
         let _t18 = z * _t3 - x * _t12;
         let _t19 = S::ratio(2.0, 1.0) * _t10;
         let _t20 = y * y;
         let _t21 = x * _t7 - y * _t3;
         let _t22 = _t9 * _t9;
         let _t23 = _t9 * _t22;
-        let _t24 = _t18 * _t19 + (_t13 * _t20 + _t21 * _t23);
+        let _t24 = _t13 * _t20 + _t21 * _t23 + _t18 * _t19;
         let _t25 = _t24 + _t24;
-        let _t26 = _t15 * z + (_t11 + _t12);
+        let _t26 = _t12 + _t11 + _t15 * z;
         let _t27 = x * z * S::ratio(2.0, 1.0);
         let _t28 = _t4 * S::ratio(1.0, 4.0) + _t27;
         let _t29 = _t28 * _t18 + S::ratio(2.0, 1.0) * (_t13 * _t1 + _t21 * _t10);
@@ -588,7 +588,7 @@ for NonpolynomialSpinGenerating4<'_, S> {
         let _t35 = _t34 + _t34;
         let _t36 = y * _t18;
         let _t37 = z * _t18 + y * _t21;
-        let _t38 = y * _t5 + (_t3 - x * _t28);
+        let _t38 = _t3 - x * _t28 + y * _t5;
         let _t39 = _t12 - z * _t28 + y * _t19;
         let _t40 = y * _t13 + x * _t18;
         let _t41 = z * _t1 - x * _t10;
@@ -596,7 +596,7 @@ for NonpolynomialSpinGenerating4<'_, S> {
         let _t43 = z * _t13 + x * _t21;
         let _t44 = _t42 + _t43 * S::ratio(16.0, 1.0);
         let _t45 = _t31 - x * _t19;
-        let _t46 = _t2 + _t3 - x * _t23;
+        let _t46 = _t3 + _t2 - x * _t23;
         let _t47 = y * _t23 - _t16;
         let _t48 = -_t47;
         let _t49 = _t22 * _t23;
@@ -605,8 +605,7 @@ for NonpolynomialSpinGenerating4<'_, S> {
         let _t52 = _t21 * S::ratio(3.0, 1.0);
         let _t53 = S::ratio(2.0, 1.0) * _t20;
         let _t54 = -_t26;
-        let _t55 = S::ratio(2.0, 1.0) * (_t36 + _t54 * _t10)
-            + (_t32 * _t20 + _t17 * _t23);
+        let _t55 = _t32 * _t20 + _t17 * _t23 + S::ratio(2.0, 1.0) * (_t36 + _t54 * _t10);
         let _t56 = _t28 * _t54 + S::ratio(2.0, 1.0) * (_t37 + _t32 * _t1 + _t17 * _t10);
         let _t57 = _t14 + _t15 * _t32 - (_t17 * _t20 + _t54 * _t5);
         let _t58 = S::ratio(2.0, 1.0) * _t14;
@@ -615,22 +614,21 @@ for NonpolynomialSpinGenerating4<'_, S> {
             + _t32 * (-_t57 - _t57);
         let _t60 = S::ratio(2.0, 1.0) * _t41;
         let _t61 = -_t38;
-        let _t62 = S::ratio(2.0, 1.0) * (_t40 + _t60 * _t10)
-            + (_t39 * _t20 + _t61 * _t23);
+        let _t62 = _t39 * _t20 + _t61 * _t23 + S::ratio(2.0, 1.0) * (_t40 + _t60 * _t10);
         let _t63 = _t62 + _t62;
-        let _t64 = _t42 * S::ratio(1.0, 8.0)
-            + (_t28 * _t60 + S::ratio(2.0, 1.0) * (_t43 + _t39 * _t1 + _t61 * _t10));
+        let _t64 = _t28 * _t60 + S::ratio(2.0, 1.0) * (_t43 + _t39 * _t1 + _t61 * _t10)
+            + _t42 * S::ratio(1.0, 8.0);
         let _t65 = _t64 + _t64;
         let _t66 = S::ratio(2.0, 1.0) * (_t37 + _t60 * _t1)
             - (_t15 * _t39 - _t61 * _t20);
         let _t67 = _t66 + _t66;
-        let _t68 = _t27 + _t28;
+        let _t68 = _t28 + _t27;
         let _t69 = S::ratio(3.0, 1.0) * _t20;
-        let _t70 = _t17 * _t63 - _t26 * _t65 + _t32 * _t67
+        let _t70 = _t25 * (_t68 + _t15) - _t35 * (_t8 * S::ratio(2.0, 1.0) - _t69)
+            + _t17 * _t63 - _t26 * _t65 + _t32 * _t67
             + S::ratio(4.0, 1.0)
-                * (_t37 * _t60 + _t36 * _t61 + (_t18 * _t21 - _t30 * _t10)) - _t39 * _t58
-            + (_t25 * (_t15 + _t68) - _t35 * (_t8 * S::ratio(2.0, 1.0) - _t69));
-        let _t71 = self._h1 * _t1 + self._h0 * _t70;
+                * (_t18 * _t21 - _t30 * _t10 + _t37 * _t60 + _t36 * _t61);
+        let _t71 = self._h1 * _t1 + self._h0 * (_t70 - _t39 * _t58);
         let _t72 = -_t45;
         let _t73 = _t47 * _t20 + _t72 * _t23 + (_t46 * _t19 - S::ratio(3.0, 1.0) * _t51);
         let _t74 = _t73 + _t73;
@@ -642,7 +640,7 @@ for NonpolynomialSpinGenerating4<'_, S> {
         let _t79 = _t17 * _t74 - _t26 * _t76 + _t32 * _t78 - _t30 * (_t15 + _t23)
             + S::ratio(2.0, 1.0) * (_t18 * _t18 - _t14 * _t47)
             + S::ratio(4.0, 1.0)
-                * (_t37 * _t46 + _t36 * _t72 + (_t25 * _t10 - _t35 * _t1));
+                * (_t25 * _t10 - _t35 * _t1 + _t37 * _t46 + _t36 * _t72);
         let _t80 = self.h * _t20 + self._h0 * _t79;
         let _t81 = x * x;
         let _t82 = S::ratio(1.0, 4.0) * _t44;
@@ -653,9 +651,8 @@ for NonpolynomialSpinGenerating4<'_, S> {
                 * (_t25 * (x * _t4 - S::ratio(48.0, 1.0) * _t1)
                     - _t35 * (_t4 * z - S::ratio(48.0, 1.0) * _t10));
         let _t84 = _t39 * _t78 - _t38 * _t74
-            + S::ratio(4.0, 1.0)
-                * (_t37 * _t47 + _t40 * _t72 + (_t13 * _t18 + _t30 * _t1)) + _t46 * _t82
-            + _t60 * _t76
+            + S::ratio(4.0, 1.0) * (_t13 * _t18 + _t30 * _t1 + _t37 * _t47 + _t40 * _t72)
+            + _t46 * _t82 + _t60 * _t76
             - (_t25 * (_t69 - _t81 * S::ratio(2.0, 1.0)) + _t35 * (_t68 - _t23));
         let _t85 = self._h1 * _t10 + self._h0 * _t84;
         let _t86 = _t30 * (_t53 + x * S::ratio(3.0, 1.0) * _t50) - _t45 * _t74
@@ -950,7 +947,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t20 = _t15 * _t16 + _t18 * _t19;
         let _t21 = _t20 + _t20;
         let _t22 = x.sin();
-        let _t23 = _t10 + _t11 + _t22 * z;
+        let _t23 = _t11 + _t10 + _t22 * z;
         let _t24 = _t22 + _t14;
         let _t25 = _t7 + y * _t24;
         let _t26 = _t9 * _t9;
@@ -970,7 +967,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
             + y * (_t33 * _t37 + _t17 * _t29) + _t38 * _t29;
         let _t40 = _t28 + x * _t16;
         let _t41 = _t16 * S::ratio(24.0, 1.0);
-        let _t42 = _t2 + _t3 - x * _t27;
+        let _t42 = _t3 + _t2 - x * _t27;
         let _t43 = _t14 - _t27;
         let _t44 = _t7 + y * _t43;
         let _t45 = x * S::ratio(2.0, 1.0);
@@ -1010,7 +1007,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t73 = _t11 - z * _t15 + _t1 * _t45;
         let _t74 = _t17 * _t40 + _t12 * _t38;
         let _t75 = _t16 * _t69;
-        let _t76 = _t73 * _t37 - _t31 * _t71 + S::ratio(2.0, 1.0) * (_t21 * _t64 + _t74)
+        let _t76 = _t73 * _t37 - _t31 * _t71 + S::ratio(2.0, 1.0) * (_t74 + _t21 * _t64)
             + S::ratio(1.0, 8.0) * _t75;
         let _t77 = _t72 + (x * _t76 - y * _t39) * S::ratio(12.0, 1.0);
         let _t78 = _t72 + _t77;
@@ -1148,7 +1145,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t13 = _t0 * _t12;
         let _t14 = _t12 * _t13;
         let _t15 = x.sin();
-        let _t16 = _t15 * z + (_t10 + _t11);
+        let _t16 = _t11 + _t10 + _t15 * z;
         let _t17 = _t4 * S::ratio(1.0, 4.0);
         let _t18 = _t17 + _t6;
         let _t19 = z * _t3 - x * _t11;
@@ -1182,7 +1179,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t46 = x * _t19;
         let _t47 = _t29 + _t46;
         let _t48 = _t19 * S::ratio(24.0, 1.0);
-        let _t49 = _t2 + _t3 - x * _t28;
+        let _t49 = _t3 + _t2 - x * _t28;
         let _t50 = _t6 - _t28;
         let _t51 = _t7 + y * _t50;
         let _t52 = x * _t30;
@@ -1216,14 +1213,14 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t77 = _t4 * _t19;
         let _t78 = _t77 + _t21 * S::ratio(16.0, 1.0);
         let _t79 = _t70 - _t64 * S::ratio(3.0, 1.0);
-        let _t80 = _t1 * _t5 + (_t3 - x * _t18);
+        let _t80 = _t3 - x * _t18 + _t1 * _t5;
         let _t81 = y * _t53;
         let _t82 = (_t26 * _t73 - _t80 * _t70 - _t81 * _t74) * S::ratio(-4.0, 1.0);
         let _t83 = _t11 - z * _t18 + _t1 * _t30;
         let _t84 = _t69 * _t24;
         let _t85 = _t20 * _t47 + _t12 * _t44;
         let _t86 = _t19 * _t78;
-        let _t87 = _t83 * _t41 - _t80 * _t33 + S::ratio(2.0, 1.0) * (y * _t84 + _t85)
+        let _t87 = _t83 * _t41 - _t80 * _t33 + S::ratio(2.0, 1.0) * (_t85 + y * _t84)
             + S::ratio(1.0, 8.0) * _t86;
         let _t88 = _t82 + (x * _t87 - y * _t45) * S::ratio(12.0, 1.0);
         let _t89 = _t82 + _t88;
@@ -1284,7 +1281,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t138 = _t1 * S::ratio(3.0, 1.0);
         let _t139 = _t34 - _t138;
         let _t140 = _t33 * _t137 - _t41 * _t139;
-        let _t141 = (_t135 - y * _t136) * S::ratio(4.0, 1.0) + _t140;
+        let _t141 = _t140 + (_t135 - y * _t136) * S::ratio(4.0, 1.0);
         let _t142 = _t15 * _t122;
         let _t143 = y * _t22;
         let _t144 = z * _t0 + _t143;
@@ -1321,8 +1318,8 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t170 = _t52 - _t138;
         let _t171 = _t18 + _t50;
         let _t172 = _t33 * _t170 - _t41 * _t171;
-        let _t173 = S::ratio(4.0, 1.0) * (_t168 + y * _t169) + _t172;
-        let _t174 = _t69 * _t100 + (x * _t119 + z * _t131);
+        let _t173 = _t172 + S::ratio(4.0, 1.0) * (_t168 + y * _t169);
+        let _t174 = x * _t119 + z * _t131 + _t69 * _t100;
         let _t175 = S::ratio(4.0, 1.0) * _t76;
         let _t176 = S::ratio(32.0, 1.0) * (_t18 * _t127 - _t80 * _t118 + _t83 * _t126)
             + (_t60 * _t134 + _t59 * _t160) * S::ratio(256.0, 1.0)
@@ -1375,12 +1372,12 @@ for NonpolynomialSpinGenerating6<'_, S> {
             + _t195 * _t205;
         let _t207 = _t135 + _t44 * _t90 + _t47 * _t26;
         let _t208 = S::ratio(1.0, 4.0) * _t78;
-        let _t209 = _t83 * _t202 - _t80 * _t199 + S::ratio(4.0, 1.0) * _t207
-            + _t195 * _t208 + (_t69 * _t197 - _t24 * _t30) * _t22 + _t140;
+        let _t209 = _t140 - _t80 * _t199 + _t83 * _t202 + S::ratio(4.0, 1.0) * _t207
+            + _t195 * _t208 + (_t69 * _t197 - _t24 * _t30) * _t22;
         let _t210 = _t47 * S::ratio(4.0, 1.0);
         let _t211 = _t26 * _t56;
         let _t212 = _t49 * _t197 - _t51 * _t202
-            - y * (_t53 * _t199 - S::ratio(4.0, 1.0) * (_t19 * _t90 + _t149))
+            - y * (_t53 * _t199 - S::ratio(4.0, 1.0) * (_t149 + _t19 * _t90))
             + _t195 * _t210 - S::ratio(6.0, 1.0) * _t211 - _t153;
         let _t213 = _t70 * _t139;
         let _t214 = z * _t74;
@@ -1395,7 +1392,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t223 = _t222 - S::ratio(3.0, 1.0) * (_t32 - z * _t201 + x * _t198);
         let _t224 = _t70 * _t150;
         let _t225 = _t73 * _t144 + _t74 * _t151;
-        let _t226 = x * _t224 + _t225;
+        let _t226 = _t225 + x * _t224;
         let _t227 = _t70 * _t137;
         let _t228 = _t73 * _t146 + _t74 * _t185;
         let _t229 = _t227 + y * _t228;
@@ -1428,7 +1425,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
             + S::ratio(8.0, 1.0)
                 * (y * (y * _t231 + _t26 * _t242 + _t222 * _t5)
                     - _t0 * (_t60 + _t90 * _t129));
-        let _t247 = S::ratio(4.0, 1.0) * (_t16 * _t230 - _t49 * _t232 + _t225)
+        let _t247 = S::ratio(4.0, 1.0) * (_t225 + _t16 * _t230 - _t49 * _t232)
             - (_t69 * _t223 - _t70 * _t30) * _t72;
         let _t248 = _t247
             + (_t247 - S::ratio(12.0, 1.0) * (_t58 - z * _t206 + x * _t212));
@@ -1449,7 +1446,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t261 = _t94 * S::ratio(9.0, 1.0);
         let _t262 = _t64 * S::ratio(12.0, 1.0) - _t70 * S::ratio(4.0, 1.0);
         let _t263 = S::ratio(1.0, 4.0)
-            * (_t4 * (_t261 + _t262) + _t96 * S::ratio(576.0, 1.0)
+            * (_t4 * (_t262 + _t261) + _t96 * S::ratio(576.0, 1.0)
                 - S::ratio(64.0, 1.0) * (x * _t98 + z * _t99));
         let _t264 = _t68 * _t1 - _t65 * _t221 - _t3 * _t243 + _t11 * _t246 + _t18 * _t248
             - _t78 * _t249
@@ -1519,13 +1516,13 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t293 = y * _t292;
         let _t294 = y * _t83;
         let _t295 = _t69 * _t22;
-        let _t296 = S::ratio(2.0, 1.0) * (x * (_t20 + _t293) + z * (_t12 + _t294))
-            + (_t18 * _t295 + _t77 * S::ratio(1.0, 8.0));
-        let _t297 = y * (_t294 + S::ratio(2.0, 1.0) * (_t12 + x * _t295))
-            + (_t31 + _t292 * _t28);
+        let _t296 = _t18 * _t295 + _t77 * S::ratio(1.0, 8.0)
+            + S::ratio(2.0, 1.0) * (x * (_t20 + _t293) + z * (_t12 + _t294));
+        let _t297 = _t31 + _t292 * _t28
+            + y * (_t294 + S::ratio(2.0, 1.0) * (_t12 + x * _t295));
         let _t298 = _t297 + _t297;
-        let _t299 = y * (_t293 + S::ratio(2.0, 1.0) * (_t20 + z * _t295))
-            + (_t38 - _t15 * _t83);
+        let _t299 = _t38 - _t15 * _t83
+            + y * (_t293 + S::ratio(2.0, 1.0) * (_t20 + z * _t295));
         let _t300 = _t299 + _t299;
         let _t301 = _t96 + _t44 * _t83 + _t47 * _t292;
         let _t302 = _t296 + _t296;
@@ -1534,10 +1531,9 @@ for NonpolynomialSpinGenerating6<'_, S> {
             + S::ratio(2.0, 1.0) * _t69 * (_t24 + y * _t302);
         let _t304 = _t168 + _t47 * _t295;
         let _t305 = _t292 * _t56;
-        let _t306 = _t49 * _t302
+        let _t306 = _t172 + _t49 * _t302
             - y * (_t53 * _t298 - S::ratio(4.0, 1.0) * (_t169 + _t19 * _t83))
-            - _t51 * _t300 + S::ratio(4.0, 1.0) * _t304 - S::ratio(6.0, 1.0) * _t305
-            + _t172;
+            - _t51 * _t300 + S::ratio(4.0, 1.0) * _t304 - S::ratio(6.0, 1.0) * _t305;
         let _t307 = y * _t30;
         let _t308 = _t11 * _t295 - _t7 * _t292 - _t20 * _t18 + _t19 * _t307;
         let _t309 = _t12 * _t307;
@@ -1548,9 +1544,9 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t314 = _t313 - S::ratio(3.0, 1.0) * (_t40 + y * _t299 - x * _t296);
         let _t315 = _t135 + _t44 * _t295;
         let _t316 = _t13 * _t83;
-        let _t317 = _t26 * _t298 - _t16 * _t302
+        let _t317 = _t140 - _t16 * _t302 + _t26 * _t298
             + y * (_t35 * _t300 - S::ratio(4.0, 1.0) * (_t136 - _t19 * _t292))
-            + S::ratio(4.0, 1.0) * _t315 - S::ratio(2.0, 1.0) * _t316 + _t140;
+            + S::ratio(4.0, 1.0) * _t315 - S::ratio(2.0, 1.0) * _t316;
         let _t318 = S::ratio(16.0, 1.0) * _t64;
         let _t319 = y * _t308;
         let _t320 = S::ratio(48.0, 1.0) * _t304 + x * _t318 - S::ratio(4.0, 1.0) * _t306
@@ -1581,7 +1577,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
                 * (_t71 + y * (_t69 * _t311 + S::ratio(2.0, 1.0) * _t328));
         let _t330 = _t329 + (_t329 + S::ratio(12.0, 1.0) * (z * _t317 - x * _t306));
         let _t331 = _t311 - S::ratio(3.0, 1.0) * _t310;
-        let _t332 = _t4 * (_t76 + _t19 * (_t235 + _t262));
+        let _t332 = _t4 * (_t76 + _t19 * (_t262 + _t235));
         let _t333 = _t12 * _t98 + _t20 * _t99;
         let _t334 = _t314 - S::ratio(3.0, 1.0) * _t313;
         let _t335 = _t312 - S::ratio(3.0, 1.0) * _t308;
@@ -1651,8 +1647,8 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t369 = _t368 - _t367;
         let _t370 = _t168 + _t44 * _t361 + _t47 * _t362;
         let _t371 = _t363 + _t363;
-        let _t372 = _t83 * _t369 - _t80 * _t366 + S::ratio(4.0, 1.0) * _t370
-            + _t49 * _t208 + (_t69 * _t371 + _t24 * _t5) * _t22 + _t172;
+        let _t372 = _t172 - _t80 * _t366 + _t83 * _t369 + S::ratio(4.0, 1.0) * _t370
+            + _t49 * _t208 + (_t69 * _t371 + _t24 * _t5) * _t22;
         let _t373 = _t41 * _t186;
         let _t374 = _t184 + _t49 * _t371 - _t51 * _t369
             - y * (_t373 + _t53 * _t366 - _t361 * _t203) + _t49 * _t210
@@ -1754,7 +1750,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t424 = _t4
             * (_t19 * (_t175 + (_t94 + _t101) * _t62) + _t127 * S::ratio(8.0, 1.0)
                 + _t64 * _t318) + _t60 * _t59 * S::ratio(1024.0, 1.0)
-            + S::ratio(128.0, 1.0) * (_t12 * _t89 + _t20 * _t92 + _t174);
+            + S::ratio(128.0, 1.0) * (_t174 + _t12 * _t89 + _t20 * _t92);
         let _t425 = _t424 + S::ratio(32.0, 1.0) * (_t74 * _t423 - _t73 * _t351)
             - S::ratio(8.0, 1.0)
                 * (_t70
@@ -1798,7 +1794,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
             + (y * (x * _t414 + self._h8 * (z * _t387 + _t69 * _t405)) + _t397 * _t429
                 + _t401 * _t289) * S::ratio(1.0, 2880.0);
         let _t439 = _t438 + _t391 * _t430;
-        let _t440 = (_t394 + _t327 * _t150) * _t366 + _t371 * (z * _t224 + _t389)
+        let _t440 = (_t394 + _t327 * _t150) * _t366 + _t371 * (_t389 + z * _t224)
             + _t377 * _t173 - _t369 * (_t398 + y * _t399) - _t378 * _t154
             + _t380 * _t188;
         let _t441 = _t112 * (_t82 * _t407 + _t88 * _t407)
@@ -2410,7 +2406,7 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
             + _t16 * _u_x - _t20 * _u_z;
         let _t28 = _t3 * _t3;
         let _t29 = _t24 + _t28;
-        let _t30 = S::ratio(2.0, 1.0) * (_t25 + _t29);
+        let _t30 = S::ratio(2.0, 1.0) * (_t29 + _t25);
         let _t31 = _t3 * _t26;
         let _t32 = _u_z * S::ratio(3.0, 1.0);
         let _t33 = _t12 * S::ratio(2.0, 1.0) * (_t22 + _t31 + _t12 * _t32) + _t29 * _t18;
@@ -2495,7 +2491,7 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t35 = _u_y * S::ratio(2.0, 1.0);
         let _t36 = _t25 * _t27 + _t34 * _t35;
         let _t37 = _t36 + _t36;
-        let _t38 = _t8 + _t9 - _u_x * _t22;
+        let _t38 = _t9 + _t8 - _u_x * _t22;
         let _t39 = S::ratio(3.0, 1.0) * _t10;
         let _t40 = _t5 + _t15;
         let _t41 = _t4 * _t4;
@@ -2526,7 +2522,7 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t64 = _t14 + _u_y * _t63;
         let _t65 = _t25 * _u_x;
         let _t66 = _t44 + _t65;
-        let _t67 = _t41 + _t19;
+        let _t67 = _t19 + _t41;
         let _t68 = _t21 * _t22;
         let _t69 = _u_z * _t68;
         let _t70 = _t33 * _t69;
@@ -2536,12 +2532,12 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
             - _t62 * _t64 + S::ratio(2.0, 1.0) * (_t25 * _t66 + _t4 * _t67);
         let _t73 = _t4 * self._h0 + (_t72 - _t33 * _t71) * self._h1;
         let _t74 = _t73 * _u_y;
-        let _t75 = _t2 * _t12 + (_t9 - _u_x * _t27);
+        let _t75 = _t9 - _u_x * _t27 + _t2 * _t12;
         let _t76 = _t4 - _u_z * _t27 + _t2 * _t45;
         let _t77 = _t25 * _u_z;
         let _t78 = _t77 + _t59;
         let _t79 = _t0 - _u_x * _u_x;
-        let _t80 = _t37 * _t79 + (_t43 * _u_z + _t20 * _u_x);
+        let _t80 = _t43 * _u_z + _t20 * _u_x + _t37 * _t79;
         let _t81 = _t25 * _t11;
         let _t82 = _t81 + _t34 * S::ratio(16.0, 1.0);
         let _t83 = _t55 * _t27 - _t48 * _t75 + _t62 * _t76
@@ -2551,7 +2547,7 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t84 = _t14 * self._h0 + _t83 * self._h1;
         let _t85 = _u_x + _t84 * _u_z;
         let _t86 = _t30 * _t7;
-        let _t87 = _u_z * _t57 + (_t3 + _t4);
+        let _t87 = _t4 + _t3 + _u_z * _t57;
         let _t88 = _t57 + _t26;
         let _t89 = _t14 + _u_y * _t88;
         let _t90 = _u_z * _t12;
@@ -2566,13 +2562,13 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t97 = _t95 * _u_x;
         let _t98 = _t84 * _u_y;
         let _t99 = _t97 + _t98;
-        let _t100 = _t96 + _t99;
+        let _t100 = _t99 + _t96;
         let _t101 = _t73 * _u_x;
         let _t102 = _u_y - _t95 * _u_z;
         let _t103 = _t95 * _u_y;
         let _t104 = _u_z - _t84 * _u_x;
         let _t105 = -_t57;
-        let _t106 = _t39 + _t40;
+        let _t106 = _t40 + _t39;
         let _t107 = _u_y * _t12;
         let _t108 = _t32 + _t31;
         let _t109 = _t107 * _t108;
@@ -2591,17 +2587,17 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t119 = _t118 + _t118;
         let _t120 = _t9 * _t4;
         let _t121 = _t28 + _t29;
-        let _t122 = _t6 + _t16;
+        let _t122 = _t16 + _t6;
         let _t123 = (_t120 + _t105 * _t110 + _t107 * _t121 + _t2 * _t122)
             * S::ratio(4.0, 1.0);
         let _t124 = _u_y * (_t89 * _u_y + _t113 * _t12) - (_t86 + _t114 * _t57);
         let _t125 = _t124 + _t124;
         let _t126 = _t25 * S::ratio(4.0, 1.0);
         let _t127 = _t9 * _t14;
-        let _t128 = _t52 + _t53;
+        let _t128 = _t53 + _t52;
         let _t129 = S::ratio(4.0, 1.0)
             * (_t127 + _t105 * _t108 + _t107 * _t128 + _t2 * _t121);
-        let _t130 = _t17 * S::ratio(3.0, 1.0) + _t42;
+        let _t130 = _t42 + _t17 * S::ratio(3.0, 1.0);
         let _t131 = _t14 * _t107;
         let _t132 = _t4 * _t2;
         let _t133 = _t119 * _t89 - _t112 * _t57 - _t116 * _t87 - _t43 * _t7
@@ -2617,24 +2613,24 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t136 = _u_y * _u_z;
         let _t137 = self.h * _t136;
         let _t138 = _t9 * _t105;
-        let _t139 = _t18 * S::ratio(3.0, 1.0) + _t54;
+        let _t139 = _t54 + _t18 * S::ratio(3.0, 1.0);
         let _t140 = _t37 * S::ratio(2.0, 1.0);
         let _t141 = S::ratio(1.0, 4.0) * _t82;
         let _t142 = _t2 * S::ratio(3.0, 1.0);
         let _t143 = _t48 * (_t27 + _t88) - _t62 * (_t90 - _t142);
-        let _t144 = _t129 * _t27 - _t119 * _t75 + _t125 * _t76
+        let _t144 = _t143 + _t129 * _t27 - _t119 * _t75 + _t125 * _t76
             + S::ratio(4.0, 1.0)
                 * (_t92 + _t114 * _t78 + _t89 * _t66 + _t14 * (_t132 + _t138))
             + S::ratio(2.0, 1.0)
                 * (_t93 + _t107 * _t139
                     + _u_y
                         * (_t20 + _t112 * _u_z + _t116 * _t79 + _u_x * (_t123 - _t140)));
-        let _t145 = _t137 + (_t144 + _t113 * _t141 + _t143) * self._h1;
+        let _t145 = _t137 + (_t144 + _t113 * _t141) * self._h1;
         let _t146 = _u_z + _t103;
         let _t147 = _t2 * self._h0;
         let _t148 = _t37 * (_t57 + _t22);
         let _t149 = _t25 * _t25;
-        let _t150 = _t41 * S::ratio(3.0, 1.0) + _t19;
+        let _t150 = _t19 + _t41 * S::ratio(3.0, 1.0);
         let _t151 = S::ratio(6.0, 1.0) * _t70;
         let _t152 = _t123 * _t22 + _t116 * _t38 - _t148
             + _u_y
@@ -2651,14 +2647,14 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t156 = _t155 * _u_y;
         let _t157 = _t76 * _u_y;
         let _t158 = _t79 * _t35;
-        let _t159 = S::ratio(2.0, 1.0) * (_u_x * (_t33 + _t156) + _u_z * (_t30 + _t157))
-            + (_t158 * _t27 + _t81 * S::ratio(1.0, 8.0));
+        let _t159 = _t158 * _t27 + _t81 * S::ratio(1.0, 8.0)
+            + S::ratio(2.0, 1.0) * (_u_x * (_t33 + _t156) + _u_z * (_t30 + _t157));
         let _t160 = _t159 + _t159;
         let _t161 = _u_y * _t45;
         let _t162 = S::ratio(4.0, 1.0)
             * (_t127 + _t107 * _t106 + _t27 * _t108 + _t161 * _t110);
-        let _t163 = _u_y * (_t157 + S::ratio(2.0, 1.0) * (_t30 + _t158 * _u_x))
-            + (_t155 * _t22 + _t46);
+        let _t163 = _t155 * _t22 + _t46
+            + _u_y * (_t157 + S::ratio(2.0, 1.0) * (_t30 + _t158 * _u_x));
         let _t164 = _t163 + _t163;
         let _t165 = _t14 * _t4;
         let _t166 = S::ratio(4.0, 1.0)
@@ -2671,22 +2667,21 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
             + S::ratio(4.0, 1.0) * (_t109 + _t27 * _t128 + _t169);
         let _t171 = _t4 * _t161;
         let _t172 = _t14 * _t27;
-        let _t173 = _t164 * _t89 - _t160 * _t87 - _t162 * _t57
+        let _t173 = _t143 - _t160 * _t87 - _t162 * _t57 + _t164 * _t89
             + _u_y
                 * (_t166 * _u_y + _t168 * _t91
                     + S::ratio(2.0, 1.0) * (_t20 + _t170 * _u_z)
                     - S::ratio(4.0, 1.0) * (_t37 * _u_x - _t25 * _t155));
         let _t174 = _t137
             + (_t173 + S::ratio(4.0, 1.0) * (_t92 + _t158 * _t78 + _t9 * (_t171 + _t172))
-                + S::ratio(2.0, 1.0) * (_t93 + _t107 * _t130 - _t76 * _t86) + _t143)
-                * self._h1;
+                + S::ratio(2.0, 1.0) * (_t93 + _t107 * _t130 - _t76 * _t86)) * self._h1;
         let _t175 = _t9 * _t107;
         let _t176 = _t168 * _t76 + _t170 * _t27 - _t164 * _t75
             + S::ratio(4.0, 1.0)
                 * (_t30 * _t33 + _t76 * _t78 + _t155 * _t66 + _t14 * (_t171 + _t175))
             + S::ratio(2.0, 1.0)
-                * (_t27 * _t139 + _u_y * (_t162 * _u_z + _t166 * _u_x + _t160 * _t79)
-                    + _t80);
+                * (_t80 + _t27 * _t139
+                    + _u_y * (_t162 * _u_z + _t166 * _u_x + _t160 * _t79));
         let _t177 = _t176
             + S::ratio(1.0, 8.0)
                 * (_t48 * (_u_x * _t11 - S::ratio(48.0, 1.0) * _t136)
@@ -2761,10 +2756,10 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t208 = _t84 * _t73;
         let _t209 = _u_y + _t101;
         let _t210 = _u_x - _t74;
-        let _t211 = _t73 * _t12 + _t99;
+        let _t211 = _t99 + _t73 * _t12;
         residual[0] = _t85 - x - _t74 + _t95 * _t100;
-        residual[1] = _t101 - y + _t102 + _t84 * _t100;
-        residual[2] = _t103 - z + _t104 + _t73 * _t100;
+        residual[1] = _t102 - y + _t101 + _t84 * _t100;
+        residual[2] = _t104 - z + _t103 + _t73 * _t100;
         matrix[(0, 0)] = S::one() + _t95 * _t95 + _t134 * _t135 + _t145 * _t146
             - _t153 * _t102;
         matrix[(0, 1)] = _t154 - _t73 + _t174 * _t135 + _t178 * _t146 - _t183 * _t102;
@@ -2818,7 +2813,7 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
             + _t16 * _u_x - _t20 * _u_z;
         let _t28 = _t3 * _t3;
         let _t29 = _t24 + _t28;
-        let _t30 = S::ratio(2.0, 1.0) * (_t25 + _t29);
+        let _t30 = S::ratio(2.0, 1.0) * (_t29 + _t25);
         let _t31 = _t3 * _t26;
         let _t32 = _u_z * S::ratio(3.0, 1.0);
         let _t33 = _t12 * S::ratio(2.0, 1.0) * (_t22 + _t31 + _t12 * _t32) + _t29 * _t18;

@@ -687,9 +687,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S>
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[m12, m13, m14, m23, m24, m34]] = mu.data.0;
-        out[0] = m34 * m34
-            + (m24 * m24 + (m23 * m23 + (m14 * m14 + (m12 * m12 + m13 * m13))));
-        out[1] = m14 * m23 + (m12 * m34 - m13 * m24);
+        out[0] = m12 * m12 + m13 * m13 + m14 * m14 + m23 * m23 + m24 * m24 + m34 * m34;
+        out[1] = m12 * m34 - m13 * m24 + m14 * m23;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -841,17 +840,17 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSys
         let _t21 = _t15 + _t3;
         let _t22 = _t8 - _t17;
         let _t23 = _t11 + _t19;
-        out[0] = (_xi_E12 * (_t0 * S::ratio(2.0, 1.0) + _t7) + m34 * _t10
+        out[0] = (_xi_E12 * (_t7 + _t0 * S::ratio(2.0, 1.0)) + m34 * _t10
             + _eta_E12 * _t13) * S::ratio(-1.0, 2.0);
-        out[1] = (_xi_E13 * (_t1 * S::ratio(2.0, 1.0) + _t16) + m24 * _t18
+        out[1] = (_xi_E13 * (_t16 + _t1 * S::ratio(2.0, 1.0)) + m24 * _t18
             + _eta_E13 * _t20) * S::ratio(-1.0, 2.0);
-        out[2] = (_xi_E14 * (_t4 * S::ratio(2.0, 1.0) + _t21) + m23 * _t22
+        out[2] = (_xi_E14 * (_t21 + _t4 * S::ratio(2.0, 1.0)) + m23 * _t22
             + _eta_E14 * _t23) * S::ratio(-1.0, 2.0);
-        out[3] = (_xi_E23 * (_t5 * S::ratio(2.0, 1.0) + _t21) + m14 * _t22
+        out[3] = (_xi_E23 * (_t21 + _t5 * S::ratio(2.0, 1.0)) + m14 * _t22
             + _eta_E23 * _t23) * S::ratio(-1.0, 2.0);
-        out[4] = (_xi_E24 * (_t2 * S::ratio(2.0, 1.0) + _t16) + m13 * _t18
+        out[4] = (_xi_E24 * (_t16 + _t2 * S::ratio(2.0, 1.0)) + m13 * _t18
             + _eta_E24 * _t20) * S::ratio(-1.0, 2.0);
-        out[5] = (_xi_E34 * (S::ratio(2.0, 1.0) * _t14 + _t7) + m12 * _t10
+        out[5] = (_xi_E34 * (_t7 + S::ratio(2.0, 1.0) * _t14) + m12 * _t10
             + _eta_E34 * _t13) * S::ratio(-1.0, 2.0);
     }
 }
@@ -4000,7 +3999,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
                     + _u_m13 * _t26)) - _u_m23 * _t29 - _u_m34 * _t32 + _u_m12 * _t35;
         let _t41 = _u_m24 * self._h0
             + (_t40 - _u_m14 * _t38
-                + S::ratio(2.0, 1.0) * (_t13 * _t26 + _t0 * (_t39 + _t23))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t13 * _t26 + _t0 * (_t23 + _t39))) * self._h1;
         let _t42 = _t41 * _u_m14;
         let _t43 = _t13 * _u_m13;
         let _t44 = _t43 + _t12;
@@ -4027,7 +4026,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
                     + _u_m34 * _t52)) - _u_m14 * _t55 - _u_m13 * _t56 + _u_m24 * _t35;
         let _t61 = _u_m12 * self._h2
             + (_t60 + _u_m23 * _t59
-                + S::ratio(2.0, 1.0) * (_t6 * _t52 + _t8 * (_t17 + _t50))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t6 * _t52 + _t8 * (_t50 + _t17))) * self._h1;
         let _t62 = _t41 * _u_m24;
         let _t63 = _t61 * _u_m12;
         let _t64 = self.system._k32 * _t28;
@@ -4039,7 +4038,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
                     + _u_m24 * _t26)) - _u_m14 * _t64 - _u_m12 * _t56 + _u_m34 * _t65;
         let _t68 = _u_m13 * self._h3
             + (_t67 - _u_m23 * _t66
-                + S::ratio(2.0, 1.0) * (_t0 * _t26 + _t13 * (_t48 + _t23))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t0 * _t26 + _t13 * (_t23 + _t48))) * self._h1;
         let _t69 = _t68 * _u_m13;
         let _t70 = _t63 + _t69;
         let _t71 = S::ratio(2.0, 1.0) * (_t44 + _t10);
@@ -4053,7 +4052,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
                     + _u_m23 * _t74)) - _u_m13 * _t64 - _u_m12 * _t55 - _u_m34 * _t75;
         let _t77 = _u_m14 * self._h4
             + (_t76 - _u_m24 * _t38
-                + S::ratio(2.0, 1.0) * (_t3 * _t74 + _t1 * (_t20 + _t73))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t3 * _t74 + _t1 * (_t73 + _t20))) * self._h1;
         let _t78 = _t77 * _u_m14;
         let _t79 = self.system._k21 * _t54;
         let _t80 = self.system._k9
@@ -4062,7 +4061,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
                     + _u_m14 * _t74)) - _u_m24 * _t29 + _u_m34 * _t79 + _u_m12 * _t59;
         let _t81 = _u_m23 * self._h5
             + (_t80 - _u_m13 * _t66
-                + S::ratio(2.0, 1.0) * (_t1 * _t74 + _t3 * (_t21 + _t73))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t1 * _t74 + _t3 * (_t73 + _t21))) * self._h1;
         let _t82 = _t81 * _u_m23;
         let _t83 = _t78 + _t82;
         let _t84 = _t70 + _t83;
@@ -4075,7 +4074,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
                     + _u_m12 * _t52)) + _u_m23 * _t79 - _u_m24 * _t32 + _u_m13 * _t65;
         let _t89 = _u_m34 * self._h6
             + (_t88 - _u_m14 * _t75
-                + S::ratio(2.0, 1.0) * (_t8 * _t52 + _t6 * (_t18 + _t50))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t8 * _t52 + _t6 * (_t50 + _t18))) * self._h1;
         let _t90 = _t89 * _u_m14;
         let _t91 = _t89 * _u_m34;
         let _t92 = _t89 * _u_m24;
@@ -4088,17 +4087,17 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t99 = _t41 * _u_m23;
         let _t100 = _u_m14 + _t41 * _u_m12;
         let _t101 = _t83 + _t96;
-        residual[0] = _t61 * (_t62 + _t84) - m12 - _t42 + _t68 * _t85 + _t77 * _t86
-            + _t87;
-        residual[1] = _t68 * (_t91 + _t84) - m13 - _t90 - _t61 * (_u_m23 - _t92)
-            + _t77 * _t93 + _t94;
-        residual[2] = _t95 - m14 + _t77 * (_t78 + _t97) - _t61 * (_u_m24 + _t98)
-            - _t68 * (_u_m34 - _t99) + _t100;
-        residual[3] = _t85 - m23 - _t92 + _t81 * (_t82 + _t97) + _t61 * (_u_m13 - _t90)
+        residual[0] = _t87 - m12 - _t42 + _t61 * (_t84 + _t62) + _t68 * _t85
+            + _t77 * _t86;
+        residual[1] = _t94 - m13 - _t90 + _t68 * (_t84 + _t91) - _t61 * (_u_m23 - _t92)
+            + _t77 * _t93;
+        residual[2] = _t100 - m14 + _t95 + _t77 * (_t97 + _t78) - _t61 * (_u_m24 + _t98)
+            - _t68 * (_u_m34 - _t99);
+        residual[3] = _t85 - m23 - _t92 + _t81 * (_t97 + _t82) + _t61 * (_u_m13 - _t90)
             - _t68 * (_u_m12 - _t42);
-        residual[4] = _t98 - m24 + _t86 + _t41 * (_t63 + _t101) + _t61 * (_u_m14 + _t95)
+        residual[4] = _t86 - m24 + _t98 + _t41 * (_t101 + _t63) + _t61 * (_u_m14 + _t95)
             - _t77 * _t87;
-        residual[5] = _t93 - m34 - _t99 + _t89 * (_t69 + _t101) + _t68 * _t100
+        residual[5] = _t93 - m34 - _t99 + _t89 * (_t101 + _t69) + _t68 * _t100
             - _t77 * _t94;
     }
 
@@ -4177,11 +4176,11 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t60 = _t56 + _t59;
         let _t61 = self.system._k6
             * (S::ratio(2.0, 1.0)
-                * (_t0 * _t4 + _t5 * _t8 + _t9 * (_t11 + _t21) + _t12 * (_t22 + _t25)
+                * (_t0 * _t4 + _t5 * _t8 + _t9 * (_t11 + _t21) + _t12 * (_t25 + _t22)
                     - _t16 * (_t29 - _t26))) + _t33 * _t34 + _t38 * _t39;
         let _t62 = _u_m12 * self._h2
             + (_t61 + _t43 * _t44 + _t48 * _t49
-                + S::ratio(2.0, 1.0) * (_t2 * _t52 + _t9 * (_t53 + _t60))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t2 * _t52 + _t9 * (_t60 + _t53))) * self._h1;
         let _t63 = _t62 * _u_m12;
         let _t64 = _t0 * _u_m13;
         let _t65 = _t5 * _u_m14;
@@ -4214,11 +4213,11 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t92 = _t91 + _t59;
         let _t93 = self.system._k7
             * (S::ratio(2.0, 1.0)
-                * (_t0 * _t66 + _t2 * _t8 + _t12 * (_t67 + _t71) + _t9 * (_t72 + _t25)
-                    + _t16 * (_t73 + _t76))) + _t80 * _t81 + _t38 * _t35;
+                * (_t0 * _t66 + _t2 * _t8 + _t12 * (_t67 + _t71) + _t9 * (_t25 + _t72)
+                    + _t16 * (_t76 + _t73))) + _t80 * _t81 + _t38 * _t35;
         let _t94 = _u_m13 * self._h3
             + (_t93 + _t43 * _t82 + _t86 * _t87
-                + S::ratio(2.0, 1.0) * (_t5 * _t89 + _t12 * (_t54 + _t92))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t5 * _t89 + _t12 * (_t92 + _t54))) * self._h1;
         let _t95 = _t94 * _u_m13;
         let _t96 = _t12 * _u_m14;
         let _t97 = S::ratio(3.0, 1.0) * _t14;
@@ -4232,10 +4231,10 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t105 = self.system._k10
             * (S::ratio(2.0, 1.0)
                 * (_t0 * (_t96 + _t74) + _t2 * (_t22 + _t24) + _t5 * (_t97 + _t71)
-                    + _t9 * (_t98 + _t100) + _t16 * (_t101 + _t103))) + _t80 * _t78;
+                    + _t9 * (_t100 + _t98) + _t16 * (_t103 + _t101))) + _t80 * _t78;
         let _t106 = _u_m24 * self._h0
             + (_t105 + _t38 * _t104 + _t43 * _t40 + _t86 * _t84
-                + S::ratio(2.0, 1.0) * (_t12 * _t89 + _t5 * (_t55 + _t92))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t12 * _t89 + _t5 * (_t92 + _t55))) * self._h1;
         let _t107 = _t106 * _u_m24;
         let _t108 = _t95 + _t107;
         let _t109 = S::ratio(3.0, 1.0) * _t17;
@@ -4249,10 +4248,10 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t117 = self.system._k8
             * (S::ratio(2.0, 1.0)
                 * (_t5 * _t66 - _t2 * _t4 + _t16 * (_t109 + _t111) + _t9 * (_t112 - _t29)
-                    + _t12 * (_t96 + _t76))) + _t80 * _t77 + _t33 * _t30;
+                    + _t12 * (_t76 + _t96))) + _t80 * _t77 + _t33 * _t30;
         let _t118 = _u_m14 * self._h4
             + (_t117 + _t48 * _t113 + _t86 * _t114
-                + S::ratio(2.0, 1.0) * (_t0 * _t115 + _t16 * (_t57 + _t116))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t0 * _t115 + _t16 * (_t116 + _t57))) * self._h1;
         let _t119 = _t118 * _u_m14;
         let _t120 = S::ratio(3.0, 1.0) * _t18;
         let _t121 = _t9 * _u_m23;
@@ -4264,10 +4263,10 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t127 = self.system._k9
             * (S::ratio(2.0, 1.0)
                 * (_t5 * (_t73 + _t75) - _t2 * (_t26 - _t28) + _t0 * (_t120 + _t111)
-                    + _t9 * (_t121 - _t123) + _t12 * (_t102 + _t124))) + _t80 * _t125;
+                    + _t9 * (_t121 - _t123) + _t12 * (_t124 + _t102))) + _t80 * _t125;
         let _t128 = _u_m23 * self._h5
             + (_t127 + _t33 * _t126 + _t48 * _t45 + _t86 * _t83
-                + S::ratio(2.0, 1.0) * (_t16 * _t115 + _t0 * (_t58 + _t116))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t16 * _t115 + _t0 * (_t116 + _t58))) * self._h1;
         let _t129 = _t128 * _u_m23;
         let _t130 = _t119 + _t129;
         let _t131 = _t108 + _t130;
@@ -4281,11 +4280,11 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t139 = _t121 + _t1;
         let _t140 = self.system._k11
             * ((_t0 * (_t112 - _t27) - _t5 * (_t72 + _t23) - _t2 * (_t137 + _t21)
-                - _t12 * (_t99 + _t138) + _t16 * (_t139 - _t122)) * S::ratio(-2.0, 1.0))
+                - _t12 * (_t138 + _t99) + _t16 * (_t139 - _t122)) * S::ratio(-2.0, 1.0))
             + _t33 * _t31;
         let _t141 = _u_m34 * self._h6
             + (_t140 + _t38 * _t36 + _t43 * _t41 + _t48 * _t46
-                + S::ratio(2.0, 1.0) * (_t9 * _t52 + _t2 * (_t90 + _t60))) * self._h1;
+                + S::ratio(2.0, 1.0) * (_t9 * _t52 + _t2 * (_t60 + _t90))) * self._h1;
         let _t142 = _t141 * _u_m34;
         let _t143 = _t63 + _t142;
         let _t144 = _t143 + _t130;
@@ -4302,7 +4301,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t155 = _u_m34 - _t154;
         let _t156 = _t141 * _u_m13;
         let _t157 = _u_m14 + _t106 * _u_m12;
-        let _t158 = _t156 + _t157;
+        let _t158 = _t157 + _t156;
         let _t159 = S::ratio(2.0, 1.0) * _t60;
         let _t160 = self.system._k10 * _t34;
         let _t161 = _t160 + _t160;
@@ -4313,13 +4312,13 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t166 = self.system._k7 * _t49;
         let _t167 = _t166 + _t166;
         let _t168 = self.system._k6
-            * (_t53 * S::ratio(6.0, 1.0) + _t159 + (_t11 + _t20) * self.system._k54)
+            * (_t53 * S::ratio(6.0, 1.0) + _t159 + (_t20 + _t11) * self.system._k54)
             + _t161 * _t34 + _t163 * _t39 + _t165 * _t44 + _t167 * _t49
-            + (_t53 * S::ratio(3.0, 1.0) + _t60) * self.system._k55;
+            + (_t60 + _t53 * S::ratio(3.0, 1.0)) * self.system._k55;
         let _t169 = _t168 * self._h1 + self._h2;
-        let _t170 = S::ratio(2.0, 1.0) * _t63 + _t131;
+        let _t170 = _t131 + S::ratio(2.0, 1.0) * _t63;
         let _t171 = _t72 + _t22;
-        let _t172 = S::ratio(2.0, 1.0) * _t171 + _t25;
+        let _t172 = _t25 + S::ratio(2.0, 1.0) * _t171;
         let _t173 = _t2 * S::ratio(2.0, 1.0);
         let _t174 = _t5 * _t173;
         let _t175 = _t9 * S::ratio(4.0, 1.0);
@@ -4327,10 +4326,10 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t177 = _t9 * S::ratio(2.0, 1.0);
         let _t178 = _t12 * _t177;
         let _t179 = _t5 * _t2 + _t178;
-        let _t180 = (self.system._k7 * (self.system._k55 * _t172 + _t176) + _t165 * _t82
+        let _t180 = (self.system._k7 * (_t176 + self.system._k55 * _t172) + _t165 * _t82
             + self.system._k18 * (_t38 + _t163 * _u_m12) + _t179 * self.system._k55)
             * self._h1;
-        let _t181 = _t62 * _u_m13 + _t132;
+        let _t181 = _t132 + _t62 * _u_m13;
         let _t182 = _t112 + _t26;
         let _t183 = _t29 - S::ratio(2.0, 1.0) * _t182;
         let _t184 = _t0 * _t173;
@@ -4340,7 +4339,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t188 = (self.system._k8 * (-(self.system._k55 * _t183) - _t185)
             + _t167 * _t113 + self.system._k20 * (_t33 + _t161 * _u_m12)
             - _t187 * self.system._k55) * self._h1;
-        let _t189 = _t62 * _u_m14 + _t133;
+        let _t189 = _t133 + _t62 * _u_m14;
         let _t190 = _t123 - S::ratio(2.0, 1.0) * _t139;
         let _t191 = _t16 * _t173;
         let _t192 = _t191 - _t0 * _t175;
@@ -4350,12 +4349,12 @@ for ManakovTopCayleyGenerating4<'_, S> {
             + _t161 * _t126 + self.system._k14 * (_t48 + _t167 * _u_m12)
             - _t194 * self.system._k55) * self._h1;
         let _t196 = _u_m13 - _t62 * _u_m23 + _t118 * _u_m34;
-        let _t197 = S::ratio(2.0, 1.0) * _t138 + _t100;
+        let _t197 = _t100 + S::ratio(2.0, 1.0) * _t138;
         let _t198 = _t12 * _t173;
         let _t199 = _t198 + _t5 * _t175;
         let _t200 = _t5 * _t177;
         let _t201 = _t12 * _t2 + _t200;
-        let _t202 = (self.system._k10 * (self.system._k55 * _t197 + _t199)
+        let _t202 = (self.system._k10 * (_t199 + self.system._k55 * _t197)
             + _t163 * _t104 + self.system._k16 * (_t43 + _t165 * _u_m12)
             + _t201 * self.system._k55) * self._h1;
         let _t203 = _u_m14 - _t62 * _u_m24 - _t94 * _u_m34;
@@ -4364,7 +4363,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t206 = _t205 + _t205;
         let _t207 = self.system._k9 * _t35;
         let _t208 = _t207 + _t207;
-        let _t209 = (self.system._k6 * (_t172 * self.system._k56 + _t176) + _t206 * _t44
+        let _t209 = (self.system._k6 * (_t176 + _t172 * self.system._k56) + _t206 * _t44
             + self.system._k18 * (_t38 + _t208 * _u_m13) + _t179 * self.system._k56)
             * self._h1;
         let _t210 = S::ratio(2.0, 1.0) * _t92;
@@ -4373,29 +4372,29 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t213 = self.system._k6 * _t87;
         let _t214 = _t213 + _t213;
         let _t215 = self.system._k7
-            * (_t210 + _t54 * S::ratio(6.0, 1.0) + (_t67 + _t70) * self.system._k57)
+            * (_t210 + _t54 * S::ratio(6.0, 1.0) + (_t70 + _t67) * self.system._k57)
             + _t212 * _t81 + _t208 * _t35 + _t206 * _t82 + _t214 * _t87
-            + (_t54 * S::ratio(3.0, 1.0) + _t92) * self.system._k56;
+            + (_t92 + _t54 * S::ratio(3.0, 1.0)) * self.system._k56;
         let _t216 = _t215 * self._h1 + self._h3;
         let _t217 = _t96 + _t73;
-        let _t218 = S::ratio(2.0, 1.0) * _t217 + _t76;
+        let _t218 = _t76 + S::ratio(2.0, 1.0) * _t217;
         let _t219 = _t0 * _t5;
         let _t220 = _t219 * S::ratio(2.0, 1.0);
         let _t221 = _t12 * _t16;
         let _t222 = _t220 + _t221 * S::ratio(4.0, 1.0);
         let _t223 = _t221 * S::ratio(2.0, 1.0);
         let _t224 = _t219 + _t223;
-        let _t225 = (self.system._k8 * (self.system._k56 * _t218 + _t222) + _t214 * _t114
+        let _t225 = (self.system._k8 * (_t222 + self.system._k56 * _t218) + _t214 * _t114
             + self.system._k22 * (_t80 + _t212 * _u_m13) + _t224 * self.system._k56)
             * self._h1;
-        let _t226 = S::ratio(2.0, 1.0) * _t103 + _t124;
+        let _t226 = _t124 + S::ratio(2.0, 1.0) * _t103;
         let _t227 = _t16 * _t5;
         let _t228 = _t227 * S::ratio(2.0, 1.0);
         let _t229 = _t12 * _t0;
         let _t230 = _t228 + _t229 * S::ratio(4.0, 1.0);
         let _t231 = _t229 * S::ratio(2.0, 1.0);
         let _t232 = _t227 + _t231;
-        let _t233 = (self.system._k9 * (self.system._k56 * _t226 + _t230) + _t212 * _t125
+        let _t233 = (self.system._k9 * (_t230 + self.system._k56 * _t226) + _t212 * _t125
             + self.system._k12 * (_t86 + _t214 * _u_m13) + _t232 * self.system._k56)
             * self._h1;
         let _t234 = _t89 * S::ratio(2.0, 1.0);
@@ -4417,14 +4416,14 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t246 = _t245 + _t245;
         let _t247 = self.system._k11 * _t77;
         let _t248 = _t247 + _t247;
-        let _t249 = (self.system._k7 * (_t218 * self.system._k58 + _t222) + _t246 * _t87
+        let _t249 = (self.system._k7 * (_t222 + _t218 * self.system._k58) + _t246 * _t87
             + self.system._k22 * (_t80 + _t248 * _u_m14) + _t224 * self.system._k58)
             * self._h1;
         let _t250 = S::ratio(2.0, 1.0) * _t116;
         let _t251 = self.system._k8
-            * (_t250 + _t57 * S::ratio(6.0, 1.0) + (_t109 + _t110) * self.system._k59)
+            * (_t250 + _t57 * S::ratio(6.0, 1.0) + (_t110 + _t109) * self.system._k59)
             + _t248 * _t77 + _t243 * _t30 + _t241 * _t113 + _t246 * _t114
-            + (_t57 * S::ratio(3.0, 1.0) + _t116) * self.system._k58;
+            + (_t116 + _t57 * S::ratio(3.0, 1.0)) * self.system._k58;
         let _t252 = _t251 * self._h1 + self._h4;
         let _t253 = _t115 * S::ratio(2.0, 1.0);
         let _t254 = _t12 * _u_m24 + _t5 * _u_m13;
@@ -4435,7 +4434,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t257 = _t103 + S::ratio(2.0, 1.0) * _t124;
         let _t258 = _t231 + _t227 * S::ratio(4.0, 1.0);
         let _t259 = _t229 + _t228;
-        let _t260 = (self.system._k10 * (self.system._k58 * _t257 + _t258) + _t248 * _t78
+        let _t260 = (self.system._k10 * (_t258 + self.system._k58 * _t257) + _t248 * _t78
             + self.system._k13 * (_t86 + _t246 * _u_m14) + _t259 * self.system._k58)
             * self._h1;
         let _t261 = _t62 * _t128;
@@ -4450,21 +4449,21 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t268 = _t267 + _t267;
         let _t269 = self.system._k6 * _t83;
         let _t270 = _t269 + _t269;
-        let _t271 = (self.system._k7 * (_t226 * self.system._k60 + _t230) + _t268 * _t81
+        let _t271 = (self.system._k7 * (_t230 + _t226 * self.system._k60) + _t268 * _t81
             + self.system._k12 * (_t86 + _t270 * _u_m23) + _t232 * self.system._k60)
             * self._h1;
         let _t272 = (self.system._k8 * (_t253 + _t255 * self.system._k60) + _t268 * _t77
             + _t263 * _t30 + _t265 * _t113 + _t270 * _t114 + _t115 * self.system._k60)
             * self._h1;
         let _t273 = self.system._k9
-            * (_t250 + _t58 * S::ratio(6.0, 1.0) + (_t120 + _t110) * self.system._k61)
+            * (_t250 + _t58 * S::ratio(6.0, 1.0) + (_t110 + _t120) * self.system._k61)
             + _t268 * _t125 + _t263 * _t126 + _t265 * _t45 + _t270 * _t83
-            + (_t58 * S::ratio(3.0, 1.0) + _t116) * self.system._k60;
+            + (_t116 + _t58 * S::ratio(3.0, 1.0)) * self.system._k60;
         let _t274 = _t273 * self._h1 + self._h5;
         let _t275 = _t217 + S::ratio(2.0, 1.0) * _t76;
         let _t276 = _t223 + _t219 * S::ratio(4.0, 1.0);
         let _t277 = _t221 + _t220;
-        let _t278 = (self.system._k10 * (self.system._k60 * _t275 + _t276) + _t270 * _t84
+        let _t278 = (self.system._k10 * (_t276 + self.system._k60 * _t275) + _t270 * _t84
             + self.system._k23 * (_t80 + _t268 * _u_m23) + _t277 * self.system._k60)
             * self._h1;
         let _t279 = _t62 * _t106;
@@ -4472,7 +4471,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t281 = _t280 + _t280;
         let _t282 = self.system._k8 * _t40;
         let _t283 = _t282 + _t282;
-        let _t284 = (self.system._k6 * (_t197 * self.system._k62 + _t199) + _t281 * _t39
+        let _t284 = (self.system._k6 * (_t199 + _t197 * self.system._k62) + _t281 * _t39
             + self.system._k16 * (_t43 + _t283 * _u_m24) + _t201 * self.system._k62)
             * self._h1;
         let _t285 = self.system._k11 * _t78;
@@ -4482,16 +4481,16 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t289 = (self.system._k7 * (_t234 + _t237 * self.system._k62) + _t286 * _t81
             + _t281 * _t35 + _t283 * _t82 + _t288 * _t87 + _t89 * self.system._k62)
             * self._h1;
-        let _t290 = (self.system._k8 * (_t257 * self.system._k62 + _t258) + _t286 * _t77
+        let _t290 = (self.system._k8 * (_t258 + _t257 * self.system._k62) + _t286 * _t77
             + self.system._k13 * (_t86 + _t288 * _u_m24) + _t259 * self.system._k62)
             * self._h1;
-        let _t291 = (self.system._k9 * (_t275 * self.system._k62 + _t276) + _t288 * _t83
+        let _t291 = (self.system._k9 * (_t276 + _t275 * self.system._k62) + _t288 * _t83
             + self.system._k23 * (_t80 + _t286 * _u_m24) + _t277 * self.system._k62)
             * self._h1;
         let _t292 = self.system._k10
-            * (_t210 + _t55 * S::ratio(6.0, 1.0) + (_t97 + _t70) * self.system._k63)
+            * (_t210 + _t55 * S::ratio(6.0, 1.0) + (_t70 + _t97) * self.system._k63)
             + _t286 * _t78 + _t281 * _t104 + _t283 * _t40 + _t288 * _t84
-            + (_t55 * S::ratio(3.0, 1.0) + _t92) * self.system._k62;
+            + (_t92 + _t55 * S::ratio(3.0, 1.0)) * self.system._k62;
         let _t293 = _t292 * self._h1 + self._h0;
         let _t294 = _t52 * S::ratio(2.0, 1.0);
         let _t295 = _t254 - _t235;
@@ -4510,7 +4509,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t306 = _t2 * S::ratio(4.0, 1.0);
         let _t307 = _t200 + _t12 * _t306;
         let _t308 = _t9 * _t5 + _t198;
-        let _t309 = (self.system._k7 * (_t305 * self.system._k64 + _t307) + _t299 * _t35
+        let _t309 = (self.system._k7 * (_t307 + _t305 * self.system._k64) + _t299 * _t35
             + self.system._k17 * (_t43 + _t301 * _u_m34) + _t308 * self.system._k64)
             * self._h1;
         let _t310 = _t139 - S::ratio(2.0, 1.0) * _t123;
@@ -4528,20 +4527,20 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t318 = _t171 + S::ratio(2.0, 1.0) * _t25;
         let _t319 = _t178 + _t5 * _t306;
         let _t320 = _t9 * _t12 + _t174;
-        let _t321 = (self.system._k10 * (_t318 * self.system._k64 + _t319) + _t301 * _t40
+        let _t321 = (self.system._k10 * (_t319 + _t318 * self.system._k64) + _t301 * _t40
             + self.system._k19 * (_t38 + _t299 * _u_m34) + _t320 * self.system._k64)
             * self._h1;
         let _t322 = _t94 * _t106;
         let _t323 = _t118 * _t128;
         let _t324 = _t322 - _t323;
         let _t325 = _t146 - _t94 * _u_m12;
-        let _t326 = S::ratio(2.0, 1.0) * _t95 + _t144;
-        let _t327 = _t94 * _u_m14 + _t147;
+        let _t326 = _t144 + S::ratio(2.0, 1.0) * _t95;
+        let _t327 = _t147 + _t94 * _u_m14;
         let _t328 = _u_m12 + _t94 * _u_m23 + _t118 * _u_m24;
         let _t329 = (self.system._k11 * (_t294 + _t295 * self.system._k55) + _t161 * _t31
             + _t163 * _t36 + _t165 * _t41 + _t167 * _t46 + _t52 * self.system._k55)
             * self._h1;
-        let _t330 = (self.system._k11 * (_t305 * self.system._k56 + _t307) + _t208 * _t36
+        let _t330 = (self.system._k11 * (_t307 + _t305 * self.system._k56) + _t208 * _t36
             + self.system._k17 * (_t43 + _t206 * _u_m13) + _t308 * self.system._k56)
             * self._h1;
         let _t331 = _t94 * _t118;
@@ -4552,40 +4551,40 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t334 = (self.system._k11 * (-(_t314 * self.system._k60) - _t315)
             + _t265 * _t46 + self.system._k21 * (_t33 + _t263 * _u_m23)
             - _t316 * self.system._k60) * self._h1;
-        let _t335 = (self.system._k11 * (_t318 * self.system._k62 + _t319) + _t283 * _t41
+        let _t335 = (self.system._k11 * (_t319 + _t318 * self.system._k62) + _t283 * _t41
             + self.system._k19 * (_t38 + _t281 * _u_m24) + _t320 * self.system._k62)
             * self._h1;
         let _t336 = _t62 * _t141;
         let _t337 = _t323 + _t336;
         let _t338 = _t94 * _t141;
         let _t339 = self.system._k11
-            * (_t159 + _t90 * S::ratio(6.0, 1.0) + (_t137 + _t20) * self.system._k65)
+            * (_t159 + _t90 * S::ratio(6.0, 1.0) + (_t20 + _t137) * self.system._k65)
             + _t297 * _t31 + _t299 * _t36 + _t301 * _t41 + _t303 * _t46
-            + (_t90 * S::ratio(3.0, 1.0) + _t60) * self.system._k64;
+            + (_t60 + _t90 * S::ratio(3.0, 1.0)) * self.system._k64;
         let _t340 = _t339 * self._h1 + self._h6;
         let _t341 = _t153 - _t118 * _u_m12;
         let _t342 = _t155 - _t118 * _u_m13;
-        let _t343 = S::ratio(2.0, 1.0) * _t119 + _t151;
+        let _t343 = _t151 + S::ratio(2.0, 1.0) * _t119;
         let _t344 = _t322 - _t336;
         let _t345 = _t118 * _t106;
         let _t346 = _t118 * _t141;
         let _t347 = -_t150;
         let _t348 = -_t136;
-        let _t349 = S::ratio(2.0, 1.0) * _t129 + _t151;
+        let _t349 = _t151 + S::ratio(2.0, 1.0) * _t129;
         let _t350 = _t128 * _t106;
         let _t351 = _t128 * _t141;
-        let _t352 = S::ratio(2.0, 1.0) * _t107 + _t144;
+        let _t352 = _t144 + S::ratio(2.0, 1.0) * _t107;
         let _t353 = _t106 * _t141;
-        let _t354 = S::ratio(2.0, 1.0) * _t142 + _t131;
-        residual[0] = _t62 * (_t63 + _t131) - m12 + _t94 * _t132 + _t118 * _t133 - _t136;
-        residual[1] = _t94 * (_t95 + _t144) - m13 - _t62 * _t146 + _t118 * _t147 - _t150;
-        residual[2] = _t118 * (_t119 + _t151) - m14 - _t62 * _t153 - _t94 * _t155
-            + _t158;
-        residual[3] = _t132 - m23 - _t145 + _t128 * (_t129 + _t151)
+        let _t354 = _t131 + S::ratio(2.0, 1.0) * _t142;
+        residual[0] = _t62 * (_t131 + _t63) - m12 + _t94 * _t132 + _t118 * _t133 - _t136;
+        residual[1] = _t94 * (_t144 + _t95) - m13 - _t62 * _t146 + _t118 * _t147 - _t150;
+        residual[2] = _t158 - m14 + _t118 * (_t151 + _t119) - _t62 * _t153
+            - _t94 * _t155;
+        residual[3] = _t132 - m23 - _t145 + _t128 * (_t151 + _t129)
             + _t62 * (_u_m13 - _t148) - _t94 * (_u_m12 - _t134);
-        residual[4] = _t152 - m24 + _t133 + _t106 * (_t107 + _t144)
+        residual[4] = _t133 - m24 + _t152 + _t106 * (_t144 + _t107)
             + _t62 * (_u_m14 + _t156) - _t118 * _t135;
-        residual[5] = _t147 - m34 - _t154 + _t141 * (_t142 + _t131) + _t94 * _t157
+        residual[5] = _t147 - m34 - _t154 + _t141 * (_t131 + _t142) + _t94 * _t157
             - _t118 * _t149;
         matrix[(0, 0)] = S::one() + _t62 * _t62 + _t169 * _t170 + _t180 * _t181
             + _t188 * _t189 - _t195 * _t196 - _t202 * _t203;
@@ -4597,8 +4596,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
             - _t274 * _t196 - _t278 * _t203;
         matrix[(0, 4)] = _t118 + _t279 + _t284 * _t170 + _t289 * _t181 + _t290 * _t189
             - _t291 * _t196 - _t293 * _t203;
-        matrix[(0, 5)] = _t304 * _t170 + _t309 * _t181 + _t313 * _t189 - _t317 * _t196
-            - _t321 * _t203 + _t324;
+        matrix[(0, 5)] = _t324 + _t304 * _t170 + _t309 * _t181 + _t313 * _t189
+            - _t317 * _t196 - _t321 * _t203;
         matrix[(1, 0)] = _t128 + _t204 - _t169 * _t325 + _t180 * _t326 + _t188 * _t327
             + _t195 * _t328 - _t329 * _t203;
         matrix[(1, 1)] = S::one() + _t94 * _t94 - _t209 * _t325 + _t216 * _t326
@@ -4607,8 +4606,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
             + _t256 * _t328 - _t332 * _t203;
         matrix[(1, 3)] = _t333 - _t62 - _t266 * _t325 + _t271 * _t326 + _t272 * _t327
             + _t274 * _t328 - _t334 * _t203;
-        matrix[(1, 4)] = _t289 * _t326 - _t284 * _t325 + _t290 * _t327 + _t291 * _t328
-            - _t335 * _t203 + _t337;
+        matrix[(1, 4)] = _t337 - _t284 * _t325 + _t289 * _t326 + _t290 * _t327
+            + _t291 * _t328 - _t335 * _t203;
         matrix[(1, 5)] = _t118 + _t338 - _t304 * _t325 + _t309 * _t326 + _t313 * _t327
             + _t317 * _t328 - _t340 * _t203;
         matrix[(2, 0)] = _t106 + _t239 - _t169 * _t341 - _t180 * _t342 + _t188 * _t343
@@ -4617,8 +4616,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
             + _t238 * _t328 + _t330 * _t196;
         matrix[(2, 2)] = S::one() + _t118 * _t118 - _t244 * _t341 - _t249 * _t342
             + _t252 * _t343 + _t260 * _t328 + _t332 * _t196;
-        matrix[(2, 3)] = _t272 * _t343 - _t266 * _t341 - _t271 * _t342 + _t278 * _t328
-            + _t334 * _t196 + _t344;
+        matrix[(2, 3)] = _t344 - _t266 * _t341 - _t271 * _t342 + _t272 * _t343
+            + _t278 * _t328 + _t334 * _t196;
         matrix[(2, 4)] = _t345 - _t62 - _t284 * _t341 - _t289 * _t342 + _t290 * _t343
             + _t293 * _t328 + _t335 * _t196;
         matrix[(2, 5)] = _t346 - _t94 - _t304 * _t341 - _t309 * _t342 + _t313 * _t343
@@ -4627,8 +4626,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
             + _t202 * _t327 - _t329 * _t189;
         matrix[(3, 1)] = _t62 + _t333 + _t209 * _t347 - _t216 * _t348 + _t233 * _t349
             + _t238 * _t327 - _t330 * _t189;
-        matrix[(3, 2)] = _t244 * _t347 - _t249 * _t348 + _t256 * _t349 + _t260 * _t327
-            - _t332 * _t189 + _t344;
+        matrix[(3, 2)] = _t344 + _t244 * _t347 - _t249 * _t348 + _t256 * _t349
+            + _t260 * _t327 - _t332 * _t189;
         matrix[(3, 3)] = S::one() + _t128 * _t128 + _t266 * _t347 - _t271 * _t348
             + _t274 * _t349 + _t278 * _t327 - _t334 * _t189;
         matrix[(3, 4)] = _t350 - _t141 + _t284 * _t347 - _t289 * _t348 + _t291 * _t349
@@ -4637,8 +4636,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
             + _t321 * _t327 - _t340 * _t189;
         matrix[(4, 0)] = _t279 - _t118 + _t169 * _t158 - _t188 * _t348 - _t195 * _t342
             + _t202 * _t352 + _t329 * _t181;
-        matrix[(4, 1)] = _t209 * _t158 - _t225 * _t348 - _t233 * _t342 + _t238 * _t352
-            + _t330 * _t181 + _t337;
+        matrix[(4, 1)] = _t337 + _t209 * _t158 - _t225 * _t348 - _t233 * _t342
+            + _t238 * _t352 + _t330 * _t181;
         matrix[(4, 2)] = _t62 + _t345 + _t244 * _t158 - _t252 * _t348 - _t256 * _t342
             + _t260 * _t352 + _t332 * _t181;
         matrix[(4, 3)] = _t141 + _t350 + _t266 * _t158 - _t272 * _t348 - _t274 * _t342
@@ -4647,8 +4646,8 @@ for ManakovTopCayleyGenerating4<'_, S> {
             - _t291 * _t342 + _t293 * _t352 + _t335 * _t181;
         matrix[(4, 5)] = _t353 - _t128 + _t304 * _t158 - _t313 * _t348 - _t317 * _t342
             + _t321 * _t352 + _t340 * _t181;
-        matrix[(5, 0)] = _t180 * _t158 - _t188 * _t347 + _t195 * _t341 - _t202 * _t325
-            + _t329 * _t354 + _t324;
+        matrix[(5, 0)] = _t324 + _t180 * _t158 - _t188 * _t347 + _t195 * _t341
+            - _t202 * _t325 + _t329 * _t354;
         matrix[(5, 1)] = _t338 - _t118 + _t216 * _t158 - _t225 * _t347 + _t233 * _t341
             - _t238 * _t325 + _t330 * _t354;
         matrix[(5, 2)] = _t94 + _t346 + _t249 * _t158 - _t252 * _t347 + _t256 * _t341
@@ -4719,11 +4718,11 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t41 = self.system._k34 * _t40;
         let _t42 = _t0 * _t0;
         let _t43 = self.system._k7
-            * ((_t0 * _u_m13 * S::ratio(3.0, 1.0) + _t11) * _t12 + _t15 * _t17
+            * ((_t11 + _t0 * _u_m13 * S::ratio(3.0, 1.0)) * _t12 + _t15 * _t17
                 + _t24 * _t25 + _t28 * _t29) - _u_m14 * _t32 - _u_m12 * _t35
             + _u_m34 * _t38;
         let _t44 = _u_m13 * self._h3
-            + (_t43 - _u_m23 * _t41 + _t28 * _t17 + (_t42 + _t24) * _t12) * self._h1;
+            + (_t43 - _u_m23 * _t41 + _t28 * _t17 + (_t24 + _t42) * _t12) * self._h1;
         let _t45 = _t0 * _t25 + _t16 * _t29;
         let _t46 = _t45 + _t10;
         let _t47 = _t1 * S::ratio(2.0, 1.0);
@@ -4745,28 +4744,28 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t61 = self.system._k31 * _t60;
         let _t62 = self.system._k35 * _t40;
         let _t63 = self.system._k8
-            * ((_t1 * _u_m14 * S::ratio(3.0, 1.0) + _t46) * _t47 + _t49 * _t50
+            * ((_t46 + _t1 * _u_m14 * S::ratio(3.0, 1.0)) * _t47 + _t49 * _t50
                 + _t53 * _t2 + _t55 * _t4) - _u_m13 * _t32 - _u_m12 * _t58
             - _u_m34 * _t61;
         let _t64 = _u_m14 * self._h4
-            + (_t63 - _u_m24 * _t62 + _t55 * _t50 + (_t21 + _t53) * _t47) * self._h1;
+            + (_t63 - _u_m24 * _t62 + _t55 * _t50 + (_t53 + _t21) * _t47) * self._h1;
         let _t65 = self.system._k33 * _t31;
         let _t66 = self.system._k21 * _t57;
         let _t67 = self.system._k14 * _t60;
         let _t68 = self.system._k9
-            * ((_t3 * _u_m23 * S::ratio(3.0, 1.0) + _t46) * _t50 + _t49 * _t47
+            * ((_t46 + _t3 * _u_m23 * S::ratio(3.0, 1.0)) * _t50 + _t49 * _t47
                 + _t53 * _t4 + _t55 * _t2) - _u_m24 * _t65 + _u_m34 * _t66
             + _u_m12 * _t67;
         let _t69 = _u_m23 * self._h5
-            + (_t68 - _u_m13 * _t41 + _t55 * _t47 + (_t22 + _t53) * _t50) * self._h1;
+            + (_t68 - _u_m13 * _t41 + _t55 * _t47 + (_t53 + _t22) * _t50) * self._h1;
         let _t70 = self.system._k29 * _t34;
         let _t71 = self.system._k16 * _t37;
         let _t72 = self.system._k10
-            * ((_t16 * _u_m24 * S::ratio(3.0, 1.0) + _t11) * _t17 + _t15 * _t12
+            * ((_t11 + _t16 * _u_m24 * S::ratio(3.0, 1.0)) * _t17 + _t15 * _t12
                 + _t24 * _t29 + _t28 * _t25) - _u_m23 * _t65 - _u_m34 * _t70
             + _u_m12 * _t71;
         let _t73 = _u_m24 * self._h0
-            + (_t72 - _u_m14 * _t62 + _t28 * _t12 + (_t51 + _t24) * _t17) * self._h1;
+            + (_t72 - _u_m14 * _t62 + _t28 * _t12 + (_t24 + _t51) * _t17) * self._h1;
         let _t74 = _t45 + _t5;
         let _t75 = _t8 * S::ratio(2.0, 1.0);
         let _t76 = _t48 - _t13;
@@ -4774,17 +4773,17 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t78 = _t52 + _t23;
         let _t79 = _t54 - _t26;
         let _t80 = self.system._k6
-            * ((_t8 * _u_m12 * S::ratio(3.0, 1.0) + _t74) * _t75 + _t76 * _t77
+            * ((_t74 + _t8 * _u_m12 * S::ratio(3.0, 1.0)) * _t75 + _t76 * _t77
                 + _t78 * _t9 + _t79 * _t7) - _u_m14 * _t58 - _u_m13 * _t35
             + _u_m24 * _t71;
         let _t81 = _u_m12 * self._h2
-            + (_t80 + _u_m23 * _t67 + _t79 * _t77 + (_t18 + _t78) * _t75) * self._h1;
+            + (_t80 + _u_m23 * _t67 + _t79 * _t77 + (_t78 + _t18) * _t75) * self._h1;
         let _t82 = self.system._k11
-            * ((_t6 * _u_m34 * S::ratio(3.0, 1.0) + _t74) * _t77 + _t76 * _t75
+            * ((_t74 + _t6 * _u_m34 * S::ratio(3.0, 1.0)) * _t77 + _t76 * _t75
                 + _t78 * _t7 + _t79 * _t9) + _u_m23 * _t66 - _u_m24 * _t70
             + _u_m13 * _t38;
         let _t83 = _u_m34 * self._h6
-            + (_t82 - _u_m14 * _t61 + _t79 * _t75 + (_t19 + _t78) * _t77) * self._h1;
+            + (_t82 - _u_m14 * _t61 + _t79 * _t75 + (_t78 + _t19) * _t77) * self._h1;
         mu[0] = m12 - _t44 * _t4 - _t64 * _t29 + _t69 * _t25 + _t73 * _t2;
         mu[1] = m13 + _t81 * _t4 - _t64 * _t7 - _t69 * _t9 + _t83 * _t2;
         mu[2] = m14 + _t81 * _t29 + _t44 * _t7 - _t73 * _t9 - _t83 * _t25;

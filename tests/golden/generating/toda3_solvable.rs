@@ -248,7 +248,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[b1, b2, b3, _, _]] = mu.data.0;
-        out[0] = b3 + (b1 + b2);
+        out[0] = b1 + b2 + b3;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -795,7 +795,7 @@ for TodaLatticeGenerating6<'_, S> {
         let _t41 = _t33 + S::ratio(3.0, 1.0) * _t35;
         let _t42 = _t41 * S::ratio(16.0, 1.0);
         let _t43 = S::ratio(8.0, 1.0)
-            * (S::ratio(2.0, 1.0) * (_t20 + _t28) - _t39 * S::ratio(3.0, 1.0) + _t29);
+            * (_t29 - _t39 * S::ratio(3.0, 1.0) + S::ratio(2.0, 1.0) * (_t20 + _t28));
         let _t44 = _t37 * _t15 + _t6 * _t40 - _t15 * _t42 + a2 * _t43;
         let _t45 = a2 * _t44 - _t16 * _t42;
         let _t46 = _t36 * S::ratio(3.0, 1.0) - _t41 * S::ratio(8.0, 1.0);
@@ -803,8 +803,8 @@ for TodaLatticeGenerating6<'_, S> {
         let _t48 = _t46 * _t47;
         let _t49 = _t11 * S::ratio(3.0, 1.0) - _t25 * S::ratio(8.0, 1.0);
         let _t50 = _t49 * _t2 - _t48;
-        xi[0] = b1 * self.h + _t3 * self._h0 + (_t13 + _t32) * self._h1;
-        xi[1] = b2 * self.h + _t18 * self._h0 + (_t38 - _t13 + _t45 - _t32) * self._h1;
+        xi[0] = b1 * self.h + _t3 * self._h0 + (_t32 + _t13) * self._h1;
+        xi[1] = b2 * self.h + _t18 * self._h0 + (_t45 + (_t38 - _t13) - _t32) * self._h1;
         xi[2] = b3 * self.h + _t39 * self._h0 + (-_t38 - _t45) * self._h1;
         xi[3] = a1 * self._h2 + _t11 * self._h0
             + self._h1
@@ -964,7 +964,7 @@ for TodaLatticeGenerating6<'_, S> {
             + (S::ratio(3.0, 1.0) * _t114 - S::ratio(2.0, 1.0) * _t117) * _t9;
         let _t119 = _t34 + a1 * _t118;
         let _t120 = _t27 * _t1 + _t2 * _t113;
-        let _t121 = self._h1 * (_t107 + _t119) - self._h3 * _t120 + self._h0 * _t67;
+        let _t121 = self._h1 * (_t119 + _t107) - self._h3 * _t120 + self._h0 * _t67;
         let _t122 = a1 * _t45 * S::ratio(-3.0, 1.0);
         let _t123 = _t2 * _t122;
         let _t124 = _t45 * _t9;
@@ -1029,7 +1029,7 @@ for TodaLatticeGenerating6<'_, S> {
             + (S::ratio(3.0, 1.0) * _t165 - S::ratio(2.0, 1.0) * _t166) * _t39;
         let _t168 = _t55 + a2 * _t167;
         let _t169 = _t49 * _t16 + _t17 * _t164;
-        let _t170 = self._h1 * (_t2 * _t131 + _t161 - _t135 + _t168)
+        let _t170 = self._h1 * (_t168 + (_t161 + _t2 * _t131) - _t135)
             + self._h3 * (_t123 - _t169) + self._h0 * _t126;
         let _t171 = self._h3 * _t154 + self._h1 * (_t151 - _t153);
         let _t172 = self._h3 * _t169 - self._h1 * (_t168 - -_t161) + self._h0 * _t162;
@@ -1107,7 +1107,7 @@ for TodaLatticeGenerating6<'_, S> {
         hessian[(4, 4)] = _t187 + _t16 * self._h1 * _t167
             + _t17 * S::ratio(1.0, 720.0) * (self._h10 * _t165 - self._h11 * _t166)
             + S::ratio(1.0, 1440.0)
-                * (a2 * self._h6 * (_t63 * _t182 + _t184 - _t185)
+                * (a2 * self._h6 * (_t184 + _t63 * _t182 - _t185)
                     - self._h6 * _t58 * _t156);
     }
 }
