@@ -16,10 +16,8 @@ pub struct HeavyTop {
     pub a2: f64,
     pub a3: f64,
     /// Their differences.
-    pub a2_a3: f64,
-    pub a1_a3: f64,
-    pub a1_a2: f64,
     pub a3_a2: f64,
+    pub a1_a3: f64,
     pub a2_a1: f64,
     /// Negatives.
     pub minus_a2: f64,
@@ -44,10 +42,8 @@ impl HeavyTop {
             a1,
             a2,
             a3,
-            a2_a3: a2 - a3,
-            a1_a3: a1 - a3,
-            a1_a2: a1 - a2,
             a3_a2: a3 - a2,
+            a1_a3: a1 - a3,
             a2_a1: a2 - a1,
             minus_a2: -a2,
             minus_a3: -a3,
@@ -65,9 +61,9 @@ pub fn vector_field(of: &HeavyTop, mu: &[f64; 6], out: &mut [f64; 6]) {
     let w2 = m2 * of.a2;
     let w3 = m3 * of.a3;
     let w1 = m1 * of.a1;
-    out[0] = g2 * of.c3 - g3 * of.c2 - m2 * m3 * of.a2_a3;
-    out[1] = g3 * of.c1 - g1 * of.c3 + m1 * m3 * of.a1_a3;
-    out[2] = g1 * of.c2 - g2 * of.c1 - m1 * m2 * of.a1_a2;
+    out[0] = g2 * of.c3 - g3 * of.c2 + m3 * (m2 * of.a3_a2);
+    out[1] = g3 * of.c1 - g1 * of.c3 + m3 * (m1 * of.a1_a3);
+    out[2] = g1 * of.c2 - g2 * of.c1 + m2 * (m1 * of.a2_a1);
     out[3] = g2 * w3 - g3 * w2;
     out[4] = g3 * w1 - g1 * w3;
     out[5] = g1 * w2 - g2 * w1;

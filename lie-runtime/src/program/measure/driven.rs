@@ -94,37 +94,51 @@ fn row_of<V: State<f64>>(solution: &Solution<f64, V>, place: usize) -> Row {
     row
 }
 
-/// The rows by single steps.
-fn by_hand<P: Poisson<f64>>(
+/// The rows by single steps, the branch of the system carried along as a run does.
+fn by_hand<P: Poisson<f64> + Clone>(
     system: &P,
     method: &dyn AnyMethod<f64, P>,
     mu: &P::State,
     h: f64,
 ) -> Result<Vec<Row>, StepFailure> {
     let newton = NewtonOptions::default();
-    let mut rows = Vec::new();
-    let mut state = mu.clone();
-    let mut done = 0_u32;
-    let mut stepper = method.any_stepper(system, h, &newton);
-    for place in PLACES {
-        while f64::from(done + 1) <= place {
+    let (mut rows, mut state, mut done) = (Vec::new(), mu.clone(), 0_u32);
+    let mut places = PLACES.into_iter().peekable();
+    let mut current = system.following(mu).unwrap_or_else(|| system.clone());
+    loop {
+        let mut stepper = method.any_stepper(&current, h, &newton);
+        let next = loop {
+            while let Some(place) = places.next_if(|place| f64::from(done + 1) > *place) {
+                let mut here = state.clone();
+                let rest = place * h - f64::from(done) * h;
+                if rest != 0.0 {
+                    let mut shorter = method.any_stepper(&current, rest, &newton);
+                    shorter.step(&mut here)?;
+                }
+                rows.push(row_at(&current, place * h, &here));
+            }
+            if places.peek().is_none() {
+                return Ok(rows);
+            }
             stepper.step(&mut state)?;
             done += 1;
-        }
-        let mut here = state.clone();
-        let rest = place * h - f64::from(done) * h;
-        if rest != 0.0 {
-            method.any_stepper(system, rest, &newton).step(&mut here)?;
-        }
-        let mut casimirs = vec![0.0; P::CASIMIRS];
-        system.casimirs(&here, &mut casimirs);
-        let mut row = vec![place * h];
-        row.extend(here.as_slice());
-        row.push(system.energy(&here));
-        row.extend(casimirs);
-        rows.push(row);
+            if let Some(next) = current.following(&state) {
+                break next;
+            }
+        };
+        drop(stepper);
+        current = next;
     }
-    Ok(rows)
+}
+
+fn row_at<P: Poisson<f64>>(system: &P, time: f64, mu: &P::State) -> Row {
+    let mut casimirs = vec![0.0; P::CASIMIRS];
+    system.casimirs(mu, &mut casimirs);
+    let mut row = vec![time];
+    row.extend(mu.as_slice());
+    row.push(system.energy(mu));
+    row.extend(casimirs);
+    row
 }
 
 /// The rows of the driver, as an observer keeps them and as a program writes them.
