@@ -267,7 +267,7 @@ impl Judge {
         });
         let components: Vec<_> = components.collect();
         let along = inputs(along);
-        let combine = |of: fn(&(Rounded, Vec<Rounded>, Vec<Rounded>)) -> &Vec<Rounded>| {
+        let combine = |of: fn(&Derivatives) -> &Vec<Rounded>| {
             let entries = components.first().map_or(0, |c| of(c).len());
             let sum = |place: usize| {
                 let terms = components.iter().zip(&along);
@@ -280,7 +280,7 @@ impl Judge {
             "pullback" => combine(|c| &c.1),
             "curvature" => combine(|c| &c.2),
             _ => {
-                let row = |c: &(Rounded, Vec<Rounded>, Vec<Rounded>)| {
+                let row = |c: &Derivatives| {
                     Rounded::sum(c.1.iter().zip(&along).map(|(slope, v)| slope.mul(v)))
                 };
                 components.iter().map(row).collect()
@@ -288,6 +288,9 @@ impl Judge {
         })
     }
 }
+
+/// A value, its gradient, and its second derivatives row by row.
+type Derivatives = (Rounded, Vec<Rounded>, Vec<Rounded>);
 
 /// Value, gradient or second derivatives, by the name of the kernel.
 fn chosen(

@@ -182,6 +182,10 @@ impl Declared {
     }
 
     /// First and second derivatives of a function of n variables.
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "a matrix is filled on both sides of its diagonal"
+    )]
     pub(super) fn derivatives<T: Number>(
         &self,
         at: &[T],

@@ -112,7 +112,10 @@ impl Evidence {
                 "{kernel}: a spoiled value passes, it is not judged"
             ));
         }
-        if let Some(excess) = self.reference.filter(|excess| !(*excess <= 1.0)) {
+        if let Some(excess) = self
+            .reference
+            .filter(|excess| excess.is_nan() || *excess > 1.0)
+        {
             failures.push(format!(
                 "the reference solution is {} times as far from that of the declaration as is allowed",
                 short(excess)

@@ -141,12 +141,15 @@ fn row_at<P: Poisson<f64>>(system: &P, time: f64, mu: &P::State) -> Row {
     row
 }
 
+/// What an observer kept, and the rows that were written.
+type Seen<V> = (Solution<f64, V>, Vec<Row>);
+
 /// The rows of the driver, as an observer keeps them and as a program writes them.
 fn run<P: Poisson<f64>>(
     problem: &Problem<f64, P>,
     method: &dyn AnyMethod<f64, P>,
     options: &Options,
-) -> Result<(Solution<f64, P::State>, Vec<Row>), StepFailure> {
+) -> Result<Seen<P::State>, StepFailure> {
     let (mut bytes, mut messages) = (Vec::new(), Vec::new());
     let interrupted = AtomicBool::new(false);
     let mut recorder = Recorder::new::<P>();
