@@ -36,7 +36,7 @@ where
     M: Method<f64, RigidBodySystem<f64>>,
 {
     let problem = Problem::new(RigidBody::new().system()?, START, (0.0, END));
-    let mut monitor = DriftMonitor::new::<RigidBodySystem<f64>>();
+    let mut monitor = DriftMonitor::new();
     let options = Options::new(STEP);
     let solution = solve_observed(&problem, method, &options, &mut monitor)?;
     for drift in std::iter::once(&monitor.drift().energy).chain(&monitor.drift().casimirs) {

@@ -52,7 +52,7 @@ fn report<M: Method<f64, Top> + Copy>(
 ) -> Result<(), Box<dyn Error>> {
     let mut before = None;
     for step in [0.1, 0.05, 0.025] {
-        let mut monitor = DriftMonitor::new::<Top>();
+        let mut monitor = DriftMonitor::new();
         let solution = run(method, step, &mut monitor)?;
         let (_, end) = solution.last().ok_or("an empty run")?;
         let error = (0..6)
@@ -78,7 +78,7 @@ fn report<M: Method<f64, Top> + Copy>(
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut monitor = DriftMonitor::new::<Top>();
+    let mut monitor = DriftMonitor::new();
     let fine = run(Gauss6, 0.005, &mut monitor)?;
     let (_, reference) = fine.last().ok_or("an empty run")?;
 

@@ -88,7 +88,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let casimir = casimir_residual(&system, &START.into());
 
         let problem = Problem::new(system, START, (0.0, END));
-        let mut monitor = DriftMonitor::new::<System>();
+        let mut monitor = DriftMonitor::new();
         let solution = solve_observed(
             &problem,
             LieMidpoint::exp(),

@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         mu0: Gyrostat::new().initial_state(),
         span: (0.0, END),
     };
-    let mut monitor = DriftMonitor::new::<GyrostatSystem<f64>>();
+    let mut monitor = DriftMonitor::new();
     let solution = solve_observed(
         &problem,
         LieMidpoint::exp(),

@@ -30,7 +30,7 @@ fn run<M: Method<f64, SatelliteSystem>>(
 ) -> Result<(Solution<f64, State>, Drift), Box<dyn Error>> {
     let satellite = Satellite::new();
     let problem = Problem::new(satellite.system()?, satellite.initial_state(), (0.0, end));
-    let mut monitor = DriftMonitor::new::<SatelliteSystem>();
+    let mut monitor = DriftMonitor::new();
     let solution = solve_observed(&problem, method, &Options::new(step), &mut monitor)?;
     Ok((solution, monitor.drift().clone()))
 }

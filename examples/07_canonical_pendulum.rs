@@ -45,7 +45,7 @@ where
     M: Method<f64, CanonicalSystem<f64>>,
 {
     let problem = Problem::new(Canonical::new().system()?, START, (0.0, 40.0 * END));
-    let mut monitor = DriftMonitor::new::<CanonicalSystem<f64>>();
+    let mut monitor = DriftMonitor::new();
     let solution = solve_observed(&problem, method, &Options::new(0.5), &mut monitor)?;
     let drift = &monitor.drift().energy;
     println!(

@@ -34,7 +34,7 @@ where
         mu0: LotkaVolterra::new().initial_state(),
         span: (0.0, END),
     };
-    let mut monitor = DriftMonitor::new::<LotkaVolterraSystem<f64>>();
+    let mut monitor = DriftMonitor::new();
     let solution = solve_observed(&problem, method, &Options::new(STEP), &mut monitor)?;
     let drift = monitor.drift();
     println!(

@@ -381,7 +381,7 @@ fn drift<P: Poisson<f64>>(
     count: u32,
 ) -> (f64, f64) {
     let mut mu = state(system, start);
-    let mut casimirs = vec![0.0; P::CASIMIRS];
+    let mut casimirs = vec![0.0; system.casimir_count()];
     system.casimirs(&mu, &mut casimirs);
     let energy = system.hamiltonian(&mu);
     let mut stepper = method.stepper(system, h, &NewtonOptions::default());

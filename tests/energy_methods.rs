@@ -198,7 +198,7 @@ fn drift<D: Declared>(method: impl Method<f64, D::System<f64>>, h: f64, steps: u
         mu0: D::initial::<f64>(),
         span: (0.0, h * f64::from(steps)),
     };
-    let mut monitor = DriftMonitor::<f64>::new::<D::System<f64>>();
+    let mut monitor = DriftMonitor::<f64>::new();
     let options = Options::new(h).save(Save::Ends);
     integrate(&problem, method, &options, &mut monitor).expect("every step converges");
     monitor.drift().clone()
@@ -210,17 +210,13 @@ where
     D::System<f64>: Energy<f64>,
 {
     const BOUND: f64 = 1e-13;
-    let degrees = <D::System<f64> as Poisson<f64>>::CASIMIR_DEGREES;
+    let system = D::declared::<f64>();
     macro_rules! check {
         ($method:expr, $orbit:expr) => {
             let drift = drift::<D>($method, 0.05, 1000);
             assert!(drift.energy.max < BOUND, "{}: {:?}", D::FILE, drift.energy);
             for (index, casimir) in drift.casimirs.iter().enumerate() {
-                let quadratic = degrees
-                    .get(index)
-                    .copied()
-                    .flatten()
-                    .is_some_and(|d| d <= 2);
+                let quadratic = system.casimir_degree(index).is_some_and(|d| d <= 2);
                 if $orbit || quadratic {
                     assert!(casimir.max < BOUND, "{}: {casimir:?}", D::FILE);
                 }

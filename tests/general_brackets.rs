@@ -294,14 +294,12 @@ fn symplectic_methods_on_the_canonical_pendulum() {
     }
     const { assert!(<ImplicitMidpoint as Facts>::PRESERVES.constant_poisson) };
     const { assert!(!<Rk4 as Facts>::PRESERVES.constant_poisson) };
-    let degree = |degree: Option<u32>| degree;
-    type System<B> = <B as Bracketed>::System<f64>;
-    assert_eq!(degree(System::<CanonicalPendulum>::POISSON_DEGREE), Some(0));
-    assert_eq!(
-        degree(System::<BodyWithCirculation>::POISSON_DEGREE),
-        Some(1)
-    );
-    assert_eq!(degree(System::<LotkaVolterra>::POISSON_DEGREE), Some(2));
+    fn degree<B: Bracketed>() -> Option<u32> {
+        B::declared::<f64>().poisson_degree()
+    }
+    assert_eq!(degree::<CanonicalPendulum>(), Some(0));
+    assert_eq!(degree::<BodyWithCirculation>(), Some(1));
+    assert_eq!(degree::<LotkaVolterra>(), Some(2));
 }
 
 fn end<P: Poisson<f64>>(

@@ -497,7 +497,7 @@ fn orders() {
 #[test]
 fn casimirs_over_many_steps() {
     let drift = |method: &dyn Fn(&mut DriftMonitor<f64>)| {
-        let mut monitor = DriftMonitor::<f64>::new::<se3_heavy_top::HeavyTopSystem>();
+        let mut monitor = DriftMonitor::<f64>::new();
         method(&mut monitor);
         monitor.drift().clone()
     };

@@ -67,7 +67,7 @@ where
                 bits,
                 x.to_bits(),
                 "{} {}: lane {lane}, coordinate {row}",
-                P1::NAME,
+                scalar.name(),
                 M::ID
             );
         }

@@ -350,7 +350,7 @@ fn inverse(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// The largest entry of `Ad*_g mu0 - mu` by the declared matrices, `<Ad*_g mu0, e_k> = <mu0, g e_k g^-1>`.
 fn coadjoint_defect<P: MatrixPoisson<f64> + MatrixGroup<f64>>(mu0: &[f64], end: &Run) -> f64 {
-    let n = P::SIZE;
+    let n = system.group().size;
     let g: Vec<Vec<f64>> = end.element.chunks(n).map(<[f64]>::to_vec).collect();
     let back = inverse(&g);
     let matrix = |entries: &[Entry]| {
@@ -361,9 +361,9 @@ fn coadjoint_defect<P: MatrixPoisson<f64> + MatrixGroup<f64>>(mu0: &[f64], end: 
         matrix
     };
     let mut largest = 0.0_f64;
-    for (k, basis) in P::MATRICES.iter().enumerate() {
+    for (k, basis) in system.group().matrices.iter().enumerate() {
         let turned = times(&times(&g, &matrix(basis)), &back);
-        let pairs = P::REPRESENTATION.dual.iter().zip(mu0);
+        let pairs = system.representation().dual.iter().zip(mu0);
         let value: f64 = pairs
             .map(|(dual, mu)| {
                 let product = times(&matrix(dual), &turned);
@@ -388,7 +388,7 @@ fn mu_moves_with_the_group_element_in_other_groups() {
         Gauss4: Method<f64, P>,
         Rk4: Method<f64, P>,
     {
-        let name = P::NAME;
+        let name = system.name();
         macro_rules! defect {
             ($method:expr) => {{
                 let end = run(

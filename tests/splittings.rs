@@ -70,7 +70,7 @@ fn fused_equals_generic<P: SeparablePoisson<f64>>(system: &P) -> Vec<usize> {
     let mut random = Random(2018);
     let mut largest = 0.0_f64;
     for _ in 0..50 {
-        let mu = state(system, &random.numbers(P::DIM));
+        let mu = state(system, &random.numbers(system.dimension()));
         let t = 3.0 * random.number();
         for (piece, &coordinate) in coordinates.iter().enumerate() {
             let (mut one, mut other) = (mu.clone(), mu.clone());
@@ -103,16 +103,16 @@ fn fused_equals_generic<P: SeparablePoisson<f64>>(system: &P) -> Vec<usize> {
         // a step: pieces that do nothing only move the places where sweeps turn
         let (mut one, mut other) = (mu.clone(), mu.clone());
         advance(system, &Splitting2::new(), 0.2, 1, &mut one);
-        for (piece, h) in (0..P::DIM)
+        for (piece, h) in (0..system.dimension())
             .map(|piece| (piece, 0.1))
-            .chain((0..P::DIM).rev().map(|piece| (piece, 0.1)))
+            .chain((0..system.dimension()).rev().map(|piece| (piece, 0.1)))
         {
             generic.flow(piece, h, &mut other);
         }
         largest = largest.max(distance(one.as_slice(), other.as_slice()));
     }
-    println!("{}: flows differ by {largest:.1e}", P::NAME);
-    assert!(largest < 3e-15, "{}: {largest:e}", P::NAME);
+    println!("{}: flows differ by {largest:.1e}", system.name());
+    assert!(largest < 3e-15, "{}: {largest:e}", system.name());
     coordinates
 }
 
@@ -121,12 +121,14 @@ fn coordinates<P: Poisson<f64>>(
     system: &P,
     flows: &impl PieceFlows<f64, State = P::State>,
 ) -> Vec<usize> {
-    let mu = state(system, &Random(7).numbers(P::DIM));
+    let mu = state(system, &Random(7).numbers(system.dimension()));
     let pieces = (0..flows.pieces()).map(|piece| {
         let mut xi = system.zero_state();
         flows.direction(piece, 1.0, &mu, &mut xi);
-        let along: Vec<usize> = (0..P::DIM).filter(|&i| xi.as_slice()[i] != 0.0).collect();
-        assert_eq!(along.len(), 1, "{} {piece}", P::NAME);
+        let along: Vec<usize> = (0..system.dimension())
+            .filter(|&i| xi.as_slice()[i] != 0.0)
+            .collect();
+        assert_eq!(along.len(), 1, "{} {piece}", system.name());
         along[0]
     });
     pieces.collect()
@@ -157,7 +159,7 @@ where
     D::System<F64x8>: SeparablePoisson<F64x8>,
 {
     let system = D::declared::<f64>();
-    let casimirs = <D::System<f64> as Poisson<f64>>::CASIMIRS;
+    let casimirs = system.casimir_count();
     let mut mu = D::initial::<f64>();
     let (mut first, mut last) = (vec![0.0; casimirs], vec![0.0; casimirs]);
     system.casimirs(&mu, &mut first);

@@ -154,11 +154,9 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
         impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for #system<S> {
             type State = #vector;
             type Jacobian = ::lie_runtime::__private::SMatrix<S, #n, #n>;
-            const DIM: usize = #n;
-            const CASIMIRS: usize = 0;
-            const NAME: &'static str = "";
-            const COORDINATES: &'static [&'static str] = &[];
-            const CASIMIR_NAMES: &'static [&'static str] = &[];
+            fn dimension(&self) -> usize { #n }
+            fn name(&self) -> &str { "" }
+            fn coordinate(&self, _index: usize) -> &str { "" }
             fn zero_state(&self) -> Self::State { Self::State::repeat(S::zero()) }
             fn zero_jacobian(&self) -> Self::Jacobian { Self::Jacobian::repeat(S::zero()) }
             fn hamiltonian(&self, _mu: &Self::State) -> S { S::zero() }

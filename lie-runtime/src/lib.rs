@@ -96,7 +96,7 @@ pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 pub use structure::{
-    ClosedRealization, CotangentPoisson, InertiaPoisson, MatrixGroup, MatrixPoisson,
+    ClosedRealization, CotangentPoisson, Group, InertiaPoisson, MatrixGroup, MatrixPoisson,
     RealizedPoisson, Spectrum, SpinPoisson,
 };
 
@@ -145,8 +145,8 @@ pub mod __private {
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};
     pub use crate::structure::{
-        CotangentPoisson, Entry, InertiaPoisson, MatrixGroup, MatrixPoisson, Plane, Representation,
-        Spectrum, SpinPoisson,
+        CotangentPoisson, Entry, Group, InertiaPoisson, MatrixGroup, MatrixPoisson, Plane,
+        Representation, Spectrum, SpinPoisson,
     };
     pub use core::marker::PhantomData;
     pub use nalgebra::{SMatrix, SVector};

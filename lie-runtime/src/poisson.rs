@@ -31,30 +31,39 @@ pub trait Poisson<S: Scalar>: Sized {
     type Jacobian: SquareMatrix<S>;
 
     /// The number of coordinates n.
-    const DIM: usize;
-    /// The number of Casimirs that [`Poisson::casimirs`] writes.
-    const CASIMIRS: usize;
+    fn dimension(&self) -> usize;
     /// The name of the system.
-    const NAME: &'static str;
-    /// The names of the coordinates, n of them.
-    const COORDINATES: &'static [&'static str];
-    /// The names of the Casimirs.
-    const CASIMIR_NAMES: &'static [&'static str];
+    fn name(&self) -> &str;
+    /// The name of a coordinate.
+    fn coordinate(&self, index: usize) -> &str;
+    /// The number of Casimirs that [`Poisson::casimirs`] writes.
+    fn casimir_count(&self) -> usize {
+        0
+    }
+    /// The name of a Casimir.
+    fn casimir_name(&self, _index: usize) -> &str {
+        ""
+    }
     /// The total degree of H in the coordinates where H is a polynomial in them. Quadrature along
     /// segments then has the nodes that make it exact.
-    const HAMILTONIAN_DEGREE: Option<u32> = None;
-    /// The total degrees of the Casimirs in the coordinates where they are polynomials; Casimirs beyond
-    /// the end of the list are of unknown degree.
-    const CASIMIR_DEGREES: &'static [Option<u32>] = &[];
-
-    /// The Casimirs with several branches, by their places: the value of such a one jumps where an angle in it
-    /// passes from pi to -pi, so that its drift says nothing. Its gradient does not jump.
-    const MULTIVALUED_CASIMIRS: &'static [usize] = &[];
-
+    fn hamiltonian_degree(&self) -> Option<u32> {
+        None
+    }
+    /// The total degree of a Casimir in the coordinates where it is a polynomial and that is known.
+    fn casimir_degree(&self, _index: usize) -> Option<u32> {
+        None
+    }
+    /// Whether a Casimir has several branches: its value jumps where an angle in it passes from pi to -pi, so
+    /// that its drift says nothing. Its gradient does not jump.
+    fn casimir_is_multivalued(&self, _index: usize) -> bool {
+        false
+    }
     /// The largest total degree of an entry of the Poisson matrix in the coordinates, where all are
     /// polynomials in them and that is known: 0 for a constant one, of which symplectic methods are
     /// Poisson maps.
-    const POISSON_DEGREE: Option<u32> = None;
+    fn poisson_degree(&self) -> Option<u32> {
+        None
+    }
 
     /// A state of the right size, all coordinates 0.
     fn zero_state(&self) -> Self::State;
@@ -102,9 +111,9 @@ pub trait Poisson<S: Scalar>: Sized {
         self.jacobian(mu, jacobian);
     }
 
-    /// The Casimirs at mu; `out` has [`Poisson::CASIMIRS`] entries.
+    /// The Casimirs at mu; `out` has [`Poisson::casimir_count`] entries.
     fn casimirs(&self, mu: &Self::State, out: &mut [S]);
-    /// The gradient of one Casimir; `index` must be below [`Poisson::CASIMIRS`].
+    /// The gradient of one Casimir; `index` must be below [`Poisson::casimir_count`].
     fn casimir_gradient(&self, index: usize, mu: &Self::State, out: &mut Self::State);
 }
 
@@ -142,7 +151,9 @@ pub trait Lift<S: Scalar>: Poisson<S> {
 )]
 pub trait CayleyPoisson<S: Scalar>: LiePoisson<S> {
     /// What is known of the eigenvalues of the representation, at which the Cayley map has poles.
-    const SPECTRUM: Spectrum = Spectrum::Unknown;
+    fn spectrum(&self) -> Spectrum<'_> {
+        Spectrum::Unknown
+    }
     /// The triple product paired with mu: `out_b = T_abc^d x^a z^c mu_d`, symmetric in x and z.
     fn triple(&self, x: &Self::State, z: &Self::State, mu: &Self::State, out: &mut Self::State);
 }

@@ -56,7 +56,7 @@ impl Entry {
 /// A Hamiltonian system on `T*G`: the Hamiltonian `H(g, mu)` is not invariant under the group, and the state
 /// is mu with the coordinates of the configuration, the entries of g.
 ///
-/// It is the Lie–Poisson system of a semidirect product: the first [`CotangentPoisson::MOMENTA`] basis
+/// It is the Lie–Poisson system of a semidirect product: the first [`CotangentPoisson::momenta`] basis
 /// elements span the algebra of the group, which acts on the span of the others; these commute. The time and
 /// its momentum take part where H depends on it.
 #[diagnostic::on_unimplemented(
@@ -69,7 +69,7 @@ pub trait CotangentPoisson<S: Scalar>: LiePoisson<S> {
     /// A square matrix of their number.
     type MomentumMatrix: SquareMatrix<S>;
     /// How many coordinates, the first ones, are momenta.
-    const MOMENTA: usize;
+    fn momenta(&self) -> usize;
     /// Momenta, all 0.
     fn zero_momentum(&self) -> Self::Momentum;
     /// A matrix, all entries 0.
@@ -79,24 +79,41 @@ pub trait CotangentPoisson<S: Scalar>: LiePoisson<S> {
 /// What is known of the eigenvalues of `rho(xi)`, for a representation `rho`: where one is real and above 2 in
 /// absolute value, the Cayley map is not joined to the identity along xi.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Spectrum {
+pub enum Spectrum<'a> {
     /// None is real but 0, for any xi: no Cayley map of an element has a pole on its way.
     Imaginary,
     /// `|lambda| <= sum_k w_k |xi^k|` with these weights.
-    Bounded(&'static [f64]),
+    Bounded(&'a [f64]),
     /// Nothing.
     Unknown,
 }
 
 /// The matrices of a representation `rho` and of its dual, by their nonzero entries.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Representation {
+pub struct Representation<'a> {
     /// `rho(e_k)`, one list per basis element.
-    pub matrices: &'static [&'static [Entry]],
+    pub matrices: &'a [&'a [Entry]],
     /// Matrices `D^k` with `tr(D^k rho(e_l)) = delta_kl`: `W = sum_k mu_k D^k` has the momentum mu.
-    pub dual: &'static [&'static [Entry]],
+    pub dual: &'a [&'a [Entry]],
     /// Whether all these matrices are antisymmetric.
     pub skew: bool,
+}
+
+/// A group of matrices, by those of its algebra.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Group<'a> {
+    /// The size of the matrices.
+    pub size: usize,
+    /// `rho(e_k)`, one list of nonzero entries per basis element.
+    pub matrices: &'a [&'a [Entry]],
+    /// Whether Gauss methods applied to `g' = g rho(xi)` stay in the group, up to matrices that commute with it: the
+    /// span is closed under `(abc + cba)/2`.
+    pub closed: bool,
+    /// Whether all matrices are antisymmetric: the group element is orthogonal.
+    pub orthogonal: bool,
+    /// Whether the system is right-invariant, `g' = xi g`: its structure constants and matrices then are those
+    /// of the opposite algebra, the negative ones.
+    pub right: bool,
 }
 
 /// A Lie–Poisson system whose algebra has declared matrices, and with them a group of matrices.
@@ -105,18 +122,8 @@ pub struct Representation {
     note = "declare `matrices` beside the brackets"
 )]
 pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
-    /// The size of the matrices.
-    const SIZE: usize;
-    /// `rho(e_k)`, one list per basis element.
-    const MATRICES: &'static [&'static [Entry]];
-    /// Whether Gauss methods applied to `g' = g rho(xi)` stay in the group, up to matrices that commute with it: the
-    /// span is closed under `(abc + cba)/2`.
-    const CLOSED: bool;
-    /// Whether all matrices are antisymmetric: the group element is orthogonal.
-    const ORTHOGONAL: bool;
-    /// Whether the system is right-invariant, `g' = xi g`: its structure constants and matrices then are those
-    /// of the opposite algebra, the negative ones.
-    const RIGHT: bool = false;
+    /// The group, by the matrices of its algebra.
+    fn group(&self) -> Group<'_>;
 }
 
 /// A Lie–Poisson system with a matrix representation that carries a reduction of `T*V` to g*.
@@ -132,9 +139,11 @@ pub trait MatrixPoisson<S: Scalar>: LiePoisson<S> {
     /// A matrix of the size of the representation.
     type Matrix: SquareMatrix<S>;
     /// The matrices.
-    const REPRESENTATION: Representation;
+    fn representation(&self) -> Representation<'_>;
     /// The eigenvalues of the matrices.
-    const SPECTRUM: Spectrum = Spectrum::Unknown;
+    fn spectrum(&self) -> Spectrum<'_> {
+        Spectrum::Unknown
+    }
     /// A matrix of the size of the representation, all entries 0.
     fn zero_matrix(&self) -> Self::Matrix;
 }
@@ -147,7 +156,7 @@ pub trait MatrixPoisson<S: Scalar>: LiePoisson<S> {
 )]
 pub trait SpinPoisson<S: Scalar>: LiePoisson<S> {
     /// The coordinates of each spin.
-    const SPINS: &'static [[usize; 3]];
+    fn spins(&self) -> &[[usize; 3]];
     /// The constant c of one spin.
     fn scale(&self, spin: usize) -> S;
 }
@@ -166,11 +175,11 @@ pub trait RealizedPoisson<S: Scalar>: Poisson<S> {
     /// A square matrix of its size.
     type PointMatrix: SquareMatrix<S>;
     /// The number of positions and momenta together.
-    const POINT_DIM: usize;
-    /// Their names.
-    const CANONICAL: &'static [&'static str];
+    fn point_dimension(&self) -> usize;
+    /// The name of one of them.
+    fn canonical_name(&self, index: usize) -> &str;
     /// Whether the start is the user's; any other one is scaled to the size of the state.
-    const START_GIVEN: bool;
+    fn start_is_given(&self) -> bool;
     /// A point, all coordinates 0.
     fn zero_point(&self) -> Self::Point;
     /// A matrix, all entries 0.
@@ -224,7 +233,7 @@ pub trait InertiaPoisson<S: Scalar>: LiePoisson<S> {
     /// An n x n matrix.
     type Matrix: SquareMatrix<S>;
     /// The plane of each basis element.
-    const PLANES: &'static [Plane];
+    fn planes(&self) -> &[Plane];
     /// An n x n matrix, all entries 0.
     fn zero_matrix(&self) -> Self::Matrix;
     /// The second moment `J_i` along one axis.

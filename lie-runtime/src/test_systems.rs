@@ -10,11 +10,15 @@ pub(crate) struct Spring;
 impl Poisson<f64> for Spring {
     type State = SVector<f64, 2>;
     type Jacobian = SMatrix<f64, 2, 2>;
-    const DIM: usize = 2;
-    const CASIMIRS: usize = 0;
-    const NAME: &'static str = "Spring";
-    const COORDINATES: &'static [&'static str] = &["q", "p"];
-    const CASIMIR_NAMES: &'static [&'static str] = &[];
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn name(&self) -> &str {
+        "Spring"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["q", "p"][index]
+    }
 
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(0.0)
@@ -52,12 +56,24 @@ pub(crate) struct Winding(pub Spring);
 impl Poisson<f64> for Winding {
     type State = SVector<f64, 2>;
     type Jacobian = SMatrix<f64, 2, 2>;
-    const DIM: usize = 2;
-    const CASIMIRS: usize = 2;
-    const NAME: &'static str = "Winding";
-    const COORDINATES: &'static [&'static str] = &["q", "p"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["angle", "square"];
-    const MULTIVALUED_CASIMIRS: &'static [usize] = &[0];
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn casimir_count(&self) -> usize {
+        2
+    }
+    fn name(&self) -> &str {
+        "Winding"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["q", "p"][index]
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        ["angle", "square"][index]
+    }
+    fn casimir_is_multivalued(&self, index: usize) -> bool {
+        index == 0
+    }
 
     fn zero_state(&self) -> Self::State {
         self.0.zero_state()

@@ -254,7 +254,7 @@ fn a_step_beyond_the_domain_is_refused() {
 fn the_energy_that_is_shown() {
     let system = Logarithmic::<true>::default();
     let problem = Problem::new(system, [0.3, 0.4], (0.0, 1.0));
-    let mut monitor = DriftMonitor::new::<Logarithmic<true>>();
+    let mut monitor = DriftMonitor::new();
     let options = Options::new(0.1);
     let solution = solve_observed(&problem, Rk4, &options, &mut monitor).expect("finite");
     for (mu, &energy) in solution.mu.iter().zip(&solution.energy) {

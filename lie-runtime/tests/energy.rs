@@ -226,7 +226,7 @@ where
         mu0,
         span: (0.0, h * f64::from(steps)),
     };
-    let mut monitor = DriftMonitor::<f64>::new::<P>();
+    let mut monitor = DriftMonitor::<f64>::new();
     let options = Options::new(h).save(Save::Ends);
     integrate(&problem, method, &options, &mut monitor).expect("every step converges");
     monitor.drift().clone()

@@ -68,7 +68,7 @@ where
         (0..N).for_each(|row| assert!((out[row].derivative - right[(row, column)]).abs() < 2e-15));
         assert!((dual.hamiltonian(&seeded).derivative - gradient[column]).abs() < 2e-15);
     }
-    for index in 0..P::CASIMIRS {
+    for index in 0..system.casimir_count() {
         system.casimir_gradient(index, &mu, &mut gradient);
         system.ad_star(&gradient, &mu, &mut first);
         assert!(Unknown::<f64>::max_norm(&first) < 1e-15, "Casimir {index}");

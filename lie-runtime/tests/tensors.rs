@@ -22,12 +22,18 @@ struct Pendulum;
 impl<S: Scalar> Poisson<S> for Pendulum {
     type State = SVector<S, 2>;
     type Jacobian = SMatrix<S, 2, 2>;
-    const DIM: usize = 2;
-    const CASIMIRS: usize = 0;
-    const NAME: &'static str = "Pendulum";
-    const COORDINATES: &'static [&'static str] = &["q", "p"];
-    const CASIMIR_NAMES: &'static [&'static str] = &[];
-    const POISSON_DEGREE: Option<u32> = Some(0);
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn name(&self) -> &str {
+        "Pendulum"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["q", "p"][index]
+    }
+    fn poisson_degree(&self) -> Option<u32> {
+        Some(0)
+    }
 
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())

@@ -120,11 +120,21 @@ macro_rules! of_nonpolynomial {
 impl<S: Scalar, const BLIND: bool> Poisson<S> for Blind<BLIND> {
     type State = SVector<S, 3>;
     type Jacobian = SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "Blind";
-    const COORDINATES: &'static [&'static str] = &["x", "y", "z"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
+    fn dimension(&self) -> usize {
+        3
+    }
+    fn casimir_count(&self) -> usize {
+        1
+    }
+    fn name(&self) -> &str {
+        "Blind"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["x", "y", "z"][index]
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        ["C"][index]
+    }
     of_nonpolynomial! {
         zero_state() -> SVector<S, 3>;
         zero_jacobian() -> SMatrix<S, 3, 3>;

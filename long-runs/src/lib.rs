@@ -19,7 +19,7 @@ pub fn drift<P: Poisson<f64>>(
     h: f64,
     steps: u32,
 ) -> Drift {
-    let mut monitor = DriftMonitor::<f64>::new::<P>();
+    let mut monitor = DriftMonitor::<f64>::new();
     let problem = Problem {
         system,
         mu0: start,

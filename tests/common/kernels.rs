@@ -13,16 +13,16 @@ pub fn derivatives<Q: Poisson<Dual<f64>>>(
     functions: usize,
     evaluate: impl Fn(&Q::State, &mut [Dual<f64>]),
 ) -> Vec<f64> {
-    let mut all = vec![0.0; functions * Q::DIM];
+    let mut all = vec![0.0; functions * dual.dimension()];
     let mut values = vec![Dual::zero(); functions];
-    for column in 0..Q::DIM {
+    for column in 0..dual.dimension() {
         let mut seeded = dual.zero_state();
         for (row, entry) in seeded.as_mut_slice().iter_mut().enumerate() {
             *entry = Dual::new(mu[row], if row == column { 1.0 } else { 0.0 });
         }
         evaluate(&seeded, &mut values);
         for (function, value) in values.iter().enumerate() {
-            all[function * Q::DIM + column] = value.derivative;
+            all[function * dual.dimension() + column] = value.derivative;
         }
     }
     all
@@ -65,7 +65,7 @@ pub fn of_poisson<P, Q>(
     let slope = derivatives(dual, &other, 1, |mu, out| out[0] = dual.hamiltonian(mu));
     fused.gradient(&mu, &mut vector[0]);
     errors.compare("gradient", vector[0].as_slice(), &slope);
-    let slope = derivatives(dual, &other, P::DIM, |mu, out| {
+    let slope = derivatives(dual, &other, fused.dimension(), |mu, out| {
         let mut gradient = dual.zero_state();
         dual.gradient(mu, &mut gradient);
         out.copy_from_slice(gradient.as_slice());
@@ -80,7 +80,7 @@ pub fn of_poisson<P, Q>(
     fused.jacobian(&mu, &mut matrix[0]);
     generic::jacobian(reference, &nu, &mut matrix[1]);
     errors.compare("jacobian", &entries(&matrix[0]), &entries(&matrix[1]));
-    let slope = derivatives(dual, &other, P::DIM, |mu, out| {
+    let slope = derivatives(dual, &other, fused.dimension(), |mu, out| {
         let mut field = dual.zero_state();
         dual.vector_field(mu, &mut field);
         out.copy_from_slice(field.as_slice());
@@ -100,11 +100,11 @@ pub fn of_poisson<P, Q>(
     );
 
     // the derivative of the Poisson matrix against a vector
-    let coordinates = random.numbers(P::DIM);
+    let coordinates = random.numbers(fused.dimension());
     let xi = state(fused, &coordinates);
     let turned = nudged(&coordinates, errors);
     fused.poisson_slope(&mu, &xi, &mut matrix[0]);
-    let slope = derivatives(dual, &other, P::DIM, |mu, out| {
+    let slope = derivatives(dual, &other, fused.dimension(), |mu, out| {
         let (xi, mut image) = (state(dual, &turned), dual.zero_state());
         generic::ad_star(dual, &xi, mu, &mut image);
         out.copy_from_slice(image.as_slice());
@@ -126,12 +126,12 @@ fn of_algebra<P: LiePoisson<f64>>(
     let (mu, nu) = (state(fused, mu), state(fused, &other));
     let mut vector = [fused.zero_state(), fused.zero_state()];
     let mut matrix = [fused.zero_jacobian(), fused.zero_jacobian()];
-    let coordinates = random.numbers(P::DIM);
+    let coordinates = random.numbers(fused.dimension());
     let (xi, other) = (
         state(fused, &coordinates),
         state(fused, &nudged(&coordinates, errors)),
     );
-    let eta = state(fused, &random.numbers(P::DIM));
+    let eta = state(fused, &random.numbers(fused.dimension()));
     fused.ad_star(&xi, &mu, &mut vector[0]);
     generic::ad_star(reference, &other, &nu, &mut vector[1]);
     errors.compare("ad_star", vector[0].as_slice(), vector[1].as_slice());
@@ -154,13 +154,13 @@ fn of_algebra<P: LiePoisson<f64>>(
     // {mu_i, mu_j} = -<mu, [e_i, e_j]>
     fused.poisson_matrix(&mu, &mut matrix[0]);
     let unit = |index: usize| {
-        let mut unit = vec![0.0; P::DIM];
+        let mut unit = vec![0.0; fused.dimension()];
         unit[index] = 1.0;
         state(fused, &unit)
     };
     let mut brackets = Vec::new();
-    for row in 0..P::DIM {
-        for column in 0..P::DIM {
+    for row in 0..fused.dimension() {
+        for column in 0..fused.dimension() {
             reference.ad(&unit(row), &unit(column), &mut vector[0]);
             brackets.push(-pairing(&nu, &vector[0]));
         }
@@ -174,9 +174,11 @@ where
     P: Poisson<f64>,
     Q: Poisson<Dual<f64>>,
 {
-    let slopes = derivatives(dual, other, P::CASIMIRS, |mu, out| dual.casimirs(mu, out));
+    let slopes = derivatives(dual, other, fused.casimir_count(), |mu, out| {
+        dual.casimirs(mu, out)
+    });
     let (mut gradient, mut image) = (fused.zero_state(), fused.zero_state());
-    for (index, slope) in slopes.chunks(P::DIM).enumerate() {
+    for (index, slope) in slopes.chunks(fused.dimension()).enumerate() {
         fused.casimir_gradient(index, mu, &mut gradient);
         errors.compare("casimir_gradient", gradient.as_slice(), slope);
         assert!(
@@ -184,7 +186,7 @@ where
             "Casimir {index} is constant"
         );
         generic::ad_star(fused, &gradient, mu, &mut image);
-        let zero = vec![errors.nudge; P::DIM];
+        let zero = vec![errors.nudge; fused.dimension()];
         errors.compare("bracket of a Casimir", image.as_slice(), &zero);
     }
 }

@@ -47,9 +47,17 @@ impl Writer<'_> {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::RealizedPoisson<S> for #system<S> {
                 type Point = ::lie_runtime::__private::SVector<S, #count>;
                 type PointMatrix = ::lie_runtime::__private::SMatrix<S, #count, #count>;
-                const POINT_DIM: usize = #count;
-                const CANONICAL: &'static [&'static str] = &[#(#names),*];
-                const START_GIVEN: bool = #given;
+                fn point_dimension(&self) -> usize {
+                    #count
+                }
+
+                fn canonical_name(&self, index: usize) -> &str {
+                    [#(#names),*][index]
+                }
+
+                fn start_is_given(&self) -> bool {
+                    #given
+                }
 
                 fn zero_point(&self) -> Self::Point {
                     Self::Point::repeat(S::zero())

@@ -39,11 +39,16 @@ impl Writer<'_> {
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for #system<S> {
                 type Matrix = ::lie_runtime::__private::SMatrix<S, #size, #size>;
-                const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-                    matrices: &[#(#matrices),*],
-                    dual: &[#(#dual),*],
-                    skew: #skew,
-                };
+
+                fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+                    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+                        matrices: &[#(#matrices),*],
+                        dual: &[#(#dual),*],
+                        skew: #skew,
+                    };
+                    REPRESENTATION
+                }
+
                 #spectrum
 
                 fn zero_matrix(&self) -> Self::Matrix {
@@ -59,7 +64,7 @@ impl Writer<'_> {
         Some(spectrum(&representation.matrices))
     }
 
-    /// The constant of the traits that says it.
+    /// The method of the traits that says it.
     pub(super) fn spectrum(&self) -> Option<TokenStream> {
         let value = match self.known_spectrum()? {
             Spectrum::Imaginary => quote! { ::lie_runtime::__private::Spectrum::Imaginary },
@@ -69,7 +74,9 @@ impl Writer<'_> {
             }
         };
         Some(quote! {
-            const SPECTRUM: ::lie_runtime::__private::Spectrum = #value;
+            fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+                #value
+            }
         })
     }
 
@@ -79,15 +86,19 @@ impl Writer<'_> {
         let size = index(group.size);
         let (closed, right) = (group.closed, group.right);
         let orthogonal = group.matrices.iter().all(|matrix| is_skew(matrix));
-        let right = right.then(|| quote! { const RIGHT: bool = true; });
         let matrices = group.matrices.iter().map(|matrix| entries(matrix));
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for #system<S> {
-                const SIZE: usize = #size;
-                const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[#(#matrices),*];
-                const CLOSED: bool = #closed;
-                const ORTHOGONAL: bool = #orthogonal;
-                #right
+                fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+                    const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+                        size: #size,
+                        matrices: &[#(#matrices),*],
+                        closed: #closed,
+                        orthogonal: #orthogonal,
+                        right: #right,
+                    };
+                    GROUP
+                }
             }
         })
     }
@@ -99,7 +110,10 @@ impl Writer<'_> {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::CotangentPoisson<S> for #system<S> {
                 type Momentum = ::lie_runtime::__private::SVector<S, #momenta>;
                 type MomentumMatrix = ::lie_runtime::__private::SMatrix<S, #momenta, #momenta>;
-                const MOMENTA: usize = #momenta;
+
+                fn momenta(&self) -> usize {
+                    #momenta
+                }
 
                 fn zero_momentum(&self) -> Self::Momentum {
                     Self::Momentum::repeat(S::zero())
@@ -123,7 +137,9 @@ impl Writer<'_> {
         let (argument, value) = self.chosen("spin", &scales);
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for #system<S> {
-                const SPINS: &'static [[usize; 3]] = &[#(#triples),*];
+                fn spins(&self) -> &[[usize; 3]] {
+                    &[#(#triples),*]
+                }
 
                 #[inline]
                 fn scale(&self, #argument: usize) -> S {
@@ -147,7 +163,11 @@ impl Writer<'_> {
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::InertiaPoisson<S> for #system<S> {
                 type Matrix = ::lie_runtime::__private::SMatrix<S, #size, #size>;
-                const PLANES: &'static [::lie_runtime::__private::Plane] = &[#(#planes),*];
+
+                fn planes(&self) -> &[::lie_runtime::__private::Plane] {
+                    const PLANES: &[::lie_runtime::__private::Plane] = &[#(#planes),*];
+                    PLANES
+                }
 
                 fn zero_matrix(&self) -> Self::Matrix {
                     Self::Matrix::repeat(S::zero())

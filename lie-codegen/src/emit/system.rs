@@ -29,32 +29,7 @@ impl Writer<'_> {
         }
         let system = format_ident!("{}System", self.blueprint.name);
         let n = index(self.source.dimension);
-        let casimirs = index(self.source.casimirs.len());
-        let name = self.blueprint.name.to_string();
-        let coordinates = self.blueprint.coordinates.iter().map(Ident::to_string);
-        let casimir_names = &self.blueprint.casimir_names;
-        let option = |degree: &Option<u32>| match degree {
-            Some(degree) => {
-                let degree = index(*degree as usize);
-                quote! { ::core::option::Option::Some(#degree) }
-            }
-            None => quote! { ::core::option::Option::None },
-        };
-        let degree = option(&self.blueprint.hamiltonian_degree);
-        let degrees = self.blueprint.casimir_degrees.iter().map(option);
-        // of an algebra nothing is said: its Poisson matrix is linear
-        let poisson_degree = (!self.source.is_lie()).then(|| {
-            let degree = option(&self.blueprint.poisson_degree);
-            quote! { const POISSON_DEGREE: ::core::option::Option<u32> = #degree; }
-        });
-        let multivalued = self.blueprint.multivalued.iter().enumerate();
-        let multivalued: Vec<_> = multivalued
-            .filter(|(_, is)| **is)
-            .map(|(place, _)| super::names::index(place))
-            .collect();
-        let multivalued = (!multivalued.is_empty()).then(|| {
-            quote! { const MULTIVALUED_CASIMIRS: &'static [usize] = &[#(#multivalued),*]; }
-        });
+        let facts = self.facts();
         let coadjoint = self.source.is_lie().then(|| {
             quote! {
                 #[allow(non_snake_case, clippy::many_single_char_names)]
@@ -80,15 +55,7 @@ impl Writer<'_> {
                 type State = ::lie_runtime::__private::SVector<S, #n>;
                 type Jacobian = ::lie_runtime::__private::SMatrix<S, #n, #n>;
 
-                const DIM: usize = #n;
-                const CASIMIRS: usize = #casimirs;
-                const NAME: &'static str = #name;
-                const COORDINATES: &'static [&'static str] = &[#(#coordinates),*];
-                const CASIMIR_NAMES: &'static [&'static str] = &[#(#casimir_names),*];
-                const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = #degree;
-                const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[#(#degrees),*];
-                #multivalued
-                #poisson_degree
+                #facts
 
                 fn zero_state(&self) -> Self::State {
                     Self::State::repeat(S::zero())
@@ -104,6 +71,84 @@ impl Writer<'_> {
             #coadjoint
 
             #cayley
+        }
+    }
+
+    /// What the system says of itself: its size, its names and the degrees of its functions.
+    fn facts(&self) -> TokenStream {
+        let blueprint = self.blueprint;
+        let n = index(self.source.dimension);
+        let name = blueprint.name.to_string();
+        let coordinates = blueprint.coordinates.iter().map(Ident::to_string);
+        let option = |degree: &Option<u32>| match degree {
+            Some(degree) => {
+                let degree = index(*degree as usize);
+                quote! { ::core::option::Option::Some(#degree) }
+            }
+            None => quote! { ::core::option::Option::None },
+        };
+        let of_h = blueprint.hamiltonian_degree.is_some().then(|| {
+            let degree = option(&blueprint.hamiltonian_degree);
+            quote! {
+                fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+                    #degree
+                }
+            }
+        });
+        // of an algebra nothing is said: its Poisson matrix is linear
+        let of_matrix = (!self.source.is_lie() && blueprint.poisson_degree.is_some()).then(|| {
+            let degree = option(&blueprint.poisson_degree);
+            quote! {
+                fn poisson_degree(&self) -> ::core::option::Option<u32> {
+                    #degree
+                }
+            }
+        });
+        let casimirs = (!blueprint.casimir_names.is_empty()).then(|| {
+            let (count, names) = (
+                index(blueprint.casimir_names.len()),
+                &blueprint.casimir_names,
+            );
+            let degrees = blueprint.casimir_degrees.iter().map(option);
+            quote! {
+                fn casimir_count(&self) -> usize {
+                    #count
+                }
+
+                fn casimir_name(&self, index: usize) -> &str {
+                    [#(#names),*][index]
+                }
+
+                fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+                    [#(#degrees),*][index]
+                }
+            }
+        });
+        let multivalued = blueprint.multivalued.contains(&true).then(|| {
+            let multivalued = &blueprint.multivalued;
+            quote! {
+                fn casimir_is_multivalued(&self, index: usize) -> bool {
+                    [#(#multivalued),*][index]
+                }
+            }
+        });
+        quote! {
+            fn dimension(&self) -> usize {
+                #n
+            }
+
+            fn name(&self) -> &str {
+                #name
+            }
+
+            fn coordinate(&self, index: usize) -> &str {
+                [#(#coordinates),*][index]
+            }
+
+            #casimirs
+            #of_h
+            #of_matrix
+            #multivalued
         }
     }
 

@@ -12,7 +12,7 @@ const WINDOWS: usize = 10;
 #[derive(Clone, Debug, PartialEq)]
 pub struct InvariantDrift {
     /// The invariant.
-    pub name: &'static str,
+    pub name: String,
     /// Its value at the start (of the first lane).
     pub initial: f64,
     /// The largest distance from the start, in the invariant's own units.
@@ -22,10 +22,10 @@ pub struct InvariantDrift {
 }
 
 impl InvariantDrift {
-    pub(crate) fn new<S: Scalar>(name: &'static str, initial: Option<S>) -> Self {
+    pub(crate) fn new<S: Scalar>(name: &str, initial: Option<S>) -> Self {
         let initial = initial.map_or(f64::NAN, |initial| initial.to_f64());
         Self {
-            name,
+            name: name.to_owned(),
             initial,
             max: 0.0,
             windows: [0.0; WINDOWS],
@@ -59,7 +59,7 @@ impl InvariantDrift {
 pub struct Drift {
     /// Of the energy.
     pub energy: InvariantDrift,
-    /// Of the Casimirs, without those that have several branches ([`Poisson::MULTIVALUED_CASIMIRS`]).
+    /// Of the Casimirs, without those that have several branches ([`Poisson::casimir_is_multivalued`]).
     pub casimirs: Vec<InvariantDrift>,
 }
 
@@ -67,30 +67,24 @@ pub struct Drift {
 #[derive(Clone, Debug)]
 pub struct DriftMonitor<S> {
     energy: S,
+    /// The Casimirs that are followed, by their places.
+    followed: Vec<usize>,
     casimirs: Vec<S>,
     values: Vec<S>,
     drift: Drift,
 }
 
-/// Whether the Casimir at a place has one branch only.
-fn single<S: Scalar, P: Poisson<S>>(place: usize) -> bool {
-    !P::MULTIVALUED_CASIMIRS.contains(&place)
-}
-
 impl<S: Scalar> DriftMonitor<S> {
-    /// A monitor for a system.
-    pub fn new<P: Poisson<S>>() -> Self {
-        let names = P::CASIMIR_NAMES.iter().enumerate();
-        let casimirs = names.filter(|(place, _)| single::<S, P>(*place));
+    /// A monitor that has seen nothing yet.
+    pub fn new() -> Self {
         Self {
             energy: S::zero(),
-            casimirs: vec![S::zero(); P::CASIMIRS],
-            values: vec![S::zero(); P::CASIMIRS],
+            followed: Vec::new(),
+            casimirs: Vec::new(),
+            values: Vec::new(),
             drift: Drift {
                 energy: InvariantDrift::new::<S>("energy", None),
-                casimirs: casimirs
-                    .map(|(_, &name)| InvariantDrift::new::<S>(name, None))
-                    .collect(),
+                casimirs: Vec::new(),
             },
         }
     }
@@ -101,17 +95,29 @@ impl<S: Scalar> DriftMonitor<S> {
     }
 }
 
+impl<S: Scalar> Default for DriftMonitor<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
     fn start(&mut self, system: &P, _progress: Progress, mu: &P::State) {
-        *self = Self::new::<P>();
+        let count = system.casimir_count();
         self.energy = system.energy(mu);
-        self.drift.energy.initial = self.energy.to_f64();
-        system.casimirs(mu, &mut self.casimirs);
-        let values = self.casimirs.iter().enumerate();
-        let values = values.filter(|(place, _)| single::<S, P>(*place));
-        for (drift, (_, value)) in self.drift.casimirs.iter_mut().zip(values) {
-            drift.initial = value.to_f64();
-        }
+        self.followed = (0..count)
+            .filter(|&place| !system.casimir_is_multivalued(place))
+            .collect();
+        self.values = vec![S::zero(); count];
+        system.casimirs(mu, &mut self.values);
+        self.casimirs.clone_from(&self.values);
+        let casimirs = self.followed.iter().map(|&place| {
+            InvariantDrift::new(system.casimir_name(place), Some(self.casimirs[place]))
+        });
+        self.drift = Drift {
+            energy: InvariantDrift::new("energy", Some(self.energy)),
+            casimirs: casimirs.collect(),
+        };
     }
 
     fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
@@ -119,10 +125,9 @@ impl<S: Scalar, P: Poisson<S>> Observer<S, P> for DriftMonitor<S> {
         let change = (system.energy(mu) - self.energy).abs();
         self.drift.energy.record(largest(change), step, steps);
         system.casimirs(mu, &mut self.values);
-        let pairs = self.values.iter().zip(&self.casimirs).enumerate();
-        let pairs = pairs.filter(|(place, _)| single::<S, P>(*place));
-        for (drift, (_, (&value, &initial))) in self.drift.casimirs.iter_mut().zip(pairs) {
-            drift.record(largest((value - initial).abs()), step, steps);
+        for (drift, &place) in self.drift.casimirs.iter_mut().zip(&self.followed) {
+            let change = (self.values[place] - self.casimirs[place]).abs();
+            drift.record(largest(change), step, steps);
         }
         ControlFlow::Continue(())
     }
@@ -154,7 +159,7 @@ mod tests {
             steps: 2,
             time: 0.1 * step as f64,
         };
-        let mut monitor = DriftMonitor::new::<Winding>();
+        let mut monitor = DriftMonitor::new();
         monitor.start(&Winding(Spring), progress(0), &[-1.0, 0.1].into());
         let _ = monitor.step(&Winding(Spring), progress(1), &[-1.0, -0.1].into());
         // the angle has jumped by 2 pi, which is no drift; the square of the radius has none

@@ -54,7 +54,7 @@ pub fn integrals<P: Poisson<f64>>(
     states: &[P::State],
     quadratic: bool,
 ) -> Vec<Integral> {
-    let n = P::DIM;
+    let n = system.dimension();
     if states.is_empty() || n > 24 {
         return Vec::new();
     }

@@ -67,7 +67,8 @@ fn descend<P: LiePoisson<f64>>(system: &P, mut point: P::State, end: &P::State) 
         }
         let gap: Vec<f64> = pairs(end, &point).map(|(a, b)| a - b).collect();
         let before = norm(&gap);
-        let solution = Basis::of_span(&poisson_columns(system, &point)).solve(&gap, P::DIM);
+        let solution =
+            Basis::of_span(&poisson_columns(system, &point)).solve(&gap, system.dimension());
         xi.as_mut_slice().copy_from_slice(&solution);
         let factor = 1.0 / action(system, &xi).max(1.0);
         xi.as_mut_slice()
@@ -103,8 +104,12 @@ fn descend<P: LiePoisson<f64>>(system: &P, mut point: P::State, end: &P::State) 
 fn action<P: LiePoisson<f64>>(system: &P, xi: &P::State) -> f64 {
     let mut matrix = system.zero_jacobian();
     system.ad_star_matrix(xi, &mut matrix);
-    let row = |i| (0..P::DIM).map(|j| matrix.get(i, j).abs()).sum::<f64>();
-    (0..P::DIM).map(row).fold(0.0, f64::max)
+    let row = |i| {
+        (0..system.dimension())
+            .map(|j| matrix.get(i, j).abs())
+            .sum::<f64>()
+    };
+    (0..system.dimension()).map(row).fold(0.0, f64::max)
 }
 
 fn pairs<'a, V: State<f64>>(a: &'a V, b: &'a V) -> impl Iterator<Item = (f64, f64)> + 'a {
@@ -125,8 +130,8 @@ fn distance<V: State<f64>>(a: &V, b: &V) -> f64 {
 fn poisson_columns<P: LiePoisson<f64>>(system: &P, mu: &P::State) -> Vec<Vec<f64>> {
     let mut matrix = system.zero_jacobian();
     system.poisson_matrix(mu, &mut matrix);
-    let column = |j| (0..P::DIM).map(|i| matrix.get(i, j)).collect();
-    (0..P::DIM).map(column).collect()
+    let column = |j| (0..system.dimension()).map(|i| matrix.get(i, j)).collect();
+    (0..system.dimension()).map(column).collect()
 }
 
 /// The most parts that an element is divided into.

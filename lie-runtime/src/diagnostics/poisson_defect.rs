@@ -44,15 +44,15 @@ fn through<S: Scalar, P: Poisson<Dual<S>>>(
 ) -> Result<TangentMap<S>, StepFailure> {
     let mut state = system.zero_state();
     let mut map = TangentMap {
-        derivative: vec![vec![S::zero(); P::DIM]; P::DIM],
-        end: vec![S::zero(); P::DIM],
+        derivative: vec![vec![S::zero(); system.dimension()]; system.dimension()],
+        end: vec![S::zero(); system.dimension()],
     };
     // norms see derivatives too: seeds of the size of the state keep the two in proportion
     let size = mu
         .iter()
         .fold(S::zero(), |size, entry| size.max(entry.abs()));
     let size = S::select(size.less_equal(S::zero()), S::one(), size);
-    for direction in 0..P::DIM {
+    for direction in 0..system.dimension() {
         for (index, (entry, &value)) in state.as_mut_slice().iter_mut().zip(mu).enumerate() {
             let seed = if index == direction { size } else { S::zero() };
             *entry = Dual::new(value, seed);
@@ -72,7 +72,7 @@ impl<S: Scalar> TangentMap<S> {
         let before = poisson_matrix(system, mu);
         let after = poisson_matrix(system, &self.end);
         let mut defect = S::zero();
-        let n = P::DIM;
+        let n = system.dimension();
         let mut half = vec![vec![S::zero(); n]; n];
         for (row, half) in half.iter_mut().enumerate() {
             for (j, entry) in half.iter_mut().enumerate() {
@@ -106,8 +106,12 @@ fn poisson_matrix<S: Scalar, P: Poisson<Dual<S>>>(system: &P, mu: &[S]) -> Vec<V
     }
     let mut matrix = system.zero_jacobian();
     system.poisson_matrix(&state, &mut matrix);
-    let row = |i| (0..P::DIM).map(|j| matrix.get(i, j).value).collect();
-    (0..P::DIM).map(row).collect()
+    let row = |i| {
+        (0..system.dimension())
+            .map(|j| matrix.get(i, j).value)
+            .collect()
+    };
+    (0..system.dimension()).map(row).collect()
 }
 
 /// The largest entry of `D Pi(mu) D^T - Pi(Phi(mu))`, with Phi one step of size h and D its

@@ -51,7 +51,7 @@ fn run<P: Poisson<f64>>(
     tolerance: f64,
 ) -> Option<(P::State, u64)> {
     let mut state = mu.clone();
-    let mut lost = vec![0.0; P::DIM];
+    let mut lost = vec![0.0; system.dimension()];
     let mut field = system.zero_state();
     system.vector_field(&state, &mut field);
     let speed = field.max_norm() / state.max_norm().max(f64::MIN_POSITIVE);
@@ -149,7 +149,7 @@ fn extrapolate<P: Poisson<f64>>(
 fn gragg<P: Poisson<f64>>(system: &P, start: &P::State, h: f64, substeps: usize) -> Vec<f64> {
     let small = h / substeps as f64;
     let mut field = system.zero_state();
-    let mut before = vec![0.0; P::DIM];
+    let mut before = vec![0.0; system.dimension()];
     let mut point = start.clone();
     system.vector_field(&point, &mut field);
     let mut now: Vec<f64> = field.as_slice().iter().map(|f| small * f).collect();

@@ -170,16 +170,16 @@ pub struct Recorder<S, V> {
 
 impl<S: Scalar, V> Recorder<S, V> {
     /// An empty record for a system.
-    pub fn new<P: Poisson<S, State = V>>() -> Self {
+    pub fn new<P: Poisson<S, State = V>>(system: &P) -> Self {
         Self {
-            solution: Solution::empty(P::COORDINATES, P::CASIMIR_NAMES),
+            solution: Solution::empty(system),
         }
     }
 }
 
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Recorder<S, P::State> {
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
-        let mut casimirs = vec![S::zero(); P::CASIMIRS];
+        let mut casimirs = vec![S::zero(); system.casimir_count()];
         system.casimirs(mu, &mut casimirs);
         self.solution.t.push(time);
         self.solution.energy.push(system.energy(mu));

@@ -25,7 +25,7 @@ use crate::generic::{gauss_tableau, quaternion_product as product};
 use crate::methods::{Retraction, RungeKutta};
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
-use crate::structure::MatrixGroup;
+use crate::structure::{Group, MatrixGroup};
 use core::ops::ControlFlow;
 
 /// `B_k/k!` of the even Bernoulli numbers from `B_2` on: the series of `dexp^-1` beyond `1 - ad/2`.
@@ -79,12 +79,12 @@ pub struct Reconstruction<S, V> {
 
 impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
     /// Beginning at the identity.
-    pub fn new<P: MatrixGroup<S, State = V>>(_system: &P, chart: Chart) -> Self {
+    pub fn new<P: MatrixGroup<S, State = V>>(system: &P, chart: Chart) -> Self {
         let mut quaternion = [S::zero(); 4];
         quaternion[0] = S::one();
         Self {
             chart,
-            matrix: GroupMatrix::identity(P::SIZE),
+            matrix: GroupMatrix::identity(system.group().size),
             quaternion,
             kept: None,
             velocities: Vec::new(),
@@ -106,22 +106,22 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
     }
 
     /// `g F` in place of g, or `F^-1 g` of a right-invariant system.
-    fn advance<P: MatrixGroup<S, State = V>>(&mut self, factor: &GroupMatrix<S>) {
+    fn advance(&mut self, group: &Group<'_>, factor: &GroupMatrix<S>) {
         match self.chart {
             Chart::Matrix => {
-                self.matrix = if P::RIGHT {
+                self.matrix = if group.right {
                     factor.inverse().times(&self.matrix)
                 } else {
                     self.matrix.times(factor)
                 };
-                if P::ORTHOGONAL {
+                if group.orthogonal {
                     // else the round-off of a steady rotation would add up
                     self.matrix.orthogonalize();
                 }
             }
             Chart::Quaternion => {
                 let [real, x, y, z] = quaternion_of(factor);
-                let moved = if P::RIGHT {
+                let moved = if group.right {
                     product([real, -x, -y, -z], self.quaternion)
                 } else {
                     product(self.quaternion, [real, x, y, z])
@@ -141,8 +141,8 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                     Retraction::Cayley => rational(&represent(system, xi)),
                     Retraction::SecondKind => {
                         let mut single = xi.clone();
-                        let mut factor = GroupMatrix::identity(P::SIZE);
-                        for index in 0..P::DIM {
+                        let mut factor = GroupMatrix::identity(system.group().size);
+                        for index in 0..system.dimension() {
                             single.fill(S::zero());
                             single.as_mut_slice()[index] = xi.as_slice()[index];
                             factor = factor.times(&exponential(&represent(system, &single)));
@@ -150,7 +150,7 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                         factor
                     }
                 };
-                self.advance::<P>(&factor);
+                self.advance(&system.group(), &factor);
             }
             Motion::Velocity(method, stage, xi) => {
                 if stage.index == 0 {
@@ -159,7 +159,7 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
                 self.velocities.push(xi.clone());
                 if self.velocities.len() == stage.count {
                     let factor = self.collocate(system, method);
-                    self.advance::<P>(&factor);
+                    self.advance(&system.group(), &factor);
                 }
             }
         }
@@ -173,7 +173,7 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
         let count = self.velocities.len();
         let (a, b) = coefficients::<S>(method, count);
         if method == RungeKutta::Gauss
-            && P::CLOSED
+            && system.group().closed
             && let Some(factor) = self.in_entries(system, &a, &b)
         {
             return factor;
@@ -211,7 +211,7 @@ impl<S: Scalar, V: State<S>> Reconstruction<S, V> {
     where
         P: MatrixGroup<S, State = V>,
     {
-        let (count, size) = (self.velocities.len(), P::SIZE);
+        let (count, size) = (self.velocities.len(), system.group().size);
         let motions: Vec<GroupMatrix<S>> = self
             .velocities
             .iter()
@@ -276,8 +276,8 @@ impl<S: Scalar, P: MatrixGroup<S>> Observer<S, P> for Reconstruction<S, P::State
 
 /// `rho(xi)`
 fn represent<S: Scalar, P: MatrixGroup<S>>(_system: &P, xi: &P::State) -> GroupMatrix<S> {
-    let mut matrix = GroupMatrix::zero(P::SIZE);
-    for (entries, &coordinate) in P::MATRICES.iter().zip(xi.as_slice()) {
+    let mut matrix = GroupMatrix::zero(_system.group().size);
+    for (entries, &coordinate) in _system.group().matrices.iter().zip(xi.as_slice()) {
         for entry in *entries {
             let (row, column) = entry.place();
             let sum = matrix.at(row, column) + entry.value::<S>() * coordinate;

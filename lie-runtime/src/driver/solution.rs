@@ -2,6 +2,7 @@
 
 use super::stats::{Stats, Status};
 use crate::diagnostics::{Drift, InvariantDrift};
+use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
 use std::io;
@@ -22,17 +23,19 @@ pub struct Solution<S, V> {
     /// How the run ended.
     pub status: Status,
     /// The names of the coordinates.
-    pub coordinates: &'static [&'static str],
+    pub coordinates: Vec<String>,
     /// The names of the Casimirs.
-    pub casimir_names: &'static [&'static str],
+    pub casimir_names: Vec<String>,
 }
 
 impl<S, V> Solution<S, V> {
     /// Nothing saved yet.
-    pub(super) fn empty(
-        coordinates: &'static [&'static str],
-        casimir_names: &'static [&'static str],
-    ) -> Self {
+    pub(super) fn empty<P: Poisson<S>>(system: &P) -> Self
+    where
+        S: Scalar,
+    {
+        let coordinates = (0..system.dimension()).map(|i| system.coordinate(i).to_owned());
+        let casimirs = (0..system.casimir_count()).map(|i| system.casimir_name(i).to_owned());
         Self {
             t: Vec::new(),
             mu: Vec::new(),
@@ -40,8 +43,8 @@ impl<S, V> Solution<S, V> {
             casimirs: Vec::new(),
             stats: Stats::default(),
             status: Status::Finished,
-            coordinates,
-            casimir_names,
+            coordinates: coordinates.collect(),
+            casimir_names: casimirs.collect(),
         }
     }
 
@@ -76,7 +79,7 @@ impl<S: Scalar, V> Solution<S, V> {
     /// For the maximum over every step let a [`crate::diagnostics::DriftMonitor`] look on.
     pub fn drift(&self) -> Drift {
         let rows = self.t.len();
-        let follow = |name: &'static str, value: &dyn Fn(usize) -> S| {
+        let follow = |name: &str, value: &dyn Fn(usize) -> S| {
             let mut drift = InvariantDrift::new(name, (rows > 0).then(|| value(0)));
             for row in 1..rows {
                 let change = (value(row) - value(0)).abs();
@@ -87,7 +90,7 @@ impl<S: Scalar, V> Solution<S, V> {
         Drift {
             energy: follow("energy", &|row| self.energy[row]),
             casimirs: (self.casimir_names.iter().enumerate())
-                .map(|(index, &name)| follow(name, &|row| self.casimirs[row][index]))
+                .map(|(index, name)| follow(name, &|row| self.casimirs[row][index]))
                 .collect(),
         }
     }
@@ -101,12 +104,11 @@ impl<S: Scalar<Mask = bool>, V: State<S>> Solution<S, V> {
     /// Those of the writer.
     pub fn write_csv(&self, mut writer: impl io::Write) -> io::Result<()> {
         write!(writer, "t")?;
-        for name in self
-            .coordinates
-            .iter()
-            .chain(&["energy"])
-            .chain(self.casimir_names)
-        {
+        for name in &self.coordinates {
+            write!(writer, ",{name}")?;
+        }
+        write!(writer, ",energy")?;
+        for name in &self.casimir_names {
             write!(writer, ",{name}")?;
         }
         writeln!(writer)?;

@@ -61,7 +61,7 @@ pub fn solve_observed<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     options: &Options,
     observer: impl Observer<S, P>,
 ) -> Result<Solution<S, P::State>, SolveError<S, P::State>> {
-    let mut observers = (Recorder::<S, P::State>::new::<P>(), observer);
+    let mut observers = (Recorder::new(&problem.system), observer);
     let outcome = integrate(problem, method, options, &mut observers);
     let mut solution = observers.0.solution;
     match outcome {
@@ -220,7 +220,7 @@ fn check_domain<S: Scalar, P: Poisson<S>>(
     mu: &P::State,
     report: StepReport,
 ) -> Result<(), StepFailure> {
-    if P::HAMILTONIAN_DEGREE.is_some() {
+    if system.hamiltonian_degree().is_some() {
         return Ok(());
     }
     let finite = system.hamiltonian(mu).finite();

@@ -115,7 +115,7 @@ where
         self.evaluate(unknown, residual);
         let (half, quarter) = (S::ratio(1.0, 2.0), S::ratio(1.0, 4.0));
         let [along, unit, first, second] = &mut self.columns;
-        for column in 0..P::DIM {
+        for column in 0..self.system.dimension() {
             unit.fill(S::zero());
             unit.as_mut_slice()[column] = S::one();
             self.system.ad_star(&self.direction, unit, first);
@@ -133,7 +133,7 @@ where
             }
             self.system.ad_star(along, unknown, first);
             self.system.triple(along, &self.direction, unknown, second);
-            for row in 0..P::DIM {
+            for row in 0..self.system.dimension() {
                 let through_x = half * (first.as_slice()[row] + second.as_slice()[row]);
                 matrix.set(row, column, matrix.get(row, column) - through_x);
             }
@@ -158,7 +158,7 @@ where
     }
 
     fn within_chart(&mut self, unknown: &P::State) -> S::Mask {
-        if matches!(P::SPECTRUM, Spectrum::Imaginary) {
+        if matches!(self.system.spectrum(), Spectrum::Imaginary) {
             return S::Mask::splat(true);
         }
         self.function.gradient(unknown, &mut self.direction);

@@ -118,7 +118,7 @@ where
         self.l_d.curvature(unknown, &mut self.curvature);
         let minus_half = S::ratio(-1.0, 2.0);
         let [unit, along, total, out] = &mut self.columns;
-        for column in 0..P::DIM {
+        for column in 0..self.system.dimension() {
             for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {
                 *entry = self.curvature.get(row, column);
             }

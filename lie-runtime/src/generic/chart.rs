@@ -29,7 +29,7 @@ const STEPS: usize = 80;
 /// algebra because that is closed under triple products.
 #[inline]
 pub fn cayley_chart<S: Scalar, P: CayleyPoisson<S>>(system: &P, xi: &P::State) -> S::Mask {
-    let near = match P::SPECTRUM {
+    let near = match system.spectrum() {
         Spectrum::Imaginary => return S::Mask::splat(true),
         Spectrum::Bounded(weights) => {
             let mut bound = S::zero();
@@ -64,7 +64,7 @@ fn far_chart<S: Scalar, P: CayleyPoisson<S>>(system: &P, xi: &P::State) -> S::Ma
     system.ad_star_matrix(xi, &mut first);
     let (mut unit, mut column) = (system.zero_state(), system.zero_state());
     let (half, quarter) = (S::ratio(-1.0, 2.0), S::ratio(-1.0, 4.0));
-    for j in 0..P::DIM {
+    for j in 0..system.dimension() {
         unit.fill(S::zero());
         unit.as_mut_slice()[j] = S::one();
         system.triple(xi, xi, &unit, &mut column);

@@ -43,7 +43,7 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
     pub fn new(system: &'a P, h: S) -> Self {
         let zero = system.zero_state();
         let tableau = gauss_tableau::<S, STAGES>();
-        let rule = Quadrature::of_hamiltonian::<P>(STAGES);
+        let rule = Quadrature::of_hamiltonian(system, STAGES);
         let mut means = [[S::zero(); STAGES]; MAX_NODES];
         let mut curve = means;
         for node in 0..rule.len() {
@@ -184,7 +184,10 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
         residual: &mut Self::Unknown,
         matrix: &mut Self::Matrix,
     ) {
-        let pairs = || (0..P::DIM).flat_map(|row| (0..P::DIM).map(move |column| (row, column)));
+        let pairs = || {
+            (0..self.system.dimension())
+                .flat_map(|row| (0..self.system.dimension()).map(move |column| (row, column)))
+        };
         for gradient in &mut self.gradients {
             gradient.fill(S::zero());
         }
@@ -214,7 +217,7 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S>
             self.system
                 .poisson_slope(&self.point, &self.gradients[stage], slope);
             for (other, block) in blocks.iter_mut().enumerate() {
-                for column in 0..P::DIM {
+                for column in 0..self.system.dimension() {
                     for (row, entry) in self.point.as_mut_slice().iter_mut().enumerate() {
                         *entry = block.get(row, column);
                     }

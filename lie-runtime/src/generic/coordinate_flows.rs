@@ -32,7 +32,7 @@ impl<S: Scalar, P: LiePoisson<S>> PieceFlows<S> for CoordinateFlows<'_, S, P> {
     type State = P::State;
 
     fn pieces(&self) -> usize {
-        P::DIM
+        self.system.dimension()
     }
 
     fn direction(&self, piece: usize, t: S, mu: &P::State, xi: &mut P::State) {

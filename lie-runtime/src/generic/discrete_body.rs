@@ -63,7 +63,7 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
         for entry in self.direction.as_mut_slice() {
             *entry *= self.step;
         }
-        antisymmetric::<S, P>(&self.direction, &mut self.rotation);
+        antisymmetric(self.system, &self.direction, &mut self.rotation);
         let size = self.momentum.dimension();
         let half = S::ratio(1.0, 2.0);
         for r in 0..size {
@@ -89,7 +89,7 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
 
     /// `r = U - (1 - X/2) M (1 + X/2)`
     fn write_residual(&self, unknown: &P::State, residual: &mut P::State) {
-        let planes = P::PLANES.iter().zip(unknown.as_slice());
+        let planes = self.system.planes().iter().zip(unknown.as_slice());
         for (out, (plane, &u)) in residual.as_mut_slice().iter_mut().zip(planes) {
             let (from, to) = axes(plane);
             *out = u - self.transformed.get(to, from);
@@ -107,7 +107,7 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
         for term in 0..LOGARITHM {
             let weight = S::ratio(1.0, (2 * term + 1) as f64);
             let mut largest = S::zero();
-            for (out, plane) in xi.as_mut_slice().iter_mut().zip(P::PLANES) {
+            for (out, plane) in xi.as_mut_slice().iter_mut().zip(self.system.planes()) {
                 let (from, to) = axes(plane);
                 let part = weight * self.product.get(to, from);
                 largest = largest.max(part.magnitude());
@@ -186,7 +186,7 @@ impl<S: Scalar, P: InertiaPoisson<S>> Equation<S> for DiscreteBody<'_, S, P> {
 
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
-        antisymmetric::<S, P>(mu, &mut self.momentum);
+        antisymmetric(self.system, mu, &mut self.momentum);
     }
 
     fn initial_guess(&mut self, unknown: &mut P::State) {
@@ -205,10 +205,10 @@ impl<S: Scalar, P: InertiaPoisson<S>> Equation<S> for DiscreteBody<'_, S, P> {
         self.write_residual(unknown, residual);
         self.system.hessian(unknown, &mut self.hessian);
         let half = self.step * S::ratio(1.0, 2.0);
-        for (column, turned) in P::PLANES.iter().enumerate() {
+        for (column, turned) in self.system.planes().iter().enumerate() {
             let factor = half * self.hessian.get(column, column);
             let (b, a) = axes(turned);
-            for (row, plane) in P::PLANES.iter().enumerate() {
+            for (row, plane) in self.system.planes().iter().enumerate() {
                 // entry (p, q) of Y^T R + R Y, R = E_ab - E_ba
                 let (q, p) = axes(plane);
                 let entry = |condition: bool, r: usize, c: usize| {
@@ -260,7 +260,7 @@ impl<S: Scalar, P: InertiaPoisson<S>> Equation<S> for DiscreteBody<'_, S, P> {
         transpose(&mut self.transformed);
         solve_columns(&self.product, &mut self.transformed);
         mu.copy_from(&self.base);
-        for (out, plane) in mu.as_mut_slice().iter_mut().zip(P::PLANES) {
+        for (out, plane) in mu.as_mut_slice().iter_mut().zip(self.system.planes()) {
             let (from, to) = axes(plane);
             let mut sum = S::zero();
             for k in 0..size {
@@ -278,8 +278,12 @@ fn axes(plane: &Plane) -> (usize, usize) {
 }
 
 /// `sum_k coordinates_k (E_(to, from) - E_(from, to))`
-fn antisymmetric<S: Scalar, P: InertiaPoisson<S>>(coordinates: &P::State, out: &mut P::Matrix) {
-    for (plane, &coordinate) in P::PLANES.iter().zip(coordinates.as_slice()) {
+fn antisymmetric<S: Scalar, P: InertiaPoisson<S>>(
+    system: &P,
+    coordinates: &P::State,
+    out: &mut P::Matrix,
+) {
+    for (plane, &coordinate) in system.planes().iter().zip(coordinates.as_slice()) {
         let (from, to) = axes(plane);
         out.set(to, from, coordinate);
         out.set(from, to, -coordinate);

@@ -119,10 +119,10 @@ where
             &self.xi,
             matrix,
         );
-        for row in 0..P::DIM {
-            for column in 0..P::DIM {
+        for row in 0..self.system.dimension() {
+            for column in 0..self.system.dimension() {
                 let mut sum = matrix.get(row, column);
-                for inner in 0..P::DIM {
+                for inner in 0..self.system.dimension() {
                     let slope = self.derivative.get(inner, column);
                     sum += self.poisson_matrix.get(row, inner) * slope;
                 }

@@ -105,7 +105,7 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for DiscreteTop<'_, S, P> {
         self.system.hessian(unknown, &mut self.hessian);
         self.write_residual(real, unknown, residual);
         let half = self.step * S::ratio(1.0, 2.0);
-        for column in 0..P::DIM {
+        for column in 0..self.system.dimension() {
             let curvature = self.half * self.hessian.get(column, column);
             let slope = self.direction.as_slice()[column] * curvature / real;
             for (row, &u) in unknown.as_slice().iter().enumerate() {

@@ -89,7 +89,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
         self.direction.fill(S::zero());
         self.force.fill(S::zero());
         for (index, &slope) in self.gradient.as_slice().iter().enumerate() {
-            let part = if index < P::MOMENTA {
+            let part = if index < self.system.momenta() {
                 &mut self.direction
             } else {
                 &mut self.force
@@ -107,7 +107,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
         free: &mut P::State,
     ) {
         system.ad_star(force, at, free);
-        for index in 0..P::MOMENTA {
+        for index in 0..system.momenta() {
             into.as_mut_slice()[index] += free.as_slice()[index];
         }
     }
@@ -121,7 +121,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
     /// First half: sets direction, force and start for the momentum m.
     fn set_first(&mut self, m: &P::Momentum) {
         self.point.copy_from(&self.base);
-        self.point.as_mut_slice()[..P::MOMENTA].copy_from_slice(m.as_slice());
+        self.point.as_mut_slice()[..self.system.momenta()].copy_from_slice(m.as_slice());
         self.split_gradient();
         self.start.copy_from(&self.base);
         let free = &mut self.columns[0];
@@ -168,12 +168,12 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
     fn linearize_first(&mut self, matrix: &mut P::MomentumMatrix) {
         self.system.hessian(&self.point, &mut self.hessian);
         let [along, force, total, free] = &mut self.columns;
-        for column in 0..P::MOMENTA {
+        for column in 0..self.system.momenta() {
             along.fill(S::zero());
             force.fill(S::zero());
             total.fill(S::zero());
-            for row in 0..P::DIM {
-                let part = if row < P::MOMENTA {
+            for row in 0..self.system.dimension() {
+                let part = if row < self.system.momenta() {
                     &mut *along
                 } else {
                     &mut *force
@@ -183,7 +183,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
             Self::push_force(self.system, force, &self.base, total, free);
             self.series
                 .along_both(self.system, &self.direction, along, total);
-            for row in 0..P::MOMENTA {
+            for row in 0..self.system.momenta() {
                 let identity = if row == column { S::one() } else { S::zero() };
                 matrix.set(row, column, identity - total.as_slice()[row]);
             }
@@ -193,17 +193,17 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
     fn linearize_second(&mut self, matrix: &mut P::MomentumMatrix) {
         self.system.hessian(&self.point, &mut self.hessian);
         let [unit, total, first, second] = &mut self.columns;
-        for column in 0..P::MOMENTA {
+        for column in 0..self.system.momenta() {
             unit.fill(S::zero());
             unit.as_mut_slice()[column] = S::one();
             self.series.along(self.system, &self.direction, unit, total);
             // exp(A) = 1 + A phi1(A): the derivative of the action along the unit
             self.system.ad_star(unit, &self.sum, first);
             self.system.ad_star(&self.direction, total, second);
-            for row in 0..P::MOMENTA {
+            for row in 0..self.system.momenta() {
                 let mut slope = S::zero();
-                for inner in 0..P::DIM {
-                    let moved = if inner < P::MOMENTA {
+                for inner in 0..self.system.dimension() {
+                    let moved = if inner < self.system.momenta() {
                         total.as_slice()[inner]
                     } else {
                         first.as_slice()[inner] + second.as_slice()[inner]
@@ -237,14 +237,15 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
         self.momentum();
         self.columns[2].copy_from(&self.point);
         let point = self.point.as_mut_slice();
-        point[..P::MOMENTA].copy_from_slice(&self.sum.as_slice()[..P::MOMENTA]);
+        point[..self.system.momenta()]
+            .copy_from_slice(&self.sum.as_slice()[..self.system.momenta()]);
     }
 
     /// The force at the point, the direction kept.
     fn set_force(&mut self) {
         self.system.gradient(&self.point, &mut self.gradient);
         self.force.fill(S::zero());
-        for index in P::MOMENTA..P::DIM {
+        for index in self.system.momenta()..self.system.dimension() {
             self.force.as_mut_slice()[index] = self.step * self.gradient.as_slice()[index];
         }
     }
@@ -266,7 +267,7 @@ impl<S: Scalar, P: CotangentPoisson<S>> Equation<S> for EulerArnoldHalf<'_, S, P
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
         let mut size = S::zero();
-        for &momentum in &mu.as_slice()[..P::MOMENTA] {
+        for &momentum in &mu.as_slice()[..self.system.momenta()] {
             size = size.max(momentum.magnitude());
         }
         self.size = S::select(S::zero().less(size), size, S::one());
@@ -288,7 +289,7 @@ impl<S: Scalar, P: CotangentPoisson<S>> Equation<S> for EulerArnoldHalf<'_, S, P
                 *entry *= self.step * self.size;
             }
         }
-        let guess = &self.point.as_slice()[..P::MOMENTA];
+        let guess = &self.point.as_slice()[..self.system.momenta()];
         unknown.as_mut_slice().copy_from_slice(guess);
     }
 

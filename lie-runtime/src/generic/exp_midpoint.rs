@@ -113,7 +113,7 @@ where
             .linearize(unknown, &mut self.direction, &mut self.hessian);
         self.evaluate(unknown, residual);
         let [along, total] = &mut self.columns;
-        for column in 0..P::DIM {
+        for column in 0..self.system.dimension() {
             for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {
                 *entry = self.hessian.get(row, column);
             }

@@ -117,7 +117,7 @@ where
         self.residual(unknown, residual);
         self.l_d.curvature(unknown, &mut self.curvature);
         let [unit, total, out] = &mut self.columns;
-        for column in 0..P::DIM {
+        for column in 0..self.system.dimension() {
             unit.fill(S::zero());
             unit.as_mut_slice()[column] = S::one();
             self.series.along(self.system, unknown, unit, total);

@@ -120,8 +120,8 @@ impl<S: Scalar, P: Poisson<S>, const STAGES: usize> Equation<S> for Gauss<'_, S,
             self.write_residual(&unknown.0[stage], &mut residual.0[stage]);
             for (other, block) in matrix.0[stage].iter_mut().enumerate() {
                 let factor = self.step * self.tableau.a[stage][other];
-                for row in 0..P::DIM {
-                    for column in 0..P::DIM {
+                for row in 0..self.system.dimension() {
+                    for column in 0..self.system.dimension() {
                         block.set(row, column, -(factor * self.jacobian.get(row, column)));
                     }
                     if stage == other {

@@ -19,7 +19,7 @@ pub fn dexp_inverse_dual<S: Scalar, P: LiePoisson<S>>(
     let mut matrix = system.zero_jacobian();
     let (mut unit, mut column) = (system.zero_state(), system.zero_state());
     let mut scratch = Scratch::new(&unit);
-    for k in 0..P::DIM {
+    for k in 0..system.dimension() {
         unit.fill(S::zero());
         unit.as_mut_slice()[k] = S::one();
         dexp_dual_in(system, x, &unit, &mut column, &mut scratch, |_, _| ());

@@ -51,10 +51,10 @@ pub fn jacobian<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State, out: &mut P
     system.poisson_matrix(mu, &mut poisson_matrix);
     let mut hessian = system.zero_jacobian();
     system.hessian(mu, &mut hessian);
-    for row in 0..P::DIM {
-        for column in 0..P::DIM {
+    for row in 0..system.dimension() {
+        for column in 0..system.dimension() {
             let mut sum = out.get(row, column);
-            for middle in 0..P::DIM {
+            for middle in 0..system.dimension() {
                 sum += poisson_matrix.get(row, middle) * hessian.get(middle, column);
             }
             out.set(row, column, sum);
@@ -80,7 +80,7 @@ pub fn poisson_slope<S: Scalar, P: Poisson<S>>(system: &P, xi: &P::State, out: &
     let (mut at_origin, mut column) = (system.zero_state(), system.zero_state());
     system.poisson_matrix(&system.zero_state(), &mut matrix);
     multiply(&matrix, xi, &mut at_origin);
-    for k in 0..P::DIM {
+    for k in 0..system.dimension() {
         let mut unit = system.zero_state();
         unit.as_mut_slice()[k] = S::one();
         system.poisson_matrix(&unit, &mut matrix);
@@ -111,7 +111,7 @@ pub fn ad_star_matrix<S: Scalar, P: LiePoisson<S>>(
     out: &mut P::Jacobian,
 ) {
     let mut column = system.zero_state();
-    for k in 0..P::DIM {
+    for k in 0..system.dimension() {
         let mut unit = system.zero_state();
         unit.as_mut_slice()[k] = S::one();
         system.ad_star(xi, &unit, &mut column);

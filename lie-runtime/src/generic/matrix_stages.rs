@@ -7,7 +7,7 @@ use crate::matrix::{SquareMatrix, StageMatrix};
 use crate::newton::inverse_pivots_are_safe;
 use crate::scalar::{Mask as _, Scalar};
 use crate::state::{Stages, State};
-use crate::structure::{Entry, MatrixPoisson, Spectrum};
+use crate::structure::{Entry, MatrixPoisson, Representation, Spectrum};
 
 /// The stages of a Gauss method on `T*V`, V the space of a representation `rho`, reduced to g*.
 ///
@@ -173,22 +173,17 @@ impl<S: Scalar, M: SquareMatrix<S>, const STAGES: usize> MatrixStages<S, M, STAG
     }
 
     /// Sets W and `rho(x_j)`.
-    fn set<P: MatrixPoisson<S, Matrix = M>>(
-        &mut self,
-        mu: &P::State,
-        x: &Stages<P::State, STAGES>,
-    ) {
-        let table = &P::REPRESENTATION;
+    fn set<V: State<S>>(&mut self, table: &Representation<'_>, mu: &V, x: &Stages<V, STAGES>) {
         assemble(table.dual, mu.as_slice(), &mut self.momentum);
         for (motion, x) in self.motion.iter_mut().zip(&x.0) {
             assemble(table.matrices, x.as_slice(), motion);
         }
     }
 
-    fn read<P: MatrixPoisson<S, Matrix = M>>(&self, out: &mut Stages<P::State, STAGES>) {
+    fn read<V: State<S>>(&self, table: &Representation<'_>, out: &mut Stages<V, STAGES>) {
         for (i, out) in out.0.iter_mut().enumerate() {
             let pairs = out.as_mut_slice().iter_mut();
-            for (out, matrix) in pairs.zip(P::REPRESENTATION.matrices) {
+            for (out, matrix) in pairs.zip(table.matrices) {
                 let mut sum = S::zero();
                 for entry in *matrix {
                     let (row, column) = entry.place();
@@ -237,15 +232,17 @@ where
 {
     // for antisymmetric matrices and triangular arrangements of them `1 + A rho(x)` has an inverse: Gauss
     // methods are algebraically stable
-    const EVERYWHERE: bool = matches!(P::SPECTRUM, Spectrum::Imaginary);
+    fn everywhere(system: &P) -> bool {
+        matches!(system.spectrum(), Spectrum::Imaginary)
+    }
 
     fn new(system: &P, tableau: &Tableau<S, STAGES>) -> Self {
         Self::with_zero(&system.zero_matrix(), tableau)
     }
 
-    fn within_chart(&mut self, x: &Stages<P::State, STAGES>) -> S::Mask {
+    fn within_chart(&mut self, system: &P, x: &Stages<P::State, STAGES>) -> S::Mask {
         for (motion, x) in self.motion.iter_mut().zip(&x.0) {
-            assemble(P::REPRESENTATION.matrices, x.as_slice(), motion);
+            assemble(system.representation().matrices, x.as_slice(), motion);
         }
         let sizes = self.motion.each_ref().map(|motion| size(motion));
         let mut bound = S::zero();
@@ -265,30 +262,31 @@ where
 
     fn momenta(
         &mut self,
-        _system: &P,
+        system: &P,
         mu: &P::State,
         x: &Stages<P::State, STAGES>,
         out: &mut Stages<P::State, STAGES>,
     ) {
-        self.set::<P>(mu, x);
-        self.solve(P::REPRESENTATION.skew, false);
+        let table = &system.representation();
+        self.set(table, mu, x);
+        self.solve(table.skew, false);
         self.pair(false);
-        self.read::<P>(out);
+        self.read(table, out);
     }
 
     fn linearize(
         &mut self,
-        _system: &P,
+        system: &P,
         mu: &P::State,
         x: &Stages<P::State, STAGES>,
         out: &mut Stages<P::State, STAGES>,
         slopes: &mut StageMatrix<P::Jacobian, STAGES>,
     ) {
-        let table = &P::REPRESENTATION;
-        self.set::<P>(mu, x);
+        let table = &system.representation();
+        self.set(table, mu, x);
         self.solve(table.skew, true);
         self.pair(true);
-        self.read::<P>(out);
+        self.read(table, out);
         for (i, row) in slopes.0.iter_mut().enumerate() {
             for (j, block) in row.iter_mut().enumerate() {
                 for (c, left) in table.matrices.iter().enumerate() {

@@ -146,7 +146,7 @@ where
         }
         self.write_residual(unknown, residual);
         let mut kept = S::Mask::splat(true);
-        for column in 0..P::DIM {
+        for column in 0..self.system.dimension() {
             for (row, entry) in self.columns[0].as_mut_slice().iter_mut().enumerate() {
                 *entry = self.step * self.derivative.get(row, column);
             }
@@ -161,8 +161,8 @@ where
         if kept.all() {
             return;
         }
-        for row in 0..P::DIM {
-            for column in 0..P::DIM {
+        for row in 0..self.system.dimension() {
+            for column in 0..self.system.dimension() {
                 let identity = if row == column { S::one() } else { S::zero() };
                 let entry = S::select(kept, matrix.get(row, column), identity);
                 matrix.set(row, column, entry);

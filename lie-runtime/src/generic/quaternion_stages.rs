@@ -124,7 +124,9 @@ where
     P: SpinPoisson<S>,
 {
     // imaginary quaternions have no real eigenvalues
-    const EVERYWHERE: bool = true;
+    fn everywhere(_system: &P) -> bool {
+        true
+    }
 
     fn new(_system: &P, tableau: &Tableau<S, STAGES>) -> Self {
         Self {
@@ -141,7 +143,7 @@ where
         x: &Stages<P::State, STAGES>,
         out: &mut Stages<P::State, STAGES>,
     ) {
-        for (index, spin) in P::SPINS.iter().enumerate() {
+        for (index, spin) in system.spins().iter().enumerate() {
             self.solve(system.scale(index), spin, x);
             let base = at(spin, mu.as_slice());
             for (i, out) in out.0.iter_mut().enumerate() {
@@ -161,7 +163,7 @@ where
         out: &mut Stages<P::State, STAGES>,
         slopes: &mut StageMatrix<P::Jacobian, STAGES>,
     ) {
-        for (index, spin) in P::SPINS.iter().enumerate() {
+        for (index, spin) in system.spins().iter().enumerate() {
             let scale = system.scale(index);
             self.solve(scale, spin, x);
             let base = at(spin, mu.as_slice());
@@ -194,7 +196,7 @@ where
         x: &Stages<P::State, STAGES>,
         xi: &mut P::State,
     ) -> Option<Retraction> {
-        for (index, spin) in P::SPINS.iter().enumerate() {
+        for (index, spin) in system.spins().iter().enumerate() {
             let scale = system.scale(index);
             self.solve(scale, spin, x);
             // Q = 1 + sum_i b_i B_i Q_i turns the momentum, its conjugate the group element

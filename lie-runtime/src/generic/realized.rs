@@ -31,12 +31,18 @@ impl<S: Scalar, P: RealizedPoisson<S>> Poisson<S> for Canonical<'_, P> {
     type State = P::Point;
     type Jacobian = P::PointMatrix;
 
-    const DIM: usize = P::POINT_DIM;
-    const CASIMIRS: usize = 0;
-    const NAME: &'static str = P::NAME;
-    const COORDINATES: &'static [&'static str] = P::CANONICAL;
-    const CASIMIR_NAMES: &'static [&'static str] = &[];
-    const POISSON_DEGREE: Option<u32> = Some(0);
+    fn dimension(&self) -> usize {
+        self.system.point_dimension()
+    }
+    fn name(&self) -> &str {
+        self.system.name()
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        self.system.canonical_name(index)
+    }
+    fn poisson_degree(&self) -> Option<u32> {
+        Some(0)
+    }
 
     fn zero_state(&self) -> P::Point {
         self.system.zero_point()
@@ -69,7 +75,7 @@ impl<S: Scalar, P: RealizedPoisson<S>> Poisson<S> for Canonical<'_, P> {
         system.hessian(&mu, &mut second);
         let (mut unit, mut column) = (system.zero_point(), system.zero_point());
         let (mut moved, mut turned) = (system.zero_state(), system.zero_state());
-        for j in 0..P::POINT_DIM {
+        for j in 0..self.system.point_dimension() {
             unit.fill(S::zero());
             unit.as_mut_slice()[j] = S::one();
             system.pushforward(z, &unit, &mut moved);
@@ -82,9 +88,9 @@ impl<S: Scalar, P: RealizedPoisson<S>> Poisson<S> for Canonical<'_, P> {
     }
 
     fn poisson_matrix(&self, _z: &P::Point, out: &mut P::PointMatrix) {
-        let half = P::POINT_DIM / 2;
-        for i in 0..P::POINT_DIM {
-            for j in 0..P::POINT_DIM {
+        let half = self.system.point_dimension() / 2;
+        for i in 0..self.system.point_dimension() {
+            for j in 0..self.system.point_dimension() {
                 let sign = if j == i + half {
                     S::one()
                 } else if i == j + half {
@@ -98,8 +104,8 @@ impl<S: Scalar, P: RealizedPoisson<S>> Poisson<S> for Canonical<'_, P> {
     }
 
     fn poisson_slope(&self, _z: &P::Point, _xi: &P::Point, out: &mut P::PointMatrix) {
-        for i in 0..P::POINT_DIM {
-            for j in 0..P::POINT_DIM {
+        for i in 0..self.system.point_dimension() {
+            for j in 0..self.system.point_dimension() {
                 out.set(i, j, S::zero());
             }
         }
@@ -108,7 +114,7 @@ impl<S: Scalar, P: RealizedPoisson<S>> Poisson<S> for Canonical<'_, P> {
     fn vector_field(&self, z: &P::Point, out: &mut P::Point) {
         let mut slope = self.zero_state();
         self.gradient(z, &mut slope);
-        let half = P::POINT_DIM / 2;
+        let half = self.system.point_dimension() / 2;
         for i in 0..half {
             out.as_mut_slice()[i] = slope.as_slice()[half + i];
             out.as_mut_slice()[half + i] = -slope.as_slice()[i];
@@ -118,8 +124,8 @@ impl<S: Scalar, P: RealizedPoisson<S>> Poisson<S> for Canonical<'_, P> {
     fn jacobian(&self, z: &P::Point, out: &mut P::PointMatrix) {
         let mut second = self.zero_jacobian();
         self.hessian(z, &mut second);
-        let half = P::POINT_DIM / 2;
-        for j in 0..P::POINT_DIM {
+        let half = self.system.point_dimension() / 2;
+        for j in 0..self.system.point_dimension() {
             for i in 0..half {
                 out.set(i, j, second.get(half + i, j));
                 out.set(half + i, j, -second.get(i, j));
@@ -173,7 +179,7 @@ impl<V, M, Z> Lifting<V, M, Z> {
         P: RealizedPoisson<S, State = V, Jacobian = M, Point = Z>,
     {
         let mut size = mu.max_norm();
-        for k in 0..P::DIM {
+        for k in 0..system.dimension() {
             self.unit.fill(S::zero());
             self.unit.as_mut_slice()[k] = S::one();
             system.pullback(z, &self.unit, &mut self.step);
@@ -226,7 +232,7 @@ impl<V, M, Z> Lifting<V, M, Z> {
                 break;
             }
             best = S::select(size.less(best), size, best);
-            for k in 0..P::DIM {
+            for k in 0..system.dimension() {
                 self.unit.fill(S::zero());
                 self.unit.as_mut_slice()[k] = S::one();
                 system.pullback(z, &self.unit, &mut self.step);
@@ -268,11 +274,15 @@ mod tests {
     impl Poisson<f64> for Actions {
         type State = Vector<2>;
         type Jacobian = Matrix<2>;
-        const DIM: usize = 2;
-        const CASIMIRS: usize = 0;
-        const NAME: &'static str = "Actions";
-        const COORDINATES: &'static [&'static str] = &["I1", "I2"];
-        const CASIMIR_NAMES: &'static [&'static str] = &[];
+        fn dimension(&self) -> usize {
+            2
+        }
+        fn name(&self) -> &str {
+            "Actions"
+        }
+        fn coordinate(&self, index: usize) -> &str {
+            ["I1", "I2"][index]
+        }
         fn zero_state(&self) -> Vector<2> {
             Vector::repeat(0.0)
         }
@@ -301,9 +311,15 @@ mod tests {
     impl RealizedPoisson<f64> for Actions {
         type Point = Vector<4>;
         type PointMatrix = Matrix<4>;
-        const POINT_DIM: usize = 4;
-        const CANONICAL: &'static [&'static str] = &["q1", "q2", "p1", "p2"];
-        const START_GIVEN: bool = false;
+        fn point_dimension(&self) -> usize {
+            4
+        }
+        fn canonical_name(&self, index: usize) -> &str {
+            ["q1", "q2", "p1", "p2"][index]
+        }
+        fn start_is_given(&self) -> bool {
+            false
+        }
         fn zero_point(&self) -> Vector<4> {
             Vector::repeat(0.0)
         }

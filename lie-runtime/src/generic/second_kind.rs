@@ -70,7 +70,7 @@ where
         let [moment, one, moved, _] = &mut self.columns;
         moment.copy_from(&self.base);
         one.fill(S::zero());
-        for i in 0..P::DIM {
+        for i in 0..self.system.dimension() {
             visit(i, moment);
             one.as_mut_slice()[i] = self.xi.as_slice()[i];
             coadjoint_action_in(self.system, one, &*moment, moved, &mut self.scratch);
@@ -125,10 +125,10 @@ where
         let (system, scratch) = (self.system, &mut self.scratch);
         moment.copy_from(&self.base);
         one.fill(S::zero());
-        for i in 0..P::DIM {
+        for i in 0..self.system.dimension() {
             residual.as_mut_slice()[i] = unknown.as_slice()[i] - moment.as_slice()[i];
             // dm_(i-1)/dxi_l; component i stays when action i moves the rest
-            for j in 0..P::DIM {
+            for j in 0..self.system.dimension() {
                 let mut sum = if i == j { S::one() } else { S::zero() };
                 for l in 0..i {
                     sum -= self.tangents.get(i, l) * self.hessian.get(l, j);
@@ -138,7 +138,7 @@ where
             one.as_mut_slice()[i] = self.xi.as_slice()[i];
             coadjoint_action_in(system, one, &*moment, moved, scratch);
             core::mem::swap(moment, moved);
-            if i + 1 == P::DIM {
+            if i + 1 == self.system.dimension() {
                 break;
             }
             for l in 0..i {

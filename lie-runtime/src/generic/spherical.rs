@@ -34,7 +34,7 @@ pub fn sphere_ratios<S: Scalar, P: SpinPoisson<S>, const K: usize>(
 ) -> SVector<S, K> {
     let (mu, unknown) = (mu.as_slice(), unknown.as_slice());
     let mut ratios = SVector::<S, K>::repeat(S::zero());
-    for (index, spin) in P::SPINS.iter().enumerate() {
+    for (index, spin) in _system.spins().iter().enumerate() {
         let sum = spin.map(|k| mu[k] + unknown[k]);
         let (ratio, inverse) = sphere_ratio(spin.map(|k| mu[k]), sum);
         ratios[2 * index] = ratio;
@@ -83,7 +83,7 @@ impl<'a, S: Scalar, P: SpinPoisson<S>> Spherical<'a, S, P> {
 
     /// Sets the point to w.
     fn set_point(&mut self, unknown: &P::State) {
-        for spin in P::SPINS {
+        for spin in self.system.spins() {
             let (sum, ratio, _) = self.sum(spin, unknown);
             for (k, &coordinate) in spin.iter().enumerate() {
                 self.point.as_mut_slice()[coordinate] = ratio * sum[k];
@@ -133,10 +133,10 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
         self.system
             .linearize(&self.point, &mut self.field, &mut self.jacobian);
         self.write_residual(unknown, residual);
-        for spin in P::SPINS {
+        for spin in self.system.spins() {
             let (sum, ratio, inverse) = self.sum(spin, unknown);
             let factor = self.step * ratio;
-            for row in 0..P::DIM {
+            for row in 0..self.system.dimension() {
                 let slopes = spin.map(|k| factor * self.jacobian.get(row, k));
                 let along = slopes[0] * sum[0] + slopes[1] * sum[1] + slopes[2] * sum[2];
                 for (k, &column) in spin.iter().enumerate() {
@@ -159,7 +159,7 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
     fn group_factor(&mut self, unknown: &P::State, xi: &mut P::State) -> Option<Retraction> {
         self.set_point(unknown);
         self.system.gradient(&self.point, &mut self.field);
-        for (index, spin) in P::SPINS.iter().enumerate() {
+        for (index, spin) in self.system.spins().iter().enumerate() {
             // u - mu = ad*_x (u + mu)/2 with x = 2 h (|mu|/|s|) grad H: the rotation of the quaternion (1, c x/2)
             let (scale, (_, ratio, _)) = (self.system.scale(index), self.sum(spin, unknown));
             let factor = scale * self.step * ratio;

@@ -15,7 +15,7 @@ use crate::state::{Stages, State};
 /// act linearly, as functions of the elements `x_j = h grad H(m_j)` along which the stages move.
 pub trait StageMap<S: Scalar, P: LiePoisson<S>, const STAGES: usize> {
     /// Whether [`StageMap::within_chart`] is true for all x.
-    const EVERYWHERE: bool;
+    fn everywhere(system: &P) -> bool;
     /// The map of a system; it may keep scratch space.
     fn new(system: &P, tableau: &Tableau<S, STAGES>) -> Self;
     /// `out_i = M_i(x_1, ..., x_s)` for a step from mu.
@@ -37,7 +37,7 @@ pub trait StageMap<S: Scalar, P: LiePoisson<S>, const STAGES: usize> {
     );
     /// The lanes in which the linear systems of the stages have solutions for `s x_j` with every s from 0 to 1, so
     /// that the step is joined to the identity.
-    fn within_chart(&mut self, _x: &Stages<P::State, STAGES>) -> S::Mask {
+    fn within_chart(&mut self, _system: &P, _x: &Stages<P::State, STAGES>) -> S::Mask {
         S::Mask::splat(true)
     }
     /// The element along which a step moves the group element, where it is not that of the Gauss method
@@ -197,17 +197,17 @@ where
             for row_stage in 0..STAGES {
                 let slopes = &self.slopes.0[row_stage][column_stage];
                 let block = &mut matrix.0[row_stage][column_stage];
-                for column in 0..P::DIM {
-                    for row in 0..P::DIM {
+                for column in 0..self.system.dimension() {
+                    for row in 0..self.system.dimension() {
                         let identity = row_stage == column_stage && row == column;
                         block.set(row, column, if identity { S::one() } else { S::zero() });
                     }
-                    for through in 0..P::DIM {
+                    for through in 0..self.system.dimension() {
                         let curvature = self.step * self.hessian.get(through, column);
                         if curvature == S::zero() {
                             continue;
                         }
-                        for row in 0..P::DIM {
+                        for row in 0..self.system.dimension() {
                             let product = slopes.get(row, through) * curvature;
                             block.set(row, column, block.get(row, column) - product);
                         }
@@ -226,11 +226,11 @@ where
     }
 
     fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {
-        if M::EVERYWHERE {
+        if M::everywhere(self.system) {
             return S::Mask::splat(true);
         }
         self.set_directions(unknown);
-        self.map.within_chart(&self.x)
+        self.map.within_chart(self.system, &self.x)
     }
 
     fn group_factor(&mut self, unknown: &Self::Unknown, xi: &mut P::State) -> Option<Retraction> {

@@ -87,7 +87,7 @@ impl<S: Scalar, P: Poisson<S>> PoissonTensor<S, P> for MidpointTensor {
         out: &mut P::Jacobian,
     ) {
         system.poisson_slope(&middle(system, start, end), xi, out);
-        halve(out, P::DIM);
+        halve(out, system.dimension());
     }
 }
 
@@ -100,8 +100,8 @@ impl<S: Scalar, P: Poisson<S>> PoissonTensor<S, P> for MeanTensor {
         let mut other = system.zero_jacobian();
         system.poisson_matrix(start, out);
         system.poisson_matrix(end, &mut other);
-        for row in 0..P::DIM {
-            for column in 0..P::DIM {
+        for row in 0..system.dimension() {
+            for column in 0..system.dimension() {
                 let sum = out.get(row, column) + other.get(row, column);
                 out.set(row, column, half::<S>() * sum);
             }
@@ -118,6 +118,6 @@ impl<S: Scalar, P: Poisson<S>> PoissonTensor<S, P> for MeanTensor {
         out: &mut P::Jacobian,
     ) {
         system.poisson_slope(end, xi, out);
-        halve(out, P::DIM);
+        halve(out, system.dimension());
     }
 }

@@ -144,7 +144,7 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
             let ratio = vector(index) / (self.atol + self.rtol * size);
             sum += ratio * ratio;
         }
-        (sum / S::from_f64(P::DIM as f64)).sqrt()
+        (sum / S::from_f64(self.system.dimension() as f64)).sqrt()
     }
 
     /// The size of the first step, from the sizes of mu, f and the change of f along a trial step.

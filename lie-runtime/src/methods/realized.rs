@@ -66,7 +66,7 @@ where
     /// 0 to 1, with `B_j` the matrices of the flows along which the stages move.
     fn within_chart(&mut self, base: &P::Point) -> S::Mask {
         let tableau = gauss_tableau::<S, STAGES>();
-        let half = P::POINT_DIM / 2;
+        let half = self.system.point_dimension() / 2;
         let mut xi = self.system.zero_state();
         let mut second = self.system.zero_point_matrix();
         let mut bound = [S::zero(); STAGES];
@@ -79,9 +79,9 @@ where
             direction(self.system, self.step, &self.end, &mut xi);
             self.system.curvature(&self.next, &xi, &mut second);
             let mut size = S::zero();
-            for r in 0..P::POINT_DIM {
+            for r in 0..self.system.point_dimension() {
                 let mut sum = S::zero();
-                for c in 0..P::POINT_DIM {
+                for c in 0..self.system.point_dimension() {
                     // row r of the flow's matrix
                     let entry = if r < half {
                         -second.get(half + r, c)
@@ -146,7 +146,7 @@ where
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
         let mut base = self.point.clone();
-        if self.fresh && !P::START_GIVEN {
+        if self.fresh && !self.system.start_is_given() {
             self.lifting.scale(self.system, mu, &mut base);
         }
         self.fresh = false;

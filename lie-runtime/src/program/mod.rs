@@ -166,11 +166,14 @@ impl<P: Poisson<f64>> Program<P> {
             Ok(system) => system,
             Err(error) => return (2, format!("parameter {} {error}", error.name)),
         };
-        if request.initial.len() != P::DIM {
+        if request.initial.len() != system.dimension() {
             let given = request.initial.len();
             return (
                 2,
-                format!("initial {given} values where {} are needed", P::DIM),
+                format!(
+                    "initial {given} values where {} are needed",
+                    system.dimension()
+                ),
             );
         }
         let mut mu0 = system.zero_state();
@@ -180,7 +183,7 @@ impl<P: Poisson<f64>> Program<P> {
             mu0,
             span: (0.0, request.end()),
         };
-        let mut rows = RowWriter::new::<P>(output, messages, interrupted);
+        let mut rows = RowWriter::new(&problem.system, output, messages, interrupted);
         let outcome = run(&request.tolerances, &problem, &request.options(), &mut rows);
         if let Err(error) = rows.finish() {
             return (1, format!("output {error}"));

@@ -31,6 +31,7 @@ pub(super) struct RowWriter<'a> {
 
 impl<'a> RowWriter<'a> {
     pub(super) fn new<P: Poisson<f64>>(
+        system: &P,
         output: &'a mut dyn Write,
         messages: &'a mut dyn Write,
         interrupted: &'a AtomicBool,
@@ -41,7 +42,7 @@ impl<'a> RowWriter<'a> {
             messages,
             interrupted,
             error: None,
-            casimirs: vec![0.0; P::CASIMIRS],
+            casimirs: vec![0.0; system.casimir_count()],
             stride: 1,
             left: 1,
             looked: now,

@@ -25,13 +25,21 @@ impl<S: Scalar> AffineLine<S> {
 impl<S: Scalar> Poisson<S> for AffineLine<S> {
     type State = SVector<S, 2>;
     type Jacobian = SMatrix<S, 2, 2>;
-    const DIM: usize = 2;
-    const CASIMIRS: usize = 0;
-    const NAME: &'static str = "AffineLine";
-    const COORDINATES: &'static [&'static str] = &["p", "q"];
-    const CASIMIR_NAMES: &'static [&'static str] = &[];
-    const HAMILTONIAN_DEGREE: Option<u32> = Some(2);
-    const POISSON_DEGREE: Option<u32> = Some(1);
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn name(&self) -> &str {
+        "AffineLine"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["p", "q"][index]
+    }
+    fn hamiltonian_degree(&self) -> Option<u32> {
+        Some(2)
+    }
+    fn poisson_degree(&self) -> Option<u32> {
+        Some(1)
+    }
 
     fn zero_state(&self) -> Self::State {
         SVector::<S, 2>::repeat(S::zero())
@@ -82,14 +90,20 @@ impl<S: Scalar> CayleyPoisson<S> for AffineLine<S> {
     }
 }
 
+const AFFINE: Representation = Representation {
+    matrices: &[&[Entry::new(0, 0, 1.0)], &[Entry::new(0, 1, 1.0)]],
+    dual: &[&[Entry::new(0, 0, 1.0)], &[Entry::new(1, 0, 1.0)]],
+    skew: false,
+};
+
 impl<S: Scalar> MatrixPoisson<S> for AffineLine<S> {
     type Matrix = SMatrix<S, 2, 2>;
-    const REPRESENTATION: Representation = Representation {
-        matrices: &[&[Entry::new(0, 0, 1.0)], &[Entry::new(0, 1, 1.0)]],
-        dual: &[&[Entry::new(0, 0, 1.0)], &[Entry::new(1, 0, 1.0)]],
-        skew: false,
-    };
-    const SPECTRUM: Spectrum = Spectrum::Bounded(&[1.0, 1.0]);
+    fn representation(&self) -> Representation<'_> {
+        AFFINE
+    }
+    fn spectrum(&self) -> Spectrum<'_> {
+        Spectrum::Bounded(&[1.0, 1.0])
+    }
 
     fn zero_matrix(&self) -> Self::Matrix {
         SMatrix::<S, 2, 2>::repeat(S::zero())

@@ -32,12 +32,18 @@ pub fn coordinates(matrix: &Square) -> Vector {
 impl Poisson<f64> for Body4 {
     type State = Vector;
     type Jacobian = Matrix;
-    const DIM: usize = 6;
-    const CASIMIRS: usize = 0;
-    const NAME: &'static str = "Body4";
-    const COORDINATES: &'static [&'static str] = &["a", "b", "c", "d", "e", "f"];
-    const CASIMIR_NAMES: &'static [&'static str] = &[];
-    const HAMILTONIAN_DEGREE: Option<u32> = Some(2);
+    fn dimension(&self) -> usize {
+        6
+    }
+    fn name(&self) -> &str {
+        "Body4"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["a", "b", "c", "d", "e", "f"][index]
+    }
+    fn hamiltonian_degree(&self) -> Option<u32> {
+        Some(2)
+    }
 
     fn zero_state(&self) -> Vector {
         Vector::repeat(0.0)
@@ -91,16 +97,20 @@ impl LiePoisson<f64> for Body4 {
     }
 }
 
+const TURNS: [Plane; 6] = [
+    Plane::new(0, 1),
+    Plane::new(0, 2),
+    Plane::new(0, 3),
+    Plane::new(1, 2),
+    Plane::new(1, 3),
+    Plane::new(2, 3),
+];
+
 impl InertiaPoisson<f64> for Body4 {
     type Matrix = Square;
-    const PLANES: &'static [Plane] = &[
-        Plane::new(0, 1),
-        Plane::new(0, 2),
-        Plane::new(0, 3),
-        Plane::new(1, 2),
-        Plane::new(1, 3),
-        Plane::new(2, 3),
-    ];
+    fn planes(&self) -> &[Plane] {
+        &TURNS
+    }
     fn zero_matrix(&self) -> Square {
         Square::zeros()
     }

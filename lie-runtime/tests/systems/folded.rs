@@ -14,11 +14,21 @@ pub struct Folded<S>(pub Option<SVector<S, 3>>);
 impl<S: Scalar> Poisson<S> for Folded<S> {
     type State = SVector<S, 3>;
     type Jacobian = SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "Folded";
-    const COORDINATES: &'static [&'static str] = &["x", "y", "z"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
+    fn dimension(&self) -> usize {
+        3
+    }
+    fn casimir_count(&self) -> usize {
+        1
+    }
+    fn name(&self) -> &str {
+        "Folded"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["x", "y", "z"][index]
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        ["C"][index]
+    }
 
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())

@@ -33,11 +33,21 @@ type Matrix<S> = SMatrix<S, 6, 6>;
 impl<S: Scalar> Poisson<S> for HeavyTop<S> {
     type State = Vector<S>;
     type Jacobian = Matrix<S>;
-    const DIM: usize = 6;
-    const CASIMIRS: usize = 2;
-    const NAME: &'static str = "HeavyTop";
-    const COORDINATES: &'static [&'static str] = &["m1", "m2", "m3", "g1", "g2", "g3"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["length", "area"];
+    fn dimension(&self) -> usize {
+        6
+    }
+    fn casimir_count(&self) -> usize {
+        2
+    }
+    fn name(&self) -> &str {
+        "HeavyTop"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["m1", "m2", "m3", "g1", "g2", "g3"][index]
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        ["length", "area"][index]
+    }
 
     fn zero_state(&self) -> Vector<S> {
         Vector::repeat(S::zero())
@@ -174,7 +184,9 @@ const SE3: Representation = Representation {
 
 impl<S: Scalar> MatrixPoisson<S> for HeavyTop<S> {
     type Matrix = SMatrix<S, 4, 4>;
-    const REPRESENTATION: Representation = SE3;
+    fn representation(&self) -> Representation<'_> {
+        SE3
+    }
     fn zero_matrix(&self) -> Self::Matrix {
         SMatrix::<S, 4, 4>::repeat(S::zero())
     }

@@ -29,12 +29,18 @@ impl<const POLYNOMIAL: bool> Logarithmic<POLYNOMIAL> {
 impl<const POLYNOMIAL: bool> Poisson<f64> for Logarithmic<POLYNOMIAL> {
     type State = Vector;
     type Jacobian = Matrix;
-    const DIM: usize = 2;
-    const CASIMIRS: usize = 0;
-    const NAME: &'static str = "Logarithmic";
-    const COORDINATES: &'static [&'static str] = &["q", "p"];
-    const CASIMIR_NAMES: &'static [&'static str] = &[];
-    const HAMILTONIAN_DEGREE: Option<u32> = if POLYNOMIAL { Some(2) } else { None };
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn name(&self) -> &str {
+        "Logarithmic"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["q", "p"][index]
+    }
+    fn hamiltonian_degree(&self) -> Option<u32> {
+        if POLYNOMIAL { Some(2) } else { None }
+    }
 
     fn zero_state(&self) -> Vector {
         Vector::repeat(0.0)

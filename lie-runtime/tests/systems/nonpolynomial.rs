@@ -14,11 +14,21 @@ pub struct Nonpolynomial;
 impl<S: Scalar> Poisson<S> for Nonpolynomial {
     type State = SVector<S, 3>;
     type Jacobian = SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "Nonpolynomial";
-    const COORDINATES: &'static [&'static str] = &["x", "y", "z"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
+    fn dimension(&self) -> usize {
+        3
+    }
+    fn casimir_count(&self) -> usize {
+        1
+    }
+    fn name(&self) -> &str {
+        "Nonpolynomial"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["x", "y", "z"][index]
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        ["C"][index]
+    }
 
     fn zero_state(&self) -> Self::State {
         SVector::<S, 3>::repeat(S::zero())
@@ -99,14 +109,18 @@ lie_runtime::generic_equations!([S: Scalar] Nonpolynomial, S: discrete_gradients
 
 impl<S: Scalar> MatrixPoisson<S> for Nonpolynomial {
     type Matrix = SMatrix<S, 3, 3>;
-    const REPRESENTATION: Representation = SO3;
+    fn representation(&self) -> Representation<'_> {
+        SO3
+    }
     fn zero_matrix(&self) -> Self::Matrix {
         SMatrix::<S, 3, 3>::repeat(S::zero())
     }
 }
 
 impl<S: Scalar> SpinPoisson<S> for Nonpolynomial {
-    const SPINS: &'static [[usize; 3]] = &[[0, 1, 2]];
+    fn spins(&self) -> &[[usize; 3]] {
+        &[[0, 1, 2]]
+    }
     fn scale(&self, _spin: usize) -> S {
         S::one()
     }

@@ -12,12 +12,24 @@ pub struct Quartic<const KNOWN: bool>;
 impl<S: Scalar, const KNOWN: bool> Poisson<S> for Quartic<KNOWN> {
     type State = SVector<S, 3>;
     type Jacobian = SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "Quartic";
-    const COORDINATES: &'static [&'static str] = &["x", "y", "z"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
-    const HAMILTONIAN_DEGREE: Option<u32> = if KNOWN { Some(4) } else { None };
+    fn dimension(&self) -> usize {
+        3
+    }
+    fn casimir_count(&self) -> usize {
+        1
+    }
+    fn name(&self) -> &str {
+        "Quartic"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["x", "y", "z"][index]
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        ["C"][index]
+    }
+    fn hamiltonian_degree(&self) -> Option<u32> {
+        if KNOWN { Some(4) } else { None }
+    }
 
     fn zero_state(&self) -> Self::State {
         SVector::<S, 3>::repeat(S::zero())

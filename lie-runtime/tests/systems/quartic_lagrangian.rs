@@ -15,15 +15,25 @@ pub struct QuarticBody;
 pub struct QuarticLine;
 
 macro_rules! by_newton {
-    ($system:ident, $n:literal, $name:literal, $coordinates:expr, $casimirs:literal, $casimir_names:expr, $matrix:expr) => {
+    ($system:ident, $n:literal, $name:literal, $coordinates:expr, $casimirs:literal, $matrix:expr) => {
         impl<S: Scalar> Poisson<S> for $system {
             type State = SVector<S, $n>;
             type Jacobian = SMatrix<S, $n, $n>;
-            const DIM: usize = $n;
-            const CASIMIRS: usize = $casimirs;
-            const NAME: &'static str = $name;
-            const COORDINATES: &'static [&'static str] = $coordinates;
-            const CASIMIR_NAMES: &'static [&'static str] = $casimir_names;
+            fn dimension(&self) -> usize {
+                $n
+            }
+            fn casimir_count(&self) -> usize {
+                $casimirs
+            }
+            fn name(&self) -> &str {
+                $name
+            }
+            fn coordinate(&self, index: usize) -> &str {
+                $coordinates[index]
+            }
+            fn casimir_name(&self, _index: usize) -> &str {
+                "C"
+            }
 
             fn zero_state(&self) -> Self::State {
                 Self::State::repeat(S::zero())
@@ -75,20 +85,11 @@ by_newton!(
     QuarticBody,
     3,
     "QuarticBody",
-    &["x", "y", "z"],
+    ["x", "y", "z"],
     1,
-    &["C"],
     |mu: &SVector<S, 3>| hat(mu.as_slice())
 );
-by_newton!(
-    QuarticLine,
-    2,
-    "QuarticLine",
-    &["a", "b"],
-    0,
-    &[],
-    line_matrix
-);
+by_newton!(QuarticLine, 2, "QuarticLine", ["a", "b"], 0, line_matrix);
 lie_runtime::generic_equations!([S: Scalar] QuarticBody, S: cayley, variational_cayley);
 
 impl<S: Scalar> LiePoisson<S> for QuarticBody {

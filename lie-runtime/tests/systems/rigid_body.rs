@@ -1,6 +1,6 @@
 // The free rigid body on so(3)*, written by hand: `mu' = mu x (mu/I)`.
 
-use lie_runtime::structure::{Entry, Representation};
+use lie_runtime::structure::{Entry, Group, Representation};
 use lie_runtime::{
     CayleyPoisson, Dual, LiePoisson, Lift, MatrixGroup, MatrixPoisson, Poisson, Scalar, SpinPoisson,
 };
@@ -50,11 +50,21 @@ pub fn so3_triple<S: Scalar>(x: &[S], z: &[S], m: &[S]) -> [S; 3] {
 impl<S: Scalar> Poisson<S> for RigidBody<S> {
     type State = SVector<S, 3>;
     type Jacobian = SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "RigidBody";
-    const COORDINATES: &'static [&'static str] = &["x", "y", "z"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
+    fn dimension(&self) -> usize {
+        3
+    }
+    fn casimir_count(&self) -> usize {
+        1
+    }
+    fn name(&self) -> &str {
+        "RigidBody"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["x", "y", "z"][index]
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        ["C"][index]
+    }
 
     fn zero_state(&self) -> Self::State {
         SVector::<S, 3>::repeat(S::zero())
@@ -163,21 +173,30 @@ pub const SO3: Representation = Representation {
 
 impl<S: Scalar> MatrixPoisson<S> for RigidBody<S> {
     type Matrix = SMatrix<S, 3, 3>;
-    const REPRESENTATION: Representation = SO3;
+    fn representation(&self) -> Representation<'_> {
+        SO3
+    }
     fn zero_matrix(&self) -> Self::Matrix {
         SMatrix::<S, 3, 3>::repeat(S::zero())
     }
 }
 
 impl<S: Scalar> MatrixGroup<S> for RigidBody<S> {
-    const SIZE: usize = 3;
-    const MATRICES: &'static [&'static [Entry]] = SO3.matrices;
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = true;
+    fn group(&self) -> Group<'_> {
+        Group {
+            size: 3,
+            matrices: SO3.matrices,
+            closed: true,
+            orthogonal: true,
+            right: false,
+        }
+    }
 }
 
 impl<S: Scalar> SpinPoisson<S> for RigidBody<S> {
-    const SPINS: &'static [[usize; 3]] = &[[0, 1, 2]];
+    fn spins(&self) -> &[[usize; 3]] {
+        &[[0, 1, 2]]
+    }
     fn scale(&self, _spin: usize) -> S {
         S::one()
     }

@@ -12,11 +12,15 @@ pub struct Saddle<S>(pub S);
 impl<S: Scalar> Poisson<S> for Saddle<S> {
     type State = SVector<S, 2>;
     type Jacobian = SMatrix<S, 2, 2>;
-    const DIM: usize = 2;
-    const CASIMIRS: usize = 0;
-    const NAME: &'static str = "Saddle";
-    const COORDINATES: &'static [&'static str] = &["q", "p"];
-    const CASIMIR_NAMES: &'static [&'static str] = &[];
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn name(&self) -> &str {
+        "Saddle"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["q", "p"][index]
+    }
 
     fn zero_state(&self) -> Self::State {
         SVector::<S, 2>::repeat(S::zero())

@@ -132,9 +132,9 @@ fn open_orbit<P: Lift<f64>>(system: &P, ground: &Ground<P>) -> bool {
     ground.states.iter().all(|mu| {
         let mut matrix = system.zero_jacobian();
         system.poisson_matrix(mu, &mut matrix);
-        let column = |j| (0..P::DIM).map(|i| matrix.get(i, j)).collect();
-        let columns: Vec<Vec<f64>> = (0..P::DIM).map(column).collect();
-        Basis::of_span(&columns).rank() == P::DIM
+        let column = |j| (0..system.dimension()).map(|i| matrix.get(i, j)).collect();
+        let columns: Vec<Vec<f64>> = (0..system.dimension()).map(column).collect();
+        Basis::of_span(&columns).rank() == system.dimension()
     })
 }
 

@@ -209,8 +209,12 @@ fn usable<P: Poisson<f64>>(system: &P, mu: &P::State) -> bool {
 pub(crate) fn rate<P: Poisson<f64>>(system: &P, mu: &P::State) -> f64 {
     let mut jacobian = system.zero_jacobian();
     system.jacobian(mu, &mut jacobian);
-    let row = |i| (0..P::DIM).map(|j| jacobian.get(i, j).abs()).sum::<f64>();
-    (0..P::DIM)
+    let row = |i| {
+        (0..system.dimension())
+            .map(|j| jacobian.get(i, j).abs())
+            .sum::<f64>()
+    };
+    (0..system.dimension())
         .map(row)
         .fold(0.0, |m, x| if x.is_nan() { x } else { f64::max(m, x) })
 }
@@ -218,7 +222,8 @@ pub(crate) fn rate<P: Poisson<f64>>(system: &P, mu: &P::State) -> f64 {
 fn structure<P: Poisson<f64>>(system: &P, mu: &P::State) -> f64 {
     let mut matrix = system.zero_jacobian();
     system.poisson_matrix(mu, &mut matrix);
-    let entries = (0..P::DIM).flat_map(|i| (0..P::DIM).map(move |j| (i, j)));
+    let entries =
+        (0..system.dimension()).flat_map(|i| (0..system.dimension()).map(move |j| (i, j)));
     let largest = entries
         .map(|(i, j)| matrix.get(i, j).abs())
         .fold(0.0, f64::max);

@@ -89,12 +89,12 @@ where
         }
         moves |= subject_moves(system, subject, h, mu);
         for (element, state) in elements.iter().zip(&states) {
-            worst = f64::max(worst, defect::<P>(element, state, mu.as_slice()));
+            worst = f64::max(worst, defect(system, element, state, mu.as_slice()));
             if worst.is_nan() {
                 return Ok((f64::NAN, moves));
             }
         }
-        if P::SIZE == 3 && P::ORTHOGONAL {
+        if system.group().size == 3 && system.group().orthogonal {
             let (turns, _) = run(Chart::Quaternion, true)?;
             for (turn, element) in turns.iter().zip(&elements) {
                 let pairs = rotation(turn).into_iter().zip(element);
@@ -151,27 +151,28 @@ where
 
 /// `|Ad*_(g^-1) mu - mu0|` relative to the sizes that round-off has in it. Of a right-invariant system g^-1 is the element
 /// that moves as `G' = G xi`.
-fn defect<P: MatrixGroup<f64>>(element: &[f64], mu: &[f64], start: &[f64]) -> f64 {
-    let size = P::SIZE;
+fn defect<P: MatrixGroup<f64>>(system: &P, element: &[f64], mu: &[f64], start: &[f64]) -> f64 {
+    let group = system.group();
+    let size = group.size;
     let Some(other) = inverse(element, size) else {
         return f64::NAN;
     };
-    let (g, back) = if P::RIGHT {
+    let (g, back) = if group.right {
         (other.as_slice(), element)
     } else {
         (element, other.as_slice())
     };
     let dense = |index: usize| {
         let mut matrix = vec![0.0; size * size];
-        for entry in P::MATRICES[index] {
+        for entry in group.matrices[index] {
             let (row, column) = entry.place();
             matrix[row * size + column] += entry.high + entry.low;
         }
         matrix
     };
     // what carries the time has no matrix
-    let moving: Vec<usize> = (0..P::DIM)
-        .filter(|&k| !P::MATRICES[k].is_empty())
+    let moving: Vec<usize> = (0..system.dimension())
+        .filter(|&k| !group.matrices[k].is_empty())
         .collect();
     let basis: Vec<Vec<f64>> = moving.iter().map(|&k| dense(k)).collect();
     let span = Basis::of_span(&basis);

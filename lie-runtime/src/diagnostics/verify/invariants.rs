@@ -67,7 +67,9 @@ fn groups<'a, P: Lift<f64>>(
     method: &dyn AnyMethod<f64, P>,
 ) -> Vec<Group<'a, P>> {
     let kept = method.claims().preserves;
-    let quadratic_energy = P::HAMILTONIAN_DEGREE.is_some_and(|degree| degree <= 2);
+    let quadratic_energy = system
+        .hamiltonian_degree()
+        .is_some_and(|degree| degree <= 2);
     let energy = Watched {
         value: Box::new(|mu| system.hamiltonian(mu)),
         size: Box::new(|mu| {
@@ -77,12 +79,12 @@ fn groups<'a, P: Lift<f64>>(
         }),
         defect: 0.0,
     };
-    let degree = |index: usize| P::CASIMIR_DEGREES.get(index).copied().flatten();
     let casimirs = |quadratic: bool| {
-        let of_kind = move |index: &usize| degree(*index).is_some_and(|d| d <= 2) == quadratic;
-        (0..P::CASIMIRS)
+        let of_kind =
+            move |index: &usize| system.casimir_degree(*index).is_some_and(|d| d <= 2) == quadratic;
+        (0..system.casimir_count())
             .filter(of_kind)
-            .filter(|index| !P::MULTIVALUED_CASIMIRS.contains(index))
+            .filter(|index| !system.casimir_is_multivalued(*index))
             .map(|index| casimir(system, index))
             .collect()
     };
@@ -123,7 +125,7 @@ fn size<V: State<f64>>(gradient: &V, mu: &V) -> f64 {
 
 fn casimir<P: Poisson<f64>>(system: &P, index: usize) -> Watched<'_, P> {
     let value = move |mu: &P::State| {
-        let mut all = vec![0.0; P::CASIMIRS];
+        let mut all = vec![0.0; system.casimir_count()];
         system.casimirs(mu, &mut all);
         all[index]
     };

@@ -27,6 +27,7 @@ use super::symmetry::symmetry_defect;
 use crate::methods::StepFailure;
 use crate::newton::NewtonOptions;
 use crate::poisson::Lift;
+use crate::poisson::Poisson;
 use crate::scalar::Dual;
 use crate::state::{State, Unknown};
 
@@ -174,10 +175,10 @@ fn poisson<P: Lift<f64>>(
     method: &dyn AnyMethod<Dual<f64>, P::Lifted>,
 ) -> Finding {
     let kept = method.claims().preserves;
-    let constant = P::POISSON_DEGREE == Some(0);
+    let constant = lifted.poisson_degree() == Some(0);
     let claimed = kept.poisson || (kept.constant_poisson && constant);
     let newton = NewtonOptions::default();
-    let operations = PER_STEP * P::DIM as f64;
+    let operations = PER_STEP * lifted.dimension() as f64;
     worst(
         ground,
         "Poisson",

@@ -40,7 +40,7 @@ impl<S: Scalar, P: Poisson<S>> GonzalezGradient<S, P> {
         let flat = length.less_equal(S::epsilon() * size);
         self.length = S::select(flat, S::zero(), length);
         let inverse = S::one() / S::select(flat, S::one(), length);
-        for index in 0..P::DIM {
+        for index in 0..system.dimension() {
             self.middle.as_mut_slice()[index] = half * (x[index] + y[index]);
             self.direction.as_mut_slice()[index] = (y[index] - x[index]) * inverse;
         }
@@ -107,7 +107,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
     fn new(system: &P) -> Self {
         let zero = system.zero_state();
         Self {
-            rule: Rule::of_hamiltonian::<P>(),
+            rule: Rule::of_hamiltonian(system),
             start: zero.clone(),
             energy: S::zero(),
             middle: zero.clone(),
@@ -151,18 +151,18 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for GonzalezGradient<S, P>
         let inverse = S::select(near, S::zero(), inverse);
         let square = self.square(near);
         let slope = correction * inverse;
-        for row in 0..P::DIM {
+        for row in 0..system.dimension() {
             let mut bent = self.gradient.as_slice()[row] - out.as_slice()[row];
-            for column in 0..P::DIM {
+            for column in 0..system.dimension() {
                 let entry = self.hessian.get(row, column);
                 bent -= half * entry * (self.length * self.direction.as_slice()[column]);
             }
             let along = self.direction.as_slice()[row];
             self.point.as_mut_slice()[row] = (bent * inverse - (slope + slope) * along) / square;
         }
-        for row in 0..P::DIM {
+        for row in 0..system.dimension() {
             let along = self.direction.as_slice()[row];
-            for column in 0..P::DIM {
+            for column in 0..system.dimension() {
                 let mut entry = half * self.hessian.get(row, column);
                 entry += along * self.point.as_slice()[column];
                 if row == column {

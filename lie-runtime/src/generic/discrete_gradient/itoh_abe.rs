@@ -100,7 +100,7 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
         if differences && derivative.is_some() {
             system.gradient(&self.corner, &mut self.before);
         }
-        for index in 0..P::DIM {
+        for index in 0..system.dimension() {
             let (x, y) = (self.start.as_slice()[index], end.as_slice()[index]);
             let (from, to) = if there { (x, y) } else { (y, x) };
             let length = to - from;
@@ -166,7 +166,11 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
         let (before, after) = (self.before.as_slice(), self.after.as_slice());
         let there = path == Path::There;
         // of the other coordinates those that are y on this edge
-        let columns = if there { 0..index } else { index + 1..P::DIM };
+        let columns = if there {
+            0..index
+        } else {
+            index + 1..matrix.dimension()
+        };
         for column in columns {
             let slope = (after[column] - before[column]) * inverse;
             add(matrix, index, column, S::select(near, S::zero(), slope));
@@ -209,7 +213,11 @@ impl<S: Scalar, P: Poisson<S>> ItohAbeGradient<S, P> {
             system.hessian(&self.corner, &mut self.hessian);
             let weight = half * weight;
             // of the other coordinates those that are y on this edge
-            let columns = if there { 0..index } else { index + 1..P::DIM };
+            let columns = if there {
+                0..index
+            } else {
+                index + 1..system.dimension()
+            };
             for column in columns {
                 let slope = weight * self.hessian.get(index, column);
                 add(matrix, index, column, S::select(near, slope, S::zero()));
@@ -245,7 +253,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for ItohAbeGradient<S, P> 
     fn new(system: &P) -> Self {
         let zero = system.zero_state();
         Self {
-            rule: Rule::of_hamiltonian::<P>(),
+            rule: Rule::of_hamiltonian(system),
             start: zero.clone(),
             corner: zero.clone(),
             gradient: zero.clone(),
@@ -273,8 +281,8 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for ItohAbeGradient<S, P> 
         out: &mut P::State,
         derivative: &mut P::Jacobian,
     ) {
-        for row in 0..P::DIM {
-            for column in 0..P::DIM {
+        for row in 0..system.dimension() {
+            for column in 0..system.dimension() {
                 derivative.set(row, column, S::zero());
             }
         }

@@ -34,7 +34,7 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for MeanValueGradient<S, P
     fn new(system: &P) -> Self {
         let zero = system.zero_state();
         Self {
-            rule: Quadrature::of_hamiltonian::<P>(1),
+            rule: Quadrature::of_hamiltonian(system, 1),
             start: zero.clone(),
             point: zero.clone(),
             gradient: zero,
@@ -64,8 +64,8 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for MeanValueGradient<S, P
         derivative: &mut P::Jacobian,
     ) {
         out.fill(S::zero());
-        for row in 0..P::DIM {
-            for column in 0..P::DIM {
+        for row in 0..system.dimension() {
+            for column in 0..system.dimension() {
                 derivative.set(row, column, S::zero());
             }
         }
@@ -76,8 +76,8 @@ impl<S: Scalar, P: Poisson<S>> DiscreteGradient<S, P> for MeanValueGradient<S, P
             out.axpy(weight, &self.gradient);
             system.hessian(&self.point, &mut self.hessian);
             let weight = weight * (S::ratio(1.0, 2.0) + offset);
-            for row in 0..P::DIM {
-                for column in 0..P::DIM {
+            for row in 0..system.dimension() {
+                for column in 0..system.dimension() {
                     let sum = derivative.get(row, column);
                     let term = weight * self.hessian.get(row, column);
                     derivative.set(row, column, sum + term);

@@ -35,8 +35,8 @@ pub(super) struct Rule<S> {
 
 impl<S: Scalar> Rule<S> {
     /// The rule for increments of H.
-    pub(super) fn of_hamiltonian<P: Poisson<S>>() -> Self {
-        Self::new(Quadrature::of_hamiltonian::<P>(1))
+    pub(super) fn of_hamiltonian<P: Poisson<S>>(system: &P) -> Self {
+        Self::new(Quadrature::of_hamiltonian(system, 1))
     }
 
     fn new(quadrature: Quadrature<S>) -> Self {

@@ -165,7 +165,7 @@ where
             lift(control, lifted);
         }
         for stage in 0..STAGES {
-            for index in 0..P::DIM {
+            for index in 0..self.system.dimension() {
                 let seed = |controls: &mut Stages<LiftedState<S, P>, STAGES>, slope: S| {
                     controls.0[stage].as_mut_slice()[index].derivative = slope;
                 };

@@ -38,8 +38,8 @@ impl<S: Scalar, P: Poisson<S>> GeneratingFunction<S> for Generating2<'_, S, P> {
     fn linearize(&mut self, p: &P::State, xi: &mut P::State, hessian: &mut P::Jacobian) {
         self.gradient(p, xi);
         self.system.hessian(p, hessian);
-        for row in 0..P::DIM {
-            for column in 0..P::DIM {
+        for row in 0..self.system.dimension() {
+            for column in 0..self.system.dimension() {
                 hessian.set(row, column, self.step * hessian.get(row, column));
             }
         }
@@ -114,7 +114,7 @@ macro_rules! by_duals {
                 let h = Dual::constant_of(self.step);
                 let mut q = seeded(&lifted, p.as_slice(), None);
                 let mut gradient = lifted.zero_state();
-                for column in 0..P::DIM {
+                for column in 0..self.system.dimension() {
                     q.as_mut_slice()[column].derivative = S::one();
                     $slope(&lifted, h, &q, &mut gradient);
                     q.as_mut_slice()[column].derivative = S::zero();

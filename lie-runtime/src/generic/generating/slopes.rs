@@ -181,7 +181,7 @@ where
     second(system, p, &of_xi, &mut part);
     eta.axpy(S::from_f64(-2.0), &part);
     let mut unit = zero;
-    for d in 0..P::DIM {
+    for d in 0..system.dimension() {
         unit.fill(S::zero());
         unit.as_mut_slice()[d] = S::one();
         system.triple(&flow.xi, &flow.xi, &unit, &mut part);
@@ -208,8 +208,8 @@ pub(super) fn second_kind<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     system.gradient(p, &mut xi);
     let mut poisson_matrix = system.zero_jacobian();
     system.poisson_matrix(p, &mut poisson_matrix);
-    for row in 0..P::DIM {
-        for column in row + 1..P::DIM {
+    for row in 0..system.dimension() {
+        for column in row + 1..system.dimension() {
             let entry = poisson_matrix.get(row, column);
             of_xi.as_mut_slice()[row] += entry * xi.as_slice()[column];
             of_xi.as_mut_slice()[column] += entry * xi.as_slice()[row];
@@ -218,7 +218,7 @@ pub(super) fn second_kind<S: Scalar, P: Lift<S> + LiePoisson<S>>(
     let mut eta = zero.clone();
     second(system, p, &of_xi, &mut eta);
     let (mut one, mut before) = (zero.clone(), zero);
-    for j in 0..P::DIM {
+    for j in 0..system.dimension() {
         one.fill(S::zero());
         one.as_mut_slice()[j] = xi.as_slice()[j];
         system.ad(&one, &before, &mut part);

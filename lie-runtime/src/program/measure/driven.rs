@@ -132,7 +132,7 @@ fn by_hand<P: Poisson<f64> + Clone>(
 }
 
 fn row_at<P: Poisson<f64>>(system: &P, time: f64, mu: &P::State) -> Row {
-    let mut casimirs = vec![0.0; P::CASIMIRS];
+    let mut casimirs = vec![0.0; system.casimir_count()];
     system.casimirs(mu, &mut casimirs);
     let mut row = vec![time];
     row.extend(mu.as_slice());
@@ -152,9 +152,9 @@ fn run<P: Poisson<f64>>(
 ) -> Result<Seen<P::State>, StepFailure> {
     let (mut bytes, mut messages) = (Vec::new(), Vec::new());
     let interrupted = AtomicBool::new(false);
-    let mut recorder = Recorder::new::<P>();
+    let mut recorder = Recorder::new(&problem.system);
     {
-        let mut writer = RowWriter::new::<P>(&mut bytes, &mut messages, &interrupted);
+        let mut writer = RowWriter::new(&problem.system, &mut bytes, &mut messages, &interrupted);
         let mut observers = (&mut recorder, &mut writer);
         match integrate(problem, Forgotten(method), options, &mut observers) {
             Ok(_) => {}
@@ -168,7 +168,7 @@ fn run<P: Poisson<f64>>(
         f64::from_le_bytes(bytes)
     });
     let numbers: Vec<f64> = numbers.collect();
-    let width = 2 + P::DIM + P::CASIMIRS;
+    let width = 2 + problem.system.dimension() + problem.system.casimir_count();
     let written = numbers.chunks(width).map(<[f64]>::to_vec).collect();
     Ok((recorder.solution, written))
 }

@@ -81,8 +81,12 @@ pub(super) fn poisson<P: Poisson<f64>>(system: &P, writer: &mut Writer<'_, P::St
     };
     let stale_matrix = || {
         let mut matrix = system.zero_jacobian();
-        for place in 0..P::DIM * P::DIM {
-            matrix.set(place / P::DIM, place % P::DIM, f64::NAN);
+        for place in 0..system.dimension() * system.dimension() {
+            matrix.set(
+                place / system.dimension(),
+                place % system.dimension(),
+                f64::NAN,
+            );
         }
         matrix
     };
@@ -112,10 +116,10 @@ pub(super) fn poisson<P: Poisson<f64>>(system: &P, writer: &mut Writer<'_, P::St
     system.linearize(&mu, &mut vector, &mut matrix);
     let both = [vector.as_slice(), &rows(&matrix)].concat();
     writer.write("linearize", &[&at], &both);
-    let mut casimirs = vec![f64::NAN; P::CASIMIRS];
+    let mut casimirs = vec![f64::NAN; system.casimir_count()];
     system.casimirs(&mu, &mut casimirs);
     writer.write("casimirs", &[&at], &casimirs);
-    for index in 0..P::CASIMIRS {
+    for index in 0..system.casimir_count() {
         let mut vector = stale(mu.clone());
         system.casimir_gradient(index, &mu, &mut vector);
         writer.write(

@@ -147,11 +147,14 @@ fn prepare<P: Poisson<f64>>(
         Ok(system) => system,
         Err(error) => return Err((2, format!("parameter {} {error}", error.name))),
     };
-    if initial.len() != P::DIM {
+    if initial.len() != system.dimension() {
         let given = initial.len();
         return Err((
             2,
-            format!("initial {given} values where {} are needed", P::DIM),
+            format!(
+                "initial {given} values where {} are needed",
+                system.dimension()
+            ),
         ));
     }
     let mut mu = system.zero_state();

@@ -58,7 +58,7 @@ pub(super) fn growth<P: Poisson<f64>>(
     steps: u64,
     stop: &AtomicBool,
 ) -> Option<Growth> {
-    let claims = claimed::<P>(&method.claims());
+    let claims = claimed(system, &method.claims());
     let points = points(steps);
     if !claims.contains(&true) || points.len() < 4 {
         return None;
@@ -99,7 +99,7 @@ fn follow<P: Poisson<f64>>(
     points: &[u64],
     stop: &AtomicBool,
 ) -> Option<Vec<Vec<f64>>> {
-    let mut first = vec![0.0; P::CASIMIRS + 1];
+    let mut first = vec![0.0; system.casimir_count() + 1];
     values(system, &mu, &mut first);
     let mut sizes_seen = sizes(system, &mu);
     let mut now = first.clone();

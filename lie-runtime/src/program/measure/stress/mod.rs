@@ -279,13 +279,13 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
                 ..plain.clone()
             });
         }
-        for index in 0..P::DIM {
+        for index in 0..system.dimension() {
             for factor in [1e-8, 0.0] {
                 let mut mu = mu.as_slice().to_vec();
                 mu[index] *= factor;
                 cells.push(Cell {
                     experiment: "component",
-                    name: P::COORDINATES[index].to_owned(),
+                    name: system.coordinate(index).to_owned(),
                     value: factor,
                     mu,
                     step: None,
@@ -293,12 +293,12 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
                 });
             }
         }
-        for index in 0..P::CASIMIRS {
+        for index in 0..system.casimir_count() {
             for factor in [1e-4, 1e-12, 0.0] {
                 let moved = towards_zero(system, mu, index, factor);
                 cells.extend(moved.map(|mu| Cell {
                     experiment: "casimir",
-                    name: P::CASIMIR_NAMES[index].to_owned(),
+                    name: system.casimir_name(index).to_owned(),
                     value: factor,
                     mu,
                     step: None,
@@ -318,17 +318,19 @@ impl<P: Poisson<f64> + Sync> Stress<P> {
         stop: &std::sync::atomic::AtomicBool,
     ) -> Vec<String> {
         let mut line = vec!["growth".to_owned(), label.to_owned()];
-        let system = (self.build)(start.parameters).ok();
-        let found = system.and_then(|system| {
+        let Ok(system) = (self.build)(start.parameters) else {
+            return line;
+        };
+        let found = {
             let mut mu = system.zero_state();
             mu.as_mut_slice().copy_from_slice(start.mu);
             growth(&system, method, &mu, start.step, steps, stop)
-        });
+        };
         let Some(found) = found else { return line };
         let casimir = found.invariant.checked_sub(1);
         line.push(
             casimir
-                .map_or("energy", |index| P::CASIMIR_NAMES[index])
+                .map_or("energy", |index| system.casimir_name(index))
                 .to_owned(),
         );
         let (exponent, error) = found.exponent;
@@ -370,7 +372,7 @@ fn towards_zero<P: Poisson<f64>>(
     index: usize,
     factor: f64,
 ) -> Option<Vec<f64>> {
-    let mut values = vec![0.0; P::CASIMIRS];
+    let mut values = vec![0.0; system.casimir_count()];
     system.casimirs(mu, &mut values);
     let goal = factor * values[index];
     let mut state = mu.clone();

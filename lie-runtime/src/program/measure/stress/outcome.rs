@@ -110,13 +110,15 @@ impl Outcome {
 }
 
 /// Which invariants a method claims on a system: the energy, then each Casimir.
-pub(super) fn claimed<P: Poisson<f64>>(claims: &Claims) -> Vec<bool> {
+pub(super) fn claimed<P: Poisson<f64>>(system: &P, claims: &Claims) -> Vec<bool> {
     let kept = claims.preserves;
-    let quadratic = P::HAMILTONIAN_DEGREE.is_some_and(|degree| degree <= 2);
-    let casimirs = (0..P::CASIMIRS).map(|index| {
-        let degree = P::CASIMIR_DEGREES.get(index).copied().flatten();
+    let quadratic = system
+        .hamiltonian_degree()
+        .is_some_and(|degree| degree <= 2);
+    let casimirs = (0..system.casimir_count()).map(|index| {
+        let degree = system.casimir_degree(index);
         let quadratic = kept.quadratic_casimirs && degree.is_some_and(|degree| degree <= 2);
-        (kept.casimirs || quadratic) && !P::MULTIVALUED_CASIMIRS.contains(&index)
+        (kept.casimirs || quadratic) && !system.casimir_is_multivalued(index)
     });
     std::iter::once(kept.energy || (kept.quadratic_invariants && quadratic))
         .chain(casimirs)
@@ -130,7 +132,7 @@ pub(super) fn values<P: Poisson<f64>>(system: &P, mu: &P::State, values: &mut [f
 
 /// The sizes of the terms: what round-off of the state changes.
 pub(super) fn sizes<P: Poisson<f64>>(system: &P, mu: &P::State) -> Vec<f64> {
-    let mut all = vec![0.0; P::CASIMIRS + 1];
+    let mut all = vec![0.0; system.casimir_count() + 1];
     values(system, mu, &mut all);
     let mut gradient = system.zero_state();
     for (index, size) in all.iter_mut().enumerate() {
@@ -164,7 +166,7 @@ pub(super) fn run<P: Poisson<f64>>(
     if !sane || !normal || !step.is_finite() {
         return Outcome::domain("H, its derivatives or a Casimir overflow there");
     }
-    let mut now = vec![0.0; P::CASIMIRS + 1];
+    let mut now = vec![0.0; system.casimir_count() + 1];
     values(system, &mu, &mut now);
     let mut drifts: Vec<Drift> = now
         .iter()
@@ -206,7 +208,7 @@ pub(super) fn run<P: Poisson<f64>>(
         drift.size = drift.size.max(size);
     }
     let bound = bound(done.max(1), cell.steps <= STEPS);
-    let claims = claimed::<P>(&method.claims());
+    let claims = claimed(system, &method.claims());
     let excess = drifts
         .iter()
         .zip(&claims)
@@ -225,7 +227,7 @@ pub(super) fn run<P: Poisson<f64>>(
         ),
         (_, false) => {
             let lost: Vec<&str> = std::iter::once("energy")
-                .chain(P::CASIMIR_NAMES.iter().copied())
+                .chain((0..system.casimir_count()).map(|index| system.casimir_name(index)))
                 .zip(drifts.iter().zip(&claims))
                 .filter(|(_, (drift, claimed))| {
                     **claimed && !matches!(drift.relative() / bound, r if r <= 1.0)
