@@ -258,7 +258,7 @@ fn errors_of_a_spec_by_path_name_its_lines() {
         "struct FreeRigidBody",
         "pub J1 : S",
         "pub I2 : S",
-        "fn dimension (& self) -> usize { 3usize }",
+        "fn dimension (& self) -> usize { 3 }",
     ] {
         assert!(items.contains(part), "{part}: {items}");
     }

@@ -63,42 +63,24 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 pub mod diagnostics;
 #[cfg(feature = "std")]
 pub mod driver;
-pub mod elimination;
-pub mod equation;
-pub mod generating;
-pub mod generic;
-pub mod lagrangian;
-pub mod matrix;
-pub mod methods;
-pub mod newton;
-pub mod parameter;
-pub mod pieces;
-pub mod poisson;
 #[cfg(feature = "std")]
 pub mod program;
-pub mod scalar;
 #[cfg(feature = "sources")]
 pub mod sources;
-pub mod state;
-pub mod structure;
 #[cfg(test)]
 mod test_systems;
 
-pub use equation::{Equation, Implicit};
-pub use generating::GeneratingFunction;
-pub use lagrangian::{DiscreteLagrangian, DiscreteLagrangianPoisson, LagrangianPoisson};
+pub use lie_core::{
+    CayleyPoisson, ClosedRealization, CotangentPoisson, DiscreteLagrangian,
+    DiscreteLagrangianPoisson, Dual, Equation, GeneratingFunction, Group, Implicit, InertiaPoisson,
+    LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson, ParameterError,
+    ParameterFault, PieceFlows, Poisson, RealizedPoisson, Scalar, SeparablePoisson, Spectrum,
+    SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown, elimination, equation,
+    generating, generic, generic_equations, lagrangian, matrix, methods, newton, parameter, pieces,
+    poisson, scalar, state, structure,
+};
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
-pub use matrix::{SquareMatrix, StageMatrix};
-pub use parameter::{ParameterError, ParameterFault};
-pub use pieces::{PieceFlows, SeparablePoisson};
-pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
-pub use scalar::{Dual, Mask, Scalar};
-pub use state::{Stages, State, Unknown};
-pub use structure::{
-    ClosedRealization, CotangentPoisson, Group, InertiaPoisson, MatrixGroup, MatrixPoisson,
-    RealizedPoisson, Spectrum, SpinPoisson,
-};
 
 /// What a program usually needs.
 pub mod prelude {

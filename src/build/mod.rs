@@ -215,7 +215,7 @@ fn build(
 /// The manifest of a program.
 fn manifest(template: &Template, name: &str) -> String {
     // Relative, so that no character of the cache's path can break it.
-    let runtime = format!("../../runtime/{}", runtime::identity());
+    let runtime = format!("../../runtime/{}/lie-runtime", runtime::identity());
     template
         .manifest
         .replace("PROGRAM", name)

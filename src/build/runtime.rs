@@ -3,18 +3,26 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use lie_runtime::sources::{FILES, MANIFEST};
+use lie_runtime::sources::CRATES;
 
 use super::key::Key;
 
 /// Identifies the runtime: its version for people, its content for certainty.
 pub fn identity() -> String {
-    let key = FILES
-        .iter()
-        .fold(Key::new().with(MANIFEST), |key, (path, text)| {
-            key.with(path).with(text)
-        });
+    let key = files().fold(Key::new(), |key, (path, text)| {
+        key.with(&path.to_string_lossy()).with(text)
+    });
     format!("{}-{}", env!("CARGO_PKG_VERSION"), key.hex())
+}
+
+/// All files by their places in the folder of the unpacked runtime.
+fn files() -> impl Iterator<Item = (PathBuf, &'static str)> {
+    CRATES.iter().flat_map(|(name, manifest, files)| {
+        let manifest = (Path::new(name).join("Cargo.toml"), *manifest);
+        let below = Path::new(name).join("src");
+        let files = files.iter().map(move |(path, text)| (below.join(path), *text));
+        std::iter::once(manifest).chain(files)
+    })
 }
 
 /// The folder of the unpacked runtime inside the cache folder.
@@ -24,11 +32,9 @@ pub fn folder(cache: &Path) -> PathBuf {
 
 /// Whether every file is what it was.
 fn is_whole(folder: &Path) -> bool {
-    let same = |path: PathBuf, text: &str| std::fs::read(path).is_ok_and(|t| t == text.as_bytes());
-    same(folder.join("Cargo.toml"), MANIFEST)
-        && FILES
-            .iter()
-            .all(|(path, text)| same(folder.join("src").join(path), text))
+    files().all(|(path, text)| {
+        std::fs::read(folder.join(path)).is_ok_and(|there| there == text.as_bytes())
+    })
 }
 
 /// Writes the runtime's sources, unless they are there as they should be.
@@ -49,9 +55,8 @@ pub fn unpack(cache: &Path) -> io::Result<PathBuf> {
     let parent = cache.join("runtime");
     std::fs::create_dir_all(&parent)?;
     let draft = tempfile::tempdir_in(&parent)?;
-    std::fs::write(draft.path().join("Cargo.toml"), MANIFEST)?;
-    for (path, text) in FILES {
-        let path = draft.path().join("src").join(path);
+    for (path, text) in files() {
+        let path = draft.path().join(path);
         if let Some(parent) = path.parent() {
             std::fs::create_dir_all(parent)?;
         }

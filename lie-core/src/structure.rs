@@ -42,13 +42,13 @@ impl Entry {
 
     /// Row and column.
     #[inline(always)]
-    pub(crate) fn place(&self) -> (usize, usize) {
+    pub fn place(&self) -> (usize, usize) {
         (usize::from(self.row), usize::from(self.column))
     }
 
     /// The value.
     #[inline(always)]
-    pub(crate) fn value<S: Scalar>(&self) -> S {
+    pub fn value<S: Scalar>(&self) -> S {
         S::constant(self.high, self.low)
     }
 }

@@ -1,6 +1,7 @@
 //! Square matrices by entry: Jacobians of states and of stages.
 
 use crate::scalar::Scalar;
+#[cfg(any(feature = "nalgebra", test))]
 use nalgebra::SMatrix;
 
 /// A square matrix read and written by entry.
@@ -16,6 +17,22 @@ pub trait SquareMatrix<S: Scalar>: Clone {
     fn set(&mut self, row: usize, column: usize, value: S);
 }
 
+impl<S: Scalar, const N: usize> SquareMatrix<S> for [[S; N]; N] {
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        N
+    }
+    #[inline(always)]
+    fn get(&self, row: usize, column: usize) -> S {
+        self[row][column]
+    }
+    #[inline(always)]
+    fn set(&mut self, row: usize, column: usize, value: S) {
+        self[row][column] = value;
+    }
+}
+
+#[cfg(any(feature = "nalgebra", test))]
 impl<S: Scalar, const N: usize> SquareMatrix<S> for SMatrix<S, N, N> {
     #[inline(always)]
     fn dimension(&self) -> usize {

@@ -66,8 +66,7 @@ pub use midpoint::Midpoint;
 pub use orbit_energy::OrbitEnergyStep;
 pub use quadrature::{MAX_NODES, Quadrature};
 pub use quaternion_stages::QuaternionStages;
-#[cfg(feature = "std")]
-pub(crate) use quaternion_stages::product as quaternion_product;
+pub use quaternion_stages::product as quaternion_product;
 pub use realized::{Canonical, Lifting};
 pub use second_kind::SecondKind;
 pub(crate) use series::{Scratch, coadjoint_action_in};

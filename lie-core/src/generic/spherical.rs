@@ -8,7 +8,6 @@ use crate::newton::dense;
 use crate::scalar::Scalar;
 use crate::state::State;
 use crate::structure::SpinPoisson;
-use nalgebra::SVector;
 
 /// `|mu| / |s|` for the momentum mu of a spin and the sum s of its ends, and `1 / s.s`; 1 and 0 where the sum
 /// is zero and mu is, and not a number where only the sum is.
@@ -31,9 +30,9 @@ pub fn sphere_ratios<S: Scalar, P: SpinPoisson<S>, const K: usize>(
     _system: &P,
     mu: &P::State,
     unknown: &P::State,
-) -> SVector<S, K> {
+) -> [S; K] {
     let (mu, unknown) = (mu.as_slice(), unknown.as_slice());
-    let mut ratios = SVector::<S, K>::repeat(S::zero());
+    let mut ratios = [S::zero(); K];
     for (index, spin) in _system.spins().iter().enumerate() {
         let sum = spin.map(|k| mu[k] + unknown[k]);
         let (ratio, inverse) = sphere_ratio(spin.map(|k| mu[k]), sum);

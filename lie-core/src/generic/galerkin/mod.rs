@@ -12,7 +12,6 @@ use crate::newton::{dense, exchanging};
 use crate::poisson::{Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
 use crate::state::{Stages, State};
-use nalgebra::SMatrix;
 use path::Path;
 
 /// One step along the path of degree s that makes the quadrature of the action stationary.
@@ -34,7 +33,7 @@ where
     step: S,
     base: P::State,
     weight: P::Jacobian,
-    inverse_stiffness: SMatrix<S, STAGES, STAGES>,
+    inverse_stiffness: [[S; STAGES]; STAGES],
     path: Path<S, P::State, STAGES>,
     lifted_path: Path<Dual<S>, LiftedState<S, P>, STAGES>,
     lifted_base: LiftedState<S, P>,
@@ -59,11 +58,11 @@ where
         let lifted = system.lift();
         let lifted_zero = lifted.zero_state();
         let path = Path::new(&zero, h);
-        let mut stiffness = SMatrix::<S, STAGES, STAGES>::repeat(S::zero());
+        let mut stiffness = [[S::zero(); STAGES]; STAGES];
         for j in 0..STAGES {
             for k in 0..STAGES {
                 for (weight, slopes) in path.weights.iter().zip(&path.slopes) {
-                    stiffness[(j, k)] += *weight * slopes[j] * slopes[k];
+                    stiffness[j][k] += *weight * slopes[j] * slopes[k];
                 }
             }
         }
@@ -93,7 +92,7 @@ where
         for (j, part) in self.moved.0.iter_mut().enumerate() {
             sum.fill(S::zero());
             for (k, entry) in self.defects.0.iter().enumerate() {
-                sum.axpy(self.inverse_stiffness[(j, k)] * self.step, entry);
+                sum.axpy(self.inverse_stiffness[j][k] * self.step, entry);
             }
             multiply(&self.weight, sum, column);
             part.copy_from(column);

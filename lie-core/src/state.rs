@@ -1,6 +1,7 @@
 //! States of a system and unknowns of an implicit step, as slices of scalars.
 
 use crate::scalar::{Mask, Scalar};
+#[cfg(any(feature = "nalgebra", test))]
 use nalgebra::SVector;
 
 /// A vector of scalars in one or several parts: what Newton's iteration solves for.
@@ -142,6 +143,7 @@ macro_rules! one_part {
     };
 }
 
+#[cfg(any(feature = "nalgebra", test))]
 one_part!(SVector<S, N>, [const N: usize], SVector::as_slice, SVector::as_mut_slice);
 one_part!([S; N], [const N: usize], <[S; N]>::as_slice, <[S; N]>::as_mut_slice);
 #[cfg(feature = "std")]

@@ -11,7 +11,7 @@ pub use mean_value::MeanValueGradient;
 
 use crate::poisson::Poisson;
 use crate::scalar::{Mask as _, Scalar};
-use nalgebra::SVector;
+use crate::state::State;
 
 /// A discrete gradient of the Hamiltonian of a system, with its derivative in the second argument.
 ///
@@ -39,19 +39,19 @@ pub trait DiscreteGradient<S: Scalar, P: Poisson<S>> {
 
 /// `1/|d|` with `d = end - start`, and 0 where d is 0: what a fused discrete gradient multiplies by
 /// terms that vanish faster. Squares stay within the range of the scalar.
-pub fn inverse_length<S: Scalar, const N: usize>(
-    start: &SVector<S, N>,
-    end: &SVector<S, N>,
-) -> SVector<S, 1> {
-    let difference = end - start;
-    let size = resolution::largest(difference.iter().copied());
+pub fn inverse_length<S: Scalar, V: State<S>>(start: &V, end: &V) -> [S; 1] {
+    let difference = || {
+        let pairs = end.as_slice().iter().zip(start.as_slice());
+        pairs.map(|(&end, &start)| end - start)
+    };
+    let size = resolution::largest(difference());
     let flat = size.less_equal(S::zero());
     let unit = S::one() / S::select(flat, S::one(), size);
     let mut square = S::zero();
-    for &entry in &difference {
+    for entry in difference() {
         let entry = entry * unit;
         square += entry * entry;
     }
     let inverse = unit / S::select(flat, S::one(), square).sqrt();
-    SVector::<S, 1>::repeat(S::select(flat, S::zero(), inverse))
+    [S::select(flat, S::zero(), inverse)]
 }

@@ -25,7 +25,7 @@ fn conjugate<S: Scalar>(a: Quaternion<S>) -> Quaternion<S> {
 }
 
 /// The product of two quaternions.
-pub(crate) fn product<S: Scalar>(a: Quaternion<S>, b: Quaternion<S>) -> Quaternion<S> {
+pub fn product<S: Scalar>(a: Quaternion<S>, b: Quaternion<S>) -> Quaternion<S> {
     [
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],

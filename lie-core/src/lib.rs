@@ -1,0 +1,42 @@
+//! The numeric core of lie-poisson: what a Lie–Poisson system is, Newton's iteration, and the equations of all
+//! integrators, each stated once for any system over any scalar.
+//!
+//! Users depend on `lie-runtime`, which re-exports these modules and adds the driver and the diagnostics. The compiler
+//! depends on this crate too: it runs the same equations over expressions.
+#![cfg_attr(doc, doc = include_str!("../docs/katex.html"))]
+#![cfg_attr(not(feature = "std"), no_std)]
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod elimination;
+pub mod equation;
+pub mod generating;
+pub mod generic;
+pub mod lagrangian;
+pub mod matrix;
+pub mod methods;
+pub mod newton;
+pub mod parameter;
+pub mod pieces;
+pub mod poisson;
+pub mod scalar;
+#[cfg(feature = "sources")]
+pub mod sources;
+pub mod state;
+pub mod structure;
+#[cfg(test)]
+mod test_systems;
+
+pub use equation::{Equation, Implicit};
+pub use generating::GeneratingFunction;
+pub use lagrangian::{DiscreteLagrangian, DiscreteLagrangianPoisson, LagrangianPoisson};
+pub use matrix::{SquareMatrix, StageMatrix};
+pub use parameter::{ParameterError, ParameterFault};
+pub use pieces::{PieceFlows, SeparablePoisson};
+pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
+pub use scalar::{Dual, Mask, Scalar};
+pub use state::{Stages, State, Unknown};
+pub use structure::{
+    ClosedRealization, CotangentPoisson, Group, InertiaPoisson, MatrixGroup, MatrixPoisson,
+    RealizedPoisson, Spectrum, SpinPoisson,
+};
