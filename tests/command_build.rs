@@ -252,7 +252,9 @@ fn a_damaged_cache_heals_itself() {
     // a source of the runtime, and then the program
     let runtime = std::fs::read_dir(cache.join("runtime")).expect("the runtime");
     let runtime = runtime.flatten().next().expect("a version").path();
-    damage(&runtime.join("lie-runtime/src/lib.rs"), &|bytes| bytes.truncate(100));
+    damage(&runtime.join("lie-runtime/src/lib.rs"), &|bytes| {
+        bytes.truncate(100)
+    });
     damage(&program, &|bytes| bytes.clear());
     assert_eq!(call().ok().stdout, whole.stdout);
 }

@@ -68,3 +68,4 @@ pub mod schedule;
 pub mod structure;
 pub mod suggest;
 pub mod symbolic;
+pub mod trace;

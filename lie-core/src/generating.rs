@@ -1,6 +1,7 @@
 //! Generating functions of Lie–Poisson steps, and the hook by which a system supplies fused ones.
 
 use crate::matrix::SquareMatrix;
+use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
 use crate::state::State;
 
@@ -19,6 +20,16 @@ pub trait GeneratingFunction<S: Scalar> {
 
     /// The gradient: `xi_i = dS/dp_i`.
     fn gradient(&mut self, p: &Self::State, xi: &mut Self::State);
+    /// The motion `ad*_xi p` for the gradient xi at p.
+    fn motion<P: LiePoisson<S, State = Self::State>>(
+        &mut self,
+        system: &P,
+        p: &Self::State,
+        xi: &Self::State,
+        out: &mut Self::State,
+    ) {
+        system.ad_star(xi, p, out);
+    }
     /// The gradient and the Hessian: `hessian_ij = d^2S/dp_i dp_j`, every entry.
     fn linearize(&mut self, p: &Self::State, xi: &mut Self::State, hessian: &mut Self::Jacobian);
 }

@@ -20,7 +20,9 @@ fn files() -> impl Iterator<Item = (PathBuf, &'static str)> {
     CRATES.iter().flat_map(|(name, manifest, files)| {
         let manifest = (Path::new(name).join("Cargo.toml"), *manifest);
         let below = Path::new(name).join("src");
-        let files = files.iter().map(move |(path, text)| (below.join(path), *text));
+        let files = files
+            .iter()
+            .map(move |(path, text)| (below.join(path), *text));
         std::iter::once(manifest).chain(files)
     })
 }

@@ -2,7 +2,6 @@
 
 use super::field::mu;
 use super::{Argument, Block, Kernel, Source};
-use crate::symbolic::ExprId;
 
 pub(super) fn xi(source: &Source) -> Argument {
     Argument {
@@ -21,9 +20,9 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
         source.block(Block::Eta),
         source.coordinates(),
     );
-    let bracket = bracket(source, &x, &y);
+    let bracket = source.ad_of(&x, &y);
     let action = source.ad_star_of(&x, &m);
-    let matrix = matrix(source, &x);
+    let matrix = source.ad_star_matrix_of(&x);
     let graph = &source.graph;
     vec![
         Kernel::vector(
@@ -48,27 +47,4 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
             &matrix,
         ),
     ]
-}
-
-fn bracket(source: &mut Source, x: &[ExprId], y: &[ExprId]) -> Vec<ExprId> {
-    let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); source.dimension];
-    for (i, j, k, value) in source.all_constants() {
-        let term = source.graph.product(&[value, x[i], y[j]]);
-        terms[k].push(term);
-    }
-    terms
-        .into_iter()
-        .map(|terms| source.graph.sum(&terms))
-        .collect()
-}
-
-fn matrix(source: &mut Source, x: &[ExprId]) -> Vec<Vec<ExprId>> {
-    let n = source.dimension;
-    let zero = source.graph.integer(0);
-    let mut rows = vec![vec![zero; n]; n];
-    for (i, j, k, value) in source.all_constants() {
-        let term = source.graph.mul(value, x[i]);
-        rows[j][k] = source.graph.add(rows[j][k], term);
-    }
-    rows
 }

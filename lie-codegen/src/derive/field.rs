@@ -135,7 +135,7 @@ pub(super) fn jacobian(source: &mut Source, field: &[ExprId]) -> Vec<Vec<ExprId>
 }
 
 /// `Pi_ab`, of a Lie algebra `-C_ab^k mu_k`.
-fn poisson_matrix(source: &mut Source) -> Vec<Vec<ExprId>> {
+pub(super) fn poisson_matrix(source: &mut Source) -> Vec<Vec<ExprId>> {
     if let Some(entries) = source.poisson.clone() {
         return super::poisson::matrix(source, &entries);
     }

@@ -8,18 +8,18 @@ mod field;
 mod generating;
 mod kernel;
 mod lagrangian;
-mod midpoint;
 mod poisson;
 mod realization;
 mod second_kind;
 mod spherical;
 mod splitting;
-mod tape;
+pub(crate) mod tape;
 
 pub use generating::{Function, Generating};
 pub use kernel::{Argument, Kernel, Shape};
 pub use realization::Realization;
 pub use splitting::{PieceKernel, Update};
+pub(crate) use tape::Tape;
 
 use crate::algebra::{Representation, TripleEntry};
 use crate::structure::group::Group;
@@ -28,6 +28,8 @@ use crate::structure::one_parameter::Block as OneParameter;
 use crate::structure::separable::Piece;
 use crate::structure::spins::Spin;
 use crate::symbolic::{ExprId, Graph, Symbol};
+use crate::trace::{self, Formulas};
+use lie_core::generic;
 
 /// What the kernels are derived from.
 #[derive(Clone, Debug)]
@@ -92,6 +94,11 @@ pub(crate) enum Block {
     Correction,
     /// How that correction depends on the end of the step.
     Tilt,
+}
+
+impl Block {
+    /// The number of blocks.
+    pub(crate) const COUNT: usize = Self::Tilt as usize + 1;
 }
 
 impl Source {
@@ -160,6 +167,40 @@ impl Source {
             .into_iter()
             .map(|terms| self.graph.sum(&terms))
             .collect()
+    }
+
+    /// The bracket: `[xi, eta]^k = C_ij^k xi^i eta^j`
+    pub(crate) fn ad_of(&mut self, xi: &[ExprId], eta: &[ExprId]) -> Vec<ExprId> {
+        let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); self.dimension];
+        for (i, j, k, value) in self.all_constants() {
+            let term = self.graph.product(&[value, xi[i], eta[j]]);
+            terms[k].push(term);
+        }
+        terms
+            .into_iter()
+            .map(|terms| self.graph.sum(&terms))
+            .collect()
+    }
+
+    /// The matrix of `mu -> ad*_xi mu`, row by row: `out_jk = C_ij^k xi^i`
+    pub(crate) fn ad_star_matrix_of(&mut self, xi: &[ExprId]) -> Vec<Vec<ExprId>> {
+        let zero = self.graph.integer(0);
+        let mut rows = vec![vec![zero; self.dimension]; self.dimension];
+        for (i, j, k, value) in self.all_constants() {
+            let term = self.graph.mul(value, xi[i]);
+            rows[j][k] = self.graph.add(rows[j][k], term);
+        }
+        rows
+    }
+
+    /// `out_b = T_abc^d x^a z^c m_d`
+    pub(crate) fn triple_of(&mut self, x: &[ExprId], z: &[ExprId], m: &[ExprId]) -> Vec<ExprId> {
+        cayley::triple_of(self, x, z, m)
+    }
+
+    /// `Pi_ab`, row by row
+    pub(crate) fn poisson_matrix(&mut self) -> Vec<Vec<ExprId>> {
+        field::poisson_matrix(self)
     }
 
     /// H, and 0 where it has no expression: nothing is derived from it then.
@@ -237,7 +278,15 @@ impl Source {
 
     /// Residual, Jacobian and result of the Poisson midpoint rule.
     pub fn midpoint_kernels(&mut self) -> Vec<Kernel> {
-        midpoint::kernels(self)
+        let formulas = Formulas {
+            residual: "`r = u - mu - h f(m)`, `m = (mu + u)/2`",
+            linearize: "`r = u - mu - h f(m)`, `m = (mu + u)/2`, and `dr/du = 1 - (h/2) Df(m)`",
+            result: "`mu1 = u`",
+        };
+        trace::kernels(self, &formulas, |system, h| {
+            trace::step(generic::Midpoint::new(system, h))
+        })
+        .expect("nothing is compared")
     }
 
     /// Residual and Jacobian of the spherical midpoint method.
@@ -258,7 +307,15 @@ impl Source {
 
     /// Residual, Jacobian and result of the retraction method with the Cayley map.
     pub fn cayley_kernels(&mut self) -> Option<Vec<Kernel>> {
-        self.triple.is_some().then(|| cayley::kernels(self))
+        self.triple.as_ref()?;
+        let formulas = Formulas {
+            residual: "`r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`",
+            linearize: "`r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`",
+            result: "`mu1 = mu + ad*_x m = mu + h f(m)`",
+        };
+        trace::kernels(self, &formulas, |system, h| {
+            trace::step(generic::CayleyMidpoint::new(system, h))
+        })
     }
 
     /// The flows of the coordinate pieces of a separable Hamiltonian.

@@ -106,16 +106,11 @@ impl Tape {
             .collect()
     }
 
-    /// The derivatives of quantities along a coordinate, by tangents.
-    pub fn tangents(
-        &mut self,
-        source: &mut Source,
-        values: &[ExprId],
-        coordinate: usize,
-    ) -> Vec<ExprId> {
+    /// The derivatives of quantities along a symbol, by tangents.
+    fn tangents(&mut self, source: &mut Source, values: &[ExprId], along: Symbol) -> Vec<ExprId> {
         let mut tangents: HashMap<Symbol, ExprId> = HashMap::new();
         let one = source.graph.integer(1);
-        tangents.insert(Symbol::Coordinate(coordinate), one);
+        tangents.insert(along, one);
         for (symbol, definition) in self.definitions.clone() {
             let tangent = self.tangent(source, &tangents, definition);
             if !source.graph.is_zero(tangent) {
@@ -131,10 +126,21 @@ impl Tape {
 
     /// The derivatives of quantities in all coordinates: `out[i][j]` of value i in coordinate j.
     pub fn jacobian(&mut self, source: &mut Source, values: &[ExprId]) -> Vec<Vec<ExprId>> {
+        let coordinates: Vec<Symbol> = (0..source.dimension).map(Symbol::Coordinate).collect();
+        self.jacobian_in(source, values, &coordinates)
+    }
+
+    /// The derivatives of quantities in symbols: `out[i][j]` of value i in symbol j.
+    pub fn jacobian_in(
+        &mut self,
+        source: &mut Source,
+        values: &[ExprId],
+        symbols: &[Symbol],
+    ) -> Vec<Vec<ExprId>> {
         // tangents of tangents are not needed: each direction starts from the same list
         let count = self.definitions.len();
-        let mut rows = vec![Vec::with_capacity(source.dimension); values.len()];
-        for j in 0..source.dimension {
+        let mut rows = vec![Vec::with_capacity(symbols.len()); values.len()];
+        for along in symbols {
             let mut direction = Self {
                 definitions: self.definitions[..count].to_vec(),
                 known: std::mem::take(&mut self.known),
@@ -142,7 +148,7 @@ impl Tape {
                 start: self.start,
                 swollen: self.swollen,
             };
-            let column = direction.tangents(source, values, j);
+            let column = direction.tangents(source, values, *along);
             self.next = direction.next;
             self.known = direction.known;
             self.swollen = direction.swollen;

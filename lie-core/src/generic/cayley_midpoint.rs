@@ -17,7 +17,7 @@ use crate::structure::Spectrum;
 /// representation.
 ///
 /// Unknown: the momentum p of the function. Equation, polynomial in `xi = grad S(p)`:
-/// `r(p) = p - ad*_xi p/2 - Q_xi p/4 - mu`, with `(Q_xi p)_b = T_abc^d xi^a xi^c p_d`.
+/// `r(p) = p - ad*_xi p/2 - Q_y p - mu`, with `y = xi/2` and `(Q_y p)_b = T_abc^d y^a y^c p_d`.
 /// New state: `mu + ad*_xi p`. Jacobian, column j: the terms linear in p applied to `e_j`, and with
 /// `v = S''(p) e_j` the terms `-ad*_v p/2 - (T_abc^d v^a xi^c p_d)_b/2`.
 /// Start: `p = mu + (h/2) f(mu)`.
@@ -64,13 +64,16 @@ where
 
     /// Computes the residual for the direction.
     fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) {
-        let (half, quarter) = (S::ratio(1.0, 2.0), S::ratio(1.0, 4.0));
-        let [action, triple, ..] = &mut self.columns;
-        self.system.ad_star(&self.direction, unknown, action);
-        self.system
-            .triple(&self.direction, &self.direction, unknown, triple);
+        let half = S::ratio(1.0, 2.0);
+        let [action, triple, y, _] = &mut self.columns;
+        self.function
+            .motion(self.system, unknown, &self.direction, action);
+        for (y, &x) in y.as_mut_slice().iter_mut().zip(self.direction.as_slice()) {
+            *y = (half * x).quantity();
+        }
+        self.system.triple(y, y, unknown, triple);
         for (row, out) in residual.as_mut_slice().iter_mut().enumerate() {
-            let corrections = half * action.as_slice()[row] + quarter * triple.as_slice()[row];
+            let corrections = half * action.as_slice()[row] + triple.as_slice()[row];
             *out = unknown.as_slice()[row] - corrections - self.base.as_slice()[row];
         }
     }
@@ -151,7 +154,8 @@ where
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         self.function.gradient(unknown, &mut self.direction);
         let [action, ..] = &mut self.columns;
-        self.system.ad_star(&self.direction, unknown, action);
+        self.function
+            .motion(self.system, unknown, &self.direction, action);
         for (row, out) in mu.as_mut_slice().iter_mut().enumerate() {
             *out = self.base.as_slice()[row] + action.as_slice()[row];
         }

@@ -38,7 +38,7 @@ impl<'a, S: Scalar, P: Poisson<S>> Midpoint<'a, S, P> {
         let half = S::ratio(1.0, 2.0);
         let pairs = self.base.as_slice().iter().zip(unknown.as_slice());
         for (middle, (&mu, &u)) in self.middle.as_mut_slice().iter_mut().zip(pairs) {
-            *middle = half * (mu + u);
+            *middle = half * (mu + u).quantity();
         }
     }
 

@@ -41,14 +41,14 @@ const SIZES: usize = 9;
 /// A composition of order 4, 6 or 8; see the [module's text](self).
 ///
 /// ```
-/// use lie_runtime::methods::{Compose6, LieMidpoint, Scheme};
+/// use lie_core::methods::{Compose6, LieMidpoint, Scheme};
 /// let method = Compose6::new(LieMidpoint::exp()).scheme(Scheme::Yoshida);
 /// ```
 ///
 /// The base must be symmetric and of order 2:
 ///
 /// ```compile_fail
-/// use lie_runtime::methods::{Compose4, Rk4};
+/// use lie_core::methods::{Compose4, Rk4};
 /// let method = Compose4::new(Rk4);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

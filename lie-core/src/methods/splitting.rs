@@ -59,7 +59,7 @@ const SWEEPS: usize = 50;
 /// A splitting of order 1, 2, 4, 6 or 8; see the [module's text](self).
 ///
 /// ```
-/// use lie_runtime::methods::{Scheme, Splitting2, Splitting4};
+/// use lie_core::methods::{Scheme, Splitting2, Splitting4};
 /// let strang = Splitting2::new();
 /// let suzuki = Splitting4::new().scheme(Scheme::Suzuki);
 /// ```

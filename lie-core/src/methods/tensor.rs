@@ -54,7 +54,7 @@ impl AlongGradient for ItohAbe {
 /// A discrete gradient method G with a tensor T; see the [module's text](self).
 ///
 /// ```
-/// use lie_runtime::methods::{MeanTensor, MeanValue, WithTensor};
+/// use lie_core::methods::{MeanTensor, MeanValue, WithTensor};
 /// let method = WithTensor::new(MeanValue, MeanTensor);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

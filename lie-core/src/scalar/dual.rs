@@ -11,7 +11,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 /// a norm, choose derivatives of the size of the values.
 ///
 /// ```
-/// use lie_runtime::prelude::*;
+/// use lie_core::Dual;
 /// let x = Dual::variable(2.0_f64);
 /// assert_eq!((x * x * x).derivative, 12.0);
 /// ```

@@ -24,7 +24,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 /// it, so that code without branches serves one lane and eight.
 ///
 /// ```
-/// use lie_runtime::prelude::*;
+/// use lie_core::Scalar;
 /// fn relu<S: Scalar>(x: S) -> S {
 ///     S::select(x.less(S::zero()), S::zero(), x)
 /// }
@@ -32,7 +32,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 /// assert_eq!(relu(2.0_f32), 2.0);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a scalar of lie-runtime",
+    message = "`{Self}` is not a scalar",
     note = "scalars are f64, f32, the lanes F64x4, F64x8, F32x8, and Dual of any of these"
 )]
 pub trait Scalar:
@@ -77,6 +77,14 @@ pub trait Scalar:
     fn from_f64(value: f64) -> Self;
     /// The distance from 1 to the next larger number.
     fn epsilon() -> Self;
+
+    /// The number as a quantity of its own. A symbolic scalar keeps it as one, whose parts are not mixed with what it is
+    /// used in; a number is one anyway.
+    #[must_use]
+    #[inline(always)]
+    fn quantity(self) -> Self {
+        self
+    }
 
     /// The same number in every lane.
     fn splat(lane: Self::Lane) -> Self;

@@ -35,6 +35,20 @@ impl<S: Scalar, P: Poisson<S>> GeneratingFunction<S> for Generating2<'_, S, P> {
         }
     }
 
+    /// `h f(p)`: fewer operations than `ad*_xi p`, of which f is a multiple.
+    fn motion<L: LiePoisson<S, State = P::State>>(
+        &mut self,
+        _system: &L,
+        p: &P::State,
+        _xi: &P::State,
+        out: &mut P::State,
+    ) {
+        self.system.vector_field(p, out);
+        for entry in out.as_mut_slice() {
+            *entry *= self.step;
+        }
+    }
+
     fn linearize(&mut self, p: &P::State, xi: &mut P::State, hessian: &mut P::Jacobian) {
         self.gradient(p, xi);
         self.system.hessian(p, hessian);

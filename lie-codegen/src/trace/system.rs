@@ -1,0 +1,143 @@
+//! A declared system over expressions: its traits say how the kernels of the declaration look at a point that is
+//! itself an expression.
+
+use lie_core::{CayleyPoisson, LiePoisson, Poisson, SquareMatrix};
+
+use super::sym::{Session, Sym, with};
+use crate::derive::Source;
+use crate::symbolic::ExprId;
+
+/// A square matrix of expressions, row by row.
+#[derive(Clone, Debug)]
+pub struct Square {
+    size: usize,
+    entries: Vec<Sym>,
+}
+
+impl SquareMatrix<Sym> for Square {
+    fn dimension(&self) -> usize {
+        self.size
+    }
+    fn get(&self, row: usize, column: usize) -> Sym {
+        self.entries[row * self.size + column]
+    }
+    fn set(&mut self, row: usize, column: usize, value: Sym) {
+        self.entries[row * self.size + column] = value;
+    }
+}
+
+type State = Vec<Sym>;
+
+/// The system of the trace that runs.
+#[derive(Clone, Debug)]
+pub struct SymbolicSystem {
+    dimension: usize,
+}
+
+impl SymbolicSystem {
+    pub(super) fn of(source: &Source) -> Self {
+        Self {
+            dimension: source.dimension,
+        }
+    }
+
+    /// Expressions in the coordinates, at a point.
+    fn at(expressions: impl FnOnce(&mut Source) -> Vec<ExprId>, point: &[Sym]) -> Vec<Sym> {
+        let point: Vec<ExprId> = point.iter().map(|x| x.0).collect();
+        with(|Session { source, .. }| {
+            let expressions = expressions(source);
+            source
+                .at(&expressions, &point)
+                .into_iter()
+                .map(Sym)
+                .collect()
+        })
+    }
+
+    fn matrix(&self, rows: Vec<Sym>, out: &mut Square) {
+        *out = Square {
+            size: self.dimension,
+            entries: rows,
+        };
+    }
+}
+
+fn ids(vector: &[Sym]) -> Vec<ExprId> {
+    vector.iter().map(|x| x.0).collect()
+}
+
+fn write(values: Vec<ExprId>, out: &mut State) {
+    *out = values.into_iter().map(Sym).collect();
+}
+
+impl Poisson<Sym> for SymbolicSystem {
+    type State = State;
+    type Jacobian = Square;
+
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+    fn name(&self) -> &str {
+        ""
+    }
+    fn coordinate(&self, _index: usize) -> &str {
+        ""
+    }
+    fn zero_state(&self) -> State {
+        vec![Sym::default(); self.dimension]
+    }
+    fn zero_jacobian(&self) -> Square {
+        Square {
+            size: self.dimension,
+            entries: vec![Sym::default(); self.dimension * self.dimension],
+        }
+    }
+
+    fn hamiltonian(&self, mu: &State) -> Sym {
+        Self::at(|source| vec![source.function()], mu)[0]
+    }
+    fn gradient(&self, mu: &State, out: &mut State) {
+        *out = Self::at(Source::gradient_of_h, mu);
+    }
+    fn hessian(&self, mu: &State, out: &mut Square) {
+        self.matrix(Self::at(|s| s.hessian_of_h().concat(), mu), out);
+    }
+    fn poisson_matrix(&self, mu: &State, out: &mut Square) {
+        self.matrix(Self::at(|s| s.poisson_matrix().concat(), mu), out);
+    }
+    fn vector_field(&self, mu: &State, out: &mut State) {
+        *out = Self::at(Source::field_of_h, mu);
+    }
+    fn jacobian(&self, mu: &State, out: &mut Square) {
+        let entries = |source: &mut Source| {
+            let field = source.field_of_h();
+            source.jacobian_of(&field).concat()
+        };
+        self.matrix(Self::at(entries, mu), out);
+    }
+    fn casimirs(&self, _mu: &State, _out: &mut [Sym]) {}
+    fn casimir_gradient(&self, _index: usize, _mu: &State, _out: &mut State) {}
+}
+
+impl LiePoisson<Sym> for SymbolicSystem {
+    fn ad(&self, xi: &State, eta: &State, out: &mut State) {
+        let (xi, eta) = (ids(xi), ids(eta));
+        write(with(|s| s.source.ad_of(&xi, &eta)), out);
+    }
+    fn ad_star(&self, xi: &State, mu: &State, out: &mut State) {
+        let (xi, mu) = (ids(xi), ids(mu));
+        write(with(|s| s.source.ad_star_of(&xi, &mu)), out);
+    }
+    fn ad_star_matrix(&self, xi: &State, out: &mut Square) {
+        let xi = ids(xi);
+        let rows = with(|s| s.source.ad_star_matrix_of(&xi));
+        self.matrix(rows.concat().into_iter().map(Sym).collect(), out);
+    }
+}
+
+impl CayleyPoisson<Sym> for SymbolicSystem {
+    fn triple(&self, x: &State, z: &State, mu: &State, out: &mut State) {
+        let (x, z, mu) = (ids(x), ids(z), ids(mu));
+        write(with(|s| s.source.triple_of(&x, &z, &mu)), out);
+    }
+}
