@@ -6,3 +6,8 @@ pub mod plot;
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 pub struct Readme;
+
+/// The code of the page on declarations.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/declaration.md")]
+pub struct DeclarationPage;

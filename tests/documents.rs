@@ -7,11 +7,12 @@ use std::process::Command;
 use lie_codegen::compile::{compile_spec, declared_choices, expand};
 use lie_codegen::methods::{Availability, CATALOGUE, Method};
 
-const DOCUMENTS: [&str; 4] = [
+const DOCUMENTS: [&str; 5] = [
     "README.md",
     "ARCHITECTURE.md",
     "CONTRIBUTING.md",
     "CHANGELOG.md",
+    "docs/declaration.md",
 ];
 
 fn read(path: &str) -> String {
@@ -47,19 +48,19 @@ fn blocks_in(text: &str, language: &str) -> Vec<String> {
 }
 
 #[test]
-fn the_readme_begins_with_the_two_commands() {
+fn the_first_code_of_the_readme_is_the_two_commands() {
     let readme = read("README.md");
-    let first = readme.lines().skip(2).take(4).collect::<Vec<_>>();
-    assert_eq!(first[0], "```sh");
+    let (language, first) = &blocks(&readme)[0];
+    assert_eq!(language, "sh");
+    let commands: Vec<&str> = first.lines().collect();
     assert!(
-        first[1].starts_with("cargo run --release -- run specs/se3_heavy_top.json "),
-        "{}",
-        first[1]
+        commands[0].starts_with("cargo run --release -- run specs/se3_heavy_top.json "),
+        "{first}"
     );
-    assert!(first[2].starts_with("cargo test"), "{}", first[2]);
-    assert_eq!(first[3], "```");
+    assert!(commands[1].starts_with("cargo test"), "{first}");
+    assert_eq!(commands.len(), 2);
     let run = &blocks_in(&readme, "text")[0];
-    let arguments = first[1].trim_start_matches("cargo run --release -- ");
+    let arguments = commands[0].trim_start_matches("cargo run --release -- ");
     assert_eq!(
         run.lines().next(),
         Some(format!("$ lie {arguments}").as_str())
@@ -227,9 +228,14 @@ fn places_in_the_documents_exist() {
                 && !word.contains(' ')
                 && folders.iter().any(|folder| word.starts_with(folder))
         });
-        for place in links.chain(paths).filter(|place| !place.contains("NAME")) {
+        // links start at the document, paths at the root
+        let folder = Path::new(document).parent().expect("a folder");
+        let links = links.map(|link| folder.join(link));
+        let places = links.chain(paths.map(|path| Path::new(path).to_owned()));
+        for place in places.filter(|place| !place.to_string_lossy().contains("NAME")) {
+            let place = place.display();
             assert!(
-                root.join(place).exists(),
+                root.join(place.to_string()).exists(),
                 "{document}: {place} does not exist"
             );
             count += 1;

@@ -62,6 +62,9 @@ pub fn kernels(
     formulas: &Formulas,
     run: impl FnOnce(&SymbolicSystem, Sym) -> Step,
 ) -> Option<Vec<Kernel>> {
+    // Sums and products are ordered by the age of their parts: the state first, then the unknown, then the step.
+    source.coordinates();
+    source.block(Block::Unknown);
     let taken = std::mem::replace(source, Source::empty(crate::symbolic::Graph::new()));
     let system = SymbolicSystem::of(&taken);
     // each block has symbols of its own

@@ -66,12 +66,12 @@ where
     fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) {
         let half = S::ratio(1.0, 2.0);
         let [action, triple, y, _] = &mut self.columns;
-        self.function
-            .motion(self.system, unknown, &self.direction, action);
         for (y, &x) in y.as_mut_slice().iter_mut().zip(self.direction.as_slice()) {
             *y = (half * x).quantity();
         }
         self.system.triple(y, y, unknown, triple);
+        self.function
+            .motion(self.system, unknown, &self.direction, action);
         for (row, out) in residual.as_mut_slice().iter_mut().enumerate() {
             let corrections = half * action.as_slice()[row] + triple.as_slice()[row];
             *out = unknown.as_slice()[row] - corrections - self.base.as_slice()[row];
