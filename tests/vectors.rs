@@ -54,8 +54,8 @@ fn trajectory(name: &str) {
 }
 
 fn matrix<P: Poisson<f64>>(matrix: &P::Jacobian) -> Vec<f64> {
-    let entries = (0..system.dimension())
-        .flat_map(|row| (0..system.dimension()).map(move |column| (row, column)));
+    let n = matrix.dimension();
+    let entries = (0..n).flat_map(|row| (0..n).map(move |column| (row, column)));
     entries
         .map(|(row, column)| matrix.get(row, column))
         .collect()

@@ -92,14 +92,22 @@ impl<S: ::lie_runtime::Scalar> CanonicalPendulum<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CanonicalPendulumSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 2>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 2, 2>;
-    const DIM: usize = 2;
-    const CASIMIRS: usize = 0;
-    const NAME: &'static str = "CanonicalPendulum";
-    const COORDINATES: &'static [&'static str] = &["q", "p"];
-    const CASIMIR_NAMES: &'static [&'static str] = &[];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::None;
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[];
-    const POISSON_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(0);
+    fn dimension(&self) -> usize {
+        2
+    }
+
+    fn name(&self) -> &str {
+        "CanonicalPendulum"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["q", "p"][index]
+    }
+
+    fn poisson_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(0)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }

@@ -86,17 +86,34 @@ impl<S: ::lie_runtime::Scalar> Heisenberg<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "Heisenberg";
-    const COORDINATES: &'static [&'static str] = &["q", "p", "z"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["centre"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        4,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(1),
-    ];
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    fn name(&self) -> &str {
+        "Heisenberg"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["q", "p", "z"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["centre"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(1)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(4)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -273,7 +290,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeisenbergSystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// No operation.
@@ -302,32 +322,45 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeisenbergSystem<S> {
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeisenbergSystem<S> {
-    const SIZE: usize = 3;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
-        &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
-        &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = false;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 3,
+            matrices: &[
+                &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
+                &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
+            ],
+            closed: true,
+            orthogonal: false,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeisenbergSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
-            &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
-        ],
-        dual: &[
-            &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
-            &[::lie_runtime::__private::Entry::new(2, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(2, 0, 1.0)],
-        ],
-        skew: false,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
+                &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
+            ],
+            dual: &[
+                &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 0, 1.0)],
+            ],
+            skew: false,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -400,7 +433,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergMidpoint
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`, and `dr/du = 1 - (h/2) Df(m)`
     ///
-    /// 12 additions, 13 multiplications.
+    /// 12 additions, 12 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -410,21 +443,21 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergMidpoint
     ) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
-        let _t0 = p + _u_p;
-        let _t1 = _t0 * _t0;
-        let _t2 = _t0 * (_t1 + S::ratio(4.0, 1.0));
-        let _t3 = z + _u_z;
-        let _t4 = _t3 * self._h0;
-        let _t5 = (q + _u_q) * S::ratio(3.0, 1.0);
-        residual[0] = _u_q - q + _t2 * _t4;
-        residual[1] = _u_p - p + _t3 * (_t3 + _t5) * self._h2;
+        let _t0 = z + _u_z;
+        let _t1 = p + _u_p;
+        let _t2 = _t1 * _t1;
+        let _t3 = (_t2 + S::ratio(4.0, 1.0)) * (_t1 * self._h0);
+        let _t4 = _t0 + (q + _u_q) * S::ratio(3.0, 1.0);
+        residual[0] = _u_q - q + _t0 * _t3;
+        residual[1] = _u_p - p + _t0 * _t4 * self._h2;
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
-        matrix[(0, 1)] = (S::ratio(4.0, 1.0) + _t1 * S::ratio(3.0, 1.0)) * _t4;
-        matrix[(0, 2)] = self._h0 * _t2;
-        matrix[(1, 0)] = _t3 * self._h3;
+        matrix[(0, 1)] = _t0 * (_t2 * S::ratio(3.0, 1.0) + S::ratio(4.0, 1.0))
+            * self._h0;
+        matrix[(0, 2)] = _t3;
+        matrix[(1, 0)] = _t0 * self._h3;
         matrix[(1, 1)] = S::one();
-        matrix[(1, 2)] = self._h2 * (_t5 + _t3 * S::ratio(2.0, 1.0));
+        matrix[(1, 2)] = (_t4 + _t0) * self._h2;
         matrix[(2, 2)] = S::one();
     }
 
@@ -1029,12 +1062,10 @@ pub struct HeisenbergCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     h: S,
     /// `h/2`
     _h0: S,
-    /// `h/6`
+    /// `-h/6`
     _h1: S,
     /// `-h/2`
     _h2: S,
-    /// `-h/6`
-    _h3: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> HeisenbergCayleyMidpoint<'a, S> {
@@ -1046,9 +1077,8 @@ impl<'a, S: ::lie_runtime::Scalar> HeisenbergCayleyMidpoint<'a, S> {
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
             _h0: h * S::ratio(1.0, 2.0),
-            _h1: h * S::ratio(1.0, 6.0),
+            _h1: h * S::ratio(-1.0, 6.0),
             _h2: h * S::ratio(-1.0, 2.0),
-            _h3: h * S::ratio(-1.0, 6.0),
         }
     }
 }
@@ -1072,7 +1102,7 @@ for HeisenbergCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
     /// 7 additions, 6 multiplications.
     #[inline]
@@ -1085,7 +1115,7 @@ for HeisenbergCayleyMidpoint<'_, S> {
         residual[2] = _u_z - z;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
     /// 9 additions, 12 multiplications.
     #[inline]
@@ -1102,14 +1132,14 @@ for HeisenbergCayleyMidpoint<'_, S> {
         let _t2 = _u_z * self._h0;
         let _t3 = _u_z + _u_q * S::ratio(3.0, 1.0);
         residual[0] = _u_q - q + _t1 * _t2;
-        residual[1] = _u_p - p - _u_z * (self._h1 * _t3);
+        residual[1] = _u_p - p + _u_z * _t3 * self._h1;
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = (S::one() + S::ratio(3.0, 1.0) * _t0) * _t2;
         matrix[(0, 2)] = self._h0 * _t1;
         matrix[(1, 0)] = _u_z * self._h2;
         matrix[(1, 1)] = S::one();
-        matrix[(1, 2)] = (_t3 + _u_z) * self._h3;
+        matrix[(1, 2)] = (_t3 + _u_z) * self._h1;
         matrix[(2, 2)] = S::one();
     }
 
@@ -1242,9 +1272,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergGonzalez
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
-        let [[_inverse_q]] = ::lie_runtime::generic::inverse_length(&self.base, unknown)
-            .data
-            .0;
+        let [_inverse_q] = ::lie_runtime::generic::inverse_length(&self.base, unknown);
         let _t0 = p - _u_p;
         let _t1 = -_t0;
         let _t2 = _t1 * _inverse_q;
@@ -1272,40 +1300,38 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergGonzalez
     ) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
-        let [[_inverse_q]] = ::lie_runtime::generic::inverse_length(&self.base, unknown)
-            .data
-            .0;
-        let _t0 = p + _u_p;
-        let _t1 = _t0 * _t0;
-        let _t2 = _t0 * S::ratio(1.0, 8.0);
-        let _t3 = p - _u_p;
-        let _t4 = -_t3;
-        let _t5 = _t4 * _inverse_q;
-        let _t6 = _t4 * _t4;
-        let _t7 = _t5 * _t2 * _t6;
-        let _t8 = _t5 * _t7;
-        let _t9 = _t0 * S::ratio(1.0, 2.0) + _t1 * _t2 + _t8;
+        let [_inverse_q] = ::lie_runtime::generic::inverse_length(&self.base, unknown);
+        let _t0 = p - _u_p;
+        let _t1 = -_t0;
+        let _t2 = _t1 * _inverse_q;
+        let _t3 = _t1 * _t1;
+        let _t4 = p + _u_p;
+        let _t5 = _t4 * S::ratio(1.0, 8.0);
+        let _t6 = _t2 * _t3 * _t5;
+        let _t7 = _t2 * _t6;
+        let _t8 = _t4 * _t4;
+        let _t9 = _t4 * S::ratio(1.0, 2.0) + _t8 * _t5 + _t7;
         let _t10 = z + _u_z;
         let _t11 = _t10 * self._h0;
         let _t12 = q - _u_q;
         let _t13 = -_t12 * _inverse_q;
         let _t14 = (q + _u_q) * S::ratio(1.0, 2.0) + _t10 * S::ratio(1.0, 6.0)
-            + _t13 * _t7;
+            + _t13 * _t6;
         let _t15 = _u_z - z;
-        let _t16 = _inverse_q * _t7;
+        let _t16 = _inverse_q * _t6;
         let _t17 = _t16 * S::ratio(-2.0, 1.0);
         let _t18 = _t13 * _t17;
         let _t19 = S::ratio(1.0, 8.0)
-            * (_inverse_q * (_t0 * _t6 - _t8 * S::ratio(16.0, 1.0))
-                + _t4 * _t5 * (_t4 + _t0 * S::ratio(2.0, 1.0)));
+            * (_inverse_q * (_t4 * _t3 - _t7 * S::ratio(16.0, 1.0))
+                + _t1 * _t2 * (_t1 + _t4 * S::ratio(2.0, 1.0)));
         let _t20 = _t15 * _inverse_q * _t17;
         residual[0] = _t9 * _t11 - _t12;
-        residual[1] = -(_t14 * _t11) - _t3;
+        residual[1] = -(_t14 * _t11) - _t0;
         residual[2] = _t15;
-        matrix[(0, 0)] = S::one() + _t5 * _t18 * _t11;
-        matrix[(0, 1)] = (S::ratio(1.0, 2.0) + S::ratio(3.0, 8.0) * _t1 + _t16
-            + _t5 * _t19) * _t11;
-        matrix[(0, 2)] = self._h0 * (_t9 + _t10 * _t5 * _t20);
+        matrix[(0, 0)] = S::one() + _t2 * _t18 * _t11;
+        matrix[(0, 1)] = (S::ratio(1.0, 2.0) + S::ratio(3.0, 8.0) * _t8 + _t16
+            + _t2 * _t19) * _t11;
+        matrix[(0, 2)] = self._h0 * (_t9 + _t2 * _t10 * _t20);
         matrix[(1, 0)] = _t10 * (S::one() + S::ratio(2.0, 1.0) * (_t16 + _t13 * _t18))
             * self._h1;
         matrix[(1, 1)] = S::one() - _t13 * _t19 * _t11;
@@ -1409,9 +1435,7 @@ for HeisenbergGonzalezGradient<S> {
     ) {
         let [[q, p, z]] = self.start.data.0;
         let [[_u_q, _u_p, _u_z]] = _end.data.0;
-        let [[_inverse_q]] = ::lie_runtime::generic::inverse_length(&self.start, _end)
-            .data
-            .0;
+        let [_inverse_q] = ::lie_runtime::generic::inverse_length(&self.start, _end);
         let _t0 = _u_p - p;
         let _t1 = _t0 * _inverse_q;
         let _t2 = p + _u_p;
@@ -1437,37 +1461,35 @@ for HeisenbergGonzalezGradient<S> {
     ) {
         let [[q, p, z]] = self.start.data.0;
         let [[_u_q, _u_p, _u_z]] = _end.data.0;
-        let [[_inverse_q]] = ::lie_runtime::generic::inverse_length(&self.start, _end)
-            .data
-            .0;
+        let [_inverse_q] = ::lie_runtime::generic::inverse_length(&self.start, _end);
         let _t0 = (_u_q - q) * _inverse_q;
-        let _t1 = p + _u_p;
-        let _t2 = _u_p - p;
-        let _t3 = _t1 * _t2;
-        let _t4 = _t2 * _inverse_q;
-        let _t5 = _t2 * _t4;
-        let _t6 = S::ratio(1.0, 8.0) * _t3 * _t5;
+        let _t1 = _u_p - p;
+        let _t2 = _t1 * _inverse_q;
+        let _t3 = _t1 * _t1;
+        let _t4 = p + _u_p;
+        let _t5 = _t4 * S::ratio(1.0, 8.0);
+        let _t6 = _t2 * _t3 * _t5;
         let _t7 = q + _u_q;
-        let _t8 = _t4 * _t6;
-        let _t9 = _t1 * _t1;
+        let _t8 = _t2 * _t6;
+        let _t9 = _t4 * _t4;
         let _t10 = (_u_z - z) * _inverse_q;
         let _t11 = _inverse_q * _t6;
         let _t12 = _t11 * S::ratio(-2.0, 1.0);
         let _t13 = _t0 * _t12;
         let _t14 = _t11 + S::ratio(1.0, 2.0);
         let _t15 = S::ratio(1.0, 8.0)
-            * (_inverse_q * (_t2 * _t3 - _t8 * S::ratio(16.0, 1.0))
-                + (_t2 + _t1 * S::ratio(2.0, 1.0)) * _t5);
+            * (_inverse_q * (_t4 * _t3 - _t8 * S::ratio(16.0, 1.0))
+                + _t1 * _t2 * (_t1 + _t4 * S::ratio(2.0, 1.0)));
         let _t16 = _t10 * _t12;
         _out[0] = _t0 * _t6 + _t7 * S::ratio(1.0, 2.0) + (z + _u_z) * S::ratio(1.0, 6.0);
-        _out[1] = _t8 + _t1 * (_t9 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
+        _out[1] = _t8 + (_t9 + S::ratio(4.0, 1.0)) * _t5;
         _out[2] = _t10 * _t6 + _t7 * S::ratio(1.0, 6.0);
         _slopes[(0, 0)] = _t14 + _t0 * _t13;
         _slopes[(0, 1)] = _t0 * _t15;
         _slopes[(0, 2)] = _t0 * _t16 + S::ratio(1.0, 6.0);
-        _slopes[(1, 0)] = _t4 * _t13;
-        _slopes[(1, 1)] = _t14 + _t4 * _t15 + _t9 * S::ratio(3.0, 8.0);
-        _slopes[(1, 2)] = _t4 * _t16;
+        _slopes[(1, 0)] = _t2 * _t13;
+        _slopes[(1, 1)] = _t14 + _t2 * _t15 + _t9 * S::ratio(3.0, 8.0);
+        _slopes[(1, 2)] = _t2 * _t16;
         _slopes[(2, 0)] = S::ratio(1.0, 6.0) + _t10 * _t13;
         _slopes[(2, 1)] = _t10 * _t15;
         _slopes[(2, 2)] = _t11 + _t10 * _t16;
@@ -1589,7 +1611,7 @@ for HeisenbergMeanValue<'_, S> {
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
     ///
-    /// 16 additions, 18 multiplications.
+    /// 17 additions, 18 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1601,18 +1623,19 @@ for HeisenbergMeanValue<'_, S> {
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
         let _t0 = z + _u_z;
         let _t1 = p + _u_p;
-        let _t2 = p - _u_p;
-        let _t3 = -_t2;
-        let _t4 = _t3 * _t3 + S::ratio(4.0, 1.0);
-        let _t5 = _t1 * (_t4 + _t1 * _t1) * S::ratio(1.0, 8.0) * self._h0;
+        let _t2 = _t1 * _t1;
+        let _t3 = p - _u_p;
+        let _t4 = -_t3;
+        let _t5 = _t1 * (_t2 + _t4 * _t4 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
+            * self._h0;
         let _t6 = (q + _u_q) * S::ratio(1.0, 2.0) + _t0 * S::ratio(1.0, 6.0);
         residual[0] = _u_q - q + _t0 * _t5;
-        residual[1] = -(_t6 * _t0 * self._h0) - _t2;
+        residual[1] = -(_t6 * _t0 * self._h0) - _t3;
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = _t0
-            * (_t4 + _t1 * (_t1 * S::ratio(3.0, 1.0) + _t3 * S::ratio(2.0, 1.0)))
-            * self._h1;
+            * (S::ratio(4.0, 1.0) + _t4 * (_t4 + _t1 * S::ratio(2.0, 1.0))
+                + _t2 * S::ratio(3.0, 1.0)) * self._h1;
         matrix[(0, 2)] = _t5;
         matrix[(1, 0)] = _t0 * self._h2;
         matrix[(1, 1)] = S::one();
@@ -1734,17 +1757,16 @@ for HeisenbergMeanValueGradient<S> {
         let [[_u_q, _u_p, _u_z]] = _end.data.0;
         let _t0 = q + _u_q;
         let _t1 = p + _u_p;
-        let _t2 = _u_p - p;
-        let _t3 = _t2 * _t2;
+        let _t2 = _t1 * _t1;
+        let _t3 = _u_p - p;
         _out[0] = S::ratio(1.0, 2.0) * _t0 + S::ratio(1.0, 6.0) * (z + _u_z);
-        _out[1] = _t1 * (_t1 * _t1 + _t3 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
+        _out[1] = _t1 * (_t2 + _t3 * _t3 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
         _out[2] = S::ratio(1.0, 6.0) * _t0;
         _slopes.as_mut_slice().fill(S::zero());
         _slopes[(0, 0)] = S::ratio(1.0, 2.0);
         _slopes[(0, 2)] = S::ratio(1.0, 6.0);
-        _slopes[(1, 1)] = S::ratio(1.0, 2.0)
-            + S::ratio(1.0, 8.0)
-                * (_t3 + _t1 * (_t1 * S::ratio(3.0, 1.0) + _t2 * S::ratio(2.0, 1.0)));
+        _slopes[(1, 1)] = S::ratio(1.0, 2.0) + _t2 * S::ratio(3.0, 8.0)
+            + _t3 * (_t3 + _t1 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 8.0);
         _slopes[(2, 0)] = S::ratio(1.0, 6.0);
     }
 }
@@ -1863,7 +1885,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergItohAbe<
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
     ///
-    /// 16 additions, 18 multiplications.
+    /// 17 additions, 18 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1875,18 +1897,19 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergItohAbe<
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
         let _t0 = z + _u_z;
         let _t1 = p + _u_p;
-        let _t2 = p - _u_p;
-        let _t3 = -_t2;
-        let _t4 = _t3 * _t3 + S::ratio(4.0, 1.0);
-        let _t5 = _t1 * (_t4 + _t1 * _t1) * S::ratio(1.0, 8.0) * self._h0;
+        let _t2 = _t1 * _t1;
+        let _t3 = p - _u_p;
+        let _t4 = -_t3;
+        let _t5 = _t1 * (_t2 + _t4 * _t4 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
+            * self._h0;
         let _t6 = _t0 * S::ratio(1.0, 6.0) + (q + _u_q) * S::ratio(1.0, 2.0);
         residual[0] = _u_q - q + _t0 * _t5;
-        residual[1] = -(_t6 * _t0 * self._h0) - _t2;
+        residual[1] = -(_t6 * _t0 * self._h0) - _t3;
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = _t0
-            * (_t4 + _t1 * (_t1 * S::ratio(3.0, 1.0) + _t3 * S::ratio(2.0, 1.0)))
-            * self._h1;
+            * (S::ratio(4.0, 1.0) + _t4 * (_t4 + _t1 * S::ratio(2.0, 1.0))
+                + _t2 * S::ratio(3.0, 1.0)) * self._h1;
         matrix[(0, 2)] = _t5;
         matrix[(1, 0)] = _t0 * self._h2;
         matrix[(1, 1)] = S::one();
@@ -2008,17 +2031,16 @@ for HeisenbergItohAbeGradient<S> {
         let [[_u_q, _u_p, _u_z]] = _end.data.0;
         let _t0 = q + _u_q;
         let _t1 = p + _u_p;
-        let _t2 = _u_p - p;
-        let _t3 = _t2 * _t2;
+        let _t2 = _t1 * _t1;
+        let _t3 = _u_p - p;
         _out[0] = S::ratio(1.0, 6.0) * (z + _u_z) + S::ratio(1.0, 2.0) * _t0;
-        _out[1] = _t1 * (_t1 * _t1 + _t3 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
+        _out[1] = _t1 * (_t2 + _t3 * _t3 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0);
         _out[2] = S::ratio(1.0, 6.0) * _t0;
         _slopes.as_mut_slice().fill(S::zero());
         _slopes[(0, 0)] = S::ratio(1.0, 2.0);
         _slopes[(0, 2)] = S::ratio(1.0, 6.0);
-        _slopes[(1, 1)] = S::ratio(1.0, 2.0)
-            + S::ratio(1.0, 8.0)
-                * (_t3 + _t1 * (_t1 * S::ratio(3.0, 1.0) + _t2 * S::ratio(2.0, 1.0)));
+        _slopes[(1, 1)] = S::ratio(1.0, 2.0) + _t2 * S::ratio(3.0, 8.0)
+            + _t3 * (_t3 + _t1 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 8.0);
         _slopes[(2, 0)] = S::ratio(1.0, 6.0);
     }
 }

@@ -176,16 +176,34 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "LotkaVolterra";
-    const COORDINATES: &'static [&'static str] = &["y1", "y2", "y3"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::None;
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::None,
-    ];
-    const POISSON_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(2);
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    fn name(&self) -> &str {
+        "LotkaVolterra"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["y1", "y2", "y3"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["C"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::None][index]
+    }
+
+    fn poisson_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }

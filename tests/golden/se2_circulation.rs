@@ -196,18 +196,38 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S>
 for BodyWithCirculationSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "BodyWithCirculation";
-    const COORDINATES: &'static [&'static str] = &["L", "p1", "p2"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-    ];
-    const POISSON_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(1);
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    fn name(&self) -> &str {
+        "BodyWithCirculation"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["L", "p1", "p2"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["C"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
+    fn poisson_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(1)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -501,9 +521,9 @@ for BodyWithCirculationMidpoint<'_, S> {
         let _t2 = _t1 * self._h0;
         let _t3 = (_L + _u_L) * self.system._k3;
         let _t4 = _t3 + self.system._k15;
-        let _t5 = self._h4 * (_t3 + self.system._k16);
+        let _t5 = (_t3 + self.system._k16) * self._h4;
         residual[0] = _u_L - _L + _t0 * _t2;
-        residual[1] = _u_p1 - p1 - _t0 * _t4 * self._h4;
+        residual[1] = _u_p1 - p1 - _t0 * self._h4 * _t4;
         residual[2] = _u_p2 - p2 + _t1 * _t5;
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = _t0 * self._h0;

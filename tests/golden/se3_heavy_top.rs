@@ -215,18 +215,34 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 6>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 6, 6>;
-    const DIM: usize = 6;
-    const CASIMIRS: usize = 2;
-    const NAME: &'static str = "HeavyTop";
-    const COORDINATES: &'static [&'static str] = &["m1", "m2", "m3", "g1", "g2", "g3"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["length2", "vertical_momentum"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(2),
-    ];
+    fn dimension(&self) -> usize {
+        6
+    }
+
+    fn name(&self) -> &str {
+        "HeavyTop"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["m1", "m2", "m3", "g1", "g2", "g3"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        2
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["length2", "vertical_momentum"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2), ::core::option::Option::Some(2)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -519,7 +535,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeavyTopSystem<S
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 27 additions, 33 multiplications.
@@ -593,68 +612,81 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeavyTopSystem<S> {
-    const SIZE: usize = 4;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[
-            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-        ],
-        &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
-        &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
-        &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = false;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 4,
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+            ],
+            closed: true,
+            orthogonal: false,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                    ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                ],
+                &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
+                &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-            ],
-            &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
-            &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
-            &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
-                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
-            ],
-            &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
-            &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
-        ],
-        skew: false,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+            skew: false,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -1541,9 +1573,9 @@ pub struct HeavyTopCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h22: S,
     /// `-h/(2*I2)`
     _h23: S,
-    /// `mgl*c3*h`
-    _h24: S,
     /// `mgl*c2*h`
+    _h24: S,
+    /// `mgl*c3*h`
     _h25: S,
     /// `(1/I2 - 1/I3)*h`
     _h26: S,
@@ -1609,8 +1641,8 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopCayleyMidpoint<'a, S> {
             _h21: _t3 * _t15,
             _h22: _t0 * _t15,
             _h23: _t2 * _t15,
-            _h24: _t6,
-            _h25: _t5,
+            _h24: _t5,
+            _h25: _t6,
             _h26: _t7 * h,
             _h27: _t8,
             _h28: _t9 * h,
@@ -1641,7 +1673,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
     /// 34 additions, 33 multiplications.
     #[inline]
@@ -1649,15 +1681,15 @@ for HeavyTopCayleyMidpoint<'_, S> {
         let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
         let _t0 = _u_m1 * self._h0;
-        let _t1 = _t0 * _u_m1;
+        let _t1 = _u_m1 * _t0;
         let _t2 = _u_m2 * self._h1;
-        let _t3 = _t2 * _u_m2;
+        let _t3 = _u_m2 * _t2;
         let _t4 = _u_m3 * self._h2;
-        let _t5 = _t4 * _u_m3;
-        let _t6 = _t2 * _u_g1 - (_u_g3 + _t0 * _u_g2);
+        let _t5 = _u_m3 * _t4;
+        let _t6 = _u_g1 * _t2 - (_u_g3 + _u_g2 * _t0);
         let _t7 = -_t6;
-        let _t8 = _u_g2 - _t0 * _u_g3 + _t4 * _u_g1;
-        let _t9 = _t4 * _u_g2 - (_u_g1 + _t2 * _u_g3);
+        let _t8 = _u_g2 - _u_g3 * _t0 + _u_g1 * _t4;
+        let _t9 = _u_g2 * _t4 - (_u_g1 + _u_g3 * _t2);
         let _t10 = -_t9;
         residual[0] = _u_m1 - m1 + _t0 * _t1 + _t0 * _t3 + _t0 * _t5 + _t7 * self._h3
             - _t8 * self._h4 + _u_m2 * _u_m3 * self._h5;
@@ -1670,7 +1702,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
         residual[5] = -g3 - _t6;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
     /// 75 additions, 77 multiplications.
     #[inline]
@@ -1683,16 +1715,16 @@ for HeavyTopCayleyMidpoint<'_, S> {
         let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
         let _t0 = _u_m1 * self._h0;
-        let _t1 = _t0 * _u_m1;
+        let _t1 = _u_m1 * _t0;
         let _t2 = _u_m2 * self._h1;
-        let _t3 = _t2 * _u_m2;
+        let _t3 = _u_m2 * _t2;
         let _t4 = _u_m3 * self._h2;
-        let _t5 = _t4 * _u_m3;
-        let _t6 = _t2 * _u_g1 - (_u_g3 + _t0 * _u_g2);
+        let _t5 = _u_m3 * _t4;
+        let _t6 = _u_g1 * _t2 - (_u_g3 + _u_g2 * _t0);
         let _t7 = -_t6;
-        let _t8 = _u_g2 - _t0 * _u_g3 + _t4 * _u_g1;
+        let _t8 = _u_g2 - _u_g3 * _t0 + _u_g1 * _t4;
         let _t9 = _u_m2 * self._h5;
-        let _t10 = _t4 * _u_g2 - (_u_g1 + _t2 * _u_g3);
+        let _t10 = _u_g2 * _t4 - (_u_g1 + _u_g3 * _t2);
         let _t11 = -_t10;
         let _t12 = _u_m1 * self._h7;
         let _t13 = _u_m1 * self._h8;
@@ -1762,9 +1794,9 @@ for HeavyTopCayleyMidpoint<'_, S> {
         let _t0 = _u_m2 * self._h30;
         let _t1 = _u_m3 * self._h31;
         let _t2 = _u_m1 * self._h32;
-        mu[0] = m1 + _u_g2 * self._h24 - _u_g3 * self._h25 - _u_m2 * _u_m3 * self._h26;
-        mu[1] = m2 - _u_g1 * self._h24 + _u_g3 * self._h27 + _u_m1 * _u_m3 * self._h28;
-        mu[2] = m3 + _u_g1 * self._h25 - _u_g2 * self._h27 - _u_m1 * _u_m2 * self._h29;
+        mu[0] = m1 - _u_g3 * self._h24 + _u_g2 * self._h25 - _u_m2 * _u_m3 * self._h26;
+        mu[1] = m2 + _u_g3 * self._h27 - _u_g1 * self._h25 + _u_m1 * _u_m3 * self._h28;
+        mu[2] = m3 - _u_g2 * self._h27 + _u_g1 * self._h24 - _u_m1 * _u_m2 * self._h29;
         mu[3] = g1 - _u_g3 * _t0 + _u_g2 * _t1;
         mu[4] = g2 + _u_g3 * _t2 - _u_g1 * _t1;
         mu[5] = g3 - _u_g2 * _t2 + _u_g1 * _t0;

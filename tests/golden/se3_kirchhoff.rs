@@ -91,18 +91,34 @@ impl<S: ::lie_runtime::Scalar> KirchhoffBody<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 6>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 6, 6>;
-    const DIM: usize = 6;
-    const CASIMIRS: usize = 2;
-    const NAME: &'static str = "KirchhoffBody";
-    const COORDINATES: &'static [&'static str] = &["m1", "m2", "m3", "p1", "p2", "p3"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["impulse2", "pitch"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(2),
-    ];
+    fn dimension(&self) -> usize {
+        6
+    }
+
+    fn name(&self) -> &str {
+        "KirchhoffBody"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["m1", "m2", "m3", "p1", "p2", "p3"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        2
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["impulse2", "pitch"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2), ::core::option::Option::Some(2)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -437,7 +453,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for KirchhoffBodySys
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for KirchhoffBodySystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 27 additions, 33 multiplications.
@@ -487,69 +506,82 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for KirchhoffBodySystem<S>
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for KirchhoffBodySystem<S> {
-    const SIZE: usize = 4;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[
-            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-        ],
-        &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
-        &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
-        &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = false;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 4,
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+            ],
+            closed: true,
+            orthogonal: false,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for KirchhoffBodySystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                    ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                ],
+                &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
+                &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-            ],
-            &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
-            &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
-            &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
-                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
-            ],
-            &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
-            &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
-        ],
-        skew: false,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+            skew: false,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -707,7 +739,7 @@ for KirchhoffBodyMidpoint<'_, S> {
         let [[_u_m1, _u_m2, _u_m3, _u_p1, _u_p2, _u_p3]] = unknown.data.0;
         let _t0 = m2 + _u_m2;
         let _t1 = p2 + _u_p2;
-        let _t2 = _t1 * self.h;
+        let _t2 = self.h * _t1;
         let _t3 = m3 + _u_m3;
         let _t4 = _t3 * self._h1;
         let _t5 = _t2 - _t4;
@@ -732,13 +764,13 @@ for KirchhoffBodyMidpoint<'_, S> {
         let _t24 = _t0 * self._h19;
         let _t25 = _t19 + _t13;
         residual[0] = _u_m1 - m1
-            - (_t0 * _t5 - _t6 * (_t3 * self.h - _t1 * self._h2)) * S::ratio(1.0, 96.0);
+            - (_t0 * _t5 - _t6 * (self.h * _t3 - _t1 * self._h2)) * S::ratio(1.0, 96.0);
         residual[1] = _u_m2 - m2 - _t7 * (_t2 + _t4 + _t8) * S::ratio(1.0, 32.0)
             + _t9 * (_t6 * self._h4 - _t3 * self._h5 + _t10) * S::ratio(1.0, 240.0);
         residual[2] = _u_m3 - m3 - _t7 * (_t12 - _t11) * S::ratio(1.0, 48.0)
             + _t9 * (_t10 - _t1 * self._h8 + _t3 * self._h9) * S::ratio(1.0, 160.0);
         residual[3] = _u_p1 - p1 + _t1 * _t5 * S::ratio(1.0, 32.0)
-            + _t6 * (_t6 * self.h + _t11) * S::ratio(1.0, 24.0);
+            + _t6 * (self.h * _t6 + _t11) * S::ratio(1.0, 24.0);
         residual[4] = _u_p2 - p2 - _t6 * _t13 - _t9 * S::ratio(1.0, 32.0) * (_t5 + _t8);
         residual[5] = _u_p3 - p3 + _t1 * _t13
             - _t9 * S::ratio(1.0, 48.0) * (_t12 + _t0 * self._h2);
@@ -1628,40 +1660,38 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
-    /// 43 additions, 43 multiplications.
+    /// 46 additions, 49 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, p1, p2, p3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3, _u_p1, _u_p2, _u_p3]] = unknown.data.0;
-        let _t0 = (_u_p2 - _u_m3 * S::ratio(1.0, 8.0)) * self._h0;
-        let _t1 = _t0 * _u_p3;
-        let _t2 = (_u_m1 + _u_p1 * S::ratio(1.0, 4.0)) * self._h0;
+        let _t0 = (_u_m3 * S::ratio(1.0, 2.0) - _u_p2 * S::ratio(1.0, 8.0)) * self._h0;
+        let _t1 = (_u_p2 - _u_m3 * S::ratio(1.0, 8.0)) * self._h0;
+        let _t2 = (_u_m2 * S::ratio(2.0, 3.0) + _u_p3 * S::ratio(1.0, 6.0)) * self._h0;
         let _t3 = (_u_m2 * S::ratio(1.0, 6.0) + _u_p3 * S::ratio(4.0, 3.0)) * self._h0;
-        let _t4 = _t3 * _u_p3;
-        let _t5 = (_u_m3 * S::ratio(1.0, 2.0) - _u_p2 * S::ratio(1.0, 8.0)) * self._h0;
-        let _t6 = (_u_m2 * S::ratio(2.0, 3.0) + _u_p3 * S::ratio(1.0, 6.0)) * self._h0;
-        let _t7 = _t2 * _u_m1 + _t6 * _u_m2 + _t5 * _u_m3;
-        let _t8 = _t7 + _t0 * _u_p2;
-        let _t9 = _u_m3 - _t0 * _u_p1;
-        let _t10 = _u_m2 + _t3 * _u_p1;
-        let _t11 = _u_m1 - _t3 * _u_p2;
-        let _t12 = (_u_m1 * S::ratio(1.0, 4.0) + _u_p1 * S::ratio(2.0, 5.0)) * self._h0;
-        let _t13 = _t12 * _u_p3;
-        let _t14 = _t12 * _u_p1;
-        let _t15 = _t12 * _u_p2;
-        residual[0] = _t11 - m1 + _t1 + _t2 * (_t8 + _t4) + _t6 * _t9 - _t5 * _t10;
-        residual[1] = _t10 - m2 - _t13 + _t6 * (_t7 + _t4 + _t14) - _t2 * (_u_m3 + _t15)
-            + _t5 * _t11;
-        residual[2] = _t9 - m3 + _t15 + _t5 * (_t8 + _t14) + _t2 * (_u_m2 - _t13)
-            - _t6 * (_u_m1 + _t1);
-        residual[3] = _u_p1 - p1 + _t6 * _u_p3 - _t5 * _u_p2;
-        residual[4] = _u_p2 - p2 - _t2 * _u_p3 + _t5 * _u_p1;
-        residual[5] = _u_p3 - p3 + _t2 * _u_p2 - _t6 * _u_p1;
+        let _t4 = (_u_m1 + _u_p1 * S::ratio(1.0, 4.0)) * self._h0;
+        let _t5 = _u_p3 * _t3;
+        let _t6 = _u_m1 * _t4 + _u_m2 * _t2 + _u_m3 * _t0;
+        let _t7 = _t6 + _u_p2 * _t1;
+        let _t8 = _t2 * _t1;
+        let _t9 = _t0 * _t3;
+        let _t10 = (_u_m1 * S::ratio(1.0, 4.0) + _u_p1 * S::ratio(2.0, 5.0)) * self._h0;
+        let _t11 = _u_p1 * _t10;
+        let _t12 = _t4 * _t10;
+        residual[0] = _u_m1 - m1 - _u_m2 * _t0 + _u_p3 * _t1 + _u_m3 * _t2 - _u_p2 * _t3
+            + _t4 * (_t7 + _t5) - _u_p1 * (_t8 + _t9);
+        residual[1] = _u_m2 - m2 + _u_m1 * _t0 - _u_p3 * _t10 - _u_m3 * _t4 + _u_p1 * _t3
+            + _t2 * (_t6 + _t5 + _t11) - _u_p2 * (_t9 + _t12);
+        residual[2] = _u_m3 - m3 - _u_m1 * _t2 + _u_p2 * _t10 + _u_m2 * _t4 - _u_p1 * _t1
+            + _t0 * (_t7 + _t11) - _u_p3 * (_t8 + _t12);
+        residual[3] = _u_p1 - p1 + _u_p3 * _t2 - _u_p2 * _t0;
+        residual[4] = _u_p2 - p2 - _u_p3 * _t4 + _u_p1 * _t0;
+        residual[5] = _u_p3 - p3 + _u_p2 * _t4 - _u_p1 * _t2;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
     /// 129 additions, 164 multiplications.
     #[inline]
@@ -1679,18 +1709,18 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t3 = _u_m3 * S::ratio(4.0, 1.0);
         let _t4 = _u_p2 - _t3;
         let _t5 = _t4 * self._h2;
-        let _t6 = _t5 * _u_m3;
+        let _t6 = _u_m3 * _t5;
         let _t7 = _u_m2 + _u_p3 * S::ratio(8.0, 1.0);
-        let _t8 = _t7 * self._h3;
-        let _t9 = _t6 + _t8 * _u_p3;
+        let _t8 = self._h3 * _t7;
+        let _t9 = _t6 + _u_p3 * _t8;
         let _t10 = _u_m3 - _u_p2 * S::ratio(8.0, 1.0);
-        let _t11 = _t10 * self._h2;
-        let _t12 = _t11 * _u_p2;
-        let _t13 = _t2 * _u_m1;
+        let _t11 = self._h2 * _t10;
+        let _t12 = _u_p2 * _t11;
+        let _t13 = _u_m1 * _t2;
         let _t14 = _u_m2 * S::ratio(4.0, 1.0);
         let _t15 = _u_p3 + _t14;
-        let _t16 = _t15 * self._h3;
-        let _t17 = _t16 * _u_m2;
+        let _t16 = self._h3 * _t15;
+        let _t17 = _u_m2 * _t16;
         let _t18 = _t13 + _t17;
         let _t19 = _t18 + _t12;
         let _t20 = _t16 * _t11;
@@ -1699,7 +1729,7 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t23 = _u_m1 * S::ratio(5.0, 1.0);
         let _t24 = _t23 + _u_p1 * S::ratio(8.0, 1.0);
         let _t25 = _t24 * self._h5;
-        let _t26 = _t25 * _u_p1;
+        let _t26 = _u_p1 * _t25;
         let _t27 = _t9 + _t26;
         let _t28 = _t2 * _t25;
         let _t29 = _t21 + _t28;
@@ -1712,21 +1742,21 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
         let _t36 = _u_p3 * S::ratio(2.0, 1.0);
         let _t37 = _t9 + _t17 + _t12 + _t13 * S::ratio(2.0, 1.0);
         let _t38 = _t2 * _t16;
-        let _t39 = _t2 * _u_m2 - _t11 * _u_p1;
-        let _t40 = _t2 * _u_p3 - _t5 * _u_p1;
+        let _t39 = _u_p3 * _t2 - _u_p1 * _t5;
+        let _t40 = _u_m2 * _t2 - _u_p1 * _t11;
         let _t41 = _t2 * _t5;
-        let _t42 = _t2 * _u_m3 - _t8 * _u_p1;
-        let _t43 = _t2 * _u_p2 - _t16 * _u_p1;
-        let _t44 = _t16 * _u_m1 - _t25 * _u_p2;
-        let _t45 = _t16 * _u_p3 - _t5 * _u_p2;
+        let _t42 = _u_p2 * _t2 - _u_p1 * _t16;
+        let _t43 = _u_m3 * _t2 - _u_p1 * _t8;
+        let _t44 = _u_m1 * _t16 - _u_p2 * _t25;
+        let _t45 = _u_p3 * _t16 - _u_p2 * _t5;
         let _t46 = _t45 + _u_p1;
         let _t47 = _t27 + _t13 + _t17 * S::ratio(2.0, 1.0);
         let _t48 = _t16 * _t5;
-        let _t49 = _t16 * _u_m3 - _t8 * _u_p2;
+        let _t49 = _u_m3 * _t16 - _u_p2 * _t8;
         let _t50 = _u_m2 * S::ratio(10.0, 1.0);
         let _t51 = _t36 - _t35;
-        let _t52 = _t5 * _u_m1 - _t25 * _u_p3;
-        let _t53 = _t5 * _u_m2 - _t11 * _u_p3;
+        let _t52 = _u_m1 * _t5 - _u_p3 * _t25;
+        let _t53 = _u_m2 * _t5 - _u_p3 * _t11;
         let _t54 = _t33 + _t6 * S::ratio(2.0, 1.0);
         residual[0] = _u_m1 - m1 + _t2 * (_t9 + _t19) - _u_p1 * _t22
             + (S::ratio(4.0, 1.0) * (_u_m3 * _t15 - _u_p2 * _t7)
@@ -1736,39 +1766,39 @@ for KirchhoffBodyCayleyMidpoint<'_, S> {
                 - _u_p1 * _t7 * S::ratio(20.0, 1.0)) * self._h6;
         residual[2] = _u_m3 - m3 + _t5 * (_t33 + _t6) - _u_p3 * _t34
             + (_u_m2 * _t30 - _u_m1 * _t15 * S::ratio(20.0, 1.0) + _u_p2 * _t32
-                + _u_p1 * _t10 * S::ratio(15.0, 1.0)) * self._h6;
+                + _u_p1 * S::ratio(15.0, 1.0) * _t10) * self._h6;
         residual[3] = _u_p1 - p1
-            + (_u_p3 * S::ratio(4.0, 1.0) * _t15 + _t4 * _t35) * self._h4;
+            + (_u_p3 * S::ratio(4.0, 1.0) * _t15 + _t35 * _t4) * self._h4;
         residual[4] = _u_p2 - p2 + self._h2 * (_u_p1 * _t4 + _t36 * _t1);
         residual[5] = _u_p3 - p3
             - self._h7 * (_t35 * _t1 - _u_p1 * S::ratio(2.0, 1.0) * _t15);
         matrix[(0, 0)] = S::one() + _t2 * _t2 + _t37 * self._h0;
-        matrix[(0, 1)] = _t38 - _t4 * self._h4 + _t39 * self._h8 + _t40 * self._h3;
-        matrix[(0, 2)] = _t41 + _t15 * self._h4 + _t42 * self._h9 + _t43 * self._h2;
+        matrix[(0, 1)] = _t38 + _t39 * self._h3 - _t4 * self._h4 + _t40 * self._h8;
+        matrix[(0, 2)] = _t41 + _t42 * self._h2 + _t15 * self._h4 + _t43 * self._h9;
         matrix[(0, 3)] = _t37 * self._h1 - _t22;
-        matrix[(0, 4)] = _t2 * _t11 + _t42 * self._h2 + _t43 * self._h0 - _t7 * self._h4;
-        matrix[(0, 5)] = _t2 * _t8 + _t39 * self._h3 + _t40 * self._h10
+        matrix[(0, 4)] = _t2 * _t11 + self._h0 * _t42 + _t43 * self._h2 - _t7 * self._h4;
+        matrix[(0, 5)] = _t2 * _t8 + _t39 * self._h10 + _t40 * self._h3
             + _t10 * self._h4;
-        matrix[(1, 0)] = _t38 - _t43 * self._h1 + (_u_p2 + _t3 + _t36) * self._h2
-            + self._h0 * _t44;
+        matrix[(1, 0)] = _t38 + (_u_p2 + _t3 + _t36) * self._h2 + self._h0 * _t44
+            - _t42 * self._h1;
         matrix[(1, 1)] = S::one() + _t16 * _t16 + _t46 * self._h3 + _t47 * self._h8;
-        matrix[(1, 2)] = _t48 - self._h1 * (_u_p1 + _u_m1 * S::ratio(2.0, 1.0))
+        matrix[(1, 2)] = _t48 - (_u_p1 + _u_m1 * S::ratio(2.0, 1.0)) * self._h1
             + _t49 * self._h9;
-        matrix[(1, 3)] = _t16 * _t25 - _t43 * self._h11 + self._h1 * _t44
+        matrix[(1, 3)] = _t16 * _t25 + _t44 * self._h1 - _t42 * self._h11
             + (_t50 - _u_m3 * S::ratio(15.0, 1.0) + _u_p3 * S::ratio(56.0, 1.0))
                 * self._h12;
-        matrix[(1, 4)] = (_t49 + _u_m1) * self._h2 - _t29;
+        matrix[(1, 4)] = self._h2 * (_t49 + _u_m1) - _t29;
         matrix[(1, 5)] = _t16 * _t8 + _t47 * self._h3 + _t45 * self._h10
             - (_t31 - _u_p1 * S::ratio(56.0, 1.0)) * self._h12;
-        matrix[(2, 0)] = _t41 - _t40 * self._h1 - (_t14 - _t51) * self._h7
-            + self._h0 * _t52;
+        matrix[(2, 0)] = _t41 + (_t51 - _t14) * self._h7 + self._h0 * _t52
+            - _t39 * self._h1;
         matrix[(2, 1)] = _t48 - (_t0 + _u_p1 * S::ratio(3.0, 1.0)) * self._h7
             + self._h8 * _t53;
         matrix[(2, 2)] = S::one() + _t5 * _t5 - _t46 * self._h2 + _t54 * self._h9;
-        matrix[(2, 3)] = _t5 * _t25 - _t40 * self._h11 + self._h1 * _t52
+        matrix[(2, 3)] = _t5 * _t25 + _t52 * self._h1 - _t39 * self._h11
             + (_t50 + _u_m3 * S::ratio(5.0, 1.0) - _u_p2 * S::ratio(24.0, 1.0))
                 * self._h13;
-        matrix[(2, 4)] = _t5 * _t11 - self._h0 * _t45 + self._h2 * _t54
+        matrix[(2, 4)] = _t5 * _t11 - self._h0 * _t45 + _t54 * self._h2
             + (_t23 - _u_p1 * S::ratio(12.0, 1.0)) * self._h5;
         matrix[(2, 5)] = -(self._h3 * (_u_m1 - _t53)) - _t34;
         matrix[(3, 1)] = _u_p3 * self._h8;

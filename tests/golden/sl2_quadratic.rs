@@ -88,17 +88,34 @@ impl<S: ::lie_runtime::Scalar> Sl2Quadratic<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for Sl2QuadraticSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "Sl2Quadratic";
-    const COORDINATES: &'static [&'static str] = &["h", "e", "f"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["killing"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-    ];
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    fn name(&self) -> &str {
+        "Sl2Quadratic"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["h", "e", "f"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["killing"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -312,9 +329,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for Sl2QuadraticSyst
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for Sl2QuadraticSystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Bounded(
-        &[1.0000000000000009, 1.0000000000000009, 1.0000000000000009],
-    );
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Bounded(
+            &[1.0000000000000009, 1.0000000000000009, 1.0000000000000009],
+        )
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 10 additions, 20 multiplications.
@@ -353,44 +373,57 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for Sl2QuadraticSystem<S> 
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for Sl2QuadraticSystem<S> {
-    const SIZE: usize = 2;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[
-            ::lie_runtime::__private::Entry::new(0, 0, 1.0),
-            ::lie_runtime::__private::Entry::new(1, 1, -1.0),
-        ],
-        &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
-        &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = false;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 2,
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 0, 1.0),
+                    ::lie_runtime::__private::Entry::new(1, 1, -1.0),
+                ],
+                &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
+            ],
+            closed: true,
+            orthogonal: false,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for Sl2QuadraticSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 2, 2>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(0, 0, 1.0),
-                ::lie_runtime::__private::Entry::new(1, 1, -1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 0, 1.0),
+                    ::lie_runtime::__private::Entry::new(1, 1, -1.0),
+                ],
+                &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
             ],
-            &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(0, 0, 0.5),
-                ::lie_runtime::__private::Entry::new(1, 1, -0.5),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 0, 0.5),
+                    ::lie_runtime::__private::Entry::new(1, 1, -0.5),
+                ],
+                &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
+                &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
             ],
-            &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
-            &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
-        ],
-        skew: false,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Bounded(
-        &[1.0000000000000009, 1.0000000000000009, 1.0000000000000009],
-    );
+            skew: false,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Bounded(
+            &[1.0000000000000009, 1.0000000000000009, 1.0000000000000009],
+        )
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -1203,31 +1236,32 @@ for Sl2QuadraticCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
-    /// 23 additions, 24 multiplications.
+    /// 23 additions, 28 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[h, e, f]] = self.base.data.0;
         let [[_u_h, _u_e, _u_f]] = unknown.data.0;
-        let _t0 = (_u_f + _u_e * S::ratio(1.0, 4.0)) * self._h0;
-        let _t1 = _t0 * _u_f;
-        let _t2 = _t1 * S::ratio(2.0, 1.0);
-        let _t3 = (_u_h * S::ratio(1.0, 4.0) + _u_e * S::ratio(1.0, 5.0)) * self._h0;
-        let _t4 = (_u_e + _u_f * S::ratio(1.0, 4.0) + _u_h * S::ratio(1.0, 5.0))
+        let _t0 = (_u_h * S::ratio(1.0, 4.0) + _u_e * S::ratio(1.0, 5.0)) * self._h0;
+        let _t1 = _u_h * _t0;
+        let _t2 = (_u_f + _u_e * S::ratio(1.0, 4.0)) * self._h0;
+        let _t3 = (_u_e + _u_f * S::ratio(1.0, 4.0) + _u_h * S::ratio(1.0, 5.0))
             * self._h0;
-        let _t5 = _t4 * _u_e;
-        let _t6 = _t0 * _u_h;
-        residual[0] = _u_h - h - _t2
-            - _t3 * (_t3 * _u_h + _t5 * S::ratio(2.0, 1.0) + _t2)
-            + _t4 * (_t6 + _u_e * S::ratio(2.0, 1.0));
-        residual[1] = _u_e - e - _t3 * (_t6 - _u_e * (_t3 - S::ratio(2.0, 1.0)))
-            + _t0 * (_u_h - _t1);
-        residual[2] = _u_f - f - _t3 * (_t4 * _u_h - _u_f * (_t3 + S::ratio(2.0, 1.0)))
-            - _t4 * (_u_h + _t5);
+        let _t4 = _u_h * _t3;
+        let _t5 = _u_e * _t0;
+        let _t6 = _u_f * _t0;
+        let _t7 = _u_e * _t3;
+        let _t8 = _u_f * _t2;
+        residual[0] = _u_h - h - _t0 * _t1 + _t2 * _t4
+            - (_t3 * _t5 + _t2 * _t6 - _t7 + _t8) * S::ratio(2.0, 1.0);
+        residual[1] = _u_e - e + _t0 * _t5 - _t2 * _t1 - _t2 * _t8 + _u_h * _t2
+            - S::ratio(2.0, 1.0) * _t5;
+        residual[2] = _u_f - f + _t0 * _t6 - _t3 * _t1 - _t3 * _t7 - _t4
+            + S::ratio(2.0, 1.0) * _t6;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
     /// 65 additions, 61 multiplications.
     #[inline]
@@ -1244,17 +1278,17 @@ for Sl2QuadraticCayleyMidpoint<'_, S> {
         let _t2 = (_u_f + _u_e * S::ratio(1.0, 4.0)) * self._h0;
         let _t3 = (_u_e + _u_f * S::ratio(1.0, 4.0) + _u_h * S::ratio(1.0, 5.0))
             * self._h0;
-        let _t4 = _t3 * _u_h;
-        let _t5 = _t3 * _u_e;
-        let _t6 = _t2 * _u_f;
-        let _t7 = _t2 * _u_h;
+        let _t4 = _u_h * _t3;
+        let _t5 = _u_e * _t3;
+        let _t6 = _u_f * _t2;
+        let _t7 = _u_h * _t2;
         let _t8 = _t0 * S::ratio(2.0, 1.0);
-        let _t9 = _t0 * _u_h;
+        let _t9 = _u_h * _t0;
         let _t10 = _t5 + _t6 + _t9;
-        let _t11 = _u_e - _t0 * _u_e;
+        let _t11 = _u_e - _u_e * _t0;
         let _t12 = _t11 * self._h2 + _t7 * self._h3;
         let _t13 = _t0 * _t3;
-        let _t14 = _u_f + _t0 * _u_f;
+        let _t14 = _u_f + _u_f * _t0;
         let _t15 = self._h1 * _t14 - _t4 * self._h4;
         let _t16 = _t0 * _t2;
         let _t17 = _t11 * self._h1 + _t7 * self._h4;

@@ -51,7 +51,7 @@ impl<S: ::lie_runtime::Scalar> CotangentBody<S> {
     ) -> ::core::result::Result<CotangentBodySystem<S>, ::lie_runtime::ParameterError> {
         let _t0 = S::one() / self.I1;
         let _t1 = S::one() / self.I3;
-        let _t2 = S::ratio(2.0, 1.0) / self.I3;
+        let _t2 = S::ratio(5.0, 1.0) / self.I1;
         let _c0 = S::ratio(1.0, 2.0) / self.I1;
         let _c1 = S::ratio(1.0, 2.0) / self.I3;
         let _c2 = S::ratio(3.0, 1.0) / self.I2;
@@ -62,15 +62,11 @@ impl<S: ::lie_runtime::Scalar> CotangentBody<S> {
         let _c7 = -_t1;
         let _c8 = -_t0;
         let _c9 = S::ratio(1.0, 2.0) / self.I2;
-        let _c10 = S::ratio(2.0, 1.0) / self.I1;
-        let _c11 = S::ratio(4.0, 1.0) / self.I1;
-        let _c12 = S::ratio(4.0, 1.0) / self.I3;
-        let _c13 = -_t2;
-        let _c14 = _t2;
-        let _c15 = S::ratio(12.0, 1.0) / self.I2;
-        let _c16 = S::ratio(36.0, 1.0) / self.I2;
-        let _c17 = S::ratio(5.0, 1.0) / self.I1;
-        let _c18 = S::ratio(6.0, 1.0) / self.I2;
+        let _c10 = _t2 - S::ratio(5.0, 1.0) / self.I3;
+        let _c11 = S::ratio(12.0, 1.0) / self.I2;
+        let _c12 = S::ratio(36.0, 1.0) / self.I2;
+        let _c13 = _t2;
+        let _c14 = S::ratio(6.0, 1.0) / self.I2;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "I1", "1/(2*I1)"),
@@ -83,15 +79,11 @@ impl<S: ::lie_runtime::Scalar> CotangentBody<S> {
                 (_c7, "I3", "-1/I3"),
                 (_c8, "I1", "-1/I1"),
                 (_c9, "I2", "1/(2*I2)"),
-                (_c10, "I1", "2/I1"),
-                (_c11, "I1", "4/I1"),
-                (_c12, "I3", "4/I3"),
-                (_c13, "I3", "-2/I3"),
-                (_c14, "I3", "2/I3"),
-                (_c15, "I2", "12/I2"),
-                (_c16, "I2", "36/I2"),
-                (_c17, "I1", "5/I1"),
-                (_c18, "I2", "6/I2"),
+                (_c10, "I1", "5/I1 - 5/I3"),
+                (_c11, "I2", "12/I2"),
+                (_c12, "I2", "36/I2"),
+                (_c13, "I1", "5/I1"),
+                (_c14, "I2", "6/I2"),
             ],
         )?;
         ::core::result::Result::Ok(CotangentBodySystem {
@@ -111,10 +103,6 @@ impl<S: ::lie_runtime::Scalar> CotangentBody<S> {
             _k12: _c12,
             _k13: _c13,
             _k14: _c14,
-            _k15: _c15,
-            _k16: _c16,
-            _k17: _c17,
-            _k18: _c18,
         })
     }
 
@@ -163,24 +151,16 @@ pub struct CotangentBodySystem<S = f64> {
     _k8: S,
     /// `1/(2*I2)`
     _k9: S,
-    /// `2/I1`
+    /// `5/I1 - 5/I3`
     _k10: S,
-    /// `4/I1`
-    _k11: S,
-    /// `4/I3`
-    _k12: S,
-    /// `-2/I3`
-    _k13: S,
-    /// `2/I3`
-    _k14: S,
     /// `12/I2`
-    _k15: S,
+    _k11: S,
     /// `36/I2`
-    _k16: S,
+    _k12: S,
     /// `5/I1`
-    _k17: S,
+    _k13: S,
     /// `6/I2`
-    _k18: S,
+    _k14: S,
 }
 
 impl<S> CotangentBodySystem<S> {
@@ -208,42 +188,54 @@ impl<S: ::lie_runtime::Scalar> CotangentBody<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for CotangentBodySystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 12>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 12, 12>;
-    const DIM: usize = 12;
-    const CASIMIRS: usize = 6;
-    const NAME: &'static str = "CotangentBody";
-    const COORDINATES: &'static [&'static str] = &[
-        "m1",
-        "m2",
-        "m3",
-        "R11",
-        "R12",
-        "R13",
-        "R21",
-        "R22",
-        "R23",
-        "R31",
-        "R32",
-        "R33",
-    ];
-    const CASIMIR_NAMES: &'static [&'static str] = &[
-        "row11",
-        "row12",
-        "row13",
-        "row22",
-        "row23",
-        "row33",
-    ];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        4,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(2),
-    ];
+    fn dimension(&self) -> usize {
+        12
+    }
+
+    fn name(&self) -> &str {
+        "CotangentBody"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        [
+            "m1",
+            "m2",
+            "m3",
+            "R11",
+            "R12",
+            "R13",
+            "R21",
+            "R22",
+            "R23",
+            "R31",
+            "R32",
+            "R33",
+        ][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        6
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["row11", "row12", "row13", "row22", "row23", "row33"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [
+            ::core::option::Option::Some(2),
+            ::core::option::Option::Some(2),
+            ::core::option::Option::Some(2),
+            ::core::option::Option::Some(2),
+            ::core::option::Option::Some(2),
+            ::core::option::Option::Some(2),
+        ][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(4)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -830,7 +822,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for CotangentBodySys
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for CotangentBodySystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 57 additions, 63 multiplications.
@@ -905,10 +900,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for CotangentBodySystem<S>
             _k12: _constant(self._k12),
             _k13: _constant(self._k13),
             _k14: _constant(self._k14),
-            _k15: _constant(self._k15),
-            _k16: _constant(self._k16),
-            _k17: _constant(self._k17),
-            _k18: _constant(self._k18),
         }
     }
 }
@@ -916,56 +907,63 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for CotangentBodySystem<S>
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for CotangentBodySystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 6, 6>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
+                &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
+                &[::lie_runtime::__private::Entry::new(4, 0, 1.0)],
+                &[::lie_runtime::__private::Entry::new(4, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(4, 2, 1.0)],
+                &[::lie_runtime::__private::Entry::new(5, 0, 1.0)],
+                &[::lie_runtime::__private::Entry::new(5, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(5, 2, 1.0)],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                    ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                ],
+                &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(0, 4, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 4, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 4, 1.0)],
+                &[::lie_runtime::__private::Entry::new(0, 5, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 5, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 5, 1.0)],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-            ],
-            &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
-            &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
-            &[::lie_runtime::__private::Entry::new(4, 0, 1.0)],
-            &[::lie_runtime::__private::Entry::new(4, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(4, 2, 1.0)],
-            &[::lie_runtime::__private::Entry::new(5, 0, 1.0)],
-            &[::lie_runtime::__private::Entry::new(5, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(5, 2, 1.0)],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
-                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
-            ],
-            &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
-            &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
-            &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
-            &[::lie_runtime::__private::Entry::new(0, 4, 1.0)],
-            &[::lie_runtime::__private::Entry::new(1, 4, 1.0)],
-            &[::lie_runtime::__private::Entry::new(2, 4, 1.0)],
-            &[::lie_runtime::__private::Entry::new(0, 5, 1.0)],
-            &[::lie_runtime::__private::Entry::new(1, 5, 1.0)],
-            &[::lie_runtime::__private::Entry::new(2, 5, 1.0)],
-        ],
-        skew: false,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+            skew: false,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -975,7 +973,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CotangentPoisson<S>
 for CotangentBodySystem<S> {
     type Momentum = ::lie_runtime::__private::SVector<S, 3>;
     type MomentumMatrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const MOMENTA: usize = 3;
+    fn momenta(&self) -> usize {
+        3
+    }
+
     fn zero_momentum(&self) -> Self::Momentum {
         Self::Momentum::repeat(S::zero())
     }
@@ -1003,28 +1004,24 @@ pub struct CotangentBodyMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h4: S,
     /// `h/20`
     _h5: S,
-    /// `h/4`
-    _h6: S,
     /// `h/24`
-    _h7: S,
+    _h6: S,
     /// `-h/2`
-    _h8: S,
+    _h7: S,
     /// `(1/I1 - 1/I3)*h/4`
-    _h9: S,
+    _h8: S,
     /// `-h/8`
-    _h10: S,
+    _h9: S,
     /// `-h/20`
-    _h11: S,
+    _h10: S,
     /// `h/(4*I1)`
-    _h12: S,
+    _h11: S,
     /// `-h/(4*I3)`
-    _h13: S,
+    _h12: S,
     /// `-h/(4*I1)`
-    _h14: S,
-    /// `-h/4`
-    _h15: S,
+    _h13: S,
     /// `-h/24`
-    _h16: S,
+    _h14: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> CotangentBodyMidpoint<'a, S> {
@@ -1045,17 +1042,15 @@ impl<'a, S: ::lie_runtime::Scalar> CotangentBodyMidpoint<'a, S> {
             _h3: h * S::ratio(1.0, 48.0),
             _h4: h * S::ratio(-1.0, 48.0),
             _h5: h * S::ratio(1.0, 20.0),
-            _h6: _t1,
-            _h7: h * S::ratio(1.0, 24.0),
-            _h8: h * S::ratio(-1.0, 2.0),
-            _h9: (_t2 - _t0) * _t1,
-            _h10: h * S::ratio(-1.0, 8.0),
-            _h11: h * S::ratio(-1.0, 20.0),
-            _h12: _t2 * _t1,
-            _h13: _t0 * _t3,
-            _h14: _t2 * _t3,
-            _h15: _t3,
-            _h16: h * S::ratio(-1.0, 24.0),
+            _h6: h * S::ratio(1.0, 24.0),
+            _h7: h * S::ratio(-1.0, 2.0),
+            _h8: (_t2 - _t0) * _t1,
+            _h9: h * S::ratio(-1.0, 8.0),
+            _h10: h * S::ratio(-1.0, 20.0),
+            _h11: _t2 * _t1,
+            _h12: _t0 * _t3,
+            _h13: _t2 * _t3,
+            _h14: h * S::ratio(-1.0, 24.0),
         }
     }
 }
@@ -1128,7 +1123,7 @@ for CotangentBodyMidpoint<'_, S> {
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`, and `dr/du = 1 - (h/2) Df(m)`
     ///
-    /// 79 additions, 114 multiplications.
+    /// 79 additions, 106 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1147,128 +1142,128 @@ for CotangentBodyMidpoint<'_, S> {
         let _t2 = _t1 * self._h0;
         let _t3 = _R11 + _u_R11;
         let _t4 = _t0 * _t3;
-        let _t5 = _t0 * self.system._k9 + _t3 * S::ratio(1.0, 24.0) * _t4;
-        let _t6 = _R32 + _u_R32;
-        let _t7 = m1 + _u_m1;
-        let _t8 = S::one() + _t7 * S::ratio(1.0, 10.0);
-        let _t9 = _R21 + _u_R21;
-        let _t10 = _R13 + _u_R13;
-        let _t11 = _t10 * self._h2;
-        let _t12 = _t0 * self._h4;
-        let _t13 = _t4 * _t12;
-        let _t14 = _R33 + _u_R33;
-        let _t15 = _t14 * S::ratio(1.0, 10.0) + _t7 * self.system._k0;
-        let _t16 = _R31 + _u_R31;
-        let _t17 = _R23 + _u_R23;
-        let _t18 = _R12 + _u_R12;
-        let _t19 = _t18 * self._h2;
-        let _t20 = _R22 + _u_R22;
-        let _t21 = _t5 * self._h1;
-        let _t22 = _t15 * self._h1;
-        let _t23 = _t6 * self._h5;
-        let _t24 = self.system._k5 + _t3 * _t3 * S::ratio(1.0, 12.0);
-        let _t25 = _t24 * self._h6;
-        let _t26 = self._h7 * _t4;
-        let _t27 = _t9 * self._h2;
-        let _t28 = _t10 * _t26;
-        let _t29 = _t0 * _t12;
-        let _t30 = _t1 * self._h13;
-        let _t31 = _t15 * self._h8;
-        let _t32 = _t24 * self._h15;
-        let _t33 = self._h16 * _t4;
-        let _t34 = _t5 * self._h8;
-        residual[0] = _u_m1 - m1 - _t0 * _t2 + self._h1 * (_t1 * _t5 - _t6 * _t8)
-            + _t9 * _t11;
-        residual[1] = _u_m2 - m2 + _t7 * _t2 + _t10 * _t13
-            - self._h1 * (_t1 * _t15 - _t16 * _t8) - _t17 * _t19;
-        residual[2] = _u_m3 - m3 - self._h1 * (_t7 * _t5 - _t0 * _t15) - _t18 * _t13
-            - self._h2 * (_t3 * _t9 - _t18 * _t20);
-        residual[3] = _u_R11 - _R11 - _t18 * _t2 + _t10 * _t21;
-        residual[4] = _u_R12 - _R12 + _t3 * _t2 - _t10 * _t22;
-        residual[5] = _u_R13 - _R13 - self._h1 * (_t3 * _t5 - _t18 * _t15);
-        residual[6] = _u_R21 - _R21 - _t20 * _t2 + _t17 * _t21;
-        residual[7] = _u_R22 - _R22 + _t9 * _t2 - _t17 * _t22;
-        residual[8] = _u_R23 - _R23 - self._h1 * (_t9 * _t5 - _t20 * _t15);
-        residual[9] = _u_R31 - _R31 - _t6 * _t2 + _t14 * _t21;
-        residual[10] = _u_R32 - _R32 + _t16 * _t2 - _t14 * _t22;
-        residual[11] = _u_R33 - _R33 - self._h1 * (_t16 * _t5 - _t6 * _t15);
-        matrix[(0, 0)] = S::one() - _t23;
-        matrix[(0, 1)] = _t1 * _t25 - _t2;
-        matrix[(0, 2)] = _t21 - _t0 * self._h0;
-        matrix[(0, 3)] = _t1 * _t26;
-        matrix[(0, 5)] = _t27;
-        matrix[(0, 6)] = _t11;
-        matrix[(0, 10)] = _t8 * self._h8;
-        matrix[(1, 0)] = _t16 * self._h5 - _t1 * self._h9;
-        matrix[(1, 1)] = S::one() - _t28;
-        matrix[(1, 2)] = _t7 * self._h0 - _t22;
-        matrix[(1, 3)] = _t10 * _t29;
-        matrix[(1, 4)] = _t17 * self._h10;
-        matrix[(1, 5)] = _t13;
-        matrix[(1, 8)] = _t18 * self._h10;
-        matrix[(1, 9)] = _t8 * self._h1;
-        matrix[(1, 11)] = _t1 * self._h11;
-        matrix[(2, 0)] = _t0 * self._h12 - _t21;
-        matrix[(2, 1)] = _t22 + _t18 * _t26 - _t7 * _t25;
+        let _t5 = _t3 * S::ratio(1.0, 24.0);
+        let _t6 = _t0 * self.system._k9 + _t4 * _t5;
+        let _t7 = _t6 * self._h1;
+        let _t8 = _R32 + _u_R32;
+        let _t9 = m1 + _u_m1;
+        let _t10 = S::one() + _t9 * S::ratio(1.0, 10.0);
+        let _t11 = _t10 * self._h1;
+        let _t12 = _R13 + _u_R13;
+        let _t13 = _R21 + _u_R21;
+        let _t14 = _t13 * self._h2;
+        let _t15 = _t0 * self._h4;
+        let _t16 = _t4 * _t15;
+        let _t17 = _R33 + _u_R33;
+        let _t18 = _t17 * S::ratio(1.0, 10.0) + _t9 * self.system._k0;
+        let _t19 = _t18 * self._h1;
+        let _t20 = _R31 + _u_R31;
+        let _t21 = _R23 + _u_R23;
+        let _t22 = _R12 + _u_R12;
+        let _t23 = _t22 * self._h2;
+        let _t24 = _R22 + _u_R22;
+        let _t25 = _t8 * self._h5;
+        let _t26 = self.system._k9 + _t3 * _t5;
+        let _t27 = _t26 * self._h1;
+        let _t28 = self._h6 * _t4;
+        let _t29 = _t12 * _t28;
+        let _t30 = _t0 * _t15;
+        let _t31 = _t1 * self._h12;
+        let _t32 = _t18 * self._h7;
+        let _t33 = _t26 * self._h7;
+        let _t34 = self._h14 * _t4;
+        let _t35 = _t6 * self._h7;
+        residual[0] = _u_m1 - m1 - _t0 * _t2 + _t1 * _t7 - _t8 * _t11 + _t12 * _t14;
+        residual[1] = _u_m2 - m2 + _t9 * _t2 + _t12 * _t16 - _t1 * _t19 + _t20 * _t11
+            - _t21 * _t23;
+        residual[2] = _u_m3 - m3 - _t9 * _t7 + _t0 * _t19 - _t22 * _t16 - _t3 * _t14
+            + _t24 * _t23;
+        residual[3] = _u_R11 - _R11 - _t22 * _t2 + _t12 * _t7;
+        residual[4] = _u_R12 - _R12 + _t3 * _t2 - _t12 * _t19;
+        residual[5] = _u_R13 - _R13 - _t3 * _t7 + _t22 * _t19;
+        residual[6] = _u_R21 - _R21 - _t24 * _t2 + _t21 * _t7;
+        residual[7] = _u_R22 - _R22 + _t13 * _t2 - _t21 * _t19;
+        residual[8] = _u_R23 - _R23 - _t13 * _t7 + _t24 * _t19;
+        residual[9] = _u_R31 - _R31 - _t8 * _t2 + _t17 * _t7;
+        residual[10] = _u_R32 - _R32 + _t20 * _t2 - _t17 * _t19;
+        residual[11] = _u_R33 - _R33 - _t20 * _t7 + _t8 * _t19;
+        matrix[(0, 0)] = S::one() - _t25;
+        matrix[(0, 1)] = _t1 * _t27 - _t2;
+        matrix[(0, 2)] = _t7 - _t0 * self._h0;
+        matrix[(0, 3)] = _t1 * _t28;
+        matrix[(0, 5)] = _t14;
+        matrix[(0, 6)] = _t12 * self._h2;
+        matrix[(0, 10)] = _t10 * self._h7;
+        matrix[(1, 0)] = _t20 * self._h5 - _t1 * self._h8;
+        matrix[(1, 1)] = S::one() - _t29;
+        matrix[(1, 2)] = _t9 * self._h0 - _t19;
+        matrix[(1, 3)] = _t12 * _t30;
+        matrix[(1, 4)] = _t21 * self._h9;
+        matrix[(1, 5)] = _t16;
+        matrix[(1, 8)] = _t22 * self._h9;
+        matrix[(1, 9)] = _t11;
+        matrix[(1, 11)] = _t1 * self._h10;
+        matrix[(2, 0)] = _t0 * self._h11 - _t7;
+        matrix[(2, 1)] = _t19 - _t9 * _t27 + _t22 * _t28;
         matrix[(2, 2)] = S::one();
-        matrix[(2, 3)] = -_t27 - _t7 * _t26 - _t18 * _t29;
-        matrix[(2, 4)] = _t20 * self._h2 - _t13;
-        matrix[(2, 6)] = _t3 * self._h10;
-        matrix[(2, 7)] = _t19;
+        matrix[(2, 3)] = -_t14 - _t9 * _t28 - _t22 * _t30;
+        matrix[(2, 4)] = _t24 * self._h2 - _t16;
+        matrix[(2, 6)] = _t3 * self._h9;
+        matrix[(2, 7)] = _t23;
         matrix[(2, 11)] = _t0 * self._h5;
-        matrix[(3, 1)] = _t10 * _t25;
-        matrix[(3, 2)] = _t18 * self._h13;
-        matrix[(3, 3)] = S::one() + _t28;
-        matrix[(3, 4)] = _t30;
-        matrix[(3, 5)] = _t21;
-        matrix[(4, 0)] = _t10 * self._h14;
+        matrix[(3, 1)] = _t12 * _t27;
+        matrix[(3, 2)] = _t22 * self._h12;
+        matrix[(3, 3)] = S::one() + _t29;
+        matrix[(3, 4)] = _t31;
+        matrix[(3, 5)] = _t7;
+        matrix[(4, 0)] = _t12 * self._h13;
         matrix[(4, 2)] = _t3 * self._h0;
         matrix[(4, 3)] = _t2;
         matrix[(4, 4)] = S::one();
-        matrix[(4, 5)] = _t31;
-        matrix[(4, 11)] = _t10 * self._h11;
-        matrix[(5, 0)] = _t18 * self._h12;
-        matrix[(5, 1)] = _t3 * _t32;
-        matrix[(5, 3)] = -_t21 - _t3 * _t26;
-        matrix[(5, 4)] = _t22;
+        matrix[(4, 5)] = _t32;
+        matrix[(4, 11)] = _t12 * self._h10;
+        matrix[(5, 0)] = _t22 * self._h11;
+        matrix[(5, 1)] = _t3 * _t33;
+        matrix[(5, 3)] = -_t7 - _t3 * _t28;
+        matrix[(5, 4)] = _t19;
         matrix[(5, 5)] = S::one();
-        matrix[(5, 11)] = _t18 * self._h5;
-        matrix[(6, 1)] = _t17 * _t25;
-        matrix[(6, 2)] = _t20 * self._h13;
-        matrix[(6, 3)] = _t17 * _t26;
+        matrix[(5, 11)] = _t22 * self._h5;
+        matrix[(6, 1)] = _t21 * _t27;
+        matrix[(6, 2)] = _t24 * self._h12;
+        matrix[(6, 3)] = _t21 * _t28;
         matrix[(6, 6)] = S::one();
-        matrix[(6, 7)] = _t30;
-        matrix[(6, 8)] = _t21;
-        matrix[(7, 0)] = _t17 * self._h14;
-        matrix[(7, 2)] = _t9 * self._h0;
+        matrix[(6, 7)] = _t31;
+        matrix[(6, 8)] = _t7;
+        matrix[(7, 0)] = _t21 * self._h13;
+        matrix[(7, 2)] = _t13 * self._h0;
         matrix[(7, 6)] = _t2;
         matrix[(7, 7)] = S::one();
-        matrix[(7, 8)] = _t31;
-        matrix[(7, 11)] = _t17 * self._h11;
-        matrix[(8, 0)] = _t20 * self._h12;
-        matrix[(8, 1)] = _t9 * _t32;
-        matrix[(8, 3)] = _t9 * _t33;
-        matrix[(8, 6)] = _t34;
-        matrix[(8, 7)] = _t22;
+        matrix[(7, 8)] = _t32;
+        matrix[(7, 11)] = _t21 * self._h10;
+        matrix[(8, 0)] = _t24 * self._h11;
+        matrix[(8, 1)] = _t13 * _t33;
+        matrix[(8, 3)] = _t13 * _t34;
+        matrix[(8, 6)] = _t35;
+        matrix[(8, 7)] = _t19;
         matrix[(8, 8)] = S::one();
-        matrix[(8, 11)] = _t20 * self._h5;
-        matrix[(9, 1)] = _t14 * _t25;
-        matrix[(9, 2)] = _t6 * self._h13;
-        matrix[(9, 3)] = _t14 * _t26;
+        matrix[(8, 11)] = _t24 * self._h5;
+        matrix[(9, 1)] = _t17 * _t27;
+        matrix[(9, 2)] = _t8 * self._h12;
+        matrix[(9, 3)] = _t17 * _t28;
         matrix[(9, 9)] = S::one();
-        matrix[(9, 10)] = _t30;
-        matrix[(9, 11)] = _t21;
-        matrix[(10, 0)] = _t14 * self._h14;
-        matrix[(10, 2)] = _t16 * self._h0;
+        matrix[(9, 10)] = _t31;
+        matrix[(9, 11)] = _t7;
+        matrix[(10, 0)] = _t17 * self._h13;
+        matrix[(10, 2)] = _t20 * self._h0;
         matrix[(10, 9)] = _t2;
         matrix[(10, 10)] = S::one();
-        matrix[(10, 11)] = -_t22 - _t14 * self._h5;
-        matrix[(11, 0)] = _t6 * self._h12;
-        matrix[(11, 1)] = _t16 * _t32;
-        matrix[(11, 3)] = _t16 * _t33;
-        matrix[(11, 9)] = _t34;
-        matrix[(11, 10)] = _t22;
-        matrix[(11, 11)] = S::one() + _t23;
+        matrix[(10, 11)] = -_t19 - _t17 * self._h5;
+        matrix[(11, 0)] = _t8 * self._h11;
+        matrix[(11, 1)] = _t20 * _t33;
+        matrix[(11, 3)] = _t20 * _t34;
+        matrix[(11, 9)] = _t35;
+        matrix[(11, 10)] = _t19;
+        matrix[(11, 11)] = S::one() + _t25;
         matrix[(0, 9)] = S::zero();
         matrix[(0, 11)] = S::zero();
         matrix[(9, 0)] = S::zero();
@@ -2408,9 +2403,9 @@ pub struct CotangentBodyCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a CotangentBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 12>,
     h: S,
-    /// `h/4`
-    _h0: S,
     /// `h/2`
+    _h0: S,
+    /// `h/4`
     _h1: S,
     /// `h/(2*I3)`
     _h2: S,
@@ -2418,34 +2413,28 @@ pub struct CotangentBodyCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h3: S,
     /// `4/h`
     _h4: S,
-    /// `h/10`
+    /// `h/12`
     _h5: S,
-    /// `-h/(2*I1)`
+    /// `h/10`
     _h6: S,
-    /// `10*h/I1`
+    /// `h/(2*I1)`
     _h7: S,
-    /// `5*h/I1`
-    _h8: S,
     /// `h/3`
+    _h8: S,
+    /// `-h/2`
     _h9: S,
-    /// `(1/I1 - 1/I3)*h/2`
+    /// `-h/6`
     _h10: S,
-    /// `h/I1`
+    /// `-h/4`
     _h11: S,
-    /// `2*h`
+    /// `-h/(2*I3)`
     _h12: S,
-    /// `3*h`
+    /// `-h/(2*I1)`
     _h13: S,
     /// `-h/10`
     _h14: S,
-    /// `-h/2`
-    _h15: S,
-    /// `-h/(2*I3)`
-    _h16: S,
-    /// `h/(2*I1)`
-    _h17: S,
     /// `-h/3`
-    _h18: S,
+    _h15: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> CotangentBodyCayleyMidpoint<'a, S> {
@@ -2453,33 +2442,28 @@ impl<'a, S: ::lie_runtime::Scalar> CotangentBodyCayleyMidpoint<'a, S> {
     #[must_use]
     pub fn new(system: &'a CotangentBodySystem<S>, h: S) -> Self {
         let _t0 = h * S::ratio(1.0, 2.0);
-        let _t1 = S::one() / system._parameters.I3;
-        let _t2 = S::one() / system._parameters.I1;
-        let _t3 = _t2 * h;
-        let _t4 = h * S::ratio(-1.0, 2.0);
+        let _t1 = _t0 / system._parameters.I3;
+        let _t2 = _t0 / system._parameters.I1;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * S::ratio(1.0, 4.0),
-            _h1: _t0,
-            _h2: _t1 * _t0,
+            _h0: _t0,
+            _h1: h * S::ratio(1.0, 4.0),
+            _h2: _t1,
             _h3: h * S::ratio(1.0, 6.0),
             _h4: S::ratio(4.0, 1.0) / h,
-            _h5: h * S::ratio(1.0, 10.0),
-            _h6: _t3 * S::ratio(-1.0, 2.0),
-            _h7: _t3 * S::ratio(10.0, 1.0),
-            _h8: _t3 * S::ratio(5.0, 1.0),
-            _h9: h * S::ratio(1.0, 3.0),
-            _h10: (_t2 - _t1) * _t0,
-            _h11: _t3,
-            _h12: h * S::ratio(2.0, 1.0),
-            _h13: h * S::ratio(3.0, 1.0),
+            _h5: h * S::ratio(1.0, 12.0),
+            _h6: h * S::ratio(1.0, 10.0),
+            _h7: _t2,
+            _h8: h * S::ratio(1.0, 3.0),
+            _h9: h * S::ratio(-1.0, 2.0),
+            _h10: h * S::ratio(-1.0, 6.0),
+            _h11: h * S::ratio(-1.0, 4.0),
+            _h12: -_t1,
+            _h13: -_t2,
             _h14: h * S::ratio(-1.0, 10.0),
-            _h15: _t4,
-            _h16: _t1 * _t4,
-            _h17: S::ratio(1.0, 2.0) * _t3,
-            _h18: h * S::ratio(-1.0, 3.0),
+            _h15: h * S::ratio(-1.0, 3.0),
         }
     }
 }
@@ -2503,9 +2487,9 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
-    /// 62 additions, 62 multiplications.
+    /// 63 additions, 62 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = self
@@ -2514,44 +2498,45 @@ for CotangentBodyCayleyMidpoint<'_, S> {
             .0;
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = _u_R21 * self._h0;
-        let _t1 = _t0 * _u_R13;
-        let _t2 = (_u_m1 * self.system._k3 + _u_R33 * S::ratio(1.0, 5.0)) * self._h1;
-        let _t3 = (S::one() + _u_m1 * S::ratio(1.0, 5.0)) * self._h1;
-        let _t4 = _t3 * _u_R33;
+        let _t0 = (S::one() + _u_m1 * S::ratio(1.0, 5.0)) * self._h0;
+        let _t1 = _u_R32 * _t0;
+        let _t2 = (_u_m1 * self.system._k3 + _u_R33 * S::ratio(1.0, 5.0)) * self._h0;
+        let _t3 = _u_R33 * _t0;
+        let _t4 = _u_R21 * self._h1;
         let _t5 = _u_m3 * self._h2;
         let _t6 = _u_m2 * _u_R11;
         let _t7 = (_u_m2 * self.system._k5 + _u_R11 * S::ratio(1.0, 3.0) * _t6)
-            * self._h1;
-        let _t8 = _t2 * _u_m1 + _t7 * _u_m2 + _t5 * _u_m3;
-        let _t9 = _t8 + _t0 * _u_R12;
-        let _t10 = _u_m3 - _t0 * _u_R11;
-        let _t11 = _u_m2 + _t3 * _u_R31;
-        let _t12 = _u_m1 - _t3 * _u_R32;
+            * self._h0;
+        let _t8 = _u_m1 * _t2 + _u_m2 * _t7 + _u_m3 * _t5;
+        let _t9 = _t8 + _u_R12 * _t4;
+        let _t10 = _u_m3 - _u_R11 * _t4;
+        let _t11 = _u_R31 * _t0;
+        let _t12 = _u_m1 + _u_R13 * _t4;
         let _t13 = _u_m2 * self._h3 * _t6;
-        let _t14 = _u_R12 * self._h0;
-        let _t15 = _t13 * _u_R11 + _t14 * _u_R21;
-        let _t16 = _t13 * _u_R13 + _t14 * _u_R23;
+        let _t14 = _u_R12 * self._h1;
+        let _t15 = _u_R11 * _t13 + _u_R21 * _t14;
+        let _t16 = _u_R23 * _t14 - (_u_m2 - _u_R13 * _t13);
         let _t17 = _t5 * self._h4;
-        residual[0] = _t12 - m1 + _t1 + _t2 * (_t9 + _t4) + _t7 * _t10 - _t5 * _t11;
-        residual[1] = _t11 - m2 + _t7 * (_t8 + _t4 + _t15)
-            - _t2 * (_u_m3 + _t13 * _u_R12 + _t14 * _u_R22) + _t5 * _t12 - _t16;
-        residual[2] = _t10 - m3 + _t5 * (_t9 + _t15) + _t2 * (_u_m2 - _t16)
-            - _t7 * (_u_m1 + _t1) + _t14 * (_u_R22 + _t13 * self._h4);
-        residual[3] = _u_R11 - _R11 + _t7 * _u_R13 - _t14 * _t17;
-        residual[4] = _u_R12 - _R12 - _t2 * _u_R13 + _t5 * _u_R11;
-        residual[5] = _u_R13 - _R13 - _t7 * _u_R11 + _t2 * _t14 * self._h4;
-        residual[6] = _u_R21 - _R21 - _t5 * _u_R22 + _t7 * _u_R23;
-        residual[7] = _u_R22 - _R22 - _t2 * _u_R23 + _t0 * _t17;
-        residual[8] = _u_R23 - _R23 + _t2 * _u_R22 - _t7 * _t0 * self._h4;
-        residual[9] = _u_R31 - _R31 + _t7 * _u_R33 - _t5 * _u_R32;
-        residual[10] = _u_R32 - _R32 - _t2 * _u_R33 + _t5 * _u_R31;
-        residual[11] = _u_R33 - _R33 - _t7 * _u_R31 + _t2 * _u_R32;
+        residual[0] = _t12 - m1 - _t1 + _t2 * (_t9 + _t3) + _t7 * _t10
+            - _t5 * (_u_m2 + _t11);
+        residual[1] = _t11 - m2 + _t7 * (_t8 + _t3 + _t15)
+            - _t2 * (_u_m3 + _u_R12 * _t13 + _u_R22 * _t14) + _t5 * (_u_m1 - _t1) - _t16;
+        residual[2] = _t10 - m3 + _t5 * (_t9 + _t15) + _t2 * -_t16 - _t7 * _t12
+            + _t14 * (_u_R22 + _t13 * self._h4);
+        residual[3] = _u_R11 - _R11 + _u_R13 * _t7 - _t14 * _t17;
+        residual[4] = _u_R12 - _R12 - _u_R13 * _t2 + _u_R11 * _t5;
+        residual[5] = _u_R13 - _R13 - _u_R11 * _t7 + _t2 * _t14 * self._h4;
+        residual[6] = _u_R21 - _R21 - _u_R22 * _t5 + _u_R23 * _t7;
+        residual[7] = _u_R22 - _R22 - _u_R23 * _t2 + _t4 * _t17;
+        residual[8] = _u_R23 - _R23 + _u_R22 * _t2 - _t7 * _t4 * self._h4;
+        residual[9] = _u_R31 - _R31 + _u_R33 * _t7 - _u_R32 * _t5;
+        residual[10] = _u_R32 - _R32 - _u_R33 * _t2 + _u_R31 * _t5;
+        residual[11] = _u_R33 - _R33 - _u_R31 * _t7 + _u_R32 * _t2;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
-    /// 144 additions, 203 multiplications.
+    /// 147 additions, 225 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -2565,182 +2550,186 @@ for CotangentBodyCayleyMidpoint<'_, S> {
             .0;
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = _u_R21 * self._h0;
-        let _t1 = _t0 * _u_R13;
-        let _t2 = (self.system._k3 * _u_m1 + _u_R33 * S::ratio(1.0, 5.0)) * self._h1;
-        let _t3 = _t0 * _u_R12;
-        let _t4 = _t2 * _u_m1;
-        let _t5 = _u_m2 * _u_R11;
-        let _t6 = _u_R11 * S::ratio(1.0, 3.0);
-        let _t7 = (self.system._k5 * _u_m2 + _t5 * _t6) * self._h1;
-        let _t8 = _t7 * _u_m2;
-        let _t9 = _t4 + _t8;
-        let _t10 = _u_m3 * self._h2;
-        let _t11 = _t10 * _u_m3;
-        let _t12 = (S::one() + _u_m1 * S::ratio(1.0, 5.0)) * self._h1;
-        let _t13 = _t12 * _u_R33;
-        let _t14 = _t11 + _t13;
-        let _t15 = _u_m3 - _t0 * _u_R11;
-        let _t16 = _t12 * _u_R31;
-        let _t17 = _u_m2 + _t16;
-        let _t18 = _u_m1 - _t12 * _u_R32;
-        let _t19 = _u_R12 * self._h0;
-        let _t20 = _u_m2 * self._h3 * _t5;
-        let _t21 = _t20 * _u_R11;
-        let _t22 = _t9 + _t21;
-        let _t23 = _t22 + _t19 * _u_R21;
-        let _t24 = _t19 * _u_R23 - (_u_m2 - _t20 * _u_R13);
-        let _t25 = -_t24;
-        let _t26 = _u_m1 + _t1;
-        let _t27 = _t10 * self._h4;
-        let _t28 = _u_R11 + _t7 * _u_R13;
-        let _t29 = _t2 * _u_R13;
-        let _t30 = _t29 - _t10 * _u_R11;
-        let _t31 = _t2 * _t19;
-        let _t32 = _u_R13 - _t7 * _u_R11;
-        let _t33 = _u_R22 - _t2 * _u_R23;
-        let _t34 = _t7 * _t0;
-        let _t35 = _u_R31 - _t10 * _u_R32;
-        let _t36 = _u_R32 * self._h5;
-        let _t37 = _t0 * _t19;
-        let _t38 = _u_R33 * self.h + _t2 * S::ratio(10.0, 1.0);
-        let _t39 = self.system._k5 + _u_R11 * _t6;
-        let _t40 = _t39 * S::ratio(1.0, 2.0);
-        let _t41 = _t10 * S::ratio(2.0, 1.0);
-        let _t42 = self._h9 * _t5;
-        let _t43 = _t2 * _t20;
-        let _t44 = -(_t10 * _t12);
-        let _t45 = _u_m1 * self.h;
-        let _t46 = self.h * (_t14 + _t4 + _t21) + S::ratio(4.0, 1.0) * _t37;
-        let _t47 = _t31 * S::ratio(4.0, 1.0);
-        let _t48 = _u_R11 * S::ratio(2.0, 1.0);
-        let _t49 = _u_m2 * S::ratio(1.0, 6.0);
-        let _t50 = _t20 * S::ratio(4.0, 1.0);
-        let _t51 = _u_R22 * self.h + _t50;
-        let _t52 = -_t31;
-        let _t53 = self.h * _t26;
-        let _t54 = _t19 * S::ratio(4.0, 1.0);
-        let _t55 = self._h1 * _t39;
-        let _t56 = -_t10;
-        let _t57 = -_t2;
-        let _t58 = _t39 * self._h15;
-        let _t59 = -_t7;
-        residual[0] = _t18 - m1 + _t1 + _t2 * (_t9 + _t3 + _t14) + _t7 * _t15
-            - _t10 * _t17;
-        residual[1] = _t16 - m2 + _t7 * (_t14 + _t23)
-            - _t2 * (_u_m3 + _t20 * _u_R12 + _t19 * _u_R22) + _t10 * _t18 - _t24;
-        residual[2] = _t15 - m3 + _t10 * (_t23 + _t11 + _t3) + _t2 * _t25 - _t7 * _t26
-            + _t19 * (_u_R22 + _t20 * self._h4);
-        residual[3] = _t28 - _R11 - _t19 * _t27;
-        residual[4] = _u_R12 - _R12 - _t30;
-        residual[5] = _t32 - _R13 + _t31 * self._h4;
-        residual[6] = _u_R21 - _R21 - _t10 * _u_R22 + _t7 * _u_R23;
-        residual[7] = _t33 - _R22 + _t0 * _t27;
-        residual[8] = _u_R23 - _R23 + _t2 * _u_R22 - _t34 * self._h4;
-        residual[9] = _t35 - _R31 + _t7 * _u_R33;
-        residual[10] = _u_R32 - _R32 - _t2 * _u_R33 + _t10 * _u_R31;
-        residual[11] = _u_R33 - _R33 - _t7 * _u_R31 + _t2 * _u_R32;
-        matrix[(0, 0)] = S::one() - _t36 - self._h6 * (_t8 + _t13)
-            + self.system._k10 * _t37
-            + (_t2 * (_t38 + _u_m1 * self._h7)
-                - _t10 * (_u_R31 * self.h - _u_m3 * self._h8)) * S::ratio(1.0, 10.0);
-        matrix[(0, 1)] = _t2 * _t7 - _t10 + self.h * (_t15 + _t2 * _u_m2) * _t40;
-        matrix[(0, 2)] = _t7 + _t2 * _t41 - self._h2 * _t17;
-        matrix[(0, 3)] = _u_m3 * _t42 + _t43 * S::ratio(2.0, 1.0)
-            - _t0 * S::ratio(1.0, 3.0)
-                * (_u_R11 * self.h * _t5 + _t7 * S::ratio(3.0, 1.0));
-        matrix[(0, 4)] = _t2 * _t0;
+        let _t0 = _u_R21 * self._h1;
+        let _t1 = _u_m2 * _u_R11;
+        let _t2 = _u_R11 * S::ratio(1.0, 3.0);
+        let _t3 = self.system._k5 * _u_m2 + _t1 * _t2;
+        let _t4 = _t3 * self._h0;
+        let _t5 = _u_R11 * _t4;
+        let _t6 = _u_m3 * self._h2;
+        let _t7 = S::one() + _u_m1 * S::ratio(1.0, 5.0);
+        let _t8 = _t7 * self._h0;
+        let _t9 = _t6 * _t8;
+        let _t10 = self.system._k3 * _u_m1 + _u_R33 * S::ratio(1.0, 5.0);
+        let _t11 = _t10 * self._h0;
+        let _t12 = _u_m3 * _t6;
+        let _t13 = _t12 + _u_R33 * _t8;
+        let _t14 = _u_R12 * _t0;
+        let _t15 = _u_m1 * _t11;
+        let _t16 = _u_m2 * _t4;
+        let _t17 = _t15 + _t16;
+        let _t18 = _t17 + _t14;
+        let _t19 = _t3 - self.system._k4 * _u_m2;
+        let _t20 = _u_m2 * self._h3;
+        let _t21 = _t1 * _t20;
+        let _t22 = _u_R12 * self._h1;
+        let _t23 = _u_R11 * _t21 + _u_R21 * _t22;
+        let _t24 = _t13 + _t23;
+        let _t25 = _u_R12 * _t21 + _u_R22 * _t22;
+        let _t26 = _u_m2 * S::ratio(2.0, 1.0);
+        let _t27 = _t1 * _t26;
+        let _t28 = _t10 - self.system._k4 * _u_m1;
+        let _t29 = _u_R23 * _t11;
+        let _t30 = _t23 + _t18;
+        let _t31 = _t11 * _t21;
+        let _t32 = _t4 * _t0;
+        let _t33 = _t31 + _t32;
+        let _t34 = _u_R12 * _t1;
+        let _t35 = self.system._k4 * _u_m3;
+        let _t36 = _t13 + _t16 + _t14 + _t15 * S::ratio(2.0, 1.0);
+        let _t37 = _t11 * _t4;
+        let _t38 = self.system._k5 + _u_R11 * _t2;
+        let _t39 = self._h0 * _t38;
+        let _t40 = _u_m2 * _t11 - _u_R11 * _t0;
+        let _t41 = _t11 * _t6;
+        let _t42 = self._h8 * _t1;
+        let _t43 = _u_R12 * _t11 - _t5;
+        let _t44 = -_t9;
+        let _t45 = _u_m1 * _t4 - _t25;
+        let _t46 = _t24 + _t15 + _t4 * _t26;
+        let _t47 = _u_R13 * _t42;
+        let _t48 = _t4 * _t6;
+        let _t49 = _u_m2 * _t20;
+        let _t50 = -(_t11 * _t22);
+        let _t51 = _u_m1 * _t6 - _u_R13 * _t21 - _u_R23 * _t22;
+        let _t52 = _u_m2 * _t6 - _u_R13 * _t0;
+        let _t53 = _u_R13 * _t11 - _u_R11 * _t6;
+        let _t54 = _u_R11 * S::ratio(2.0, 1.0);
+        let _t55 = _u_m3 * self._h12;
+        let _t56 = _t10 * self._h9;
+        let _t57 = _t38 * self._h9;
+        let _t58 = self._h15 * _t1;
+        let _t59 = _t3 * self._h9;
+        residual[0] = _u_m1 - m1 - _t0 * _t5 - _u_R31 * _t9 + _t11 * (_t13 + _t18)
+            + self._h1
+                * (_u_R13 * _u_R21 - S::ratio(2.0, 1.0) * (_u_R32 * _t7 - _u_m3 * _t19));
+        residual[1] = _u_m2 - m2 - _u_R32 * _t9 + _t4 * (_t17 + _t24) - _t11 * _t25
+            - self._h5
+                * (_u_R13 * _t27 + _u_R12 * _u_R23 * S::ratio(3.0, 1.0)
+                    - (_u_R31 * _t7 - _u_m3 * _t28) * S::ratio(6.0, 1.0));
+        residual[2] = _u_m3 - m3 - _t22 * _t29 + _t6 * (_t30 + _t12) - _u_R13 * _t33
+            - self._h5
+                * (S::ratio(3.0, 1.0) * (_u_R11 * _u_R21 - _u_R12 * _u_R22)
+                    + _u_m1 * _t3 * S::ratio(6.0, 1.0)
+                    - (_t34 + _t10 * S::ratio(3.0, 1.0)) * _t26);
+        residual[3] = _u_R11 - _R11 + self._h0 * (_u_R13 * _t3 - _u_R12 * _t35);
+        residual[4] = _u_R12 - _R12 - self._h0 * (_u_R13 * _t10 - _u_R11 * _t35);
+        residual[5] = _u_R13 - _R13 + self._h0 * (_u_R12 * _t10 - _u_R11 * _t3);
+        residual[6] = _u_R21 - _R21 + self._h0 * (_u_R23 * _t3 - _u_R22 * _t35);
+        residual[7] = _u_R22 - _R22 - self._h0 * (_u_R23 * _t10 - _u_R21 * _t35);
+        residual[8] = _u_R23 - _R23 + self._h0 * (_u_R22 * _t10 - _u_R21 * _t3);
+        residual[9] = _u_R31 - _R31 + self._h0 * (_u_R33 * _t3 - _u_R32 * _t35);
+        residual[10] = _u_R32 - _R32 - self._h0 * (_u_R33 * _t10 - _u_R31 * _t35);
+        residual[11] = _u_R33 - _R33 + self._h0 * (_u_R32 * _t10 - _u_R31 * _t3);
+        matrix[(0, 0)] = S::one() + _t11 * _t11
+            - (_u_R32 - (_u_R33 * _t11 - _u_R31 * _t6)) * self._h6 + _t36 * self._h7;
+        matrix[(0, 1)] = _t37 + _t39 * _t40
+            - _u_m3 * self._h0 * (self.system._k4 - _t38);
+        matrix[(0, 2)] = _t41 + self._h0 * _t19
+            + self._h2 * (_u_m3 * _t11 - _u_R31 * _t8);
+        matrix[(0, 3)] = _t42 * _t40 - _t32 + _u_m3 * _t42;
+        matrix[(0, 4)] = _t11 * _t0;
         matrix[(0, 5)] = _t0;
-        matrix[(0, 6)] = _t31 + self._h0 * _t32;
+        matrix[(0, 6)] = self._h1 * (_t43 + _u_R13);
         matrix[(0, 9)] = _t44;
-        matrix[(0, 10)] = -_t12;
-        matrix[(0, 11)] = self._h5 * (_t14 + _t8) + S::ratio(2.0, 5.0) * _t37
-            + _t2 * S::ratio(1.0, 5.0) * (_t45 + _t12 * S::ratio(5.0, 1.0));
-        matrix[(1, 0)] = self._h5 * _t35 - _u_m3 * self._h10
-            + _t7 * (_t38 + _u_m1 * self._h8) * S::ratio(1.0, 10.0)
-            - _t19 * S::ratio(1.0, 2.0) * (_u_R22 * self._h11 + _t20 * self.system._k11);
-        matrix[(1, 1)] = S::one() + _t7 * _t7 + (_t46 + _t8 * self._h12) * _t40
-            - S::ratio(1.0, 3.0) * (self.h * _t32 + _t47) * _t5;
-        matrix[(1, 2)] = _t7 * _t41 - _t2 + self._h2 * _t18;
-        matrix[(1, 3)] = _t7 * _t20 * S::ratio(6.0, 1.0)
-            - (_u_m2 * (_u_R13 * self.h + _t47) - _t46 * _t48) * _t49;
-        matrix[(1, 4)] = _t34 - _u_R23 * self._h0 - _t2 * _t51 * S::ratio(1.0, 4.0);
-        matrix[(1, 5)] = -_t20;
-        matrix[(1, 6)] = _t7 * _t19;
-        matrix[(1, 7)] = _t52;
-        matrix[(1, 8)] = -_t19;
-        matrix[(1, 9)] = _t12;
+        matrix[(0, 10)] = _t7 * self._h9;
+        matrix[(0, 11)] = _t11 * _t8 + _t36 * self._h6;
+        matrix[(1, 0)] = _t37 + self._h7 * _t45
+            + self._h6
+                * (_u_R33 * _t4 - _u_R32 * _t6 + (_u_R31 - _u_m3 * self.system._k10));
+        matrix[(1, 1)] = S::one() + _t4 * _t4 + _t39 * _t46 - _t42 * _t43 - _t47;
+        matrix[(1, 2)] = _t48 - self._h0 * _t28
+            + self._h2 * (_u_m3 * _t4 - _u_R32 * _t8);
+        matrix[(1, 3)] = _t4 * _t21 + _t42 * _t46 - _t49 * _t43 - _u_R13 * _t49;
+        matrix[(1, 4)] = -_t31 - self._h1 * (_u_R22 * _t11 - _u_R21 * _t4 + _u_R23);
+        matrix[(1, 5)] = _u_m2 * self._h10 * _t1;
+        matrix[(1, 6)] = _t4 * _t22;
+        matrix[(1, 7)] = _t50;
+        matrix[(1, 8)] = _u_R12 * self._h11;
+        matrix[(1, 9)] = _t8;
         matrix[(1, 10)] = _t44;
-        matrix[(1, 11)] = S::ratio(1.0, 10.0)
-            * (_t7 * (_t45 + _t12 * S::ratio(10.0, 1.0)) - _t19 * _t51)
-            - _u_m3 * self._h5;
-        matrix[(2, 0)] = _t10 * (_u_m1 * self._h11 + _t2 * S::ratio(2.0, 1.0))
-            * S::ratio(1.0, 2.0) - _t7 - self._h6 * _t25;
-        matrix[(2, 1)] = _t2 + _t7 * _t10 - _t40 * _t53
-            + (_t10 * _t39 * self._h13 + (_t54 - self.h * _t30) * _t48) * _t49;
-        matrix[(2, 2)] = S::one() + _t10 * _t10 * S::ratio(3.0, 1.0) + self._h2 * _t22
-            + self.system._k12 * _t37;
-        matrix[(2, 3)] = _t10 * _t50 - _t0
-            - (_u_m2 * (self.h * _t29 - _t54) + _t48 * _t53) * _t49;
-        matrix[(2, 4)] = _t20 + _t0 * _t41 + self._h0 * _t33;
-        matrix[(2, 5)] = -_t34 - _t43;
-        matrix[(2, 6)] = _t19 * _t41 - self._h0 * _t28;
-        matrix[(2, 7)] = _t19;
-        matrix[(2, 8)] = _t52;
-        matrix[(2, 11)] = self._h5 * (_t10 * _u_m1 - _t24);
-        matrix[(3, 1)] = _u_R13 * _t55;
-        matrix[(3, 2)] = _t19 * self.system._k13;
-        matrix[(3, 3)] = S::one() + _u_R13 * _t42;
-        matrix[(3, 4)] = _t56;
-        matrix[(3, 5)] = _t7;
-        matrix[(4, 0)] = _u_R13 * self._h6;
+        matrix[(1, 11)] = _t4 * _t8 - self._h6 * (_u_m3 - _t45);
+        matrix[(2, 0)] = _t41 - self._h0 * (_t3 - self.system._k3 * _u_m2)
+            + self._h7 * _t51;
+        matrix[(2, 1)] = _t48 + _t39 * _t52 - _t42 * _t53
+            + self._h3
+                * ((_t10 - _u_m1 * _t38) * S::ratio(3.0, 1.0)
+                    + S::ratio(2.0, 1.0) * _t34);
+        matrix[(2, 2)] = S::one() + _t6 * _t6
+            + self._h2 * (_t30 + _t12 * S::ratio(2.0, 1.0));
+        matrix[(2, 3)] = _t6 * _t21 + _t42 * _t52 - _t49 * _t53
+            - self._h5
+                * (_u_R21 * S::ratio(3.0, 1.0) - (_u_m2 * _u_R12 - _u_m1 * _t54) * _t26);
+        matrix[(2, 4)] = _t6 * _t0 + (_u_R22 * S::ratio(3.0, 1.0) + _t27) * self._h5
+            - self._h1 * (_t29 - _u_R21 * _t6);
+        matrix[(2, 5)] = -_t33;
+        matrix[(2, 6)] = _t6 * _t22 - self._h1 * (_u_R13 * _t4 - _u_R12 * _t6 + _u_R11);
+        matrix[(2, 7)] = _t22;
+        matrix[(2, 8)] = _t50;
+        matrix[(2, 11)] = self._h6 * (_t51 + _u_m2);
+        matrix[(3, 1)] = _u_R13 * _t39;
+        matrix[(3, 2)] = _u_R12 * self._h12;
+        matrix[(3, 3)] = S::one() + _t47;
+        matrix[(3, 4)] = _t55;
+        matrix[(3, 5)] = _t4;
+        matrix[(4, 0)] = _u_R13 * self._h13;
         matrix[(4, 2)] = _u_R11 * self._h2;
-        matrix[(4, 3)] = _t10;
+        matrix[(4, 3)] = _t6;
         matrix[(4, 4)] = S::one();
-        matrix[(4, 5)] = _t57;
+        matrix[(4, 5)] = _t56;
         matrix[(4, 11)] = _u_R13 * self._h14;
-        matrix[(5, 0)] = _t19 * self.system._k10;
-        matrix[(5, 1)] = _u_R11 * _t58;
-        matrix[(5, 3)] = _t59 - _u_R11 * _t42;
-        matrix[(5, 4)] = _t2;
+        matrix[(5, 0)] = _u_R12 * self._h7;
+        matrix[(5, 1)] = _u_R11 * _t57;
+        matrix[(5, 3)] = (_t1 * _t54 + _t3 * S::ratio(3.0, 1.0)) * self._h10;
+        matrix[(5, 4)] = _t11;
         matrix[(5, 5)] = S::one();
-        matrix[(5, 11)] = _t19 * S::ratio(2.0, 5.0);
-        matrix[(6, 1)] = _u_R23 * _t55;
-        matrix[(6, 2)] = _u_R22 * self._h16;
+        matrix[(5, 11)] = _u_R12 * self._h6;
+        matrix[(6, 1)] = _u_R23 * _t39;
+        matrix[(6, 2)] = _u_R22 * self._h12;
         matrix[(6, 3)] = _u_R23 * _t42;
         matrix[(6, 6)] = S::one();
-        matrix[(6, 7)] = _t56;
-        matrix[(6, 8)] = _t7;
-        matrix[(7, 0)] = _u_R23 * self._h6;
-        matrix[(7, 2)] = _t0 * self.system._k14;
-        matrix[(7, 6)] = _t10;
+        matrix[(6, 7)] = _t55;
+        matrix[(6, 8)] = _t4;
+        matrix[(7, 0)] = _u_R23 * self._h13;
+        matrix[(7, 2)] = _u_R21 * self._h2;
+        matrix[(7, 6)] = _t6;
         matrix[(7, 7)] = S::one();
-        matrix[(7, 8)] = _t57;
+        matrix[(7, 8)] = _t56;
         matrix[(7, 11)] = _u_R23 * self._h14;
-        matrix[(8, 0)] = _u_R22 * self._h17;
-        matrix[(8, 1)] = _t0 * _t39 * S::ratio(-2.0, 1.0);
-        matrix[(8, 3)] = _t0 * S::ratio(-4.0, 3.0) * _t5;
+        matrix[(8, 0)] = _u_R22 * self._h7;
+        matrix[(8, 1)] = _u_R21 * _t57;
+        matrix[(8, 3)] = _u_R21 * _t58;
         matrix[(8, 6)] = _t59;
-        matrix[(8, 7)] = _t2;
+        matrix[(8, 7)] = _t11;
         matrix[(8, 8)] = S::one();
-        matrix[(8, 11)] = _u_R22 * self._h5;
-        matrix[(9, 1)] = _u_R33 * _t55;
-        matrix[(9, 2)] = _u_R32 * self._h16;
+        matrix[(8, 11)] = _u_R22 * self._h6;
+        matrix[(9, 1)] = _u_R33 * _t39;
+        matrix[(9, 2)] = _u_R32 * self._h12;
         matrix[(9, 3)] = _u_R33 * _t42;
         matrix[(9, 9)] = S::one();
-        matrix[(9, 10)] = _t56;
-        matrix[(9, 11)] = _t7;
-        matrix[(10, 0)] = _u_R33 * self._h6;
+        matrix[(9, 10)] = _t55;
+        matrix[(9, 11)] = _t4;
+        matrix[(10, 0)] = _u_R33 * self._h13;
         matrix[(10, 2)] = _u_R31 * self._h2;
-        matrix[(10, 9)] = _t10;
+        matrix[(10, 9)] = _t6;
         matrix[(10, 10)] = S::one();
-        matrix[(10, 11)] = _t57 - _u_R33 * self._h5;
-        matrix[(11, 0)] = _u_R32 * self._h17;
-        matrix[(11, 1)] = _u_R31 * _t58;
-        matrix[(11, 3)] = _u_R31 * self._h18 * _t5;
+        matrix[(10, 11)] = (_u_R33 + _t10 * S::ratio(5.0, 1.0)) * self._h14;
+        matrix[(11, 0)] = _u_R32 * self._h7;
+        matrix[(11, 1)] = _u_R31 * _t57;
+        matrix[(11, 3)] = _u_R31 * _t58;
         matrix[(11, 9)] = _t59;
-        matrix[(11, 10)] = _t2;
-        matrix[(11, 11)] = S::one() + _t36;
+        matrix[(11, 10)] = _t11;
+        matrix[(11, 11)] = S::one() + _u_R32 * self._h6;
         matrix[(9, 0)] = S::zero();
         matrix[(11, 2)] = S::zero();
         matrix[(6, 0)] = S::zero();
@@ -2770,7 +2759,7 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         mu[0] = m1
             - (_u_R13 * _u_R21
                 - (_u_R32 * _t0 - _u_m3 * (_t2 - _u_m2 * self.system._k4))
-                    * S::ratio(2.0, 1.0)) * self._h1;
+                    * S::ratio(2.0, 1.0)) * self._h0;
         mu[1] = m2
             + (_u_R13 * _t1 * _t3 + _u_R12 * _u_R23 * S::ratio(3.0, 1.0)
                 - (_u_R31 * _t0 - _u_m3 * (_t4 - _u_m1 * self.system._k4))
@@ -3336,23 +3325,21 @@ for CotangentBodyGonzalez<'_, S> {
             .0;
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let [[_inverse_m1]] = ::lie_runtime::generic::inverse_length(&self.base, unknown)
-            .data
-            .0;
+        let [_inverse_m1] = ::lie_runtime::generic::inverse_length(&self.base, unknown);
         let _t0 = m2 - _u_m2;
         let _t1 = -_t0;
         let _t2 = _t1 * _inverse_m1;
         let _t3 = _R11 - _u_R11;
         let _t4 = -_t3;
         let _t5 = m2 + _u_m2;
-        let _t6 = _t5 * _t4;
+        let _t6 = _t4 * _t5;
         let _t7 = _R11 + _u_R11;
-        let _t8 = _t7 * _t1;
+        let _t8 = _t1 * _t7;
         let _t9 = _t4 * _inverse_m1;
         let _t10 = (_t4 * _t2 * (_t6 + _t8 * S::ratio(2.0, 1.0))
             + _t1 * _t9 * (_t8 + _t6 * S::ratio(2.0, 1.0))) * S::ratio(1.0, 72.0);
         let _t11 = _t5 * S::ratio(1.0, 24.0);
-        let _t12 = _t2 * _t10 + (_t7 * _t7 + self.system._k15) * _t11;
+        let _t12 = _t2 * _t10 + (_t7 * _t7 + self.system._k11) * _t11;
         let _t13 = m3 + _u_m3;
         let _t14 = m3 - _u_m3;
         let _t15 = -_t14 * _inverse_m1 * _t10 + _t13 * self.system._k1;
@@ -3420,111 +3407,109 @@ for CotangentBodyGonzalez<'_, S> {
             .0;
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let [[_inverse_m1]] = ::lie_runtime::generic::inverse_length(&self.base, unknown)
-            .data
-            .0;
-        let _t0 = m2 + _u_m2;
-        let _t1 = _R11 + _u_R11;
-        let _t2 = _t0 * _t1;
-        let _t3 = _t1 * S::ratio(1.0, 24.0);
-        let _t4 = m2 - _u_m2;
-        let _t5 = -_t4;
-        let _t6 = _t5 * _inverse_m1;
-        let _t7 = _R11 - _u_R11;
-        let _t8 = -_t7;
-        let _t9 = _t0 * _t8;
-        let _t10 = _t1 * _t5;
-        let _t11 = _t8 * (_t9 + _t10 * S::ratio(2.0, 1.0));
-        let _t12 = _t10 + _t9 * S::ratio(2.0, 1.0);
-        let _t13 = _t8 * _inverse_m1;
-        let _t14 = _t5 * _t13;
-        let _t15 = (_t6 * _t11 + _t12 * _t14) * S::ratio(1.0, 72.0);
-        let _t16 = _t6 * _t15;
-        let _t17 = _t0 * self.system._k9 + _t2 * _t3 + _t16;
+        let [_inverse_m1] = ::lie_runtime::generic::inverse_length(&self.base, unknown);
+        let _t0 = m2 - _u_m2;
+        let _t1 = -_t0;
+        let _t2 = _t1 * _inverse_m1;
+        let _t3 = _R11 - _u_R11;
+        let _t4 = -_t3;
+        let _t5 = m2 + _u_m2;
+        let _t6 = _t4 * _t5;
+        let _t7 = _R11 + _u_R11;
+        let _t8 = _t1 * _t7;
+        let _t9 = _t4 * (_t6 + _t8 * S::ratio(2.0, 1.0));
+        let _t10 = _t8 + _t6 * S::ratio(2.0, 1.0);
+        let _t11 = _t4 * _inverse_m1;
+        let _t12 = _t1 * _t11;
+        let _t13 = (_t2 * _t9 + _t10 * _t12) * S::ratio(1.0, 72.0);
+        let _t14 = _t2 * _t13;
+        let _t15 = _t5 * _t7;
+        let _t16 = _t7 * S::ratio(1.0, 24.0);
+        let _t17 = _t5 * self.system._k9 + _t15 * _t16 + _t14;
         let _t18 = m3 + _u_m3;
         let _t19 = m3 - _u_m3;
         let _t20 = -_t19 * _inverse_m1;
-        let _t21 = _t20 * _t15 + _t18 * self.system._k1;
+        let _t21 = _t20 * _t13 + _t18 * self.system._k1;
         let _t22 = _R12 - _u_R12;
         let _t23 = -_t22 * _inverse_m1;
         let _t24 = _R21 + _u_R21;
-        let _t25 = _t23 * _t15 + _t24 * S::ratio(1.0, 4.0);
+        let _t25 = _t23 * _t13 + _t24 * S::ratio(1.0, 4.0);
         let _t26 = _R13 + _u_R13;
         let _t27 = _R13 - _u_R13;
         let _t28 = -_t27 * _inverse_m1;
-        let _t29 = _t28 * _t15;
+        let _t29 = _t28 * _t13;
         let _t30 = _R12 + _u_R12;
         let _t31 = _R22 - _u_R22;
         let _t32 = -_t31 * _inverse_m1;
-        let _t33 = _t32 * _t15;
+        let _t33 = _t32 * _t13;
         let _t34 = _R23 + _u_R23;
         let _t35 = _R23 - _u_R23;
         let _t36 = -_t35 * _inverse_m1;
-        let _t37 = _t36 * _t15;
+        let _t37 = _t36 * _t13;
         let _t38 = _R22 + _u_R22;
         let _t39 = _R32 - _u_R32;
         let _t40 = -_t39 * _inverse_m1;
-        let _t41 = _t40 * _t15;
+        let _t41 = _t40 * _t13;
         let _t42 = _R33 + _u_R33;
-        let _t43 = m1 + _u_m1;
-        let _t44 = _R33 - _u_R33;
-        let _t45 = -_t44 * _inverse_m1;
-        let _t46 = S::one() + _t43 * S::ratio(1.0, 10.0) + _t45 * _t15;
+        let _t43 = _R33 - _u_R33;
+        let _t44 = -_t43 * _inverse_m1;
+        let _t45 = m1 + _u_m1;
+        let _t46 = S::one() + _t45 * S::ratio(1.0, 10.0) + _t44 * _t13;
         let _t47 = _R32 + _u_R32;
         let _t48 = m1 - _u_m1;
         let _t49 = -_t48 * _inverse_m1;
-        let _t50 = _t42 * S::ratio(1.0, 10.0) + _t43 * self.system._k0 + _t49 * _t15;
-        let _t51 = _t13 * _t15;
-        let _t52 = _t51 + _t0 * S::ratio(1.0, 24.0) * _t2;
+        let _t50 = _t42 * S::ratio(1.0, 10.0) + _t45 * self.system._k0 + _t49 * _t13;
+        let _t51 = _t11 * _t13;
+        let _t52 = _t51 + _t5 * S::ratio(1.0, 24.0) * _t15;
         let _t53 = _R21 - _u_R21;
         let _t54 = -_t53 * _inverse_m1;
-        let _t55 = _t54 * _t15 + _t30 * S::ratio(1.0, 4.0);
+        let _t55 = _t54 * _t13 + _t30 * S::ratio(1.0, 4.0);
         let _t56 = _R31 - _u_R31;
         let _t57 = -_t56 * _inverse_m1;
-        let _t58 = _t57 * _t15;
+        let _t58 = _t57 * _t13;
         let _t59 = _R31 + _u_R31;
-        let _t60 = -((_t50 * _t18 - _t21 * _t43 + _t52 * _t26 - _t29 * _t1 + _t55 * _t34
+        let _t60 = -((_t50 * _t18 - _t21 * _t45 + _t52 * _t26 - _t29 * _t7 + _t55 * _t34
             - _t37 * _t24 + _t58 * _t42 - _t46 * _t59) * self._h0);
-        let _t61 = _inverse_m1 * _t15;
+        let _t61 = _inverse_m1 * _t13;
         let _t62 = _t61 * S::ratio(-2.0, 1.0);
         let _t63 = _t49 * _t62;
         let _t64 = _t63 * S::ratio(10.0, 1.0);
-        let _t65 = S::one() + _t45 * _t64;
-        let _t66 = _t42 * _t40;
-        let _t67 = _t34 * _t32;
-        let _t68 = _t38 * _t36;
+        let _t65 = S::one() + _t44 * _t64;
+        let _t66 = _t40 * _t42;
+        let _t67 = _t32 * _t34;
+        let _t68 = _t36 * _t38;
         let _t69 = _t67 - _t68;
-        let _t70 = _t18 * _t6;
-        let _t71 = _t0 * _t20;
+        let _t70 = _t2 * _t18;
+        let _t71 = _t20 * _t5;
         let _t72 = _t70 - _t71;
-        let _t73 = _t26 * _t23;
-        let _t74 = _t30 * _t28;
+        let _t73 = _t23 * _t26;
+        let _t74 = _t28 * _t30;
         let _t75 = _t73 - _t74;
         let _t76 = _t72 + _t75;
         let _t77 = _t69 + _t76;
         let _t78 = _t77 + _t66;
-        let _t79 = (_t10 + _t9) * S::ratio(1.0, 36.0);
-        let _t80 = _t13 * _t79
+        let _t79 = (_t8 + _t6) * S::ratio(1.0, 36.0);
+        let _t80 = _t11 * _t79
             + S::ratio(1.0, 72.0)
-                * (_inverse_m1 * (_t11 - _t16 * S::ratio(144.0, 1.0))
-                    + _t8
-                        * (_t6 * (_t8 + _t1 * S::ratio(2.0, 1.0))
-                            + S::ratio(2.0, 1.0) * _t14));
-        let _t81 = self.system._k9 + _t1 * _t3 + _t61 + _t6 * _t80;
-        let _t82 = _t47 * _t45;
+                * (_inverse_m1 * (_t9 - _t14 * S::ratio(144.0, 1.0))
+                    + _t4
+                        * (_t2 * (_t4 + _t7 * S::ratio(2.0, 1.0))
+                            + S::ratio(2.0, 1.0) * _t12));
+        let _t81 = self.system._k9 + _t7 * _t16 + _t61 + _t2 * _t80;
+        let _t82 = _t44 * _t47;
         let _t83 = _t66 - _t82;
         let _t84 = _t69 + _t83;
         let _t85 = _t75 + _t84;
         let _t86 = _t71 - _t85;
         let _t87 = _t20 * _t62;
         let _t88 = self.system._k4 + S::ratio(2.0, 1.0) * (_t61 + _t20 * _t87);
-        let _t89 = _t6 * S::ratio(2.0, 1.0);
-        let _t90 = _t6 * _t79
+        let _t89 = _t2 * S::ratio(2.0, 1.0);
+        let _t90 = _t2 * _t79
             + S::ratio(1.0, 72.0)
-                * (_inverse_m1 * (_t5 * _t12 - _t51 * S::ratio(144.0, 1.0))
-                    + _t5 * (_t13 * (_t5 + _t0 * S::ratio(2.0, 1.0)) + _t8 * _t89));
+                * (_inverse_m1 * (_t1 * _t10 - _t51 * S::ratio(144.0, 1.0))
+                    + _t1 * (_t11 * (_t1 + _t5 * S::ratio(2.0, 1.0)) + _t4 * _t89));
         let _t91 = _t90 * S::ratio(12.0, 1.0);
-        let _t92 = _t2 + _t6 * _t91;
+        let _t92 = _t15 + _t2 * _t91;
         let _t93 = _t23 * _t62;
         let _t94 = _t61 + _t23 * _t93;
         let _t95 = _t72 + _t84;
@@ -3542,26 +3527,26 @@ for CotangentBodyGonzalez<'_, S> {
         let _t107 = _t57 * _t62;
         let _t108 = _t40 * _t62;
         let _t109 = _t61 + _t40 * _t108;
-        let _t110 = _t45 * _t62;
-        let _t111 = _t61 + _t45 * _t110;
-        let _t112 = _t43 * _t20;
-        let _t113 = _t26 * _t13;
+        let _t110 = _t44 * _t62;
+        let _t111 = _t61 + _t44 * _t110;
+        let _t112 = _t20 * _t45;
+        let _t113 = _t11 * _t26;
         let _t114 = _t112 - _t113;
-        let _t115 = _t1 * _t28;
-        let _t116 = _t34 * _t54;
+        let _t115 = _t28 * _t7;
+        let _t116 = _t54 * _t34;
         let _t117 = _t115 - _t116;
-        let _t118 = _t24 * _t36;
-        let _t119 = _t42 * _t57;
+        let _t118 = _t36 * _t24;
+        let _t119 = _t57 * _t42;
         let _t120 = _t118 - _t119;
         let _t121 = _t117 + _t120;
         let _t122 = _t114 + _t121;
         let _t123 = self.system._k3 + S::ratio(2.0, 1.0) * (_t61 + _t49 * _t63);
         let _t124 = _t80 * S::ratio(12.0, 1.0);
-        let _t125 = _t2 + _t13 * _t124;
-        let _t126 = _t18 * _t49 - _t59 * _t45;
+        let _t125 = _t15 + _t11 * _t124;
+        let _t126 = _t49 * _t18 - _t44 * _t59;
         let _t127 = _t126 - _t121;
         let _t128 = _t112 - _t127;
-        let _t129 = _t0 * _t0 + (_t61 + _t13 * _t90) * S::ratio(24.0, 1.0);
+        let _t129 = _t5 * _t5 + (_t61 + _t11 * _t90) * S::ratio(24.0, 1.0);
         let _t130 = _t93 * S::ratio(4.0, 1.0);
         let _t131 = S::one() + _t54 * _t130;
         let _t132 = _t126 - _t114;
@@ -3575,16 +3560,16 @@ for CotangentBodyGonzalez<'_, S> {
         let _t140 = _t108 * self._h0;
         let _t141 = _t110 * S::ratio(10.0, 1.0);
         let _t142 = S::one() + _t49 * _t141;
-        let _t143 = _t59 * _t40;
-        let _t144 = _t24 * _t32;
-        let _t145 = _t47 * _t57;
+        let _t143 = _t40 * _t59;
+        let _t144 = _t32 * _t24;
+        let _t145 = _t57 * _t47;
         let _t146 = _t144 - _t145;
-        let _t147 = _t43 * _t6 - _t30 * _t13;
-        let _t148 = _t1 * _t23 - _t38 * _t54;
+        let _t147 = _t2 * _t45 - _t11 * _t30;
+        let _t148 = _t23 * _t7 - _t54 * _t38;
         let _t149 = _t147 + _t148;
         let _t150 = _t146 + _t149;
         let _t151 = _t150 + _t143;
-        let _t152 = _t0 * _t49;
+        let _t152 = _t49 * _t5;
         let _t153 = _t143 - _t152;
         let _t154 = _t146 + _t153;
         let _t155 = _t148 + _t154;
@@ -3592,56 +3577,56 @@ for CotangentBodyGonzalez<'_, S> {
         let _t157 = _t147 + _t154;
         let _t158 = _t156 * self._h2;
         let _t159 = _t153 + _t149;
-        let _t160 = _t30 * _t20;
-        let _t161 = _t26 * _t6 - _t160;
+        let _t160 = _t20 * _t30;
+        let _t161 = _t2 * _t26 - _t160;
         let _t162 = self._h0 * _t161;
         let _t163 = _t87 * _t89;
-        let _t164 = _t1 * _t20;
+        let _t164 = _t20 * _t7;
         let _t165 = S::ratio(2.0, 1.0) * _t63;
-        let _t166 = _t26 * _t49 - _t164;
+        let _t166 = _t49 * _t26 - _t164;
         let _t167 = _t166 * self._h2;
         let _t168 = _t87 * (_t49 * S::ratio(2.0, 1.0));
         let _t169 = _t63 * _t89;
-        let _t170 = _t30 * _t49;
-        let _t171 = _t1 * _t6 - _t170;
+        let _t170 = _t49 * _t30;
+        let _t171 = _t2 * _t7 - _t170;
         let _t172 = _t171 * self._h2;
-        let _t173 = _t6 * _t141;
-        let _t174 = _t38 * _t20;
-        let _t175 = _t34 * _t6 - _t174;
+        let _t173 = _t2 * _t141;
+        let _t174 = _t20 * _t38;
+        let _t175 = _t2 * _t34 - _t174;
         let _t176 = self._h0 * _t175;
-        let _t177 = _t24 * _t20;
-        let _t178 = _t34 * _t49 - _t177;
+        let _t177 = _t20 * _t24;
+        let _t178 = _t49 * _t34 - _t177;
         let _t179 = _t178 * self._h2;
-        let _t180 = _t38 * _t49;
-        let _t181 = _t180 - _t24 * _t6;
+        let _t180 = _t49 * _t38;
+        let _t181 = _t180 - _t2 * _t24;
         let _t182 = self._h0 * _t181;
-        let _t183 = _t47 * _t20;
-        let _t184 = _t42 * _t6 - _t183;
+        let _t183 = _t20 * _t47;
+        let _t184 = _t2 * _t42 - _t183;
         let _t185 = self._h0 * _t184;
-        let _t186 = _t59 * _t20;
-        let _t187 = _t42 * _t49 - _t186;
+        let _t186 = _t20 * _t59;
+        let _t187 = _t49 * _t42 - _t186;
         let _t188 = _t187 * self._h2;
-        let _t189 = _t47 * _t49;
-        let _t190 = _t189 - _t59 * _t6;
+        let _t189 = _t49 * _t47;
+        let _t190 = _t189 - _t2 * _t59;
         let _t191 = self._h0 * _t190;
-        residual[0] = (_t17 * _t18 - _t21 * _t0 + _t25 * _t26 - _t29 * _t30 + _t33 * _t34
+        residual[0] = (_t17 * _t18 - _t21 * _t5 + _t25 * _t26 - _t29 * _t30 + _t33 * _t34
             - _t37 * _t38 + _t41 * _t42 - _t46 * _t47) * self._h0 - _t48;
-        residual[1] = _t60 - _t4;
+        residual[1] = _t60 - _t0;
         residual[2] = self._h0
-            * (_t50 * _t0 - _t17 * _t43 + _t52 * _t30 - _t25 * _t1 + _t55 * _t38
+            * (_t50 * _t5 - _t17 * _t45 + _t52 * _t30 - _t25 * _t7 + _t55 * _t38
                 - _t33 * _t24 + _t58 * _t47 - _t41 * _t59) - _t19;
-        residual[3] = self._h0 * (_t17 * _t26 - _t21 * _t30) - _t7;
-        residual[4] = -((_t50 * _t26 - _t21 * _t1) * self._h0) - _t22;
-        residual[5] = self._h0 * (_t50 * _t30 - _t17 * _t1) - _t27;
+        residual[3] = self._h0 * (_t17 * _t26 - _t21 * _t30) - _t3;
+        residual[4] = -((_t50 * _t26 - _t21 * _t7) * self._h0) - _t22;
+        residual[5] = self._h0 * (_t50 * _t30 - _t17 * _t7) - _t27;
         residual[6] = self._h0 * (_t17 * _t34 - _t21 * _t38) - _t53;
         residual[7] = -((_t50 * _t34 - _t21 * _t24) * self._h0) - _t31;
         residual[8] = self._h0 * (_t50 * _t38 - _t17 * _t24) - _t35;
         residual[9] = self._h0 * (_t17 * _t42 - _t21 * _t47) - _t56;
         residual[10] = -((_t50 * _t42 - _t21 * _t59) * self._h0) - _t39;
-        residual[11] = self._h0 * (_t50 * _t47 - _t17 * _t59) - _t44;
+        residual[11] = self._h0 * (_t50 * _t47 - _t17 * _t59) - _t43;
         matrix[(0, 0)] = S::one() - self._h1 * (_t47 * _t65 - _t78 * _t64);
         matrix[(0, 1)] = (_t21 - _t18 * _t81 + _t80 * _t86) * self._h2;
-        matrix[(0, 2)] = (_t0 * _t88
+        matrix[(0, 2)] = (_t5 * _t88
             - S::ratio(2.0, 1.0) * (_t17 + _t87 * (_t85 + _t70))) * self._h3;
         matrix[(0, 3)] = self._h4 * (_t18 * _t92 - _t86 * _t91);
         matrix[(0, 4)] = (_t29 - _t26 * _t94 - _t93 * _t96) * self._h2;
@@ -3657,11 +3642,11 @@ for CotangentBodyGonzalez<'_, S> {
                 - _t18 * _t123 * S::ratio(5.0, 1.0));
         matrix[(1, 1)] = S::one() - self._h4 * (_t26 * _t125 - _t128 * _t124);
         matrix[(1, 2)] = self._h6
-            * (_t43 * _t88 - S::ratio(2.0, 1.0) * (_t50 + _t87 * (_t127 + _t113)));
+            * (_t45 * _t88 - S::ratio(2.0, 1.0) * (_t50 + _t87 * (_t127 + _t113)));
         matrix[(1, 3)] = (_t26 * _t129 - S::ratio(24.0, 1.0) * (_t29 + _t90 * _t128))
             * self._h7;
         matrix[(1, 4)] = (_t34 * _t131 - _t134 * _t130) * self._h8;
-        matrix[(1, 5)] = (_t52 - _t1 * _t98 - _t97 * (_t133 - _t116)) * self._h2;
+        matrix[(1, 5)] = (_t52 - _t7 * _t98 - _t97 * (_t133 - _t116)) * self._h2;
         matrix[(1, 6)] = self._h0 * (_t37 - _t34 * _t135 + _t99 * _t134);
         matrix[(1, 7)] = _t136 * _t137;
         matrix[(1, 8)] = (_t55 - _t24 * _t106 - _t105 * (_t138 - _t119)) * self._h2;
@@ -3670,23 +3655,23 @@ for CotangentBodyGonzalez<'_, S> {
         matrix[(1, 11)] = (_t18 * _t142
             + S::ratio(10.0, 1.0) * (_t58 - _t59 * _t111 - _t110 * _t122)) * self._h9;
         matrix[(2, 0)] = self._h6
-            * (_t0 * _t123 - S::ratio(2.0, 1.0) * (_t17 + _t63 * _t151));
+            * (_t5 * _t123 - S::ratio(2.0, 1.0) * (_t17 + _t63 * _t151));
         matrix[(2, 1)] = self._h4
-            * (_t30 * _t125 + S::ratio(12.0, 1.0) * (_t50 - _t43 * _t81 - _t80 * _t155));
+            * (_t30 * _t125 + S::ratio(12.0, 1.0) * (_t50 - _t45 * _t81 - _t80 * _t155));
         matrix[(2, 2)] = S::one() - _t87 * self._h0 * _t156;
         matrix[(2, 3)] = self._h10
             * (_t30 * _t129 - S::ratio(24.0, 1.0) * (_t25 + _t90 * _t155)
-                - _t43 * S::ratio(2.0, 1.0) * _t92);
+                - _t45 * S::ratio(2.0, 1.0) * _t92);
         matrix[(2, 4)] = self._h5
-            * (_t38 * _t131 + S::ratio(4.0, 1.0) * (_t52 - _t1 * _t94 - _t93 * _t157));
+            * (_t38 * _t131 + S::ratio(4.0, 1.0) * (_t52 - _t7 * _t94 - _t93 * _t157));
         matrix[(2, 5)] = _t97 * _t158;
-        matrix[(2, 6)] = (_t1 * _t101
+        matrix[(2, 6)] = (_t7 * _t101
             + S::ratio(4.0, 1.0) * (_t33 - _t38 * _t135 + _t99 * _t157)) * self._h8;
         matrix[(2, 7)] = self._h0 * (_t55 - _t24 * _t103 - _t102 * (_t159 - _t145));
         matrix[(2, 8)] = _t105 * _t158;
         matrix[(2, 9)] = (_t41 - _t47 * _t139 + _t107 * (_t159 + _t144)) * self._h2;
         matrix[(2, 10)] = self._h0 * (_t58 - _t59 * _t109 - _t108 * (_t150 - _t152));
-        matrix[(2, 11)] = self._h1 * (_t0 * _t142 - _t151 * _t141);
+        matrix[(2, 11)] = self._h1 * (_t5 * _t142 - _t151 * _t141);
         matrix[(3, 0)] = _t63 * _t162;
         matrix[(3, 1)] = self._h0 * (_t26 * _t81 - _t80 * _t160);
         matrix[(3, 2)] = (_t30 * _t88 - _t26 * _t163) * self._h3;
@@ -3701,7 +3686,7 @@ for CotangentBodyGonzalez<'_, S> {
         matrix[(3, 11)] = _t110 * _t162;
         matrix[(4, 0)] = (_t26 * _t123 - _t164 * _t165) * self._h3;
         matrix[(4, 1)] = _t80 * _t167;
-        matrix[(4, 2)] = self._h6 * (_t1 * _t88 - _t26 * _t168);
+        matrix[(4, 2)] = self._h6 * (_t7 * _t88 - _t26 * _t168);
         matrix[(4, 3)] = self._h0 * (_t21 - _t90 * _t166);
         matrix[(4, 4)] = S::one() - _t93 * self._h0 * _t166;
         matrix[(4, 5)] = (_t50 + _t97 * _t166) * self._h2;
@@ -3711,10 +3696,10 @@ for CotangentBodyGonzalez<'_, S> {
         matrix[(4, 9)] = _t107 * _t167;
         matrix[(4, 10)] = _t108 * _t167;
         matrix[(4, 11)] = (_t26 * _t142 - _t164 * _t141) * self._h9;
-        matrix[(5, 0)] = self._h6 * (_t30 * _t123 - _t1 * _t169);
-        matrix[(5, 1)] = self._h0 * (_t80 * _t170 - _t1 * _t81);
+        matrix[(5, 0)] = self._h6 * (_t30 * _t123 - _t7 * _t169);
+        matrix[(5, 1)] = self._h0 * (_t80 * _t170 - _t7 * _t81);
         matrix[(5, 2)] = _t87 * _t172;
-        matrix[(5, 3)] = (_t1 * _t92 + S::ratio(12.0, 1.0) * (_t17 - _t90 * _t170))
+        matrix[(5, 3)] = (_t7 * _t92 + S::ratio(12.0, 1.0) * (_t17 - _t90 * _t170))
             * self._h11;
         matrix[(5, 4)] = self._h0 * (_t50 - _t93 * _t171);
         matrix[(5, 5)] = S::one() - _t97 * self._h0 * _t171;
@@ -3723,7 +3708,7 @@ for CotangentBodyGonzalez<'_, S> {
         matrix[(5, 8)] = _t105 * _t172;
         matrix[(5, 9)] = _t107 * _t172;
         matrix[(5, 10)] = _t108 * _t172;
-        matrix[(5, 11)] = self._h1 * (_t30 * _t142 - _t1 * _t173);
+        matrix[(5, 11)] = self._h1 * (_t30 * _t142 - _t7 * _t173);
         matrix[(6, 0)] = _t63 * _t176;
         matrix[(6, 1)] = self._h0 * (_t34 * _t81 - _t80 * _t174);
         matrix[(6, 2)] = (_t38 * _t88 - _t34 * _t163) * self._h3;
@@ -3912,16 +3897,14 @@ for CotangentBodyGonzalezGradient<S> {
             .0;
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = _end.data.0;
-        let [[_inverse_m1]] = ::lie_runtime::generic::inverse_length(&self.start, _end)
-            .data
-            .0;
+        let [_inverse_m1] = ::lie_runtime::generic::inverse_length(&self.start, _end);
         let _t0 = _u_R11 - _R11;
         let _t1 = _u_m2 - m2;
         let _t2 = _t1 * _inverse_m1;
         let _t3 = m2 + _u_m2;
-        let _t4 = _t3 * _t0;
+        let _t4 = _t0 * _t3;
         let _t5 = _R11 + _u_R11;
-        let _t6 = _t5 * _t1;
+        let _t6 = _t1 * _t5;
         let _t7 = _t0 * _inverse_m1;
         let _t8 = (_t0 * _t2 * (_t4 + _t6 * S::ratio(2.0, 1.0))
             + _t1 * _t7 * (_t6 + _t4 * S::ratio(2.0, 1.0))) * S::ratio(1.0, 72.0);
@@ -3929,7 +3912,7 @@ for CotangentBodyGonzalezGradient<S> {
         let _t10 = _t3 * S::ratio(1.0, 24.0);
         _out[0] = (_u_m1 - m1) * _inverse_m1 * _t8
             + (_R33 + _u_R33) * S::ratio(1.0, 10.0) + _t9 * _system._k0;
-        _out[1] = _t2 * _t8 + (_t5 * _t5 + _system._k15) * _t10;
+        _out[1] = _t2 * _t8 + (_t5 * _t5 + _system._k11) * _t10;
         _out[2] = (_u_m3 - m3) * _inverse_m1 * _t8 + (m3 + _u_m3) * _system._k1;
         _out[3] = _t7 * _t8 + _t3 * _t5 * _t10;
         _out[4] = (_u_R12 - _R12) * _inverse_m1 * _t8
@@ -3947,7 +3930,7 @@ for CotangentBodyGonzalezGradient<S> {
 
     /// `g(mu, u)` and `dg/du`
     ///
-    /// 66 additions, 222 multiplications.
+    /// 65 additions, 220 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -3962,221 +3945,209 @@ for CotangentBodyGonzalezGradient<S> {
             .0;
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = _end.data.0;
-        let [[_inverse_m1]] = ::lie_runtime::generic::inverse_length(&self.start, _end)
-            .data
-            .0;
+        let [_inverse_m1] = ::lie_runtime::generic::inverse_length(&self.start, _end);
         let _t0 = (_u_m1 - m1) * _inverse_m1;
-        let _t1 = m2 + _u_m2;
-        let _t2 = _u_R11 - _R11;
-        let _t3 = _t1 * _t2;
-        let _t4 = _R11 + _u_R11;
-        let _t5 = _u_m2 - m2;
-        let _t6 = _t4 * _t5;
-        let _t7 = _t3 + _t6 * S::ratio(2.0, 1.0);
-        let _t8 = _t5 * _inverse_m1;
-        let _t9 = _t2 * _t8;
-        let _t10 = _t6 + _t3 * S::ratio(2.0, 1.0);
-        let _t11 = _t2 * _inverse_m1;
-        let _t12 = _t5 * _t11;
-        let _t13 = (_t7 * _t9 + _t10 * _t12) * S::ratio(1.0, 72.0);
-        let _t14 = m1 + _u_m1;
-        let _t15 = _t8 * _t13;
-        let _t16 = _t4 * _t4;
-        let _t17 = _t1 * S::ratio(1.0, 24.0);
-        let _t18 = (_u_m3 - m3) * _inverse_m1;
-        let _t19 = _t11 * _t13;
-        let _t20 = _t1 * _t4;
-        let _t21 = (_u_R12 - _R12) * _inverse_m1;
-        let _t22 = (_u_R13 - _R13) * _inverse_m1;
-        let _t23 = (_u_R21 - _R21) * _inverse_m1;
-        let _t24 = (_u_R22 - _R22) * _inverse_m1;
-        let _t25 = (_u_R23 - _R23) * _inverse_m1;
-        let _t26 = (_u_R31 - _R31) * _inverse_m1;
-        let _t27 = (_u_R32 - _R32) * _inverse_m1;
-        let _t28 = (_u_R33 - _R33) * _inverse_m1;
-        let _t29 = _inverse_m1 * _t13;
-        let _t30 = _t29 * S::ratio(-2.0, 1.0);
-        let _t31 = _t0 * _t30;
-        let _t32 = (_t6 + _t3) * S::ratio(1.0, 36.0);
-        let _t33 = _t11 * _t32
-            + S::ratio(1.0, 72.0)
-                * (_inverse_m1 * (_t2 * _t7 - _t15 * S::ratio(144.0, 1.0))
-                    + _t2
-                        * (_t8 * (_t2 + _t4 * S::ratio(2.0, 1.0))
-                            + S::ratio(2.0, 1.0) * _t12));
-        let _t34 = _t18 * _t30;
-        let _t35 = _t8 * _t32
-            + S::ratio(1.0, 72.0)
-                * (_inverse_m1 * (_t5 * _t10 - _t19 * S::ratio(144.0, 1.0))
-                    + _t5
-                        * (_t11 * (_t5 + _t1 * S::ratio(2.0, 1.0))
-                            + S::ratio(2.0, 1.0) * _t9));
-        let _t36 = _t21 * _t30;
-        let _t37 = _t22 * _t30;
-        let _t38 = _t23 * _t30;
-        let _t39 = _t24 * _t30;
-        let _t40 = _t25 * _t30;
-        let _t41 = _t26 * _t30;
-        let _t42 = _t27 * _t30;
-        let _t43 = _t28 * _t30;
-        let _t44 = S::ratio(1.0, 12.0) * _t20;
-        _out[0] = _t0 * _t13 + (_R33 + _u_R33) * S::ratio(1.0, 10.0)
-            + _t14 * _system._k0;
-        _out[1] = _t15 + (_t16 + _system._k15) * _t17;
-        _out[2] = _t18 * _t13 + (m3 + _u_m3) * _system._k1;
-        _out[3] = _t19 + _t17 * _t20;
-        _out[4] = _t21 * _t13 + (_R21 + _u_R21) * S::ratio(1.0, 4.0);
-        _out[5] = _t22 * _t13;
-        _out[6] = _t23 * _t13 + (_R12 + _u_R12) * S::ratio(1.0, 4.0);
-        _out[7] = _t24 * _t13;
-        _out[8] = _t25 * _t13;
-        _out[9] = _t26 * _t13;
-        _out[10] = _t27 * _t13;
-        _out[11] = S::one() + _t28 * _t13 + _t14 * S::ratio(1.0, 10.0);
-        _slopes[(0, 0)] = _t29 + _t0 * _t31 + _system._k0;
-        _slopes[(0, 1)] = _t0 * _t33;
-        _slopes[(0, 2)] = _t0 * _t34;
-        _slopes[(0, 3)] = _t0 * _t35;
-        _slopes[(0, 4)] = _t0 * _t36;
-        _slopes[(0, 5)] = _t0 * _t37;
-        _slopes[(0, 6)] = _t0 * _t38;
-        _slopes[(0, 7)] = _t0 * _t39;
-        _slopes[(0, 8)] = _t0 * _t40;
-        _slopes[(0, 9)] = _t0 * _t41;
-        _slopes[(0, 10)] = _t0 * _t42;
-        _slopes[(0, 11)] = _t0 * _t43 + S::ratio(1.0, 10.0);
-        _slopes[(1, 0)] = _t8 * _t31;
-        _slopes[(1, 1)] = _t29 + _t8 * _t33 + _t16 * S::ratio(1.0, 24.0) + _system._k9;
-        _slopes[(1, 2)] = _t8 * _t34;
-        _slopes[(1, 3)] = _t8 * _t35 + _t44;
-        _slopes[(1, 4)] = _t8 * _t36;
-        _slopes[(1, 5)] = _t8 * _t37;
-        _slopes[(1, 6)] = _t8 * _t38;
-        _slopes[(1, 7)] = _t8 * _t39;
-        _slopes[(1, 8)] = _t8 * _t40;
-        _slopes[(1, 9)] = _t8 * _t41;
-        _slopes[(1, 10)] = _t8 * _t42;
-        _slopes[(1, 11)] = _t8 * _t43;
-        _slopes[(2, 0)] = _t18 * _t31;
-        _slopes[(2, 1)] = _t18 * _t33;
-        _slopes[(2, 2)] = _t29 + _system._k1 + _t18 * _t34;
-        _slopes[(2, 3)] = _t18 * _t35;
-        _slopes[(2, 4)] = _t18 * _t36;
-        _slopes[(2, 5)] = _t18 * _t37;
-        _slopes[(2, 6)] = _t18 * _t38;
-        _slopes[(2, 7)] = _t18 * _t39;
-        _slopes[(2, 8)] = _t18 * _t40;
-        _slopes[(2, 9)] = _t18 * _t41;
-        _slopes[(2, 10)] = _t18 * _t42;
-        _slopes[(2, 11)] = _t18 * _t43;
-        _slopes[(3, 0)] = _t11 * _t31;
-        _slopes[(3, 1)] = _t44 + _t11 * _t33;
-        _slopes[(3, 2)] = _t11 * _t34;
-        _slopes[(3, 3)] = _t29 + _t11 * _t35 + _t1 * _t17;
-        _slopes[(3, 4)] = _t11 * _t36;
-        _slopes[(3, 5)] = _t11 * _t37;
-        _slopes[(3, 6)] = _t11 * _t38;
-        _slopes[(3, 7)] = _t11 * _t39;
-        _slopes[(3, 8)] = _t11 * _t40;
-        _slopes[(3, 9)] = _t11 * _t41;
-        _slopes[(3, 10)] = _t11 * _t42;
-        _slopes[(3, 11)] = _t11 * _t43;
-        _slopes[(4, 0)] = _t21 * _t31;
-        _slopes[(4, 1)] = _t21 * _t33;
-        _slopes[(4, 2)] = _t21 * _t34;
-        _slopes[(4, 3)] = _t21 * _t35;
-        _slopes[(4, 4)] = _t29 + _t21 * _t36;
-        _slopes[(4, 5)] = _t21 * _t37;
-        _slopes[(4, 6)] = S::ratio(1.0, 4.0) + _t21 * _t38;
-        _slopes[(4, 7)] = _t21 * _t39;
-        _slopes[(4, 8)] = _t21 * _t40;
-        _slopes[(4, 9)] = _t21 * _t41;
-        _slopes[(4, 10)] = _t21 * _t42;
-        _slopes[(4, 11)] = _t21 * _t43;
-        _slopes[(5, 0)] = _t22 * _t31;
-        _slopes[(5, 1)] = _t22 * _t33;
-        _slopes[(5, 2)] = _t22 * _t34;
-        _slopes[(5, 3)] = _t22 * _t35;
-        _slopes[(5, 4)] = _t22 * _t36;
-        _slopes[(5, 5)] = _t29 + _t22 * _t37;
-        _slopes[(5, 6)] = _t22 * _t38;
-        _slopes[(5, 7)] = _t22 * _t39;
-        _slopes[(5, 8)] = _t22 * _t40;
-        _slopes[(5, 9)] = _t22 * _t41;
-        _slopes[(5, 10)] = _t22 * _t42;
-        _slopes[(5, 11)] = _t22 * _t43;
-        _slopes[(6, 0)] = _t23 * _t31;
-        _slopes[(6, 1)] = _t23 * _t33;
-        _slopes[(6, 2)] = _t23 * _t34;
-        _slopes[(6, 3)] = _t23 * _t35;
-        _slopes[(6, 4)] = S::ratio(1.0, 4.0) + _t23 * _t36;
-        _slopes[(6, 5)] = _t23 * _t37;
-        _slopes[(6, 6)] = _t29 + _t23 * _t38;
-        _slopes[(6, 7)] = _t23 * _t39;
-        _slopes[(6, 8)] = _t23 * _t40;
-        _slopes[(6, 9)] = _t23 * _t41;
-        _slopes[(6, 10)] = _t23 * _t42;
-        _slopes[(6, 11)] = _t23 * _t43;
-        _slopes[(7, 0)] = _t24 * _t31;
-        _slopes[(7, 1)] = _t24 * _t33;
-        _slopes[(7, 2)] = _t24 * _t34;
-        _slopes[(7, 3)] = _t24 * _t35;
-        _slopes[(7, 4)] = _t24 * _t36;
-        _slopes[(7, 5)] = _t24 * _t37;
-        _slopes[(7, 6)] = _t24 * _t38;
-        _slopes[(7, 7)] = _t29 + _t24 * _t39;
-        _slopes[(7, 8)] = _t24 * _t40;
-        _slopes[(7, 9)] = _t24 * _t41;
-        _slopes[(7, 10)] = _t24 * _t42;
-        _slopes[(7, 11)] = _t24 * _t43;
-        _slopes[(8, 0)] = _t25 * _t31;
-        _slopes[(8, 1)] = _t25 * _t33;
-        _slopes[(8, 2)] = _t25 * _t34;
-        _slopes[(8, 3)] = _t25 * _t35;
-        _slopes[(8, 4)] = _t25 * _t36;
-        _slopes[(8, 5)] = _t25 * _t37;
-        _slopes[(8, 6)] = _t25 * _t38;
-        _slopes[(8, 7)] = _t25 * _t39;
-        _slopes[(8, 8)] = _t29 + _t25 * _t40;
-        _slopes[(8, 9)] = _t25 * _t41;
-        _slopes[(8, 10)] = _t25 * _t42;
-        _slopes[(8, 11)] = _t25 * _t43;
-        _slopes[(9, 0)] = _t26 * _t31;
-        _slopes[(9, 1)] = _t26 * _t33;
-        _slopes[(9, 2)] = _t26 * _t34;
-        _slopes[(9, 3)] = _t26 * _t35;
-        _slopes[(9, 4)] = _t26 * _t36;
-        _slopes[(9, 5)] = _t26 * _t37;
-        _slopes[(9, 6)] = _t26 * _t38;
-        _slopes[(9, 7)] = _t26 * _t39;
-        _slopes[(9, 8)] = _t26 * _t40;
-        _slopes[(9, 9)] = _t29 + _t26 * _t41;
-        _slopes[(9, 10)] = _t26 * _t42;
-        _slopes[(9, 11)] = _t26 * _t43;
-        _slopes[(10, 0)] = _t27 * _t31;
-        _slopes[(10, 1)] = _t27 * _t33;
-        _slopes[(10, 2)] = _t27 * _t34;
-        _slopes[(10, 3)] = _t27 * _t35;
-        _slopes[(10, 4)] = _t27 * _t36;
-        _slopes[(10, 5)] = _t27 * _t37;
-        _slopes[(10, 6)] = _t27 * _t38;
-        _slopes[(10, 7)] = _t27 * _t39;
-        _slopes[(10, 8)] = _t27 * _t40;
-        _slopes[(10, 9)] = _t27 * _t41;
-        _slopes[(10, 10)] = _t29 + _t27 * _t42;
-        _slopes[(10, 11)] = _t27 * _t43;
-        _slopes[(11, 0)] = S::ratio(1.0, 10.0) + _t28 * _t31;
-        _slopes[(11, 1)] = _t28 * _t33;
-        _slopes[(11, 2)] = _t28 * _t34;
-        _slopes[(11, 3)] = _t28 * _t35;
-        _slopes[(11, 4)] = _t28 * _t36;
-        _slopes[(11, 5)] = _t28 * _t37;
-        _slopes[(11, 6)] = _t28 * _t38;
-        _slopes[(11, 7)] = _t28 * _t39;
-        _slopes[(11, 8)] = _t28 * _t40;
-        _slopes[(11, 9)] = _t28 * _t41;
-        _slopes[(11, 10)] = _t28 * _t42;
-        _slopes[(11, 11)] = _t29 + _t28 * _t43;
+        let _t1 = _u_R11 - _R11;
+        let _t2 = m2 + _u_m2;
+        let _t3 = _u_m2 - m2;
+        let _t4 = _t3 * _inverse_m1;
+        let _t5 = _t2 * (_t1 * _t4);
+        let _t6 = _R11 + _u_R11;
+        let _t7 = _t1 * _inverse_m1;
+        let _t8 = _t6 * (_t3 * _t7);
+        let _t9 = _t4 * _t6 + _t7 * _t2;
+        let _t10 = (_t1 * _t5 + _t3 * (_t8 + _t1 * S::ratio(2.0, 1.0) * _t9))
+            * S::ratio(1.0, 72.0);
+        let _t11 = m1 + _u_m1;
+        let _t12 = _t6 * _t6;
+        let _t13 = _t2 * S::ratio(1.0, 24.0);
+        let _t14 = (_u_m3 - m3) * _inverse_m1;
+        let _t15 = _t2 * _t6;
+        let _t16 = (_u_R12 - _R12) * _inverse_m1;
+        let _t17 = (_u_R13 - _R13) * _inverse_m1;
+        let _t18 = (_u_R21 - _R21) * _inverse_m1;
+        let _t19 = (_u_R22 - _R22) * _inverse_m1;
+        let _t20 = (_u_R23 - _R23) * _inverse_m1;
+        let _t21 = (_u_R31 - _R31) * _inverse_m1;
+        let _t22 = (_u_R32 - _R32) * _inverse_m1;
+        let _t23 = (_u_R33 - _R33) * _inverse_m1;
+        let _t24 = _inverse_m1 * _t10;
+        let _t25 = _t24 * S::ratio(-2.0, 1.0);
+        let _t26 = _t0 * _t25;
+        let _t27 = S::ratio(2.0, 1.0) * _t24;
+        let _t28 = _t1 * (_t4 + _t2 * _inverse_m1);
+        let _t29 = _t3 * (_t7 + _t6 * _inverse_m1);
+        let _t30 = S::ratio(1.0, 36.0) * _t8 - _t4 * _t27
+            + _t1 * S::ratio(1.0, 72.0) * (_t28 + S::ratio(2.0, 1.0) * (_t9 + _t29));
+        let _t31 = _t14 * _t25;
+        let _t32 = S::ratio(1.0, 36.0) * _t5 - _t7 * _t27
+            + _t3 * S::ratio(1.0, 72.0) * (_t29 + S::ratio(2.0, 1.0) * (_t9 + _t28));
+        let _t33 = _t16 * _t25;
+        let _t34 = _t17 * _t25;
+        let _t35 = _t18 * _t25;
+        let _t36 = _t19 * _t25;
+        let _t37 = _t20 * _t25;
+        let _t38 = _t21 * _t25;
+        let _t39 = _t22 * _t25;
+        let _t40 = _t23 * _t25;
+        let _t41 = S::ratio(1.0, 12.0) * _t15;
+        _out[0] = _t0 * _t10 + (_R33 + _u_R33) * S::ratio(1.0, 10.0)
+            + _t11 * _system._k0;
+        _out[1] = _t4 * _t10 + (_t12 + _system._k11) * _t13;
+        _out[2] = _t14 * _t10 + (m3 + _u_m3) * _system._k1;
+        _out[3] = _t7 * _t10 + _t13 * _t15;
+        _out[4] = _t16 * _t10 + (_R21 + _u_R21) * S::ratio(1.0, 4.0);
+        _out[5] = _t17 * _t10;
+        _out[6] = _t18 * _t10 + (_R12 + _u_R12) * S::ratio(1.0, 4.0);
+        _out[7] = _t19 * _t10;
+        _out[8] = _t20 * _t10;
+        _out[9] = _t21 * _t10;
+        _out[10] = _t22 * _t10;
+        _out[11] = S::one() + _t23 * _t10 + _t11 * S::ratio(1.0, 10.0);
+        _slopes[(0, 0)] = _t24 + _t0 * _t26 + _system._k0;
+        _slopes[(0, 1)] = _t0 * _t30;
+        _slopes[(0, 2)] = _t0 * _t31;
+        _slopes[(0, 3)] = _t0 * _t32;
+        _slopes[(0, 4)] = _t0 * _t33;
+        _slopes[(0, 5)] = _t0 * _t34;
+        _slopes[(0, 6)] = _t0 * _t35;
+        _slopes[(0, 7)] = _t0 * _t36;
+        _slopes[(0, 8)] = _t0 * _t37;
+        _slopes[(0, 9)] = _t0 * _t38;
+        _slopes[(0, 10)] = _t0 * _t39;
+        _slopes[(0, 11)] = _t0 * _t40 + S::ratio(1.0, 10.0);
+        _slopes[(1, 0)] = _t4 * _t26;
+        _slopes[(1, 1)] = _t24 + _t4 * _t30 + _t12 * S::ratio(1.0, 24.0) + _system._k9;
+        _slopes[(1, 2)] = _t4 * _t31;
+        _slopes[(1, 3)] = _t4 * _t32 + _t41;
+        _slopes[(1, 4)] = _t4 * _t33;
+        _slopes[(1, 5)] = _t4 * _t34;
+        _slopes[(1, 6)] = _t4 * _t35;
+        _slopes[(1, 7)] = _t4 * _t36;
+        _slopes[(1, 8)] = _t4 * _t37;
+        _slopes[(1, 9)] = _t4 * _t38;
+        _slopes[(1, 10)] = _t4 * _t39;
+        _slopes[(1, 11)] = _t4 * _t40;
+        _slopes[(2, 0)] = _t14 * _t26;
+        _slopes[(2, 1)] = _t14 * _t30;
+        _slopes[(2, 2)] = _t24 + _system._k1 + _t14 * _t31;
+        _slopes[(2, 3)] = _t14 * _t32;
+        _slopes[(2, 4)] = _t14 * _t33;
+        _slopes[(2, 5)] = _t14 * _t34;
+        _slopes[(2, 6)] = _t14 * _t35;
+        _slopes[(2, 7)] = _t14 * _t36;
+        _slopes[(2, 8)] = _t14 * _t37;
+        _slopes[(2, 9)] = _t14 * _t38;
+        _slopes[(2, 10)] = _t14 * _t39;
+        _slopes[(2, 11)] = _t14 * _t40;
+        _slopes[(3, 0)] = _t7 * _t26;
+        _slopes[(3, 1)] = _t41 + _t7 * _t30;
+        _slopes[(3, 2)] = _t7 * _t31;
+        _slopes[(3, 3)] = _t24 + _t7 * _t32 + _t2 * _t13;
+        _slopes[(3, 4)] = _t7 * _t33;
+        _slopes[(3, 5)] = _t7 * _t34;
+        _slopes[(3, 6)] = _t7 * _t35;
+        _slopes[(3, 7)] = _t7 * _t36;
+        _slopes[(3, 8)] = _t7 * _t37;
+        _slopes[(3, 9)] = _t7 * _t38;
+        _slopes[(3, 10)] = _t7 * _t39;
+        _slopes[(3, 11)] = _t7 * _t40;
+        _slopes[(4, 0)] = _t16 * _t26;
+        _slopes[(4, 1)] = _t16 * _t30;
+        _slopes[(4, 2)] = _t16 * _t31;
+        _slopes[(4, 3)] = _t16 * _t32;
+        _slopes[(4, 4)] = _t24 + _t16 * _t33;
+        _slopes[(4, 5)] = _t16 * _t34;
+        _slopes[(4, 6)] = S::ratio(1.0, 4.0) + _t16 * _t35;
+        _slopes[(4, 7)] = _t16 * _t36;
+        _slopes[(4, 8)] = _t16 * _t37;
+        _slopes[(4, 9)] = _t16 * _t38;
+        _slopes[(4, 10)] = _t16 * _t39;
+        _slopes[(4, 11)] = _t16 * _t40;
+        _slopes[(5, 0)] = _t17 * _t26;
+        _slopes[(5, 1)] = _t17 * _t30;
+        _slopes[(5, 2)] = _t17 * _t31;
+        _slopes[(5, 3)] = _t17 * _t32;
+        _slopes[(5, 4)] = _t17 * _t33;
+        _slopes[(5, 5)] = _t24 + _t17 * _t34;
+        _slopes[(5, 6)] = _t17 * _t35;
+        _slopes[(5, 7)] = _t17 * _t36;
+        _slopes[(5, 8)] = _t17 * _t37;
+        _slopes[(5, 9)] = _t17 * _t38;
+        _slopes[(5, 10)] = _t17 * _t39;
+        _slopes[(5, 11)] = _t17 * _t40;
+        _slopes[(6, 0)] = _t18 * _t26;
+        _slopes[(6, 1)] = _t18 * _t30;
+        _slopes[(6, 2)] = _t18 * _t31;
+        _slopes[(6, 3)] = _t18 * _t32;
+        _slopes[(6, 4)] = S::ratio(1.0, 4.0) + _t18 * _t33;
+        _slopes[(6, 5)] = _t18 * _t34;
+        _slopes[(6, 6)] = _t24 + _t18 * _t35;
+        _slopes[(6, 7)] = _t18 * _t36;
+        _slopes[(6, 8)] = _t18 * _t37;
+        _slopes[(6, 9)] = _t18 * _t38;
+        _slopes[(6, 10)] = _t18 * _t39;
+        _slopes[(6, 11)] = _t18 * _t40;
+        _slopes[(7, 0)] = _t19 * _t26;
+        _slopes[(7, 1)] = _t19 * _t30;
+        _slopes[(7, 2)] = _t19 * _t31;
+        _slopes[(7, 3)] = _t19 * _t32;
+        _slopes[(7, 4)] = _t19 * _t33;
+        _slopes[(7, 5)] = _t19 * _t34;
+        _slopes[(7, 6)] = _t19 * _t35;
+        _slopes[(7, 7)] = _t24 + _t19 * _t36;
+        _slopes[(7, 8)] = _t19 * _t37;
+        _slopes[(7, 9)] = _t19 * _t38;
+        _slopes[(7, 10)] = _t19 * _t39;
+        _slopes[(7, 11)] = _t19 * _t40;
+        _slopes[(8, 0)] = _t20 * _t26;
+        _slopes[(8, 1)] = _t20 * _t30;
+        _slopes[(8, 2)] = _t20 * _t31;
+        _slopes[(8, 3)] = _t20 * _t32;
+        _slopes[(8, 4)] = _t20 * _t33;
+        _slopes[(8, 5)] = _t20 * _t34;
+        _slopes[(8, 6)] = _t20 * _t35;
+        _slopes[(8, 7)] = _t20 * _t36;
+        _slopes[(8, 8)] = _t24 + _t20 * _t37;
+        _slopes[(8, 9)] = _t20 * _t38;
+        _slopes[(8, 10)] = _t20 * _t39;
+        _slopes[(8, 11)] = _t20 * _t40;
+        _slopes[(9, 0)] = _t21 * _t26;
+        _slopes[(9, 1)] = _t21 * _t30;
+        _slopes[(9, 2)] = _t21 * _t31;
+        _slopes[(9, 3)] = _t21 * _t32;
+        _slopes[(9, 4)] = _t21 * _t33;
+        _slopes[(9, 5)] = _t21 * _t34;
+        _slopes[(9, 6)] = _t21 * _t35;
+        _slopes[(9, 7)] = _t21 * _t36;
+        _slopes[(9, 8)] = _t21 * _t37;
+        _slopes[(9, 9)] = _t24 + _t21 * _t38;
+        _slopes[(9, 10)] = _t21 * _t39;
+        _slopes[(9, 11)] = _t21 * _t40;
+        _slopes[(10, 0)] = _t22 * _t26;
+        _slopes[(10, 1)] = _t22 * _t30;
+        _slopes[(10, 2)] = _t22 * _t31;
+        _slopes[(10, 3)] = _t22 * _t32;
+        _slopes[(10, 4)] = _t22 * _t33;
+        _slopes[(10, 5)] = _t22 * _t34;
+        _slopes[(10, 6)] = _t22 * _t35;
+        _slopes[(10, 7)] = _t22 * _t36;
+        _slopes[(10, 8)] = _t22 * _t37;
+        _slopes[(10, 9)] = _t22 * _t38;
+        _slopes[(10, 10)] = _t24 + _t22 * _t39;
+        _slopes[(10, 11)] = _t22 * _t40;
+        _slopes[(11, 0)] = S::ratio(1.0, 10.0) + _t23 * _t26;
+        _slopes[(11, 1)] = _t23 * _t30;
+        _slopes[(11, 2)] = _t23 * _t31;
+        _slopes[(11, 3)] = _t23 * _t32;
+        _slopes[(11, 4)] = _t23 * _t33;
+        _slopes[(11, 5)] = _t23 * _t34;
+        _slopes[(11, 6)] = _t23 * _t35;
+        _slopes[(11, 7)] = _t23 * _t36;
+        _slopes[(11, 8)] = _t23 * _t37;
+        _slopes[(11, 9)] = _t23 * _t38;
+        _slopes[(11, 10)] = _t23 * _t39;
+        _slopes[(11, 11)] = _t24 + _t23 * _t40;
     }
 }
 
@@ -4324,7 +4295,7 @@ for CotangentBodyMeanValue<'_, S> {
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
-    /// 67 additions, 64 multiplications.
+    /// 66 additions, 63 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = self
@@ -4333,17 +4304,17 @@ for CotangentBodyMeanValue<'_, S> {
             .0;
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = m2 + _u_m2;
-        let _t1 = _R11 + _u_R11;
-        let _t2 = _t0 * _t1;
-        let _t3 = _R11 - _u_R11;
-        let _t4 = -_t3;
-        let _t5 = _t0 * _t4;
-        let _t6 = m2 - _u_m2;
-        let _t7 = -_t6;
-        let _t8 = _t1 * _t7;
-        let _t9 = _t0 * self.system._k9 + _t1 * S::ratio(1.0, 24.0) * _t2
-            + _t4 * (_t5 + _t8 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
+        let _t0 = _R11 - _u_R11;
+        let _t1 = -_t0;
+        let _t2 = m2 + _u_m2;
+        let _t3 = _t1 * _t2;
+        let _t4 = m2 - _u_m2;
+        let _t5 = -_t4;
+        let _t6 = _R11 + _u_R11;
+        let _t7 = _t5 * _t6;
+        let _t8 = _t2 * S::ratio(1.0, 24.0);
+        let _t9 = _t1 * (_t3 + _t7 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0)
+            + (_t6 * _t6 + self.system._k11) * _t8;
         let _t10 = m3 + _u_m3;
         let _t11 = _t10 * self.system._k1;
         let _t12 = _R21 + _u_R21;
@@ -4354,24 +4325,24 @@ for CotangentBodyMeanValue<'_, S> {
         let _t17 = _R32 + _u_R32;
         let _t18 = _R33 + _u_R33;
         let _t19 = _t18 * S::ratio(1.0, 10.0) + _t15 * self.system._k0;
-        let _t20 = S::ratio(1.0, 72.0)
-            * (_t7 * (_t8 + _t5) + _t0 * (_t7 * _t4 + S::ratio(3.0, 1.0) * _t2));
+        let _t20 = _t2 * _t6 * _t8
+            + _t5 * (_t7 + _t3 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
         let _t21 = _R12 + _u_R12;
         let _t22 = _t21 * S::ratio(1.0, 4.0);
         let _t23 = _R23 + _u_R23;
         let _t24 = _R31 + _u_R31;
         let _t25 = _R22 + _u_R22;
         residual[0] = _u_m1 - m1
-            + self._h0 * (_t9 * _t10 - _t11 * _t0 + _t13 * _t14 - _t16 * _t17);
+            + self._h0 * (_t9 * _t10 - _t11 * _t2 + _t13 * _t14 - _t16 * _t17);
         residual[1] = -(self._h0
             * (_t19 * _t10 - _t11 * _t15 + _t20 * _t14 + _t22 * _t23 - _t16 * _t24))
-            - _t6;
+            - _t4;
         residual[2] = _u_m3 - m3
             + self._h0
-                * (_t19 * _t0 - _t9 * _t15 + _t20 * _t21 - _t13 * _t1 + _t22 * _t25);
-        residual[3] = (_t9 * _t14 - _t11 * _t21) * self._h0 - _t3;
-        residual[4] = _u_R12 - _R12 - (_t19 * _t14 - _t11 * _t1) * self._h0;
-        residual[5] = _u_R13 - _R13 + self._h0 * (_t19 * _t21 - _t9 * _t1);
+                * (_t19 * _t2 - _t9 * _t15 + _t20 * _t21 - _t13 * _t6 + _t22 * _t25);
+        residual[3] = (_t9 * _t14 - _t11 * _t21) * self._h0 - _t0;
+        residual[4] = _u_R12 - _R12 - (_t19 * _t14 - _t11 * _t6) * self._h0;
+        residual[5] = _u_R13 - _R13 + self._h0 * (_t19 * _t21 - _t9 * _t6);
         residual[6] = _u_R21 - _R21 + self._h0 * (_t9 * _t23 - _t11 * _t25);
         residual[7] = _u_R22 - _R22 - (_t19 * _t23 - _t11 * _t12) * self._h0;
         residual[8] = _u_R23 - _R23 + self._h0 * (_t19 * _t25 - _t9 * _t12);
@@ -4382,7 +4353,7 @@ for CotangentBodyMeanValue<'_, S> {
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
     ///
-    /// 92 additions, 151 multiplications.
+    /// 91 additions, 145 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -4398,14 +4369,14 @@ for CotangentBodyMeanValue<'_, S> {
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
         let _t0 = m2 + _u_m2;
         let _t1 = _R11 + _u_R11;
-        let _t2 = _t0 * _t1;
+        let _t2 = _t1 * _t1;
         let _t3 = _R11 - _u_R11;
         let _t4 = -_t3;
-        let _t5 = _t0 * _t4;
+        let _t5 = _t4 * _t0;
         let _t6 = m2 - _u_m2;
         let _t7 = -_t6;
-        let _t8 = _t1 * _t7;
-        let _t9 = _t0 * self.system._k9 + _t1 * S::ratio(1.0, 24.0) * _t2
+        let _t8 = _t7 * _t1;
+        let _t9 = _t0 * self.system._k9 + _t0 * S::ratio(1.0, 24.0) * _t2
             + _t4 * (_t5 + _t8 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
         let _t10 = m3 + _u_m3;
         let _t11 = _t10 * self.system._k1;
@@ -4417,129 +4388,128 @@ for CotangentBodyMeanValue<'_, S> {
         let _t17 = _R32 + _u_R32;
         let _t18 = _R33 + _u_R33;
         let _t19 = _t18 * S::ratio(1.0, 10.0) + _t15 * self.system._k0;
-        let _t20 = S::ratio(1.0, 72.0)
-            * (_t7 * (_t8 + _t5) + _t0 * (_t7 * _t4 + S::ratio(3.0, 1.0) * _t2));
-        let _t21 = _R12 + _u_R12;
-        let _t22 = _t21 * S::ratio(1.0, 4.0);
-        let _t23 = _R23 + _u_R23;
-        let _t24 = _R31 + _u_R31;
-        let _t25 = _R22 + _u_R22;
-        let _t26 = _t17 * self._h1;
-        let _t27 = _t1 * S::ratio(3.0, 1.0);
-        let _t28 = _t4 * _t4 + _t1 * (_t27 + _t4 * S::ratio(2.0, 1.0))
-            + self.system._k16;
-        let _t29 = _t9 * self._h0;
-        let _t30 = _t0 * (_t4 + _t27) + _t7 * (_t1 + _t4);
-        let _t31 = _t30 * self._h4;
-        let _t32 = _t14 * _t31;
-        let _t33 = _t19 * self._h0;
-        let _t34 = _t7 * _t7
-            + _t0 * (_t0 * S::ratio(3.0, 1.0) + _t7 * S::ratio(2.0, 1.0));
-        let _t35 = S::ratio(2.0, 1.0) * _t30;
-        let _t36 = self._h2 * _t28;
-        let _t37 = _t11 * self._h6;
-        let _t38 = _t11 * self._h0;
+        let _t20 = _t0 * _t0;
+        let _t21 = _t1 * S::ratio(1.0, 24.0) * _t20
+            + _t7 * (_t8 + _t5 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
+        let _t22 = _R12 + _u_R12;
+        let _t23 = _t22 * S::ratio(1.0, 4.0);
+        let _t24 = _R23 + _u_R23;
+        let _t25 = _R31 + _u_R31;
+        let _t26 = _R22 + _u_R22;
+        let _t27 = _t9 * self._h0;
+        let _t28 = _t11 * self._h0;
+        let _t29 = _t19 * self._h0;
+        let _t30 = _t17 * self._h1;
+        let _t31 = _t4 * (_t4 + _t1 * S::ratio(2.0, 1.0)) + S::ratio(3.0, 1.0) * _t2
+            + self.system._k12;
+        let _t32 = _t7 * (_t4 + _t1) + _t0 * (_t4 + _t1 * S::ratio(3.0, 1.0));
+        let _t33 = _t32 * self._h4;
+        let _t34 = _t14 * _t33;
+        let _t35 = _t7 * (_t7 + _t0 * S::ratio(2.0, 1.0)) + S::ratio(3.0, 1.0) * _t20;
+        let _t36 = S::ratio(2.0, 1.0) * _t32;
+        let _t37 = self._h2 * _t31;
+        let _t38 = _t11 * self._h6;
         let _t39 = _t19 * self._h6;
-        let _t40 = _t28 * self._h7;
-        let _t41 = _t30 * self._h13;
+        let _t40 = _t31 * self._h7;
+        let _t41 = _t32 * self._h13;
         let _t42 = _t9 * self._h6;
         residual[0] = _u_m1 - m1
             + self._h0 * (_t9 * _t10 - _t11 * _t0 + _t13 * _t14 - _t16 * _t17);
         residual[1] = -(self._h0
-            * (_t19 * _t10 - _t11 * _t15 + _t20 * _t14 + _t22 * _t23 - _t16 * _t24))
+            * (_t19 * _t10 - _t11 * _t15 + _t21 * _t14 + _t23 * _t24 - _t16 * _t25))
             - _t6;
         residual[2] = _u_m3 - m3
             + self._h0
-                * (_t19 * _t0 - _t9 * _t15 + _t20 * _t21 - _t13 * _t1 + _t22 * _t25);
-        residual[3] = (_t9 * _t14 - _t11 * _t21) * self._h0 - _t3;
+                * (_t19 * _t0 - _t9 * _t15 + _t21 * _t22 - _t13 * _t1 + _t23 * _t26);
+        residual[3] = _t14 * _t27 - _t22 * _t28 - _t3;
         residual[4] = _u_R12 - _R12 - (_t19 * _t14 - _t11 * _t1) * self._h0;
-        residual[5] = _u_R13 - _R13 + self._h0 * (_t19 * _t21 - _t9 * _t1);
-        residual[6] = _u_R21 - _R21 + self._h0 * (_t9 * _t23 - _t11 * _t25);
-        residual[7] = _u_R22 - _R22 - (_t19 * _t23 - _t11 * _t12) * self._h0;
-        residual[8] = _u_R23 - _R23 + self._h0 * (_t19 * _t25 - _t9 * _t12);
-        residual[9] = _u_R31 - _R31 + self._h0 * (_t9 * _t18 - _t11 * _t17);
-        residual[10] = _u_R32 - _R32 - (_t19 * _t18 - _t11 * _t24) * self._h0;
-        residual[11] = _u_R33 - _R33 + self._h0 * (_t19 * _t17 - _t9 * _t24);
-        matrix[(0, 0)] = S::one() - _t26;
-        matrix[(0, 1)] = self._h2 * (_t10 * _t28 - _t11 * S::ratio(72.0, 1.0));
-        matrix[(0, 2)] = _t29 - _t0 * self._h3;
-        matrix[(0, 3)] = _t10 * _t31;
+        residual[5] = _u_R13 - _R13 + _t22 * _t29 - _t1 * _t27;
+        residual[6] = _u_R21 - _R21 + _t24 * _t27 - _t26 * _t28;
+        residual[7] = _u_R22 - _R22 - (_t19 * _t24 - _t11 * _t12) * self._h0;
+        residual[8] = _u_R23 - _R23 + _t26 * _t29 - _t12 * _t27;
+        residual[9] = _u_R31 - _R31 + _t18 * _t27 - _t17 * _t28;
+        residual[10] = _u_R32 - _R32 - (_t19 * _t18 - _t11 * _t25) * self._h0;
+        residual[11] = _u_R33 - _R33 + _t17 * _t29 - _t25 * _t27;
+        matrix[(0, 0)] = S::one() - _t30;
+        matrix[(0, 1)] = self._h2 * (_t10 * _t31 - _t11 * S::ratio(72.0, 1.0));
+        matrix[(0, 2)] = _t27 - _t0 * self._h3;
+        matrix[(0, 3)] = _t10 * _t33;
         matrix[(0, 5)] = _t13 * self._h0;
         matrix[(0, 6)] = _t14 * self._h5;
         matrix[(0, 10)] = _t16 * self._h6;
         matrix[(1, 0)] = self._h1
-            * (_t24 + _t11 * S::ratio(10.0, 1.0) - _t10 * self.system._k17);
-        matrix[(1, 1)] = S::one() - _t32;
-        matrix[(1, 2)] = _t15 * self._h3 - _t33;
-        matrix[(1, 3)] = _t14 * _t34 * self._h7;
-        matrix[(1, 4)] = _t23 * self._h8;
-        matrix[(1, 5)] = _t20 * self._h6;
-        matrix[(1, 8)] = _t22 * self._h6;
+            * (_t25 + _t11 * S::ratio(10.0, 1.0) - _t10 * self.system._k13);
+        matrix[(1, 1)] = S::one() - _t34;
+        matrix[(1, 2)] = _t15 * self._h3 - _t29;
+        matrix[(1, 3)] = _t14 * _t35 * self._h7;
+        matrix[(1, 4)] = _t24 * self._h8;
+        matrix[(1, 5)] = _t21 * self._h6;
+        matrix[(1, 8)] = _t23 * self._h6;
         matrix[(1, 9)] = _t16 * self._h0;
         matrix[(1, 11)] = _t10 * self._h9;
-        matrix[(2, 0)] = _t0 * self._h10 - _t29;
-        matrix[(2, 1)] = (_t15 * _t28 - _t19 * S::ratio(72.0, 1.0) - _t21 * _t35)
+        matrix[(2, 0)] = _t0 * self._h10 - _t27;
+        matrix[(2, 1)] = (_t15 * _t31 - _t19 * S::ratio(72.0, 1.0) - _t22 * _t36)
             * self._h7;
         matrix[(2, 2)] = S::one();
         matrix[(2, 3)] = self._h2
-            * (_t21 * _t34 - _t13 * S::ratio(72.0, 1.0) - _t15 * _t35);
-        matrix[(2, 4)] = _t20 * self._h0 - _t25 * self._h8;
+            * (_t22 * _t35 - _t13 * S::ratio(72.0, 1.0) - _t15 * _t36);
+        matrix[(2, 4)] = _t21 * self._h0 - _t26 * self._h8;
         matrix[(2, 6)] = _t1 * self._h8;
-        matrix[(2, 7)] = _t22 * self._h0;
+        matrix[(2, 7)] = _t23 * self._h0;
         matrix[(2, 11)] = _t0 * self._h1;
-        matrix[(3, 1)] = _t14 * _t36;
-        matrix[(3, 2)] = _t21 * self._h11;
-        matrix[(3, 3)] = S::one() + _t32;
-        matrix[(3, 4)] = _t37;
-        matrix[(3, 5)] = _t29;
+        matrix[(3, 1)] = _t14 * _t37;
+        matrix[(3, 2)] = _t22 * self._h11;
+        matrix[(3, 3)] = S::one() + _t34;
+        matrix[(3, 4)] = _t38;
+        matrix[(3, 5)] = _t27;
         matrix[(4, 0)] = _t14 * self._h12;
         matrix[(4, 2)] = _t1 * self._h3;
-        matrix[(4, 3)] = _t38;
+        matrix[(4, 3)] = _t28;
         matrix[(4, 4)] = S::one();
         matrix[(4, 5)] = _t39;
         matrix[(4, 11)] = _t14 * self._h9;
-        matrix[(5, 0)] = _t21 * self._h10;
+        matrix[(5, 0)] = _t22 * self._h10;
         matrix[(5, 1)] = _t1 * _t40;
-        matrix[(5, 3)] = (_t1 * _t30 + _t9 * S::ratio(36.0, 1.0)) * self._h13;
-        matrix[(5, 4)] = _t33;
+        matrix[(5, 3)] = (_t1 * _t32 + _t9 * S::ratio(36.0, 1.0)) * self._h13;
+        matrix[(5, 4)] = _t29;
         matrix[(5, 5)] = S::one();
-        matrix[(5, 11)] = _t21 * self._h1;
-        matrix[(6, 1)] = _t23 * _t36;
-        matrix[(6, 2)] = _t25 * self._h11;
-        matrix[(6, 3)] = _t23 * _t31;
+        matrix[(5, 11)] = _t22 * self._h1;
+        matrix[(6, 1)] = _t24 * _t37;
+        matrix[(6, 2)] = _t26 * self._h11;
+        matrix[(6, 3)] = _t24 * _t33;
         matrix[(6, 6)] = S::one();
-        matrix[(6, 7)] = _t37;
-        matrix[(6, 8)] = _t29;
-        matrix[(7, 0)] = _t23 * self._h12;
+        matrix[(6, 7)] = _t38;
+        matrix[(6, 8)] = _t27;
+        matrix[(7, 0)] = _t24 * self._h12;
         matrix[(7, 2)] = _t12 * self._h3;
-        matrix[(7, 6)] = _t38;
+        matrix[(7, 6)] = _t28;
         matrix[(7, 7)] = S::one();
         matrix[(7, 8)] = _t39;
-        matrix[(7, 11)] = _t23 * self._h9;
-        matrix[(8, 0)] = _t25 * self._h10;
+        matrix[(7, 11)] = _t24 * self._h9;
+        matrix[(8, 0)] = _t26 * self._h10;
         matrix[(8, 1)] = _t12 * _t40;
         matrix[(8, 3)] = _t12 * _t41;
         matrix[(8, 6)] = _t42;
-        matrix[(8, 7)] = _t33;
+        matrix[(8, 7)] = _t29;
         matrix[(8, 8)] = S::one();
-        matrix[(8, 11)] = _t25 * self._h1;
-        matrix[(9, 1)] = _t18 * _t36;
+        matrix[(8, 11)] = _t26 * self._h1;
+        matrix[(9, 1)] = _t18 * _t37;
         matrix[(9, 2)] = _t17 * self._h11;
-        matrix[(9, 3)] = _t18 * _t31;
+        matrix[(9, 3)] = _t18 * _t33;
         matrix[(9, 9)] = S::one();
-        matrix[(9, 10)] = _t37;
-        matrix[(9, 11)] = _t29;
+        matrix[(9, 10)] = _t38;
+        matrix[(9, 11)] = _t27;
         matrix[(10, 0)] = _t18 * self._h12;
-        matrix[(10, 2)] = _t24 * self._h3;
-        matrix[(10, 9)] = _t38;
+        matrix[(10, 2)] = _t25 * self._h3;
+        matrix[(10, 9)] = _t28;
         matrix[(10, 10)] = S::one();
         matrix[(10, 11)] = (_t18 + _t19 * S::ratio(10.0, 1.0)) * self._h9;
         matrix[(11, 0)] = _t17 * self._h10;
-        matrix[(11, 1)] = _t24 * _t40;
-        matrix[(11, 3)] = _t24 * _t41;
+        matrix[(11, 1)] = _t25 * _t40;
+        matrix[(11, 3)] = _t25 * _t41;
         matrix[(11, 9)] = _t42;
-        matrix[(11, 10)] = _t33;
-        matrix[(11, 11)] = S::one() + _t26;
+        matrix[(11, 10)] = _t29;
+        matrix[(11, 11)] = S::one() + _t30;
         matrix[(0, 9)] = S::zero();
         matrix[(0, 11)] = S::zero();
         matrix[(9, 0)] = S::zero();
@@ -4998,7 +4968,7 @@ for CotangentBodyMeanValueGradient<S> {
 
     /// `g(mu, u)`
     ///
-    /// 16 additions, 20 multiplications.
+    /// 16 additions, 19 multiplications.
     #[inline]
     fn value(
         &mut self,
@@ -5012,18 +4982,19 @@ for CotangentBodyMeanValueGradient<S> {
             .0;
         let _t0 = m1 + _u_m1;
         let _t1 = _u_R11 - _R11;
-        let _t2 = _R11 + _u_R11;
-        let _t3 = _u_m2 - m2;
-        let _t4 = _t2 * _t3;
-        let _t5 = m2 + _u_m2;
-        let _t6 = _t2 * S::ratio(3.0, 1.0);
+        let _t2 = m2 + _u_m2;
+        let _t3 = _t1 * _t2;
+        let _t4 = _u_m2 - m2;
+        let _t5 = _R11 + _u_R11;
+        let _t6 = _t4 * _t5;
+        let _t7 = _t2 * S::ratio(1.0, 24.0);
         _out.as_mut_slice().fill(S::zero());
         _out[0] = (_R33 + _u_R33) * S::ratio(1.0, 10.0) + _t0 * _system._k0;
-        _out[1] = _t1 * S::ratio(1.0, 36.0) * _t4
-            + _t5 * S::ratio(1.0, 72.0) * (_t1 * _t1 + _t2 * _t6 + _system._k16);
+        _out[1] = _t1 * (_t3 + _t6 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0)
+            + (_t5 * _t5 + _system._k11) * _t7;
         _out[2] = (m3 + _u_m3) * _system._k1;
-        _out[3] = (_t3 * _t4 + _t5 * (_t3 * _t1 * S::ratio(2.0, 1.0) + _t5 * _t6))
-            * S::ratio(1.0, 72.0);
+        _out[3] = _t2 * _t5 * _t7
+            + _t4 * (_t6 + _t3 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
         _out[4] = (_R21 + _u_R21) * S::ratio(1.0, 4.0);
         _out[6] = (_R12 + _u_R12) * S::ratio(1.0, 4.0);
         _out[11] = S::one() + _t0 * S::ratio(1.0, 10.0);
@@ -5031,7 +5002,7 @@ for CotangentBodyMeanValueGradient<S> {
 
     /// `g(mu, u)` and `dg/du`
     ///
-    /// 24 additions, 30 multiplications.
+    /// 24 additions, 28 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -5046,33 +5017,35 @@ for CotangentBodyMeanValueGradient<S> {
             .0;
         let _t0 = m1 + _u_m1;
         let _t1 = _u_R11 - _R11;
-        let _t2 = _R11 + _u_R11;
-        let _t3 = _u_m2 - m2;
-        let _t4 = _t2 * _t3;
-        let _t5 = m2 + _u_m2;
-        let _t6 = _t1 * _t1;
-        let _t7 = _t2 * S::ratio(3.0, 1.0);
-        let _t8 = _t3 * S::ratio(2.0, 1.0);
-        let _t9 = S::ratio(1.0, 36.0) * (_t5 * (_t1 + _t7) + _t3 * (_t2 + _t1));
+        let _t2 = m2 + _u_m2;
+        let _t3 = _t1 * _t2;
+        let _t4 = _u_m2 - m2;
+        let _t5 = _R11 + _u_R11;
+        let _t6 = _t4 * _t5;
+        let _t7 = _t1 * S::ratio(1.0, 72.0);
+        let _t8 = _t5 * _t5;
+        let _t9 = _t2 * S::ratio(1.0, 24.0);
+        let _t10 = _t2 * _t9;
+        let _t11 = _t4 * S::ratio(1.0, 72.0);
+        let _t12 = (_t4 * (_t1 + _t5) + _t2 * (_t1 + _t5 * S::ratio(3.0, 1.0)))
+            * S::ratio(1.0, 36.0);
         _out.as_mut_slice().fill(S::zero());
         _out[0] = S::ratio(1.0, 10.0) * (_R33 + _u_R33) + _system._k0 * _t0;
-        _out[1] = _t1 * S::ratio(1.0, 36.0) * _t4
-            + _t5 * S::ratio(1.0, 72.0) * (_t6 + _t2 * _t7 + _system._k16);
+        _out[1] = (_t3 + _t6 * S::ratio(2.0, 1.0)) * _t7 + (_t8 + _system._k11) * _t9;
         _out[2] = _system._k1 * (m3 + _u_m3);
-        _out[3] = (_t3 * _t4 + _t5 * (_t1 * _t8 + _t5 * _t7)) * S::ratio(1.0, 72.0);
-        _out[4] = (_R21 + _u_R21) * S::ratio(1.0, 4.0);
-        _out[6] = (_R12 + _u_R12) * S::ratio(1.0, 4.0);
+        _out[3] = _t5 * _t10 + (_t6 + _t3 * S::ratio(2.0, 1.0)) * _t11;
+        _out[4] = S::ratio(1.0, 4.0) * (_R21 + _u_R21);
+        _out[6] = S::ratio(1.0, 4.0) * (_R12 + _u_R12);
         _out[11] = S::one() + S::ratio(1.0, 10.0) * _t0;
         _slopes.as_mut_slice().fill(S::zero());
         _slopes[(0, 0)] = _system._k0;
         _slopes[(0, 11)] = S::ratio(1.0, 10.0);
-        _slopes[(1, 1)] = S::ratio(1.0, 72.0)
-            * (_t6 + _t2 * (_t7 + _t1 * S::ratio(2.0, 1.0))) + _system._k9;
-        _slopes[(1, 3)] = _t9;
+        _slopes[(1, 1)] = _t8 * S::ratio(1.0, 24.0)
+            + (_t1 + _t5 * S::ratio(2.0, 1.0)) * _t7 + _system._k9;
+        _slopes[(1, 3)] = _t12;
         _slopes[(2, 2)] = _system._k1;
-        _slopes[(3, 1)] = _t9;
-        _slopes[(3, 3)] = S::ratio(1.0, 72.0)
-            * (_t3 * _t3 + _t5 * (_t5 * S::ratio(3.0, 1.0) + _t8));
+        _slopes[(3, 1)] = _t12;
+        _slopes[(3, 3)] = _t10 + (_t4 + _t2 * S::ratio(2.0, 1.0)) * _t11;
         _slopes[(4, 6)] = S::ratio(1.0, 4.0);
         _slopes[(6, 4)] = S::ratio(1.0, 4.0);
         _slopes[(11, 0)] = S::ratio(1.0, 10.0);
@@ -5359,7 +5332,7 @@ pub struct CotangentBodyItohAbe<'a, S: ::lie_runtime::Scalar> {
     _h1: S,
     /// `h/24`
     _h2: S,
-    /// `-h/4`
+    /// `h/4`
     _h3: S,
     /// `h/12`
     _h4: S,
@@ -5367,24 +5340,22 @@ pub struct CotangentBodyItohAbe<'a, S: ::lie_runtime::Scalar> {
     _h5: S,
     /// `-h/2`
     _h6: S,
-    /// `h/4`
-    _h7: S,
     /// `-h/24`
-    _h8: S,
+    _h7: S,
     /// `-h/8`
-    _h9: S,
+    _h8: S,
     /// `-h/20`
-    _h10: S,
+    _h9: S,
     /// `-h/(4*I3)`
-    _h11: S,
+    _h10: S,
     /// `-h/(4*I1)`
-    _h12: S,
+    _h11: S,
     /// `h/(4*I3)`
-    _h13: S,
+    _h12: S,
     /// `h/(4*I1)`
-    _h14: S,
+    _h13: S,
     /// `-h/12`
-    _h15: S,
+    _h14: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> CotangentBodyItohAbe<'a, S> {
@@ -5401,19 +5372,18 @@ impl<'a, S: ::lie_runtime::Scalar> CotangentBodyItohAbe<'a, S> {
             _h0: h * S::ratio(1.0, 2.0),
             _h1: h * S::ratio(1.0, 20.0),
             _h2: h * S::ratio(1.0, 24.0),
-            _h3: h * S::ratio(-1.0, 4.0),
+            _h3: _t0,
             _h4: h * S::ratio(1.0, 12.0),
             _h5: h * S::ratio(1.0, 8.0),
             _h6: h * S::ratio(-1.0, 2.0),
-            _h7: _t0,
-            _h8: h * S::ratio(-1.0, 24.0),
-            _h9: h * S::ratio(-1.0, 8.0),
-            _h10: h * S::ratio(-1.0, 20.0),
-            _h11: -_t1,
-            _h12: -_t2,
-            _h13: _t1,
-            _h14: _t2,
-            _h15: h * S::ratio(-1.0, 12.0),
+            _h7: h * S::ratio(-1.0, 24.0),
+            _h8: h * S::ratio(-1.0, 8.0),
+            _h9: h * S::ratio(-1.0, 20.0),
+            _h10: -_t1,
+            _h11: -_t2,
+            _h12: _t1,
+            _h13: _t2,
+            _h14: h * S::ratio(-1.0, 12.0),
         }
     }
 }
@@ -5450,7 +5420,7 @@ for CotangentBodyItohAbe<'_, S> {
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
         let _t0 = m2 + _u_m2;
         let _t1 = _t0 * S::ratio(1.0, 12.0)
-            * (_R11 * _R11 + _u_R11 * _u_R11 + self.system._k18);
+            * (_R11 * _R11 + _u_R11 * _u_R11 + self.system._k14);
         let _t2 = m3 + _u_m3;
         let _t3 = _t2 * self.system._k1;
         let _t4 = _R21 + _u_R21;
@@ -5504,7 +5474,7 @@ for CotangentBodyItohAbe<'_, S> {
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
         let _t0 = m2 + _u_m2;
-        let _t1 = _R11 * _R11 + _u_R11 * _u_R11 + self.system._k18;
+        let _t1 = _R11 * _R11 + _u_R11 * _u_R11 + self.system._k14;
         let _t2 = _t0 * S::ratio(1.0, 12.0) * _t1;
         let _t3 = m3 + _u_m3;
         let _t4 = _t3 * self.system._k1;
@@ -5534,9 +5504,9 @@ for CotangentBodyItohAbe<'_, S> {
         let _t28 = _t2 * self._h0;
         let _t29 = _t4 * self._h0;
         let _t30 = _t12 * self._h6;
-        let _t31 = _t1 * self._h8;
+        let _t31 = _t1 * self._h7;
         let _t32 = _t12 * self._h0;
-        let _t33 = self._h15 * _t23;
+        let _t33 = self._h14 * _t23;
         let _t34 = _t2 * self._h6;
         residual[0] = _u_m1 - m1
             + self._h0 * (_t2 * _t3 - _t4 * _t0 + _t6 * _t7 - _t9 * _t10);
@@ -5557,62 +5527,62 @@ for CotangentBodyItohAbe<'_, S> {
         residual[11] = _u_R33 - _R33 + self._h0 * (_t12 * _t10 - _t2 * _t19);
         matrix[(0, 0)] = S::one() - _t21;
         matrix[(0, 1)] = self._h2 * (_t3 * _t1 - _t4 * S::ratio(12.0, 1.0));
-        matrix[(0, 2)] = (_t0 * self.system._k4 - _t22) * self._h3;
+        matrix[(0, 2)] = self._h3 * (_t22 - _t0 * self.system._k4);
         matrix[(0, 3)] = _t3 * _t24;
         matrix[(0, 5)] = _t6 * self._h0;
         matrix[(0, 6)] = _t7 * self._h5;
         matrix[(0, 10)] = _t9 * self._h6;
         matrix[(1, 0)] = self._h1
-            * (_t19 + _t4 * S::ratio(10.0, 1.0) - _t3 * self.system._k17);
+            * (_t19 + _t4 * S::ratio(10.0, 1.0) - _t3 * self.system._k13);
         matrix[(1, 1)] = S::one() - _t7 * self._h4 * _t25;
-        matrix[(1, 2)] = self._h7 * (_t8 * self.system._k4 - _t12 * S::ratio(2.0, 1.0));
-        matrix[(1, 3)] = _t7 * _t14 * self._h8;
-        matrix[(1, 4)] = _t18 * self._h9;
+        matrix[(1, 2)] = self._h3 * (_t8 * self.system._k4 - _t12 * S::ratio(2.0, 1.0));
+        matrix[(1, 3)] = _t7 * _t14 * self._h7;
+        matrix[(1, 4)] = _t18 * self._h8;
         matrix[(1, 5)] = _t15 * self._h6;
         matrix[(1, 8)] = _t17 * self._h6;
         matrix[(1, 9)] = _t9 * self._h0;
-        matrix[(1, 11)] = _t3 * self._h10;
-        matrix[(2, 0)] = (_t0 * self.system._k3 - _t22) * self._h7;
+        matrix[(1, 11)] = _t3 * self._h9;
+        matrix[(2, 0)] = (_t0 * self.system._k3 - _t22) * self._h3;
         matrix[(2, 1)] = (_t8 * _t1 - _t12 * S::ratio(12.0, 1.0)
-            - _t16 * S::ratio(2.0, 1.0) * _t25) * self._h8;
+            - _t16 * S::ratio(2.0, 1.0) * _t25) * self._h7;
         matrix[(2, 2)] = S::one();
         matrix[(2, 3)] = self._h2
             * (_t16 * _t14 - _t6 * S::ratio(12.0, 1.0)
                 - _t8 * S::ratio(2.0, 1.0) * _t23);
         matrix[(2, 4)] = self._h5 * (_t20 + _t15 * S::ratio(4.0, 1.0));
-        matrix[(2, 6)] = _t13 * self._h9;
+        matrix[(2, 6)] = _t13 * self._h8;
         matrix[(2, 7)] = _t17 * self._h0;
         matrix[(2, 11)] = _t0 * self._h1;
         matrix[(3, 1)] = _t7 * _t26;
-        matrix[(3, 2)] = _t16 * self._h11;
+        matrix[(3, 2)] = _t16 * self._h10;
         matrix[(3, 3)] = S::one() + _t7 * _t24;
         matrix[(3, 4)] = _t27;
         matrix[(3, 5)] = _t28;
-        matrix[(4, 0)] = _t7 * self._h12;
-        matrix[(4, 2)] = _t13 * self._h13;
+        matrix[(4, 0)] = _t7 * self._h11;
+        matrix[(4, 2)] = _t13 * self._h12;
         matrix[(4, 3)] = _t29;
         matrix[(4, 4)] = S::one();
         matrix[(4, 5)] = _t30;
-        matrix[(4, 11)] = _t7 * self._h10;
-        matrix[(5, 0)] = _t16 * self._h14;
+        matrix[(4, 11)] = _t7 * self._h9;
+        matrix[(5, 0)] = _t16 * self._h13;
         matrix[(5, 1)] = _t13 * _t31;
-        matrix[(5, 3)] = (_t13 * _t23 + _t2 * S::ratio(6.0, 1.0)) * self._h15;
+        matrix[(5, 3)] = (_t13 * _t23 + _t2 * S::ratio(6.0, 1.0)) * self._h14;
         matrix[(5, 4)] = _t32;
         matrix[(5, 5)] = S::one();
         matrix[(5, 11)] = _t16 * self._h1;
         matrix[(6, 1)] = _t18 * _t26;
-        matrix[(6, 2)] = _t20 * self._h11;
+        matrix[(6, 2)] = _t20 * self._h10;
         matrix[(6, 3)] = _t18 * _t24;
         matrix[(6, 6)] = S::one();
         matrix[(6, 7)] = _t27;
         matrix[(6, 8)] = _t28;
-        matrix[(7, 0)] = _t18 * self._h12;
-        matrix[(7, 2)] = _t5 * self._h13;
+        matrix[(7, 0)] = _t18 * self._h11;
+        matrix[(7, 2)] = _t5 * self._h12;
         matrix[(7, 6)] = _t29;
         matrix[(7, 7)] = S::one();
         matrix[(7, 8)] = _t30;
-        matrix[(7, 11)] = _t18 * self._h10;
-        matrix[(8, 0)] = _t20 * self._h14;
+        matrix[(7, 11)] = _t18 * self._h9;
+        matrix[(8, 0)] = _t20 * self._h13;
         matrix[(8, 1)] = _t5 * _t31;
         matrix[(8, 3)] = _t5 * _t33;
         matrix[(8, 6)] = _t34;
@@ -5620,17 +5590,17 @@ for CotangentBodyItohAbe<'_, S> {
         matrix[(8, 8)] = S::one();
         matrix[(8, 11)] = _t20 * self._h1;
         matrix[(9, 1)] = _t11 * _t26;
-        matrix[(9, 2)] = _t10 * self._h11;
+        matrix[(9, 2)] = _t10 * self._h10;
         matrix[(9, 3)] = _t11 * _t24;
         matrix[(9, 9)] = S::one();
         matrix[(9, 10)] = _t27;
         matrix[(9, 11)] = _t28;
-        matrix[(10, 0)] = _t11 * self._h12;
-        matrix[(10, 2)] = _t19 * self._h13;
+        matrix[(10, 0)] = _t11 * self._h11;
+        matrix[(10, 2)] = _t19 * self._h12;
         matrix[(10, 9)] = _t29;
         matrix[(10, 10)] = S::one();
-        matrix[(10, 11)] = (_t11 + _t12 * S::ratio(10.0, 1.0)) * self._h10;
-        matrix[(11, 0)] = _t10 * self._h14;
+        matrix[(10, 11)] = (_t11 + _t12 * S::ratio(10.0, 1.0)) * self._h9;
+        matrix[(11, 0)] = _t10 * self._h13;
         matrix[(11, 1)] = _t19 * _t31;
         matrix[(11, 3)] = _t19 * _t33;
         matrix[(11, 9)] = _t34;
@@ -6110,7 +6080,7 @@ for CotangentBodyItohAbeGradient<S> {
         _out.as_mut_slice().fill(S::zero());
         _out[0] = (_R33 + _u_R33) * S::ratio(1.0, 10.0) + _t0 * _system._k0;
         _out[1] = (m2 + _u_m2) * S::ratio(1.0, 12.0)
-            * (_R11 * _R11 + _u_R11 * _u_R11 + _system._k18);
+            * (_R11 * _R11 + _u_R11 * _u_R11 + _system._k14);
         _out[2] = (m3 + _u_m3) * _system._k1;
         _out[3] = (_R11 + _u_R11) * (m2 * m2 + _u_m2 * _u_m2) * S::ratio(1.0, 12.0);
         _out[4] = (_R21 + _u_R21) * S::ratio(1.0, 4.0);
@@ -6140,7 +6110,7 @@ for CotangentBodyItohAbeGradient<S> {
         let _t4 = S::ratio(1.0, 12.0) * (m2 * m2 + _u_m2 * _u_m2);
         _out.as_mut_slice().fill(S::zero());
         _out[0] = S::ratio(1.0, 10.0) * (_R33 + _u_R33) + _system._k0 * _t0;
-        _out[1] = _t1 * S::ratio(1.0, 12.0) * (_t2 + _system._k18);
+        _out[1] = _t1 * S::ratio(1.0, 12.0) * (_t2 + _system._k14);
         _out[2] = _system._k1 * (m3 + _u_m3);
         _out[3] = _t3 * _t4;
         _out[4] = S::ratio(1.0, 4.0) * (_R21 + _u_R21);

@@ -213,17 +213,34 @@ impl<S: ::lie_runtime::Scalar> DiscreteBody<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for DiscreteBodySystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "DiscreteBody";
-    const COORDINATES: &'static [&'static str] = &["m1", "m2", "m3"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-    ];
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    fn name(&self) -> &str {
+        "DiscreteBody"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["m1", "m2", "m3"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["C"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -410,7 +427,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for DiscreteBodySyst
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for DiscreteBodySystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -578,67 +598,83 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for DiscreteBodySystem<S> 
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for DiscreteBodySystem<S> {
-    const SIZE: usize = 3;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[
-            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-        ],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = true;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 3,
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+            ],
+            closed: true,
+            orthogonal: true,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for DiscreteBodySystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                    ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-            ],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
-                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
-            ],
-        ],
-        skew: true,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+            skew: true,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for DiscreteBodySystem<S> {
-    const SPINS: &'static [[usize; 3]] = &[[0, 1, 2]];
+    fn spins(&self) -> &[[usize; 3]] {
+        &[[0, 1, 2]]
+    }
+
     #[inline]
     fn scale(&self, _spin: usize) -> S {
         S::one()
@@ -1798,7 +1834,7 @@ for DiscreteBodyCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
     /// 11 additions, 15 multiplications.
     #[inline]
@@ -1808,13 +1844,13 @@ for DiscreteBodyCayleyMidpoint<'_, S> {
         let _t0 = _u_m1 * self._h0;
         let _t1 = _u_m2 * self._h1;
         let _t2 = _u_m3 * self._h2;
-        let _t3 = _t0 * _u_m1 + _t1 * _u_m2 + _t2 * _u_m3;
+        let _t3 = _u_m1 * _t0 + _u_m2 * _t1 + _u_m3 * _t2;
         residual[0] = _u_m1 - m1 + _t0 * _t3 + _u_m2 * _u_m3 * self._h3;
         residual[1] = _u_m2 - m2 + _t1 * _t3 - _u_m1 * _u_m3 * self._h4;
         residual[2] = _u_m3 - m3 + _t2 * _t3 + _u_m1 * _u_m2 * self._h5;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
     /// 25 additions, 32 multiplications.
     #[inline]
@@ -1828,10 +1864,10 @@ for DiscreteBodyCayleyMidpoint<'_, S> {
         let [[_u_m1, _u_m2, _u_m3]] = unknown.data.0;
         let _t0 = _u_m1 * self._h0;
         let _t1 = _u_m3 * self._h2;
-        let _t2 = _t1 * _u_m3;
-        let _t3 = _t0 * _u_m1;
+        let _t2 = _u_m3 * _t1;
+        let _t3 = _u_m1 * _t0;
         let _t4 = _u_m2 * self._h1;
-        let _t5 = _t4 * _u_m2;
+        let _t5 = _u_m2 * _t4;
         let _t6 = _t3 + _t5;
         let _t7 = _t6 + _t2;
         let _t8 = _u_m2 * self._h3;
@@ -3002,13 +3038,11 @@ for DiscreteBodySphericalMidpoint<'_, S> {
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3]] = unknown.data.0;
-        let [[_d_m1, _]] = ::lie_runtime::generic::sphere_ratios::<
+        let [_d_m1, _] = ::lie_runtime::generic::sphere_ratios::<
             S,
             _,
             2,
-        >(self.system, &self.base, unknown)
-            .data
-            .0;
+        >(self.system, &self.base, unknown);
         let _t0 = (m2 + _u_m2) * _d_m1;
         let _t1 = (m3 + _u_m3) * _d_m1;
         let _t2 = (m1 + _u_m1) * _d_m1;
@@ -3029,13 +3063,11 @@ for DiscreteBodySphericalMidpoint<'_, S> {
     ) {
         let [[m1, m2, m3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3]] = unknown.data.0;
-        let [[_d_m1, _d_m2]] = ::lie_runtime::generic::sphere_ratios::<
+        let [_d_m1, _d_m2] = ::lie_runtime::generic::sphere_ratios::<
             S,
             _,
             2,
-        >(self.system, &self.base, unknown)
-            .data
-            .0;
+        >(self.system, &self.base, unknown);
         let _t0 = m2 + _u_m2;
         let _t1 = _t0 * _d_m1;
         let _t2 = m3 + _u_m3;
@@ -3053,7 +3085,7 @@ for DiscreteBodySphericalMidpoint<'_, S> {
         let _t14 = self.system._k7 * _t7;
         let _t15 = _t3 * _t14;
         let _t16 = _t5 * _t14;
-        let _t17 = _t4 * _t15 + _t2 * _t16;
+        let _t17 = _t15 * _t4 + _t16 * _t2;
         let _t18 = self.system._k8 * _t9;
         let _t19 = _t5 * _t7 * self.system._k8;
         let _t20 = _t4 * _t18 + _t0 * _t19;
@@ -3063,9 +3095,9 @@ for DiscreteBodySphericalMidpoint<'_, S> {
         matrix[(0, 0)] = S::one() + _t6 * _t11;
         matrix[(0, 1)] = _t12 * _t11 - _t8;
         matrix[(0, 2)] = _t13 * _t11 - _t10;
-        matrix[(1, 0)] = _t6 * _t17 - _t15;
-        matrix[(1, 1)] = S::one() + _t12 * _t17;
-        matrix[(1, 2)] = _t13 * _t17 - _t16;
+        matrix[(1, 0)] = _t17 * _t6 - _t15;
+        matrix[(1, 1)] = S::one() + _t17 * _t12;
+        matrix[(1, 2)] = _t17 * _t13 - _t16;
         matrix[(2, 0)] = _t6 * _t20 - _t18;
         matrix[(2, 1)] = _t12 * _t20 - _t19;
         matrix[(2, 2)] = S::one() + _t13 * _t20;

@@ -209,17 +209,34 @@ impl<S: ::lie_runtime::Scalar> Gyrostat<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for GyrostatSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "Gyrostat";
-    const COORDINATES: &'static [&'static str] = &["M1", "M2", "M3"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["C"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-    ];
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    fn name(&self) -> &str {
+        "Gyrostat"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["M1", "M2", "M3"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["C"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -406,7 +423,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for GyrostatSystem<S
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for GyrostatSystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -508,66 +528,82 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for GyrostatSystem<S> {
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for GyrostatSystem<S> {
-    const SIZE: usize = 3;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[
-            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-        ],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = true;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 3,
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+            ],
+            closed: true,
+            orthogonal: true,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for GyrostatSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                    ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-            ],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
-                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
-            ],
-        ],
-        skew: true,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+            skew: true,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for GyrostatSystem<S> {
-    const SPINS: &'static [[usize; 3]] = &[[0, 1, 2]];
+    fn spins(&self) -> &[[usize; 3]] {
+        &[[0, 1, 2]]
+    }
+
     #[inline]
     fn scale(&self, _spin: usize) -> S {
         S::one()
@@ -1670,21 +1706,21 @@ pub struct GyrostatCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h1: S,
     /// `-h/(2*I3)`
     _h2: S,
-    /// `(1/I2 - 1/I3)*h`
-    _h3: S,
-    /// `k*h/I3`
-    _h4: S,
-    /// `(1/I1 - 1/I3)*h`
-    _h5: S,
-    /// `(1/I1 - 1/I2)*h/2`
-    _h6: S,
     /// `h/2`
-    _h7: S,
+    _h3: S,
+    /// `(1/I1 - 1/I2)*h/2`
+    _h4: S,
     /// `(1/I2 - 1/I3)*h/2`
-    _h8: S,
+    _h5: S,
     /// `h/I3`
-    _h9: S,
+    _h6: S,
     /// `(1/I1 - 1/I3)*h/2`
+    _h7: S,
+    /// `(1/I2 - 1/I3)*h`
+    _h8: S,
+    /// `k*h/I3`
+    _h9: S,
+    /// `(1/I1 - 1/I3)*h`
     _h10: S,
     /// `(1/I1 - 1/I2)*h`
     _h11: S,
@@ -1699,9 +1735,9 @@ impl<'a, S: ::lie_runtime::Scalar> GyrostatCayleyMidpoint<'a, S> {
         let _t2 = S::one() / system._parameters.I2;
         let _t3 = S::one() / system._parameters.I3;
         let _t4 = _t3 * h;
-        let _t5 = _t2 - _t3;
-        let _t6 = _t0 - _t3;
-        let _t7 = _t0 - _t2;
+        let _t5 = _t0 - _t2;
+        let _t6 = _t2 - _t3;
+        let _t7 = _t0 - _t3;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
@@ -1709,15 +1745,15 @@ impl<'a, S: ::lie_runtime::Scalar> GyrostatCayleyMidpoint<'a, S> {
             _h0: _t0 * _t1,
             _h1: _t2 * _t1,
             _h2: _t4 * S::ratio(-1.0, 2.0),
-            _h3: _t5 * h,
-            _h4: system._parameters.k * _t4,
-            _h5: _t6 * h,
-            _h6: _t7 * _t1,
-            _h7: _t1,
-            _h8: _t5 * _t1,
-            _h9: _t4,
-            _h10: _t6 * _t1,
-            _h11: _t7 * h,
+            _h3: _t1,
+            _h4: _t5 * _t1,
+            _h5: _t6 * _t1,
+            _h6: _t4,
+            _h7: _t7 * _t1,
+            _h8: _t6 * h,
+            _h9: system._parameters.k * _t4,
+            _h10: _t7 * h,
+            _h11: _t5 * h,
         }
     }
 }
@@ -1741,25 +1777,27 @@ for GyrostatCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
-    /// 14 additions, 17 multiplications.
+    /// 14 additions, 18 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[_M1, _M2, _M3]] = self.base.data.0;
         let [[_u_M1, _u_M2, _u_M3]] = unknown.data.0;
         let _t0 = _u_M1 * self._h0;
         let _t1 = _u_M2 * self._h1;
-        let _t2 = (self.system.k - _u_M3) * self._h2;
-        let _t3 = _t0 * _u_M1 + _t1 * _u_M2 + _t2 * _u_M3;
-        residual[0] = _u_M1 - _M1 + _t0 * _t3
-            + _u_M2 * (self._h4 + _u_M3 * self._h3) * S::ratio(1.0, 2.0);
-        residual[1] = _u_M2 - _M2 + _t1 * _t3
-            - _u_M1 * S::ratio(1.0, 2.0) * (self._h4 + _u_M3 * self._h5);
-        residual[2] = _u_M3 - _M3 + _t2 * _t3 + _u_M1 * _u_M2 * self._h6;
+        let _t2 = self.system.k - _u_M3;
+        let _t3 = _t2 * self._h2;
+        let _t4 = _u_M1 * _t0 + _u_M2 * _t1 + _u_M3 * _t3;
+        let _t5 = _t2 * self.system._k7;
+        residual[0] = _u_M1 - _M1 + _t0 * _t4
+            + _u_M2 * (_t5 + self.system._k5 * _u_M3) * self._h3;
+        residual[1] = _u_M2 - _M2 + _t1 * _t4
+            - _u_M1 * (_t5 + self.system._k4 * _u_M3) * self._h3;
+        residual[2] = _u_M3 - _M3 + _t3 * _t4 + _u_M1 * _u_M2 * self._h4;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
     /// 32 additions, 39 multiplications.
     #[inline]
@@ -1774,31 +1812,31 @@ for GyrostatCayleyMidpoint<'_, S> {
         let _t0 = _u_M1 * self._h0;
         let _t1 = self.system.k - _u_M3;
         let _t2 = _t1 * self._h2;
-        let _t3 = _t2 * _u_M3;
-        let _t4 = _t0 * _u_M1;
+        let _t3 = _u_M3 * _t2;
+        let _t4 = _u_M1 * _t0;
         let _t5 = _u_M2 * self._h1;
-        let _t6 = _t5 * _u_M2;
+        let _t6 = _u_M2 * _t5;
         let _t7 = _t4 + _t6;
         let _t8 = _t7 + _t3;
         let _t9 = self.system._k7 * _t1;
-        let _t10 = (_t9 + self.system._k5 * _u_M3) * self._h7;
-        let _t11 = (_t9 + self.system._k4 * _u_M3) * self._h7;
-        let _t12 = _u_M1 * self._h6;
+        let _t10 = (_t9 + self.system._k5 * _u_M3) * self._h3;
+        let _t11 = (_t9 + self.system._k4 * _u_M3) * self._h3;
+        let _t12 = _u_M1 * self._h4;
         let _t13 = _t0 * _t5 * S::ratio(2.0, 1.0);
         let _t14 = _t2 * S::ratio(2.0, 1.0);
-        let _t15 = (_u_M3 * self._h9 + _t14) * S::ratio(1.0, 2.0);
+        let _t15 = (_u_M3 * self._h6 + _t14) * S::ratio(1.0, 2.0);
         residual[0] = _u_M1 - _M1 + _t0 * _t8 + _u_M2 * _t10;
         residual[1] = _u_M2 - _M2 + _t5 * _t8 - _u_M1 * _t11;
         residual[2] = _u_M3 - _M3 + _t2 * _t8 + _u_M2 * _t12;
         matrix[(0, 0)] = S::one() + _t0 * _t0
             + self._h0 * (_t6 + _t3 + _t4 * S::ratio(2.0, 1.0));
         matrix[(0, 1)] = _t13 + _t10;
-        matrix[(0, 2)] = _u_M2 * self._h8 + _t0 * _t15;
+        matrix[(0, 2)] = _u_M2 * self._h5 + _t0 * _t15;
         matrix[(1, 0)] = _t13 - _t11;
         matrix[(1, 1)] = S::one() + _t5 * _t5
             + self._h1 * (_t4 + _t3 + _t6 * S::ratio(2.0, 1.0));
-        matrix[(1, 2)] = _t5 * _t15 - _u_M1 * self._h10;
-        matrix[(2, 0)] = _t0 * _t14 + _u_M2 * self._h6;
+        matrix[(1, 2)] = _t5 * _t15 - _u_M1 * self._h7;
+        matrix[(2, 0)] = _t0 * _t14 + _u_M2 * self._h4;
         matrix[(2, 1)] = _t5 * _t14 + _t12;
         matrix[(2, 2)] = S::one() + _t2 * _t2 - self._h2 * (_t7 + _u_M3 * _t14);
     }
@@ -1810,8 +1848,8 @@ for GyrostatCayleyMidpoint<'_, S> {
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[_M1, _M2, _M3]] = self.base.data.0;
         let [[_u_M1, _u_M2, _u_M3]] = unknown.data.0;
-        mu[0] = _M1 - _u_M2 * (self._h4 + _u_M3 * self._h3);
-        mu[1] = _M2 + _u_M1 * (self._h4 + _u_M3 * self._h5);
+        mu[0] = _M1 - _u_M2 * (self._h9 + _u_M3 * self._h8);
+        mu[1] = _M2 + _u_M1 * (self._h9 + _u_M3 * self._h10);
         mu[2] = _M3 - _u_M1 * _u_M2 * self._h11;
     }
 
@@ -2947,13 +2985,11 @@ for GyrostatSphericalMidpoint<'_, S> {
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[_M1, _M2, _M3]] = self.base.data.0;
         let [[_u_M1, _u_M2, _u_M3]] = unknown.data.0;
-        let [[_d_M1, _]] = ::lie_runtime::generic::sphere_ratios::<
+        let [_d_M1, _] = ::lie_runtime::generic::sphere_ratios::<
             S,
             _,
             2,
-        >(self.system, &self.base, unknown)
-            .data
-            .0;
+        >(self.system, &self.base, unknown);
         let _t0 = (_M2 + _u_M2) * _d_M1;
         let _t1 = (_M3 + _u_M3) * _d_M1;
         let _t2 = (_M1 + _u_M1) * _d_M1;
@@ -2974,13 +3010,11 @@ for GyrostatSphericalMidpoint<'_, S> {
     ) {
         let [[_M1, _M2, _M3]] = self.base.data.0;
         let [[_u_M1, _u_M2, _u_M3]] = unknown.data.0;
-        let [[_d_M1, _d_M2]] = ::lie_runtime::generic::sphere_ratios::<
+        let [_d_M1, _d_M2] = ::lie_runtime::generic::sphere_ratios::<
             S,
             _,
             2,
-        >(self.system, &self.base, unknown)
-            .data
-            .0;
+        >(self.system, &self.base, unknown);
         let _t0 = _M2 + _u_M2;
         let _t1 = _t0 * _d_M1;
         let _t2 = _M3 + _u_M3;
@@ -2998,7 +3032,7 @@ for GyrostatSphericalMidpoint<'_, S> {
         let _t14 = _t7 * (self.system._k9 + self.system._k10 * _t3);
         let _t15 = _t5 * _t7;
         let _t16 = self.system._k10 * _t15;
-        let _t17 = _t4 * _t14 + _t2 * _t16;
+        let _t17 = _t14 * _t4 + _t16 * _t2;
         let _t18 = self.system._k11 * _t9;
         let _t19 = self.system._k11 * _t15;
         let _t20 = _t4 * _t18 + _t0 * _t19;
@@ -3008,9 +3042,9 @@ for GyrostatSphericalMidpoint<'_, S> {
         matrix[(0, 0)] = S::one() + _t6 * _t11;
         matrix[(0, 1)] = _t12 * _t11 - _t8;
         matrix[(0, 2)] = _t13 * _t11 - _t10;
-        matrix[(1, 0)] = _t6 * _t17 - _t14;
-        matrix[(1, 1)] = S::one() + _t12 * _t17;
-        matrix[(1, 2)] = _t13 * _t17 - _t16;
+        matrix[(1, 0)] = _t17 * _t6 - _t14;
+        matrix[(1, 1)] = S::one() + _t17 * _t12;
+        matrix[(1, 2)] = _t17 * _t13 - _t16;
         matrix[(2, 0)] = _t6 * _t20 - _t18;
         matrix[(2, 1)] = _t12 * _t20 - _t19;
         matrix[(2, 2)] = S::one() + _t13 * _t20;

@@ -89,15 +89,30 @@ impl<S: ::lie_runtime::Scalar> NonpolynomialSpin<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for NonpolynomialSpinSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "NonpolynomialSpin";
-    const COORDINATES: &'static [&'static str] = &["x", "y", "z"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["norm2"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::None;
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-    ];
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    fn name(&self) -> &str {
+        "NonpolynomialSpin"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["x", "y", "z"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["norm2"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2)][index]
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -342,7 +357,10 @@ for NonpolynomialSpinSystem<S> {
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for NonpolynomialSpinSystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -386,60 +404,73 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for NonpolynomialSpinSyste
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S>
 for NonpolynomialSpinSystem<S> {
-    const SIZE: usize = 3;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[
-            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-        ],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = true;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 3,
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+            ],
+            closed: true,
+            orthogonal: true,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for NonpolynomialSpinSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                    ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-            ],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
-                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
-            ],
-        ],
-        skew: true,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+            skew: true,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -447,7 +478,10 @@ for NonpolynomialSpinSystem<S> {
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S>
 for NonpolynomialSpinSystem<S> {
-    const SPINS: &'static [[usize; 3]] = &[[0, 1, 2]];
+    fn spins(&self) -> &[[usize; 3]] {
+        &[[0, 1, 2]]
+    }
+
     #[inline]
     fn scale(&self, _spin: usize) -> S {
         S::one()
@@ -472,6 +506,8 @@ pub struct NonpolynomialSpinMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h4: S,
     /// `-h/4`
     _h5: S,
+    /// `-h/16`
+    _h6: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinMidpoint<'a, S> {
@@ -488,6 +524,7 @@ impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinMidpoint<'a, S> {
             _h3: h * S::ratio(1.0, 8.0),
             _h4: h * S::ratio(-1.0, 8.0),
             _h5: h * S::ratio(-1.0, 4.0),
+            _h6: h * S::ratio(-1.0, 16.0),
         }
     }
 }
@@ -525,7 +562,7 @@ for NonpolynomialSpinMidpoint<'_, S> {
         let _t4 = _t0 * S::ratio(1.0, 4.0);
         let _t5 = S::ratio(1.0, 2.0) * (_t1 * S::ratio(1.0, 4.0)).exp() + _t3 * _t4;
         let _t6 = _t1 * S::ratio(1.0, 8.0);
-        let _t7 = _t0 * S::ratio(1.0, 2.0) / (S::one() + _t0 * _t4).sqrt() + _t3 * _t6;
+        let _t7 = S::ratio(1.0, 2.0) * _t0 / (S::one() + _t0 * _t4).sqrt() + _t3 * _t6;
         let _t8 = (_t2 * S::ratio(1.0, 2.0)).cos() + _t1 * _t0 * _t6;
         residual[0] = _u_x - x + (_t0 * _t5 - _t1 * _t7) * self._h0;
         residual[1] = _u_y - y - self._h0 * (_t0 * _t8 - _t2 * _t7);
@@ -567,7 +604,7 @@ for NonpolynomialSpinMidpoint<'_, S> {
         let _t20 = _t10 + _t4 * _t18;
         let _t21 = _t6 * (_t6 * _t6);
         let _t22 = _t14.sin();
-        residual[0] = _u_x - x - (_t0 * _t8 - _t11 * _t12) * self._h1;
+        residual[0] = _u_x - x - self._h1 * (_t0 * _t8 - _t11 * _t12);
         residual[1] = _u_y - y - self._h1 * (_t4 * _t17 - _t1 * _t8);
         residual[2] = _u_z - z + self._h1 * (_t0 * _t17 - _t11 * _t18);
         matrix[(0, 0)] = S::one() - (_t2 - _t5 * S::ratio(2.0, 1.0)) * _t19;
@@ -576,8 +613,8 @@ for NonpolynomialSpinMidpoint<'_, S> {
         matrix[(1, 0)] = self._h3 * (_t3 + (_t22 + _t6) * _t12);
         matrix[(1, 1)] = S::one() - _t0 * self._h3 * (_t5 - _t1 * _t1);
         matrix[(1, 2)] = (_t13 + _t15 * S::ratio(4.0, 1.0) - _t18 * _t21) * self._h4;
-        matrix[(2, 0)] = (_t10 + _t0 * (_t9 + _t22)) * self._h5;
-        matrix[(2, 1)] = self._h1 * (_t16 - _t1 * _t20 + S::ratio(3.0, 1.0) * _t13);
+        matrix[(2, 0)] = (_t10 + _t0 * (_t22 + _t9)) * self._h5;
+        matrix[(2, 1)] = (_t1 * _t20 - _t16 - S::ratio(3.0, 1.0) * _t13) * self._h6;
         matrix[(2, 2)] = S::one() + (_t2 - _t1 * _t18) * _t19;
     }
 
@@ -1225,10 +1262,8 @@ pub struct NonpolynomialSpinCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     h: S,
     /// `h/2`
     _h0: S,
-    /// `3*h`
+    /// `-h/2`
     _h1: S,
-    /// `2*h`
-    _h2: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinCayleyMidpoint<'a, S> {
@@ -1240,8 +1275,7 @@ impl<'a, S: ::lie_runtime::Scalar> NonpolynomialSpinCayleyMidpoint<'a, S> {
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
             _h0: h * S::ratio(1.0, 2.0),
-            _h1: h * S::ratio(3.0, 1.0),
-            _h2: h * S::ratio(2.0, 1.0),
+            _h1: h * S::ratio(-1.0, 2.0),
         }
     }
 }
@@ -1265,7 +1299,7 @@ for NonpolynomialSpinCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
     /// 18 additions, 24 multiplications, 1 division, 3 function calls.
     #[inline]
@@ -1277,15 +1311,15 @@ for NonpolynomialSpinCayleyMidpoint<'_, S> {
             + _u_z * S::ratio(2.0, 1.0) * _t0) * self._h0;
         let _t2 = (_u_z / (S::one() + _u_z * _u_z).sqrt() + _u_y * _t0) * self._h0;
         let _t3 = (_u_x.cos() + _u_y * _u_y * _u_z) * self._h0;
-        let _t4 = _t3 * _u_x + _t1 * _u_y + _t2 * _u_z;
-        residual[0] = _u_x - x + _t1 * _u_z - _t2 * _u_y + _t3 * _t4;
-        residual[1] = _u_y - y - _t3 * _u_z + _t2 * _u_x + _t1 * _t4;
-        residual[2] = _u_z - z + _t3 * _u_y - _t1 * _u_x + _t2 * _t4;
+        let _t4 = _u_x * _t3 + _u_y * _t1 + _u_z * _t2;
+        residual[0] = _u_x - x + _u_z * _t1 - _u_y * _t2 + _t3 * _t4;
+        residual[1] = _u_y - y - _u_z * _t3 + _u_x * _t2 + _t1 * _t4;
+        residual[2] = _u_z - z + _u_y * _t3 - _u_x * _t1 + _t2 * _t4;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
-    /// 71 additions, 100 multiplications, 1 division, 4 function calls.
+    /// 75 additions, 90 multiplications, 1 division, 4 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -1304,58 +1338,61 @@ for NonpolynomialSpinCayleyMidpoint<'_, S> {
         let _t6 = _u_x * _t0;
         let _t7 = _u_z * _t5 + _t6;
         let _t8 = _t7 * self._h0;
-        let _t9 = _t8 * _u_z;
-        let _t10 = _t3 * _u_x;
+        let _t9 = _u_z * _t8;
+        let _t10 = _u_x * _t3;
         let _t11 = (_u_y * S::ratio(1.0, 2.0)).exp();
         let _t12 = _u_x * S::ratio(2.0, 1.0);
         let _t13 = _u_z * _t12;
         let _t14 = S::ratio(1.0, 2.0) * _t11 + _u_y * _t13;
         let _t15 = _t14 * self._h0;
-        let _t16 = _t15 * _u_y;
+        let _t16 = _u_y * _t15;
         let _t17 = _t10 + _t16;
         let _t18 = _t17 + _t9;
         let _t19 = _u_x.sin();
-        let _t20 = _t16 + _t9 + _t3 * _t12;
-        let _t21 = self._h0 * _t20;
-        let _t22 = _u_y * self._h0;
-        let _t23 = _t3 * S::ratio(2.0, 1.0);
-        let _t24 = _t3 * S::ratio(1.0, 2.0);
-        let _t25 = _u_y * self.h;
-        let _t26 = _u_z * _t25;
-        let _t27 = _t11 * S::ratio(1.0, 4.0) + _t13;
-        let _t28 = self._h2 * (_u_x * _u_z);
-        let _t29 = _u_y * (self.h * _t27 + _t28) + _t15 * S::ratio(2.0, 1.0);
-        let _t30 = _t5 * (_t5 * _t5);
-        let _t31 = _t8 * S::ratio(2.0, 1.0);
-        let _t32 = _t31 + _u_z * self.h * _t30;
-        let _t33 = _t10 + _t9 + S::ratio(2.0, 1.0) * _t16;
-        let _t34 = _t23 - _u_x * self.h * _t19;
-        let _t35 = _t15 * S::ratio(1.0, 2.0);
-        let _t36 = _u_x * _t25;
-        let _t37 = _t17 + S::ratio(2.0, 1.0) * _t9;
-        let _t38 = self._h0 * _t37;
-        let _t39 = _t8 * S::ratio(1.0, 2.0);
+        let _t20 = _t19 * self._h1;
+        let _t21 = _t16 + _t9 + _t3 * _t12;
+        let _t22 = self._h0 * _t0;
+        let _t23 = _u_z * _t22;
+        let _t24 = _u_y * self.h;
+        let _t25 = _u_z * _t24;
+        let _t26 = _t3 + _u_y * _t25;
+        let _t27 = _u_z * S::ratio(2.0, 1.0);
+        let _t28 = _u_y * self._h0;
+        let _t29 = _u_x * _t24;
+        let _t30 = _u_z * _t29;
+        let _t31 = _t11 * S::ratio(1.0, 4.0) + _t13;
+        let _t32 = self._h0 * _t31;
+        let _t33 = _t15 + _u_y * _t32;
+        let _t34 = _u_y * _t29;
+        let _t35 = _t5 * (_t5 * _t5);
+        let _t36 = self._h0 * _t35;
+        let _t37 = _u_z * _t36;
+        let _t38 = _t10 + _t9 + S::ratio(2.0, 1.0) * _t16;
+        let _t39 = _u_x * _t20;
+        let _t40 = _u_x * _t25;
+        let _t41 = _t8 + _u_x * _t22;
+        let _t42 = _t17 + _t8 * _t27;
         residual[0] = _u_x - x + _t3 * _t18 + self._h0 * (_u_z * _t14 - _u_y * _t7);
-        residual[1] = _u_y - y + _t15 * _t18 - (_u_z * _t2 - _u_x * _t7) * self._h0;
+        residual[1] = _u_y - y + _t15 * _t18 - self._h0 * (_u_z * _t2 - _u_x * _t7);
         residual[2] = _u_z - z + _t8 * _t18 + self._h0 * (_u_y * _t2 - _u_x * _t14);
-        matrix[(0, 0)] = S::one() - _t19 * _t21 - (_t0 - _t4 * S::ratio(2.0, 1.0)) * _t22
-            + (_t23 + self._h1 * _t1) * _t24;
-        matrix[(0, 1)] = _t20 * _t26 - self._h0 * (_t7 - _u_z * _t27 + _t0 * _t12)
-            + _t29 * _t24;
-        matrix[(0, 2)] = _t0 * _t21 + self._h0 * (_t14 + _u_y * (_t13 - _t30))
-            + (_t32 + self._h2 * _t6) * _t24;
-        matrix[(1, 0)] = _t33 * _t26 + self._h0 * (_t7 + _t6 + _u_z * _t19)
-            + (_t34 + self.h * _t1) * _t35;
-        matrix[(1, 1)] = S::one() - (_t4 - _u_x * _u_x) * _t25
-            + _t15 * (_t15 + _u_y * _t28) + self._h0 * _t27 * _t33;
-        matrix[(1, 2)] = _t33 * _t36 - self._h0 * (_t2 + _t1 - _u_x * _t30)
-            + (_t32 + self.h * _t6) * _t35;
-        matrix[(2, 0)] = _t0 * _t38 - self._h0 * (_t14 + _u_y * (_t19 + _t13))
-            + (_t34 + self._h2 * _t1) * _t39;
-        matrix[(2, 1)] = _t37 * _t36
-            + self._h0 * (_t2 - _u_x * _t27 + S::ratio(2.0, 1.0) * _t1) + _t29 * _t39;
-        matrix[(2, 2)] = S::one() + _t30 * _t38 + (_t0 - _u_x * _t12) * _t22
-            + (_t31 + self._h1 * _t6) * _t39;
+        matrix[(0, 0)] = S::one() + _t20 * _t21 + _t3 * (_t26 + _t23)
+            - (_t0 - _u_z * _t27) * _t28;
+        matrix[(0, 1)] = _t25 * _t21 + _t3 * (_t33 + _t30)
+            - self._h0 * (_t7 - _u_z * _t31 + _t0 * _t12);
+        matrix[(0, 2)] = _t22 * _t21 + _t3 * (_t8 + _t34 + _t37)
+            + self._h0 * (_t14 + _u_y * (_t13 - _t35));
+        matrix[(1, 0)] = _t25 * _t38 + _t15 * (_t3 + _t23 + _t39)
+            + self._h0 * (_t7 + _t6 + _u_z * _t19);
+        matrix[(1, 1)] = S::one() + _t38 * _t32 - (_t4 - _u_x * _u_x) * _t24
+            + _t15 * (_t15 + _t30 + _t40);
+        matrix[(1, 2)] = _t38 * _t29 + _t15 * (_t41 + _t37)
+            - self._h0 * (_t2 + _t1 - _u_x * _t35);
+        matrix[(2, 0)] = _t22 * _t42 + _t8 * (_t26 + _t39)
+            - self._h0 * (_t14 + _u_y * (_t19 + _t13));
+        matrix[(2, 1)] = _t42 * _t29 + _t8 * (_t33 + _t40)
+            + self._h0 * (_t2 - _u_x * _t31 + _t0 * _t27);
+        matrix[(2, 2)] = S::one() + _t42 * _t36 + _t8 * (_t41 + _t34)
+            + (_t0 - _u_x * _t12) * _t28;
     }
 
     /// `mu1 = mu + ad*_x m = mu + h f(m)`
@@ -2837,13 +2874,11 @@ for NonpolynomialSpinSphericalMidpoint<'_, S> {
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let [[_d_x, _]] = ::lie_runtime::generic::sphere_ratios::<
+        let [_d_x, _] = ::lie_runtime::generic::sphere_ratios::<
             S,
             _,
             2,
-        >(self.system, &self.base, unknown)
-            .data
-            .0;
+        >(self.system, &self.base, unknown);
         let _t0 = (z + _u_z) * _d_x;
         let _t1 = (y + _u_y) * _d_x;
         let _t2 = (x + _u_x) * _d_x;
@@ -2869,13 +2904,11 @@ for NonpolynomialSpinSphericalMidpoint<'_, S> {
     ) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let [[_d_x, _d_y]] = ::lie_runtime::generic::sphere_ratios::<
+        let [_d_x, _d_y] = ::lie_runtime::generic::sphere_ratios::<
             S,
             _,
             2,
-        >(self.system, &self.base, unknown)
-            .data
-            .0;
+        >(self.system, &self.base, unknown);
         let _t0 = z + _u_z;
         let _t1 = _t0 * _d_x;
         let _t2 = y + _u_y;
@@ -2896,35 +2929,35 @@ for NonpolynomialSpinSphericalMidpoint<'_, S> {
         let _t17 = self.h * _d_x;
         let _t18 = _t3 * _t17;
         let _t19 = (_t12 - _t10 * S::ratio(2.0, 1.0)) * _t18;
-        let _t20 = _t5 * _d_y;
-        let _t21 = _t4 * S::ratio(1.0, 4.0) + _t8;
-        let _t22 = _t17 * (_t14 - _t1 * _t21 + _t12 * _t7);
-        let _t23 = _t11 * (_t11 * _t11);
-        let _t24 = -(_t17 * (_t9 + _t3 * (_t8 - _t23)));
-        let _t25 = _t5 * _t19 + _t2 * _t22 + _t0 * _t24;
+        let _t20 = _t4 * S::ratio(1.0, 4.0) + _t8;
+        let _t21 = _t17 * (_t14 - _t1 * _t20 + _t12 * _t7);
+        let _t22 = _t11 * (_t11 * _t11);
+        let _t23 = -(_t17 * (_t9 + _t3 * (_t8 - _t22)));
+        let _t24 = _t5 * _t19 + _t2 * _t21 + _t0 * _t23;
+        let _t25 = _t5 * _d_y;
         let _t26 = _t2 * _d_y;
         let _t27 = _t0 * _d_y;
         let _t28 = _t6.sin();
         let _t29 = -(_t17 * (_t14 + _t13 + _t1 * _t28));
         let _t30 = S::ratio(2.0, 1.0) * (_t10 - _t6 * _t6) * _t18;
-        let _t31 = _t17 * (_t16 + _t15 - _t6 * _t23);
-        let _t32 = _t5 * _t29 + _t2 * _t30 + _t0 * _t31;
+        let _t31 = _t17 * (_t16 + _t15 - _t6 * _t22);
+        let _t32 = _t29 * _t5 + _t30 * _t2 + _t31 * _t0;
         let _t33 = _t17 * (_t9 + _t3 * (_t8 + _t28));
-        let _t34 = -(_t17 * (_t16 - _t6 * _t21 + S::ratio(2.0, 1.0) * _t15));
+        let _t34 = -(_t17 * (_t16 - _t6 * _t20 + S::ratio(2.0, 1.0) * _t15));
         let _t35 = -((_t12 - _t6 * _t7) * _t18);
-        let _t36 = _t5 * _t33 + _t2 * _t34 + _t0 * _t35;
+        let _t36 = _t33 * _t5 + _t34 * _t2 + _t35 * _t0;
         residual[0] = _u_x - x + self.h * (_t1 * _t9 - _t3 * _t14);
         residual[1] = _u_y - y - self.h * (_t1 * _t16 - _t6 * _t14);
         residual[2] = _u_z - z + self.h * (_t3 * _t16 - _t6 * _t9);
-        matrix[(0, 0)] = S::one() - _t19 + _t20 * _t25;
-        matrix[(0, 1)] = _t26 * _t25 - _t22;
-        matrix[(0, 2)] = _t27 * _t25 - _t24;
-        matrix[(1, 0)] = _t20 * _t32 - _t29;
-        matrix[(1, 1)] = S::one() - _t30 + _t26 * _t32;
-        matrix[(1, 2)] = _t27 * _t32 - _t31;
-        matrix[(2, 0)] = _t20 * _t36 - _t33;
-        matrix[(2, 1)] = _t26 * _t36 - _t34;
-        matrix[(2, 2)] = S::one() - _t35 + _t27 * _t36;
+        matrix[(0, 0)] = S::one() - _t19 + _t24 * _t25;
+        matrix[(0, 1)] = _t24 * _t26 - _t21;
+        matrix[(0, 2)] = _t24 * _t27 - _t23;
+        matrix[(1, 0)] = _t32 * _t25 - _t29;
+        matrix[(1, 1)] = S::one() - _t30 + _t32 * _t26;
+        matrix[(1, 2)] = _t32 * _t27 - _t31;
+        matrix[(2, 0)] = _t36 * _t25 - _t33;
+        matrix[(2, 1)] = _t36 * _t26 - _t34;
+        matrix[(2, 2)] = S::one() - _t35 + _t36 * _t27;
     }
 
     #[inline]

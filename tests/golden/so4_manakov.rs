@@ -257,25 +257,34 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 6>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 6, 6>;
-    const DIM: usize = 6;
-    const CASIMIRS: usize = 2;
-    const NAME: &'static str = "ManakovTop";
-    const COORDINATES: &'static [&'static str] = &[
-        "m12",
-        "m13",
-        "m14",
-        "m23",
-        "m24",
-        "m34",
-    ];
-    const CASIMIR_NAMES: &'static [&'static str] = &["norm2", "pfaffian"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(2),
-    ];
+    fn dimension(&self) -> usize {
+        6
+    }
+
+    fn name(&self) -> &str {
+        "ManakovTop"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["m12", "m13", "m14", "m23", "m24", "m34"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        2
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["norm2", "pfaffian"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2), ::core::option::Option::Some(2)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -597,7 +606,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for ManakovTopSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 36 additions, 48 multiplications.
@@ -695,95 +707,108 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for ManakovTopSystem<S> {
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for ManakovTopSystem<S> {
-    const SIZE: usize = 4;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[
-            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 2, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 0, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 3, -1.0),
-            ::lie_runtime::__private::Entry::new(3, 0, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(1, 3, -1.0),
-            ::lie_runtime::__private::Entry::new(3, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(2, 3, -1.0),
-            ::lie_runtime::__private::Entry::new(3, 2, 1.0),
-        ],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = true;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 4,
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+                ],
+            ],
+            closed: true,
+            orthogonal: true,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for ManakovTopSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 0, 1.0),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 0, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 3, 0.5),
+                    ::lie_runtime::__private::Entry::new(3, 0, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 3, 0.5),
+                    ::lie_runtime::__private::Entry::new(3, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(2, 3, 0.5),
+                    ::lie_runtime::__private::Entry::new(3, 2, -0.5),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 3, -1.0),
-                ::lie_runtime::__private::Entry::new(3, 0, 1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 3, -1.0),
-                ::lie_runtime::__private::Entry::new(3, 1, 1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(2, 3, -1.0),
-                ::lie_runtime::__private::Entry::new(3, 2, 1.0),
-            ],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 0, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 3, 0.5),
-                ::lie_runtime::__private::Entry::new(3, 0, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 3, 0.5),
-                ::lie_runtime::__private::Entry::new(3, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(2, 3, 0.5),
-                ::lie_runtime::__private::Entry::new(3, 2, -0.5),
-            ],
-        ],
-        skew: true,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+            skew: true,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -791,14 +816,18 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for ManakovTopSys
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::InertiaPoisson<S> for ManakovTopSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
-    const PLANES: &'static [::lie_runtime::__private::Plane] = &[
-        ::lie_runtime::__private::Plane::new(0, 1),
-        ::lie_runtime::__private::Plane::new(0, 2),
-        ::lie_runtime::__private::Plane::new(0, 3),
-        ::lie_runtime::__private::Plane::new(1, 2),
-        ::lie_runtime::__private::Plane::new(1, 3),
-        ::lie_runtime::__private::Plane::new(2, 3),
-    ];
+    fn planes(&self) -> &[::lie_runtime::__private::Plane] {
+        const PLANES: &[::lie_runtime::__private::Plane] = &[
+            ::lie_runtime::__private::Plane::new(0, 1),
+            ::lie_runtime::__private::Plane::new(0, 2),
+            ::lie_runtime::__private::Plane::new(0, 3),
+            ::lie_runtime::__private::Plane::new(1, 2),
+            ::lie_runtime::__private::Plane::new(1, 3),
+            ::lie_runtime::__private::Plane::new(2, 3),
+        ];
+        PLANES
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -1906,7 +1935,7 @@ for ManakovTopCayleyMidpoint<'_, S> {
         self.base = *mu;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
     /// 45 additions, 51 multiplications.
     #[inline]
@@ -1915,22 +1944,22 @@ for ManakovTopCayleyMidpoint<'_, S> {
         let [[_u_m12, _u_m13, _u_m14, _u_m23, _u_m24, _u_m34]] = unknown.data.0;
         let _t0 = _u_m12 * self._h0;
         let _t1 = _u_m24 * self._h1;
-        let _t2 = _t1 * _u_m24;
-        let _t3 = _t0 * _u_m12;
+        let _t2 = _u_m24 * _t1;
+        let _t3 = _u_m12 * _t0;
         let _t4 = _u_m13 * self._h2;
-        let _t5 = _t4 * _u_m13;
+        let _t5 = _u_m13 * _t4;
         let _t6 = _t3 + _t5;
         let _t7 = _u_m14 * self._h3;
-        let _t8 = _t7 * _u_m14;
+        let _t8 = _u_m14 * _t7;
         let _t9 = _u_m23 * self._h4;
-        let _t10 = _t9 * _u_m23;
+        let _t10 = _u_m23 * _t9;
         let _t11 = _t8 + _t10;
         let _t12 = _t6 + _t11;
         let _t13 = _t4 * _t1;
         let _t14 = _t7 * _t9;
         let _t15 = _t13 - _t14;
         let _t16 = _u_m34 * self._h7;
-        let _t17 = _t16 * _u_m34;
+        let _t17 = _u_m34 * _t16;
         let _t18 = _t0 * _t16;
         let _t19 = _t14 + _t18;
         let _t20 = _t2 + _t17;
@@ -1951,7 +1980,7 @@ for ManakovTopCayleyMidpoint<'_, S> {
             + _u_m13 * _u_m14 * self._h16 + _u_m23 * _u_m24 * self._h17;
     }
 
-    /// `r = m - ad*_x m/2 - Q_x m/4 - mu`, `x = h grad H(m)`, and `dr/dm`
+    /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
     /// 105 additions, 127 multiplications.
     #[inline]
@@ -1964,16 +1993,16 @@ for ManakovTopCayleyMidpoint<'_, S> {
         let [[m12, m13, m14, m23, m24, m34]] = self.base.data.0;
         let [[_u_m12, _u_m13, _u_m14, _u_m23, _u_m24, _u_m34]] = unknown.data.0;
         let _t0 = _u_m12 * self._h0;
-        let _t1 = _t0 * _u_m12;
+        let _t1 = _u_m12 * _t0;
         let _t2 = _u_m13 * self._h2;
-        let _t3 = _t2 * _u_m13;
+        let _t3 = _u_m13 * _t2;
         let _t4 = _u_m24 * self._h1;
-        let _t5 = _t4 * _u_m24;
+        let _t5 = _u_m24 * _t4;
         let _t6 = _t3 + _t5;
         let _t7 = _u_m14 * self._h3;
-        let _t8 = _t7 * _u_m14;
+        let _t8 = _u_m14 * _t7;
         let _t9 = _u_m23 * self._h4;
-        let _t10 = _t9 * _u_m23;
+        let _t10 = _u_m23 * _t9;
         let _t11 = _t8 + _t10;
         let _t12 = _t6 + _t11;
         let _t13 = _t2 * _t4;
@@ -1982,7 +2011,7 @@ for ManakovTopCayleyMidpoint<'_, S> {
         let _t16 = _u_m13 * self._h5;
         let _t17 = _u_m14 * self._h6;
         let _t18 = _u_m34 * self._h7;
-        let _t19 = _t18 * _u_m34;
+        let _t19 = _u_m34 * _t18;
         let _t20 = _t1 + _t19;
         let _t21 = _t20 + _t11;
         let _t22 = _t0 * _t18;
@@ -2034,32 +2063,32 @@ for ManakovTopCayleyMidpoint<'_, S> {
         residual[5] = _u_m34 - m34 + _t18 * (_t12 + _t19) + _u_m12 * _t15 + _u_m14 * _t34
             + _u_m24 * _t35;
         matrix[(0, 0)] = S::one() + _t0 * _t0 * S::ratio(3.0, 1.0) + self._h0 * _t12;
-        matrix[(0, 1)] = _t37 + _u_m34 * _t38 + _u_m23 * self._h5;
-        matrix[(0, 2)] = _t39 - _u_m34 * _t40 + _u_m24 * self._h6;
-        matrix[(0, 3)] = _t41 - _u_m34 * _t42 + _t16;
-        matrix[(0, 4)] = _t43 + _u_m34 * _t44 + _t17;
+        matrix[(0, 1)] = _t37 + _u_m23 * self._h5 + _u_m34 * _t38;
+        matrix[(0, 2)] = _t39 + _u_m24 * self._h6 - _u_m34 * _t40;
+        matrix[(0, 3)] = _t41 + _t16 - _u_m34 * _t42;
+        matrix[(0, 4)] = _t43 + _t17 + _u_m34 * _t44;
         matrix[(0, 5)] = _t15;
-        matrix[(1, 0)] = _t37 + _u_m24 * _t45 - _u_m23 * self._h8;
+        matrix[(1, 0)] = _t37 - _u_m23 * self._h8 + _u_m24 * _t45;
         matrix[(1, 1)] = S::one() + _t2 * _t2 * S::ratio(3.0, 1.0) + self._h2 * _t21;
         matrix[(1, 2)] = _t47 + _u_m24 * _t40 + _u_m34 * self._h9;
-        matrix[(1, 3)] = _t48 + _u_m24 * _t42 - _t24;
+        matrix[(1, 3)] = _t48 - _t24 + _u_m24 * _t42;
         matrix[(1, 4)] = _t23;
-        matrix[(1, 5)] = _t50 + _u_m24 * _t51 + _t25;
+        matrix[(1, 5)] = _t50 + _t25 + _u_m24 * _t51;
         matrix[(2, 0)] = _t39 - _u_m23 * _t45 - _u_m24 * self._h10;
         matrix[(2, 1)] = _t47 + _u_m23 * _t38 - _u_m34 * self._h11;
         matrix[(2, 2)] = S::one() + _t7 * _t7 * S::ratio(3.0, 1.0) + self._h3 * _t26;
         matrix[(2, 3)] = _t27;
-        matrix[(2, 4)] = _t53 + _u_m23 * _t44 - _t28;
-        matrix[(2, 5)] = _t54 - _u_m23 * _t51 - _t29;
-        matrix[(3, 0)] = _t41 - _u_m14 * _t45 + _u_m13 * self._h12;
-        matrix[(3, 1)] = _t48 + _u_m14 * _t38 + _t30;
+        matrix[(2, 4)] = _t53 - _t28 + _u_m23 * _t44;
+        matrix[(2, 5)] = _t54 - _t29 - _u_m23 * _t51;
+        matrix[(3, 0)] = _t41 + _u_m13 * self._h12 - _u_m14 * _t45;
+        matrix[(3, 1)] = _t48 + _t30 + _u_m14 * _t38;
         matrix[(3, 2)] = _t27;
         matrix[(3, 3)] = S::one() + _t9 * _t9 * S::ratio(3.0, 1.0) + self._h4 * _t26;
         matrix[(3, 4)] = _t55 + _u_m14 * _t44 + _u_m34 * self._h13;
         matrix[(3, 5)] = _t56 - _u_m14 * _t51 + _t31;
         matrix[(4, 0)] = _t43 + _u_m13 * _t45 + _u_m14 * self._h14;
         matrix[(4, 1)] = _t23;
-        matrix[(4, 2)] = _t53 + _u_m13 * _t40 + _t32;
+        matrix[(4, 2)] = _t53 + _t32 + _u_m13 * _t40;
         matrix[(4, 3)] = _t55 + _u_m13 * _t42 - _u_m34 * self._h15;
         matrix[(4, 4)] = S::one() + _t4 * _t4 * S::ratio(3.0, 1.0) + self._h1 * _t21;
         matrix[(4, 5)] = _t57 + _u_m13 * _t51 - _t33;

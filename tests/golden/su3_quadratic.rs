@@ -91,27 +91,34 @@ impl<S: ::lie_runtime::Scalar> Su3Quadratic<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for Su3QuadraticSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 8>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 8, 8>;
-    const DIM: usize = 8;
-    const CASIMIRS: usize = 2;
-    const NAME: &'static str = "Su3Quadratic";
-    const COORDINATES: &'static [&'static str] = &[
-        "x1",
-        "x2",
-        "x3",
-        "x4",
-        "x5",
-        "x6",
-        "x7",
-        "x8",
-    ];
-    const CASIMIR_NAMES: &'static [&'static str] = &["quadratic", "cubic"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(3),
-    ];
+    fn dimension(&self) -> usize {
+        8
+    }
+
+    fn name(&self) -> &str {
+        "Su3Quadratic"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["x1", "x2", "x3", "x4", "x5", "x6", "x7", "x8"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        2
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["quadratic", "cubic"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2), ::core::option::Option::Some(3)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -713,232 +720,245 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for Su3QuadraticSystem<S> 
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for Su3QuadraticSystem<S> {
-    const SIZE: usize = 6;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[
-            ::lie_runtime::__private::Entry::new(0, 1, 1.0),
-            ::lie_runtime::__private::Entry::new(1, 0, -1.0),
-            ::lie_runtime::__private::Entry::new(3, 4, 1.0),
-            ::lie_runtime::__private::Entry::new(4, 3, -1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 4, -1.0),
-            ::lie_runtime::__private::Entry::new(1, 3, -1.0),
-            ::lie_runtime::__private::Entry::new(3, 1, 1.0),
-            ::lie_runtime::__private::Entry::new(4, 0, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
-            ::lie_runtime::__private::Entry::new(3, 5, 1.0),
-            ::lie_runtime::__private::Entry::new(5, 3, -1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 5, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 3, -1.0),
-            ::lie_runtime::__private::Entry::new(3, 2, 1.0),
-            ::lie_runtime::__private::Entry::new(5, 0, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(1, 2, 1.0),
-            ::lie_runtime::__private::Entry::new(2, 1, -1.0),
-            ::lie_runtime::__private::Entry::new(4, 5, 1.0),
-            ::lie_runtime::__private::Entry::new(5, 4, -1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(1, 5, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 4, -1.0),
-            ::lie_runtime::__private::Entry::new(4, 2, 1.0),
-            ::lie_runtime::__private::Entry::new(5, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 3, -1.0),
-            ::lie_runtime::__private::Entry::new(1, 4, 1.0),
-            ::lie_runtime::__private::Entry::new(3, 0, 1.0),
-            ::lie_runtime::__private::Entry::new(4, 1, -1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(1, 4, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 5, 1.0),
-            ::lie_runtime::__private::Entry::new(4, 1, 1.0),
-            ::lie_runtime::__private::Entry::new(5, 2, -1.0),
-        ],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = true;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 6,
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 4, 1.0),
+                    ::lie_runtime::__private::Entry::new(4, 3, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 4, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+                    ::lie_runtime::__private::Entry::new(4, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 5, 1.0),
+                    ::lie_runtime::__private::Entry::new(5, 3, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 5, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(5, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(4, 5, 1.0),
+                    ::lie_runtime::__private::Entry::new(5, 4, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 5, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 4, -1.0),
+                    ::lie_runtime::__private::Entry::new(4, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(5, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 4, 1.0),
+                    ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+                    ::lie_runtime::__private::Entry::new(4, 1, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 4, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 5, 1.0),
+                    ::lie_runtime::__private::Entry::new(4, 1, 1.0),
+                    ::lie_runtime::__private::Entry::new(5, 2, -1.0),
+                ],
+            ],
+            closed: true,
+            orthogonal: true,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for Su3QuadraticSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 6, 6>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, 1.0),
-                ::lie_runtime::__private::Entry::new(1, 0, -1.0),
-                ::lie_runtime::__private::Entry::new(3, 4, 1.0),
-                ::lie_runtime::__private::Entry::new(4, 3, -1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 4, 1.0),
+                    ::lie_runtime::__private::Entry::new(4, 3, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 4, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+                    ::lie_runtime::__private::Entry::new(4, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 5, 1.0),
+                    ::lie_runtime::__private::Entry::new(5, 3, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 5, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(5, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(4, 5, 1.0),
+                    ::lie_runtime::__private::Entry::new(5, 4, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 5, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 4, -1.0),
+                    ::lie_runtime::__private::Entry::new(4, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(5, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 4, 1.0),
+                    ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+                    ::lie_runtime::__private::Entry::new(4, 1, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 4, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 5, 1.0),
+                    ::lie_runtime::__private::Entry::new(4, 1, 1.0),
+                    ::lie_runtime::__private::Entry::new(5, 2, -1.0),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 4, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 3, -1.0),
-                ::lie_runtime::__private::Entry::new(3, 1, 1.0),
-                ::lie_runtime::__private::Entry::new(4, 0, 1.0),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -0.25),
+                    ::lie_runtime::__private::Entry::new(1, 0, 0.25),
+                    ::lie_runtime::__private::Entry::new(3, 4, -0.25),
+                    ::lie_runtime::__private::Entry::new(4, 3, 0.25),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 4, 0.25),
+                    ::lie_runtime::__private::Entry::new(1, 3, 0.25),
+                    ::lie_runtime::__private::Entry::new(3, 1, -0.25),
+                    ::lie_runtime::__private::Entry::new(4, 0, -0.25),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -0.25),
+                    ::lie_runtime::__private::Entry::new(2, 0, 0.25),
+                    ::lie_runtime::__private::Entry::new(3, 5, -0.25),
+                    ::lie_runtime::__private::Entry::new(5, 3, 0.25),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 5, 0.25),
+                    ::lie_runtime::__private::Entry::new(2, 3, 0.25),
+                    ::lie_runtime::__private::Entry::new(3, 2, -0.25),
+                    ::lie_runtime::__private::Entry::new(5, 0, -0.25),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -0.25),
+                    ::lie_runtime::__private::Entry::new(2, 1, 0.25),
+                    ::lie_runtime::__private::Entry::new(4, 5, -0.25),
+                    ::lie_runtime::__private::Entry::new(5, 4, 0.25),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 5, 0.25),
+                    ::lie_runtime::__private::Entry::new(2, 4, 0.25),
+                    ::lie_runtime::__private::Entry::new(4, 2, -0.25),
+                    ::lie_runtime::__private::Entry::new(5, 1, -0.25),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::parts(
+                        0,
+                        3,
+                        0.3333333333333333,
+                        0.00000000000000001850371707708594,
+                    ),
+                    ::lie_runtime::__private::Entry::parts(
+                        1,
+                        4,
+                        -0.16666666666666666,
+                        -0.00000000000000000925185853854297,
+                    ),
+                    ::lie_runtime::__private::Entry::parts(
+                        2,
+                        5,
+                        -0.16666666666666666,
+                        -0.00000000000000000925185853854297,
+                    ),
+                    ::lie_runtime::__private::Entry::parts(
+                        3,
+                        0,
+                        -0.3333333333333333,
+                        -0.00000000000000001850371707708594,
+                    ),
+                    ::lie_runtime::__private::Entry::parts(
+                        4,
+                        1,
+                        0.16666666666666666,
+                        0.00000000000000000925185853854297,
+                    ),
+                    ::lie_runtime::__private::Entry::parts(
+                        5,
+                        2,
+                        0.16666666666666666,
+                        0.00000000000000000925185853854297,
+                    ),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::parts(
+                        0,
+                        3,
+                        0.16666666666666666,
+                        0.00000000000000000925185853854297,
+                    ),
+                    ::lie_runtime::__private::Entry::parts(
+                        1,
+                        4,
+                        0.16666666666666666,
+                        0.00000000000000000925185853854297,
+                    ),
+                    ::lie_runtime::__private::Entry::parts(
+                        2,
+                        5,
+                        -0.3333333333333333,
+                        -0.00000000000000001850371707708594,
+                    ),
+                    ::lie_runtime::__private::Entry::parts(
+                        3,
+                        0,
+                        -0.16666666666666666,
+                        -0.00000000000000000925185853854297,
+                    ),
+                    ::lie_runtime::__private::Entry::parts(
+                        4,
+                        1,
+                        -0.16666666666666666,
+                        -0.00000000000000000925185853854297,
+                    ),
+                    ::lie_runtime::__private::Entry::parts(
+                        5,
+                        2,
+                        0.3333333333333333,
+                        0.00000000000000001850371707708594,
+                    ),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
-                ::lie_runtime::__private::Entry::new(3, 5, 1.0),
-                ::lie_runtime::__private::Entry::new(5, 3, -1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 5, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 3, -1.0),
-                ::lie_runtime::__private::Entry::new(3, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(5, 0, 1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(2, 1, -1.0),
-                ::lie_runtime::__private::Entry::new(4, 5, 1.0),
-                ::lie_runtime::__private::Entry::new(5, 4, -1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 5, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 4, -1.0),
-                ::lie_runtime::__private::Entry::new(4, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(5, 1, 1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 3, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 4, 1.0),
-                ::lie_runtime::__private::Entry::new(3, 0, 1.0),
-                ::lie_runtime::__private::Entry::new(4, 1, -1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 4, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 5, 1.0),
-                ::lie_runtime::__private::Entry::new(4, 1, 1.0),
-                ::lie_runtime::__private::Entry::new(5, 2, -1.0),
-            ],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, -0.25),
-                ::lie_runtime::__private::Entry::new(1, 0, 0.25),
-                ::lie_runtime::__private::Entry::new(3, 4, -0.25),
-                ::lie_runtime::__private::Entry::new(4, 3, 0.25),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 4, 0.25),
-                ::lie_runtime::__private::Entry::new(1, 3, 0.25),
-                ::lie_runtime::__private::Entry::new(3, 1, -0.25),
-                ::lie_runtime::__private::Entry::new(4, 0, -0.25),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, -0.25),
-                ::lie_runtime::__private::Entry::new(2, 0, 0.25),
-                ::lie_runtime::__private::Entry::new(3, 5, -0.25),
-                ::lie_runtime::__private::Entry::new(5, 3, 0.25),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 5, 0.25),
-                ::lie_runtime::__private::Entry::new(2, 3, 0.25),
-                ::lie_runtime::__private::Entry::new(3, 2, -0.25),
-                ::lie_runtime::__private::Entry::new(5, 0, -0.25),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, -0.25),
-                ::lie_runtime::__private::Entry::new(2, 1, 0.25),
-                ::lie_runtime::__private::Entry::new(4, 5, -0.25),
-                ::lie_runtime::__private::Entry::new(5, 4, 0.25),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 5, 0.25),
-                ::lie_runtime::__private::Entry::new(2, 4, 0.25),
-                ::lie_runtime::__private::Entry::new(4, 2, -0.25),
-                ::lie_runtime::__private::Entry::new(5, 1, -0.25),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::parts(
-                    0,
-                    3,
-                    0.3333333333333333,
-                    0.00000000000000001850371707708594,
-                ),
-                ::lie_runtime::__private::Entry::parts(
-                    1,
-                    4,
-                    -0.16666666666666666,
-                    -0.00000000000000000925185853854297,
-                ),
-                ::lie_runtime::__private::Entry::parts(
-                    2,
-                    5,
-                    -0.16666666666666666,
-                    -0.00000000000000000925185853854297,
-                ),
-                ::lie_runtime::__private::Entry::parts(
-                    3,
-                    0,
-                    -0.3333333333333333,
-                    -0.00000000000000001850371707708594,
-                ),
-                ::lie_runtime::__private::Entry::parts(
-                    4,
-                    1,
-                    0.16666666666666666,
-                    0.00000000000000000925185853854297,
-                ),
-                ::lie_runtime::__private::Entry::parts(
-                    5,
-                    2,
-                    0.16666666666666666,
-                    0.00000000000000000925185853854297,
-                ),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::parts(
-                    0,
-                    3,
-                    0.16666666666666666,
-                    0.00000000000000000925185853854297,
-                ),
-                ::lie_runtime::__private::Entry::parts(
-                    1,
-                    4,
-                    0.16666666666666666,
-                    0.00000000000000000925185853854297,
-                ),
-                ::lie_runtime::__private::Entry::parts(
-                    2,
-                    5,
-                    -0.3333333333333333,
-                    -0.00000000000000001850371707708594,
-                ),
-                ::lie_runtime::__private::Entry::parts(
-                    3,
-                    0,
-                    -0.16666666666666666,
-                    -0.00000000000000000925185853854297,
-                ),
-                ::lie_runtime::__private::Entry::parts(
-                    4,
-                    1,
-                    -0.16666666666666666,
-                    -0.00000000000000000925185853854297,
-                ),
-                ::lie_runtime::__private::Entry::parts(
-                    5,
-                    2,
-                    0.3333333333333333,
-                    0.00000000000000001850371707708594,
-                ),
-            ],
-        ],
-        skew: true,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+            skew: true,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -1066,8 +1086,8 @@ for Su3QuadraticMidpoint<'_, S> {
         residual[3] = _u_x4 - x4
             - self._h0
                 * (_t10 * (_t2 - _t3 * S::ratio(10.0, 1.0)) - _t4 * _t16
-                    + _t0 * (_t8 * S::ratio(10.0, 1.0) + _t7 * S::ratio(11.0, 1.0))
-                        * S::ratio(3.0, 1.0));
+                    + _t0 * S::ratio(3.0, 1.0)
+                        * (_t8 * S::ratio(10.0, 1.0) + _t7 * S::ratio(11.0, 1.0)));
         residual[4] = _u_x5 - x5
             - (_t0 * (_t3 - _t1 * S::ratio(4.0, 1.0)) + _t10 * _t6 - (_t8 + _t7) * _t17)
                 * self._h1;
@@ -1116,8 +1136,8 @@ for Su3QuadraticMidpoint<'_, S> {
         let _t22 = _t2 - _t3 * S::ratio(10.0, 1.0);
         let _t23 = _t9 * S::ratio(10.0, 1.0) + _t8 * S::ratio(11.0, 1.0);
         let _t24 = _t3 - _t1 * S::ratio(4.0, 1.0);
-        let _t25 = _t9 + _t8;
-        let _t26 = _t5 * S::ratio(2.0, 1.0);
+        let _t25 = _t5 * S::ratio(2.0, 1.0);
+        let _t26 = _t9 + _t8;
         let _t27 = _t8 * S::ratio(2.0, 1.0);
         let _t28 = _t1 + _t3;
         let _t29 = _t2 - _t3 * S::ratio(4.0, 1.0);
@@ -1137,16 +1157,16 @@ for Su3QuadraticMidpoint<'_, S> {
                 * (_t6 * _t14 - _t0 * _t5 * S::ratio(12.0, 1.0) + _t15 * _t17
                     + _t2 * (_t8 - _t10));
         residual[2] = _u_x3 - x3
-            + self._h2 * (_t1 * _t19 + _t5 * _t20 - _t8 * _t7 - _t17 * _t21);
+            + self._h2 * (_t1 * _t19 + _t5 * _t20 - _t8 * _t7 - _t21 * _t17);
         residual[3] = _u_x4 - x4
-            + self._h2 * (_t12 * _t22 - _t5 * _t21 + _t0 * _t23 * S::ratio(3.0, 1.0));
+            + self._h2 * (_t12 * _t22 - _t5 * _t21 + _t0 * S::ratio(3.0, 1.0) * _t23);
         residual[4] = _u_x5 - x5 - self._h1 * (_t0 * _t24 + _t12 * _t7 - _t25 * _t26);
         residual[5] = _u_x6 - x6
             + self._h2
                 * (_t0 * _t20 + _t3 * S::ratio(6.0, 1.0) * (_t9 - _t8) + _t27 * _t19
-                    + _t7 * _t28);
+                    + _t28 * _t7);
         residual[6] = _u_x7 - x7 + self._h2 * (_t5 * _t29 - _t30 - _t31 * _t20);
-        residual[7] = _u_x8 - x8 - self._h2 * (_t30 - _t13 * _t31 + _t26 * _t29);
+        residual[7] = _u_x8 - x8 - self._h2 * (_t30 - _t31 * _t13 + _t25 * _t29);
         matrix[(0, 0)] = S::one() + _t32;
         matrix[(0, 1)] = self._h1 * _t11;
         matrix[(0, 2)] = _t4 * self._h0;
@@ -1159,7 +1179,7 @@ for Su3QuadraticMidpoint<'_, S> {
         matrix[(1, 1)] = S::one();
         matrix[(1, 2)] = _t5 * self._h4;
         matrix[(1, 3)] = self._h2 * _t14;
-        matrix[(1, 4)] = (_t6 + _t15) * self._h2;
+        matrix[(1, 4)] = self._h2 * (_t6 + _t15);
         matrix[(1, 5)] = _t34;
         matrix[(1, 6)] = _t35;
         matrix[(1, 7)] = _t1 * self._h6;
@@ -1171,7 +1191,7 @@ for Su3QuadraticMidpoint<'_, S> {
         matrix[(2, 5)] = _t36;
         matrix[(2, 7)] = _t33;
         matrix[(3, 0)] = _t12 * self._h6;
-        matrix[(3, 1)] = self._h2 * _t22;
+        matrix[(3, 1)] = _t22 * self._h2;
         matrix[(3, 2)] = _t23 * self._h6;
         matrix[(3, 3)] = S::one();
         matrix[(3, 4)] = (_t12 * S::ratio(10.0, 1.0) + _t5 * S::ratio(3.0, 1.0))
@@ -1184,14 +1204,14 @@ for Su3QuadraticMidpoint<'_, S> {
         matrix[(4, 2)] = _t24 * self._h6;
         matrix[(4, 3)] = _t12 * self._h11;
         matrix[(4, 4)] = S::one() - _t32;
-        matrix[(4, 5)] = _t25 * self._h12;
+        matrix[(4, 5)] = _t26 * self._h12;
         matrix[(4, 6)] = _t37;
         matrix[(4, 7)] = _t37;
         matrix[(5, 0)] = (_t6 + _t27) * self._h6;
         matrix[(5, 1)] = _t0 * self._h5;
         matrix[(5, 2)] = _t36;
         matrix[(5, 3)] = _t28 * self._h6;
-        matrix[(5, 4)] = self._h2 * (_t15 - _t27 + _t7);
+        matrix[(5, 4)] = (_t27 - _t15 - _t7) * self._h0;
         matrix[(5, 5)] = S::one();
         matrix[(5, 6)] = _t35;
         matrix[(5, 7)] = self._h8 * _t14;
@@ -1199,7 +1219,7 @@ for Su3QuadraticMidpoint<'_, S> {
         matrix[(6, 1)] = _t31 * self._h12;
         matrix[(6, 2)] = _t38;
         matrix[(6, 3)] = _t39;
-        matrix[(6, 4)] = (_t13 + _t26) * self._h8;
+        matrix[(6, 4)] = self._h8 * (_t13 + _t25);
         matrix[(6, 5)] = self._h2 * _t29;
         matrix[(6, 6)] = S::one();
         matrix[(7, 0)] = (_t12 + _t5) * self._h12;

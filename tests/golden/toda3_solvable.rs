@@ -90,17 +90,34 @@ impl<S: ::lie_runtime::Scalar> TodaLattice<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 5>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 5, 5>;
-    const DIM: usize = 5;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "TodaLattice";
-    const COORDINATES: &'static [&'static str] = &["b1", "b2", "b3", "a1", "a2"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["momentum"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(1),
-    ];
+    fn dimension(&self) -> usize {
+        5
+    }
+
+    fn name(&self) -> &str {
+        "TodaLattice"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["b1", "b2", "b3", "a1", "a2"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["momentum"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(1)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -422,10 +439,10 @@ for TodaLatticeMidpoint<'_, S> {
         residual[3] = _u_a1 - a1 - _t4 * _t6;
         residual[4] = _u_a2 - a2 - _t7 * _t8;
         matrix[(0, 0)] = S::one();
-        matrix[(0, 3)] = _t0 * self.h;
+        matrix[(0, 3)] = self.h * _t0;
         matrix[(1, 1)] = S::one();
         matrix[(1, 3)] = _t0 * self._h2;
-        matrix[(1, 4)] = _t2 * self.h;
+        matrix[(1, 4)] = self.h * _t2;
         matrix[(2, 2)] = S::one();
         matrix[(2, 4)] = _t2 * self._h2;
         matrix[(3, 0)] = _t0 * self._h3;

@@ -15,6 +15,13 @@ pub struct Argument {
     pub symbols: Vec<Symbol>,
 }
 
+impl Argument {
+    /// Whether the runtime computes it from the others, as an array: it is no state.
+    pub(crate) fn is_array(&self) -> bool {
+        matches!(self.name, "inverse" | "ratios")
+    }
+}
+
 /// What a kernel writes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shape {

@@ -102,7 +102,11 @@ impl Writer<'_> {
                 quote! { _ }
             }
         });
-        quote! { let [[#(#entries),*]] = #from.data.0; }
+        if argument.is_array() {
+            quote! { let [#(#entries),*] = #from; }
+        } else {
+            quote! { let [[#(#entries),*]] = #from.data.0; }
+        }
     }
 
     /// The body of a kernel: arguments taken apart, locals, results written to `targets`.

@@ -86,17 +86,34 @@ impl<S: ::lie_runtime::Scalar> Heisenberg<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeisenbergSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 3>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const DIM: usize = 3;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "Heisenberg";
-    const COORDINATES: &'static [&'static str] = &["q", "p", "z"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["centre"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        4,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(1),
-    ];
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    fn name(&self) -> &str {
+        "Heisenberg"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["q", "p", "z"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["centre"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(1)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(4)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -273,7 +290,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeisenbergSystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// No operation.
@@ -302,32 +322,45 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeisenbergSystem<S> {
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeisenbergSystem<S> {
-    const SIZE: usize = 3;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
-        &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
-        &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = false;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 3,
+            matrices: &[
+                &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
+                &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
+            ],
+            closed: true,
+            orthogonal: false,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeisenbergSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
-            &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
-        ],
-        dual: &[
-            &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
-            &[::lie_runtime::__private::Entry::new(2, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(2, 0, 1.0)],
-        ],
-        skew: false,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[::lie_runtime::__private::Entry::new(0, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 2, 1.0)],
+                &[::lie_runtime::__private::Entry::new(0, 2, 1.0)],
+            ],
+            dual: &[
+                &[::lie_runtime::__private::Entry::new(1, 0, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 0, 1.0)],
+            ],
+            skew: false,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }

@@ -475,18 +475,34 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 6>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 6, 6>;
-    const DIM: usize = 6;
-    const CASIMIRS: usize = 2;
-    const NAME: &'static str = "HeavyTop";
-    const COORDINATES: &'static [&'static str] = &["m1", "m2", "m3", "g1", "g2", "g3"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["length2", "vertical_momentum"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(2),
-    ];
+    fn dimension(&self) -> usize {
+        6
+    }
+
+    fn name(&self) -> &str {
+        "HeavyTop"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["m1", "m2", "m3", "g1", "g2", "g3"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        2
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["length2", "vertical_momentum"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2), ::core::option::Option::Some(2)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -779,7 +795,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeavyTopSystem<S
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 27 additions, 33 multiplications.
@@ -900,68 +919,81 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeavyTopSystem<S> {
-    const SIZE: usize = 4;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[
-            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-            ::lie_runtime::__private::Entry::new(2, 0, -1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-        ],
-        &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
-        &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
-        &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = false;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 4,
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+            ],
+            closed: true,
+            orthogonal: false,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
+                &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -0.5),
+                    ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                ],
+                &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
+                &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
+                &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-            ],
-            &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
-            &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
-            &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, -0.5),
-                ::lie_runtime::__private::Entry::new(2, 0, 0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
-            ],
-            &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
-            &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
-            &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
-        ],
-        skew: false,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+            skew: false,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }

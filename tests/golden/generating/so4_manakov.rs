@@ -461,25 +461,34 @@ impl<S: ::lie_runtime::Scalar> ManakovTop<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for ManakovTopSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 6>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 6, 6>;
-    const DIM: usize = 6;
-    const CASIMIRS: usize = 2;
-    const NAME: &'static str = "ManakovTop";
-    const COORDINATES: &'static [&'static str] = &[
-        "m12",
-        "m13",
-        "m14",
-        "m23",
-        "m24",
-        "m34",
-    ];
-    const CASIMIR_NAMES: &'static [&'static str] = &["norm2", "pfaffian"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(2),
-        ::core::option::Option::Some(2),
-    ];
+    fn dimension(&self) -> usize {
+        6
+    }
+
+    fn name(&self) -> &str {
+        "ManakovTop"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["m12", "m13", "m14", "m23", "m24", "m34"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        2
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["norm2", "pfaffian"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(2), ::core::option::Option::Some(2)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
@@ -801,7 +810,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for ManakovTopSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSystem<S> {
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 36 additions, 48 multiplications.
@@ -937,95 +949,108 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for ManakovTopSystem<S> {
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for ManakovTopSystem<S> {
-    const SIZE: usize = 4;
-    const MATRICES: &'static [&'static [::lie_runtime::__private::Entry]] = &[
-        &[
-            ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-            ::lie_runtime::__private::Entry::new(1, 0, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 2, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 0, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(0, 3, -1.0),
-            ::lie_runtime::__private::Entry::new(3, 0, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-            ::lie_runtime::__private::Entry::new(2, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(1, 3, -1.0),
-            ::lie_runtime::__private::Entry::new(3, 1, 1.0),
-        ],
-        &[
-            ::lie_runtime::__private::Entry::new(2, 3, -1.0),
-            ::lie_runtime::__private::Entry::new(3, 2, 1.0),
-        ],
-    ];
-    const CLOSED: bool = true;
-    const ORTHOGONAL: bool = true;
+    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
+        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+            size: 4,
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+                ],
+            ],
+            closed: true,
+            orthogonal: true,
+            right: false,
+        };
+        GROUP
+    }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for ManakovTopSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
-    const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
-        matrices: &[
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+            matrices: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 0, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 1, 1.0),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(2, 3, -1.0),
+                    ::lie_runtime::__private::Entry::new(3, 2, 1.0),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 0, 1.0),
+            dual: &[
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 0, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(0, 3, 0.5),
+                    ::lie_runtime::__private::Entry::new(3, 0, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(1, 3, 0.5),
+                    ::lie_runtime::__private::Entry::new(3, 1, -0.5),
+                ],
+                &[
+                    ::lie_runtime::__private::Entry::new(2, 3, 0.5),
+                    ::lie_runtime::__private::Entry::new(3, 2, -0.5),
+                ],
             ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 3, -1.0),
-                ::lie_runtime::__private::Entry::new(3, 0, 1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                ::lie_runtime::__private::Entry::new(2, 1, 1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 3, -1.0),
-                ::lie_runtime::__private::Entry::new(3, 1, 1.0),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(2, 3, -1.0),
-                ::lie_runtime::__private::Entry::new(3, 2, 1.0),
-            ],
-        ],
-        dual: &[
-            &[
-                ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                ::lie_runtime::__private::Entry::new(1, 0, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 0, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(0, 3, 0.5),
-                ::lie_runtime::__private::Entry::new(3, 0, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                ::lie_runtime::__private::Entry::new(2, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(1, 3, 0.5),
-                ::lie_runtime::__private::Entry::new(3, 1, -0.5),
-            ],
-            &[
-                ::lie_runtime::__private::Entry::new(2, 3, 0.5),
-                ::lie_runtime::__private::Entry::new(3, 2, -0.5),
-            ],
-        ],
-        skew: true,
-    };
-    const SPECTRUM: ::lie_runtime::__private::Spectrum = ::lie_runtime::__private::Spectrum::Imaginary;
+            skew: true,
+        };
+        REPRESENTATION
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
@@ -1033,14 +1058,18 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for ManakovTopSys
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::InertiaPoisson<S> for ManakovTopSystem<S> {
     type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
-    const PLANES: &'static [::lie_runtime::__private::Plane] = &[
-        ::lie_runtime::__private::Plane::new(0, 1),
-        ::lie_runtime::__private::Plane::new(0, 2),
-        ::lie_runtime::__private::Plane::new(0, 3),
-        ::lie_runtime::__private::Plane::new(1, 2),
-        ::lie_runtime::__private::Plane::new(1, 3),
-        ::lie_runtime::__private::Plane::new(2, 3),
-    ];
+    fn planes(&self) -> &[::lie_runtime::__private::Plane] {
+        const PLANES: &[::lie_runtime::__private::Plane] = &[
+            ::lie_runtime::__private::Plane::new(0, 1),
+            ::lie_runtime::__private::Plane::new(0, 2),
+            ::lie_runtime::__private::Plane::new(0, 3),
+            ::lie_runtime::__private::Plane::new(1, 2),
+            ::lie_runtime::__private::Plane::new(1, 3),
+            ::lie_runtime::__private::Plane::new(2, 3),
+        ];
+        PLANES
+    }
+
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }

@@ -90,17 +90,34 @@ impl<S: ::lie_runtime::Scalar> TodaLattice<S> {
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for TodaLatticeSystem<S> {
     type State = ::lie_runtime::__private::SVector<S, 5>;
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 5, 5>;
-    const DIM: usize = 5;
-    const CASIMIRS: usize = 1;
-    const NAME: &'static str = "TodaLattice";
-    const COORDINATES: &'static [&'static str] = &["b1", "b2", "b3", "a1", "a2"];
-    const CASIMIR_NAMES: &'static [&'static str] = &["momentum"];
-    const HAMILTONIAN_DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(
-        2,
-    );
-    const CASIMIR_DEGREES: &'static [::core::option::Option<u32>] = &[
-        ::core::option::Option::Some(1),
-    ];
+    fn dimension(&self) -> usize {
+        5
+    }
+
+    fn name(&self) -> &str {
+        "TodaLattice"
+    }
+
+    fn coordinate(&self, index: usize) -> &str {
+        ["b1", "b2", "b3", "a1", "a2"][index]
+    }
+
+    fn casimir_count(&self) -> usize {
+        1
+    }
+
+    fn casimir_name(&self, index: usize) -> &str {
+        ["momentum"][index]
+    }
+
+    fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+        [::core::option::Option::Some(1)][index]
+    }
+
+    fn hamiltonian_degree(&self) -> ::core::option::Option<u32> {
+        ::core::option::Option::Some(2)
+    }
+
     fn zero_state(&self) -> Self::State {
         Self::State::repeat(S::zero())
     }
