@@ -5,7 +5,7 @@
 //! worst. Arguments after `--`: `--only TEXT` (cases with the text in their name), `--write FOLDER` (the
 //! specs as files and nothing measured), `--seconds N` (what runs for longer is ended; 60).
 
-#[path = "../tests/hostile/cases.rs"]
+#[path = "../tests/hostile/cases/mod.rs"]
 mod cases;
 #[path = "declarations/clock.rs"]
 mod clock;

@@ -188,6 +188,12 @@ impl Report {
         }
     }
 
+    /// Whether an error with this message was reported.
+    pub fn says(&self, message: &str) -> bool {
+        let mut errors = self.diagnostics.iter().filter(|d| !d.warning);
+        errors.any(|diagnostic| diagnostic.message == message)
+    }
+
     /// Whether any error (not only warnings) was reported.
     pub fn has_errors(&self) -> bool {
         self.errors > 0

@@ -11,6 +11,8 @@ use crate::symbolic::{Graph, Symbol};
 const MOST_SHARED: usize = 4;
 /// A form that has so many times the operations of the shortest before sharing is hopeless.
 const HOPELESS: usize = 2;
+/// A kernel of more operations is computed as it was derived.
+const LONGEST: usize = 8_000;
 
 /// The choice of a program for one task.
 pub struct Choice<'a> {
@@ -49,6 +51,13 @@ impl<'a> Choice<'a> {
             .iter()
             .map(|form| self.trial(form.clone(), false))
             .collect();
+        // Every further form would take seconds.
+        if trials
+            .iter()
+            .all(|trial| trial.program.operations.len() > LONGEST)
+        {
+            return self.shared(&trials[0]);
+        }
         let points = points::points(self.graph, &self.symbols, &roots);
         let programs: Vec<&Program> = trials.iter().map(|trial| &trial.program).collect();
         let judge = Judge::new(self.graph, points, &programs);

@@ -19,21 +19,15 @@ pub fn cases() -> Vec<Case> {
 const VALUES: &[&str] = &[
     "null",
     "true",
-    "0",
     "-1e308",
-    "\"\"",
     "\"?\"",
-    "[]",
     "[null]",
-    "[[[]]]",
-    "{}",
     "{\"a\": {\"b\": []}}",
-    "[1, \"a\", {}]",
 ];
 
 /// The keys of an object of the spec, as the schema has them.
 fn keys_of(object: &str) -> Vec<String> {
-    let schema: Value = serde_json::from_str(include_str!("../../../specs/lie-system.schema.json"))
+    let schema: Value = serde_json::from_str(include_str!("../../../../specs/lie-system.schema.json"))
         .expect("the schema is JSON");
     let object = match object {
         "Spec" => &schema,
