@@ -19,7 +19,8 @@ const MOST_MESSAGES: usize = 2000;
 const LONGEST_MESSAGE: usize = 5_000;
 const MOST_SHOWN: usize = 64_000;
 
-/// Name and verdict of each case: `done`, or the kind of the first mistake.
+/// Names of cases and their verdicts: `done`, or the kind of the first mistake. Of the others any verdict is right
+/// whose messages a person can read.
 const VERDICTS: &str = include_str!("verdicts.txt");
 
 fn verdict(case: &Case) -> Result<String, String> {
@@ -77,13 +78,19 @@ fn hostile_specs_are_refused_or_done() {
     let thread = thread.spawn(move || {
         let mut wrong = Vec::new();
         let cases = cases::all();
-        assert_eq!(cases.len(), expected.len());
+        for name in expected.keys() {
+            assert!(cases.iter().any(|case| case.name == *name), "{name}");
+        }
         for case in &cases {
             let found = catch_unwind(|| verdict(case));
-            let found = found.unwrap_or_else(|_| Err("a panic".into()));
-            let found = found.unwrap_or_else(|why| format!("unreadable: {why}"));
-            if expected.get(case.name.as_str()) != Some(&found.as_str()) {
-                wrong.push(format!("{}\t{found}", case.name));
+            match found.unwrap_or_else(|_| Err("a panic".into())) {
+                Ok(found) => {
+                    let known = expected.get(case.name.as_str());
+                    if known.is_some_and(|known| *known != found) {
+                        wrong.push(format!("{}\t{found}", case.name));
+                    }
+                }
+                Err(why) => wrong.push(format!("{}\tunreadable: {why}", case.name)),
             }
         }
         wrong

@@ -27,8 +27,9 @@ const VALUES: &[&str] = &[
 
 /// The keys of an object of the spec, as the schema has them.
 fn keys_of(object: &str) -> Vec<String> {
-    let schema: Value = serde_json::from_str(include_str!("../../../../specs/lie-system.schema.json"))
-        .expect("the schema is JSON");
+    let schema: Value =
+        serde_json::from_str(include_str!("../../../../specs/lie-system.schema.json"))
+            .expect("the schema is JSON");
     let object = match object {
         "Spec" => &schema,
         object => &schema["$defs"][object],
