@@ -42,6 +42,7 @@ pub fn build(
         index: HashMap::default(),
         definitions: Vec::new(),
         outputs: Vec::new(),
+        can_group: false,
     };
     let mut builder = Builder {
         graph,
@@ -217,7 +218,9 @@ impl Builder<'_> {
         let mut signed = Vec::new();
         for coefficient in order {
             let group = groups.remove(&coefficient).unwrap_or_default();
-            if self.group && coefficient != one && group.len() > 1 {
+            let common = coefficient != one && group.len() > 1;
+            self.formula.can_group |= common;
+            if self.group && common {
                 let mut inner: Vec<Signed> = group
                     .iter()
                     .map(|(rest, negative)| {

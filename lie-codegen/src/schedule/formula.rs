@@ -48,6 +48,8 @@ pub struct Formula {
     pub(super) index: HashMap<Atom, AtomId>,
     pub definitions: Vec<(Symbol, Signed)>,
     pub outputs: Vec<Signed>,
+    /// Whether terms of a sum have a coefficient in common.
+    pub can_group: bool,
 }
 
 impl Formula {
