@@ -60,7 +60,14 @@ impl<'a> Choice<'a> {
     }
 
     fn trial(&mut self, roots: Roots, group: bool) -> Trial {
-        let formula = Formula::new(self.graph, &self.symbols, &roots, self.known, group);
+        let formula = Formula::new(
+            self.graph,
+            &self.symbols,
+            &roots,
+            self.known,
+            group,
+            &mut self.collector.answers,
+        );
         Trial {
             program: reuse::reuse(linearise::linearise(&formula)),
             roots,
@@ -103,7 +110,7 @@ impl<'a> Choice<'a> {
     fn varied(&mut self, mut tried: Vec<Trial>) -> Vec<Trial> {
         let mut variants: Vec<Roots> = Vec::new();
         for trial in &tried {
-            for form in forms::variants(self.graph, &self.symbols, &trial.roots, self.known) {
+            for form in forms::variants(self.graph, &self.symbols, &trial.roots, self.collector) {
                 forms::add(&mut variants, form);
             }
         }

@@ -18,16 +18,20 @@ const MOST_TERMS: usize = 800;
 /// expression of its own.
 const MOST_SUMMANDS: usize = 1000;
 /// Factors of monomials after which the expansion of a kernel has gone too far.
-const MOST_WORK: usize = 60_000;
+const MOST_WORK: usize = 20_000;
 
 /// Bases with positive integer exponents, sorted.
 type Monomial = Vec<(ExprId, i64)>;
 type Polynomial = BTreeMap<Monomial, ExprId>;
 
+/// Whether expressions contain only what is known beforehand, as far as it was asked.
+pub type Answers = HashMap<ExprId, bool>;
+
 /// Collection with what it has found out about the expressions of one arena.
 pub struct Collector {
     known: Known,
-    prepared: HashMap<ExprId, bool>,
+    /// What is prepared.
+    pub answers: Answers,
     expanded: HashMap<ExprId, Expanded>,
     rebuilt: HashMap<ExprId, ExprId>,
     products: HashMap<(ExprId, ExprId), ExprId>,
@@ -42,12 +46,10 @@ struct Expanded {
 }
 
 /// Whether an expression contains only what is known beforehand.
-pub(super) fn is_known(
-    graph: &Graph,
-    id: ExprId,
-    known: Known,
-    cache: &mut HashMap<ExprId, bool>,
-) -> bool {
+pub(super) fn is_known(graph: &Graph, id: ExprId, known: Known, cache: &mut Answers) -> bool {
+    if let Some(answer) = cache.get(&id) {
+        return *answer;
+    }
     // What was answered before is not walked through again.
     let mut stack = vec![id];
     while let Some(node) = stack.pop() {
@@ -80,7 +82,7 @@ impl Collector {
     pub fn new(known: Known) -> Self {
         Self {
             known,
-            prepared: HashMap::default(),
+            answers: Answers::default(),
             expanded: HashMap::default(),
             rebuilt: HashMap::default(),
             products: HashMap::default(),
@@ -126,7 +128,7 @@ impl Collector {
     }
 
     fn expand(&mut self, graph: &mut Graph, id: ExprId) -> Option<Polynomial> {
-        if is_known(graph, id, self.known, &mut self.prepared) {
+        if is_known(graph, id, self.known, &mut self.answers) {
             return Some(if graph.is_zero(id) {
                 Polynomial::new()
             } else {
@@ -181,7 +183,7 @@ impl Collector {
         base: ExprId,
         exponent: &Rational,
     ) -> Option<Polynomial> {
-        if is_known(graph, base, self.known, &mut self.prepared) {
+        if is_known(graph, base, self.known, &mut self.answers) {
             let power = graph.pow(base, exponent);
             return Some(Polynomial::from([(Monomial::new(), power)]));
         }

@@ -2,7 +2,7 @@
 //! common powers; each of them collected by monomials, with definitions folded in, and factored.
 
 use super::collect::Collector;
-use super::{Known, combine, factor, fold};
+use super::{combine, factor, fold};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// The expressions of a task in one form: first those of the definitions, then the outputs.
@@ -34,13 +34,20 @@ pub fn rewritten(graph: &mut Graph, references: &[Roots], collector: &mut Collec
 }
 
 /// A form with definitions folded in, factored, or both.
-pub fn variants(graph: &mut Graph, symbols: &[Symbol], form: &Roots, known: Known) -> Vec<Roots> {
+pub fn variants(
+    graph: &mut Graph,
+    symbols: &[Symbol],
+    form: &Roots,
+    collector: &mut Collector,
+) -> Vec<Roots> {
+    let known = collector.known();
     let mut forms = vec![form.clone()];
     if let Some(folded) = fold::fold(graph, symbols, form) {
         add(&mut forms, folded);
     }
     for index in 0..forms.len() {
-        if let Some(factored) = factor::factor(graph, &forms[index].clone(), known) {
+        if let Some(factored) = factor::factor(graph, &forms[index], known, &mut collector.answers)
+        {
             add(&mut forms, factored);
         }
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap as HashMap;
 
+use super::collect::Answers;
 use super::program::Value;
 use super::{Known, builder};
 use crate::exact::Rational;
@@ -61,13 +62,16 @@ impl Formula {
         roots: &[ExprId],
         known: Known,
         group: bool,
+        answers: &mut Answers,
     ) -> Self {
-        let first = builder::build(graph, symbols, roots, known, group, BTreeSet::new());
+        let mut build =
+            |flipped| builder::build(graph, symbols, roots, (known, answers), group, flipped);
+        let first = build(BTreeSet::new());
         // A coefficient that results need with a minus sign is prepared with it everywhere.
         if first.1.is_empty() {
             first.0
         } else {
-            builder::build(graph, symbols, roots, known, group, first.1).0
+            build(first.1).0
         }
     }
 

@@ -4,6 +4,7 @@
 
 use rustc_hash::FxHashMap as HashMap;
 
+use super::collect::Answers;
 use super::formula::Formula;
 use super::program::{Program, Value};
 use super::{Known, linearise};
@@ -213,7 +214,14 @@ impl Sum {
         let terms_only: Vec<ExprId> = terms.iter().map(|(term, _)| *term).collect();
         let (symbols, mut outputs) = needed(graph, symbols, roots, &terms_only);
         outputs.extend(terms_only);
-        let formula = Formula::new(graph, &symbols, &outputs, Known::Nothing, false);
+        let formula = Formula::new(
+            graph,
+            &symbols,
+            &outputs,
+            Known::Nothing,
+            false,
+            &mut Answers::default(),
+        );
         Self {
             program: linearise::linearise(&formula),
             coefficients: terms.iter().map(|(_, c)| c.to_f64()).collect(),
