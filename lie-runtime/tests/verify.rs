@@ -166,6 +166,7 @@ fn a_blind_measurement_is_noticed() {
         composed: false,
         with_tolerance: None,
         plain: None,
+        beside: false,
     };
     let system = Blind::<false>;
     let start = state(&system, &[0.6, -0.5, 0.7]);
@@ -182,6 +183,7 @@ fn a_blind_measurement_is_noticed() {
         composed: false,
         with_tolerance: None,
         plain: None,
+        beside: false,
     };
     let broken = broken_measurements(&Nonpolynomial, &Nonpolynomial, &ground, &subject);
     assert!(broken.is_empty(), "{broken:?}");
