@@ -144,6 +144,7 @@ pub const FILES: &[(&str, &str)] = files![
     "program/measure/driven.rs",
     "program/measure/kernels.rs",
     "program/measure/mod.rs",
+    "program/measure/outside.rs",
     "program/measure/stress/growth.rs",
     "program/measure/stress/mod.rs",
     "program/measure/stress/outcome.rs",

@@ -71,7 +71,7 @@ fn a_sound_system_passes() {
     assert!(facts("rk4").iter().any(|fact| fact == "group"));
     // four states, each with the kernels of three traits
     let kernels = of("kernel");
-    assert_eq!(kernels.len(), 4 * (11 + 3 + 1));
+    assert_eq!(kernels.len(), 4 * (11 + 3 + 2));
     let ad = kernels
         .iter()
         .find(|line| line[1] == "ad")

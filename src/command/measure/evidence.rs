@@ -25,7 +25,7 @@ pub struct Evidence {
     /// Kernels that every system of the kind has.
     wanted: &'static [&'static str],
     /// Measurements that let a spoiled map pass.
-    broken: Vec<String>,
+    broken: BTreeSet<String>,
     /// Parts of the iteration that do not solve an equation with a known solution.
     unsound: Vec<String>,
 }
@@ -67,7 +67,7 @@ impl Evidence {
             } else {
                 &KERNELS[..10]
             },
-            broken: Vec::new(),
+            broken: BTreeSet::new(),
             unsound: Vec::new(),
         }
     }
@@ -90,7 +90,9 @@ impl Evidence {
                         Some(self.reference.map_or(excess, |worst| larger(worst, excess)));
                 }
             }
-            ["broken", fact] => self.broken.push((*fact).to_owned()),
+            ["broken", fact] => {
+                self.broken.insert((*fact).to_owned());
+            }
             ["unsound", what] => self.unsound.push((*what).to_owned()),
             _ => {}
         }

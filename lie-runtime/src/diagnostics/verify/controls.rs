@@ -65,7 +65,7 @@ impl<S: Scalar, V: State<S>> Stepper<S> for SpoiledStepper<'_, S, V> {
         };
         spoil(mu, self.part);
         Ok(StepReport {
-            iterations: report.iterations + 1,
+            iterations: report.iterations.max(1),
             pivoted: 1,
             ..report
         })

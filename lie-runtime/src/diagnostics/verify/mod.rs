@@ -64,30 +64,35 @@ const NEWTON: f64 = 1.25;
 /// The part of all steps that may need row exchanges.
 const EXCHANGES: f64 = 0.1;
 
-/// Measures everything that `subject` claims.
+/// Measures everything that `subject` claims; says what comes next, which in many dimensions may take long.
 pub fn verify<P: Lift<f64>>(
     system: &P,
     lifted: &P::Lifted,
     ground: &Ground<P>,
     subject: &Subject<P>,
+    next: &mut dyn FnMut(&'static str),
 ) -> Vec<Finding> {
+    let method = &*subject.method;
+    next("order");
     let mut findings = vec![order::finding(system, ground, subject)];
-    findings.push(symmetry(system, ground, &*subject.method));
-    findings.extend(iterations(
-        system,
-        ground,
-        &*subject.method,
-        subject.composed,
-    ));
+    next("symmetric");
+    findings.push(symmetry(system, ground, method));
+    next("iterations");
+    findings.extend(iterations(system, ground, method, subject.composed));
     findings.push(failing::finding(system, ground, subject));
-    findings.extend(invariants::findings(system, ground, &*subject.method));
-    findings.push(orbit(system, ground, &*subject.method));
+    next("invariants");
+    findings.extend(invariants::findings(system, ground, method));
+    next("orbit");
+    findings.push(orbit(system, ground, method));
+    next("Poisson");
     findings.push(poisson::<P>(lifted, ground, &*subject.lifted));
     if let Some(plain) = &subject.plain {
-        findings.push(plain::finding(system, ground, &*subject.method, plain));
+        next("generic form");
+        findings.push(plain::finding(system, ground, method, plain));
     }
     if let Some(check) = ground.group {
-        findings.push(check(system, ground, &*subject.method, subject.beside));
+        next("group");
+        findings.push(check(system, ground, method, subject.beside));
     }
     findings
 }

@@ -245,9 +245,10 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
             &ground.linear.len().to_string(),
             &ground.quadratic.len().to_string(),
         ]);
+        let all = request.methods.len() as u64;
+        session.stage(0, all, "the kernels")?;
         self.evidence(&system, &ground, seed, session);
         let lifted = system.lift();
-        let all = request.methods.len() as u64;
         for (done, label) in request.methods.iter().enumerate() {
             session.stage(done as u64, all, label)?;
             let Some((_, make)) = self.subjects.iter().find(|(known, _)| known == label) else {
@@ -258,6 +259,7 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
             subject.plain = plain.and_then(|(_, make)| make(&request.parameters));
             subject.beside = self.beside.contains(&label.as_str());
             if done == 0 {
+                session.stage(0, all, "the measurements on a spoiled map")?;
                 let mut broken = broken_measurements(&system, &lifted, &ground, &subject);
                 if driven::is_blind(&system, &ground, &subject) {
                     broken.push("rows");
@@ -273,7 +275,14 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
                 session.line(&["broken", "generic form"]);
             }
             let rows = driven::finding(&system, &ground, &subject);
-            let findings = verify(&system, &lifted, &ground, &subject);
+            let mut ended = Ok(());
+            let mut next = |fact: &str| {
+                if ended.is_ok() {
+                    ended = session.stage(done as u64, all, &format!("{label}, {fact}"));
+                }
+            };
+            let findings = verify(&system, &lifted, &ground, &subject, &mut next);
+            ended?;
             for finding in findings.into_iter().chain([rows]) {
                 report(label, &finding, session);
             }
