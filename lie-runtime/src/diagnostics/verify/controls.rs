@@ -172,7 +172,11 @@ pub fn broken_measurements<P: Lift<f64>>(
     }
     let passing = findings.iter().filter(|finding| passes(finding));
     let mut broken: Vec<&'static str> = passing.map(|finding| finding.fact).collect();
-    broken.extend(invariants::mistaken(system, ground, &slightly));
+    for fact in invariants::mistaken(system, ground, &slightly) {
+        if !broken.contains(&fact) {
+            broken.push(fact);
+        }
+    }
     if invariants::integrals_are_missing(system, ground) {
         broken.push("quadratic integrals");
     }
