@@ -6,7 +6,7 @@ use lie_runtime::methods::Rk4;
 use lie_runtime::prelude::*;
 use lie_runtime::program::measure::Verify;
 use lie_runtime::scalar::Dual;
-use lie_runtime::{LiePoisson, Lift, Poisson, SquareMatrix, State};
+use lie_runtime::{LiePoisson, Lift, Poisson, SquareMatrix};
 
 lie_poisson! { pub spec = "specs/so3_nonpolynomial.json"; }
 
@@ -60,7 +60,8 @@ fn turned<S: Scalar>(lies: bool, vector: &mut Vector<S>, entry: usize) {
 /// Two entries exchanged, as in a transposed matrix.
 fn transposed<S: Scalar>(lies: bool, matrix: &mut Matrix<S>) {
     if lies {
-        let (a, b) = (matrix.get(0, 1), matrix.get(1, 0));
+        let entry = |row, column| SquareMatrix::<S>::get(matrix, row, column);
+        let (a, b) = (entry(0, 1), entry(1, 0));
         matrix.set(0, 1, b);
         matrix.set(1, 0, a);
     }
