@@ -8,7 +8,7 @@ use crate::characters::excerpt;
 
 /// The longest message and the longest remedy in characters; of more nobody would read the end. What
 /// a message quotes should be much shorter: [`LONGEST_QUOTE`].
-const LONGEST_TEXT: usize = 1200;
+const LONGEST_TEXT: usize = 1000;
 /// The longest expression that a message quotes, in characters.
 pub const LONGEST_QUOTE: usize = 400;
 /// How many mistakes are shown: whoever has more mends these first.

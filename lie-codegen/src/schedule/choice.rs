@@ -49,17 +49,15 @@ impl<'a> Choice<'a> {
             let trial = self.trial(roots, false);
             return self.shared(trial);
         }
-        let references = forms::references(self.graph, &roots);
-        let trials: Vec<Trial> = references
-            .iter()
-            .map(|form| self.trial(form.clone(), false))
-            .collect();
+        let derived = self.trial(roots.clone(), false);
         // Every further form would take seconds.
-        if trials
-            .iter()
-            .all(|trial| trial.program.operations.len() > LONGEST)
-        {
-            return self.shared(&trials[0]);
+        if derived.program.operations.len() > LONGEST {
+            return self.shared(derived);
+        }
+        let references = forms::references(self.graph, &roots);
+        let mut trials = vec![derived];
+        for form in &references[1..] {
+            trials.push(self.trial(form.clone(), false));
         }
         let points = points::points(self.graph, &self.symbols, &roots);
         let programs: Vec<&Program> = trials.iter().map(|trial| &trial.program).collect();

@@ -14,10 +14,10 @@ use lie_codegen::front::file::oversized;
 
 /// The stack that `lie` gives the compiler.
 const STACK: usize = 256 << 20;
-/// Messages that are kept, and the longest of them with its help in bytes: 50 of them are shown, 64 kB at most.
+/// Messages that are kept, and the longest of them with its help in bytes: 50 of them are shown, 128 kB at most.
 const MOST_MESSAGES: usize = 2000;
-const LONGEST_MESSAGE: usize = 5_000;
-const MOST_SHOWN: usize = 64_000;
+const LONGEST_MESSAGE: usize = 10_000;
+const MOST_SHOWN: usize = 128_000;
 
 /// Names of cases and their verdicts: `done`, or the kind of the first mistake. Of the others any verdict is right
 /// whose messages a person can read.
