@@ -216,7 +216,18 @@ fn the_program_is_judged_by_the_declaration() {
             "broken\\tPoisson",
             "failed: Poisson: a spoiled map passes, the measurement says nothing",
         ),
-        ("other\\tline", "failed: no kernel was shown to the judge"),
+        (
+            "unsound\\tfixed-point iteration",
+            "failed: fixed-point iteration: an equation whose solution is known is not solved as it should be",
+        ),
+        (
+            "kernel\\tnovel\\t0.1 0.2 0.3\\t1e9\\t0.0 0.0 0.0",
+            "failed: novel: the judge does not know it",
+        ),
+        (
+            "other\\tline",
+            "failed: ad_star_matrix: the judge has not seen it",
+        ),
     ] {
         let run = with_program(&[holds, line]);
         assert_eq!(run.code, Some(1), "{line}: {}", run.stderr);

@@ -8,7 +8,7 @@ use crate::characters::excerpt;
 
 /// The longest message and the longest remedy in characters; of more nobody would read the end. What
 /// a message quotes should be much shorter: [`LONGEST_QUOTE`].
-const LONGEST_TEXT: usize = 1200;
+const LONGEST_TEXT: usize = 1000;
 /// The longest expression that a message quotes, in characters.
 pub const LONGEST_QUOTE: usize = 400;
 /// How many mistakes are shown: whoever has more mends these first.
@@ -186,6 +186,12 @@ impl Report {
             self.errors += usize::from(!diagnostic.warning);
             self.diagnostics.push(diagnostic);
         }
+    }
+
+    /// Whether an error with this message was reported.
+    pub fn says(&self, message: &str) -> bool {
+        let mut errors = self.diagnostics.iter().filter(|d| !d.warning);
+        errors.any(|diagnostic| diagnostic.message == message)
     }
 
     /// Whether any error (not only warnings) was reported.

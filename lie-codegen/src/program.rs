@@ -56,11 +56,11 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
         Purpose::Verify => {
             let plain = plain(model, choices);
             let (module, entries) = plain.map_or((None, None), |(m, e)| (Some(m), Some(e)));
-            let evidence = evidence(model);
+            let (evidence, beside) = (evidence(model), beside(choices));
             (
                 quote! { measure::Verify },
                 module,
-                Some(quote! { #entries #evidence }),
+                Some(quote! { #entries #evidence #beside }),
             )
         }
         Purpose::Bench => (
@@ -152,6 +152,16 @@ fn evidence(model: &Model) -> TokenStream {
     add(source.discrete.is_some(), quote! { .with_discrete() });
     add(source.realization.is_some(), quote! { .with_realization() });
     calls
+}
+
+/// The methods over a declared realization: what they act on are its points, and the group element of the declared matrices
+/// only goes along with them.
+fn beside(choices: &[Choice]) -> TokenStream {
+    let realized = choices
+        .iter()
+        .filter(|choice| matches!(choice.solved(), Choice::Collective(_, Lift::Spec)));
+    let labels = realized.map(Choice::label);
+    quote! { #(.beside(#labels))* }
 }
 
 fn entry(choice: &Choice, purpose: Purpose) -> TokenStream {

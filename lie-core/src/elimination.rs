@@ -134,6 +134,11 @@ where
     }
 
     #[inline]
+    fn scale(&self, mu: &Self::State) -> S {
+        self.equation.scale(mu)
+    }
+
+    #[inline]
     fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
         self.equation.initial_guess(unknown);
     }
@@ -170,6 +175,10 @@ where
 
     fn resolved(&mut self, unknown: &Self::Unknown, end: &Self::State) -> S::Mask {
         self.equation.resolved(unknown, end)
+    }
+
+    fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {
+        self.equation.within_chart(unknown)
     }
 
     fn group_factor(

@@ -62,7 +62,14 @@ fn a_sound_system_passes() {
             .filter(|f| f[1] == label && f[6] == "holds");
         of_label.map(|f| f[2].clone()).collect::<Vec<_>>()
     };
-    for fact in ["generic form", "row exchanges", "rows", "group"] {
+    assert!(of("unsound").is_empty(), "{:?}", of("unsound"));
+    for fact in [
+        "generic form",
+        "row exchanges",
+        "failed steps",
+        "rows",
+        "group",
+    ] {
         assert!(
             facts("lie-midpoint").iter().any(|known| known == fact),
             "{fact}"
@@ -71,7 +78,7 @@ fn a_sound_system_passes() {
     assert!(facts("rk4").iter().any(|fact| fact == "group"));
     // four states, each with the kernels of three traits
     let kernels = of("kernel");
-    assert_eq!(kernels.len(), 4 * (11 + 3 + 1));
+    assert_eq!(kernels.len(), 4 * (11 + 3 + 2));
     let ad = kernels
         .iter()
         .find(|line| line[1] == "ad")
@@ -176,6 +183,7 @@ fn a_blind_measurement_is_noticed() {
         composed: false,
         with_tolerance: None,
         plain: None,
+        beside: false,
     };
     let system = Blind::<false>;
     let start = state(&system, &[0.6, -0.5, 0.7]);
@@ -192,6 +200,7 @@ fn a_blind_measurement_is_noticed() {
         composed: false,
         with_tolerance: None,
         plain: None,
+        beside: false,
     };
     let broken = broken_measurements(&Nonpolynomial, &Nonpolynomial, &ground, &subject);
     assert!(broken.is_empty(), "{broken:?}");

@@ -8,7 +8,8 @@
 //! step would depend on more than mu and leave the coadjoint orbit.
 
 use super::sparse::SparseMatrix;
-use crate::exact::matrix::{Span, solve};
+use crate::exact::matrix::solve;
+use crate::exact::span::{NoSpan, Span};
 use crate::exact::{Budget, Exhausted, Rational};
 
 /// The dual matrices by rows, `None` where there are none; `closed` says that the span is closed under
@@ -28,23 +29,25 @@ pub(super) fn dual(
     };
     let flat: Vec<Vec<Rational>> = basis.iter().map(SparseMatrix::flat).collect();
     let size = basis[0].rows().len();
+    budget.spend((flat.len() * flat.len() * size * size) as u64)?;
     // D^k = sum_b c_b basis_b^T has tr(D^k basis_a) = sum_b c_b (basis_b . basis_a)
     let gram: Vec<Vec<Rational>> = flat
         .iter()
         .map(|a| flat.iter().map(|b| dot(a, b)).collect())
         .collect();
-    budget.spend((flat.len() * flat.len() * size * size) as u64)?;
-    let duals = (0..matrices.len()).map(|k| {
-        let right: Vec<Rational> = (0..flat.len())
-            .map(|a| {
-                if a == k {
-                    Rational::ONE
-                } else {
-                    Rational::ZERO
-                }
-            })
-            .collect();
-        let coefficients = solve(&gram, &right)?;
+    // c is a row of the inverse, and the matrix is symmetric
+    let inverse = match Span::new(&gram, budget) {
+        Ok(inverse) => inverse,
+        Err(NoSpan::Dependent(_)) => return Ok(None),
+        Err(NoSpan::Exhausted) => return Err(Exhausted),
+    };
+    let mut duals = Vec::new();
+    for k in 0..matrices.len() {
+        let unit = |a: usize| Rational::from(i64::from(a == k));
+        let unit: Vec<Rational> = (0..flat.len()).map(unit).collect();
+        let Some(coefficients) = inverse.coordinates(&unit, budget)? else {
+            return Ok(None);
+        };
         let mut rows = vec![vec![Rational::ZERO; size]; size];
         for (coefficient, matrix) in coefficients.iter().zip(&flat) {
             for (position, entry) in matrix.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
@@ -52,9 +55,9 @@ pub(super) fn dual(
                 *place = &*place + &(coefficient * entry);
             }
         }
-        Some(rows)
-    });
-    Ok(duals.collect())
+        duals.push(rows);
+    }
+    Ok(Some(duals))
 }
 
 /// The matrices, which must be independent, and a basis of Z; `None` where the closure has another form.
@@ -65,7 +68,7 @@ pub(super) fn closure(
     let mut basis = matrices.to_vec();
     let mut known = 0;
     while known < basis.len() {
-        let Ok(mut span) = span(&basis) else {
+        let Some(mut span) = span(&basis, budget)? else {
             return Ok(None);
         };
         // triples in which something new takes part
@@ -110,7 +113,7 @@ fn extend(
 ) -> Result<bool, Exhausted> {
     let flat = matrix.flat();
     budget.spend(flat.len() as u64)?;
-    if span.coordinates(&flat).is_some() {
+    if span.coordinates(&flat, budget)?.is_some() {
         return Ok(true);
     }
     // z = matrix - sum_i c_i rho_i with [z, rho_j] = 0 for all j
@@ -134,7 +137,7 @@ fn extend(
     let coefficients = if rows.is_empty() {
         vec![Rational::ZERO; matrices.len()]
     } else {
-        match solve(&rows, &right) {
+        match solve(&rows, &right, budget)? {
             Some(coefficients) => coefficients,
             None => return Ok(false),
         }
@@ -148,16 +151,22 @@ fn extend(
     let size = matrix.rows().len();
     let rows: Vec<Vec<Rational>> = rest.chunks(size).map(<[Rational]>::to_vec).collect();
     basis.push(SparseMatrix::from_rows(&rows));
-    match self::span(basis) {
-        Ok(larger) => *span = larger,
-        Err(()) => return Ok(false),
+    let larger = self::span(basis, budget)?;
+    let found = larger.is_some();
+    if let Some(larger) = larger {
+        *span = larger;
     }
-    Ok(true)
+    Ok(found)
 }
 
-fn span(basis: &[SparseMatrix]) -> Result<Span, ()> {
+/// The span of matrices, `None` where they are dependent.
+fn span(basis: &[SparseMatrix], budget: &Budget) -> Result<Option<Span>, Exhausted> {
     let flat: Vec<Vec<Rational>> = basis.iter().map(SparseMatrix::flat).collect();
-    Span::new(&flat).map_err(drop)
+    match Span::new(&flat, budget) {
+        Ok(span) => Ok(Some(span)),
+        Err(NoSpan::Dependent(_)) => Ok(None),
+        Err(NoSpan::Exhausted) => Err(Exhausted),
+    }
 }
 
 fn dot(a: &[Rational], b: &[Rational]) -> Rational {

@@ -219,7 +219,8 @@ pub(crate) fn from_matrices(matrices: &[Integers]) -> StructureConstants<Fractio
         .into_iter()
         .map(|m| m.concat())
         .collect();
-    let span = crate::exact::matrix::Span::new(&flat).unwrap();
+    let budget = crate::exact::Budget::new(1 << 40);
+    let span = crate::exact::span::Span::new(&flat, &budget).unwrap();
     let mut entries = Vec::new();
     for i in 0..matrices.len() {
         for j in i + 1..matrices.len() {
@@ -233,7 +234,10 @@ pub(crate) fn from_matrices(matrices: &[Integers]) -> StructureConstants<Fractio
                 .zip(ba.concat())
                 .map(|(a, b)| Rational::from(a - b))
                 .collect();
-            let coordinates = span.coordinates(&difference).expect("closed");
+            let coordinates = span
+                .coordinates(&difference, &budget)
+                .unwrap()
+                .expect("closed");
             for (k, c) in coordinates
                 .into_iter()
                 .enumerate()

@@ -26,7 +26,7 @@
 
 use super::envelope;
 use super::sparse::SparseMatrix;
-use crate::exact::matrix::Span;
+use crate::exact::span::{NoSpan, Span};
 use crate::exact::{Budget, Exhausted, Rational};
 
 /// A function of degree two in z: the matrix of its quadratic form in `(1, z)`, twice the function itself.
@@ -59,9 +59,10 @@ pub fn closure(forms: &[Form], budget: &Budget) -> Result<Closure, Exhausted> {
         let matrix = flow(form, points / 2);
         flat.push(matrix.flat());
         budget.spend((flat.len() * flat.len() * flat[0].len()) as u64)?;
-        match Span::new(&flat) {
+        match Span::new(&flat, budget) {
             Ok(_) => matrices.push(matrix),
-            Err(_) => drop(flat.pop()),
+            Err(NoSpan::Dependent(_)) => drop(flat.pop()),
+            Err(NoSpan::Exhausted) => return Err(Exhausted),
         }
     }
     Ok(match envelope::closure(&matrices, budget)? {

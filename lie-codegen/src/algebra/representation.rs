@@ -5,7 +5,7 @@ use super::sparse::SparseMatrix;
 use super::{Scope, StructureConstants, envelope, triple};
 use crate::ast::{Algebra, Matrix};
 use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::exact::matrix::Span;
+use crate::exact::span::{NoSpan, Span};
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
 
 /// Entries of all matrices together that are still looked at.
@@ -172,9 +172,13 @@ impl Matrices<'_> {
         budget: &Budget,
         report: &mut Report,
     ) -> Option<StructureConstants<Fraction>> {
-        let span = match Span::new(&self.flat()) {
+        let span = match Span::new(&self.flat(), budget) {
             Ok(span) => span,
-            Err(relation) => {
+            Err(NoSpan::Exhausted) => {
+                self.limit(report);
+                return None;
+            }
+            Err(NoSpan::Dependent(relation)) => {
                 let form: Vec<_> = relation
                     .into_iter()
                     .enumerate()
@@ -199,13 +203,13 @@ impl Matrices<'_> {
         let mut entries = Vec::new();
         for i in 0..self.sparse.len() {
             for j in i + 1..self.sparse.len() {
-                let Ok(commutator) =
-                    SparseMatrix::commutator(&self.sparse[i], &self.sparse[j], budget)
-                else {
+                let commutator = SparseMatrix::commutator(&self.sparse[i], &self.sparse[j], budget);
+                let coordinates = commutator.and_then(|c| span.coordinates(&c.flat(), budget));
+                let Ok(coordinates) = coordinates else {
                     self.limit(report);
                     return None;
                 };
-                let Some(coordinates) = span.coordinates(&commutator.flat()) else {
+                let Some(coordinates) = coordinates else {
                     let (a, b) = (scope.basis()[i], scope.basis()[j]);
                     report.push(
                         Diagnostic::new(
@@ -290,8 +294,10 @@ impl Matrices<'_> {
 
     /// The triple product and the dual matrices, for independent matrices.
     fn closures(&self, budget: &Budget) -> Result<Closures, Exhausted> {
-        let Ok(span) = Span::new(&self.flat()) else {
-            return Ok((None, None));
+        let span = match Span::new(&self.flat(), budget) {
+            Ok(span) => span,
+            Err(NoSpan::Dependent(_)) => return Ok((None, None)),
+            Err(NoSpan::Exhausted) => return Err(Exhausted),
         };
         let triple = triple::closure(&self.sparse, &span, budget)?;
         let dual = envelope::dual(&self.sparse, triple.is_some(), budget)?;

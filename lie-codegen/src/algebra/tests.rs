@@ -1,7 +1,7 @@
 use super::known::{self, Integers};
 use super::sparse::SparseMatrix;
 use super::*;
-use crate::exact::matrix::Span;
+use crate::exact::span::Span;
 use crate::exact::{Budget, Fraction, Rational};
 
 fn budget() -> Budget {
@@ -18,7 +18,7 @@ fn triple(matrices: &[Vec<Vec<Rational>>]) -> Option<Vec<representation::TripleE
         .iter()
         .map(|m| SparseMatrix::from_rows(m))
         .collect();
-    super::triple::closure(&sparse, &Span::new(&flat).unwrap(), &budget()).unwrap()
+    super::triple::closure(&sparse, &Span::new(&flat, &budget()).unwrap(), &budget()).unwrap()
 }
 
 fn closed(matrices: &[Integers]) -> bool {

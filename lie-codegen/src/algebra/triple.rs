@@ -3,7 +3,7 @@
 
 use super::representation::TripleEntry;
 use super::sparse::SparseMatrix;
-use crate::exact::matrix::Span;
+use crate::exact::span::Span;
 use crate::exact::{Budget, Exhausted, Rational};
 
 /// The triple product of the matrices, `None` where their span is not closed under it.
@@ -29,7 +29,7 @@ pub(super) fn closure(
                 ];
                 let sum = SparseMatrix::combine(&both, budget)?.flat();
                 budget.spend(sum.len() as u64)?;
-                let Some(coordinates) = span.coordinates(&sum) else {
+                let Some(coordinates) = span.coordinates(&sum, budget)? else {
                     return Ok(None);
                 };
                 for (d, value) in coordinates.iter().enumerate().filter(|(_, v)| !v.is_zero()) {

@@ -10,6 +10,10 @@ use crate::symbolic::{ExprId, Graph, Node, Symbol};
 /// neither the search for common terms nor the compiler behind it gets through many more.
 const MOST_ENTRIES: usize = 6_000;
 
+/// The most terms that the brackets may have together. Those of gl(16) have 7,900, and in a basis in which the
+/// brackets are longer there is more code than entries.
+const MOST_TERMS: usize = 12_000;
+
 /// A set of coordinates, 64 in a word.
 type Set = Vec<u64>;
 
@@ -28,6 +32,20 @@ pub fn check(
         );
         report.push(Diagnostic::new(Kind::Limit, place, message).help(
             "kernels are straight-line code; choose a basis in which more brackets vanish, or a smaller system",
+        ));
+        return false;
+    }
+    let terms = |id: &ExprId| match graph.node(*id) {
+        Node::Sum { terms, .. } => terms.len(),
+        _ => 1,
+    };
+    let terms: usize = matrix.entries.iter().map(|(.., value)| terms(value)).sum();
+    if terms > MOST_TERMS {
+        let message = format!(
+            "the brackets have {terms} terms together, more than the limit of {MOST_TERMS}"
+        );
+        report.push(Diagnostic::new(Kind::Limit, place, message).help(
+            "kernels are straight-line code; choose a basis in which the brackets are shorter, or a smaller system",
         ));
         return false;
     }

@@ -1,7 +1,11 @@
 //! Functional independence: the gradients are linearly independent at generic points.
 
 use super::ranks;
+use crate::exact::elimination::Row;
 use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// Functions without a common domain that are compared with those before them.
+const MOST_APART: usize = 16;
 
 /// What a function adds to those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,33 +31,29 @@ pub fn check(graph: &Graph, functions: &[ExprId], dimension: usize) -> Vec<Stand
         })
         .collect();
     let all: Vec<&Vec<ExprId>> = gradients.iter().collect();
-    if rank(&scratch, &all) == Some(functions.len()) {
-        return vec![Standing::Independent; functions.len()];
-    }
-    let mut kept: Vec<usize> = Vec::new();
-    let mut standings = Vec::new();
-    for (index, gradient) in gradients.iter().enumerate() {
-        let standing = if gradient.iter().all(|g| scratch.is_zero(*g))
-            || rank(&scratch, &[gradient]) == Some(0)
-        {
-            Standing::Constant
-        } else {
-            let mut rows: Vec<&Vec<ExprId>> = kept.iter().map(|k| &gradients[*k]).collect();
-            rows.push(gradient);
-            // Where nothing can be evaluated, nothing speaks against it.
-            match rank(&scratch, &rows) {
-                Some(rank) if rank < rows.len() => Standing::Dependent,
-                _ => Standing::Independent,
-            }
-        };
-        if standing == Standing::Independent {
-            kept.push(index);
-        }
-        standings.push(standing);
-    }
-    standings
+    let rows = ranks::standings(&scratch, &all).unwrap_or_else(|| apart(&scratch, &all));
+    let standings = rows.into_iter().map(|row| match row {
+        Row::New => Standing::Independent,
+        Row::Dependent => Standing::Dependent,
+        Row::Zero => Standing::Constant,
+    });
+    standings.collect()
 }
 
-fn rank(graph: &Graph, rows: &[&Vec<ExprId>]) -> Option<usize> {
-    ranks::generic(graph, rows, rows.len())
+/// Where no point is in the domain of all: each function with those before it that share a point with it.
+/// Where nothing can be evaluated, nothing speaks against a function.
+fn apart(graph: &Graph, gradients: &[&Vec<ExprId>]) -> Vec<Row> {
+    let mut kept: Vec<&Vec<ExprId>> = Vec::new();
+    let mut found = Vec::new();
+    for gradient in gradients {
+        kept.push(gradient);
+        let last = |rows: &[&Vec<ExprId>]| ranks::standings(graph, rows)?.pop();
+        let together = (kept.len() <= MOST_APART).then(|| last(&kept)).flatten();
+        let row = together.or_else(|| last(&[gradient])).unwrap_or(Row::New);
+        if row != Row::New {
+            kept.pop();
+        }
+        found.push(row);
+    }
+    found
 }

@@ -19,6 +19,7 @@ const MAX_BITS: u64 = 1 << 14;
 const MAX_BITS_TOGETHER: u64 = 1 << 20;
 /// The largest arena that expressions may fill, nodes and operands together.
 const MAX_SIZE: usize = 200_000;
+const TOO_LARGE: &str = "the expressions are too large";
 
 /// An expression in the arena: its normal form, and the form in which it was written.
 #[derive(Clone, Copy)]
@@ -86,6 +87,10 @@ impl<'a, 'b> Lowering<'a, 'b> {
                 "give parts of it names with `let`",
             );
         }
+        // Beyond the limit there is nothing to be found: it is said once.
+        if self.graph.size() > MAX_SIZE && self.report.says(TOO_LARGE) {
+            return None;
+        }
         self.depth += 1;
         let lowered = self.lower_kind(expr);
         self.depth -= 1;
@@ -109,10 +114,13 @@ impl<'a, 'b> Lowering<'a, 'b> {
     /// Refuses what would eat memory: the limits hold for every intermediate result.
     fn bounded(&mut self, id: ExprId, origin: Origin) -> Option<ExprId> {
         if self.graph.size() > MAX_SIZE {
+            if self.report.says(TOO_LARGE) {
+                return None;
+            }
             return self.fail(
                 Kind::Limit,
                 origin,
-                "the expressions are too large",
+                TOO_LARGE,
                 "shorten them; powers of sums need not be multiplied out",
             );
         }

@@ -10,7 +10,7 @@ mod breadth;
 mod casimirs;
 mod cocycle;
 pub mod configuration;
-mod confirmation;
+pub(crate) mod confirmation;
 mod constant;
 mod contradiction;
 mod defaults;

@@ -56,16 +56,39 @@ pub fn is_nonzero(graph: &Graph, id: ExprId) -> bool {
 /// The value of the last of the parts at a point of a line through the coordinates; `None` at poles and
 /// with roots or functions. The parts are in ascending order.
 pub fn on_line(graph: &Graph, parts: &[ExprId], step: Residue) -> Option<Residue> {
+    let symbol = |symbol| {
+        let value = of_symbol(0, symbol);
+        match symbol {
+            Symbol::Coordinate(i) => value.plus(step.times(drawn(0, DIRECTION, i as u64))),
+            _ => value,
+        }
+    };
+    values(graph, parts, of_pi(0), &symbol)?.last().copied()
+}
+
+/// The values of expressions at a point; `None` as above.
+pub fn at_point(graph: &Graph, roots: &[ExprId], point: usize) -> Option<Vec<Residue>> {
+    let parts = graph.dependencies(roots);
+    let symbol = |symbol| of_symbol(point, symbol);
+    let values = values(graph, &parts, of_pi(point), &symbol)?;
+    let of = |root: &ExprId| Some(values[parts.binary_search(root).ok()?]);
+    roots.iter().map(of).collect()
+}
+
+/// The values of the parts, which are in ascending order.
+fn values(
+    graph: &Graph,
+    parts: &[ExprId],
+    pi: Residue,
+    symbol: &dyn Fn(Symbol) -> Residue,
+) -> Option<Vec<Residue>> {
     let mut values: Vec<Residue> = Vec::with_capacity(parts.len());
     for id in parts {
         let of = |child: &ExprId| Some(values[parts.binary_search(child).ok()?]);
         let value = match graph.node(*id) {
             Node::Number(value) => Residue::of(value)?,
-            Node::Pi => of_pi(0),
-            Node::Symbol(symbol @ Symbol::Coordinate(i)) => {
-                of_symbol(0, *symbol).plus(step.times(drawn(0, DIRECTION, *i as u64)))
-            }
-            Node::Symbol(symbol) => of_symbol(0, *symbol),
+            Node::Pi => pi,
+            Node::Symbol(name) => symbol(*name),
             Node::Sum { constant, terms } => {
                 let mut sum = Residue::of(constant)?;
                 for (term, coefficient) in terms {
@@ -86,5 +109,5 @@ pub fn on_line(graph: &Graph, parts: &[ExprId], step: Residue) -> Option<Residue
         };
         values.push(value);
     }
-    values.last().copied()
+    Some(values)
 }

@@ -1,12 +1,14 @@
 //! Exact numbers: the compiler never computes in floats before it emits.
 mod ball;
 mod budget;
+pub mod elimination;
 mod fraction;
 pub mod matrix;
 mod monomial;
 mod polynomial;
 mod rational;
 mod residue;
+pub mod span;
 pub use ball::{Ball, Precision};
 pub use budget::{Budget, Exhausted};
 pub use fraction::Fraction;

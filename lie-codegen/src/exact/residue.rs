@@ -33,7 +33,7 @@ impl Residue {
             Some((n, d)) => (Self::of_word(n), Self::of_word(d)),
             None => {
                 let big = value.to_big();
-                (Self::of_big(big.numer()), Self::of_big(big.denom()))
+                (Self::of_integer(big.numer()), Self::of_integer(big.denom()))
             }
         };
         match denominator {
@@ -51,7 +51,8 @@ impl Residue {
         }
     }
 
-    fn of_big(value: &BigInt) -> Self {
+    /// The residue of an integer.
+    pub fn of_integer(value: &BigInt) -> Self {
         let rest = value.mod_floor(&BigInt::from(PRIME));
         Self(rest.to_u64().unwrap_or(0))
     }
@@ -63,18 +64,24 @@ impl Residue {
 
     /// The sum.
     pub fn plus(self, other: Self) -> Self {
-        Self((self.0 + other.0) % PRIME)
+        Self::reduced(self.0 + other.0)
     }
 
     /// The difference.
     pub fn minus(self, other: Self) -> Self {
-        Self((self.0 + (PRIME - other.0)) % PRIME)
+        Self::reduced(self.0 + (PRIME - other.0))
     }
 
     /// The product.
     pub fn times(self, other: Self) -> Self {
         let product = u128::from(self.0) * u128::from(other.0);
-        Self((product % u128::from(PRIME)) as u64)
+        // 2^61 = 1: the upper bits count as lower ones.
+        Self::reduced((product as u64 & PRIME) + (product >> 61) as u64)
+    }
+
+    /// The residue of a number below 2 (2^61 - 1) + 1.
+    fn reduced(sum: u64) -> Self {
+        Self(if sum >= PRIME { sum - PRIME } else { sum })
     }
 
     /// The inverse; `None` of zero.

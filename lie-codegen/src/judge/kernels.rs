@@ -10,6 +10,9 @@ use super::system::Declared;
 /// Entries of second derivatives are looked at in so many columns that their work stays below this.
 const WORK: usize = 4_000_000;
 
+/// A determinant that is below 1 by so much is not one by round-off.
+const EIGENVALUES: f64 = 1e-9;
+
 type Once = Jet<Rounded>;
 type Twice = Jet<Jet<Rounded>>;
 
@@ -182,20 +185,29 @@ impl Kernels {
         self.ad_star_columns(xi).into_iter().map(pair).collect()
     }
 
+    /// Whether the matrix A of an element shows an eigenvalue that is not imaginary: with imaginary ones alone, which come in
+    /// pairs, `det (1 - s A)` is at least 1 for every s.
+    pub(super) fn has_real_eigenvalue(&self, xi: &[f64]) -> Option<bool> {
+        let matrices = self.declared.matrices::<Rounded>()?;
+        let matrix = element(&matrices, xi);
+        let entries = matrix.iter().flatten().map(|entry| entry.value.abs());
+        let largest = entries.fold(f64::MIN_POSITIVE, f64::max);
+        let shows = |s: f64| {
+            let row = |(r, row): (usize, &Vec<Rounded>)| -> Vec<f64> {
+                let entry =
+                    |(c, a): (usize, &Rounded)| f64::from(u8::from(r == c)) - s / largest * a.value;
+                row.iter().enumerate().map(entry).collect()
+            };
+            let shifted = matrix.iter().enumerate().map(row).collect();
+            linear::determinant(shifted) < 1.0 - EIGENVALUES
+        };
+        Some([0.5, -0.5, 1.0, 2.0].into_iter().any(shows))
+    }
+
     /// `<mu, (x e_b z + z e_b x)/2>` by products of the declared matrices.
     pub(super) fn triple(&self, x: &[f64], z: &[f64], mu: &[f64]) -> Option<Vec<Rounded>> {
         let matrices = self.declared.matrices::<Rounded>()?;
-        let size = matrices.first()?.len();
-        let element = |coordinates: &[f64]| -> linear::Rows<Rounded> {
-            let coordinates = inputs(coordinates);
-            let entry = |r: usize, c: usize| {
-                let terms = matrices.iter().zip(&coordinates);
-                Rounded::sum(terms.map(|(m, x)| m[r][c].mul(x)))
-            };
-            let row = |r| (0..size).map(|c| entry(r, c)).collect();
-            (0..size).map(row).collect()
-        };
-        let (x, z, mu) = (element(x), element(z), inputs(mu));
+        let (x, z, mu) = (element(&matrices, x), element(&matrices, z), inputs(mu));
         let product =
             |a: &linear::Rows<Rounded>, e: &linear::Rows<Rounded>, b: &linear::Rows<Rounded>| {
                 linear::product(&linear::product(a, e), b)
@@ -211,6 +223,18 @@ impl Kernels {
         };
         Some(matrices.iter().map(component).collect())
     }
+}
+
+/// The matrix of an element of the algebra.
+fn element(matrices: &[linear::Rows<Rounded>], coordinates: &[f64]) -> linear::Rows<Rounded> {
+    let coordinates = inputs(coordinates);
+    let size = matrices.first().map_or(0, Vec::len);
+    let entry = |r: usize, c: usize| {
+        let terms = matrices.iter().zip(&coordinates);
+        Rounded::sum(terms.map(|(m, x)| m[r][c].mul(x)))
+    };
+    let row = |r| (0..size).map(|c| entry(r, c)).collect();
+    (0..size).map(row).collect()
 }
 
 impl Derivatives {

@@ -61,3 +61,30 @@ pub(super) fn coordinates<T: Number>(matrices: &[Rows<T>], target: &Rows<T>) -> 
     let right = matrices.iter().map(|a| vec![pair(a, target)]).collect();
     solve(gram, right).into_iter().flatten().collect()
 }
+
+/// The determinant, by elimination with row exchanges.
+pub(super) fn determinant(mut rows: Vec<Vec<f64>>) -> f64 {
+    let mut determinant = 1.0;
+    for k in 0..rows.len() {
+        let largest =
+            (k..rows.len()).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs()));
+        let pivot = largest.unwrap_or(k);
+        if rows[pivot][k] == 0.0 {
+            return 0.0;
+        }
+        if pivot != k {
+            rows.swap(pivot, k);
+            determinant = -determinant;
+        }
+        determinant *= rows[k][k];
+        let (above, below) = rows.split_at_mut(k + 1);
+        let across = &above[k];
+        for row in below {
+            let multiplier = row[k] / across[k];
+            for (entry, a) in row.iter_mut().zip(across).skip(k) {
+                *entry -= multiplier * a;
+            }
+        }
+    }
+    determinant
+}

@@ -144,6 +144,16 @@ impl Judge {
         Some(worst)
     }
 
+    /// Whether the declaration alone does not say what a kernel should give: the matrices and the velocity of the larger
+    /// algebra of a system on `T*G` or of the time are the compiler's own.
+    pub fn exempts(&self, kernel: &str) -> bool {
+        self.kernels.declared.configuration.is_some()
+            && matches!(
+                kernel,
+                "triple" | "imaginary" | "lagrangian" | "momentum" | "inertia"
+            )
+    }
+
     /// How far a state at a time is from the solution of the declared equations, in units of what is allowed: 1 at most for one
     /// that is right. `None` where the solution is too much work, or not had from the declaration alone.
     pub fn solution(&self, start: &[f64], span: f64, end: &[f64]) -> Option<f64> {
@@ -184,6 +194,15 @@ impl Judge {
             // the matrices of a larger algebra are the compiler's own
             ("triple", [x, z, mu]) if kernels.declared.configuration.is_none() => {
                 exact(kernels.triple(x, z, mu)?)
+            }
+            ("imaginary", [xi]) if kernels.declared.configuration.is_none() => {
+                let said = sample.values.first()?.round();
+                let possible = if kernels.has_real_eigenvalue(xi)? {
+                    0.0
+                } else {
+                    said
+                };
+                exact(vec![Rounded::rounded(possible, 1.0)])
             }
             ("casimirs", [mu]) => exact(self.casimirs(mu)),
             ("casimir_gradient", [mu]) => {

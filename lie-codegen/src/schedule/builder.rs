@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rustc_hash::FxHashMap as HashMap;
 
 use super::Known;
-use super::collect::is_known;
+use super::collect::{Answers, is_known};
 use super::formula::{Atom, AtomId, Formula, Signed};
 use super::inverse::Inverse;
 use super::program::Value;
@@ -22,7 +22,7 @@ pub(super) struct Builder<'a> {
     group: bool,
     /// Coefficients that are prepared with the opposite sign.
     flipped: BTreeSet<ExprId>,
-    cache: HashMap<ExprId, bool>,
+    answers: &'a mut Answers,
     pub(super) inverse: BTreeMap<ExprId, Inverse>,
     pub(super) converted: HashMap<ExprId, Signed>,
     pub(super) formula: Formula,
@@ -33,7 +33,7 @@ pub fn build(
     graph: &mut Graph,
     symbols: &[Symbol],
     roots: &[ExprId],
-    known: Known,
+    (known, answers): (Known, &mut Answers),
     group: bool,
     flipped: BTreeSet<ExprId>,
 ) -> (Formula, BTreeSet<ExprId>) {
@@ -42,13 +42,14 @@ pub fn build(
         index: HashMap::default(),
         definitions: Vec::new(),
         outputs: Vec::new(),
+        can_group: false,
     };
     let mut builder = Builder {
         graph,
         known,
         group,
         flipped,
-        cache: HashMap::default(),
+        answers,
         inverse: BTreeMap::new(),
         converted: HashMap::default(),
         formula,
@@ -84,7 +85,7 @@ pub fn build(
 
 impl Builder<'_> {
     pub(super) fn is_known(&mut self, id: ExprId) -> bool {
-        is_known(self.graph, id, self.known, &mut self.cache)
+        is_known(self.graph, id, self.known, self.answers)
     }
 
     /// Whether a power of a known quantity goes into a prepared coefficient. Where nothing is known but
@@ -217,7 +218,9 @@ impl Builder<'_> {
         let mut signed = Vec::new();
         for coefficient in order {
             let group = groups.remove(&coefficient).unwrap_or_default();
-            if self.group && coefficient != one && group.len() > 1 {
+            let common = coefficient != one && group.len() > 1;
+            self.formula.can_group |= common;
+            if self.group && common {
                 let mut inner: Vec<Signed> = group
                     .iter()
                     .map(|(rest, negative)| {

@@ -1,5 +1,6 @@
 //! Which form of a task becomes the program.
 
+use super::collect::Collector;
 use super::forms::{self, Roots};
 use super::formula::Formula;
 use super::judge::Judge;
@@ -11,28 +12,32 @@ use crate::symbolic::{Graph, Symbol};
 const MOST_SHARED: usize = 4;
 /// A form that has so many times the operations of the shortest before sharing is hopeless.
 const HOPELESS: usize = 2;
+/// A kernel of more operations is computed as it was derived.
+const LONGEST: usize = 8_000;
 
 /// The choice of a program for one task.
 pub struct Choice<'a> {
     graph: &'a mut Graph,
     symbols: Vec<Symbol>,
     known: Known,
+    collector: &'a mut Collector,
     budget: usize,
 }
 
-/// A form, and its program before pairs are shared.
+/// A form, its formula, and the program before pairs are shared.
 struct Trial {
     roots: Roots,
-    group: bool,
+    formula: Formula,
     program: Program,
 }
 
 impl<'a> Choice<'a> {
-    pub fn new(graph: &'a mut Graph, symbols: Vec<Symbol>, known: Known) -> Self {
+    pub fn new(graph: &'a mut Graph, collector: &'a mut Collector, symbols: Vec<Symbol>) -> Self {
         Self {
             graph,
             symbols,
-            known,
+            known: collector.known(),
+            collector,
             budget: share::BUDGET,
         }
     }
@@ -42,38 +47,45 @@ impl<'a> Choice<'a> {
         // What is prepared is computed as it stands, once.
         if self.known == Known::Nothing {
             let trial = self.trial(roots, false);
-            return self.shared(&trial);
+            return self.shared(trial);
+        }
+        let derived = self.trial(roots.clone(), false);
+        // Every further form would take seconds.
+        if derived.program.operations.len() > LONGEST {
+            return self.shared(derived);
         }
         let references = forms::references(self.graph, &roots);
-        let trials: Vec<Trial> = references
-            .iter()
-            .map(|form| self.trial(form.clone(), false))
-            .collect();
+        let mut trials = vec![derived];
+        for form in &references[1..] {
+            trials.push(self.trial(form.clone(), false));
+        }
         let points = points::points(self.graph, &self.symbols, &roots);
         let programs: Vec<&Program> = trials.iter().map(|trial| &trial.program).collect();
-        let judge = Judge::new(self.graph, points, &programs);
-        let trials = self.admitted(trials, &references, &judge);
-        self.best(trials, &judge)
-    }
-
-    fn formula(&mut self, roots: &Roots, group: bool) -> Formula {
-        Formula::new(self.graph, &self.symbols, roots, self.known, group)
+        let mut judge = Judge::new(self.graph, &points, &programs);
+        let trials = self.admitted(trials, &references, &mut judge);
+        self.best(trials, references, &mut judge)
     }
 
     fn trial(&mut self, roots: Roots, group: bool) -> Trial {
-        let formula = self.formula(&roots, group);
+        let formula = Formula::new(
+            self.graph,
+            &self.symbols,
+            &roots,
+            self.known,
+            group,
+            &mut self.collector.answers,
+        );
         Trial {
             program: reuse::reuse(linearise::linearise(&formula)),
             roots,
-            group,
+            formula,
         }
     }
 
     /// The program of a trial with pairs shared.
-    fn shared(&mut self, trial: &Trial) -> Program {
-        let mut formula = self.formula(&trial.roots, trial.group);
-        share::share(&mut formula, &mut self.budget);
-        reuse::reuse(linearise::linearise(&formula))
+    fn shared(&mut self, mut trial: Trial) -> Program {
+        share::share(&mut trial.formula, &mut self.budget);
+        reuse::reuse(linearise::linearise(&trial.formula))
     }
 
     /// All forms that may stand for the written one, with their variants; at least one.
@@ -81,9 +93,9 @@ impl<'a> Choice<'a> {
         &mut self,
         mut trials: Vec<Trial>,
         references: &[Roots],
-        judge: &Judge,
+        judge: &mut Judge,
     ) -> Vec<Trial> {
-        for form in forms::rewritten(self.graph, references, self.known) {
+        for form in forms::rewritten(self.graph, references, self.collector) {
             trials.push(self.trial(form, false));
         }
         let losses: Vec<Vec<f64>> = trials
@@ -102,16 +114,24 @@ impl<'a> Choice<'a> {
     }
 
     /// The trials with their variants, and the best of them with common coefficients pulled out.
-    fn varied(&mut self, trials: Vec<Trial>) -> Vec<Trial> {
+    fn varied(&mut self, mut tried: Vec<Trial>) -> Vec<Trial> {
         let mut variants: Vec<Roots> = Vec::new();
-        for trial in &trials {
-            for form in forms::variants(self.graph, &self.symbols, &trial.roots, self.known) {
+        for trial in &tried {
+            for form in forms::variants(self.graph, &self.symbols, &trial.roots, self.collector) {
                 forms::add(&mut variants, form);
             }
         }
-        let plain = variants.into_iter().map(|form| self.trial(form, false));
+        let plain = variants.into_iter().map(|form| {
+            match tried.iter().position(|trial| trial.roots == form) {
+                Some(place) => tried.swap_remove(place),
+                None => self.trial(form, false),
+            }
+        });
         let mut trials = promising(plain.collect());
         for index in 0..trials.len() {
+            if !trials[index].formula.can_group {
+                continue;
+            }
             let grouped = self.trial(trials[index].roots.clone(), true);
             if grouped.program != trials[index].program {
                 trials.push(grouped);
@@ -139,18 +159,40 @@ impl<'a> Choice<'a> {
         roots
     }
 
-    /// The cheapest program after sharing among the most promising trials.
-    fn best(&mut self, trials: Vec<Trial>, judge: &Judge) -> Program {
-        let mut programs: Vec<Program> = trials.iter().map(|trial| self.shared(trial)).collect();
+    /// The cheapest program after sharing among the most promising trials. Where sharing costs all of them
+    /// digits, a reference takes their place; where it costs the references digits too, the least loss counts.
+    fn best(&mut self, trials: Vec<Trial>, references: Vec<Roots>, judge: &mut Judge) -> Program {
+        let trials = trials.into_iter();
+        let mut programs: Vec<Program> = trials.map(|trial| self.shared(trial)).collect();
         programs.sort_by_key(|program| program.counts.weight());
-        let losses: Vec<f64> = programs
-            .iter()
-            .map(|program| judge.worst(self.graph, program))
-            .collect();
-        let admitted = losses.iter().position(|loss| Judge::admits(*loss));
-        let least = || (0..losses.len()).min_by(|a, b| losses[*a].total_cmp(&losses[*b]));
-        let chosen = admitted.or_else(least).unwrap_or(0);
-        programs.swap_remove(chosen)
+        let mut least: Option<(f64, Program)> = None;
+        for program in programs {
+            if !self.loses(&program, judge, &mut least) {
+                return program;
+            }
+        }
+        for form in references {
+            let trial = self.trial(form, false);
+            let program = self.shared(trial);
+            if !self.loses(&program, judge, &mut least) {
+                return program;
+            }
+        }
+        least.map(|(_, program)| program).unwrap_or_default()
+    }
+
+    /// Whether a program loses digits; it is kept if it loses the least so far.
+    fn loses(
+        &self,
+        program: &Program,
+        judge: &mut Judge,
+        least: &mut Option<(f64, Program)>,
+    ) -> bool {
+        let loss = judge.worst(self.graph, program);
+        if least.as_ref().is_none_or(|(known, _)| loss < *known) {
+            *least = Some((loss, program.clone()));
+        }
+        !Judge::admits(loss)
     }
 }
 

@@ -14,12 +14,16 @@ const LONGEST: usize = 64;
 /// The highest power of a sum that is multiplied out above the common one.
 const HIGHEST: i64 = 2;
 
+/// How many terms are looked at in all; the sums after that are left as they are.
+const MOST_WORK: usize = 200_000;
+
 /// Terms of a sum with their coefficients.
 type Terms = Vec<(ExprId, Rational)>;
 
 /// The combined roots; `None` where nothing can be combined.
 pub fn combine(graph: &mut Graph, roots: &[ExprId]) -> Option<Vec<ExprId>> {
     let mut image: HashMap<ExprId, ExprId> = HashMap::default();
+    let mut left = MOST_WORK;
     for id in graph.dependencies(roots) {
         let of = |terms: &[(ExprId, Rational)]| -> Terms {
             terms.iter().map(|(t, c)| (image[t], c.clone())).collect()
@@ -28,7 +32,7 @@ pub fn combine(graph: &mut Graph, roots: &[ExprId]) -> Option<Vec<ExprId>> {
             Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
             Node::Sum { constant, terms } => {
                 let terms = of(&terms);
-                combine_sum(graph, &constant, terms)
+                combine_sum(graph, &constant, terms, &mut left)
             }
             Node::Written(terms) => graph.rewritten(&of(&terms)),
             Node::Product(factors) => graph.power_product(&of(&factors)),
@@ -43,7 +47,12 @@ pub fn combine(graph: &mut Graph, roots: &[ExprId]) -> Option<Vec<ExprId>> {
     (combined != roots).then_some(combined)
 }
 
-fn combine_sum(graph: &mut Graph, constant: &Rational, mut terms: Terms) -> ExprId {
+fn combine_sum(
+    graph: &mut Graph,
+    constant: &Rational,
+    mut terms: Terms,
+    left: &mut usize,
+) -> ExprId {
     let one = graph.integer(1);
     if !constant.is_zero() {
         terms.push((one, constant.clone()));
@@ -51,7 +60,7 @@ fn combine_sum(graph: &mut Graph, constant: &Rational, mut terms: Terms) -> Expr
     while terms.len() <= LONGEST {
         let found = bases(graph, &terms)
             .into_iter()
-            .find_map(|base| over(graph, base, &terms));
+            .find_map(|base| over(graph, base, &terms, left));
         let Some(fewer) = found else { break };
         terms = fewer;
     }
@@ -72,8 +81,15 @@ fn bases(graph: &Graph, terms: &[(ExprId, Rational)]) -> Vec<ExprId> {
 }
 
 /// The terms over the lowest power of the base, if they become fewer operations that way.
-fn over(graph: &mut Graph, base: ExprId, terms: &[(ExprId, Rational)]) -> Option<Terms> {
+fn over(
+    graph: &mut Graph,
+    base: ExprId,
+    terms: &[(ExprId, Rational)],
+    left: &mut usize,
+) -> Option<Terms> {
     let parts = addends(graph, base)?;
+    let most = terms.len() * parts.len().saturating_pow(HIGHEST as u32);
+    *left = left.checked_sub(most)?;
     let exponents: Vec<Rational> = terms
         .iter()
         .map(|(term, _)| exponent_of(graph, *term, base))

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashMap as HashMap;
 
 use super::Known;
-use super::collect::is_known;
+use super::collect::{Answers, is_known};
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Graph, Node};
 
@@ -13,12 +13,16 @@ use crate::symbolic::{ExprId, Graph, Node};
 const LONGEST: usize = 400;
 
 /// The factored roots; `None` where nothing can be factored.
-pub fn factor(graph: &mut Graph, roots: &[ExprId], known: Known) -> Option<Vec<ExprId>> {
+pub fn factor(
+    graph: &mut Graph,
+    roots: &[ExprId],
+    known: Known,
+    answers: &mut Answers,
+) -> Option<Vec<ExprId>> {
     let mut image: HashMap<ExprId, ExprId> = HashMap::default();
-    let mut cache = HashMap::default();
     let mut changed = false;
     for id in graph.dependencies(roots) {
-        let new = if is_known(graph, id, known, &mut cache) {
+        let new = if is_known(graph, id, known, answers) {
             id
         } else {
             match graph.node(id).clone() {
@@ -27,7 +31,7 @@ pub fn factor(graph: &mut Graph, roots: &[ExprId], known: Known) -> Option<Vec<E
                     let terms: Vec<_> = terms.iter().map(|(t, c)| (image[t], c.clone())).collect();
                     let (sum, factored) =
                         factor_sum(graph, constant, terms, DEEPEST, &mut |graph, base| {
-                            is_known(graph, base, known, &mut cache)
+                            is_known(graph, base, known, answers)
                         });
                     changed |= factored;
                     sum

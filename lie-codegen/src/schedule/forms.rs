@@ -1,7 +1,8 @@
 //! The forms of a task that are tried: as derived, with the sums that were written taken apart, combined over
 //! common powers; each of them collected by monomials, with definitions folded in, and factored.
 
-use super::{Known, collect, combine, factor, fold};
+use super::collect::Collector;
+use super::{combine, factor, fold};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// The expressions of a task in one form: first those of the definitions, then the outputs.
@@ -15,7 +16,7 @@ pub fn references(graph: &mut Graph, roots: &[ExprId]) -> Vec<Roots> {
 }
 
 /// All other forms, without those that are known.
-pub fn rewritten(graph: &mut Graph, references: &[Roots], known: Known) -> Vec<Roots> {
+pub fn rewritten(graph: &mut Graph, references: &[Roots], collector: &mut Collector) -> Vec<Roots> {
     let mut bases: Vec<Roots> = references.to_vec();
     for form in references {
         let normal: Roots = form.iter().map(|id| graph.normal(*id)).collect();
@@ -25,7 +26,7 @@ pub fn rewritten(graph: &mut Graph, references: &[Roots], known: Known) -> Vec<R
         }
     }
     for index in 0..bases.len() {
-        if let Some(collected) = collect::collect(graph, &bases[index].clone(), known) {
+        if let Some(collected) = collector.collect(graph, &bases[index]) {
             add(&mut bases, collected);
         }
     }
@@ -33,13 +34,20 @@ pub fn rewritten(graph: &mut Graph, references: &[Roots], known: Known) -> Vec<R
 }
 
 /// A form with definitions folded in, factored, or both.
-pub fn variants(graph: &mut Graph, symbols: &[Symbol], form: &Roots, known: Known) -> Vec<Roots> {
+pub fn variants(
+    graph: &mut Graph,
+    symbols: &[Symbol],
+    form: &Roots,
+    collector: &mut Collector,
+) -> Vec<Roots> {
+    let known = collector.known();
     let mut forms = vec![form.clone()];
     if let Some(folded) = fold::fold(graph, symbols, form) {
         add(&mut forms, folded);
     }
     for index in 0..forms.len() {
-        if let Some(factored) = factor::factor(graph, &forms[index].clone(), known) {
+        if let Some(factored) = factor::factor(graph, &forms[index], known, &mut collector.answers)
+        {
             add(&mut forms, factored);
         }
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap as HashMap;
 
+use super::collect::Answers;
 use super::program::Value;
 use super::{Known, builder};
 use crate::exact::Rational;
@@ -48,6 +49,8 @@ pub struct Formula {
     pub(super) index: HashMap<Atom, AtomId>,
     pub definitions: Vec<(Symbol, Signed)>,
     pub outputs: Vec<Signed>,
+    /// Whether terms of a sum have a coefficient in common.
+    pub can_group: bool,
 }
 
 impl Formula {
@@ -59,13 +62,16 @@ impl Formula {
         roots: &[ExprId],
         known: Known,
         group: bool,
+        answers: &mut Answers,
     ) -> Self {
-        let first = builder::build(graph, symbols, roots, known, group, BTreeSet::new());
+        let mut build =
+            |flipped| builder::build(graph, symbols, roots, (known, answers), group, flipped);
+        let first = build(BTreeSet::new());
         // A coefficient that results need with a minus sign is prepared with it everywhere.
         if first.1.is_empty() {
             first.0
         } else {
-            builder::build(graph, symbols, roots, known, group, first.1).0
+            build(first.1).0
         }
     }
 

@@ -27,6 +27,8 @@ mod share;
 pub use program::{Counts, Operation, Program, Value};
 
 use crate::symbolic::{ExprId, Graph, Symbol};
+use choice::Choice;
+use collect::Collector;
 
 /// Which symbols are known before the kernel runs, so that expressions in them are prepared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,10 +66,14 @@ pub struct Task {
 /// The cheapest straight-line program found for a task, among those that compute as well as the form in
 /// which it was written.
 pub fn schedule(graph: &mut Graph, task: &Task) -> Program {
+    program(graph, &mut Collector::new(task.known), task)
+}
+
+fn program(graph: &mut Graph, collector: &mut Collector, task: &Task) -> Program {
     let definitions = task.definitions.iter().map(|(_, e)| *e);
     let roots: Vec<ExprId> = definitions.chain(task.outputs.iter().copied()).collect();
     let symbols: Vec<Symbol> = task.definitions.iter().map(|(s, _)| *s).collect();
-    choice::Choice::new(graph, symbols, task.known).program(roots)
+    Choice::new(graph, collector, symbols).program(roots)
 }
 
 /// One program for two tasks, of which the first is computed by the same operations whether alone or beside
@@ -76,12 +82,14 @@ pub fn schedule_beside(graph: &mut Graph, first: &Task, second: &Task) -> Progra
     let count = first.outputs.len();
     let mut both = first.clone();
     both.outputs.extend(&second.outputs);
-    let together = schedule(graph, &both);
-    let (alone, part) = (schedule(graph, first), together.part(0..count));
+    let collector = &mut Collector::new(first.known);
+    let together = program(graph, collector, &both);
+    let alone = program(graph, collector, first);
+    let part = together.part(0..count);
     if part.counts.weight() <= alone.counts.weight() {
         return together;
     }
-    let rest = schedule(graph, second);
+    let rest = program(graph, collector, second);
     let apart = reuse::reuse(alone.clone().followed_by(&rest));
     let weight = |alone: &Program, whole: &Program| alone.counts.weight() + whole.counts.weight();
     if weight(&alone, &apart) < weight(&part, &together) {

@@ -4,8 +4,9 @@
 
 use rustc_hash::FxHashMap as HashMap;
 
+use super::collect::Answers;
 use super::formula::Formula;
-use super::program::{Operation, Program, Value};
+use super::program::{Program, Value};
 use super::{Known, linearise};
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
@@ -141,7 +142,7 @@ impl Scene<'_> {
                 1.0
             };
             let exponent = exponent(&mut self.random);
-            point.insert(*symbol, sign * size * 2f64.powi(exponent));
+            point.insert(*symbol, sign * size * libm::scalbn(1.0, exponent));
         }
         point
     }
@@ -155,7 +156,7 @@ impl Scene<'_> {
                 let mut point = self.point(free, positive, |random| random.within(-spread, spread));
                 for factor in &sum.factors {
                     if let Some(value) = point.get_mut(factor) {
-                        *value *= 2f64.powi(exponent);
+                        *value *= libm::scalbn(1.0, exponent);
                     }
                 }
                 if sum.cancel(&mut point, &sum.factors).is_some() {
@@ -175,7 +176,7 @@ impl Scene<'_> {
                 let exponent = self.random.within(-mixed, mixed);
                 point
                     .entry(*symbol)
-                    .and_modify(|v| *v *= 2f64.powi(exponent));
+                    .and_modify(|v| *v *= libm::scalbn(1.0, exponent));
             }
         }
         let mut taken: Vec<Symbol> = sums.iter().flat_map(|sum| sum.factors.clone()).collect();
@@ -213,7 +214,14 @@ impl Sum {
         let terms_only: Vec<ExprId> = terms.iter().map(|(term, _)| *term).collect();
         let (symbols, mut outputs) = needed(graph, symbols, roots, &terms_only);
         outputs.extend(terms_only);
-        let formula = Formula::new(graph, &symbols, &outputs, Known::Nothing, false);
+        let formula = Formula::new(
+            graph,
+            &symbols,
+            &outputs,
+            Known::Nothing,
+            false,
+            &mut Answers::default(),
+        );
         Self {
             program: linearise::linearise(&formula),
             coefficients: terms.iter().map(|(_, c)| c.to_f64()).collect(),
@@ -223,9 +231,8 @@ impl Sum {
 
     /// The symbols that it depends on, coordinates before parameters.
     fn symbols(&self) -> Vec<Symbol> {
-        let operands = self.program.operations.iter().flat_map(Operation::operands);
-        let mut symbols: Vec<Symbol> = operands
-            .chain(&self.program.outputs)
+        let values = self.program.values();
+        let mut symbols: Vec<Symbol> = values
             .filter_map(|value| match value {
                 Value::Symbol(symbol) => Some(*symbol),
                 _ => None,

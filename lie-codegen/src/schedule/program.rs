@@ -176,7 +176,7 @@ impl Program {
                 Operation::Div(a, b) => at(a) / at(b),
                 Operation::Neg(a) => -at(a),
                 Operation::Sqrt(a) => at(a).sqrt(),
-                Operation::Power(a, exponent) => at(a).powf(exponent.to_f64()),
+                Operation::Power(a, exponent) => libm::pow(at(a), exponent.to_f64()),
                 Operation::Call(function, arguments) => {
                     function.evaluate(&arguments.iter().map(at).collect::<Vec<_>>())
                 }
@@ -185,6 +185,12 @@ impl Program {
         }
         let outputs = self.outputs.iter();
         outputs.map(|output| get(output, &done)).collect()
+    }
+
+    /// All operands and results, in order.
+    pub fn values(&self) -> impl Iterator<Item = &Value> {
+        let operands = self.operations.iter().flat_map(Operation::operands);
+        operands.chain(&self.outputs)
     }
 
     /// The part of the program behind some of its results.

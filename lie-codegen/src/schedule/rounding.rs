@@ -5,6 +5,7 @@
 
 use rustc_hash::FxHashMap as HashMap;
 
+use super::points::Point;
 use super::program::{Operation, Program, Value};
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
@@ -16,8 +17,8 @@ pub struct Rounded {
     pub error: f64,
 }
 
-/// Beyond `2^±RANGE` single precision overflows, or loses digits, soon after.
-const RANGE: i32 = 100;
+/// Beyond these sizes single precision overflows, or loses digits, soon after.
+const RANGE: std::ops::RangeInclusive<f64> = 1.0 / (1u128 << 100) as f64..=(1u128 << 100) as f64;
 
 impl Rounded {
     fn exact(value: f64) -> Self {
@@ -78,6 +79,13 @@ impl Rounded {
         }
     }
 
+    fn negative(self) -> Self {
+        Self {
+            value: -self.value,
+            ..self
+        }
+    }
+
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.function(root, 0.5 / root)
@@ -85,7 +93,7 @@ impl Rounded {
 
     fn power(self, exponent: &Rational) -> Self {
         let exponent = exponent.to_f64();
-        let value = self.value.powf(exponent);
+        let value = libm::pow(self.value, exponent);
         self.function(value, exponent * value / self.value)
     }
 
@@ -96,13 +104,13 @@ impl Rounded {
         let slope = match function {
             Function::Exp => value,
             Function::Log => 1.0 / x,
-            Function::Sin => x.cos(),
-            Function::Cos => x.sin(),
+            Function::Sin => libm::cos(x),
+            Function::Cos => libm::sin(x),
             Function::Tan => 1.0 + value * value,
             Function::Asin | Function::Acos => 1.0 / (1.0 - x * x).sqrt(),
             Function::Atan => 1.0 / (1.0 + x * x),
-            Function::Sinh => x.cosh(),
-            Function::Cosh => x.sinh(),
+            Function::Sinh => libm::cosh(x),
+            Function::Cosh => libm::sinh(x),
             Function::Tanh => 1.0 - value * value,
             Function::Atan2 => {
                 let [y, x] = [arguments[0], arguments[1]];
@@ -119,7 +127,7 @@ impl Rounded {
 
     fn leaves_range(self) -> bool {
         let size = self.value.abs();
-        size != 0.0 && !(2f64.powi(-RANGE)..=2f64.powi(RANGE)).contains(&size)
+        size != 0.0 && !RANGE.contains(&size)
     }
 }
 
@@ -127,120 +135,218 @@ fn is_power_of_two(value: f64) -> bool {
     value.is_normal() && value.to_bits().trailing_zeros() >= 52
 }
 
-/// What a program does at a point.
-#[derive(Clone, Debug)]
+/// A quantity at all points.
+type Column = Vec<Rounded>;
+
+/// What a program does at all points.
 pub struct Outcome {
     /// Its results.
-    pub results: Vec<Rounded>,
-    /// Whether an intermediate result is far out.
-    pub leaves_range: bool,
+    pub results: Vec<Column>,
+    /// Whether an intermediate result is far out, at each point.
+    pub leaves_range: Vec<bool>,
 }
 
-/// The values of the symbols at one point, and of the prepared constants.
-pub struct Place<'a> {
-    graph: &'a Graph,
-    value: &'a dyn Fn(Symbol) -> f64,
-    constants: HashMap<ExprId, Rounded>,
+/// Points with the values of the symbols, and those of the constants that programs have asked for.
+pub struct Places {
+    count: usize,
+    symbols: HashMap<Symbol, Column>,
+    constants: HashMap<ExprId, Constant>,
 }
 
-impl<'a> Place<'a> {
-    pub fn new(graph: &'a Graph, value: &'a dyn Fn(Symbol) -> f64) -> Self {
+/// A prepared constant, or a part of one.
+struct Constant {
+    column: Column,
+    /// Whether it or a part of it is far out.
+    leaves_range: Vec<bool>,
+}
+
+/// An operand at all points.
+enum Operand<'a> {
+    Column(&'a [Rounded]),
+    Same(Rounded),
+}
+
+impl Operand<'_> {
+    fn at(&self, place: usize) -> Rounded {
+        match self {
+            Operand::Column(column) => column[place],
+            Operand::Same(value) => *value,
+        }
+    }
+}
+
+impl Places {
+    pub fn new(points: &[Point]) -> Self {
+        let mut symbols: HashMap<Symbol, Column> = HashMap::default();
+        for (place, point) in points.iter().enumerate() {
+            for (symbol, value) in point {
+                let column = symbols
+                    .entry(*symbol)
+                    .or_insert_with(|| vec![Rounded::exact(f64::NAN); points.len()]);
+                column[place] = Rounded::exact(*value);
+            }
+        }
         Self {
-            graph,
-            value,
+            count: points.len(),
+            symbols,
             constants: HashMap::default(),
         }
     }
 
     /// The results of a program with the bounds of their errors.
-    pub fn run(&mut self, program: &Program) -> Outcome {
-        let mut done: Vec<Rounded> = Vec::with_capacity(program.operations.len());
-        let mut leaves_range = false;
+    pub fn run(&mut self, graph: &Graph, program: &Program) -> Outcome {
+        let mut leaves_range = vec![false; self.count];
+        for value in program.values() {
+            if let Value::Prepared(id) = value {
+                let constant = self.constant(graph, *id);
+                mark(&mut leaves_range, &constant.leaves_range);
+            }
+        }
+        let mut done: Vec<Column> = Vec::with_capacity(program.operations.len());
         for operation in &program.operations {
-            let mut at = |operand: &Value| self.operand(operand, &done);
-            let result = match operation {
-                Operation::Add(a, b) => at(a).sum(at(b), 1.0),
-                Operation::Sub(a, b) => at(a).sum(at(b), -1.0),
-                Operation::Mul(a, b) => at(a).product(at(b)),
-                Operation::Div(a, b) => at(a).quotient(at(b)),
-                Operation::Neg(a) => {
-                    let a = at(a);
-                    Rounded {
-                        value: -a.value,
-                        ..a
-                    }
-                }
-                Operation::Sqrt(a) => at(a).sqrt(),
-                Operation::Power(a, exponent) => at(a).power(exponent),
-                Operation::Call(function, arguments) => {
-                    let arguments: Vec<Rounded> = arguments.iter().map(at).collect();
-                    Rounded::call(*function, &arguments)
-                }
-            };
-            leaves_range |= result.leaves_range();
-            done.push(result);
+            let column = self.operation(operation, &done);
+            for (out, value) in leaves_range.iter_mut().zip(&column) {
+                *out |= value.leaves_range();
+            }
+            done.push(column);
         }
         let outputs = program.outputs.iter();
+        let results = outputs.map(|output| {
+            let operand = self.operand(output, &done);
+            (0..self.count).map(|place| operand.at(place)).collect()
+        });
         Outcome {
-            results: outputs.map(|output| self.operand(output, &done)).collect(),
-            leaves_range: leaves_range || self.constants.values().any(|c| c.leaves_range()),
+            results: results.collect(),
+            leaves_range,
         }
     }
 
-    fn operand(&mut self, operand: &Value, done: &[Rounded]) -> Rounded {
+    fn operation(&self, operation: &Operation, done: &[Column]) -> Column {
+        let one = |a: &Value, f: &dyn Fn(Rounded) -> Rounded| {
+            let a = self.operand(a, done);
+            (0..self.count).map(|place| f(a.at(place))).collect()
+        };
+        let two = |a: &Value, b: &Value, f: fn(Rounded, Rounded) -> Rounded| {
+            let (a, b) = (self.operand(a, done), self.operand(b, done));
+            let places = 0..self.count;
+            places.map(|place| f(a.at(place), b.at(place))).collect()
+        };
+        match operation {
+            Operation::Add(a, b) => two(a, b, |a, b| a.sum(b, 1.0)),
+            Operation::Sub(a, b) => two(a, b, |a, b| a.sum(b, -1.0)),
+            Operation::Mul(a, b) => two(a, b, Rounded::product),
+            Operation::Div(a, b) => two(a, b, Rounded::quotient),
+            Operation::Neg(a) => one(a, &Rounded::negative),
+            Operation::Sqrt(a) => one(a, &Rounded::sqrt),
+            Operation::Power(a, exponent) => one(a, &|a| a.power(exponent)),
+            Operation::Call(function, arguments) => {
+                let operands = arguments.iter().map(|value| self.operand(value, done));
+                let operands: Vec<Operand> = operands.collect();
+                self.call(*function, &operands)
+            }
+        }
+    }
+
+    fn call(&self, function: Function, operands: &[Operand]) -> Column {
+        let at = |place| {
+            let arguments: Vec<Rounded> = operands.iter().map(|a| a.at(place)).collect();
+            Rounded::call(function, &arguments)
+        };
+        (0..self.count).map(at).collect()
+    }
+
+    /// An operand whose constants are known.
+    fn operand<'a>(&'a self, operand: &Value, done: &'a [Column]) -> Operand<'a> {
         match operand {
-            Value::Symbol(symbol) => Rounded::exact((self.value)(*symbol)),
-            Value::Number(number) => Rounded::number(number),
-            Value::Temporary(index) => done[*index],
-            Value::Prepared(id) => self.constant(*id),
+            Value::Symbol(symbol) => self.symbol(*symbol),
+            Value::Number(number) => Operand::Same(Rounded::number(number)),
+            Value::Temporary(index) => Operand::Column(&done[*index]),
+            Value::Prepared(id) => Operand::Column(&self.constants[id].column),
+        }
+    }
+
+    fn symbol(&self, symbol: Symbol) -> Operand<'_> {
+        match self.symbols.get(&symbol) {
+            Some(column) => Operand::Column(column),
+            None => Operand::Same(Rounded::exact(f64::NAN)),
         }
     }
 
     /// A prepared constant, computed as its expression stands.
-    fn constant(&mut self, id: ExprId) -> Rounded {
-        if let Some(known) = self.constants.get(&id) {
-            return *known;
-        }
-        for node in self.graph.dependencies(&[id]) {
-            if !self.constants.contains_key(&node) {
-                let value = self.node(node);
-                self.constants.insert(node, value);
+    fn constant(&mut self, graph: &Graph, id: ExprId) -> &Constant {
+        if !self.constants.contains_key(&id) {
+            for part in graph.dependencies(&[id]) {
+                if !self.constants.contains_key(&part) {
+                    let constant = self.part(graph, part);
+                    self.constants.insert(part, constant);
+                }
             }
         }
-        self.constants[&id]
+        &self.constants[&id]
     }
 
-    fn node(&self, id: ExprId) -> Rounded {
-        let sum = |start: &Rational, terms: &[(ExprId, Rational)]| {
-            terms.iter().fold(Rounded::number(start), |sum, (term, c)| {
-                sum.sum(self.constants[term].product(Rounded::number(c)), 1.0)
-            })
-        };
-        match self.graph.node(id) {
-            Node::Number(number) => Rounded::number(number),
-            Node::Pi => Rounded {
-                value: std::f64::consts::PI,
-                error: std::f64::consts::PI,
-            },
-            Node::Symbol(symbol) => Rounded::exact((self.value)(*symbol)),
-            Node::Sum { constant, terms } => sum(constant, terms),
-            Node::Written(terms) => sum(&Rational::ZERO, terms),
+    fn part(&self, graph: &Graph, id: ExprId) -> Constant {
+        let of = |part: &ExprId| Operand::Column(&self.constants[part].column);
+        let column: Column = match graph.node(id) {
+            Node::Number(number) => vec![Rounded::number(number); self.count],
+            Node::Pi => {
+                let pi = Rounded {
+                    value: std::f64::consts::PI,
+                    error: std::f64::consts::PI,
+                };
+                vec![pi; self.count]
+            }
+            Node::Symbol(symbol) => {
+                let symbol = self.symbol(*symbol);
+                (0..self.count).map(|place| symbol.at(place)).collect()
+            }
+            Node::Sum { constant, terms } => self.sum(constant, terms),
+            Node::Written(terms) => self.sum(&Rational::ZERO, terms),
             Node::Product(factors) => {
-                let mut product = Rounded::exact(1.0);
+                let mut product = vec![Rounded::exact(1.0); self.count];
                 for (base, exponent) in factors {
-                    let base = self.constants[base];
-                    product = match exponent.to_integer() {
-                        Some(1) => product.product(base),
-                        Some(-1) => product.quotient(base),
-                        _ => product.product(base.power(exponent)),
-                    };
+                    let base = of(base);
+                    for (place, product) in product.iter_mut().enumerate() {
+                        let base = base.at(place);
+                        *product = match exponent.to_integer() {
+                            Some(1) => product.product(base),
+                            Some(-1) => product.quotient(base),
+                            _ => product.product(base.power(exponent)),
+                        };
+                    }
                 }
                 product
             }
             Node::Call(function, arguments) => {
-                let arguments: Vec<Rounded> = arguments.iter().map(|a| self.constants[a]).collect();
-                Rounded::call(*function, &arguments)
+                let operands: Vec<Operand> = arguments.iter().map(of).collect();
+                self.call(*function, &operands)
+            }
+        };
+        let mut leaves_range: Vec<bool> = column.iter().map(|v| v.leaves_range()).collect();
+        for child in graph.children(id) {
+            mark(&mut leaves_range, &self.constants[&child].leaves_range);
+        }
+        Constant {
+            column,
+            leaves_range,
+        }
+    }
+
+    fn sum(&self, start: &Rational, terms: &[(ExprId, Rational)]) -> Column {
+        let mut sum = vec![Rounded::number(start); self.count];
+        for (term, coefficient) in terms {
+            let coefficient = Rounded::number(coefficient);
+            let column = &self.constants[term].column;
+            for (sum, term) in sum.iter_mut().zip(column) {
+                *sum = sum.sum(term.product(coefficient), 1.0);
             }
         }
+        sum
+    }
+}
+
+fn mark(marks: &mut [bool], more: &[bool]) {
+    for (mark, more) in marks.iter_mut().zip(more) {
+        *mark |= more;
     }
 }

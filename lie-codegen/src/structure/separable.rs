@@ -5,8 +5,8 @@
 //! normal form that verifies Casimirs; one that cannot be is taken for one that is not.
 
 use super::one_parameter::{self, Block, Entry};
+use crate::check::confirmation::{Confirmation, Finding};
 use crate::check::normal::{NormalForm, Verdict};
-use crate::check::residues::is_nonzero;
 use crate::exact::Budget;
 use crate::model::Model;
 use crate::symbolic::{ExprId, Graph, Symbol};
@@ -50,16 +50,19 @@ pub fn coordinates(
     let graph = &*graph;
     let budget = Budget::new(WORK);
     let mut normal = NormalForm::within(graph, &budget, &[hamiltonian]);
+    let mut values = Confirmation::new(graph, &[hamiltonian]);
+    // Values refute what the normal form may not decide within its budget.
+    let mut vanishes = |id: ExprId| {
+        graph.is_zero(id)
+            || values.of(id) != Finding::Nonzero && matches!(normal.verdict(id), Verdict::Zero)
+    };
     for (i, j, second) in mixed {
-        if is_nonzero(graph, second) || !matches!(normal.verdict(second), Verdict::Zero) {
+        if !vanishes(second) {
             return Err((i, j));
         }
     }
-    let mut moves = |slope: ExprId| {
-        is_nonzero(graph, slope)
-            || (!graph.is_zero(slope) && !matches!(normal.verdict(slope), Verdict::Zero))
-    };
-    Ok((0..dimension).filter(|&i| moves(slopes[i])).collect())
+    let moves = |i: &usize| !vanishes(slopes[*i]);
+    Ok((0..dimension).filter(moves).collect())
 }
 
 /// The pieces with their flows, if H is such a sum; elements that act as zero are left out.

@@ -41,9 +41,9 @@ impl Graph {
                 let base = known(*base);
                 product
                     * match exponent.to_words() {
-                        Some((n, 1)) if n.unsigned_abs() < 1 << 30 => base.powi(n as i32),
+                        Some((1, 1)) => base,
                         Some((1, 2)) => base.sqrt(),
-                        _ => base.powf(exponent.to_f64()),
+                        _ => libm::pow(base, exponent.to_f64()),
                     }
             }),
             Node::Call(function, arguments) => {

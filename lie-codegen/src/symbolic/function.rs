@@ -30,22 +30,23 @@ impl Function {
         Self::ALL.iter().copied().find(|f| f.name() == name)
     }
 
-    /// The function in double precision.
+    /// The function in double precision, by the library that generated code uses: the same on every
+    /// machine.
     pub fn evaluate(self, arguments: &[f64]) -> f64 {
         let x = arguments[0];
         match self {
-            Function::Exp => x.exp(),
-            Function::Log => x.ln(),
-            Function::Sin => x.sin(),
-            Function::Cos => x.cos(),
-            Function::Tan => x.tan(),
-            Function::Asin => x.asin(),
-            Function::Acos => x.acos(),
-            Function::Atan => x.atan(),
-            Function::Sinh => x.sinh(),
-            Function::Cosh => x.cosh(),
-            Function::Tanh => x.tanh(),
-            Function::Atan2 => x.atan2(arguments[1]),
+            Function::Exp => libm::exp(x),
+            Function::Log => libm::log(x),
+            Function::Sin => libm::sin(x),
+            Function::Cos => libm::cos(x),
+            Function::Tan => libm::tan(x),
+            Function::Asin => libm::asin(x),
+            Function::Acos => libm::acos(x),
+            Function::Atan => libm::atan(x),
+            Function::Sinh => libm::sinh(x),
+            Function::Cosh => libm::cosh(x),
+            Function::Tanh => libm::tanh(x),
+            Function::Atan2 => libm::atan2(x, arguments[1]),
         }
     }
 }

@@ -225,6 +225,10 @@ impl Graph {
 
     /// `a + b`.
     pub fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        if let (Node::Number(a), Node::Number(b)) = (self.node(a), self.node(b)) {
+            let sum = a + b;
+            return self.number(sum);
+        }
         self.sum(&[a, b])
     }
 
@@ -240,11 +244,21 @@ impl Graph {
 
     /// `factor * a`.
     pub fn scale(&mut self, a: ExprId, factor: &Rational) -> ExprId {
+        if factor.is_one() {
+            return a;
+        }
         self.linear(&[(a, factor.clone())])
     }
 
     /// `a * b`.
     pub fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        if let (Node::Number(left), Node::Number(right)) = (self.node(a), self.node(b))
+            && left.to_words().is_some()
+            && right.to_words().is_some()
+        {
+            let product = left * right;
+            return self.number(product);
+        }
         self.product(&[a, b])
     }
 

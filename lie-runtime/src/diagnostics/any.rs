@@ -48,6 +48,18 @@ pub enum Shown<V> {
 #[derive(Clone, Debug)]
 pub struct Motions<V>(pub Vec<Shown<V>>);
 
+impl<V> Motions<V> {
+    /// Shows the same to another.
+    pub(crate) fn show(&self, sink: &mut impl FactorSink<V>) {
+        for shown in &self.0 {
+            match shown {
+                Shown::Factor(retraction, xi) => sink.push(*retraction, xi),
+                Shown::Velocity(method, stage, xi) => sink.push_velocity(*method, *stage, xi),
+            }
+        }
+    }
+}
+
 impl<V: Clone> FactorSink<V> for Motions<V> {
     fn push(&mut self, retraction: Retraction, xi: &V) {
         self.0.push(Shown::Factor(retraction, xi.clone()));
@@ -178,12 +190,7 @@ impl<V: State<f64>> Stepper<f64> for ForgottenStepper<'_, V> {
         }
         self.motions.0.clear();
         let report = self.stepper.step_with_motions(mu, &mut self.motions);
-        for shown in &self.motions.0 {
-            match shown {
-                Shown::Factor(retraction, xi) => sink.push(*retraction, xi),
-                Shown::Velocity(method, stage, xi) => sink.push_velocity(*method, *stage, xi),
-            }
-        }
+        self.motions.show(sink);
         report
     }
 }

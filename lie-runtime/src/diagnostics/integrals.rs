@@ -4,6 +4,9 @@ use super::basis::{Basis, dot};
 use crate::poisson::Poisson;
 use crate::state::State;
 
+/// First integrals are sought in so many coordinates at most: the monomials grow with their square.
+pub(super) const MOST_COORDINATES: usize = 24;
+
 /// A first integral of degree one or two: `a·mu + mu·(A mu)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Integral {
@@ -55,7 +58,7 @@ pub fn integrals<P: Poisson<f64>>(
     quadratic: bool,
 ) -> Vec<Integral> {
     let n = system.dimension();
-    if states.is_empty() || n > 24 {
+    if states.is_empty() || n > MOST_COORDINATES {
         return Vec::new();
     }
     let unknowns = if quadratic { n + n * (n + 1) / 2 } else { n };

@@ -1,6 +1,6 @@
 //! What the built program shows of itself, before a judge who interprets the declaration.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use lie_codegen::judge::{Judge, Sample, Verdict};
 use serde_json::{Value, json};
@@ -20,9 +20,32 @@ pub struct Evidence {
     blind: BTreeMap<String, bool>,
     /// The largest distance of a reference solution from the judge's own, relative to what is allowed.
     reference: Option<f64>,
+    /// Kernels that the judge should know and does not.
+    unknown: BTreeSet<String>,
+    /// Kernels that every system of the kind has.
+    wanted: &'static [&'static str],
     /// Measurements that let a spoiled map pass.
-    broken: Vec<String>,
+    broken: BTreeSet<String>,
+    /// Parts of the iteration that do not solve an equation with a known solution.
+    unsound: Vec<String>,
 }
+
+/// The kernels of every system, those of an algebra last.
+const KERNELS: [&str; 13] = [
+    "hamiltonian",
+    "energy",
+    "gradient",
+    "hessian",
+    "poisson_matrix",
+    "poisson_slope",
+    "vector_field",
+    "jacobian",
+    "linearize",
+    "casimirs",
+    "ad",
+    "ad_star",
+    "ad_star_matrix",
+];
 
 fn numbers(text: &str) -> Vec<f64> {
     let words = text.split_whitespace();
@@ -30,15 +53,22 @@ fn numbers(text: &str) -> Vec<f64> {
 }
 
 impl Evidence {
-    /// Nothing yet.
-    pub fn before(judge: Option<Judge>) -> Self {
+    /// Nothing yet, of a system with an algebra or without.
+    pub fn before(judge: Option<Judge>, has_algebra: bool) -> Self {
         Self {
             judge,
             kernels: BTreeMap::new(),
             samples: 0,
             blind: BTreeMap::new(),
             reference: None,
-            broken: Vec::new(),
+            unknown: BTreeSet::new(),
+            wanted: if has_algebra {
+                &KERNELS
+            } else {
+                &KERNELS[..10]
+            },
+            broken: BTreeSet::new(),
+            unsound: Vec::new(),
         }
     }
 
@@ -60,7 +90,10 @@ impl Evidence {
                         Some(self.reference.map_or(excess, |worst| larger(worst, excess)));
                 }
             }
-            ["broken", fact] => self.broken.push((*fact).to_owned()),
+            ["broken", fact] => {
+                self.broken.insert((*fact).to_owned());
+            }
+            ["unsound", what] => self.unsound.push((*what).to_owned()),
             _ => {}
         }
     }
@@ -68,6 +101,9 @@ impl Evidence {
     fn kernel(&mut self, sample: &Sample) {
         let Some(judge) = &self.judge else { return };
         let Some(verdict) = judge.judge(sample) else {
+            if !judge.exempts(&sample.kernel) {
+                self.unknown.insert(sample.kernel.clone());
+            }
             return;
         };
         self.samples += 1;
@@ -96,8 +132,12 @@ impl Evidence {
         if self.judge.is_none() {
             failures.push("the declaration cannot be interpreted".to_owned());
         }
-        if self.kernels.is_empty() {
-            failures.push("no kernel was shown to the judge".to_owned());
+        let missing = self.wanted.iter().copied();
+        for kernel in missing.filter(|kernel| !self.kernels.contains_key(*kernel)) {
+            failures.push(format!("{kernel}: the judge has not seen it"));
+        }
+        for kernel in &self.unknown {
+            failures.push(format!("{kernel}: the judge does not know it"));
         }
         for (kernel, verdict) in &self.kernels {
             if verdict.excess > 1.0 || verdict.excess.is_nan() {
@@ -124,6 +164,11 @@ impl Evidence {
         for fact in &self.broken {
             failures.push(format!(
                 "{fact}: a spoiled map passes, the measurement says nothing"
+            ));
+        }
+        for what in &self.unsound {
+            failures.push(format!(
+                "{what}: an equation whose solution is known is not solved as it should be"
             ));
         }
         failures
@@ -156,6 +201,7 @@ impl Evidence {
             "kernels": kernels,
             "reference": self.reference.map(number),
             "broken_measurements": self.broken,
+            "unsound_iterations": self.unsound,
             "failures": self.failures(),
         })
     }

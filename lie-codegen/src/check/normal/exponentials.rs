@@ -148,6 +148,6 @@ impl NormalForm<'_> {
             .iter()
             .map(|m| columns[basis.len()].coefficient(m))
             .collect();
-        Ok(matrix::solve(&rows, &right))
+        Ok(matrix::solve(&rows, &right, self.budget)?)
     }
 }

@@ -98,6 +98,11 @@ impl Ball {
         (self.mid.abs() > self.radius).then(|| if self.mid.is_negative() { -1 } else { 1 })
     }
 
+    /// Whether it is zero and nothing else.
+    pub fn is_zero(&self) -> bool {
+        self.mid.is_zero() && self.radius.is_zero()
+    }
+
     /// Whether no member is zero.
     pub fn excludes_zero(&self) -> bool {
         self.mid.abs() > self.radius

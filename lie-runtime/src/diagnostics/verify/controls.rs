@@ -2,41 +2,47 @@
 //!
 //! A measurement that lets the spoiled map pass measures nothing, and what it says of methods is worth nothing.
 
-use super::super::any::{AnyMethod, AnyStepper, Claims};
+use super::super::any::{AnyMethod, AnyStepper, Claims, Motions};
 use super::super::basis::Basis;
 use super::super::newton_order::order_of_iteration;
 use super::findings::{Finding, Verdict};
 use super::ground::Ground;
-use super::{Subject, invariants, orbit, order, poisson, symmetry};
+use super::{
+    Subject, exchanges, invariants, iterations, orbit, order, plain, poisson, residual, solver,
+    symmetry,
+};
 use crate::matrix::SquareMatrix;
 use crate::methods::{FactorSink, Preserves, StepFailure, StepReport, Stepper};
-use crate::newton::NewtonOptions;
+use crate::newton::{Iteration, NewtonOptions};
 use crate::poisson::{Lift, Poisson};
 use crate::scalar::Scalar;
 use crate::state::State;
 
-/// How far a step is spoiled, relative to the state: far above round-off, far below what a step does.
+/// How far a step of the size of the measurements is spoiled, relative to the state, others in proportion: far above
+/// round-off, far below what a step does. A measurement with steps that show nothing says nothing.
 const SLIGHTLY: f64 = 1e-9;
 /// For the order, where the errors of the method itself must not hide it.
 const PLAINLY: f64 = 1e-3;
 
-/// A method behind whose steps a linear map that is nearly 1 is applied, which keeps nothing.
-struct Spoiled<'m, S: Scalar, P: Poisson<S>> {
+/// A method behind whose steps a linear map that is nearly 1 is applied, which keeps nothing; a simplified iteration
+/// gives another than Newton's. It says that it iterates and exchanges rows.
+pub(crate) struct Spoiled<'m, S: Scalar, P: Poisson<S>> {
     method: &'m dyn AnyMethod<S, P>,
+    /// Per unit of time.
     part: f64,
 }
 
 struct SpoiledStepper<'a, S, V> {
     stepper: Box<dyn AnyStepper<S, V> + 'a>,
-    part: f64,
+    part: S,
 }
 
-fn spoil<S: Scalar, V: State<S>>(mu: &mut V, part: f64) {
+fn spoil<S: Scalar, V: State<S>>(mu: &mut V, part: S) {
     let before: Vec<S> = mu.as_slice().to_vec();
     for (i, entry) in mu.as_mut_slice().iter_mut().enumerate() {
         for (j, &other) in before.iter().enumerate() {
             let weight = (1.7 + 7.3 * i as f64 + 3.1 * j as f64).sin();
-            *entry += other * S::from_f64(part * weight);
+            *entry += other * (part * S::from_f64(weight));
         }
     }
 }
@@ -47,11 +53,22 @@ impl<S: Scalar, V: State<S>> Stepper<S> for SpoiledStepper<'_, S, V> {
     fn step<K: FactorSink<V>>(
         &mut self,
         mu: &mut V,
-        _sink: &mut K,
+        sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let report = self.stepper.step(mu)?;
+        let report = if K::ACTIVE {
+            let mut motions = Motions(Vec::new());
+            let report = self.stepper.step_with_motions(mu, &mut motions)?;
+            motions.show(sink);
+            report
+        } else {
+            self.stepper.step(mu)?
+        };
         spoil(mu, self.part);
-        Ok(report)
+        Ok(StepReport {
+            iterations: report.iterations.max(1),
+            pivoted: 1,
+            ..report
+        })
     }
 }
 
@@ -81,11 +98,43 @@ impl<S: Scalar, P: Poisson<S>> AnyMethod<S, P> for Spoiled<'_, S, P> {
         h: S,
         newton: &NewtonOptions,
     ) -> Box<dyn AnyStepper<S, P::State> + 'a> {
+        let twice = newton.iteration == Iteration::Simplified;
+        let part = if twice { 2.0 * self.part } else { self.part };
         Box::new(SpoiledStepper {
             stepper: self.method.any_stepper(system, h, newton),
-            part: self.part,
+            part: S::from_f64(part) * h.abs(),
         })
     }
+}
+
+/// A method whose steps are slightly spoiled.
+pub(crate) fn spoiled<'m, S: Scalar, P: Lift<f64> + Poisson<S>>(
+    ground: &Ground<P>,
+    method: &'m dyn AnyMethod<S, P>,
+) -> Spoiled<'m, S, P> {
+    let part = SLIGHTLY / ground.step.abs();
+    Spoiled { method, part }
+}
+
+/// Whether the comparison with the generic form lets a spoiled map pass.
+pub fn broken_comparison<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    subject: &Subject<P>,
+) -> bool {
+    subject.plain.as_ref().is_some_and(|plain| {
+        let spoiled = spoiled(ground, &*subject.method);
+        passes(&plain::finding(system, ground, &spoiled, plain))
+    })
+}
+
+/// What of the iteration behind implicit steps does not solve an equation whose solution is known.
+pub fn unsound_iterations() -> Vec<&'static str> {
+    solver::unsound()
+}
+
+fn passes(finding: &Finding) -> bool {
+    !matches!(finding.verdict, Verdict::Fails | Verdict::Absent)
 }
 
 /// The measurements that let a spoiled map pass, by the names of their facts. `subject` is any method of the system.
@@ -95,36 +144,46 @@ pub fn broken_measurements<P: Lift<f64>>(
     ground: &Ground<P>,
     subject: &Subject<P>,
 ) -> Vec<&'static str> {
-    let spoiled = |part: f64| Measured {
-        method: Spoiled {
-            method: &*subject.method,
-            part,
-        },
-        lifted: Spoiled {
-            method: &*subject.lifted,
-            part,
-        },
+    let slightly = spoiled(ground, &*subject.method);
+    let lifted_method = Spoiled {
+        method: &*subject.lifted,
+        part: slightly.part,
     };
-    let (slightly, plainly) = (spoiled(SLIGHTLY), spoiled(PLAINLY));
-    let mut findings = vec![order::finding_of(system, ground, &plainly.method)];
-    findings.push(symmetry(system, ground, &slightly.method));
-    findings.extend(invariants::findings(system, ground, &slightly.method));
+    let plainly = Spoiled {
+        method: &*subject.method,
+        part: PLAINLY / ground.step.abs(),
+    };
+    let mut findings = vec![order::finding_of(system, ground, &plainly)];
+    findings.push(symmetry(system, ground, &slightly));
+    findings.extend(invariants::findings(system, ground, &slightly));
     if !open_orbit(system, ground) {
-        findings.push(orbit(system, ground, &slightly.method));
+        findings.push(orbit(system, ground, &slightly));
     }
-    findings.push(poisson::<P>(lifted, ground, &slightly.lifted));
-    let passes = |finding: &Finding| !matches!(finding.verdict, Verdict::Fails | Verdict::Absent);
+    findings.push(poisson::<P>(lifted, ground, &lifted_method));
+    findings.push(residual(system, ground, &slightly));
+    findings.push(exchanges(system, ground, &slightly));
+    findings.extend(
+        iterations(system, ground, &slightly, true)
+            .into_iter()
+            .next(),
+    );
+    if let Some(check) = ground.group {
+        findings.push(check(system, ground, &slightly, false));
+    }
     let passing = findings.iter().filter(|finding| passes(finding));
     let mut broken: Vec<&'static str> = passing.map(|finding| finding.fact).collect();
+    for fact in invariants::mistaken(system, ground, &slightly) {
+        if !broken.contains(&fact) {
+            broken.push(fact);
+        }
+    }
+    if invariants::integrals_are_missing(system, ground) {
+        broken.push("quadratic integrals");
+    }
     if !iterations_are_told_apart() {
         broken.push("Newton");
     }
     broken
-}
-
-struct Measured<'m, P: Lift<f64>> {
-    method: Spoiled<'m, f64, P>,
-    lifted: Spoiled<'m, crate::scalar::Dual<f64>, P::Lifted>,
 }
 
 /// Whether the orbit is open: no state near it has a distance then.

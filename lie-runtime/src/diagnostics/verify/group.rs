@@ -4,11 +4,11 @@
 //! elsewhere to its order. The element is that of the chart of matrices, by the driver; the action is that of the
 //! matrices on the declared ones, which the driver does not use.
 
-use super::super::any::Forgotten;
+use super::super::any::{AnyMethod, Forgotten};
 use super::super::basis::Basis;
 use super::findings::Finding;
 use super::ground::Ground;
-use super::{PER_STEP, Subject, largest, smaller_steps};
+use super::{PER_STEP, largest, smaller_steps};
 use crate::driver::{Chart, Options, Problem, Reconstruction, Save, solve_observed};
 use crate::methods::StepFailure;
 use crate::poisson::Lift;
@@ -25,23 +25,28 @@ const NEGLIGIBLE: f64 = 1e-10;
 
 type Rows = Vec<Vec<f64>>;
 
-/// The check of a system with matrices.
-pub type GroupCheck<P> = fn(&P, &Ground<P>, &Subject<P>) -> Finding;
+/// The check of a system with matrices; whether the element only goes along with the steps of the method.
+pub type GroupCheck<P> = fn(&P, &Ground<P>, &dyn AnyMethod<f64, P>, bool) -> Finding;
 
 /// The finding on one method.
-pub(super) fn finding<P>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding
+pub(super) fn finding<P>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+    beside: bool,
+) -> Finding
 where
     P: Lift<f64> + MatrixGroup<f64> + Clone,
 {
-    let claims = subject.method.claims();
-    let exact = claims.preserves.orbit;
+    let claims = method.claims();
+    let exact = claims.preserves.orbit && !beside;
     let order = f64::from(claims.order);
     let measured = smaller_steps(ground.step, |h| {
-        let (coarse, moves) = run(system, ground, subject, h, STEPS)?;
+        let (coarse, moves) = run(system, ground, method, h, STEPS)?;
         if exact || !moves || coarse < NEGLIGIBLE {
             return Ok((coarse, f64::INFINITY, moves));
         }
-        let (fine, _) = run(system, ground, subject, 0.25 * h, 4.0 * STEPS)?;
+        let (fine, _) = run(system, ground, method, 0.25 * h, 4.0 * STEPS)?;
         Ok((coarse, (coarse / fine).ln() / 4.0_f64.ln(), moves))
     });
     match measured {
@@ -63,7 +68,7 @@ where
 fn run<P>(
     system: &P,
     ground: &Ground<P>,
-    subject: &Subject<P>,
+    method: &dyn AnyMethod<f64, P>,
     h: f64,
     steps: f64,
 ) -> Result<(f64, bool), StepFailure>
@@ -80,14 +85,14 @@ where
             }
             times
         };
-        let run = |chart, off| trajectory(system, mu, subject, h, chart, times(off));
+        let run = |chart, off| trajectory(system, mu, method, h, chart, times(off));
         let (elements, states) = run(Chart::Matrix, true)?;
         let (without, _) = run(Chart::Matrix, false)?;
         // rows at 2, 2.3, 5, 8 and 2, 5, 8
         if elements.first() != without.first() || elements[2..] != without[1..] {
             return Ok((f64::INFINITY, true));
         }
-        moves |= subject_moves(system, subject, h, mu);
+        moves |= method_moves(system, method, h, mu);
         for (element, state) in elements.iter().zip(&states) {
             worst = f64::max(worst, defect(system, element, state, mu.as_slice()));
             if worst.is_nan() {
@@ -109,11 +114,16 @@ where
 }
 
 /// Whether a step shows any motion.
-fn subject_moves<P: Lift<f64>>(system: &P, subject: &Subject<P>, h: f64, mu: &P::State) -> bool {
+fn method_moves<P: Lift<f64>>(
+    system: &P,
+    method: &dyn AnyMethod<f64, P>,
+    h: f64,
+    mu: &P::State,
+) -> bool {
     let mut motions = super::super::any::Motions(Vec::new());
     let newton = crate::newton::NewtonOptions::default();
     let mut state = mu.clone();
-    let mut stepper = subject.method.any_stepper(system, h, &newton);
+    let mut stepper = method.any_stepper(system, h, &newton);
     stepper.step_with_motions(&mut state, &mut motions).is_ok() && !motions.0.is_empty()
 }
 
@@ -121,7 +131,7 @@ fn subject_moves<P: Lift<f64>>(system: &P, subject: &Subject<P>, h: f64, mu: &P:
 fn trajectory<P>(
     system: &P,
     mu: &P::State,
-    subject: &Subject<P>,
+    method: &dyn AnyMethod<f64, P>,
     h: f64,
     chart: Chart,
     mut times: Vec<f64>,
@@ -138,8 +148,7 @@ where
     };
     let mut group = Reconstruction::new(system, chart);
     let options = Options::new(h).save(Save::At(times));
-    let method = Forgotten(&*subject.method);
-    match solve_observed(&problem, method, &options, &mut group) {
+    match solve_observed(&problem, Forgotten(method), &options, &mut group) {
         Ok(solution) => {
             let states = solution.mu.iter().map(|mu| mu.as_slice().to_vec());
             Ok((group.rows().to_vec(), states.collect()))

@@ -5,20 +5,23 @@
 //! where a fact that does not hold misses its bound by orders of magnitude.
 
 mod controls;
+mod failing;
 mod findings;
 mod ground;
 mod group;
 mod invariants;
 mod order;
 mod plain;
+mod solver;
 
-pub use controls::broken_measurements;
+pub(crate) use controls::spoiled;
+pub use controls::{broken_comparison, broken_measurements, unsound_iterations};
 pub use findings::{Finding, Verdict};
 pub(crate) use ground::rate;
 pub use ground::{Exact, Ground, OrbitDistance};
 pub use group::GroupCheck;
 pub(crate) use order::relative_error;
-pub use plain::PlainSteps;
+pub use plain::{PlainEnd, PlainSteps};
 
 use super::any::AnyMethod;
 use super::newton_order::{order_of_iteration, residual_floor, residuals};
@@ -48,6 +51,9 @@ pub struct Subject<P: Lift<f64>> {
     pub with_tolerance: Option<ByTolerance<P>>,
     /// Of a method with a fused equation: the same method on the generic one.
     pub plain: Option<Box<PlainSteps>>,
+    /// Whether the group element only goes along with the steps, to their order, although these are of coadjoint form: that of
+    /// a realization acts on points, not in the declared matrices.
+    pub beside: bool,
 }
 
 /// Round-off of one step, in units of epsilon times the size of what is measured: the state after a step is
@@ -59,22 +65,35 @@ const NEWTON: f64 = 1.25;
 /// The part of all steps that may need row exchanges.
 const EXCHANGES: f64 = 0.1;
 
-/// Measures everything that `subject` claims.
+/// Measures everything that `subject` claims; says what comes next, which in many dimensions may take long.
 pub fn verify<P: Lift<f64>>(
     system: &P,
     lifted: &P::Lifted,
     ground: &Ground<P>,
     subject: &Subject<P>,
+    next: &mut dyn FnMut(&'static str),
 ) -> Vec<Finding> {
+    let method = &*subject.method;
+    next("order");
     let mut findings = vec![order::finding(system, ground, subject)];
-    findings.push(symmetry(system, ground, &*subject.method));
-    findings.extend(iterations(system, ground, subject));
-    findings.extend(invariants::findings(system, ground, &*subject.method));
-    findings.push(orbit(system, ground, &*subject.method));
+    next("symmetric");
+    findings.push(symmetry(system, ground, method));
+    next("iterations");
+    findings.extend(iterations(system, ground, method, subject.composed));
+    findings.push(failing::finding(system, ground, subject));
+    next("invariants");
+    findings.extend(invariants::findings(system, ground, method));
+    next("orbit");
+    findings.push(orbit(system, ground, method));
+    next("Poisson");
     findings.push(poisson::<P>(lifted, ground, &*subject.lifted));
-    findings.extend(plain::finding(system, ground, subject));
+    if let Some(plain) = &subject.plain {
+        next("generic form");
+        findings.push(plain::finding(system, ground, method, plain));
+    }
     if let Some(check) = ground.group {
-        findings.push(check(system, ground, subject));
+        next("group");
+        findings.push(check(system, ground, method, subject.beside));
     }
     findings
 }
@@ -199,8 +218,13 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// Whether explicit methods iterate, and how fast the iteration of implicit ones converges.
-fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Vec<Finding> {
-    let claims = subject.method.claims();
+fn iterations<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+    composed: bool,
+) -> Vec<Finding> {
+    let claims = method.claims();
     let mut most = 0;
     let mut slowest = f64::INFINITY;
     // far from the solution no iteration has its order yet: never beyond the system's own step
@@ -209,7 +233,7 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
         (most, slowest) = (0, f64::INFINITY);
         for mu in &ground.states {
             for h in [h, -h] {
-                let (residuals, iterations) = residuals(system, &*subject.method, h, mu)?;
+                let (residuals, iterations) = residuals(system, method, h, mu)?;
                 most = most.max(iterations);
                 if let Some(order) = order_of_iteration(&residuals, residual_floor(mu)) {
                     slowest = slowest.min(order);
@@ -228,7 +252,7 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
     if most == 0 {
         return vec![explicit];
     }
-    if subject.composed {
+    if composed {
         return vec![explicit, Finding::absent("Newton", "that of the base")];
     }
     let note = if slowest.is_finite() {
@@ -239,18 +263,22 @@ fn iterations<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>
     let newton = Finding::at_least("Newton", true, slowest, 2.0, NEWTON)
         .at(step)
         .note(note);
-    let exchanges = exchanges(system, ground, subject);
+    let exchanges = exchanges(system, ground, method);
     vec![
         explicit,
         newton,
-        residual(system, ground, subject),
+        residual(system, ground, method),
         exchanges,
     ]
 }
 
 /// How many steps, as a part of all, fall back to row exchanges: the elimination in fixed order is made for steps of the
 /// system's own size, where it needs none.
-fn exchanges<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
+fn exchanges<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+) -> Finding {
     let newton = NewtonOptions::default();
     let own = ground.step.abs().min(ground.natural_step);
     let measured = smaller_steps(own, |h| {
@@ -258,7 +286,7 @@ fn exchanges<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>)
         for mu in &ground.states {
             for h in [h, -h, 0.3 * h] {
                 let mut state = mu.clone();
-                let mut stepper = subject.method.any_stepper(system, h, &newton);
+                let mut stepper = method.any_stepper(system, h, &newton);
                 for _ in 0..4 {
                     fallen += u32::from(stepper.step(&mut state)?.pivoted != 0);
                     steps += 1;
@@ -275,12 +303,16 @@ fn exchanges<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>)
 
 /// Whether the iteration that evaluates residuals alone, after one Jacobian, comes to the same state: the
 /// residual and the one that comes with the Jacobian are separate code.
-fn residual<P: Lift<f64>>(system: &P, ground: &Ground<P>, subject: &Subject<P>) -> Finding {
+fn residual<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+) -> Finding {
     let bound = 4.0 * PER_STEP * f64::EPSILON;
     worst(ground, "residual", true, bound, |h, mu| {
         let step = |newton: &NewtonOptions| {
             let mut end = mu.clone();
-            let mut stepper = subject.method.any_stepper(system, h, newton);
+            let mut stepper = method.any_stepper(system, h, newton);
             stepper.step(&mut end).map(|_| end)
         };
         let end = step(&NewtonOptions::default())?;

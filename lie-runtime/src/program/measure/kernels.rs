@@ -8,7 +8,7 @@ use crate::lagrangian::{DiscreteLagrangianPoisson, LagrangianPoisson};
 use crate::matrix::SquareMatrix;
 use crate::poisson::{CayleyPoisson, LiePoisson, Poisson};
 use crate::state::State;
-use crate::structure::RealizedPoisson;
+use crate::structure::{RealizedPoisson, Spectrum};
 
 /// Writes the kernels of one trait at a state.
 pub(super) type Kernels<P> = fn(&P, &mut Writer<'_, <P as Poisson<f64>>::State>);
@@ -144,7 +144,7 @@ pub(super) fn algebra<P: LiePoisson<f64>>(system: &P, writer: &mut Writer<'_, P:
     writer.write("ad_star_matrix", &[xi.as_slice()], &rows(&matrix));
 }
 
-/// That of [`CayleyPoisson`].
+/// That of [`CayleyPoisson`], and whether the eigenvalues of its matrices are said to be imaginary.
 pub(super) fn cayley<P: CayleyPoisson<f64>>(system: &P, writer: &mut Writer<'_, P::State>) {
     let [x, z] = [(); 2].map(|()| writer.vector(system.zero_state()));
     let mu = writer.mu.clone();
@@ -152,6 +152,12 @@ pub(super) fn cayley<P: CayleyPoisson<f64>>(system: &P, writer: &mut Writer<'_, 
     system.triple(&x, &z, &mu, &mut out);
     let arguments = [x.as_slice(), z.as_slice(), mu.as_slice()];
     writer.write("triple", &arguments, out.as_slice());
+    let imaginary = matches!(system.spectrum(), Spectrum::Imaginary);
+    writer.write(
+        "imaginary",
+        &[x.as_slice()],
+        &[f64::from(u8::from(imaginary))],
+    );
 }
 
 /// Those of [`LagrangianPoisson`], at the velocity of the state.

@@ -9,6 +9,7 @@
 mod bench;
 mod driven;
 mod kernels;
+mod outside;
 mod stress;
 mod timing;
 mod verify;

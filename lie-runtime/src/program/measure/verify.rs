@@ -3,7 +3,7 @@
 //! Further keys: `seed`, `step`. Lines: `ground <step> <span> <error of the references> <states> <linear
 //! integrals> <quadratic integrals>`, then the kernels at the states (see [`super::kernels`]), the end of the reference
 //! solution from each (`reference <span> <start> <end>`), one `broken <fact>` for each measurement that lets a spoiled map
-//! pass, and one `finding <label> <fact> <claim> <measured> <bound> <verdict> <note> <step>` for each fact of each method.
+//! pass, one `unsound <what>` for each part of the iteration that does not solve an equation with a known solution, and one `finding <label> <fact> <claim> <measured> <bound> <verdict> <note> <step>` for each fact of each method.
 
 use super::super::{Build, Tolerances};
 use super::kernels::{self, Kernels};
@@ -11,7 +11,8 @@ use super::{Ended, Request, Session, driven, main, prepare, serve};
 use crate::diagnostics::AnyMethod;
 use crate::diagnostics::random::Random;
 use crate::diagnostics::verify::{
-    Finding, Ground, PlainSteps, Subject, Verdict, broken_measurements, verify,
+    Finding, Ground, PlainSteps, Subject, Verdict, broken_comparison, broken_measurements,
+    unsound_iterations, verify,
 };
 use crate::lagrangian::{DiscreteLagrangianPoisson, LagrangianPoisson};
 use crate::methods::Method;
@@ -35,6 +36,7 @@ pub struct Verify<P: Lift<f64>> {
     kernels: Vec<Kernels<P>>,
     subjects: Vec<(&'static str, MakeSubject<P>)>,
     plain: Vec<(&'static str, MakePlain)>,
+    beside: Vec<&'static str>,
 }
 
 impl<P: Lift<f64> + Clone + 'static> Verify<P> {
@@ -50,6 +52,7 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
             kernels: vec![kernels::poisson],
             subjects: Vec::new(),
             plain: Vec::new(),
+            beside: Vec::new(),
         }
     }
 
@@ -133,10 +136,11 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
                 let mut mu = system.zero_state();
                 mu.as_mut_slice().copy_from_slice(start);
                 let mut stepper = method.any_stepper(&system, h, &NewtonOptions::default());
+                let mut iterations = 0;
                 for _ in 0..steps {
-                    stepper.step(&mut mu)?;
+                    iterations += stepper.step(&mut mu)?.iterations;
                 }
-                Ok(mu.as_slice().to_vec())
+                Ok((mu.as_slice().to_vec(), iterations))
             }))
         };
         self.plain.push((label, Box::new(steps)));
@@ -183,6 +187,13 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
                 ..subject(&make, false)
             }
         })
+    }
+
+    /// Says of a method that the group element goes along with its steps to their order, not exactly.
+    #[must_use]
+    pub fn beside(mut self, label: &'static str) -> Self {
+        self.beside.push(label);
+        self
     }
 
     fn add(mut self, label: &'static str, make: impl Fn() -> Subject<P> + 'static) -> Self {
@@ -234,9 +245,10 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
             &ground.linear.len().to_string(),
             &ground.quadratic.len().to_string(),
         ]);
+        let all = request.methods.len() as u64;
+        session.stage(0, all, "the kernels")?;
         self.evidence(&system, &ground, seed, session);
         let lifted = system.lift();
-        let all = request.methods.len() as u64;
         for (done, label) in request.methods.iter().enumerate() {
             session.stage(done as u64, all, label)?;
             let Some((_, make)) = self.subjects.iter().find(|(known, _)| known == label) else {
@@ -245,13 +257,32 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
             let mut subject = make();
             let plain = self.plain.iter().find(|(known, _)| known == label);
             subject.plain = plain.and_then(|(_, make)| make(&request.parameters));
+            subject.beside = self.beside.contains(&label.as_str());
             if done == 0 {
-                for fact in broken_measurements(&system, &lifted, &ground, &subject) {
+                session.stage(0, all, "the measurements on a spoiled map")?;
+                let mut broken = broken_measurements(&system, &lifted, &ground, &subject);
+                if driven::is_blind(&system, &ground, &subject) {
+                    broken.push("rows");
+                }
+                for fact in broken {
                     session.line(&["broken", fact]);
                 }
+                for what in unsound_iterations() {
+                    session.line(&["unsound", what]);
+                }
+            }
+            if broken_comparison(&system, &ground, &subject) {
+                session.line(&["broken", "generic form"]);
             }
             let rows = driven::finding(&system, &ground, &subject);
-            let findings = verify(&system, &lifted, &ground, &subject);
+            let mut ended = Ok(());
+            let mut next = |fact: &str| {
+                if ended.is_ok() {
+                    ended = session.stage(done as u64, all, &format!("{label}, {fact}"));
+                }
+            };
+            let findings = verify(&system, &lifted, &ground, &subject, &mut next);
+            ended?;
             for finding in findings.into_iter().chain([rows]) {
                 report(label, &finding, session);
             }
@@ -310,5 +341,6 @@ where
         composed,
         with_tolerance: None,
         plain: None,
+        beside: false,
     }
 }

@@ -1,0 +1,218 @@
+//! Systems with one kernel that lies: the judge names that kernel and no other.
+
+use lie_codegen::compile::compile_spec;
+use lie_codegen::judge::{Judge, Sample};
+use lie_runtime::methods::Rk4;
+use lie_runtime::prelude::*;
+use lie_runtime::program::measure::Verify;
+use lie_runtime::scalar::Dual;
+use lie_runtime::{LiePoisson, Lift, Poisson, SquareMatrix};
+
+lie_poisson! { pub spec = "specs/so3_nonpolynomial.json"; }
+
+type Vector<S> = <NonpolynomialSpinSystem<S> as Poisson<S>>::State;
+type Matrix<S> = <NonpolynomialSpinSystem<S> as Poisson<S>>::Jacobian;
+
+/// What lies; the first says the truth.
+const LIES: [&str; 14] = [
+    "nothing",
+    "hamiltonian",
+    "energy",
+    "gradient",
+    "hessian",
+    "poisson_matrix",
+    "poisson_slope",
+    "vector_field",
+    "jacobian",
+    "linearize",
+    "casimirs",
+    "casimir_gradient 0",
+    "ad_star",
+    "ad_star_matrix",
+];
+
+/// A spin that lies in one kernel.
+#[derive(Clone)]
+struct Lying<S: Scalar, const WHAT: usize>(NonpolynomialSpinSystem<S>);
+
+impl<S: Scalar, const WHAT: usize> Lying<S, WHAT> {
+    fn lies(kernel: &str) -> bool {
+        LIES[WHAT] == kernel
+    }
+}
+
+/// A value a little off, if it is that of the lie.
+fn bent<S: Scalar>(lies: bool, value: S) -> S {
+    if lies {
+        value * S::from_f64(1.0 + 1e-9)
+    } else {
+        value
+    }
+}
+
+/// An entry with the wrong sign.
+fn turned<S: Scalar>(lies: bool, vector: &mut Vector<S>, entry: usize) {
+    if lies {
+        vector.as_mut_slice()[entry] = -vector.as_slice()[entry];
+    }
+}
+
+/// Two entries exchanged, as in a transposed matrix.
+fn transposed<S: Scalar>(lies: bool, matrix: &mut Matrix<S>) {
+    if lies {
+        let entry = |row, column| SquareMatrix::<S>::get(matrix, row, column);
+        let (a, b) = (entry(0, 1), entry(1, 0));
+        matrix.set(0, 1, b);
+        matrix.set(1, 0, a);
+    }
+}
+
+impl<S: Scalar, const WHAT: usize> Poisson<S> for Lying<S, WHAT> {
+    type State = Vector<S>;
+    type Jacobian = Matrix<S>;
+    fn dimension(&self) -> usize {
+        3
+    }
+    fn casimir_count(&self) -> usize {
+        1
+    }
+    fn name(&self) -> &str {
+        "Lying"
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        ["x", "y", "z"][index]
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        ["C"][index]
+    }
+
+    fn zero_state(&self) -> Vector<S> {
+        self.0.zero_state()
+    }
+    fn zero_jacobian(&self) -> Matrix<S> {
+        self.0.zero_jacobian()
+    }
+    fn hamiltonian(&self, mu: &Vector<S>) -> S {
+        bent(Self::lies("hamiltonian"), self.0.hamiltonian(mu))
+    }
+    fn energy(&self, mu: &Vector<S>) -> S {
+        bent(Self::lies("energy"), self.0.energy(mu))
+    }
+    fn gradient(&self, mu: &Vector<S>, out: &mut Vector<S>) {
+        self.0.gradient(mu, out);
+        turned(Self::lies("gradient"), out, 2);
+    }
+    fn hessian(&self, mu: &Vector<S>, out: &mut Matrix<S>) {
+        self.0.hessian(mu, out);
+        if Self::lies("hessian") {
+            out.set(1, 2, S::zero());
+        }
+    }
+    fn poisson_matrix(&self, mu: &Vector<S>, out: &mut Matrix<S>) {
+        self.0.poisson_matrix(mu, out);
+        transposed(Self::lies("poisson_matrix"), out);
+    }
+    fn poisson_slope(&self, mu: &Vector<S>, xi: &Vector<S>, out: &mut Matrix<S>) {
+        self.0.poisson_slope(mu, xi, out);
+        transposed(Self::lies("poisson_slope"), out);
+    }
+    fn vector_field(&self, mu: &Vector<S>, out: &mut Vector<S>) {
+        self.0.vector_field(mu, out);
+        let first = out.as_slice()[0];
+        out.as_mut_slice()[0] = bent(Self::lies("vector_field"), first);
+    }
+    fn jacobian(&self, mu: &Vector<S>, out: &mut Matrix<S>) {
+        self.0.jacobian(mu, out);
+        if Self::lies("jacobian") {
+            out.set(0, 1, S::zero());
+        }
+    }
+    fn linearize(&self, mu: &Vector<S>, field: &mut Vector<S>, out: &mut Matrix<S>) {
+        self.0.linearize(mu, field, out);
+        transposed(Self::lies("linearize"), out);
+    }
+    fn casimirs(&self, mu: &Vector<S>, out: &mut [S]) {
+        self.0.casimirs(mu, out);
+        out[0] = bent(Self::lies("casimirs"), out[0]);
+    }
+    fn casimir_gradient(&self, index: usize, mu: &Vector<S>, out: &mut Vector<S>) {
+        self.0.casimir_gradient(index, mu, out);
+        turned(Self::lies("casimir_gradient 0"), out, 1);
+    }
+}
+
+impl<S: Scalar, const WHAT: usize> LiePoisson<S> for Lying<S, WHAT> {
+    fn ad(&self, xi: &Vector<S>, eta: &Vector<S>, out: &mut Vector<S>) {
+        self.0.ad(xi, eta, out);
+    }
+    fn ad_star(&self, xi: &Vector<S>, mu: &Vector<S>, out: &mut Vector<S>) {
+        self.0.ad_star(xi, mu, out);
+        turned(Self::lies("ad_star"), out, 0);
+    }
+    fn ad_star_matrix(&self, xi: &Vector<S>, out: &mut Matrix<S>) {
+        self.0.ad_star_matrix(xi, out);
+        transposed(Self::lies("ad_star_matrix"), out);
+    }
+}
+
+impl<S: Scalar, const WHAT: usize> Lift<S> for Lying<S, WHAT> {
+    type Lifted = Lying<Dual<S>, WHAT>;
+    fn lift(&self) -> Self::Lifted {
+        Lying(self.0.lift())
+    }
+}
+
+/// The kernels of a system that the judge refuses.
+fn refused<const WHAT: usize>(judge: &Judge) -> Vec<String> {
+    let system = |_: &[f64]| NonpolynomialSpin::new().system().map(Lying::<f64, WHAT>);
+    let program = Verify::new(&[], system)
+        .with_orbits()
+        .method("rk4", |_| Rk4);
+    let request = "initial 0.6 -0.5 0.7\nseed 3\nrun\n";
+    // the input must not end before the program does
+    let input = std::io::BufReader::new(std::io::Read::chain(
+        std::io::Cursor::new(request.as_bytes()),
+        std::io::Read::take(std::io::repeat(b' '), u64::MAX),
+    ));
+    let (mut lines, mut messages) = (Vec::new(), Vec::new());
+    let code = program.serve(input, &mut lines, &mut messages);
+    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&messages));
+    let text = String::from_utf8(lines).expect("text");
+    let numbers = |text: &str| -> Vec<f64> {
+        let words = text.split_whitespace();
+        words.map(|word| word.parse().expect("a number")).collect()
+    };
+    let mut refused = Vec::new();
+    for line in text.lines().filter(|line| line.starts_with("kernel\t")) {
+        let fields: Vec<&str> = line.split('\t').collect();
+        let sample = Sample {
+            kernel: fields[1].to_owned(),
+            arguments: fields[2].split('|').map(numbers).collect(),
+            values: numbers(fields[3]),
+            velocity: numbers(fields[4]),
+        };
+        let verdict = judge.judge(&sample).expect("a known kernel");
+        if verdict.excess > 1.0 && !refused.contains(&sample.kernel) {
+            refused.push(sample.kernel);
+        }
+    }
+    refused
+}
+
+#[test]
+fn the_kernel_that_lies_is_named() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/specs/so3_nonpolynomial.json");
+    let text = std::fs::read_to_string(path).expect("the spec");
+    let model = compile_spec(&text).expect("a spec without mistakes");
+    let judge = Judge::of_spec(&text, &model, &model.defaults()).expect("a declaration");
+    let mut named = 0;
+    macro_rules! each {
+        ($($what:literal)*) => {$(
+            let expected: &[&str] = if $what == 0 { &[] } else { &[LIES[$what]] };
+            assert_eq!(refused::<$what>(&judge), expected);
+            named += 1;
+        )*};
+    }
+    each!(0 1 2 3 4 5 6 7 8 9 10 11 12 13);
+    assert_eq!(named, LIES.len());
+}
