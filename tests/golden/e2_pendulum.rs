@@ -1332,9 +1332,9 @@ for PendulumCayleyMidpoint<'_, S> {
         let [[_L, x, y]] = self.base.data.0;
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = _u_L * self._h0;
-        let _t1 = _u_y + _u_x * _t0;
-        residual[0] = _u_L - _L + _u_L * _t0 * _t0 - _t1 * self._h1;
-        residual[1] = _u_x - x - _u_y * _t0;
+        let _t1 = _u_y + _t0 * _u_x;
+        residual[0] = _u_L - _L + _t0 * _t0 * _u_L - _t1 * self._h1;
+        residual[1] = _u_x - x - _t0 * _u_y;
         residual[2] = _t1 - y;
     }
 
@@ -1352,9 +1352,9 @@ for PendulumCayleyMidpoint<'_, S> {
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = _u_L * self._h0;
         let _t1 = _t0 * _t0;
-        let _t2 = _u_y + _u_x * _t0;
+        let _t2 = _u_y + _t0 * _u_x;
         residual[0] = _u_L - _L + _u_L * _t1 + self._h2 * _t2;
-        residual[1] = _u_x - x - _u_y * _t0;
+        residual[1] = _u_x - x - _t0 * _u_y;
         residual[2] = _t2 - y;
         matrix[(0, 0)] = S::one() + S::ratio(3.0, 1.0) * _t1 - _u_x * self._h3;
         matrix[(0, 1)] = _t0 * self._h2;

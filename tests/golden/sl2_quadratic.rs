@@ -1238,27 +1238,26 @@ for Sl2QuadraticCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
-    /// 23 additions, 28 multiplications.
+    /// 23 additions, 24 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[h, e, f]] = self.base.data.0;
         let [[_u_h, _u_e, _u_f]] = unknown.data.0;
-        let _t0 = (_u_h * S::ratio(1.0, 4.0) + _u_e * S::ratio(1.0, 5.0)) * self._h0;
-        let _t1 = _u_h * _t0;
-        let _t2 = (_u_f + _u_e * S::ratio(1.0, 4.0)) * self._h0;
-        let _t3 = (_u_e + _u_f * S::ratio(1.0, 4.0) + _u_h * S::ratio(1.0, 5.0))
+        let _t0 = (_u_f + _u_e * S::ratio(1.0, 4.0)) * self._h0;
+        let _t1 = _t0 * _u_f;
+        let _t2 = _t1 * S::ratio(2.0, 1.0);
+        let _t3 = (_u_h * S::ratio(1.0, 4.0) + _u_e * S::ratio(1.0, 5.0)) * self._h0;
+        let _t4 = (_u_e + _u_f * S::ratio(1.0, 4.0) + _u_h * S::ratio(1.0, 5.0))
             * self._h0;
-        let _t4 = _u_h * _t3;
-        let _t5 = _u_e * _t0;
-        let _t6 = _u_f * _t0;
-        let _t7 = _u_e * _t3;
-        let _t8 = _u_f * _t2;
-        residual[0] = _u_h - h - _t0 * _t1 + _t2 * _t4
-            - (_t3 * _t5 + _t2 * _t6 - _t7 + _t8) * S::ratio(2.0, 1.0);
-        residual[1] = _u_e - e + _t0 * _t5 - _t2 * _t1 - _t2 * _t8 + _u_h * _t2
-            - S::ratio(2.0, 1.0) * _t5;
-        residual[2] = _u_f - f + _t0 * _t6 - _t3 * _t1 - _t3 * _t7 - _t4
-            + S::ratio(2.0, 1.0) * _t6;
+        let _t5 = _t4 * _u_e;
+        let _t6 = _t0 * _u_h;
+        residual[0] = _u_h - h - _t2
+            - _t3 * (_t3 * _u_h + _t5 * S::ratio(2.0, 1.0) + _t2)
+            + _t4 * (_t6 + _u_e * S::ratio(2.0, 1.0));
+        residual[1] = _u_e - e - _t3 * (_t6 - _u_e * (_t3 - S::ratio(2.0, 1.0)))
+            + _t0 * (_u_h - _t1);
+        residual[2] = _u_f - f - _t3 * (_t4 * _u_h - _u_f * (_t3 + S::ratio(2.0, 1.0)))
+            - _t4 * (_u_h + _t5);
     }
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
@@ -1278,17 +1277,17 @@ for Sl2QuadraticCayleyMidpoint<'_, S> {
         let _t2 = (_u_f + _u_e * S::ratio(1.0, 4.0)) * self._h0;
         let _t3 = (_u_e + _u_f * S::ratio(1.0, 4.0) + _u_h * S::ratio(1.0, 5.0))
             * self._h0;
-        let _t4 = _u_h * _t3;
-        let _t5 = _u_e * _t3;
-        let _t6 = _u_f * _t2;
-        let _t7 = _u_h * _t2;
+        let _t4 = _t3 * _u_h;
+        let _t5 = _t3 * _u_e;
+        let _t6 = _t2 * _u_f;
+        let _t7 = _t2 * _u_h;
         let _t8 = _t0 * S::ratio(2.0, 1.0);
-        let _t9 = _u_h * _t0;
+        let _t9 = _t0 * _u_h;
         let _t10 = _t5 + _t6 + _t9;
-        let _t11 = _u_e - _u_e * _t0;
+        let _t11 = _u_e - _t0 * _u_e;
         let _t12 = _t11 * self._h2 + _t7 * self._h3;
         let _t13 = _t0 * _t3;
-        let _t14 = _u_f + _u_f * _t0;
+        let _t14 = _u_f + _t0 * _u_f;
         let _t15 = self._h1 * _t14 - _t4 * self._h4;
         let _t16 = _t0 * _t2;
         let _t17 = _t11 * self._h1 + _t7 * self._h4;

@@ -2499,44 +2499,44 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
         let _t0 = (S::one() + _u_m1 * S::ratio(1.0, 5.0)) * self._h0;
-        let _t1 = _u_R32 * _t0;
+        let _t1 = _t0 * _u_R32;
         let _t2 = (_u_m1 * self.system._k3 + _u_R33 * S::ratio(1.0, 5.0)) * self._h0;
-        let _t3 = _u_R33 * _t0;
+        let _t3 = _t0 * _u_R33;
         let _t4 = _u_R21 * self._h1;
         let _t5 = _u_m3 * self._h2;
         let _t6 = _u_m2 * _u_R11;
         let _t7 = (_u_m2 * self.system._k5 + _u_R11 * S::ratio(1.0, 3.0) * _t6)
             * self._h0;
-        let _t8 = _u_m1 * _t2 + _u_m2 * _t7 + _u_m3 * _t5;
-        let _t9 = _t8 + _u_R12 * _t4;
-        let _t10 = _u_m3 - _u_R11 * _t4;
-        let _t11 = _u_R31 * _t0;
-        let _t12 = _u_m1 + _u_R13 * _t4;
+        let _t8 = _t2 * _u_m1 + _t7 * _u_m2 + _t5 * _u_m3;
+        let _t9 = _t8 + _t4 * _u_R12;
+        let _t10 = _u_m3 - _t4 * _u_R11;
+        let _t11 = _t0 * _u_R31;
+        let _t12 = _u_m1 + _t4 * _u_R13;
         let _t13 = _u_m2 * self._h3 * _t6;
         let _t14 = _u_R12 * self._h1;
-        let _t15 = _u_R11 * _t13 + _u_R21 * _t14;
-        let _t16 = _u_R23 * _t14 - (_u_m2 - _u_R13 * _t13);
+        let _t15 = _t13 * _u_R11 + _t14 * _u_R21;
+        let _t16 = _t14 * _u_R23 - (_u_m2 - _t13 * _u_R13);
         let _t17 = _t5 * self._h4;
         residual[0] = _t12 - m1 - _t1 + _t2 * (_t9 + _t3) + _t7 * _t10
             - _t5 * (_u_m2 + _t11);
         residual[1] = _t11 - m2 + _t7 * (_t8 + _t3 + _t15)
-            - _t2 * (_u_m3 + _u_R12 * _t13 + _u_R22 * _t14) + _t5 * (_u_m1 - _t1) - _t16;
+            - _t2 * (_u_m3 + _t13 * _u_R12 + _t14 * _u_R22) + _t5 * (_u_m1 - _t1) - _t16;
         residual[2] = _t10 - m3 + _t5 * (_t9 + _t15) + _t2 * -_t16 - _t7 * _t12
             + _t14 * (_u_R22 + _t13 * self._h4);
-        residual[3] = _u_R11 - _R11 + _u_R13 * _t7 - _t14 * _t17;
-        residual[4] = _u_R12 - _R12 - _u_R13 * _t2 + _u_R11 * _t5;
-        residual[5] = _u_R13 - _R13 - _u_R11 * _t7 + _t2 * _t14 * self._h4;
-        residual[6] = _u_R21 - _R21 - _u_R22 * _t5 + _u_R23 * _t7;
-        residual[7] = _u_R22 - _R22 - _u_R23 * _t2 + _t4 * _t17;
-        residual[8] = _u_R23 - _R23 + _u_R22 * _t2 - _t7 * _t4 * self._h4;
-        residual[9] = _u_R31 - _R31 + _u_R33 * _t7 - _u_R32 * _t5;
-        residual[10] = _u_R32 - _R32 - _u_R33 * _t2 + _u_R31 * _t5;
-        residual[11] = _u_R33 - _R33 - _u_R31 * _t7 + _u_R32 * _t2;
+        residual[3] = _u_R11 - _R11 + _t7 * _u_R13 - _t14 * _t17;
+        residual[4] = _u_R12 - _R12 - _t2 * _u_R13 + _t5 * _u_R11;
+        residual[5] = _u_R13 - _R13 - _t7 * _u_R11 + _t2 * _t14 * self._h4;
+        residual[6] = _u_R21 - _R21 - _t5 * _u_R22 + _t7 * _u_R23;
+        residual[7] = _u_R22 - _R22 - _t2 * _u_R23 + _t4 * _t17;
+        residual[8] = _u_R23 - _R23 + _t2 * _u_R22 - _t7 * _t4 * self._h4;
+        residual[9] = _u_R31 - _R31 + _t7 * _u_R33 - _t5 * _u_R32;
+        residual[10] = _u_R32 - _R32 - _t2 * _u_R33 + _t5 * _u_R31;
+        residual[11] = _u_R33 - _R33 - _t7 * _u_R31 + _t2 * _u_R32;
     }
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
-    /// 147 additions, 225 multiplications.
+    /// 146 additions, 225 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -2550,184 +2550,182 @@ for CotangentBodyCayleyMidpoint<'_, S> {
             .0;
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = _u_R21 * self._h1;
-        let _t1 = _u_m2 * _u_R11;
-        let _t2 = _u_R11 * S::ratio(1.0, 3.0);
-        let _t3 = self.system._k5 * _u_m2 + _t1 * _t2;
-        let _t4 = _t3 * self._h0;
-        let _t5 = _u_R11 * _t4;
+        let _t0 = _u_m2 * _u_R11;
+        let _t1 = _u_R11 * S::ratio(1.0, 3.0);
+        let _t2 = self.system._k5 * _u_m2 + _t0 * _t1;
+        let _t3 = _t2 * self._h0;
+        let _t4 = _u_R21 * self._h1;
+        let _t5 = _t3 * _t4;
         let _t6 = _u_m3 * self._h2;
         let _t7 = S::one() + _u_m1 * S::ratio(1.0, 5.0);
         let _t8 = _t7 * self._h0;
         let _t9 = _t6 * _t8;
         let _t10 = self.system._k3 * _u_m1 + _u_R33 * S::ratio(1.0, 5.0);
         let _t11 = _t10 * self._h0;
-        let _t12 = _u_m3 * _t6;
-        let _t13 = _t12 + _u_R33 * _t8;
-        let _t14 = _u_R12 * _t0;
-        let _t15 = _u_m1 * _t11;
-        let _t16 = _u_m2 * _t4;
+        let _t12 = _t6 * _u_m3;
+        let _t13 = _t12 + _t8 * _u_R33;
+        let _t14 = _t4 * _u_R12;
+        let _t15 = _t11 * _u_m1;
+        let _t16 = _t3 * _u_m2;
         let _t17 = _t15 + _t16;
         let _t18 = _t17 + _t14;
-        let _t19 = _t3 - self.system._k4 * _u_m2;
+        let _t19 = _t2 - self.system._k4 * _u_m2;
         let _t20 = _u_m2 * self._h3;
-        let _t21 = _t1 * _t20;
+        let _t21 = _t0 * _t20;
         let _t22 = _u_R12 * self._h1;
-        let _t23 = _u_R11 * _t21 + _u_R21 * _t22;
+        let _t23 = _t21 * _u_R11 + _t22 * _u_R21;
         let _t24 = _t13 + _t23;
-        let _t25 = _u_R12 * _t21 + _u_R22 * _t22;
+        let _t25 = _t21 * _u_R12 + _t22 * _u_R22;
         let _t26 = _u_m2 * S::ratio(2.0, 1.0);
-        let _t27 = _t1 * _t26;
+        let _t27 = _t0 * _t26;
         let _t28 = _t10 - self.system._k4 * _u_m1;
-        let _t29 = _u_R23 * _t11;
-        let _t30 = _t23 + _t18;
-        let _t31 = _t11 * _t21;
-        let _t32 = _t4 * _t0;
-        let _t33 = _t31 + _t32;
-        let _t34 = _u_R12 * _t1;
-        let _t35 = self.system._k4 * _u_m3;
-        let _t36 = _t13 + _t16 + _t14 + _t15 * S::ratio(2.0, 1.0);
-        let _t37 = _t11 * _t4;
-        let _t38 = self.system._k5 + _u_R11 * _t2;
-        let _t39 = self._h0 * _t38;
-        let _t40 = _u_m2 * _t11 - _u_R11 * _t0;
-        let _t41 = _t11 * _t6;
-        let _t42 = self._h8 * _t1;
-        let _t43 = _u_R12 * _t11 - _t5;
-        let _t44 = -_t9;
-        let _t45 = _u_m1 * _t4 - _t25;
-        let _t46 = _t24 + _t15 + _t4 * _t26;
-        let _t47 = _u_R13 * _t42;
-        let _t48 = _t4 * _t6;
-        let _t49 = _u_m2 * _t20;
-        let _t50 = -(_t11 * _t22);
-        let _t51 = _u_m1 * _t6 - _u_R13 * _t21 - _u_R23 * _t22;
-        let _t52 = _u_m2 * _t6 - _u_R13 * _t0;
-        let _t53 = _u_R13 * _t11 - _u_R11 * _t6;
-        let _t54 = _u_R11 * S::ratio(2.0, 1.0);
-        let _t55 = _u_m3 * self._h12;
-        let _t56 = _t10 * self._h9;
-        let _t57 = _t38 * self._h9;
-        let _t58 = self._h15 * _t1;
-        let _t59 = _t3 * self._h9;
-        residual[0] = _u_m1 - m1 - _t0 * _t5 - _u_R31 * _t9 + _t11 * (_t13 + _t18)
+        let _t29 = _t23 + _t18;
+        let _t30 = _t21 * _u_R13 + _t22 * _u_R23;
+        let _t31 = _u_R12 * _t0;
+        let _t32 = self.system._k4 * _u_m3;
+        let _t33 = _t13 + _t16 + _t14 + _t15 * S::ratio(2.0, 1.0);
+        let _t34 = _t11 * _t3;
+        let _t35 = self.system._k5 + _u_R11 * _t1;
+        let _t36 = self._h0 * _t35;
+        let _t37 = _t11 * _u_m2 - _t4 * _u_R11;
+        let _t38 = _t11 * _t6;
+        let _t39 = self._h8 * _t0;
+        let _t40 = _t11 * _u_R12 - _t3 * _u_R11;
+        let _t41 = -_t9;
+        let _t42 = _t3 * _u_m1 - _t25;
+        let _t43 = _t24 + _t15 + _t3 * _t26;
+        let _t44 = _u_R13 * _t39;
+        let _t45 = _t3 * _t6;
+        let _t46 = _u_m2 * _t20;
+        let _t47 = -(_t11 * _t21);
+        let _t48 = -(_t11 * _t22);
+        let _t49 = _t6 * _u_m1 - _t30;
+        let _t50 = _t6 * _u_m2 - _t4 * _u_R13;
+        let _t51 = _t11 * _u_R13 - _t6 * _u_R11;
+        let _t52 = _u_R11 * S::ratio(2.0, 1.0);
+        let _t53 = _u_m3 * self._h12;
+        let _t54 = _t10 * self._h9;
+        let _t55 = _t35 * self._h9;
+        let _t56 = self._h15 * _t0;
+        let _t57 = _t2 * self._h9;
+        residual[0] = _u_m1 - m1 - _u_R11 * _t5 - _u_R31 * _t9 + _t11 * (_t13 + _t18)
             + self._h1
                 * (_u_R13 * _u_R21 - S::ratio(2.0, 1.0) * (_u_R32 * _t7 - _u_m3 * _t19));
-        residual[1] = _u_m2 - m2 - _u_R32 * _t9 + _t4 * (_t17 + _t24) - _t11 * _t25
+        residual[1] = _u_m2 - m2 - _u_R32 * _t9 + _t3 * (_t17 + _t24) - _t11 * _t25
             - self._h5
                 * (_u_R13 * _t27 + _u_R12 * _u_R23 * S::ratio(3.0, 1.0)
                     - (_u_R31 * _t7 - _u_m3 * _t28) * S::ratio(6.0, 1.0));
-        residual[2] = _u_m3 - m3 - _t22 * _t29 + _t6 * (_t30 + _t12) - _u_R13 * _t33
+        residual[2] = _u_m3 - m3 - _u_R13 * _t5 + _t6 * (_t29 + _t12) - _t11 * _t30
             - self._h5
                 * (S::ratio(3.0, 1.0) * (_u_R11 * _u_R21 - _u_R12 * _u_R22)
-                    + _u_m1 * _t3 * S::ratio(6.0, 1.0)
-                    - (_t34 + _t10 * S::ratio(3.0, 1.0)) * _t26);
-        residual[3] = _u_R11 - _R11 + self._h0 * (_u_R13 * _t3 - _u_R12 * _t35);
-        residual[4] = _u_R12 - _R12 - self._h0 * (_u_R13 * _t10 - _u_R11 * _t35);
-        residual[5] = _u_R13 - _R13 + self._h0 * (_u_R12 * _t10 - _u_R11 * _t3);
-        residual[6] = _u_R21 - _R21 + self._h0 * (_u_R23 * _t3 - _u_R22 * _t35);
-        residual[7] = _u_R22 - _R22 - self._h0 * (_u_R23 * _t10 - _u_R21 * _t35);
-        residual[8] = _u_R23 - _R23 + self._h0 * (_u_R22 * _t10 - _u_R21 * _t3);
-        residual[9] = _u_R31 - _R31 + self._h0 * (_u_R33 * _t3 - _u_R32 * _t35);
-        residual[10] = _u_R32 - _R32 - self._h0 * (_u_R33 * _t10 - _u_R31 * _t35);
-        residual[11] = _u_R33 - _R33 + self._h0 * (_u_R32 * _t10 - _u_R31 * _t3);
+                    + _u_m1 * _t2 * S::ratio(6.0, 1.0)
+                    - (_t31 + _t10 * S::ratio(3.0, 1.0)) * _t26);
+        residual[3] = _u_R11 - _R11 + self._h0 * (_u_R13 * _t2 - _u_R12 * _t32);
+        residual[4] = _u_R12 - _R12 - self._h0 * (_u_R13 * _t10 - _u_R11 * _t32);
+        residual[5] = _u_R13 - _R13 + self._h0 * (_u_R12 * _t10 - _u_R11 * _t2);
+        residual[6] = _u_R21 - _R21 + self._h0 * (_u_R23 * _t2 - _u_R22 * _t32);
+        residual[7] = _u_R22 - _R22 - self._h0 * (_u_R23 * _t10 - _u_R21 * _t32);
+        residual[8] = _u_R23 - _R23 + self._h0 * (_u_R22 * _t10 - _u_R21 * _t2);
+        residual[9] = _u_R31 - _R31 + self._h0 * (_u_R33 * _t2 - _u_R32 * _t32);
+        residual[10] = _u_R32 - _R32 - self._h0 * (_u_R33 * _t10 - _u_R31 * _t32);
+        residual[11] = _u_R33 - _R33 + self._h0 * (_u_R32 * _t10 - _u_R31 * _t2);
         matrix[(0, 0)] = S::one() + _t11 * _t11
-            - (_u_R32 - (_u_R33 * _t11 - _u_R31 * _t6)) * self._h6 + _t36 * self._h7;
-        matrix[(0, 1)] = _t37 + _t39 * _t40
-            - _u_m3 * self._h0 * (self.system._k4 - _t38);
-        matrix[(0, 2)] = _t41 + self._h0 * _t19
-            + self._h2 * (_u_m3 * _t11 - _u_R31 * _t8);
-        matrix[(0, 3)] = _t42 * _t40 - _t32 + _u_m3 * _t42;
-        matrix[(0, 4)] = _t11 * _t0;
-        matrix[(0, 5)] = _t0;
-        matrix[(0, 6)] = self._h1 * (_t43 + _u_R13);
-        matrix[(0, 9)] = _t44;
+            - (_u_R32 - (_t11 * _u_R33 - _t6 * _u_R31)) * self._h6 + _t33 * self._h7;
+        matrix[(0, 1)] = _t34 + _t36 * _t37
+            - _u_m3 * self._h0 * (self.system._k4 - _t35);
+        matrix[(0, 2)] = _t38 + self._h0 * _t19
+            + self._h2 * (_t11 * _u_m3 - _t8 * _u_R31);
+        matrix[(0, 3)] = _t39 * _t37 - _t5 + _u_m3 * _t39;
+        matrix[(0, 4)] = _t11 * _t4;
+        matrix[(0, 5)] = _t4;
+        matrix[(0, 6)] = self._h1 * (_t40 + _u_R13);
+        matrix[(0, 9)] = _t41;
         matrix[(0, 10)] = _t7 * self._h9;
-        matrix[(0, 11)] = _t11 * _t8 + _t36 * self._h6;
-        matrix[(1, 0)] = _t37 + self._h7 * _t45
+        matrix[(0, 11)] = _t11 * _t8 + _t33 * self._h6;
+        matrix[(1, 0)] = _t34 + self._h7 * _t42
             + self._h6
-                * (_u_R33 * _t4 - _u_R32 * _t6 + (_u_R31 - _u_m3 * self.system._k10));
-        matrix[(1, 1)] = S::one() + _t4 * _t4 + _t39 * _t46 - _t42 * _t43 - _t47;
-        matrix[(1, 2)] = _t48 - self._h0 * _t28
-            + self._h2 * (_u_m3 * _t4 - _u_R32 * _t8);
-        matrix[(1, 3)] = _t4 * _t21 + _t42 * _t46 - _t49 * _t43 - _u_R13 * _t49;
-        matrix[(1, 4)] = -_t31 - self._h1 * (_u_R22 * _t11 - _u_R21 * _t4 + _u_R23);
-        matrix[(1, 5)] = _u_m2 * self._h10 * _t1;
-        matrix[(1, 6)] = _t4 * _t22;
-        matrix[(1, 7)] = _t50;
+                * (_t3 * _u_R33 - _t6 * _u_R32 + (_u_R31 - _u_m3 * self.system._k10));
+        matrix[(1, 1)] = S::one() + _t3 * _t3 + _t36 * _t43 - _t39 * _t40 - _t44;
+        matrix[(1, 2)] = _t45 - self._h0 * _t28
+            + self._h2 * (_t3 * _u_m3 - _t8 * _u_R32);
+        matrix[(1, 3)] = _t3 * _t21 + _t39 * _t43 - _t46 * _t40 - _u_R13 * _t46;
+        matrix[(1, 4)] = _t47 - self._h1 * (_t11 * _u_R22 - _t3 * _u_R21 + _u_R23);
+        matrix[(1, 5)] = _u_m2 * self._h10 * _t0;
+        matrix[(1, 6)] = _t3 * _t22;
+        matrix[(1, 7)] = _t48;
         matrix[(1, 8)] = _u_R12 * self._h11;
         matrix[(1, 9)] = _t8;
-        matrix[(1, 10)] = _t44;
-        matrix[(1, 11)] = _t4 * _t8 - self._h6 * (_u_m3 - _t45);
-        matrix[(2, 0)] = _t41 - self._h0 * (_t3 - self.system._k3 * _u_m2)
-            + self._h7 * _t51;
-        matrix[(2, 1)] = _t48 + _t39 * _t52 - _t42 * _t53
+        matrix[(1, 10)] = _t41;
+        matrix[(1, 11)] = _t3 * _t8 - self._h6 * (_u_m3 - _t42);
+        matrix[(2, 0)] = _t38 - self._h0 * (_t2 - self.system._k3 * _u_m2)
+            + self._h7 * _t49;
+        matrix[(2, 1)] = _t45 + _t36 * _t50 - _t39 * _t51
             + self._h3
-                * ((_t10 - _u_m1 * _t38) * S::ratio(3.0, 1.0)
-                    + S::ratio(2.0, 1.0) * _t34);
+                * ((_t10 - _u_m1 * _t35) * S::ratio(3.0, 1.0)
+                    + S::ratio(2.0, 1.0) * _t31);
         matrix[(2, 2)] = S::one() + _t6 * _t6
-            + self._h2 * (_t30 + _t12 * S::ratio(2.0, 1.0));
-        matrix[(2, 3)] = _t6 * _t21 + _t42 * _t52 - _t49 * _t53
+            + self._h2 * (_t29 + _t12 * S::ratio(2.0, 1.0));
+        matrix[(2, 3)] = _t6 * _t21 + _t39 * _t50 - _t46 * _t51
             - self._h5
-                * (_u_R21 * S::ratio(3.0, 1.0) - (_u_m2 * _u_R12 - _u_m1 * _t54) * _t26);
-        matrix[(2, 4)] = _t6 * _t0 + (_u_R22 * S::ratio(3.0, 1.0) + _t27) * self._h5
-            - self._h1 * (_t29 - _u_R21 * _t6);
-        matrix[(2, 5)] = -_t33;
-        matrix[(2, 6)] = _t6 * _t22 - self._h1 * (_u_R13 * _t4 - _u_R12 * _t6 + _u_R11);
+                * (_u_R21 * S::ratio(3.0, 1.0) - (_u_m2 * _u_R12 - _u_m1 * _t52) * _t26);
+        matrix[(2, 4)] = _t6 * _t4 + (_u_R22 * S::ratio(3.0, 1.0) + _t27) * self._h5
+            - self._h1 * (_t11 * _u_R23 - _t6 * _u_R21);
+        matrix[(2, 5)] = _t47 - _t5;
+        matrix[(2, 6)] = _t6 * _t22 - self._h1 * (_t3 * _u_R13 - _t6 * _u_R12 + _u_R11);
         matrix[(2, 7)] = _t22;
-        matrix[(2, 8)] = _t50;
-        matrix[(2, 11)] = self._h6 * (_t51 + _u_m2);
-        matrix[(3, 1)] = _u_R13 * _t39;
+        matrix[(2, 8)] = _t48;
+        matrix[(2, 11)] = self._h6 * (_t49 + _u_m2);
+        matrix[(3, 1)] = _u_R13 * _t36;
         matrix[(3, 2)] = _u_R12 * self._h12;
-        matrix[(3, 3)] = S::one() + _t47;
-        matrix[(3, 4)] = _t55;
-        matrix[(3, 5)] = _t4;
+        matrix[(3, 3)] = S::one() + _t44;
+        matrix[(3, 4)] = _t53;
+        matrix[(3, 5)] = _t3;
         matrix[(4, 0)] = _u_R13 * self._h13;
         matrix[(4, 2)] = _u_R11 * self._h2;
         matrix[(4, 3)] = _t6;
         matrix[(4, 4)] = S::one();
-        matrix[(4, 5)] = _t56;
+        matrix[(4, 5)] = _t54;
         matrix[(4, 11)] = _u_R13 * self._h14;
         matrix[(5, 0)] = _u_R12 * self._h7;
-        matrix[(5, 1)] = _u_R11 * _t57;
-        matrix[(5, 3)] = (_t1 * _t54 + _t3 * S::ratio(3.0, 1.0)) * self._h10;
+        matrix[(5, 1)] = _u_R11 * _t55;
+        matrix[(5, 3)] = (_t0 * _t52 + _t2 * S::ratio(3.0, 1.0)) * self._h10;
         matrix[(5, 4)] = _t11;
         matrix[(5, 5)] = S::one();
         matrix[(5, 11)] = _u_R12 * self._h6;
-        matrix[(6, 1)] = _u_R23 * _t39;
+        matrix[(6, 1)] = _u_R23 * _t36;
         matrix[(6, 2)] = _u_R22 * self._h12;
-        matrix[(6, 3)] = _u_R23 * _t42;
+        matrix[(6, 3)] = _u_R23 * _t39;
         matrix[(6, 6)] = S::one();
-        matrix[(6, 7)] = _t55;
-        matrix[(6, 8)] = _t4;
+        matrix[(6, 7)] = _t53;
+        matrix[(6, 8)] = _t3;
         matrix[(7, 0)] = _u_R23 * self._h13;
         matrix[(7, 2)] = _u_R21 * self._h2;
         matrix[(7, 6)] = _t6;
         matrix[(7, 7)] = S::one();
-        matrix[(7, 8)] = _t56;
+        matrix[(7, 8)] = _t54;
         matrix[(7, 11)] = _u_R23 * self._h14;
         matrix[(8, 0)] = _u_R22 * self._h7;
-        matrix[(8, 1)] = _u_R21 * _t57;
-        matrix[(8, 3)] = _u_R21 * _t58;
-        matrix[(8, 6)] = _t59;
+        matrix[(8, 1)] = _u_R21 * _t55;
+        matrix[(8, 3)] = _u_R21 * _t56;
+        matrix[(8, 6)] = _t57;
         matrix[(8, 7)] = _t11;
         matrix[(8, 8)] = S::one();
         matrix[(8, 11)] = _u_R22 * self._h6;
-        matrix[(9, 1)] = _u_R33 * _t39;
+        matrix[(9, 1)] = _u_R33 * _t36;
         matrix[(9, 2)] = _u_R32 * self._h12;
-        matrix[(9, 3)] = _u_R33 * _t42;
+        matrix[(9, 3)] = _u_R33 * _t39;
         matrix[(9, 9)] = S::one();
-        matrix[(9, 10)] = _t55;
-        matrix[(9, 11)] = _t4;
+        matrix[(9, 10)] = _t53;
+        matrix[(9, 11)] = _t3;
         matrix[(10, 0)] = _u_R33 * self._h13;
         matrix[(10, 2)] = _u_R31 * self._h2;
         matrix[(10, 9)] = _t6;
         matrix[(10, 10)] = S::one();
         matrix[(10, 11)] = (_u_R33 + _t10 * S::ratio(5.0, 1.0)) * self._h14;
         matrix[(11, 0)] = _u_R32 * self._h7;
-        matrix[(11, 1)] = _u_R31 * _t57;
-        matrix[(11, 3)] = _u_R31 * _t58;
-        matrix[(11, 9)] = _t59;
+        matrix[(11, 1)] = _u_R31 * _t55;
+        matrix[(11, 3)] = _u_R31 * _t56;
+        matrix[(11, 9)] = _t57;
         matrix[(11, 10)] = _t11;
         matrix[(11, 11)] = S::one() + _u_R32 * self._h6;
         matrix[(9, 0)] = S::zero();

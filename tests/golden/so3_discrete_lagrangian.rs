@@ -1844,7 +1844,7 @@ for DiscreteBodyCayleyMidpoint<'_, S> {
         let _t0 = _u_m1 * self._h0;
         let _t1 = _u_m2 * self._h1;
         let _t2 = _u_m3 * self._h2;
-        let _t3 = _u_m1 * _t0 + _u_m2 * _t1 + _u_m3 * _t2;
+        let _t3 = _t0 * _u_m1 + _t1 * _u_m2 + _t2 * _u_m3;
         residual[0] = _u_m1 - m1 + _t0 * _t3 + _u_m2 * _u_m3 * self._h3;
         residual[1] = _u_m2 - m2 + _t1 * _t3 - _u_m1 * _u_m3 * self._h4;
         residual[2] = _u_m3 - m3 + _t2 * _t3 + _u_m1 * _u_m2 * self._h5;
@@ -1864,10 +1864,10 @@ for DiscreteBodyCayleyMidpoint<'_, S> {
         let [[_u_m1, _u_m2, _u_m3]] = unknown.data.0;
         let _t0 = _u_m1 * self._h0;
         let _t1 = _u_m3 * self._h2;
-        let _t2 = _u_m3 * _t1;
-        let _t3 = _u_m1 * _t0;
+        let _t2 = _t1 * _u_m3;
+        let _t3 = _t0 * _u_m1;
         let _t4 = _u_m2 * self._h1;
-        let _t5 = _u_m2 * _t4;
+        let _t5 = _t4 * _u_m2;
         let _t6 = _t3 + _t5;
         let _t7 = _t6 + _t2;
         let _t8 = _u_m2 * self._h3;

@@ -1667,7 +1667,7 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
         let _t0 = _u_x * self._h0;
         let _t1 = _u_y * self._h1;
         let _t2 = _u_z * self._h2;
-        let _t3 = _u_x * _t0 + _u_y * _t1 + _u_z * _t2;
+        let _t3 = _t0 * _u_x + _t1 * _u_y + _t2 * _u_z;
         residual[0] = _u_x - x + _t0 * _t3 + _u_y * _u_z * self._h3;
         residual[1] = _u_y - y + _t1 * _t3 - _u_x * _u_z * self._h4;
         residual[2] = _u_z - z + _t2 * _t3 + _u_x * _u_y * self._h5;
@@ -1687,10 +1687,10 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
         let _t0 = _u_x * self._h0;
         let _t1 = _u_z * self._h2;
-        let _t2 = _u_z * _t1;
-        let _t3 = _u_x * _t0;
+        let _t2 = _t1 * _u_z;
+        let _t3 = _t0 * _u_x;
         let _t4 = _u_y * self._h1;
-        let _t5 = _u_y * _t4;
+        let _t5 = _t4 * _u_y;
         let _t6 = _t3 + _t5;
         let _t7 = _t6 + _t2;
         let _t8 = _u_y * self._h3;

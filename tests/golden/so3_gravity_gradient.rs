@@ -2615,47 +2615,47 @@ for SatelliteCayleyMidpoint<'_, S> {
         let [[_u_Pi1, _u_Pi2, _u_Pi3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
         let _t0 = _u_Pi3 * self._h0;
-        let _t1 = _u_R22 * _t0;
+        let _t1 = _t0 * _u_R22;
         let _t2 = (_u_Pi1 * self.system._k7 - self.system.n * _u_R21) * self._h1;
         let _t3 = _u_R33 * self._h2;
-        let _t4 = _u_R23 * _t0 + _u_R33 * _t3;
+        let _t4 = _t0 * _u_R23 + _t3 * _u_R33;
         let _t5 = (_u_Pi3 * self.system._k10 - self.system.n * _u_R23) * self._h1;
         let _t6 = (_u_Pi2 * self.system._k9 - self.system.n * _u_R22) * self._h1;
-        let _t7 = _u_Pi1 * _t2 + _u_Pi2 * _t6 + _u_Pi3 * _t5;
+        let _t7 = _t2 * _u_Pi1 + _t6 * _u_Pi2 + _t5 * _u_Pi3;
         let _t8 = _u_Pi2 * self._h0;
         let _t9 = _u_R32 * self._h3;
-        let _t10 = _t7 + (_u_R22 * _t8 + _u_R32 * _t9);
-        let _t11 = _u_R21 * _t8;
-        let _t12 = _u_R21 * _t0;
-        let _t13 = _u_Pi1 + _u_R23 * _t8;
+        let _t10 = _t7 + (_t8 * _u_R22 + _t9 * _u_R32);
+        let _t11 = _t8 * _u_R21;
+        let _t12 = _t0 * _u_R21;
+        let _t13 = _u_Pi1 + _t8 * _u_R23;
         let _t14 = _u_Pi1 * self._h0;
         let _t15 = _u_R31 * self._h5;
-        let _t16 = _u_R21 * _t14 + _u_R31 * _t15;
-        let _t17 = _u_Pi3 + _u_R22 * _t14;
-        let _t18 = _u_Pi2 - _u_R23 * _t14;
+        let _t16 = _t14 * _u_R21 + _t15 * _u_R31;
+        let _t17 = _u_Pi3 + _t14 * _u_R22;
+        let _t18 = _u_Pi2 - _t14 * _u_R23;
         residual[0] = _t13 - _Pi1 - _t1 + _t2 * (_t4 + _t10)
-            + _t6 * (_u_Pi3 - _t11 - _u_R31 * _t9) - _t5 * (_u_Pi2 + _t12 + _u_R31 * _t3)
+            + _t6 * (_u_Pi3 - _t11 - _t9 * _u_R31) - _t5 * (_u_Pi2 + _t12 + _t3 * _u_R31)
             + _u_R32 * _u_R33 * self._h4;
         residual[1] = _t18 - _Pi2 + _t12 + _t6 * (_t7 + _t4 + _t16)
-            - _t2 * (_t17 + _u_R32 * _t15) + _t5 * (_u_Pi1 - _t1 - _u_R32 * _t3)
+            - _t2 * (_t17 + _t15 * _u_R32) + _t5 * (_u_Pi1 - _t1 - _t3 * _u_R32)
             - _u_R31 * _u_R33 * self._h6;
         residual[2] = _t17 - _Pi3 - _t11 + _t5 * (_t16 + _t10)
-            + _t2 * (_t18 - _u_R33 * _t15) - _t6 * (_t13 + _u_R33 * _t9)
+            + _t2 * (_t18 - _t15 * _u_R33) - _t6 * (_t13 + _t9 * _u_R33)
             + _u_R31 * _u_R32 * self._h7;
-        residual[3] = _u_R11 - _R11 - _u_R12 * _t5 + _u_R13 * _t6;
-        residual[4] = _u_R12 - _R12 + _u_R11 * _t5 - _u_R13 * _t2;
-        residual[5] = _u_R13 - _R13 - _u_R11 * _t6 + _u_R12 * _t2;
-        residual[6] = _u_R21 - _R21 + _u_R23 * _t6 - _u_R22 * _t5;
-        residual[7] = _u_R22 - _R22 - _u_R23 * _t2 + _u_R21 * _t5;
-        residual[8] = _u_R23 - _R23 + _u_R22 * _t2 - _u_R21 * _t6;
-        residual[9] = _u_R31 - _R31 + _u_R33 * _t6 - _u_R32 * _t5;
-        residual[10] = _u_R32 - _R32 - _u_R33 * _t2 + _u_R31 * _t5;
-        residual[11] = _u_R33 - _R33 + _u_R32 * _t2 - _u_R31 * _t6;
+        residual[3] = _u_R11 - _R11 - _t5 * _u_R12 + _t6 * _u_R13;
+        residual[4] = _u_R12 - _R12 + _t5 * _u_R11 - _t2 * _u_R13;
+        residual[5] = _u_R13 - _R13 - _t6 * _u_R11 + _t2 * _u_R12;
+        residual[6] = _u_R21 - _R21 + _t6 * _u_R23 - _t5 * _u_R22;
+        residual[7] = _u_R22 - _R22 - _t2 * _u_R23 + _t5 * _u_R21;
+        residual[8] = _u_R23 - _R23 + _t2 * _u_R22 - _t6 * _u_R21;
+        residual[9] = _u_R31 - _R31 + _t6 * _u_R33 - _t5 * _u_R32;
+        residual[10] = _u_R32 - _R32 - _t2 * _u_R33 + _t5 * _u_R31;
+        residual[11] = _u_R33 - _R33 + _t2 * _u_R32 - _t6 * _u_R31;
     }
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
-    /// 140 additions, 210 multiplications.
+    /// 139 additions, 210 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -2676,65 +2676,64 @@ for SatelliteCayleyMidpoint<'_, S> {
         let _t4 = self.system._k10 * _u_Pi3;
         let _t5 = _t4 - self.system.n * _u_R23;
         let _t6 = _t5 * self._h1;
-        let _t7 = _u_Pi3 * _t6;
+        let _t7 = _t6 * _u_Pi3;
         let _t8 = _u_Pi3 * self._h0;
-        let _t9 = _t7 + _u_R23 * _t8 + _u_R33 * _t3;
-        let _t10 = _u_Pi1 * _t2;
+        let _t9 = _t7 + _t8 * _u_R23 + _t3 * _u_R33;
+        let _t10 = _t2 * _u_Pi1;
         let _t11 = self.system._k9 * _u_Pi2;
         let _t12 = _t11 - self.system.n * _u_R22;
         let _t13 = _t12 * self._h1;
-        let _t14 = _u_Pi2 * _t13;
+        let _t14 = _t13 * _u_Pi2;
         let _t15 = _t10 + _t14;
         let _t16 = _u_Pi2 * self._h0;
         let _t17 = _u_R32 * self._h3;
-        let _t18 = _u_R22 * _t16 + _u_R32 * _t17;
+        let _t18 = _t16 * _u_R22 + _t17 * _u_R32;
         let _t19 = _t15 + _t18;
-        let _t20 = _t13 * _t16;
-        let _t21 = _t6 * _t8;
-        let _t22 = _t20 + _t21;
-        let _t23 = _t13 * _t17;
-        let _t24 = _t6 * _t3;
-        let _t25 = _t23 + _t24;
-        let _t26 = _u_Pi1 * self._h0;
-        let _t27 = _u_R31 * self._h5;
-        let _t28 = _u_R21 * _t26 + _u_R31 * _t27;
-        let _t29 = _t9 + _t28;
-        let _t30 = _t2 * _t26;
-        let _t31 = _t21 + _t30;
-        let _t32 = _t2 * _t27;
-        let _t33 = _t24 + _t32;
-        let _t34 = _t28 + _t19;
-        let _t35 = _t20 + _t30;
-        let _t36 = _t23 + _t32;
-        let _t37 = _t18 + _t14 + _t10 * S::ratio(2.0, 1.0) + _t9;
-        let _t38 = _t2 * _t13;
-        let _t39 = self._h0 * (_u_R22 * _t2 - _u_R21 * _t13);
-        let _t40 = _u_Pi2 * _t2 - _u_R21 * _t16 - _u_R31 * _t17;
-        let _t41 = _t2 * _t6;
-        let _t42 = self._h0 * (_u_R23 * _t2 - _u_R21 * _t6);
-        let _t43 = _u_Pi3 * _t2 - _u_R21 * _t8 - _u_R31 * _t3;
-        let _t44 = _u_R32 * _t2 - _u_R31 * _t13;
-        let _t45 = _u_R33 * _t2 - _u_R31 * _t6;
-        let _t46 = _u_Pi1 * _t13 - _u_R22 * _t26 - _u_R32 * _t27;
-        let _t47 = _t29 + _t10 + _t14 * S::ratio(2.0, 1.0);
-        let _t48 = _t13 * _t6;
-        let _t49 = self._h0 * (_u_R23 * _t13 - _u_R22 * _t6);
-        let _t50 = _u_Pi3 * _t13 - _u_R22 * _t8 - _u_R32 * _t3;
-        let _t51 = _u_R33 * _t13 - _u_R32 * _t6;
-        let _t52 = _u_Pi1 * _t6 - _u_R23 * _t26 - _u_R33 * _t27;
-        let _t53 = _u_Pi2 * _t6 - _u_R23 * _t16 - _u_R33 * _t17;
-        let _t54 = _t34 + _t7 * S::ratio(2.0, 1.0);
+        let _t20 = _t16 * _u_R21 + _t17 * _u_R31;
+        let _t21 = _t8 * _u_R21 + _t3 * _u_R31;
+        let _t22 = _u_Pi1 * self._h0;
+        let _t23 = _u_R31 * self._h5;
+        let _t24 = _t22 * _u_R21 + _t23 * _u_R31;
+        let _t25 = _t9 + _t24;
+        let _t26 = _t22 * _u_R22 + _t23 * _u_R32;
+        let _t27 = _t8 * _u_R22 + _t3 * _u_R32;
+        let _t28 = _t24 + _t19;
+        let _t29 = _t22 * _u_R23 + _t23 * _u_R33;
+        let _t30 = _t16 * _u_R23 + _t17 * _u_R33;
+        let _t31 = _t18 + _t14 + _t10 * S::ratio(2.0, 1.0) + _t9;
+        let _t32 = _t2 * _t13;
+        let _t33 = self._h0 * (_t2 * _u_R22 - _t13 * _u_R21);
+        let _t34 = _t2 * _u_Pi2 - _t20;
+        let _t35 = _t2 * _t6;
+        let _t36 = self._h0 * (_t2 * _u_R23 - _t6 * _u_R21);
+        let _t37 = _t2 * _u_Pi3 - _t21;
+        let _t38 = _t13 * _t16;
+        let _t39 = _t6 * _t8;
+        let _t40 = _t6 * _t3;
+        let _t41 = -(_t13 * _t17);
+        let _t42 = _t2 * _u_R32 - _t13 * _u_R31;
+        let _t43 = _t2 * _u_R33 - _t6 * _u_R31;
+        let _t44 = _t13 * _u_Pi1 - _t26;
+        let _t45 = _t25 + _t10 + _t14 * S::ratio(2.0, 1.0);
+        let _t46 = _t13 * _t6;
+        let _t47 = self._h0 * (_t13 * _u_R23 - _t6 * _u_R22);
+        let _t48 = _t13 * _u_Pi3 - _t27;
+        let _t49 = _t2 * _t22;
+        let _t50 = _t2 * _t23;
+        let _t51 = _t13 * _u_R33 - _t6 * _u_R32;
+        let _t52 = _t6 * _u_Pi1 - _t29;
+        let _t53 = _t6 * _u_Pi2 - _t30;
+        let _t54 = _t28 + _t7 * S::ratio(2.0, 1.0);
         let _t55 = _t5 * self._h15;
         let _t56 = _t1 * self._h15;
         let _t57 = _t12 * self._h15;
-        residual[0] = _u_Pi1 - _Pi1 + _t2 * (_t9 + _t19) - _u_R21 * _t22 - _u_R31 * _t25
+        residual[0] = _u_Pi1 - _Pi1 + _t2 * (_t9 + _t19) - _t13 * _t20 - _t6 * _t21
             - self._h1
                 * (_u_Pi2 * _t4 - _u_Pi3 * _t11 - _u_R32 * _u_R33 * self.system._k24);
-        residual[1] = _u_Pi2 - _Pi2 + _t13 * (_t15 + _t29) - _u_R22 * _t31
-            - _u_R32 * _t33
+        residual[1] = _u_Pi2 - _Pi2 + _t13 * (_t15 + _t25) - _t2 * _t26 - _t6 * _t27
             + self._h1
                 * (_u_Pi1 * _t4 - _u_Pi3 * _t0 - _u_R31 * _u_R33 * self.system._k17);
-        residual[2] = _u_Pi3 - _Pi3 + _t6 * (_t34 + _t7) - _u_R23 * _t35 - _u_R33 * _t36
+        residual[2] = _u_Pi3 - _Pi3 + _t6 * (_t28 + _t7) - _t2 * _t29 - _t13 * _t30
             - self._h1
                 * (_u_Pi1 * _t11 - _u_Pi2 * _t0 - _u_R31 * _u_R32 * self.system._k25);
         residual[3] = _u_R11 - _R11 + self._h1 * (_u_R13 * _t12 - _u_R12 * _t5);
@@ -2746,33 +2745,33 @@ for SatelliteCayleyMidpoint<'_, S> {
         residual[9] = _u_R31 - _R31 + self._h1 * (_u_R33 * _t12 - _u_R32 * _t5);
         residual[10] = _u_R32 - _R32 - self._h1 * (_u_R33 * _t1 - _u_R31 * _t5);
         residual[11] = _u_R33 - _R33 + self._h1 * (_u_R32 * _t1 - _u_R31 * _t12);
-        matrix[(0, 0)] = S::one() + _t2 * _t2 + _t37 * self._h8;
-        matrix[(0, 1)] = _t38 + _t39 + _t40 * self._h9 + _u_Pi3 * self._h10;
-        matrix[(0, 2)] = _t41 + _t42 + _t43 * self._h11 + _u_Pi2 * self._h10;
-        matrix[(0, 6)] = self._h0 * _t37 - _t22;
-        matrix[(0, 7)] = _t2 * _t16 + self._h0 * _t40;
-        matrix[(0, 8)] = _t2 * _t8 + self._h0 * _t43;
-        matrix[(0, 9)] = -_t25;
-        matrix[(0, 10)] = _t2 * _t17 + self._h3 * _t44 + _u_R33 * self._h4;
-        matrix[(0, 11)] = _t2 * _t3 + self._h2 * _t45 + _u_R32 * self._h4;
-        matrix[(1, 0)] = _t38 - _t39 + self._h8 * _t46 - _u_Pi3 * self._h12;
-        matrix[(1, 1)] = S::one() + _t13 * _t13 + _t47 * self._h9;
-        matrix[(1, 2)] = _t48 + _t49 + _t50 * self._h11 - _u_Pi1 * self._h12;
-        matrix[(1, 6)] = _t13 * _t26 + self._h0 * _t46;
-        matrix[(1, 7)] = self._h0 * _t47 - _t31;
-        matrix[(1, 8)] = _t13 * _t8 + self._h0 * _t50;
-        matrix[(1, 9)] = _t13 * _t27 - self._h5 * _t44 - _u_R33 * self._h6;
-        matrix[(1, 10)] = -_t33;
+        matrix[(0, 0)] = S::one() + _t2 * _t2 + _t31 * self._h8;
+        matrix[(0, 1)] = _t32 + _t33 + _t34 * self._h9 + _u_Pi3 * self._h10;
+        matrix[(0, 2)] = _t35 + _t36 + _t37 * self._h11 + _u_Pi2 * self._h10;
+        matrix[(0, 6)] = self._h0 * _t31 - _t38 - _t39;
+        matrix[(0, 7)] = _t2 * _t16 + self._h0 * _t34;
+        matrix[(0, 8)] = _t2 * _t8 + self._h0 * _t37;
+        matrix[(0, 9)] = _t41 - _t40;
+        matrix[(0, 10)] = _t2 * _t17 + self._h3 * _t42 + _u_R33 * self._h4;
+        matrix[(0, 11)] = _t2 * _t3 + self._h2 * _t43 + _u_R32 * self._h4;
+        matrix[(1, 0)] = _t32 - _t33 + self._h8 * _t44 - _u_Pi3 * self._h12;
+        matrix[(1, 1)] = S::one() + _t13 * _t13 + _t45 * self._h9;
+        matrix[(1, 2)] = _t46 + _t47 + _t48 * self._h11 - _u_Pi1 * self._h12;
+        matrix[(1, 6)] = _t13 * _t22 + self._h0 * _t44;
+        matrix[(1, 7)] = self._h0 * _t45 - _t39 - _t49;
+        matrix[(1, 8)] = _t13 * _t8 + self._h0 * _t48;
+        matrix[(1, 9)] = _t13 * _t23 - self._h5 * _t42 - _u_R33 * self._h6;
+        matrix[(1, 10)] = -_t40 - _t50;
         matrix[(1, 11)] = _t13 * _t3 + self._h2 * _t51 - _u_R31 * self._h6;
-        matrix[(2, 0)] = _t41 - _t42 + self._h8 * _t52 + _u_Pi2 * self._h13;
-        matrix[(2, 1)] = _t48 - _t49 + self._h9 * _t53 + _u_Pi1 * self._h13;
+        matrix[(2, 0)] = _t35 - _t36 + self._h8 * _t52 + _u_Pi2 * self._h13;
+        matrix[(2, 1)] = _t46 - _t47 + self._h9 * _t53 + _u_Pi1 * self._h13;
         matrix[(2, 2)] = S::one() + _t6 * _t6 + _t54 * self._h11;
-        matrix[(2, 6)] = _t6 * _t26 + self._h0 * _t52;
+        matrix[(2, 6)] = _t6 * _t22 + self._h0 * _t52;
         matrix[(2, 7)] = _t6 * _t16 + self._h0 * _t53;
-        matrix[(2, 8)] = self._h0 * _t54 - _t35;
-        matrix[(2, 9)] = _t6 * _t27 - self._h5 * _t45 + _u_R32 * self._h7;
+        matrix[(2, 8)] = self._h0 * _t54 - _t38 - _t49;
+        matrix[(2, 9)] = _t6 * _t23 - self._h5 * _t43 + _u_R32 * self._h7;
         matrix[(2, 10)] = _t6 * _t17 - self._h3 * _t51 + _u_R31 * self._h7;
-        matrix[(2, 11)] = -_t36;
+        matrix[(2, 11)] = _t41 - _t50;
         matrix[(3, 1)] = _u_R13 * self._h9;
         matrix[(3, 2)] = _u_R12 * self._h14;
         matrix[(3, 3)] = S::one();

@@ -1706,21 +1706,21 @@ pub struct GyrostatCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h1: S,
     /// `-h/(2*I3)`
     _h2: S,
-    /// `h/2`
-    _h3: S,
-    /// `(1/I1 - 1/I2)*h/2`
-    _h4: S,
-    /// `(1/I2 - 1/I3)*h/2`
-    _h5: S,
-    /// `h/I3`
-    _h6: S,
-    /// `(1/I1 - 1/I3)*h/2`
-    _h7: S,
     /// `(1/I2 - 1/I3)*h`
-    _h8: S,
+    _h3: S,
     /// `k*h/I3`
-    _h9: S,
+    _h4: S,
     /// `(1/I1 - 1/I3)*h`
+    _h5: S,
+    /// `(1/I1 - 1/I2)*h/2`
+    _h6: S,
+    /// `h/2`
+    _h7: S,
+    /// `(1/I2 - 1/I3)*h/2`
+    _h8: S,
+    /// `h/I3`
+    _h9: S,
+    /// `(1/I1 - 1/I3)*h/2`
     _h10: S,
     /// `(1/I1 - 1/I2)*h`
     _h11: S,
@@ -1735,9 +1735,9 @@ impl<'a, S: ::lie_runtime::Scalar> GyrostatCayleyMidpoint<'a, S> {
         let _t2 = S::one() / system._parameters.I2;
         let _t3 = S::one() / system._parameters.I3;
         let _t4 = _t3 * h;
-        let _t5 = _t0 - _t2;
-        let _t6 = _t2 - _t3;
-        let _t7 = _t0 - _t3;
+        let _t5 = _t2 - _t3;
+        let _t6 = _t0 - _t3;
+        let _t7 = _t0 - _t2;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
@@ -1745,15 +1745,15 @@ impl<'a, S: ::lie_runtime::Scalar> GyrostatCayleyMidpoint<'a, S> {
             _h0: _t0 * _t1,
             _h1: _t2 * _t1,
             _h2: _t4 * S::ratio(-1.0, 2.0),
-            _h3: _t1,
-            _h4: _t5 * _t1,
-            _h5: _t6 * _t1,
-            _h6: _t4,
-            _h7: _t7 * _t1,
-            _h8: _t6 * h,
-            _h9: system._parameters.k * _t4,
-            _h10: _t7 * h,
-            _h11: _t5 * h,
+            _h3: _t5 * h,
+            _h4: system._parameters.k * _t4,
+            _h5: _t6 * h,
+            _h6: _t7 * _t1,
+            _h7: _t1,
+            _h8: _t5 * _t1,
+            _h9: _t4,
+            _h10: _t6 * _t1,
+            _h11: _t7 * h,
         }
     }
 }
@@ -1779,22 +1779,20 @@ for GyrostatCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
-    /// 14 additions, 18 multiplications.
+    /// 14 additions, 17 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[_M1, _M2, _M3]] = self.base.data.0;
         let [[_u_M1, _u_M2, _u_M3]] = unknown.data.0;
         let _t0 = _u_M1 * self._h0;
         let _t1 = _u_M2 * self._h1;
-        let _t2 = self.system.k - _u_M3;
-        let _t3 = _t2 * self._h2;
-        let _t4 = _u_M1 * _t0 + _u_M2 * _t1 + _u_M3 * _t3;
-        let _t5 = _t2 * self.system._k7;
-        residual[0] = _u_M1 - _M1 + _t0 * _t4
-            + _u_M2 * (_t5 + self.system._k5 * _u_M3) * self._h3;
-        residual[1] = _u_M2 - _M2 + _t1 * _t4
-            - _u_M1 * (_t5 + self.system._k4 * _u_M3) * self._h3;
-        residual[2] = _u_M3 - _M3 + _t3 * _t4 + _u_M1 * _u_M2 * self._h4;
+        let _t2 = (self.system.k - _u_M3) * self._h2;
+        let _t3 = _t0 * _u_M1 + _t1 * _u_M2 + _t2 * _u_M3;
+        residual[0] = _u_M1 - _M1 + _t0 * _t3
+            + _u_M2 * (self._h4 + _u_M3 * self._h3) * S::ratio(1.0, 2.0);
+        residual[1] = _u_M2 - _M2 + _t1 * _t3
+            - _u_M1 * S::ratio(1.0, 2.0) * (self._h4 + _u_M3 * self._h5);
+        residual[2] = _u_M3 - _M3 + _t2 * _t3 + _u_M1 * _u_M2 * self._h6;
     }
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
@@ -1812,31 +1810,31 @@ for GyrostatCayleyMidpoint<'_, S> {
         let _t0 = _u_M1 * self._h0;
         let _t1 = self.system.k - _u_M3;
         let _t2 = _t1 * self._h2;
-        let _t3 = _u_M3 * _t2;
-        let _t4 = _u_M1 * _t0;
+        let _t3 = _t2 * _u_M3;
+        let _t4 = _t0 * _u_M1;
         let _t5 = _u_M2 * self._h1;
-        let _t6 = _u_M2 * _t5;
+        let _t6 = _t5 * _u_M2;
         let _t7 = _t4 + _t6;
         let _t8 = _t7 + _t3;
         let _t9 = self.system._k7 * _t1;
-        let _t10 = (_t9 + self.system._k5 * _u_M3) * self._h3;
-        let _t11 = (_t9 + self.system._k4 * _u_M3) * self._h3;
-        let _t12 = _u_M1 * self._h4;
+        let _t10 = (_t9 + self.system._k5 * _u_M3) * self._h7;
+        let _t11 = (_t9 + self.system._k4 * _u_M3) * self._h7;
+        let _t12 = _u_M1 * self._h6;
         let _t13 = _t0 * _t5 * S::ratio(2.0, 1.0);
         let _t14 = _t2 * S::ratio(2.0, 1.0);
-        let _t15 = (_u_M3 * self._h6 + _t14) * S::ratio(1.0, 2.0);
+        let _t15 = (_u_M3 * self._h9 + _t14) * S::ratio(1.0, 2.0);
         residual[0] = _u_M1 - _M1 + _t0 * _t8 + _u_M2 * _t10;
         residual[1] = _u_M2 - _M2 + _t5 * _t8 - _u_M1 * _t11;
         residual[2] = _u_M3 - _M3 + _t2 * _t8 + _u_M2 * _t12;
         matrix[(0, 0)] = S::one() + _t0 * _t0
             + self._h0 * (_t6 + _t3 + _t4 * S::ratio(2.0, 1.0));
         matrix[(0, 1)] = _t13 + _t10;
-        matrix[(0, 2)] = _u_M2 * self._h5 + _t0 * _t15;
+        matrix[(0, 2)] = _u_M2 * self._h8 + _t0 * _t15;
         matrix[(1, 0)] = _t13 - _t11;
         matrix[(1, 1)] = S::one() + _t5 * _t5
             + self._h1 * (_t4 + _t3 + _t6 * S::ratio(2.0, 1.0));
-        matrix[(1, 2)] = _t5 * _t15 - _u_M1 * self._h7;
-        matrix[(2, 0)] = _t0 * _t14 + _u_M2 * self._h4;
+        matrix[(1, 2)] = _t5 * _t15 - _u_M1 * self._h10;
+        matrix[(2, 0)] = _t0 * _t14 + _u_M2 * self._h6;
         matrix[(2, 1)] = _t5 * _t14 + _t12;
         matrix[(2, 2)] = S::one() + _t2 * _t2 - self._h2 * (_t7 + _u_M3 * _t14);
     }
@@ -1848,8 +1846,8 @@ for GyrostatCayleyMidpoint<'_, S> {
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[_M1, _M2, _M3]] = self.base.data.0;
         let [[_u_M1, _u_M2, _u_M3]] = unknown.data.0;
-        mu[0] = _M1 - _u_M2 * (self._h9 + _u_M3 * self._h8);
-        mu[1] = _M2 + _u_M1 * (self._h9 + _u_M3 * self._h10);
+        mu[0] = _M1 - _u_M2 * (self._h4 + _u_M3 * self._h3);
+        mu[1] = _M2 + _u_M1 * (self._h4 + _u_M3 * self._h5);
         mu[2] = _M3 - _u_M1 * _u_M2 * self._h11;
     }
 

@@ -562,7 +562,7 @@ for NonpolynomialSpinMidpoint<'_, S> {
         let _t4 = _t0 * S::ratio(1.0, 4.0);
         let _t5 = S::ratio(1.0, 2.0) * (_t1 * S::ratio(1.0, 4.0)).exp() + _t3 * _t4;
         let _t6 = _t1 * S::ratio(1.0, 8.0);
-        let _t7 = S::ratio(1.0, 2.0) * _t0 / (S::one() + _t0 * _t4).sqrt() + _t3 * _t6;
+        let _t7 = _t0 * S::ratio(1.0, 2.0) / (S::one() + _t0 * _t4).sqrt() + _t3 * _t6;
         let _t8 = (_t2 * S::ratio(1.0, 2.0)).cos() + _t1 * _t0 * _t6;
         residual[0] = _u_x - x + (_t0 * _t5 - _t1 * _t7) * self._h0;
         residual[1] = _u_y - y - self._h0 * (_t0 * _t8 - _t2 * _t7);
@@ -1311,10 +1311,10 @@ for NonpolynomialSpinCayleyMidpoint<'_, S> {
             + _u_z * S::ratio(2.0, 1.0) * _t0) * self._h0;
         let _t2 = (_u_z / (S::one() + _u_z * _u_z).sqrt() + _u_y * _t0) * self._h0;
         let _t3 = (_u_x.cos() + _u_y * _u_y * _u_z) * self._h0;
-        let _t4 = _u_x * _t3 + _u_y * _t1 + _u_z * _t2;
-        residual[0] = _u_x - x + _u_z * _t1 - _u_y * _t2 + _t3 * _t4;
-        residual[1] = _u_y - y - _u_z * _t3 + _u_x * _t2 + _t1 * _t4;
-        residual[2] = _u_z - z + _u_y * _t3 - _u_x * _t1 + _t2 * _t4;
+        let _t4 = _t3 * _u_x + _t1 * _u_y + _t2 * _u_z;
+        residual[0] = _u_x - x + _t1 * _u_z - _t2 * _u_y + _t3 * _t4;
+        residual[1] = _u_y - y - _t3 * _u_z + _t2 * _u_x + _t1 * _t4;
+        residual[2] = _u_z - z + _t3 * _u_y - _t1 * _u_x + _t2 * _t4;
     }
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
@@ -1338,14 +1338,14 @@ for NonpolynomialSpinCayleyMidpoint<'_, S> {
         let _t6 = _u_x * _t0;
         let _t7 = _u_z * _t5 + _t6;
         let _t8 = _t7 * self._h0;
-        let _t9 = _u_z * _t8;
-        let _t10 = _u_x * _t3;
+        let _t9 = _t8 * _u_z;
+        let _t10 = _t3 * _u_x;
         let _t11 = (_u_y * S::ratio(1.0, 2.0)).exp();
         let _t12 = _u_x * S::ratio(2.0, 1.0);
         let _t13 = _u_z * _t12;
         let _t14 = S::ratio(1.0, 2.0) * _t11 + _u_y * _t13;
         let _t15 = _t14 * self._h0;
-        let _t16 = _u_y * _t15;
+        let _t16 = _t15 * _u_y;
         let _t17 = _t10 + _t16;
         let _t18 = _t17 + _t9;
         let _t19 = _u_x.sin();

@@ -439,10 +439,10 @@ for TodaLatticeMidpoint<'_, S> {
         residual[3] = _u_a1 - a1 - _t4 * _t6;
         residual[4] = _u_a2 - a2 - _t7 * _t8;
         matrix[(0, 0)] = S::one();
-        matrix[(0, 3)] = self.h * _t0;
+        matrix[(0, 3)] = _t0 * self.h;
         matrix[(1, 1)] = S::one();
         matrix[(1, 3)] = _t0 * self._h2;
-        matrix[(1, 4)] = self.h * _t2;
+        matrix[(1, 4)] = _t2 * self.h;
         matrix[(2, 2)] = S::one();
         matrix[(2, 4)] = _t2 * self._h2;
         matrix[(3, 0)] = _t0 * self._h3;

@@ -62,13 +62,16 @@ pub fn kernels(
     formulas: &Formulas,
     run: impl FnOnce(&SymbolicSystem, Sym) -> Step,
 ) -> Option<Vec<Kernel>> {
-    // Sums and products are ordered by the age of their parts: the state first, then the unknown, then the step.
+    // Sums and products are ordered by the age of their parts: the state first, then quantities, the unknown, the step.
+    let first = Block::COUNT * source.dimension;
     source.coordinates();
+    for quantity in first..first + source.dimension {
+        source.graph.symbol(Symbol::Input(quantity));
+    }
     source.block(Block::Unknown);
     let taken = std::mem::replace(source, Source::empty(crate::symbolic::Graph::new()));
     let system = SymbolicSystem::of(&taken);
-    // each block has symbols of its own
-    let tape = Tape::new(&taken, Block::COUNT * taken.dimension);
+    let tape = Tape::new(&taken, first);
     let session = Session {
         source: taken,
         tape,
