@@ -449,7 +449,12 @@ fn flows_of_pieces_are_exact() {
     let stretch = r#"{"format": 1, "name": "Stretch", "state": ["x", "y", "z", "u"],
         "algebra": {"basis": ["e1", "e2", "e3", "e4"], "brackets": ["[e1, e2] = 2*e2", "[e1, e3] = -2*e3", "[e1, e4] = e4/3"]},
         "hamiltonian": "x^2/2 + y^2/2 + z + u^2"}"#;
+    // stretches along lines that are no axes, one by the inverse of the other
+    let slanted = r#"{"format": 1, "name": "Slanted", "state": ["x", "y", "z", "u", "v"],
+        "algebra": {"basis": ["e1", "e2", "e3", "e4", "e5"], "brackets": ["[e1, e2] = e2 + 2*e3", "[e1, e4] = -e4 - e5/2"]},
+        "hamiltonian": "x^2/2 + sin(y) + z^2 + u^2 + v"}"#;
     let mut systems = vec![
+        System::of("slanted", slanted),
         System::of("boost", boost),
         System::of("filiform", shear),
         System::of("stretch", stretch),
