@@ -91,14 +91,27 @@ fn signs_of_written_factors() {
 #[test]
 fn configurations_at_rest() {
     let identity = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-    for (hamiltonian, expected) in [
-        ("x^2 + y^2 + R33", [&[0.0; 3][..], &identity].concat()),
+    let (with, without) = (json!({"group": "R"}), json!({}));
+    for (keys, hamiltonian, expected) in [
         (
+            &with,
+            "x^2 + y^2 + R33",
+            [&[0.0; 3][..], &identity].concat(),
+        ),
+        (
+            &with,
             "x^2 + y^2 + R33*cos(t)",
             [&[0.0; 4][..], &identity, &[0.0, 1.0]].concat(),
         ),
+        (
+            &without,
+            "x^2 + y^2*cos(t)",
+            vec![0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+        ),
     ] {
-        let keys = json!({"algebra": rotations(), "group": "R", "hamiltonian": hamiltonian});
+        let mut keys = keys.clone();
+        keys["algebra"] = rotations();
+        keys["hamiltonian"] = hamiltonian.into();
         let model = body(keys).expect("a sound declaration");
         let configuration = model.configuration.as_ref().expect("it has one");
         let found: Vec<f64> = (0..configuration.dimension())
