@@ -240,10 +240,11 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
             .expect("rows");
         a.swap(k, pivot);
         b.swap(k, pivot);
+        let above = a[k].clone();
         for row in (0..n).filter(|row| *row != k) {
-            let factor = a[row][k] / a[k][k];
-            for column in k..n {
-                a[row][column] -= factor * a[k][column];
+            let factor = a[row][k] / above[k];
+            for (entry, above) in a[row].iter_mut().zip(&above).skip(k) {
+                *entry -= factor * above;
             }
             b[row] -= factor * b[k];
         }
