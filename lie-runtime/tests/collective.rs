@@ -319,6 +319,32 @@ fn the_discrete_body_stays_on_its_branch() {
     }
 }
 
+/// A ball in three dimensions, `I = 1`: `sin 2a = h |mu|` has a solution with `a < pi/4` and one with `a > pi/4`, both
+/// are solutions of the equation, and only the first is joined to the identity.
+#[test]
+fn the_discrete_top_stays_on_its_branch() {
+    let ball = RigidBody {
+        inertia: [1.0, 1.0, 1.0],
+    };
+    let (h, axis) = (0.7, [0.6, 0.0, 0.8]);
+    let near = 0.5 * f64::asin(h);
+    for (angle, inside) in [(near, true), (0.5 * core::f64::consts::PI - near, false)] {
+        let mut equation = ball.equation(&MoserVeselov, h);
+        equation.set_base(&state(&ball, &axis));
+        let unknown = state(&ball, &axis.map(|n| 2.0 / h * angle.sin() * n));
+        let mut residual = ball.zero_state();
+        equation.residual(&unknown, &mut residual);
+        assert!(
+            residual.amax() < 1e-15,
+            "{angle} is no solution: {residual}"
+        );
+        let mut end = ball.zero_state();
+        equation.result(&unknown, &mut end);
+        assert_eq!(end.iter().all(|x| x.is_finite()), inside, "{angle}");
+        assert!(!inside || distance(&end, &state(&ball, &axis)) < 1e-15);
+    }
+}
+
 /// A body with one negative moment: `M' = g^T M g` with `h M = g J - J g^T`.
 #[test]
 fn a_body_in_four_dimensions() {

@@ -4,12 +4,13 @@ mod systems;
 
 use core::ops::ControlFlow;
 use lie_runtime::driver::OptionError;
-use lie_runtime::newton::FailureReason;
+use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::prelude::*;
 use systems::heavy_top::{HeavyTop, START};
 use systems::logarithmic::Logarithmic;
 use systems::nonpolynomial::Nonpolynomial;
 use systems::rigid_body::RigidBody;
+use systems::saddle::Saddle;
 use systems::{distance, state, steps};
 
 fn top(span: (f64, f64)) -> Problem<f64, HeavyTop> {
@@ -53,6 +54,45 @@ fn an_end_off_the_grid_is_reached() {
     assert_eq!(fine.len(), 11);
     let distance = distance(solution.last().unwrap().1, fine.last().unwrap().1);
     assert!(distance < 1e-9, "{distance:e}");
+}
+
+/// The work of a run is that of its steps; at h = 2 a saddle's first pivot vanishes in every iteration.
+#[test]
+fn the_work_of_a_run_is_that_of_its_steps() {
+    fn check<P>(system: P, h: f64, start: &[f64], pivoted: u64)
+    where
+        P: Poisson<f64, State: core::fmt::Debug + PartialEq>,
+        ImplicitMidpoint: Method<f64, P>,
+    {
+        let mut mu = state(&system, start);
+        let mut stepper = ImplicitMidpoint.stepper(&system, h, &NewtonOptions::default());
+        let (mut evaluations, mut newton, mut factorizations) = (0, 0, 0);
+        for _ in 0..5 {
+            let report = stepper.step(&mut mu, &mut ()).expect("it converges");
+            evaluations += u64::from(report.evaluations);
+            newton += u64::from(report.iterations);
+            factorizations += u64::from(report.factorizations);
+        }
+        drop(stepper);
+        let start = state(&system, start);
+        let problem = Problem::new(system, start, (0.0, 5.0 * h));
+        let solution = solve(&problem, ImplicitMidpoint, &Options::new(h)).expect("it converges");
+        assert_eq!(solution.last().expect("rows").1, &mu);
+        let stats = solution.stats;
+        assert_eq!((stats.steps, stats.accepted), (5, 5));
+        assert_eq!((stats.rejected, stats.failures), (0, 0));
+        assert_eq!((stats.evaluations, stats.newton), (evaluations, newton));
+        assert_eq!(
+            (stats.factorizations, stats.pivoted),
+            (factorizations, pivoted)
+        );
+        // one factorization per iteration, and a second one where rows are exchanged
+        let each = if pivoted > 0 { 2 } else { 1 };
+        assert_eq!(factorizations, each * newton);
+    }
+    check(HeavyTop::default(), 0.1, &START, 0);
+    check(Saddle(0.75), 0.1, &[0.3, -0.4], 0);
+    check(Saddle(0.75), 2.0, &[0.3, -0.4], 5);
 }
 
 #[test]

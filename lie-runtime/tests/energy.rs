@@ -11,7 +11,7 @@ use lie_runtime::methods::{
     CohenHairer2, CohenHairer4, CohenHairer6, Compose4, Facts, Gonzalez, ItohAbe, MeanValue,
     Method, OrbitEnergy, Stepper,
 };
-use lie_runtime::newton::NewtonOptions;
+use lie_runtime::newton::{FailureReason, NewtonOptions};
 use lie_runtime::prelude::*;
 use lie_runtime::{Equation, Implicit, Unknown};
 use nalgebra::SVector;
@@ -419,6 +419,39 @@ fn no_step_loses_what_is_kept_without_a_message() {
         }
     }
     assert!(failures > 10, "{failures}");
+}
+
+/// Quadrature that does not resolve the gradient along a long step would lose the energy: such steps are refused.
+#[test]
+fn what_the_nodes_do_not_resolve_is_refused() {
+    macro_rules! check {
+        ($method:expr) => {{
+            let (mut kept, mut refused) = (0, 0);
+            for seed in 0..40 {
+                let start = BODY.map(|entry| entry * (1.0 + 0.1 * f64::from(seed)));
+                let mut mu = SVector::from(start);
+                let energy = Nonpolynomial.hamiltonian(&mu);
+                match steps(&Nonpolynomial, &$method, 0.9, 1, &mut mu) {
+                    Ok(()) => {
+                        kept += 1;
+                        let error = (Nonpolynomial.hamiltonian(&mu) - energy).abs();
+                        let size = energy.abs() + mu.norm() * mu.norm().powi(3);
+                        assert!(error < 1e-13 * size, "{start:?}: {error:e}");
+                    }
+                    Err(failure) => {
+                        refused += u32::from(failure.reason == FailureReason::Unresolved);
+                    }
+                }
+            }
+            let id = method_id(&$method);
+            assert!(
+                kept > 3 && refused > 0,
+                "{id}: {kept} kept, {refused} refused"
+            );
+        }};
+    }
+    check!(MeanValue);
+    check!(CohenHairer4::new());
 }
 
 /// In single precision, short and long steps.

@@ -80,6 +80,41 @@ fn a_method_of_coadjoint_form_keeps_the_momentum_in_space() {
     check!(LieMidpoint::cayley());
     check!(lie_runtime::methods::GeneratingSecondKind2);
     check!(lie_runtime::methods::MoserVeselov);
+    check!(lie_runtime::methods::Collective2::hopf());
+    check!(lie_runtime::methods::Collective4::hopf());
+}
+
+/// A ball with `I = 1` turns about mu: a step of 1 is a rotation by `|mu|`, close to half a turn too.
+#[test]
+fn the_quaternion_of_a_long_step() {
+    let ball = RigidBody {
+        inertia: [1.0, 1.0, 1.0],
+    };
+    let third = 1.0 / 3.0;
+    let axes = [
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [2.0 * third, -third, 2.0 * third],
+        [-third, 2.0 * third, 2.0 * third],
+        [2.0 * third, 2.0 * third, third],
+        [-0.48, 0.64, -0.6],
+    ];
+    for axis in axes {
+        for angle in [0.3_f64, 1.6, 2.4, 3.1, 3.13] {
+            let mut group = Reconstruction::new(&ball, Chart::Quaternion);
+            let problem = Problem::new(ball, axis.map(|n| angle * n), (0.0, 1.0));
+            let options = Options::new(1.0);
+            solve_observed(&problem, LieMidpoint::exp(), &options, &mut group)
+                .expect("nothing changes");
+            let (sine, cosine) = (0.5 * angle).sin_cos();
+            let expected = [cosine, sine * axis[0], sine * axis[1], sine * axis[2]];
+            for (entry, expected) in group.element().iter().zip(expected) {
+                let error = (entry - expected).abs();
+                assert!(error < 1e-14, "{axis:?} by {angle}: {error:e}");
+            }
+        }
+    }
 }
 
 /// `R mu` is a quadratic integral of `R' = R omega^, mu' = mu x omega`, which Gauss methods keep.

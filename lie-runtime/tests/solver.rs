@@ -61,6 +61,13 @@ fn iterations_are_pinned() {
         work(&Nonpolynomial, &Gauss6, &BODY),
         work(&Nonpolynomial, &LieMidpoint::exp(), &BODY),
         work(&Nonpolynomial, &LieMidpoint::cayley(), &BODY),
+        work(&Nonpolynomial, &Gonzalez, &BODY),
+        work(&Nonpolynomial, &OrbitEnergy::gonzalez(), &BODY),
+        work(&Nonpolynomial, &CohenHairer4::new(), &BODY),
+        work(&Nonpolynomial, &SphericalMidpoint, &BODY),
+        work(&Nonpolynomial, &Collective4::hopf(), &BODY),
+        work(&Nonpolynomial, &Isospectral4::new(), &BODY),
+        work(&RigidBody::default(), &MoserVeselov, &BODY),
     ];
     // iterations and factorizations of Newton, simplified Newton, fixed point
     let pinned = [
@@ -73,6 +80,13 @@ fn iterations_are_pinned() {
         [2, 2, 3, 1, 10, 0],
         [3, 3, 4, 1, 10, 0],
         [3, 3, 5, 1, 12, 0],
+        [3, 3, 5, 1, 13, 0],
+        [3, 3, 5, 1, 11, 0],
+        [2, 2, 3, 1, 11, 0],
+        [3, 3, 6, 1, 13, 0],
+        [2, 2, 3, 1, 8, 0],
+        [2, 2, 3, 1, 8, 0],
+        [3, 3, 4, 1, 11, 0],
     ];
     assert_eq!(measured.as_slice(), pinned.as_slice(), "{measured:?}");
 }

@@ -309,6 +309,25 @@ fn jacobians_agree_with_differences() {
     check(Variational6::exp());
 }
 
+/// The series of dexp converges everywhere, but not within its terms where the path turns hundreds of times: there the
+/// residual is not a number rather than that of a series cut off.
+#[test]
+fn a_path_beyond_the_series_has_no_residual() {
+    let method = Variational4::exp();
+    let mut equation = QuarticBody.equation(&method, 0.5);
+    equation.set_base(&SVector::from(BODY));
+    let mut unknown = equation.zero_unknown();
+    let mut residual = unknown.clone();
+    for (size, inside) in [(1.0, true), (3.0, true), (100.0, false), (1000.0, false)] {
+        for index in 0..unknown.len() {
+            unknown.set_entry(index, size * (1.0 - 0.37 * index as f64));
+        }
+        equation.residual(&unknown, &mut residual);
+        let finite = (0..residual.len()).all(|index| residual.entry(index).is_finite());
+        assert_eq!(finite, inside, "{size}");
+    }
+}
+
 /// `F+(g) = mu`, `F-(g) = mu1`, and the discrete Euler–Poincaré equation over several steps.
 #[test]
 fn discrete_legendre_maps() {

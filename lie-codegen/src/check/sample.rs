@@ -83,3 +83,40 @@ impl Sample {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values of the sizes that the text promises, of both signs where the symbol has no sign; integers are never zero.
+    #[test]
+    fn values_lie_where_they_should() {
+        let mut graph = Graph::new();
+        let (free, positive) = (Symbol::Coordinate(3), Symbol::Parameter(1));
+        graph.assume_positive(positive);
+        let mut signs = [0; 2];
+        for sample in Samples::new().take(4000) {
+            let (least, most) = match sample.seed % 8 {
+                3 => (0.0099, 0.31),
+                7 => (0.99, 30.1),
+                _ => (0.099, 3.01),
+            };
+            for symbol in [free, positive] {
+                let value = sample.value(&graph, symbol);
+                assert!((least..most).contains(&value.abs()), "{value}");
+                let (numerator, exponent) = sample.dyadic(&graph, symbol);
+                assert_eq!(numerator as f64 * (exponent as f64).exp2(), value);
+                let integer = sample.integer(&graph, symbol);
+                assert!(!integer.is_zero());
+                if symbol == positive {
+                    assert!(value > 0.0 && !integer.is_negative());
+                } else {
+                    assert!(value > 0.0 || sample.seed % 4 != 1);
+                    signs[usize::from(value > 0.0)] += 1;
+                }
+            }
+        }
+        // every fourth is positive, half of the others
+        assert!((1350..1650).contains(&signs[0]), "{signs:?}");
+    }
+}

@@ -379,4 +379,17 @@ mod tests {
             0
         );
     }
+
+    /// A full matrix costs what Gauss's elimination does.
+    #[test]
+    fn operations_of_a_full_matrix() {
+        for n in 1..7 {
+            let all = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+            let pattern: Vec<(usize, usize)> = all.filter(|(i, j)| i != j).collect();
+            let counts = Elimination::new(n, &pattern, &BTreeSet::new()).counts();
+            let updates = n * (n - 1) * (2 * n - 1) / 6 + n * (n - 1);
+            assert_eq!((counts.add, counts.div, counts.call), (updates, n, 0));
+            assert_eq!(counts.mul, updates + n * (n - 1) / 2 + n);
+        }
+    }
 }

@@ -124,6 +124,32 @@ mod tests {
     }
 
     #[test]
+    fn the_sign_of_the_determinant() {
+        let unit = |k: usize| SVector::<f64, 3>::from_fn(|row, _| f64::from(u8::from(row == k)));
+        for [a, b, c] in [
+            [0, 1, 2],
+            [1, 2, 0],
+            [2, 0, 1],
+            [1, 0, 2],
+            [0, 2, 1],
+            [2, 1, 0],
+        ] {
+            for signs in 0..8 {
+                let column =
+                    |k: usize, at: usize| unit(k) * if signs >> at & 1 == 1 { -2.0 } else { 3.0 };
+                let columns = [column(a, 0), column(b, 1), column(c, 2)];
+                let mut matrix = SMatrix::<f64, 3, 3>::from_columns(&columns);
+                let expected = matrix.determinant().signum();
+                let sign = solve(&mut matrix, &mut SVector::from([1.0, 2.0, 3.0]));
+                assert_eq!(sign, expected, "{columns:?}");
+            }
+        }
+        let expected = example().determinant().signum();
+        let mut right = SVector::from([1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(solve(&mut example(), &mut right), expected);
+    }
+
+    #[test]
     fn a_singular_matrix_gives_no_numbers() {
         let matrix = SMatrix::<f64, 2, 2>::new(1.0, 2.0, 2.0, 4.0);
         let mut vector = SVector::from([1.0, 0.0]);

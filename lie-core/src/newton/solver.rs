@@ -108,3 +108,35 @@ fn record<M: Mask>(failed: &mut Option<(FailureReason, u64)>, lanes: M, reason: 
     };
     *failed = Some((reason, before | bits));
 }
+
+#[cfg(all(test, feature = "lanes"))]
+mod tests {
+    use super::*;
+    use crate::scalar::F64x4;
+
+    type Lanes = <F64x4 as Scalar>::Mask;
+
+    #[test]
+    fn the_reason_is_that_of_the_lowest_lane() {
+        let mut failed = None;
+        record(&mut failed, Lanes::from_bits(0), FailureReason::Diverged);
+        assert_eq!(failed, None);
+        record(
+            &mut failed,
+            Lanes::from_bits(0b1000),
+            FailureReason::Singular,
+        );
+        record(
+            &mut failed,
+            Lanes::from_bits(0b0010),
+            FailureReason::NotFinite,
+        );
+        assert_eq!(failed, Some((FailureReason::NotFinite, 0b1010)));
+        record(
+            &mut failed,
+            Lanes::from_bits(0b0100),
+            FailureReason::Diverged,
+        );
+        assert_eq!(failed, Some((FailureReason::NotFinite, 0b1110)));
+    }
+}

@@ -244,6 +244,12 @@ mod tests {
             let error = distance(&map(&matrix(TURN)), &expected);
             assert!(error < 1e-15, "{error:e}");
         }
+        // several turns: twenty times a motion is its twentieth power
+        let long = exponential(&matrix(TURN.map(|entry| 20.0 * entry)));
+        let single = exponential(&matrix(TURN));
+        let power = (1..20).fold(single.clone(), |power, _| power.times(&single));
+        let error = distance(&long, &power);
+        assert!(error < 2e-14, "{error:e}");
         let product = exponential(&matrix(TURN)).inverse();
         let back = exponential(&matrix(TURN.map(|entry| -entry)));
         assert!(distance(&product, &back) < 1e-15);

@@ -3,7 +3,10 @@
 
 use super::rigid_body::{cross, dot, hat, so3_triple};
 use lie_runtime::structure::{Entry, Representation};
-use lie_runtime::{CayleyPoisson, Dual, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar, generic};
+use lie_runtime::{
+    CayleyPoisson, CotangentPoisson, Dual, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar,
+    generic,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// Moments of inertia and the gradient of the potential energy, `mgl chi`.
@@ -193,3 +196,16 @@ impl<S: Scalar> MatrixPoisson<S> for HeavyTop<S> {
 }
 
 lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: isospectral2, isospectral4, isospectral6);
+
+/// A system on T*SO(3): gamma is a row of the group element.
+impl<S: Scalar> CotangentPoisson<S> for HeavyTop<S> {
+    type Momentum = SVector<S, 3>;
+    type MomentumMatrix = SMatrix<S, 3, 3>;
+    const MOMENTA: usize = 3;
+    fn zero_momentum(&self) -> Self::Momentum {
+        SVector::<S, 3>::repeat(S::zero())
+    }
+    fn zero_momentum_matrix(&self) -> Self::MomentumMatrix {
+        SMatrix::<S, 3, 3>::repeat(S::zero())
+    }
+}
