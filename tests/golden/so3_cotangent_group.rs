@@ -51,7 +51,7 @@ impl<S: ::lie_runtime::Scalar> CotangentBody<S> {
     ) -> ::core::result::Result<CotangentBodySystem<S>, ::lie_runtime::ParameterError> {
         let _t0 = S::one() / self.I1;
         let _t1 = S::one() / self.I3;
-        let _t2 = S::ratio(5.0, 1.0) / self.I1;
+        let _t2 = S::ratio(2.0, 1.0) / self.I3;
         let _c0 = S::ratio(1.0, 2.0) / self.I1;
         let _c1 = S::ratio(1.0, 2.0) / self.I3;
         let _c2 = S::ratio(3.0, 1.0) / self.I2;
@@ -62,11 +62,15 @@ impl<S: ::lie_runtime::Scalar> CotangentBody<S> {
         let _c7 = -_t1;
         let _c8 = -_t0;
         let _c9 = S::ratio(1.0, 2.0) / self.I2;
-        let _c10 = _t2 - S::ratio(5.0, 1.0) / self.I3;
-        let _c11 = S::ratio(12.0, 1.0) / self.I2;
-        let _c12 = S::ratio(36.0, 1.0) / self.I2;
-        let _c13 = _t2;
-        let _c14 = S::ratio(6.0, 1.0) / self.I2;
+        let _c10 = S::ratio(2.0, 1.0) / self.I1;
+        let _c11 = S::ratio(4.0, 1.0) / self.I1;
+        let _c12 = S::ratio(4.0, 1.0) / self.I3;
+        let _c13 = -_t2;
+        let _c14 = _t2;
+        let _c15 = S::ratio(12.0, 1.0) / self.I2;
+        let _c16 = S::ratio(36.0, 1.0) / self.I2;
+        let _c17 = S::ratio(5.0, 1.0) / self.I1;
+        let _c18 = S::ratio(6.0, 1.0) / self.I2;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "I1", "1/(2*I1)"),
@@ -79,11 +83,15 @@ impl<S: ::lie_runtime::Scalar> CotangentBody<S> {
                 (_c7, "I3", "-1/I3"),
                 (_c8, "I1", "-1/I1"),
                 (_c9, "I2", "1/(2*I2)"),
-                (_c10, "I1", "5/I1 - 5/I3"),
-                (_c11, "I2", "12/I2"),
-                (_c12, "I2", "36/I2"),
-                (_c13, "I1", "5/I1"),
-                (_c14, "I2", "6/I2"),
+                (_c10, "I1", "2/I1"),
+                (_c11, "I1", "4/I1"),
+                (_c12, "I3", "4/I3"),
+                (_c13, "I3", "-2/I3"),
+                (_c14, "I3", "2/I3"),
+                (_c15, "I2", "12/I2"),
+                (_c16, "I2", "36/I2"),
+                (_c17, "I1", "5/I1"),
+                (_c18, "I2", "6/I2"),
             ],
         )?;
         ::core::result::Result::Ok(CotangentBodySystem {
@@ -103,6 +111,10 @@ impl<S: ::lie_runtime::Scalar> CotangentBody<S> {
             _k12: _c12,
             _k13: _c13,
             _k14: _c14,
+            _k15: _c15,
+            _k16: _c16,
+            _k17: _c17,
+            _k18: _c18,
         })
     }
 
@@ -151,16 +163,24 @@ pub struct CotangentBodySystem<S = f64> {
     _k8: S,
     /// `1/(2*I2)`
     _k9: S,
-    /// `5/I1 - 5/I3`
+    /// `2/I1`
     _k10: S,
-    /// `12/I2`
+    /// `4/I1`
     _k11: S,
-    /// `36/I2`
+    /// `4/I3`
     _k12: S,
-    /// `5/I1`
+    /// `-2/I3`
     _k13: S,
-    /// `6/I2`
+    /// `2/I3`
     _k14: S,
+    /// `12/I2`
+    _k15: S,
+    /// `36/I2`
+    _k16: S,
+    /// `5/I1`
+    _k17: S,
+    /// `6/I2`
+    _k18: S,
 }
 
 impl<S> CotangentBodySystem<S> {
@@ -900,6 +920,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for CotangentBodySystem<S>
             _k12: _constant(self._k12),
             _k13: _constant(self._k13),
             _k14: _constant(self._k14),
+            _k15: _constant(self._k15),
+            _k16: _constant(self._k16),
+            _k17: _constant(self._k17),
+            _k18: _constant(self._k18),
         }
     }
 }
@@ -2413,28 +2437,34 @@ pub struct CotangentBodyCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     _h3: S,
     /// `4/h`
     _h4: S,
-    /// `h/12`
-    _h5: S,
     /// `h/10`
-    _h6: S,
-    /// `h/(2*I1)`
-    _h7: S,
-    /// `h/3`
-    _h8: S,
-    /// `-h/2`
-    _h9: S,
-    /// `-h/6`
-    _h10: S,
-    /// `-h/4`
-    _h11: S,
-    /// `-h/(2*I3)`
-    _h12: S,
+    _h5: S,
     /// `-h/(2*I1)`
+    _h6: S,
+    /// `10*h/I1`
+    _h7: S,
+    /// `5*h/I1`
+    _h8: S,
+    /// `h/3`
+    _h9: S,
+    /// `(1/I1 - 1/I3)*h/2`
+    _h10: S,
+    /// `h/I1`
+    _h11: S,
+    /// `2*h`
+    _h12: S,
+    /// `3*h`
     _h13: S,
     /// `-h/10`
     _h14: S,
-    /// `-h/3`
+    /// `-h/2`
     _h15: S,
+    /// `-h/(2*I3)`
+    _h16: S,
+    /// `h/(2*I1)`
+    _h17: S,
+    /// `-h/3`
+    _h18: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> CotangentBodyCayleyMidpoint<'a, S> {
@@ -2442,28 +2472,33 @@ impl<'a, S: ::lie_runtime::Scalar> CotangentBodyCayleyMidpoint<'a, S> {
     #[must_use]
     pub fn new(system: &'a CotangentBodySystem<S>, h: S) -> Self {
         let _t0 = h * S::ratio(1.0, 2.0);
-        let _t1 = _t0 / system._parameters.I3;
-        let _t2 = _t0 / system._parameters.I1;
+        let _t1 = S::one() / system._parameters.I3;
+        let _t2 = S::one() / system._parameters.I1;
+        let _t3 = _t2 * h;
+        let _t4 = h * S::ratio(-1.0, 2.0);
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
             _h0: _t0,
             _h1: h * S::ratio(1.0, 4.0),
-            _h2: _t1,
+            _h2: _t1 * _t0,
             _h3: h * S::ratio(1.0, 6.0),
             _h4: S::ratio(4.0, 1.0) / h,
-            _h5: h * S::ratio(1.0, 12.0),
-            _h6: h * S::ratio(1.0, 10.0),
-            _h7: _t2,
-            _h8: h * S::ratio(1.0, 3.0),
-            _h9: h * S::ratio(-1.0, 2.0),
-            _h10: h * S::ratio(-1.0, 6.0),
-            _h11: h * S::ratio(-1.0, 4.0),
-            _h12: -_t1,
-            _h13: -_t2,
+            _h5: h * S::ratio(1.0, 10.0),
+            _h6: _t3 * S::ratio(-1.0, 2.0),
+            _h7: _t3 * S::ratio(10.0, 1.0),
+            _h8: _t3 * S::ratio(5.0, 1.0),
+            _h9: h * S::ratio(1.0, 3.0),
+            _h10: (_t2 - _t1) * _t0,
+            _h11: _t3,
+            _h12: h * S::ratio(2.0, 1.0),
+            _h13: h * S::ratio(3.0, 1.0),
             _h14: h * S::ratio(-1.0, 10.0),
-            _h15: h * S::ratio(-1.0, 3.0),
+            _h15: _t4,
+            _h16: _t1 * _t4,
+            _h17: S::ratio(1.0, 2.0) * _t3,
+            _h18: h * S::ratio(-1.0, 3.0),
         }
     }
 }
@@ -2536,7 +2571,7 @@ for CotangentBodyCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
-    /// 146 additions, 225 multiplications.
+    /// 144 additions, 203 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -2550,184 +2585,182 @@ for CotangentBodyCayleyMidpoint<'_, S> {
             .0;
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = _u_m2 * _u_R11;
-        let _t1 = _u_R11 * S::ratio(1.0, 3.0);
-        let _t2 = self.system._k5 * _u_m2 + _t0 * _t1;
-        let _t3 = _t2 * self._h0;
-        let _t4 = _u_R21 * self._h1;
-        let _t5 = _t3 * _t4;
-        let _t6 = _u_m3 * self._h2;
-        let _t7 = S::one() + _u_m1 * S::ratio(1.0, 5.0);
-        let _t8 = _t7 * self._h0;
-        let _t9 = _t6 * _t8;
-        let _t10 = self.system._k3 * _u_m1 + _u_R33 * S::ratio(1.0, 5.0);
-        let _t11 = _t10 * self._h0;
-        let _t12 = _t6 * _u_m3;
-        let _t13 = _t12 + _t8 * _u_R33;
-        let _t14 = _t4 * _u_R12;
-        let _t15 = _t11 * _u_m1;
-        let _t16 = _t3 * _u_m2;
-        let _t17 = _t15 + _t16;
-        let _t18 = _t17 + _t14;
-        let _t19 = _t2 - self.system._k4 * _u_m2;
-        let _t20 = _u_m2 * self._h3;
-        let _t21 = _t0 * _t20;
-        let _t22 = _u_R12 * self._h1;
-        let _t23 = _t21 * _u_R11 + _t22 * _u_R21;
-        let _t24 = _t13 + _t23;
-        let _t25 = _t21 * _u_R12 + _t22 * _u_R22;
-        let _t26 = _u_m2 * S::ratio(2.0, 1.0);
-        let _t27 = _t0 * _t26;
-        let _t28 = _t10 - self.system._k4 * _u_m1;
-        let _t29 = _t23 + _t18;
-        let _t30 = _t21 * _u_R13 + _t22 * _u_R23;
-        let _t31 = _u_R12 * _t0;
-        let _t32 = self.system._k4 * _u_m3;
-        let _t33 = _t13 + _t16 + _t14 + _t15 * S::ratio(2.0, 1.0);
-        let _t34 = _t11 * _t3;
-        let _t35 = self.system._k5 + _u_R11 * _t1;
-        let _t36 = self._h0 * _t35;
-        let _t37 = _t11 * _u_m2 - _t4 * _u_R11;
-        let _t38 = _t11 * _t6;
-        let _t39 = self._h8 * _t0;
-        let _t40 = _t11 * _u_R12 - _t3 * _u_R11;
-        let _t41 = -_t9;
-        let _t42 = _t3 * _u_m1 - _t25;
-        let _t43 = _t24 + _t15 + _t3 * _t26;
-        let _t44 = _u_R13 * _t39;
-        let _t45 = _t3 * _t6;
-        let _t46 = _u_m2 * _t20;
-        let _t47 = -(_t11 * _t21);
-        let _t48 = -(_t11 * _t22);
-        let _t49 = _t6 * _u_m1 - _t30;
-        let _t50 = _t6 * _u_m2 - _t4 * _u_R13;
-        let _t51 = _t11 * _u_R13 - _t6 * _u_R11;
-        let _t52 = _u_R11 * S::ratio(2.0, 1.0);
-        let _t53 = _u_m3 * self._h12;
-        let _t54 = _t10 * self._h9;
-        let _t55 = _t35 * self._h9;
-        let _t56 = self._h15 * _t0;
-        let _t57 = _t2 * self._h9;
-        residual[0] = _u_m1 - m1 - _u_R11 * _t5 - _u_R31 * _t9 + _t11 * (_t13 + _t18)
-            + self._h1
-                * (_u_R13 * _u_R21 - S::ratio(2.0, 1.0) * (_u_R32 * _t7 - _u_m3 * _t19));
-        residual[1] = _u_m2 - m2 - _u_R32 * _t9 + _t3 * (_t17 + _t24) - _t11 * _t25
-            - self._h5
-                * (_u_R13 * _t27 + _u_R12 * _u_R23 * S::ratio(3.0, 1.0)
-                    - (_u_R31 * _t7 - _u_m3 * _t28) * S::ratio(6.0, 1.0));
-        residual[2] = _u_m3 - m3 - _u_R13 * _t5 + _t6 * (_t29 + _t12) - _t11 * _t30
-            - self._h5
-                * (S::ratio(3.0, 1.0) * (_u_R11 * _u_R21 - _u_R12 * _u_R22)
-                    + _u_m1 * _t2 * S::ratio(6.0, 1.0)
-                    - (_t31 + _t10 * S::ratio(3.0, 1.0)) * _t26);
-        residual[3] = _u_R11 - _R11 + self._h0 * (_u_R13 * _t2 - _u_R12 * _t32);
-        residual[4] = _u_R12 - _R12 - self._h0 * (_u_R13 * _t10 - _u_R11 * _t32);
-        residual[5] = _u_R13 - _R13 + self._h0 * (_u_R12 * _t10 - _u_R11 * _t2);
-        residual[6] = _u_R21 - _R21 + self._h0 * (_u_R23 * _t2 - _u_R22 * _t32);
-        residual[7] = _u_R22 - _R22 - self._h0 * (_u_R23 * _t10 - _u_R21 * _t32);
-        residual[8] = _u_R23 - _R23 + self._h0 * (_u_R22 * _t10 - _u_R21 * _t2);
-        residual[9] = _u_R31 - _R31 + self._h0 * (_u_R33 * _t2 - _u_R32 * _t32);
-        residual[10] = _u_R32 - _R32 - self._h0 * (_u_R33 * _t10 - _u_R31 * _t32);
-        residual[11] = _u_R33 - _R33 + self._h0 * (_u_R32 * _t10 - _u_R31 * _t2);
-        matrix[(0, 0)] = S::one() + _t11 * _t11
-            - (_u_R32 - (_t11 * _u_R33 - _t6 * _u_R31)) * self._h6 + _t33 * self._h7;
-        matrix[(0, 1)] = _t34 + _t36 * _t37
-            - _u_m3 * self._h0 * (self.system._k4 - _t35);
-        matrix[(0, 2)] = _t38 + self._h0 * _t19
-            + self._h2 * (_t11 * _u_m3 - _t8 * _u_R31);
-        matrix[(0, 3)] = _t39 * _t37 - _t5 + _u_m3 * _t39;
-        matrix[(0, 4)] = _t11 * _t4;
-        matrix[(0, 5)] = _t4;
-        matrix[(0, 6)] = self._h1 * (_t40 + _u_R13);
-        matrix[(0, 9)] = _t41;
-        matrix[(0, 10)] = _t7 * self._h9;
-        matrix[(0, 11)] = _t11 * _t8 + _t33 * self._h6;
-        matrix[(1, 0)] = _t34 + self._h7 * _t42
-            + self._h6
-                * (_t3 * _u_R33 - _t6 * _u_R32 + (_u_R31 - _u_m3 * self.system._k10));
-        matrix[(1, 1)] = S::one() + _t3 * _t3 + _t36 * _t43 - _t39 * _t40 - _t44;
-        matrix[(1, 2)] = _t45 - self._h0 * _t28
-            + self._h2 * (_t3 * _u_m3 - _t8 * _u_R32);
-        matrix[(1, 3)] = _t3 * _t21 + _t39 * _t43 - _t46 * _t40 - _u_R13 * _t46;
-        matrix[(1, 4)] = _t47 - self._h1 * (_t11 * _u_R22 - _t3 * _u_R21 + _u_R23);
-        matrix[(1, 5)] = _u_m2 * self._h10 * _t0;
-        matrix[(1, 6)] = _t3 * _t22;
-        matrix[(1, 7)] = _t48;
-        matrix[(1, 8)] = _u_R12 * self._h11;
-        matrix[(1, 9)] = _t8;
-        matrix[(1, 10)] = _t41;
-        matrix[(1, 11)] = _t3 * _t8 - self._h6 * (_u_m3 - _t42);
-        matrix[(2, 0)] = _t38 - self._h0 * (_t2 - self.system._k3 * _u_m2)
-            + self._h7 * _t49;
-        matrix[(2, 1)] = _t45 + _t36 * _t50 - _t39 * _t51
-            + self._h3
-                * ((_t10 - _u_m1 * _t35) * S::ratio(3.0, 1.0)
-                    + S::ratio(2.0, 1.0) * _t31);
-        matrix[(2, 2)] = S::one() + _t6 * _t6
-            + self._h2 * (_t29 + _t12 * S::ratio(2.0, 1.0));
-        matrix[(2, 3)] = _t6 * _t21 + _t39 * _t50 - _t46 * _t51
-            - self._h5
-                * (_u_R21 * S::ratio(3.0, 1.0) - (_u_m2 * _u_R12 - _u_m1 * _t52) * _t26);
-        matrix[(2, 4)] = _t6 * _t4 + (_u_R22 * S::ratio(3.0, 1.0) + _t27) * self._h5
-            - self._h1 * (_t11 * _u_R23 - _t6 * _u_R21);
-        matrix[(2, 5)] = _t47 - _t5;
-        matrix[(2, 6)] = _t6 * _t22 - self._h1 * (_t3 * _u_R13 - _t6 * _u_R12 + _u_R11);
-        matrix[(2, 7)] = _t22;
-        matrix[(2, 8)] = _t48;
-        matrix[(2, 11)] = self._h6 * (_t49 + _u_m2);
-        matrix[(3, 1)] = _u_R13 * _t36;
-        matrix[(3, 2)] = _u_R12 * self._h12;
-        matrix[(3, 3)] = S::one() + _t44;
-        matrix[(3, 4)] = _t53;
-        matrix[(3, 5)] = _t3;
-        matrix[(4, 0)] = _u_R13 * self._h13;
+        let _t0 = (S::one() + _u_m1 * S::ratio(1.0, 5.0)) * self._h0;
+        let _t1 = _t0 * _u_R32;
+        let _t2 = (self.system._k3 * _u_m1 + _u_R33 * S::ratio(1.0, 5.0)) * self._h0;
+        let _t3 = _u_R21 * self._h1;
+        let _t4 = _t3 * _u_R12;
+        let _t5 = _t2 * _u_m1;
+        let _t6 = _u_m2 * _u_R11;
+        let _t7 = _u_R11 * S::ratio(1.0, 3.0);
+        let _t8 = (self.system._k5 * _u_m2 + _t6 * _t7) * self._h0;
+        let _t9 = _t8 * _u_m2;
+        let _t10 = _t5 + _t9;
+        let _t11 = _u_m3 * self._h2;
+        let _t12 = _t11 * _u_m3;
+        let _t13 = _t0 * _u_R33;
+        let _t14 = _t12 + _t13;
+        let _t15 = _u_m3 - _t3 * _u_R11;
+        let _t16 = _t0 * _u_R31;
+        let _t17 = _u_m2 + _t16;
+        let _t18 = _u_m1 + _t3 * _u_R13;
+        let _t19 = _u_R12 * self._h1;
+        let _t20 = _u_m2 * self._h3 * _t6;
+        let _t21 = _t20 * _u_R11;
+        let _t22 = _t10 + _t21;
+        let _t23 = _t22 + _t19 * _u_R21;
+        let _t24 = _u_m1 - _t1;
+        let _t25 = _t19 * _u_R23 - (_u_m2 - _t20 * _u_R13);
+        let _t26 = -_t25;
+        let _t27 = _t11 * self._h4;
+        let _t28 = _u_R11 + _t8 * _u_R13;
+        let _t29 = _t2 * _u_R13;
+        let _t30 = _t29 - _t11 * _u_R11;
+        let _t31 = _t2 * _t19;
+        let _t32 = _u_R13 - _t8 * _u_R11;
+        let _t33 = _u_R22 - _t2 * _u_R23;
+        let _t34 = _t8 * _t3;
+        let _t35 = _u_R31 - _t11 * _u_R32;
+        let _t36 = _u_R32 * self._h5;
+        let _t37 = _t3 * _t19;
+        let _t38 = _u_R33 * self.h + _t2 * S::ratio(10.0, 1.0);
+        let _t39 = self.system._k5 + _u_R11 * _t7;
+        let _t40 = _t39 * S::ratio(1.0, 2.0);
+        let _t41 = _t11 * S::ratio(2.0, 1.0);
+        let _t42 = _t2 * _t20;
+        let _t43 = self._h9 * _t6;
+        let _t44 = -(_t11 * _t0);
+        let _t45 = _u_m1 * self.h;
+        let _t46 = self.h * (_t14 + _t5 + _t21) + S::ratio(4.0, 1.0) * _t37;
+        let _t47 = _t31 * S::ratio(4.0, 1.0);
+        let _t48 = _u_R11 * S::ratio(2.0, 1.0);
+        let _t49 = _u_m2 * S::ratio(1.0, 6.0);
+        let _t50 = _t20 * S::ratio(4.0, 1.0);
+        let _t51 = _u_R22 * self.h + _t50;
+        let _t52 = -_t31;
+        let _t53 = self.h * _t18;
+        let _t54 = _t19 * S::ratio(4.0, 1.0);
+        let _t55 = self._h0 * _t39;
+        let _t56 = -_t11;
+        let _t57 = -_t2;
+        let _t58 = _t39 * self._h15;
+        let _t59 = -_t8;
+        residual[0] = _t18 - m1 - _t1 + _t2 * (_t10 + _t4 + _t14) + _t8 * _t15
+            - _t11 * _t17;
+        residual[1] = _t16 - m2 + _t8 * (_t14 + _t23)
+            - _t2 * (_u_m3 + _t20 * _u_R12 + _t19 * _u_R22) + _t11 * _t24 - _t25;
+        residual[2] = _t15 - m3 + _t11 * (_t23 + _t12 + _t4) + _t2 * _t26 - _t8 * _t18
+            + _t19 * (_u_R22 + _t20 * self._h4);
+        residual[3] = _t28 - _R11 - _t19 * _t27;
+        residual[4] = _u_R12 - _R12 - _t30;
+        residual[5] = _t32 - _R13 + _t31 * self._h4;
+        residual[6] = _u_R21 - _R21 - _t11 * _u_R22 + _t8 * _u_R23;
+        residual[7] = _t33 - _R22 + _t3 * _t27;
+        residual[8] = _u_R23 - _R23 + _t2 * _u_R22 - _t34 * self._h4;
+        residual[9] = _t35 - _R31 + _t8 * _u_R33;
+        residual[10] = _u_R32 - _R32 - _t2 * _u_R33 + _t11 * _u_R31;
+        residual[11] = _u_R33 - _R33 - _t8 * _u_R31 + _t2 * _u_R32;
+        matrix[(0, 0)] = S::one() - _t36 - self._h6 * (_t9 + _t13)
+            + self.system._k10 * _t37
+            + (_t2 * (_t38 + _u_m1 * self._h7)
+                - _t11 * (_u_R31 * self.h - _u_m3 * self._h8)) * S::ratio(1.0, 10.0);
+        matrix[(0, 1)] = _t2 * _t8 - _t11 + self.h * (_t15 + _t2 * _u_m2) * _t40;
+        matrix[(0, 2)] = _t8 + _t2 * _t41 - self._h2 * _t17;
+        matrix[(0, 3)] = _t42 * S::ratio(2.0, 1.0) + _u_m3 * _t43
+            - _t3 * S::ratio(1.0, 3.0)
+                * (_u_R11 * self.h * _t6 + _t8 * S::ratio(3.0, 1.0));
+        matrix[(0, 4)] = _t2 * _t3;
+        matrix[(0, 5)] = _t3;
+        matrix[(0, 6)] = _t31 + self._h1 * _t32;
+        matrix[(0, 9)] = _t44;
+        matrix[(0, 10)] = -_t0;
+        matrix[(0, 11)] = self._h5 * (_t14 + _t9) + S::ratio(2.0, 5.0) * _t37
+            + _t2 * S::ratio(1.0, 5.0) * (_t45 + _t0 * S::ratio(5.0, 1.0));
+        matrix[(1, 0)] = self._h5 * _t35 - _u_m3 * self._h10
+            + _t8 * (_t38 + _u_m1 * self._h8) * S::ratio(1.0, 10.0)
+            - _t19 * S::ratio(1.0, 2.0) * (_u_R22 * self._h11 + _t20 * self.system._k11);
+        matrix[(1, 1)] = S::one() + _t8 * _t8 + (_t46 + _t9 * self._h12) * _t40
+            - S::ratio(1.0, 3.0) * (self.h * _t32 + _t47) * _t6;
+        matrix[(1, 2)] = _t8 * _t41 - _t2 + self._h2 * _t24;
+        matrix[(1, 3)] = _t8 * _t20 * S::ratio(6.0, 1.0)
+            - (_u_m2 * (_u_R13 * self.h + _t47) - _t46 * _t48) * _t49;
+        matrix[(1, 4)] = _t34 - _u_R23 * self._h1 - _t2 * _t51 * S::ratio(1.0, 4.0);
+        matrix[(1, 5)] = -_t20;
+        matrix[(1, 6)] = _t8 * _t19;
+        matrix[(1, 7)] = _t52;
+        matrix[(1, 8)] = -_t19;
+        matrix[(1, 9)] = _t0;
+        matrix[(1, 10)] = _t44;
+        matrix[(1, 11)] = S::ratio(1.0, 10.0)
+            * (_t8 * (_t45 + _t0 * S::ratio(10.0, 1.0)) - _t19 * _t51)
+            - _u_m3 * self._h5;
+        matrix[(2, 0)] = _t11 * (_u_m1 * self._h11 + _t2 * S::ratio(2.0, 1.0))
+            * S::ratio(1.0, 2.0) - _t8 - self._h6 * _t26;
+        matrix[(2, 1)] = _t2 + _t8 * _t11 - _t40 * _t53
+            + (_t11 * _t39 * self._h13 + (_t54 - self.h * _t30) * _t48) * _t49;
+        matrix[(2, 2)] = S::one() + _t11 * _t11 * S::ratio(3.0, 1.0) + self._h2 * _t22
+            + self.system._k12 * _t37;
+        matrix[(2, 3)] = _t11 * _t50 - _t3
+            - (_u_m2 * (self.h * _t29 - _t54) + _t48 * _t53) * _t49;
+        matrix[(2, 4)] = _t20 + _t3 * _t41 + self._h1 * _t33;
+        matrix[(2, 5)] = -_t42 - _t34;
+        matrix[(2, 6)] = _t19 * _t41 - self._h1 * _t28;
+        matrix[(2, 7)] = _t19;
+        matrix[(2, 8)] = _t52;
+        matrix[(2, 11)] = self._h5 * (_t11 * _u_m1 - _t25);
+        matrix[(3, 1)] = _u_R13 * _t55;
+        matrix[(3, 2)] = _t19 * self.system._k13;
+        matrix[(3, 3)] = S::one() + _u_R13 * _t43;
+        matrix[(3, 4)] = _t56;
+        matrix[(3, 5)] = _t8;
+        matrix[(4, 0)] = _u_R13 * self._h6;
         matrix[(4, 2)] = _u_R11 * self._h2;
-        matrix[(4, 3)] = _t6;
+        matrix[(4, 3)] = _t11;
         matrix[(4, 4)] = S::one();
-        matrix[(4, 5)] = _t54;
+        matrix[(4, 5)] = _t57;
         matrix[(4, 11)] = _u_R13 * self._h14;
-        matrix[(5, 0)] = _u_R12 * self._h7;
-        matrix[(5, 1)] = _u_R11 * _t55;
-        matrix[(5, 3)] = (_t0 * _t52 + _t2 * S::ratio(3.0, 1.0)) * self._h10;
-        matrix[(5, 4)] = _t11;
+        matrix[(5, 0)] = _t19 * self.system._k10;
+        matrix[(5, 1)] = _u_R11 * _t58;
+        matrix[(5, 3)] = _t59 - _u_R11 * _t43;
+        matrix[(5, 4)] = _t2;
         matrix[(5, 5)] = S::one();
-        matrix[(5, 11)] = _u_R12 * self._h6;
-        matrix[(6, 1)] = _u_R23 * _t36;
-        matrix[(6, 2)] = _u_R22 * self._h12;
-        matrix[(6, 3)] = _u_R23 * _t39;
+        matrix[(5, 11)] = _t19 * S::ratio(2.0, 5.0);
+        matrix[(6, 1)] = _u_R23 * _t55;
+        matrix[(6, 2)] = _u_R22 * self._h16;
+        matrix[(6, 3)] = _u_R23 * _t43;
         matrix[(6, 6)] = S::one();
-        matrix[(6, 7)] = _t53;
-        matrix[(6, 8)] = _t3;
-        matrix[(7, 0)] = _u_R23 * self._h13;
-        matrix[(7, 2)] = _u_R21 * self._h2;
-        matrix[(7, 6)] = _t6;
+        matrix[(6, 7)] = _t56;
+        matrix[(6, 8)] = _t8;
+        matrix[(7, 0)] = _u_R23 * self._h6;
+        matrix[(7, 2)] = _t3 * self.system._k14;
+        matrix[(7, 6)] = _t11;
         matrix[(7, 7)] = S::one();
-        matrix[(7, 8)] = _t54;
+        matrix[(7, 8)] = _t57;
         matrix[(7, 11)] = _u_R23 * self._h14;
-        matrix[(8, 0)] = _u_R22 * self._h7;
-        matrix[(8, 1)] = _u_R21 * _t55;
-        matrix[(8, 3)] = _u_R21 * _t56;
-        matrix[(8, 6)] = _t57;
-        matrix[(8, 7)] = _t11;
+        matrix[(8, 0)] = _u_R22 * self._h17;
+        matrix[(8, 1)] = _t3 * _t39 * S::ratio(-2.0, 1.0);
+        matrix[(8, 3)] = _t3 * S::ratio(-4.0, 3.0) * _t6;
+        matrix[(8, 6)] = _t59;
+        matrix[(8, 7)] = _t2;
         matrix[(8, 8)] = S::one();
-        matrix[(8, 11)] = _u_R22 * self._h6;
-        matrix[(9, 1)] = _u_R33 * _t36;
-        matrix[(9, 2)] = _u_R32 * self._h12;
-        matrix[(9, 3)] = _u_R33 * _t39;
+        matrix[(8, 11)] = _u_R22 * self._h5;
+        matrix[(9, 1)] = _u_R33 * _t55;
+        matrix[(9, 2)] = _u_R32 * self._h16;
+        matrix[(9, 3)] = _u_R33 * _t43;
         matrix[(9, 9)] = S::one();
-        matrix[(9, 10)] = _t53;
-        matrix[(9, 11)] = _t3;
-        matrix[(10, 0)] = _u_R33 * self._h13;
+        matrix[(9, 10)] = _t56;
+        matrix[(9, 11)] = _t8;
+        matrix[(10, 0)] = _u_R33 * self._h6;
         matrix[(10, 2)] = _u_R31 * self._h2;
-        matrix[(10, 9)] = _t6;
+        matrix[(10, 9)] = _t11;
         matrix[(10, 10)] = S::one();
-        matrix[(10, 11)] = (_u_R33 + _t10 * S::ratio(5.0, 1.0)) * self._h14;
-        matrix[(11, 0)] = _u_R32 * self._h7;
-        matrix[(11, 1)] = _u_R31 * _t55;
-        matrix[(11, 3)] = _u_R31 * _t56;
-        matrix[(11, 9)] = _t57;
-        matrix[(11, 10)] = _t11;
-        matrix[(11, 11)] = S::one() + _u_R32 * self._h6;
+        matrix[(10, 11)] = _t57 - _u_R33 * self._h5;
+        matrix[(11, 0)] = _u_R32 * self._h17;
+        matrix[(11, 1)] = _u_R31 * _t58;
+        matrix[(11, 3)] = _u_R31 * self._h18 * _t6;
+        matrix[(11, 9)] = _t59;
+        matrix[(11, 10)] = _t2;
+        matrix[(11, 11)] = S::one() + _t36;
         matrix[(9, 0)] = S::zero();
         matrix[(11, 2)] = S::zero();
         matrix[(6, 0)] = S::zero();
@@ -3337,7 +3370,7 @@ for CotangentBodyGonzalez<'_, S> {
         let _t10 = (_t4 * _t2 * (_t6 + _t8 * S::ratio(2.0, 1.0))
             + _t1 * _t9 * (_t8 + _t6 * S::ratio(2.0, 1.0))) * S::ratio(1.0, 72.0);
         let _t11 = _t5 * S::ratio(1.0, 24.0);
-        let _t12 = _t2 * _t10 + (_t7 * _t7 + self.system._k11) * _t11;
+        let _t12 = _t2 * _t10 + (_t7 * _t7 + self.system._k15) * _t11;
         let _t13 = m3 + _u_m3;
         let _t14 = m3 - _u_m3;
         let _t15 = -_t14 * _inverse_m1 * _t10 + _t13 * self.system._k1;
@@ -3910,7 +3943,7 @@ for CotangentBodyGonzalezGradient<S> {
         let _t10 = _t3 * S::ratio(1.0, 24.0);
         _out[0] = (_u_m1 - m1) * _inverse_m1 * _t8
             + (_R33 + _u_R33) * S::ratio(1.0, 10.0) + _t9 * _system._k0;
-        _out[1] = _t2 * _t8 + (_t5 * _t5 + _system._k11) * _t10;
+        _out[1] = _t2 * _t8 + (_t5 * _t5 + _system._k15) * _t10;
         _out[2] = (_u_m3 - m3) * _inverse_m1 * _t8 + (m3 + _u_m3) * _system._k1;
         _out[3] = _t7 * _t8 + _t3 * _t5 * _t10;
         _out[4] = (_u_R12 - _R12) * _inverse_m1 * _t8
@@ -3991,7 +4024,7 @@ for CotangentBodyGonzalezGradient<S> {
         let _t41 = S::ratio(1.0, 12.0) * _t15;
         _out[0] = _t0 * _t10 + (_R33 + _u_R33) * S::ratio(1.0, 10.0)
             + _t11 * _system._k0;
-        _out[1] = _t4 * _t10 + (_t12 + _system._k11) * _t13;
+        _out[1] = _t4 * _t10 + (_t12 + _system._k15) * _t13;
         _out[2] = _t14 * _t10 + (m3 + _u_m3) * _system._k1;
         _out[3] = _t7 * _t10 + _t13 * _t15;
         _out[4] = _t16 * _t10 + (_R21 + _u_R21) * S::ratio(1.0, 4.0);
@@ -4312,7 +4345,7 @@ for CotangentBodyMeanValue<'_, S> {
         let _t7 = _t5 * _t6;
         let _t8 = _t2 * S::ratio(1.0, 24.0);
         let _t9 = _t1 * (_t3 + _t7 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0)
-            + (_t6 * _t6 + self.system._k11) * _t8;
+            + (_t6 * _t6 + self.system._k15) * _t8;
         let _t10 = m3 + _u_m3;
         let _t11 = _t10 * self.system._k1;
         let _t12 = _R21 + _u_R21;
@@ -4399,7 +4432,7 @@ for CotangentBodyMeanValue<'_, S> {
         let _t29 = _t19 * self._h0;
         let _t30 = _t17 * self._h1;
         let _t31 = _t4 * (_t4 + _t1 * S::ratio(2.0, 1.0)) + S::ratio(3.0, 1.0) * _t2
-            + self.system._k12;
+            + self.system._k16;
         let _t32 = _t7 * (_t4 + _t1) + _t0 * (_t4 + _t1 * S::ratio(3.0, 1.0));
         let _t33 = _t32 * self._h4;
         let _t34 = _t14 * _t33;
@@ -4436,7 +4469,7 @@ for CotangentBodyMeanValue<'_, S> {
         matrix[(0, 6)] = _t14 * self._h5;
         matrix[(0, 10)] = _t16 * self._h6;
         matrix[(1, 0)] = self._h1
-            * (_t25 + _t11 * S::ratio(10.0, 1.0) - _t10 * self.system._k13);
+            * (_t25 + _t11 * S::ratio(10.0, 1.0) - _t10 * self.system._k17);
         matrix[(1, 1)] = S::one() - _t34;
         matrix[(1, 2)] = _t15 * self._h3 - _t29;
         matrix[(1, 3)] = _t14 * _t35 * self._h7;
@@ -4989,7 +5022,7 @@ for CotangentBodyMeanValueGradient<S> {
         _out.as_mut_slice().fill(S::zero());
         _out[0] = (_R33 + _u_R33) * S::ratio(1.0, 10.0) + _t0 * _system._k0;
         _out[1] = _t1 * (_t3 + _t6 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0)
-            + (_t5 * _t5 + _system._k11) * _t7;
+            + (_t5 * _t5 + _system._k15) * _t7;
         _out[2] = (m3 + _u_m3) * _system._k1;
         _out[3] = _t2 * _t5 * _t7
             + _t4 * (_t6 + _t3 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
@@ -5029,7 +5062,7 @@ for CotangentBodyMeanValueGradient<S> {
             * S::ratio(1.0, 36.0);
         _out.as_mut_slice().fill(S::zero());
         _out[0] = S::ratio(1.0, 10.0) * (_R33 + _u_R33) + _system._k0 * _t0;
-        _out[1] = (_t3 + _t6 * S::ratio(2.0, 1.0)) * _t7 + (_t8 + _system._k11) * _t9;
+        _out[1] = (_t3 + _t6 * S::ratio(2.0, 1.0)) * _t7 + (_t8 + _system._k15) * _t9;
         _out[2] = _system._k1 * (m3 + _u_m3);
         _out[3] = _t5 * _t10 + (_t6 + _t3 * S::ratio(2.0, 1.0)) * _t11;
         _out[4] = S::ratio(1.0, 4.0) * (_R21 + _u_R21);
@@ -5418,7 +5451,7 @@ for CotangentBodyItohAbe<'_, S> {
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
         let _t0 = m2 + _u_m2;
         let _t1 = _t0 * S::ratio(1.0, 12.0)
-            * (_R11 * _R11 + _u_R11 * _u_R11 + self.system._k14);
+            * (_R11 * _R11 + _u_R11 * _u_R11 + self.system._k18);
         let _t2 = m3 + _u_m3;
         let _t3 = _t2 * self.system._k1;
         let _t4 = _R21 + _u_R21;
@@ -5472,7 +5505,7 @@ for CotangentBodyItohAbe<'_, S> {
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
         let _t0 = m2 + _u_m2;
-        let _t1 = _R11 * _R11 + _u_R11 * _u_R11 + self.system._k14;
+        let _t1 = _R11 * _R11 + _u_R11 * _u_R11 + self.system._k18;
         let _t2 = _t0 * S::ratio(1.0, 12.0) * _t1;
         let _t3 = m3 + _u_m3;
         let _t4 = _t3 * self.system._k1;
@@ -5531,7 +5564,7 @@ for CotangentBodyItohAbe<'_, S> {
         matrix[(0, 6)] = _t7 * self._h5;
         matrix[(0, 10)] = _t9 * self._h6;
         matrix[(1, 0)] = self._h1
-            * (_t19 + _t4 * S::ratio(10.0, 1.0) - _t3 * self.system._k13);
+            * (_t19 + _t4 * S::ratio(10.0, 1.0) - _t3 * self.system._k17);
         matrix[(1, 1)] = S::one() - _t7 * self._h4 * _t25;
         matrix[(1, 2)] = self._h3 * (_t8 * self.system._k4 - _t12 * S::ratio(2.0, 1.0));
         matrix[(1, 3)] = _t7 * _t14 * self._h7;
@@ -6078,7 +6111,7 @@ for CotangentBodyItohAbeGradient<S> {
         _out.as_mut_slice().fill(S::zero());
         _out[0] = (_R33 + _u_R33) * S::ratio(1.0, 10.0) + _t0 * _system._k0;
         _out[1] = (m2 + _u_m2) * S::ratio(1.0, 12.0)
-            * (_R11 * _R11 + _u_R11 * _u_R11 + _system._k14);
+            * (_R11 * _R11 + _u_R11 * _u_R11 + _system._k18);
         _out[2] = (m3 + _u_m3) * _system._k1;
         _out[3] = (_R11 + _u_R11) * (m2 * m2 + _u_m2 * _u_m2) * S::ratio(1.0, 12.0);
         _out[4] = (_R21 + _u_R21) * S::ratio(1.0, 4.0);
@@ -6108,7 +6141,7 @@ for CotangentBodyItohAbeGradient<S> {
         let _t4 = S::ratio(1.0, 12.0) * (m2 * m2 + _u_m2 * _u_m2);
         _out.as_mut_slice().fill(S::zero());
         _out[0] = S::ratio(1.0, 10.0) * (_R33 + _u_R33) + _system._k0 * _t0;
-        _out[1] = _t1 * S::ratio(1.0, 12.0) * (_t2 + _system._k14);
+        _out[1] = _t1 * S::ratio(1.0, 12.0) * (_t2 + _system._k18);
         _out[2] = _system._k1 * (m3 + _u_m3);
         _out[3] = _t3 * _t4;
         _out[4] = S::ratio(1.0, 4.0) * (_R21 + _u_R21);

@@ -13,13 +13,13 @@ mod realization;
 mod second_kind;
 mod spherical;
 mod splitting;
-pub(crate) mod tape;
+mod tape;
 
 pub use generating::{Function, Generating};
 pub use kernel::{Argument, Kernel, Shape};
 pub use realization::Realization;
 pub use splitting::{PieceKernel, Update};
-pub(crate) use tape::Tape;
+pub(crate) use tape::{Tangents, Tape};
 
 use crate::algebra::{Representation, TripleEntry};
 use crate::structure::group::Group;

@@ -23,6 +23,15 @@ pub struct Tape {
 /// By how much the arena may grow for a list, nodes and operands together.
 const MOST_DERIVED: usize = 300_000;
 
+/// What becomes of the derivatives of definitions along a symbol.
+#[derive(Clone, Copy, Debug)]
+pub enum Tangents {
+    /// Definitions of their own: for long lists, in which they are used again and again.
+    Named,
+    /// Parts of what they are used in: for the short lists of an equation.
+    Inline,
+}
+
 impl Tape {
     /// An empty list; `first` is the first symbol that no argument uses.
     pub fn new(source: &Source, first: usize) -> Self {
@@ -107,14 +116,23 @@ impl Tape {
     }
 
     /// The derivatives of quantities along a symbol, by tangents.
-    fn tangents(&mut self, source: &mut Source, values: &[ExprId], along: Symbol) -> Vec<ExprId> {
+    fn tangents(
+        &mut self,
+        source: &mut Source,
+        values: &[ExprId],
+        along: Symbol,
+        tangents_are: Tangents,
+    ) -> Vec<ExprId> {
         let mut tangents: HashMap<Symbol, ExprId> = HashMap::new();
         let one = source.graph.integer(1);
         tangents.insert(along, one);
         for (symbol, definition) in self.definitions.clone() {
             let tangent = self.tangent(source, &tangents, definition);
             if !source.graph.is_zero(tangent) {
-                let tangent = self.define(source, tangent);
+                let tangent = match tangents_are {
+                    Tangents::Named => self.define(source, tangent),
+                    Tangents::Inline => tangent,
+                };
                 tangents.insert(symbol, tangent);
             }
         }
@@ -127,7 +145,7 @@ impl Tape {
     /// The derivatives of quantities in all coordinates: `out[i][j]` of value i in coordinate j.
     pub fn jacobian(&mut self, source: &mut Source, values: &[ExprId]) -> Vec<Vec<ExprId>> {
         let coordinates: Vec<Symbol> = (0..source.dimension).map(Symbol::Coordinate).collect();
-        self.jacobian_in(source, values, &coordinates)
+        self.jacobian_in(source, values, &coordinates, Tangents::Named)
     }
 
     /// The derivatives of quantities in symbols: `out[i][j]` of value i in symbol j.
@@ -136,6 +154,7 @@ impl Tape {
         source: &mut Source,
         values: &[ExprId],
         symbols: &[Symbol],
+        tangents_are: Tangents,
     ) -> Vec<Vec<ExprId>> {
         // tangents of tangents are not needed: each direction starts from the same list
         let count = self.definitions.len();
@@ -148,7 +167,7 @@ impl Tape {
                 start: self.start,
                 swollen: self.swollen,
             };
-            let column = direction.tangents(source, values, *along);
+            let column = direction.tangents(source, values, *along, tangents_are);
             self.next = direction.next;
             self.known = direction.known;
             self.swollen = direction.swollen;

@@ -6,7 +6,7 @@ use lie_core::Equation;
 
 use super::sym::{Session, Sym, with, within};
 use super::system::SymbolicSystem;
-use crate::derive::{Argument, Block, Kernel, Source, Tape};
+use crate::derive::{Argument, Block, Kernel, Source, Tangents, Tape};
 use crate::symbolic::{ExprId, Symbol};
 
 /// Definitions in order, each may use the earlier ones.
@@ -99,7 +99,7 @@ pub fn kernels(
     ];
     let unknown = source.symbols(Block::Unknown);
     let values = tape.definitions().to_vec();
-    let rows = tape.jacobian_in(source, &residual, &unknown);
+    let rows = tape.jacobian_in(source, &residual, &unknown, Tangents::Inline);
     let slopes = tape.definitions().to_vec();
     let graph = &source.graph;
     let entries: Vec<ExprId> = residual
