@@ -349,7 +349,11 @@ fn inverse(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
 }
 
 /// The largest entry of `Ad*_g mu0 - mu` by the declared matrices, `<Ad*_g mu0, e_k> = <mu0, g e_k g^-1>`.
-fn coadjoint_defect<P: MatrixPoisson<f64> + MatrixGroup<f64>>(mu0: &[f64], end: &Run) -> f64 {
+fn coadjoint_defect<P: MatrixPoisson<f64> + MatrixGroup<f64>>(
+    system: &P,
+    mu0: &[f64],
+    end: &Run,
+) -> f64 {
     let n = system.group().size;
     let g: Vec<Vec<f64>> = end.element.chunks(n).map(<[f64]>::to_vec).collect();
     let back = inverse(&g);
@@ -400,7 +404,7 @@ fn mu_moves_with_the_group_element_in_other_groups() {
                     10.0,
                     Chart::Matrix,
                 );
-                coadjoint_defect::<P>(start, &end)
+                coadjoint_defect(system, start, &end)
             }};
         }
         for (method, defect) in [
