@@ -93,9 +93,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let solution = run(LieMidpoint::cayley(), 0.025, &mut monitor)?;
     let columns: Vec<&str> = std::iter::once("t")
-        .chain(solution.coordinates.iter().copied())
+        .chain(solution.coordinates.iter().map(String::as_str))
         .chain(["energy"])
-        .chain(solution.casimir_names.iter().copied())
+        .chain(solution.casimir_names.iter().map(String::as_str))
         .collect();
     let mut plot =
         Plot::new("Heavy top", &columns, 6, (0.0, END)).subtitle("lie-midpoint, cayley, h = 0.025");

@@ -440,10 +440,7 @@ fn mu_moves_with_the_group_element_in_other_groups() {
         10.0,
         Chart::Matrix,
     );
-    let defect = coadjoint_defect::<systems::so4_manakov::ManakovTopSystem>(
-        ManakovTop::initial::<f64>().as_slice(),
-        &end,
-    );
+    let defect = coadjoint_defect(&four, ManakovTop::initial::<f64>().as_slice(), &end);
     assert!(
         defect < 1e-12 && skewness(&end.element, 4) < 1e-13,
         "{defect:e}"

@@ -2,8 +2,11 @@
 //!
 //! Of each of the [`CRATES`], write every file below a folder `NAME/src` and the manifest as `NAME/Cargo.toml`.
 
-/// The crates that a generated program is built with: name, manifest, and the files below `src`.
-pub const CRATES: [(&str, &str, &[(&str, &str)]); 2] = [
+/// A file: its path below the folder `src`, and its content.
+pub type File = (&'static str, &'static str);
+
+/// The crates that a generated program is built with: name, manifest, files.
+pub const CRATES: [(&str, &str, &[File]); 2] = [
     (
         "lie-core",
         lie_core::sources::MANIFEST,

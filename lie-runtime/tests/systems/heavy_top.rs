@@ -201,7 +201,9 @@ lie_runtime::generic_equations!([S: Scalar] HeavyTop<S>, S: isospectral2, isospe
 impl<S: Scalar> CotangentPoisson<S> for HeavyTop<S> {
     type Momentum = SVector<S, 3>;
     type MomentumMatrix = SMatrix<S, 3, 3>;
-    const MOMENTA: usize = 3;
+    fn momenta(&self) -> usize {
+        3
+    }
     fn zero_momentum(&self) -> Self::Momentum {
         SVector::<S, 3>::repeat(S::zero())
     }
