@@ -1,6 +1,6 @@
 """Coefficients of compositions and splittings, refined and printed as Rust constants.
 
-    python tools/composition_coefficients.py           print the tables of lie-runtime/src/methods/coefficients.rs
+    python tools/composition_coefficients.py           print the tables of lie-core/src/methods/coefficients.rs
     python tools/composition_coefficients.py --check   compare with the file
 
 Published digits (16 to 21) are the start of a Gauss-Newton iteration with 60 digits on the order conditions, which
@@ -22,7 +22,7 @@ from pathlib import Path
 import mpmath as mp
 
 mp.mp.dps = 60
-TARGET = Path(__file__).resolve().parent.parent / "lie-runtime/src/methods/coefficients.rs"
+TARGET = Path(__file__).resolve().parent.parent / "lie-core/src/methods/coefficients.rs"
 
 
 def words(letters, degree):

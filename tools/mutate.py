@@ -10,7 +10,7 @@ The equation of a composition is that of the method that it composes, and is cha
 A change counts as caught if the verification reports a claim that fails, or if the program does not come to its end; what
 does not compile is no change, and the next site is taken. Survivors are listed with the line that was changed.
 
-A new method is one line of METHODS: label, spec, files below lie-runtime/src, with the items in them
+A new method is one line of METHODS: label, spec, files below lie-core/src, with the items in them
 (constants, functions) that belong to the method where others share the file.
 """
 
@@ -260,7 +260,7 @@ def main():
                 failed.append(f"{label}: {error}")
                 print(f"{label}: not verified unchanged: {error}", flush=True)
                 continue
-            places = [(bench.runtime / "src" / path.split("#")[0], path.partition("#")[2]) for path in files]
+            places = [(bench.runtime / "lie-core" / "src" / path.split("#")[0], path.partition("#")[2]) for path in files]
             for path, names in places + [(bench.program / "main.rs", None)]:
                 text = path.read_text()
                 fused = names is None
