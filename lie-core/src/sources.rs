@@ -163,7 +163,7 @@ mod tests {
         let requirement = |text: &str, name: &str| {
             let line = text
                 .lines()
-                .find(|line| line.starts_with(&format!("{name} = ")));
+                .find(|line| line.starts_with(&format!("{name} = ")) && !line.contains("dep:"));
             let line = line
                 .unwrap_or_else(|| panic!("{name} is required"))
                 .to_owned();

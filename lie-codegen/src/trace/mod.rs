@@ -11,3 +11,44 @@ mod system;
 pub use equation::{Formulas, Step, kernels, step};
 pub use sym::Sym;
 pub use system::{Square, SymbolicSystem};
+
+#[cfg(test)]
+mod tests {
+    use super::{Formulas, kernels, step};
+    use crate::compile::{compile_spec, source};
+    use lie_core::generic;
+
+    const SPEC: &str = r#"{
+        "format": 1, "name": "Body",
+        "algebra": { "basis": ["a", "b", "c"], "brackets": ["[a, b] = c", "[b, c] = a", "[c, a] = b"] },
+        "state": ["x", "y", "z"], "hamiltonian": "x^2/2 + y^2/3 + z^4/5", "initial": [1, 1, 1]
+    }"#;
+    const FORMULAS: Formulas = Formulas {
+        residual: "",
+        linearize: "",
+        result: "",
+    };
+
+    #[test]
+    fn an_equation_with_one_path_is_written_down() {
+        let mut source = source(&compile_spec(SPEC).expect("a sound spec"));
+        let dimension = source.dimension;
+        let found = kernels(&mut source, &FORMULAS, |system, h| {
+            step(generic::Midpoint::new(system, h))
+        });
+        let names: Vec<&str> = found.iter().flatten().map(|kernel| kernel.name).collect();
+        // the unknown is the state at the end
+        assert_eq!(names, ["residual", "linearize"]);
+        assert_eq!(source.dimension, dimension, "the source is given back");
+    }
+
+    /// The exponential series ends by a comparison.
+    #[test]
+    fn an_equation_that_compares_is_refused() {
+        let mut source = source(&compile_spec(SPEC).expect("a sound spec"));
+        let found = kernels(&mut source, &FORMULAS, |system, h| {
+            step(generic::ExpMidpoint::new(system, h))
+        });
+        assert!(found.is_none());
+    }
+}
