@@ -12,7 +12,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use lie_codegen::compile::{compile_spec, expand, with_options};
-use lie_codegen::methods::{Availability, CATALOGUE, Choice};
+use lie_codegen::methods::{CATALOGUE, Choice};
 use lie_codegen::model::Model;
 
 /// Systems by what they are called on the page.
@@ -193,10 +193,8 @@ fn per_step(program: &Path, label: &str) -> Option<(f64, f64)> {
 
 /// Every built method that applies to a system, with its options.
 fn choices(model: &Model) -> Vec<Choice> {
-    let built = CATALOGUE
+    let plain: Vec<Choice> = CATALOGUE
         .iter()
-        .filter(|method| method.availability == Availability::Built);
-    let plain: Vec<Choice> = built
         .filter_map(|method| Choice::from_id(method.id).ok())
         .collect();
     with_options(model, &plain)

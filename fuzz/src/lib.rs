@@ -6,7 +6,7 @@ use std::path::Path;
 use lie_codegen::compile::{compile_spec, generate, with_options};
 use lie_codegen::diagnostic::Origin;
 use lie_codegen::expand::expand_macro;
-use lie_codegen::methods::{Availability, CATALOGUE, Choice};
+use lie_codegen::methods::{CATALOGUE, Choice};
 use lie_codegen::model::Model;
 use proc_macro2::TokenStream;
 
@@ -38,8 +38,7 @@ pub fn spec(bytes: &[u8]) {
 
 /// Every method that applies, with every option: of a large system those of the lowest order.
 fn choices(model: &Model) -> Vec<Choice> {
-    let built = CATALOGUE.iter().filter(|m| m.availability == Availability::Built);
-    let ids = built.filter(|m| model.dimension() <= SMALL || m.order <= 2).map(|m| m.id);
+    let ids = CATALOGUE.iter().filter(|m| model.dimension() <= SMALL || m.order <= 2).map(|m| m.id);
     let composed = ["compose4(lie-midpoint)", "compose8(splitting2)"];
     let choices = ids.chain(composed).filter_map(|id| Choice::from_id(id).ok());
     with_options(model, &choices.collect::<Vec<_>>())
@@ -87,7 +86,7 @@ mod tests {
             let Ok(model) = compile_spec(std::str::from_utf8(&bytes).expect("UTF-8")) else { continue };
             seen.extend(choices(&model).iter().map(Choice::id));
         }
-        for method in CATALOGUE.iter().filter(|m| m.availability == Availability::Built) {
+        for method in CATALOGUE {
             let composed = method.id.starts_with("compose");
             assert!(composed || seen.contains(method.id), "{}", method.id);
         }

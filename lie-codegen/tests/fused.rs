@@ -76,3 +76,19 @@ fn what_is_asked_for_is_written_out() {
         assert!(found.len() > plain.len(), "{choice:?}: {found:?}");
     }
 }
+
+/// Second derivatives are written out for methods that solve equations, and where no method is named.
+#[test]
+fn methods_without_equations_have_no_second_derivatives() {
+    let path = format!("{}/../specs/su3_quadratic.json", env!("CARGO_MANIFEST_DIR"));
+    let model = compile_spec(&std::fs::read_to_string(path).expect("a spec")).expect("sound");
+    let lines = |choices: &[Choice]| {
+        let code = expand(&model, choices);
+        (code.contains("by_duals"), code.lines().count())
+    };
+    let (plain, all) = lines(&[]);
+    let (explicit, few) = lines(&[Choice::Rk4]);
+    let (mixed, _) = lines(&[Choice::Rk4, Choice::Midpoint]);
+    assert_eq!([plain, explicit, mixed], [false, true, false]);
+    assert!(4 * few < 3 * all, "{few} of {all} lines");
+}

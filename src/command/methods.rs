@@ -1,6 +1,6 @@
 //! `lie methods`: the catalogue.
 
-use lie_codegen::methods::{Availability, CATALOGUE, Method, Preserves};
+use lie_codegen::methods::{CATALOGUE, Method, Preserves};
 use serde_json::{Value, json};
 
 use super::{args, print};
@@ -90,18 +90,15 @@ fn as_json(method: &Method) -> Value {
         "needs": method.needs,
         "options": options,
         "reference": method.reference,
-        "built": method.availability == Availability::Built,
+        "built": true,
     })
 }
 
 fn table() -> String {
-    let (built, planned): (Vec<&Method>, Vec<&Method>) = CATALOGUE
-        .iter()
-        .partition(|method| method.availability == Availability::Built);
     let mut references: Vec<&str> = Vec::new();
     let mut options: Vec<(String, Vec<&str>)> = Vec::new();
     let mut rows = vec![["method", "order", "", "", "keeps", "needs", ""].map(str::to_owned)];
-    for method in &built {
+    for method in CATALOGUE {
         let number = references
             .iter()
             .position(|reference| *reference == method.reference)
@@ -152,11 +149,6 @@ fn table() -> String {
     text.push_str("\nReferences (DOI):\n");
     for (index, reference) in references.iter().enumerate() {
         text.push_str(&format!("  [{}] {reference}\n", index + 1));
-    }
-    let planned: Vec<&str> = planned.iter().map(|method| method.id).collect();
-    if !planned.is_empty() {
-        text.push('\n');
-        text.push_str(&wrapped("Not built yet: ", &planned));
     }
     text
 }

@@ -10,10 +10,11 @@ pub(super) fn mu(source: &Source) -> Argument {
     }
 }
 
-pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
+/// All kernels, or those without derivatives of the field and second ones of H.
+pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
     let mut kernels = Vec::new();
     if let Some(hamiltonian) = source.hamiltonian {
-        kernels.extend(motion(source, hamiltonian));
+        kernels.extend(motion(source, hamiltonian, derivatives));
     }
     let matrix = poisson_matrix(source);
     let [of_matrix, ..] = formulas(source.is_lie());
@@ -65,15 +66,23 @@ pub(super) fn kernels(source: &mut Source) -> Vec<Kernel> {
 }
 
 /// What comes from an expression of H.
-fn motion(source: &mut Source, hamiltonian: ExprId) -> Vec<Kernel> {
+fn motion(source: &mut Source, hamiltonian: ExprId, derivatives: bool) -> Vec<Kernel> {
     let gradient = source.gradient_of_h();
-    let hessian = source.hessian_of_h();
     let field = source.field_of_h();
-    let jacobian = jacobian(source, &field);
     let [_, of_field, of_both] = formulas(source.is_lie());
-    let arguments = || vec![mu(source)];
+    let arguments = vec![mu(source)];
     let graph = &source.graph;
-    let mut of_f = Kernel::vector(graph, "vector_field", of_field, arguments(), &field);
+    let of_h = Kernel::scalar("hamiltonian", "`H(mu)`", arguments.clone(), hamiltonian);
+    let formula = "`out_i = dH/dmu_i`";
+    let of_slope = Kernel::vector(graph, "gradient", formula, arguments.clone(), &gradient);
+    let mut of_f = Kernel::vector(graph, "vector_field", of_field, arguments.clone(), &field);
+    if !derivatives {
+        return vec![of_h, of_slope, of_f];
+    }
+    let hessian = source.hessian_of_h();
+    let jacobian = jacobian(source, &field);
+    let graph = &source.graph;
+    let arguments = || arguments.clone();
     let mut of_j = Kernel::matrix(
         graph,
         "jacobian",
@@ -84,14 +93,8 @@ fn motion(source: &mut Source, hamiltonian: ExprId) -> Vec<Kernel> {
     let mut both = Kernel::fused(graph, "linearize", of_both, arguments(), &field, &jacobian);
     Kernel::agree(&mut of_f, &mut of_j, &mut both);
     vec![
-        Kernel::scalar("hamiltonian", "`H(mu)`", arguments(), hamiltonian),
-        Kernel::vector(
-            graph,
-            "gradient",
-            "`out_i = dH/dmu_i`",
-            arguments(),
-            &gradient,
-        ),
+        of_h,
+        of_slope,
         Kernel::matrix(
             graph,
             "hessian",

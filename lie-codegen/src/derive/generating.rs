@@ -10,10 +10,11 @@
 //! The term `H''(X, ad*_eta p)` of S5 is written `<p, [eta, w]> = -<Y, eta>`.
 
 use super::field::mu;
-use super::tape::Tape;
+use super::tape::{Tangents, Tape};
 use super::{Argument, Block, Kernel, Source};
 use crate::exact::Rational;
 use crate::methods::Retraction;
+use crate::schedule::{Known, Task, cost};
 use crate::symbolic::{ExprId, Symbol};
 
 /// The generating function of a method.
@@ -220,7 +221,7 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
         &entries,
     )
     .within_step(tape.definitions().to_vec());
-    let hessian = symmetric(tape.jacobian(source, &entries));
+    let hessian = symmetric(leaner_jacobian(source, &mut tape, &entries));
     if too_large(source, &tape) {
         return Some(Function {
             gradient,
@@ -246,6 +247,39 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
         linearize: Some(linearize),
         pattern,
     })
+}
+
+/// The derivatives in the coordinates, by named tangents or by inline ones, whichever are fewer operations; the list
+/// is that of the choice.
+fn leaner_jacobian(source: &mut Source, tape: &mut Tape, values: &[ExprId]) -> Vec<Vec<ExprId>> {
+    let mut inline = tape.clone();
+    let named_rows = tape.jacobian(source, values);
+    if too_large(source, tape) {
+        return named_rows;
+    }
+    let coordinates = mu(source).symbols;
+    let inline_rows = inline.jacobian_in(source, values, &coordinates, Tangents::Inline);
+    if too_large(source, &inline) {
+        return named_rows;
+    }
+    let mut weight = |tape: &Tape, rows: &[Vec<ExprId>]| {
+        let task = Task {
+            definitions: tape.definitions().to_vec(),
+            outputs: values
+                .iter()
+                .chain(rows.iter().flatten())
+                .copied()
+                .collect(),
+            known: Known::Step,
+        };
+        cost(&mut source.graph, &task).weight()
+    };
+    if weight(&inline, &inline_rows) < weight(tape, &named_rows) {
+        *tape = inline;
+        inline_rows
+    } else {
+        named_rows
+    }
 }
 
 /// The lower half as the mirror of the upper, so that each entry is computed once.
@@ -294,7 +328,7 @@ pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kern
         })
         .collect();
     let values = tape.definitions().to_vec();
-    let rows = tape.jacobian(source, &residual);
+    let rows = leaner_jacobian(source, &mut tape, &residual);
     let slopes = tape.definitions().to_vec();
     if too_large(source, &tape) {
         return None;

@@ -252,7 +252,16 @@ impl Source {
 
     /// The kernels of the basic traits.
     pub fn basic_kernels(&mut self) -> Vec<Kernel> {
-        let mut kernels = field::kernels(self);
+        self.kernels_of_traits(true)
+    }
+
+    /// Those of them that steps without equations need: no Hessian, and no Jacobian of the field.
+    pub fn explicit_kernels(&mut self) -> Vec<Kernel> {
+        self.kernels_of_traits(false)
+    }
+
+    fn kernels_of_traits(&mut self, derivatives: bool) -> Vec<Kernel> {
+        let mut kernels = field::kernels(self, derivatives);
         if self.is_lie() {
             kernels.extend(coadjoint::kernels(self));
         } else {

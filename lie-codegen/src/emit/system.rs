@@ -7,11 +7,17 @@ use super::Writer;
 use super::names::{ident, index};
 use super::prepared::{Owner, Prepared};
 use crate::derive::{Kernel, Shape};
+use crate::methods::Choice;
 
 impl Writer<'_> {
     /// The impls of `Poisson` and, where they apply, `LiePoisson` and `CayleyPoisson`.
     pub fn system_impls(&mut self) -> TokenStream {
-        let kernels = self.source.basic_kernels();
+        let derivatives = self.needs_derivatives();
+        let kernels = if derivatives {
+            self.source.basic_kernels()
+        } else {
+            self.source.explicit_kernels()
+        };
         let (mut poisson, mut coadjoint, mut cayley, mut gradients) =
             (TokenStream::new(), TokenStream::new(), None, Vec::new());
         for kernel in &kernels {
@@ -26,6 +32,8 @@ impl Writer<'_> {
         poisson.extend(self.casimir_gradients(&gradients));
         if self.source.hamiltonian.is_none() {
             poisson.extend(super::lagrangian::energy());
+        } else if !derivatives {
+            poisson.extend(by_duals());
         }
         let system = format_ident!("{}System", self.blueprint.name);
         let n = index(self.source.dimension);
@@ -72,6 +80,13 @@ impl Writer<'_> {
 
             #cayley
         }
+    }
+
+    /// Whether a method that is asked for solves an equation, or none is named, so that it may be any.
+    fn needs_derivatives(&self) -> bool {
+        let methods = &self.blueprint.methods;
+        let explicit = |choice: &Choice| choice.entry().is_some_and(|row| row.explicit);
+        methods.is_empty() || !methods.iter().all(explicit)
     }
 
     /// What the system says of itself: its size, its names and the degrees of its functions.
@@ -292,6 +307,21 @@ impl Writer<'_> {
                     _ => panic!(#message),
                 }
             }
+        }
+    }
+}
+
+/// The derivatives that no method asked for needs: the other methods find them by dual numbers.
+fn by_duals() -> TokenStream {
+    quote! {
+        #[doc = " `out_ij = d^2H/dmu_i dmu_j`, by dual numbers: no method that was asked for needs it."]
+        fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+            ::lie_runtime::generic::hessian_by_duals(self, mu, out);
+        }
+
+        #[doc = " `out_ij = df_i/dmu_j`, by dual numbers: no method that was asked for needs it."]
+        fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+            ::lie_runtime::generic::jacobian_by_duals(self, mu, out);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Which methods a system can carry.
 
-use super::{Availability, CATALOGUE, Choice, Lift, Retraction, Tensor};
+use super::{CATALOGUE, Choice, Lift, Retraction, Tensor};
 use crate::diagnostic::Kind;
 use crate::model::{Descent, Model, Structure};
 use crate::structure::{inertia, matrices, separable, spins};
@@ -207,14 +207,11 @@ pub fn applicability(model: &Model) -> Vec<(&'static str, Option<String>)> {
         .iter()
         .map(|method| {
             let composition = method.id.starts_with("compose");
-            let reason = match (method.availability, Choice::from_id(method.id)) {
-                (Availability::Planned, _) => Some("not built yet".to_string()),
+            let reason = match Choice::from_id(method.id) {
                 // the midpoint rule applies to every system
-                (Availability::Built, _) if composition => None,
-                (Availability::Built, Err(unusable)) => Some(unusable.message),
-                (Availability::Built, Ok(choice)) => {
-                    refusal(model, &choice).map(|(reason, _)| reason)
-                }
+                _ if composition => None,
+                Err(unusable) => Some(unusable.message),
+                Ok(choice) => refusal(model, &choice).map(|(reason, _)| reason),
             };
             (method.id, reason)
         })

@@ -2,7 +2,7 @@
 
 use super::options::{Gradient, Lift, OptionError, Retraction, Scheme, Tensor};
 use super::table::RESERVED;
-use super::{Availability, CATALOGUE, find};
+use super::{CATALOGUE, find};
 use crate::suggest::did_you_mean;
 
 /// A method with its options. Numbers are orders, except where stages are said.
@@ -78,9 +78,7 @@ impl Choice {
             return Self::composed(id, outer.trim(), base.trim());
         }
         let entry = find(id);
-        if entry.is_some_and(|method| method.availability == Availability::Built)
-            && let Some(choice) = Self::plain(id)
-        {
+        if let Some(choice) = Self::plain(id) {
             return Ok(choice);
         }
         if matches!(id, "compose4" | "compose6" | "compose8") {
@@ -131,9 +129,6 @@ impl Choice {
                 });
             }
         };
-        if find(outer).is_none_or(|method| method.availability == Availability::Planned) {
-            return Err(not_built(id));
-        }
         let base = Self::from_id(base)?;
         let symmetric = base
             .entry()

@@ -1,5 +1,5 @@
-//! The catalogue of methods: ids, options, what they need, references. What a method preserves is
-//! a constant of its type in the runtime; a test of the root package holds both tables together.
+//! The catalogue of methods: ids, options, what they need, references. Order, symmetry and what a method preserves are
+//! the constants of its type in the numeric core.
 
 mod applicability;
 mod choice;
@@ -9,88 +9,9 @@ mod table;
 
 pub use applicability::{applicability, kind_of_refusal, refusal};
 pub use choice::{Choice, Unusable};
+pub use lie_core::methods::Preserves;
 pub use options::{Gradient, Lift, OptionError, Retraction, Scheme, Tensor};
 pub use table::CATALOGUE;
-
-/// What a method preserves up to round-off.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Preserves {
-    /// The energy.
-    pub energy: bool,
-    /// Every Casimir.
-    pub casimirs: bool,
-    /// Every Casimir of degree at most two.
-    pub quadratic_casimirs: bool,
-    /// The coadjoint orbit.
-    pub orbit: bool,
-    /// The Poisson structure.
-    pub poisson: bool,
-    /// The Poisson structure of a constant Poisson matrix, as that of canonical coordinates is.
-    pub constant_poisson: bool,
-    /// Every quadratic invariant of the equation.
-    pub quadratic_invariants: bool,
-    /// Every linear invariant of the equation.
-    pub linear_invariants: bool,
-}
-
-impl Preserves {
-    /// Nothing at all.
-    pub const NOTHING: Self = Self {
-        energy: false,
-        casimirs: false,
-        quadratic_casimirs: false,
-        orbit: false,
-        poisson: false,
-        constant_poisson: false,
-        quadratic_invariants: false,
-        linear_invariants: false,
-    };
-    /// Linear invariants of the equation: what every Runge–Kutta method keeps.
-    pub const LINEAR: Self = Self {
-        linear_invariants: true,
-        ..Self::NOTHING
-    };
-    /// Quadratic and linear invariants of the equation, and so quadratic Casimirs and constant
-    /// Poisson matrices.
-    pub const QUADRATIC: Self = Self {
-        quadratic_casimirs: true,
-        quadratic_invariants: true,
-        constant_poisson: true,
-        ..Self::LINEAR
-    };
-    /// The coadjoint orbit and with it every Casimir.
-    pub const ORBIT: Self = Self {
-        casimirs: true,
-        quadratic_casimirs: true,
-        orbit: true,
-        ..Self::NOTHING
-    };
-    /// The orbit and the Poisson structure.
-    pub const POISSON: Self = Self {
-        poisson: true,
-        ..Self::ORBIT
-    };
-    /// The orbit and the energy.
-    pub const ORBIT_ENERGY: Self = Self {
-        energy: true,
-        ..Self::ORBIT
-    };
-    /// Energy and quadratic Casimirs.
-    pub const ENERGY: Self = Self {
-        energy: true,
-        quadratic_casimirs: true,
-        ..Self::NOTHING
-    };
-}
-
-/// Whether a method can be had.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Availability {
-    /// It is built.
-    Built,
-    /// Its name is kept; it is not built yet.
-    Planned,
-}
 
 /// One method of the catalogue.
 #[derive(Clone, Copy, Debug)]
@@ -111,8 +32,6 @@ pub struct Method {
     pub needs: &'static str,
     /// Author, year, DOI.
     pub reference: &'static str,
-    /// Whether it is built.
-    pub availability: Availability,
 }
 
 /// The method of an id.
@@ -121,7 +40,7 @@ pub fn find(id: &str) -> Option<&'static Method> {
 }
 
 impl Method {
-    /// The method with its options at their defaults; none while it is not built.
+    /// The method with its options at their defaults.
     fn choice(&self) -> Option<Choice> {
         // a composition has the options of its base, too: the midpoint rule has none
         let id = if self.id.starts_with("compose") {
@@ -132,7 +51,7 @@ impl Method {
         Choice::from_id(&id).ok()
     }
 
-    /// Options by flag name, with their defaults; none while the method is not built.
+    /// Options by flag name, with their defaults.
     pub fn options(&self) -> Vec<(&'static str, &'static str)> {
         self.choice()
             .map_or_else(Vec::new, |choice| choice.options())

@@ -1,6 +1,16 @@
-//! The table itself.
+//! The table itself: one row for each method. What is known of it stands in its type.
 
-use super::{Availability, Method, Preserves};
+use lie_core::methods::{
+    CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6,
+    CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, DiscreteEulerPoincare, Dopri5,
+    EulerArnold2, Exp, Facts, Gauss4, Gauss6, Generating2, Generating4, Generating6,
+    GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6,
+    ItohAbe, LieEuler, LieMidpoint, MeanValue, MoserVeselov, OrbitEnergy, Preserves,
+    Representation, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint, Splitting1, Splitting2,
+    Splitting4, Splitting6, Splitting8, Variational2, Variational4, Variational6,
+};
+
+use super::Method;
 
 const ANY: &str = "any Poisson system";
 const ALGEBRA: &str = "any Lie algebra";
@@ -10,36 +20,6 @@ const LAGRANGIAN: &str = "a system by its Lagrangian; for --retraction cayley a 
 const REDUCTIVE: &str =
     "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const COLLECTIVE: &str = "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it; with --lift hopf a direct sum of algebras so(3)";
-
-/// A row of the table; [`Method::built`] marks those that are built.
-const fn planned(
-    id: &'static str,
-    title: &'static str,
-    order: u32,
-    [symmetric, explicit]: [bool; 2],
-    preserves: Preserves,
-    needs: &'static str,
-    reference: &'static str,
-) -> Method {
-    Method {
-        id,
-        title,
-        order,
-        symmetric,
-        explicit,
-        preserves,
-        needs,
-        reference,
-        availability: Availability::Planned,
-    }
-}
-
-impl Method {
-    const fn built(mut self) -> Self {
-        self.availability = Availability::Built;
-        self
-    }
-}
 
 const SUM: &str = "H = sum f_i(x_i), each term of one coordinate";
 
@@ -65,462 +45,87 @@ const CH: &str = "Cohen, Hairer (2011), 10.1007/s10543-011-0310-z";
 const KL: &str =
     "Suzuki (1990), 10.1016/0375-9601(90)90962-N; Kahan, Li (1997), 10.1090/S0025-5718-97-00873-9";
 
-/// Every method, built or planned.
-pub const CATALOGUE: &[Method] = &[
-    planned(
-        "midpoint",
-        "Poisson midpoint rule",
-        2,
-        [true, false],
-        Preserves::QUADRATIC,
-        ANY,
-        AKW,
-    )
-    .built(),
-    planned(
-        "gauss4",
-        "Gauss collocation, 2 stages",
-        4,
-        [true, false],
-        Preserves::QUADRATIC,
-        ANY,
-        HLW,
-    )
-    .built(),
-    planned(
-        "gauss6",
-        "Gauss collocation, 3 stages",
-        6,
-        [true, false],
-        Preserves::QUADRATIC,
-        ANY,
-        HLW,
-    )
-    .built(),
-    planned(
-        "lie-midpoint",
-        "retraction Lie–Poisson integrator",
-        2,
-        [true, false],
-        Preserves::POISSON,
-        RETRACTION,
-        MPS,
-    )
-    .built(),
-    planned(
-        "rk4",
-        "classical Runge–Kutta method (control)",
-        4,
-        [false, true],
-        Preserves::LINEAR,
-        ANY,
-        "Kutta (1901)",
-    )
-    .built(),
-    planned(
-        "dopri5",
-        "Dormand–Prince pair with step control (control)",
-        5,
-        [false, true],
-        Preserves::LINEAR,
-        ANY,
-        "Dormand, Prince (1980), 10.1016/0771-050X(80)90013-3",
-    )
-    .built(),
-    planned(
-        "lie-euler",
-        "Lie–Euler",
-        1,
-        [false, true],
-        Preserves::ORBIT,
-        ALGEBRA,
-        MK,
-    )
-    .built(),
-    planned(
-        "rkmk2",
-        "Runge–Kutta–Munthe-Kaas",
-        2,
-        [false, true],
-        Preserves::ORBIT,
-        ALGEBRA,
-        MK,
-    )
-    .built(),
-    planned(
-        "rkmk3",
-        "Runge–Kutta–Munthe-Kaas",
-        3,
-        [false, true],
-        Preserves::ORBIT,
-        ALGEBRA,
-        MK,
-    )
-    .built(),
-    planned(
-        "rkmk4",
-        "Runge–Kutta–Munthe-Kaas",
-        4,
-        [false, true],
-        Preserves::ORBIT,
-        ALGEBRA,
-        MK,
-    )
-    .built(),
-    planned(
-        "rkmk6",
-        "Runge–Kutta–Munthe-Kaas",
-        6,
-        [false, true],
-        Preserves::ORBIT,
-        ALGEBRA,
-        MK,
-    )
-    .built(),
-    planned(
-        "cg3",
-        "Crouch–Grossman",
-        3,
-        [false, true],
-        Preserves::ORBIT,
-        ALGEBRA,
-        CROUCH,
-    )
-    .built(),
-    planned(
-        "cf4",
-        "commutator-free",
-        4,
-        [false, true],
-        Preserves::ORBIT,
-        ALGEBRA,
-        CMO,
-    )
-    .built(),
-    planned(
-        "variational2",
-        "variational integrator (discrete Euler–Poincaré)",
-        2,
-        [true, false],
-        Preserves::POISSON,
-        LAGRANGIAN,
-        MPS,
-    )
-    .built(),
-    planned(
-        "variational4",
-        "variational integrator (Lie-group Galerkin)",
-        4,
-        [false, false],
-        Preserves::POISSON,
-        "a system by its Lagrangian",
-        LEOK,
-    )
-    .built(),
-    planned(
-        "variational6",
-        "variational integrator (Lie-group Galerkin)",
-        6,
-        [false, false],
-        Preserves::POISSON,
-        "a system by its Lagrangian",
-        LEOK,
-    )
-    .built(),
-    planned(
-        "discrete-euler-poincare",
-        "step of a declared discrete Lagrangian; its order is at least 1",
-        1,
-        [false, false],
-        Preserves::POISSON,
-        "a system by its discrete Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2",
-        MPS,
-    )
-    .built(),
-    planned(
-        "moser-veselov",
-        "discrete rigid body",
-        2,
-        [true, false],
-        Preserves {
-            energy: true,
-            ..Preserves::POISSON
+/// The row of a method.
+const fn row<M: Facts>(
+    title: &'static str,
+    needs: &'static str,
+    reference: &'static str,
+) -> Method {
+    // a composition keeps what its base keeps, which only its base can say
+    let composes = matches!(
+        M::ID.as_bytes(),
+        [b'c', b'o', b'm', b'p', b'o', b's', b'e', ..]
+    );
+    Method {
+        id: M::ID,
+        title,
+        order: M::ORDER,
+        symmetric: M::SYMMETRIC,
+        explicit: M::EXPLICIT,
+        preserves: if composes {
+            Preserves::NOTHING
+        } else {
+            M::PRESERVES
         },
-        "so(3) with a diagonal quadratic H, or so(n) with H = sum M_ij^2/(2(J_i + J_j))",
-        MV,
-    )
-    .built(),
-    planned(
-        "compose4",
-        "composition of a symmetric method",
-        4,
-        [true, false],
-        Preserves::NOTHING,
-        "a symmetric method of order 2",
-        KL,
-    )
-    .built(),
-    planned(
-        "compose6",
-        "composition of a symmetric method",
-        6,
-        [true, false],
-        Preserves::NOTHING,
-        "a symmetric method of order 2",
-        KL,
-    )
-    .built(),
-    planned(
-        "compose8",
-        "composition of a symmetric method",
-        8,
-        [true, false],
-        Preserves::NOTHING,
-        "a symmetric method of order 2",
-        KL,
-    )
-    .built(),
-    planned(
-        "generating2",
-        "generating function",
-        2,
-        [true, false],
-        Preserves::POISSON,
-        RETRACTION,
-        GM,
-    )
-    .built(),
-    planned(
-        "generating4",
-        "generating function",
-        4,
-        [true, false],
-        Preserves::POISSON,
-        RETRACTION,
-        GM,
-    )
-    .built(),
-    planned(
-        "generating6",
-        "generating function",
-        6,
-        [true, false],
-        Preserves::POISSON,
-        ALGEBRA,
-        GM,
-    )
-    .built(),
-    planned(
-        "generating-second-kind2",
-        "generating function, coordinates of the second kind",
-        2,
-        [false, false],
-        Preserves::POISSON,
-        ALGEBRA,
-        GM,
-    )
-    .built(),
-    planned(
-        "collective2",
-        "collective symplectic",
-        2,
-        [true, false],
-        Preserves::POISSON,
-        COLLECTIVE,
-        COLL,
-    )
-    .built(),
-    planned(
-        "collective4",
-        "collective symplectic",
-        4,
-        [true, false],
-        Preserves::POISSON,
-        COLLECTIVE,
-        COLL,
-    )
-    .built(),
-    planned(
-        "collective6",
-        "collective symplectic",
-        6,
-        [true, false],
-        Preserves::POISSON,
-        COLLECTIVE,
-        COLL,
-    )
-    .built(),
-    planned(
-        "isospectral2",
-        "isospectral symplectic Runge–Kutta",
-        2,
-        [true, false],
-        Preserves::POISSON,
-        REDUCTIVE,
-        MODIN,
-    )
-    .built(),
-    planned(
-        "isospectral4",
-        "isospectral symplectic Runge–Kutta",
-        4,
-        [true, false],
-        Preserves::POISSON,
-        REDUCTIVE,
-        MODIN,
-    )
-    .built(),
-    planned(
-        "isospectral6",
-        "isospectral symplectic Runge–Kutta",
-        6,
-        [true, false],
-        Preserves::POISSON,
-        REDUCTIVE,
-        MODIN,
-    )
-    .built(),
-    planned(
-        "spherical-midpoint",
-        "spherical midpoint",
-        2,
-        [true, false],
-        Preserves::POISSON,
-        "a direct sum of algebras so(3)",
-        MMV,
-    )
-    .built(),
-    planned(
-        "splitting1",
-        "Lie–Trotter splitting",
-        1,
-        [false, true],
-        Preserves::POISSON,
-        SUM,
-        MCL,
-    )
-    .built(),
-    planned(
-        "splitting2",
-        "Strang splitting",
-        2,
-        [true, true],
-        Preserves::POISSON,
-        SUM,
-        MCL,
-    )
-    .built(),
-    planned(
-        "splitting4",
-        "Blanes–Moan splitting",
-        4,
-        [true, true],
-        Preserves::POISSON,
-        SUM,
-        BM,
-    )
-    .built(),
-    planned(
-        "splitting6",
-        "Blanes–Moan splitting",
-        6,
-        [true, true],
-        Preserves::POISSON,
-        SUM,
-        BM,
-    )
-    .built(),
-    planned(
-        "splitting8",
-        "composed splitting",
-        8,
-        [true, true],
-        Preserves::POISSON,
-        SUM,
-        MCL,
-    )
-    .built(),
-    planned(
-        "gonzalez",
-        "midpoint discrete gradient",
-        2,
-        [true, false],
-        Preserves::ENERGY,
-        ANY,
-        DG,
-    )
-    .built(),
-    planned(
-        "mean-value",
-        "mean-value discrete gradient",
-        2,
-        [true, false],
-        Preserves::ENERGY,
-        ANY,
-        DG,
-    )
-    .built(),
-    planned(
-        "itoh-abe",
-        "coordinate-increment discrete gradient",
-        2,
-        [true, false],
-        Preserves::ENERGY,
-        ANY,
-        DG,
-    )
-    .built(),
-    planned(
-        "orbit-energy",
-        "orbit- and energy-preserving",
-        2,
-        [true, false],
-        Preserves::ORBIT_ENERGY,
-        ALGEBRA,
-        EF,
-    )
-    .built(),
-    planned(
-        "cohen-hairer2",
-        "energy-preserving collocation",
-        2,
-        [true, false],
-        Preserves::ENERGY,
-        ANY,
-        CH,
-    )
-    .built(),
-    planned(
-        "cohen-hairer4",
-        "energy-preserving collocation",
-        4,
-        [true, false],
-        Preserves::ENERGY,
-        ANY,
-        CH,
-    )
-    .built(),
-    planned(
-        "cohen-hairer6",
-        "energy-preserving collocation",
-        6,
-        [true, false],
-        Preserves::ENERGY,
-        ANY,
-        CH,
-    )
-    .built(),
-    planned(
-        "euler-arnold2",
-        "symplectic method on T*G",
-        2,
-        [true, false],
-        Preserves::POISSON,
-        "a system on T*G: a group element is declared",
-        BRM,
-    )
-    .built(),
-];
+        needs,
+        reference,
+    }
+}
+
+macro_rules! catalogue {
+    ($($method:ty: $title:literal, $needs:expr, $reference:expr;)+) => {
+        /// Every method.
+        pub const CATALOGUE: &[Method] = &[$(row::<$method>($title, $needs, $reference)),+];
+    };
+}
+
+catalogue! {
+    ImplicitMidpoint: "Poisson midpoint rule", ANY, AKW;
+    Gauss4: "Gauss collocation, 2 stages", ANY, HLW;
+    Gauss6: "Gauss collocation, 3 stages", ANY, HLW;
+    LieMidpoint<Exp>: "retraction Lie–Poisson integrator", RETRACTION, MPS;
+    Rk4: "classical Runge–Kutta method (control)", ANY, "Kutta (1901)";
+    Dopri5: "Dormand–Prince pair with step control (control)", ANY, "Dormand, Prince (1980), 10.1016/0771-050X(80)90013-3";
+    LieEuler: "Lie–Euler", ALGEBRA, MK;
+    Rkmk2: "Runge–Kutta–Munthe-Kaas", ALGEBRA, MK;
+    Rkmk3: "Runge–Kutta–Munthe-Kaas", ALGEBRA, MK;
+    Rkmk4: "Runge–Kutta–Munthe-Kaas", ALGEBRA, MK;
+    Rkmk6: "Runge–Kutta–Munthe-Kaas", ALGEBRA, MK;
+    CrouchGrossman3: "Crouch–Grossman", ALGEBRA, CROUCH;
+    CommutatorFree4: "commutator-free", ALGEBRA, CMO;
+    Variational2: "variational integrator (discrete Euler–Poincaré)", LAGRANGIAN, MPS;
+    Variational4: "variational integrator (Lie-group Galerkin)", "a system by its Lagrangian", LEOK;
+    Variational6: "variational integrator (Lie-group Galerkin)", "a system by its Lagrangian", LEOK;
+    DiscreteEulerPoincare<Exp>: "step of a declared discrete Lagrangian; its order is at least 1", "a system by its discrete Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2", MPS;
+    MoserVeselov: "discrete rigid body", "so(3) with a diagonal quadratic H, or so(n) with H = sum M_ij^2/(2(J_i + J_j))", MV;
+    Compose4<ImplicitMidpoint>: "composition of a symmetric method", "a symmetric method of order 2", KL;
+    Compose6<ImplicitMidpoint>: "composition of a symmetric method", "a symmetric method of order 2", KL;
+    Compose8<ImplicitMidpoint>: "composition of a symmetric method", "a symmetric method of order 2", KL;
+    Generating2: "generating function", RETRACTION, GM;
+    Generating4: "generating function", RETRACTION, GM;
+    Generating6: "generating function", ALGEBRA, GM;
+    GeneratingSecondKind2: "generating function, coordinates of the second kind", ALGEBRA, GM;
+    Collective2<Representation>: "collective symplectic", COLLECTIVE, COLL;
+    Collective4<Representation>: "collective symplectic", COLLECTIVE, COLL;
+    Collective6<Representation>: "collective symplectic", COLLECTIVE, COLL;
+    Isospectral2: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
+    Isospectral4: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
+    Isospectral6: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
+    SphericalMidpoint: "spherical midpoint", "a direct sum of algebras so(3)", MMV;
+    Splitting1: "Lie–Trotter splitting", SUM, MCL;
+    Splitting2: "Strang splitting", SUM, MCL;
+    Splitting4: "Blanes–Moan splitting", SUM, BM;
+    Splitting6: "Blanes–Moan splitting", SUM, BM;
+    Splitting8: "composed splitting", SUM, MCL;
+    Gonzalez: "midpoint discrete gradient", ANY, DG;
+    MeanValue: "mean-value discrete gradient", ANY, DG;
+    ItohAbe: "coordinate-increment discrete gradient", ANY, DG;
+    OrbitEnergy<Gonzalez>: "orbit- and energy-preserving", ALGEBRA, EF;
+    CohenHairer2: "energy-preserving collocation", ANY, CH;
+    CohenHairer4: "energy-preserving collocation", ANY, CH;
+    CohenHairer6: "energy-preserving collocation", ANY, CH;
+    EulerArnold2: "symplectic method on T*G", "a system on T*G: a group element is declared", BRM;
+}
 
 /// Ids that are kept for later and have no row in the table yet.
 pub const RESERVED: &[&str] = &[
@@ -538,3 +143,28 @@ pub const RESERVED: &[&str] = &[
     "cohen-hairer8",
     "cohen-hairer16",
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::{CATALOGUE, RESERVED};
+    use crate::methods::Choice;
+
+    #[test]
+    fn each_row_is_a_method_that_can_be_chosen() {
+        for (place, method) in CATALOGUE.iter().enumerate() {
+            let others = &CATALOGUE[place + 1..];
+            assert!(
+                others.iter().all(|other| other.id != method.id),
+                "{} twice",
+                method.id
+            );
+            assert!(!RESERVED.contains(&method.id), "{}", method.id);
+            let id = if method.id.starts_with("compose") {
+                format!("{}(midpoint)", method.id)
+            } else {
+                method.id.to_owned()
+            };
+            assert!(Choice::from_id(&id).is_ok(), "{id}");
+        }
+    }
+}

@@ -69,11 +69,26 @@ pub fn schedule(graph: &mut Graph, task: &Task) -> Program {
     program(graph, &mut Collector::new(task.known), task)
 }
 
+/// The operations of a task as it was derived, before another form is tried: enough to tell two derivations apart.
+pub fn cost(graph: &mut Graph, task: &Task) -> Counts {
+    let (symbols, roots) = (task.symbols(), task.roots());
+    let collector = &mut Collector::new(task.known);
+    Choice::new(graph, collector, symbols).derived(roots).counts
+}
+
 fn program(graph: &mut Graph, collector: &mut Collector, task: &Task) -> Program {
-    let definitions = task.definitions.iter().map(|(_, e)| *e);
-    let roots: Vec<ExprId> = definitions.chain(task.outputs.iter().copied()).collect();
-    let symbols: Vec<Symbol> = task.definitions.iter().map(|(s, _)| *s).collect();
-    Choice::new(graph, collector, symbols).program(roots)
+    Choice::new(graph, collector, task.symbols()).program(task.roots())
+}
+
+impl Task {
+    fn symbols(&self) -> Vec<Symbol> {
+        self.definitions.iter().map(|(s, _)| *s).collect()
+    }
+
+    fn roots(&self) -> Vec<ExprId> {
+        let definitions = self.definitions.iter().map(|(_, e)| *e);
+        definitions.chain(self.outputs.iter().copied()).collect()
+    }
 }
 
 /// One program for two tasks, of which the first is computed by the same operations whether alone or beside

@@ -3,8 +3,8 @@
 use crate::lagrangian::LagrangianPoisson;
 use crate::matrix::SquareMatrix;
 use crate::newton::exchanging;
-use crate::poisson::{LiePoisson, Poisson};
-use crate::scalar::Scalar;
+use crate::poisson::{LiePoisson, Lift, Poisson};
+use crate::scalar::{Dual, Scalar};
 use crate::state::State;
 
 /// Matrix times vector: `out_i = sum_j matrix_ij vector_j`, summed in order of j.
@@ -58,6 +58,44 @@ pub fn jacobian<S: Scalar, P: Poisson<S>>(system: &P, mu: &P::State, out: &mut P
                 sum += poisson_matrix.get(row, middle) * hessian.get(middle, column);
             }
             out.set(row, column, sum);
+        }
+    }
+}
+
+/// The Hessian of H by its gradient over dual numbers, column by column: what a system has that was declared for
+/// methods without derivatives of the field.
+pub fn hessian_by_duals<S: Scalar, P: Lift<S>>(system: &P, mu: &P::State, out: &mut P::Jacobian) {
+    let lifted = system.lift();
+    columns_by_duals(&lifted, mu.as_slice(), out, |q, out| {
+        lifted.gradient(q, out)
+    });
+}
+
+/// The Jacobian of the vector field by the field over dual numbers, column by column.
+pub fn jacobian_by_duals<S: Scalar, P: Lift<S>>(system: &P, mu: &P::State, out: &mut P::Jacobian) {
+    let lifted = system.lift();
+    columns_by_duals(&lifted, mu.as_slice(), out, |q, out| {
+        lifted.vector_field(q, out)
+    });
+}
+
+/// `out_ij = dv_i/dmu_j` of a vector v that is computed over dual numbers.
+fn columns_by_duals<S: Scalar, L: Poisson<Dual<S>>, M: SquareMatrix<S>>(
+    lifted: &L,
+    mu: &[S],
+    out: &mut M,
+    vector: impl Fn(&L::State, &mut L::State),
+) {
+    let (mut q, mut value) = (lifted.zero_state(), lifted.zero_state());
+    for (entry, &coordinate) in q.as_mut_slice().iter_mut().zip(mu) {
+        *entry = Dual::constant_of(coordinate);
+    }
+    for column in 0..mu.len() {
+        q.as_mut_slice()[column].derivative = S::one();
+        vector(&q, &mut value);
+        q.as_mut_slice()[column].derivative = S::zero();
+        for (row, entry) in value.as_slice().iter().enumerate() {
+            out.set(row, column, entry.derivative);
         }
     }
 }

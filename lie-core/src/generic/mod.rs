@@ -58,8 +58,8 @@ pub use generating::{
 pub use inverse_tangent::{dcay_inverse_dual, dexp_inverse_dual};
 pub(crate) use kernels::direction;
 pub use kernels::{
-    ad_star, ad_star_matrix, euler_poincare, jacobian, linearize, multiply, poisson_slope,
-    vector_field,
+    ad_star, ad_star_matrix, euler_poincare, hessian_by_duals, jacobian, jacobian_by_duals,
+    linearize, multiply, poisson_slope, vector_field,
 };
 pub use matrix_stages::MatrixStages;
 pub use midpoint::Midpoint;

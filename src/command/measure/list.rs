@@ -2,7 +2,7 @@
 
 use lie_codegen::compile::with_options;
 use lie_codegen::diagnostic::Kind;
-use lie_codegen::methods::{Availability, CATALOGUE, Choice, Method, refusal};
+use lie_codegen::methods::{CATALOGUE, Choice, Method, refusal};
 use lie_codegen::model::Model;
 
 use crate::command::method;
@@ -53,11 +53,9 @@ pub fn parse(text: &str, model: &Model) -> Result<Vec<Choice>, Vec<Message>> {
 /// Every method that applies to a system, with every option that applies. Of the compositions, which are
 /// as many as schemes times bases: every scheme of one base, and the lowest order of the other bases.
 pub fn all(model: &Model) -> Vec<Choice> {
-    let built = CATALOGUE
+    let (composing, plain): (Vec<&Method>, Vec<&Method>) = CATALOGUE
         .iter()
-        .filter(|method| method.availability == Availability::Built);
-    let (composing, plain): (Vec<&Method>, Vec<&Method>) =
-        built.partition(|method| method.id.starts_with("compose"));
+        .partition(|method| method.id.starts_with("compose"));
     let plain: Vec<Choice> = plain
         .iter()
         .filter_map(|method| Choice::from_id(method.id).ok())
