@@ -14,7 +14,7 @@ use super::tape::{Tangents, Tape};
 use super::{Argument, Block, Kernel, Source};
 use crate::exact::Rational;
 use crate::methods::Retraction;
-use crate::schedule::{Known, Task, cost};
+use crate::schedule::{Known, Task, schedule};
 use crate::symbolic::{ExprId, Symbol};
 
 /// The generating function of a method.
@@ -221,7 +221,15 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
         &entries,
     )
     .within_step(tape.definitions().to_vec());
-    let hessian = symmetric(leaner_jacobian(source, &mut tape, &entries));
+    let hessian = symmetric(leaner_jacobian(
+        source,
+        &mut tape,
+        &entries,
+        &|_, derived| Derived {
+            rows: symmetric(derived.rows),
+            ..derived
+        },
+    ));
     if too_large(source, &tape) {
         return Some(Function {
             gradient,
@@ -249,9 +257,17 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
     })
 }
 
-/// The derivatives in the coordinates, by named tangents or by inline ones, whichever are fewer operations; the list
-/// is that of the choice.
-fn leaner_jacobian(source: &mut Source, tape: &mut Tape, values: &[ExprId]) -> Vec<Vec<ExprId>> {
+/// Lists longer than this are not scheduled twice: their tangents are named.
+const MOST_COMPARED: usize = 400;
+
+/// The derivatives of values in the coordinates, by named tangents or by inline ones, whichever are fewer operations
+/// once they are finished as they will be written out; the list is that of the choice.
+fn leaner_jacobian(
+    source: &mut Source,
+    tape: &mut Tape,
+    values: &[ExprId],
+    finish: &dyn Fn(&mut Source, Derived) -> Derived,
+) -> Vec<Vec<ExprId>> {
     let mut inline = tape.clone();
     let named_rows = tape.jacobian(source, values);
     if too_large(source, tape) {
@@ -259,26 +275,50 @@ fn leaner_jacobian(source: &mut Source, tape: &mut Tape, values: &[ExprId]) -> V
     }
     let coordinates = mu(source).symbols;
     let inline_rows = inline.jacobian_in(source, values, &coordinates, Tangents::Inline);
-    if too_large(source, &inline) {
+    if tape.definitions().len() > MOST_COMPARED || too_large(source, &inline) {
         return named_rows;
     }
     let mut weight = |tape: &Tape, rows: &[Vec<ExprId>]| {
-        let task = Task {
+        let derived = Derived {
             definitions: tape.definitions().to_vec(),
-            outputs: values
-                .iter()
-                .chain(rows.iter().flatten())
-                .copied()
-                .collect(),
+            values: values.to_vec(),
+            rows: rows.to_vec(),
+        };
+        let derived = finish(source, derived);
+        let rows = derived.rows.into_iter().flatten();
+        let task = Task {
+            definitions: derived.definitions,
+            outputs: derived.values.into_iter().chain(rows).collect(),
             known: Known::Step,
         };
-        cost(&mut source.graph, &task).weight()
+        schedule(&mut source.graph, &task).counts.weight()
     };
     if weight(&inline, &inline_rows) < weight(tape, &named_rows) {
         *tape = inline;
         inline_rows
     } else {
         named_rows
+    }
+}
+
+/// Values with their derivatives, and the definitions of both.
+struct Derived {
+    definitions: Vec<(Symbol, ExprId)>,
+    values: Vec<ExprId>,
+    rows: Vec<Vec<ExprId>>,
+}
+
+impl Derived {
+    /// Coordinates and unknown exchanged.
+    fn exchanged(mut self, source: &mut Source) -> Self {
+        for (_, value) in &mut self.definitions {
+            *value = exchanged(source, &[*value])[0];
+        }
+        self.values = exchanged(source, &self.values);
+        for row in &mut self.rows {
+            *row = exchanged(source, row);
+        }
+        self
     }
 }
 
@@ -328,7 +368,9 @@ pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kern
         })
         .collect();
     let values = tape.definitions().to_vec();
-    let rows = leaner_jacobian(source, &mut tape, &residual);
+    let rows = leaner_jacobian(source, &mut tape, &residual, &|source, derived| {
+        derived.exchanged(source)
+    });
     let slopes = tape.definitions().to_vec();
     if too_large(source, &tape) {
         return None;
@@ -341,16 +383,20 @@ pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kern
             symbols: source.symbols(Block::Unknown),
         },
     ];
-    let mut exchange = |definitions: &[(Symbol, ExprId)]| -> Vec<(Symbol, ExprId)> {
-        definitions
-            .iter()
-            .map(|(symbol, value)| (*symbol, exchanged(source, &[*value])[0]))
-            .collect()
+    let of_values = Derived {
+        definitions: values,
+        values: result,
+        rows: Vec::new(),
     };
-    let (values, slopes) = (exchange(&values), exchange(&slopes));
-    let residual = exchanged(source, &residual);
-    let result = exchanged(source, &result);
-    let rows: Vec<Vec<ExprId>> = rows.iter().map(|row| exchanged(source, row)).collect();
+    let of_values = of_values.exchanged(source);
+    let of_slopes = Derived {
+        definitions: slopes,
+        values: residual,
+        rows,
+    };
+    let of_slopes = of_slopes.exchanged(source);
+    let (values, result) = (of_values.definitions, of_values.values);
+    let (slopes, residual, rows) = (of_slopes.definitions, of_slopes.values, of_slopes.rows);
     let graph = &source.graph;
     Some(vec![
         Kernel::vector(

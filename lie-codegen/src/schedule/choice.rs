@@ -42,11 +42,6 @@ impl<'a> Choice<'a> {
         }
     }
 
-    /// The roots as they were derived, nothing tried.
-    pub fn derived(mut self, roots: Roots) -> Program {
-        self.trial(roots, false).program
-    }
-
     /// The program of the roots.
     pub fn program(mut self, roots: Roots) -> Program {
         // What is prepared is computed as it stands, once.

@@ -69,13 +69,6 @@ pub fn schedule(graph: &mut Graph, task: &Task) -> Program {
     program(graph, &mut Collector::new(task.known), task)
 }
 
-/// The operations of a task as it was derived, before another form is tried: enough to tell two derivations apart.
-pub fn cost(graph: &mut Graph, task: &Task) -> Counts {
-    let (symbols, roots) = (task.symbols(), task.roots());
-    let collector = &mut Collector::new(task.known);
-    Choice::new(graph, collector, symbols).derived(roots).counts
-}
-
 fn program(graph: &mut Graph, collector: &mut Collector, task: &Task) -> Program {
     Choice::new(graph, collector, task.symbols()).program(task.roots())
 }
