@@ -90,5 +90,5 @@ fn methods_without_equations_have_no_second_derivatives() {
     let (explicit, few) = lines(&[Choice::Rk4]);
     let (mixed, _) = lines(&[Choice::Rk4, Choice::Midpoint]);
     assert_eq!([plain, explicit, mixed], [false, true, false]);
-    assert!(4 * few < 3 * all, "{few} of {all} lines");
+    assert!(few + 150 < all, "{few} of {all} lines");
 }
