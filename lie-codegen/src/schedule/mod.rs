@@ -2,7 +2,7 @@
 //!
 //! A kernel is rewritten in a few ways (`forms`: as derived, combined over common powers, collected by
 //! monomials, factored). Each form is lowered to n-ary sums and products, and pairs that occur twice are
-//! shared over all outputs of the kernel, and changes of sign that turning a difference round saves are saved (`signs`). A form has two costs: its operations, and the bound of its
+//! shared over all outputs of the kernel. A form has two costs: its operations, and the bound of its
 //! rounding errors (`rounding`) at points where it matters (`points`). What errs more than the form that
 //! was written is out (`judge`), and of the rest the cheapest is kept (`choice`). Everything is
 //! deterministic.
@@ -23,7 +23,6 @@ mod program;
 mod reuse;
 mod rounding;
 mod share;
-mod signs;
 
 pub use program::{Counts, Operation, Program, Value};
 

@@ -2162,7 +2162,7 @@ for HeavyTopGenerating6<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 858 additions, 1121 multiplications.
+    /// 861 additions, 1121 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -2287,8 +2287,8 @@ for HeavyTopGenerating6<'_, S> {
         let _t77 = _t4 * S::ratio(3.0, 1.0);
         let _t78 = _t1 * self.system._k31;
         let _t79 = _t1 * _t2;
-        let _t80 = self.system._k6 * _t3 + _t79 - g2 * self.system._k32;
-        let _t81 = -_t77 - m1 * _t78 + _t80;
+        let _t80 = g2 * self.system._k32 - (self.system._k6 * _t3 + _t79);
+        let _t81 = -_t77 - m1 * _t78 - _t80;
         let _t82 = _t5 * self._h14;
         let _t83 = _t8 * S::ratio(3.0, 1.0);
         let _t84 = _t10 * self.system._k33;
@@ -2299,7 +2299,7 @@ for HeavyTopGenerating6<'_, S> {
         let _t89 = g3 * _t50;
         let _t90 = g2 * _t37;
         let _t91 = _t75 + self.system._k29 * _t86;
-        let _t92 = _t73 + self.system._k30 * _t80;
+        let _t92 = _t73 + self.system._k30 * -_t80;
         let _t93 = _t10 * _t45 + _t1 * _t25 + (_t89 + _t90) * self.system._k34
             + _t1 * _t20 * self.system._k35 - _t28 * _t10 * self.system._k36
             + S::ratio(4.0, 1.0) * (_t7 * _t91 + _t3 * _t92);
@@ -2354,12 +2354,12 @@ for HeavyTopGenerating6<'_, S> {
         let _t121 = _t120 + m3 * _t118 + m1 * _t119;
         let _t122 = _t15 * S::ratio(3.0, 1.0);
         let _t123 = _t13 * _t0;
-        let _t124 = self.system._k7 * _t14 + _t123 - g3 * self.system._k52;
-        let _t125 = -_t122 - m2 * _t118 + _t124;
+        let _t124 = g3 * self.system._k52 - (self.system._k7 * _t14 + _t123);
+        let _t125 = -_t122 - m2 * _t118 - _t124;
         let _t126 = _t12 * self.system._k53 + _t13 * self.system._k40;
         let _t127 = _t115 - self.system._k7 * _t120;
         let _t128 = _t13 * self.system._k54;
-        let _t129 = _t117 + self.system._k29 * _t124;
+        let _t129 = _t117 + self.system._k29 * -_t124;
         let _t130 = _t12 * _t0;
         let _t131 = self.system._k7 * _t3 - _t130 + g1 * self.system._k52;
         let _t132 = _t73 - self.system._k49 * _t131;
@@ -2423,13 +2423,13 @@ for HeavyTopGenerating6<'_, S> {
         let _t165 = _t117 - self.system._k30 * _t157;
         let _t166 = _t3 * S::ratio(4.0, 1.0);
         let _t167 = _t41 * _t6;
-        let _t168 = self.system._k8 * _t7 + _t167 - g1 * self.system._k60;
-        let _t169 = _t75 - self.system._k49 * _t168;
+        let _t168 = g1 * self.system._k60 - (self.system._k8 * _t7 + _t167);
+        let _t169 = _t75 - self.system._k49 * -_t168;
         let _t170 = self.system._k0 * _t165 + self.system._k1 * _t169
             - _t41 * _t0 * self.system._k62 + _t42 * _t2 * self.system._k63;
         let _t171 = self.system._k8 * _t39 + self.system._k2 * _t169
             - _t167 * self.system._k62 - _t163 * _t133 - self.system._k56 * _t164;
-        let _t172 = -_t83 - m3 * _t159 + _t168;
+        let _t172 = -_t83 - m3 * _t159 - _t168;
         let _t173 = self.system._k8 * (_t28 - _t27) - g3 * _t159;
         let _t174 = self.system._k8 * (_t23 + _t22) + g3 * _t155;
         let _t175 = _t1 * _t172 + _t12 * _t158
@@ -3774,7 +3774,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 327 additions, 378 multiplications.
+    /// 331 additions, 378 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -3873,9 +3873,9 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t72 = _u_m1 - _t20;
         let _t73 = _u_m2 - _t68 * _u_g3;
         let _t74 = _t61 + _t69;
-        let _t75 = _u_g1 + _t58 * _u_g3 - _t47 * _u_g2;
+        let _t75 = _t47 * _u_g2 - (_u_g1 + _t58 * _u_g3);
         let _t76 = _u_g2 - _t40 * _u_g3 + _t47 * _u_g1;
-        let _t77 = _u_g3 + _t40 * _u_g2 - _t58 * _u_g1;
+        let _t77 = _t58 * _u_g1 - (_u_g3 + _t40 * _u_g2);
         let _t78 = _t49 + _t59 + _t53 + S::ratio(2.0, 1.0) * _t54;
         let _t79 = _t13 + _t36 + _t11 * S::ratio(3.0, 1.0);
         let _t80 = self.system._k1 * _u_g2 + _t55;
@@ -3903,141 +3903,143 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t96 = self._h0
             * (_t95 + self.system._k34 * _t92
                 - (self.system._k6 * _t93 - _t94) * self.system._k29);
-        let _t97 = (self.system._k6 * (self.system._k0 * _t12 - _t10 * self.system._k42)
+        let _t97 = -_t77;
+        let _t98 = (self.system._k6 * (self.system._k0 * _t12 - _t10 * self.system._k42)
             - _u_m2 * self.system._k96) * self._h9;
-        let _t98 = (self.system._k6 * (self.system._k0 * _t17 - _t10 * self.system._k44)
+        let _t99 = (self.system._k6 * (self.system._k0 * _t17 - _t10 * self.system._k44)
             - _u_m3 * self.system._k97) * self._h9;
-        let _t99 = _t40 * _t58;
-        let _t100 = self._h0
+        let _t100 = _t40 * _t58;
+        let _t101 = self._h0
             * (_t89 - self.system._k48 * _t86
                 + self.system._k49 * (self.system._k7 * _t87 - _t88));
-        let _t101 = _t12 * _t17;
-        let _t102 = _t44 - _u_m3 * _t23 - _u_m2 * _t18;
-        let _t103 = _t17 * _t23;
-        let _t104 = _t45 - self.system._k98 * _t7;
-        let _t105 = self._h0
-            * (_t104 - self.system._k48 * _t101
-                + (self.system._k7 * _t102 - _t103) * self.system._k29);
-        let _t106 = _t11 + _t36 + _t13 * S::ratio(3.0, 1.0);
-        let _t107 = self.system._k0 * _u_g1 + _t21;
-        let _t108 = _u_m1 * _u_m1;
-        let _t109 = S::ratio(1.0, 24.0)
+        let _t102 = _t12 * _t17;
+        let _t103 = _t44 - _u_m3 * _t23 - _u_m2 * _t18;
+        let _t104 = _t17 * _t23;
+        let _t105 = _t45 - self.system._k98 * _t7;
+        let _t106 = self._h0
+            * (_t105 - self.system._k48 * _t102
+                + (self.system._k7 * _t103 - _t104) * self.system._k29);
+        let _t107 = _t11 + _t36 + _t13 * S::ratio(3.0, 1.0);
+        let _t108 = self.system._k0 * _u_g1 + _t21;
+        let _t109 = _u_m1 * _u_m1;
+        let _t110 = S::ratio(1.0, 24.0)
             * (self._h7
-                * (self.system._k7 * _t106
+                * (self.system._k7 * _t107
                     + self.system._k7
-                        * (_t106 + (_t107 + _t56 + _t81) * self.system._k30)
-                    + self.system._k92 * _t108 + self.system._k99 * _t83) + self._h10);
-        let _t110 = self._h9
+                        * (_t107 + (_t108 + _t56 + _t81) * self.system._k30)
+                    + self.system._k92 * _t109 + self.system._k99 * _t83) + self._h10);
+        let _t111 = self._h9
             * (self.system._k7 * _t51 - _u_m1 * self.system._k96
                 + _u_m3 * self.system._k100);
-        let _t111 = self._h9
+        let _t112 = self._h9
             * (self.system._k7 * (self.system._k1 * _t17 - _t12 * self.system._k44)
                 - _u_m3 * self.system._k101);
-        let _t112 = _t40 * _t47;
-        let _t113 = self._h0
+        let _t113 = _t40 * _t47;
+        let _t114 = self._h0
             * (_t95 + self.system._k46 * _t92
                 - self.system._k49 * (self.system._k8 * _t93 - _t94));
-        let _t114 = self._h0
-            * (_t104 - self.system._k46 * _t101
-                + self.system._k30 * (self.system._k8 * _t102 - _t103));
-        let _t115 = _t37 + _t36 * S::ratio(3.0, 1.0);
-        let _t116 = S::ratio(1.0, 24.0)
+        let _t115 = self._h0
+            * (_t105 - self.system._k46 * _t102
+                + self.system._k30 * (self.system._k8 * _t103 - _t104));
+        let _t116 = _t37 + _t36 * S::ratio(3.0, 1.0);
+        let _t117 = S::ratio(1.0, 24.0)
             * (self._h7
-                * (self.system._k8 * _t115
+                * (self.system._k8 * _t116
                     + self.system._k8
-                        * (_t115 + (_t107 + _t42 + _t80) * self.system._k29)
-                    + self.system._k93 * _t108 + self.system._k99 * _t82) + self._h11);
-        let _t117 = self._h9
+                        * (_t116 + (_t108 + _t42 + _t80) * self.system._k29)
+                    + self.system._k93 * _t109 + self.system._k99 * _t82) + self._h11);
+        let _t118 = self._h9
             * (self.system._k8 * (_t12 * self.system._k2 - _t17 * self.system._k42)
                 + _u_m2 * self.system._k100);
-        let _t118 = self._h9
+        let _t119 = self._h9
             * (self.system._k8 * _t16 - _u_m1 * self.system._k97
                 - _u_m2 * self.system._k101);
-        let _t119 = _t58 * _t52;
-        let _t120 = _t47 * _t19;
-        let _t121 = _t77 * self._h12;
-        let _t122 = _t76 * self._h13;
-        let _t123 = self._h9
+        let _t120 = _t58 * _t52;
+        let _t121 = _t47 * _t19;
+        let _t122 = _t97 * self._h12;
+        let _t123 = _t76 * self._h13;
+        let _t124 = self._h9
             * (self.system._k6 * _t67 + _u_m2 * self.system._k102
                 + _u_m3 * self.system._k103);
-        let _t124 = self._h9
+        let _t125 = self._h9
             * (self.system._k7 * (_t10 * self.system._k1 - _t12 * self.system._k56)
                 + _u_m1 * self.system._k102);
-        let _t125 = self._h9
+        let _t126 = self._h9
             * (self.system._k8 * (_t10 * self.system._k2 - _t17 * self.system._k56)
                 + _u_m1 * self.system._k103);
-        let _t126 = _t71 - _t58 * _u_m1;
-        let _t127 = _t70 + _t54 + S::ratio(2.0, 1.0) * _t59;
-        let _t128 = _t72 + _t58 * _u_m3;
-        let _t129 = _t58 * _t47;
-        let _t130 = _t40 * _t68;
-        let _t131 = _t75 * self._h15;
-        let _t132 = _t73 + _t47 * _u_m1;
-        let _t133 = _t66 - _t47 * _u_m2;
-        let _t134 = _t74 + S::ratio(2.0, 1.0) * _t48;
+        let _t127 = _t71 - _t58 * _u_m1;
+        let _t128 = _t70 + _t54 + S::ratio(2.0, 1.0) * _t59;
+        let _t129 = _t72 + _t58 * _u_m3;
+        let _t130 = -_t75;
+        let _t131 = _t58 * _t47;
+        let _t132 = _t40 * _t68;
+        let _t133 = _t130 * self._h15;
+        let _t134 = _t73 + _t47 * _u_m1;
+        let _t135 = _t66 - _t47 * _u_m2;
+        let _t136 = _t74 + S::ratio(2.0, 1.0) * _t48;
         residual[0] = _t66 - m1 - _t20 + _t40 * (_t49 + _t61) + _t58 * _t63
             - _t47 * _t65;
         residual[1] = _t73 - m2 + _t64 + _t58 * (_t60 + _t70) - _t40 * _t71
             + _t47 * _t72;
         residual[2] = _t71 - m3 - _t62 + _t47 * (_t74 + _t48) + _t40 * _t73
             - _t58 * _t66;
-        residual[3] = _t75 - g1;
+        residual[3] = -g1 - _t75;
         residual[4] = _t76 - g2;
-        residual[5] = _t77 - g3;
+        residual[5] = -g3 - _t77;
         matrix[(0, 0)] = S::one() + _t40 * _t40 + _t78 * _t84 - _t85 * _t90 - _t91 * _t96
-            - _t77 * _t97 + _t76 * _t98;
-        matrix[(0, 1)] = _t99 - _t47 - _t78 * _t100 + _t91 * _t105 + _t85 * _t109
-            - _t77 * _t110 + _t76 * _t111;
-        matrix[(0, 2)] = _t58 + _t112 + _t78 * _t113 - _t85 * _t114 - _t91 * _t116
-            - _t77 * _t117 + _t76 * _t118;
-        matrix[(0, 3)] = _t122 - _t119 - _t120 - _t121 - _t78 * _t123 - _t85 * _t124
-            + _t91 * _t125;
-        matrix[(0, 4)] = _t40 * _t52 - _t19 + _t77 * self._h14 + _t76 * self._h15
-            - _t78 * _t97 - _t85 * _t110 + _t91 * _t117;
-        matrix[(0, 5)] = _t52 + _t40 * _t19 - _t77 * self._h15 - _t76 * self._h16
+            - _t97 * _t98 + _t76 * _t99;
+        matrix[(0, 1)] = _t100 - _t47 - _t78 * _t101 + _t91 * _t106 + _t85 * _t110
+            - _t97 * _t111 + _t76 * _t112;
+        matrix[(0, 2)] = _t58 + _t113 + _t78 * _t114 - _t85 * _t115 - _t91 * _t117
+            - _t97 * _t118 + _t76 * _t119;
+        matrix[(0, 3)] = _t123 - _t120 - _t121 - _t122 - _t78 * _t124 - _t85 * _t125
+            + _t91 * _t126;
+        matrix[(0, 4)] = _t40 * _t52 - _t19 + _t97 * self._h14 + _t76 * self._h15
             - _t78 * _t98 - _t85 * _t111 + _t91 * _t118;
-        matrix[(1, 0)] = _t47 + _t99 - _t126 * _t84 - _t127 * _t90 + _t128 * _t96
-            + _t77 * _t123 - _t75 * _t98;
-        matrix[(1, 1)] = S::one() + _t58 * _t58 + _t126 * _t100 - _t128 * _t105
-            + _t127 * _t109 + _t77 * _t124 - _t75 * _t111;
-        matrix[(1, 2)] = _t129 - _t40 - _t126 * _t113 - _t127 * _t114 + _t128 * _t116
-            + _t77 * _t125 - _t75 * _t118;
-        matrix[(1, 3)] = _t19 + _t58 * _t68 - _t77 * self._h17 - _t75 * self._h13
-            + _t126 * _t123 - _t127 * _t124 - _t128 * _t125;
-        matrix[(1, 4)] = _t121 - _t120 - _t130 - _t131 + _t126 * _t97 - _t127 * _t110
-            - _t128 * _t117;
-        matrix[(1, 5)] = _t58 * _t19 - _t68 + _t77 * self._h13 + _t75 * self._h16
-            + _t126 * _t98 - _t127 * _t111 - _t128 * _t118;
-        matrix[(2, 0)] = _t112 - _t58 + _t132 * _t84 + _t133 * _t90 + _t134 * _t96
-            - _t76 * _t123 + _t75 * _t97;
-        matrix[(2, 1)] = _t40 + _t129 - _t132 * _t100 - _t134 * _t105 - _t133 * _t109
-            - _t76 * _t124 + _t75 * _t110;
-        matrix[(2, 2)] = S::one() + _t47 * _t47 + _t132 * _t113 + _t133 * _t114
-            + _t134 * _t116 - _t76 * _t125 + _t75 * _t117;
-        matrix[(2, 3)] = _t47 * _t68 - _t52 + _t76 * self._h17 + _t75 * self._h12
-            - _t132 * _t123 + _t133 * _t124 - _t134 * _t125;
-        matrix[(2, 4)] = _t68 + _t47 * _t52 - _t76 * self._h12 - _t75 * self._h14
-            - _t132 * _t97 + _t133 * _t110 - _t134 * _t117;
-        matrix[(2, 5)] = _t131 - _t119 - _t130 - _t122 - _t132 * _t98 + _t133 * _t111
-            - _t134 * _t118;
+        matrix[(0, 5)] = _t52 + _t40 * _t19 - _t97 * self._h15 - _t76 * self._h16
+            - _t78 * _t99 - _t85 * _t112 + _t91 * _t119;
+        matrix[(1, 0)] = _t47 + _t100 - _t127 * _t84 - _t128 * _t90 + _t129 * _t96
+            + _t97 * _t124 - _t130 * _t99;
+        matrix[(1, 1)] = S::one() + _t58 * _t58 + _t127 * _t101 - _t129 * _t106
+            + _t128 * _t110 + _t97 * _t125 - _t130 * _t112;
+        matrix[(1, 2)] = _t131 - _t40 - _t127 * _t114 - _t128 * _t115 + _t129 * _t117
+            + _t97 * _t126 - _t130 * _t119;
+        matrix[(1, 3)] = _t19 + _t58 * _t68 - _t97 * self._h17 - _t130 * self._h13
+            + _t127 * _t124 - _t128 * _t125 - _t129 * _t126;
+        matrix[(1, 4)] = _t122 - _t121 - _t132 - _t133 + _t127 * _t98 - _t128 * _t111
+            - _t129 * _t118;
+        matrix[(1, 5)] = _t58 * _t19 - _t68 + _t97 * self._h13 + _t130 * self._h16
+            + _t127 * _t99 - _t128 * _t112 - _t129 * _t119;
+        matrix[(2, 0)] = _t113 - _t58 + _t134 * _t84 + _t135 * _t90 + _t136 * _t96
+            - _t76 * _t124 + _t130 * _t98;
+        matrix[(2, 1)] = _t40 + _t131 - _t134 * _t101 - _t136 * _t106 - _t135 * _t110
+            - _t76 * _t125 + _t130 * _t111;
+        matrix[(2, 2)] = S::one() + _t47 * _t47 + _t134 * _t114 + _t135 * _t115
+            + _t136 * _t117 - _t76 * _t126 + _t130 * _t118;
+        matrix[(2, 3)] = _t47 * _t68 - _t52 + _t76 * self._h17 + _t130 * self._h12
+            - _t134 * _t124 + _t135 * _t125 - _t136 * _t126;
+        matrix[(2, 4)] = _t68 + _t47 * _t52 - _t76 * self._h12 - _t130 * self._h14
+            - _t134 * _t98 + _t135 * _t111 - _t136 * _t118;
+        matrix[(2, 5)] = _t133 - _t120 - _t132 - _t123 - _t134 * _t99 + _t135 * _t112
+            - _t136 * _t119;
         matrix[(3, 0)] = -(_u_g3 * _t90) - _u_g2 * _t96;
-        matrix[(3, 1)] = _u_g3 * _t109 + _u_g2 * _t105;
-        matrix[(3, 2)] = -(_u_g3 * _t114) - _u_g2 * _t116;
-        matrix[(3, 3)] = S::one() - _u_g3 * _t124 + _u_g2 * _t125;
-        matrix[(3, 4)] = _u_g2 * _t117 - _t47 - _u_g3 * _t110;
-        matrix[(3, 5)] = _t58 - _u_g3 * _t111 + _u_g2 * _t118;
+        matrix[(3, 1)] = _u_g3 * _t110 + _u_g2 * _t106;
+        matrix[(3, 2)] = -(_u_g3 * _t115) - _u_g2 * _t117;
+        matrix[(3, 3)] = S::one() - _u_g3 * _t125 + _u_g2 * _t126;
+        matrix[(3, 4)] = _u_g2 * _t118 - _t47 - _u_g3 * _t111;
+        matrix[(3, 5)] = _t58 - _u_g3 * _t112 + _u_g2 * _t119;
         matrix[(4, 0)] = _u_g1 * _t96 - _u_g3 * _t84;
-        matrix[(4, 1)] = _u_g3 * _t100 - _u_g1 * _t105;
-        matrix[(4, 2)] = _u_g1 * _t116 - _u_g3 * _t113;
-        matrix[(4, 3)] = _t47 + _u_g3 * _t123 - _u_g1 * _t125;
-        matrix[(4, 4)] = S::one() + _u_g3 * _t97 - _u_g1 * _t117;
-        matrix[(4, 5)] = _u_g3 * _t98 - _t40 - _u_g1 * _t118;
+        matrix[(4, 1)] = _u_g3 * _t101 - _u_g1 * _t106;
+        matrix[(4, 2)] = _u_g1 * _t117 - _u_g3 * _t114;
+        matrix[(4, 3)] = _t47 + _u_g3 * _t124 - _u_g1 * _t126;
+        matrix[(4, 4)] = S::one() + _u_g3 * _t98 - _u_g1 * _t118;
+        matrix[(4, 5)] = _u_g3 * _t99 - _t40 - _u_g1 * _t119;
         matrix[(5, 0)] = _u_g2 * _t84 + _u_g1 * _t90;
-        matrix[(5, 1)] = -(_u_g2 * _t100) - _u_g1 * _t109;
-        matrix[(5, 2)] = _u_g2 * _t113 + _u_g1 * _t114;
-        matrix[(5, 3)] = _u_g1 * _t124 - _t58 - _u_g2 * _t123;
-        matrix[(5, 4)] = _t40 - _u_g2 * _t97 + _u_g1 * _t110;
-        matrix[(5, 5)] = S::one() - _u_g2 * _t98 + _u_g1 * _t111;
+        matrix[(5, 1)] = -(_u_g2 * _t101) - _u_g1 * _t110;
+        matrix[(5, 2)] = _u_g2 * _t114 + _u_g1 * _t115;
+        matrix[(5, 3)] = _u_g1 * _t125 - _t58 - _u_g2 * _t124;
+        matrix[(5, 4)] = _t40 - _u_g2 * _t98 + _u_g1 * _t111;
+        matrix[(5, 5)] = S::one() - _u_g2 * _t99 + _u_g1 * _t112;
     }
 
     /// `mu1 = mu + 2 ad*_y p`
