@@ -10,11 +10,10 @@
 //! The term `H''(X, ad*_eta p)` of S5 is written `<p, [eta, w]> = -<Y, eta>`.
 
 use super::field::mu;
-use super::tape::{Tangents, Tape};
+use super::tape::Tape;
 use super::{Argument, Block, Kernel, Source};
 use crate::exact::Rational;
 use crate::methods::Retraction;
-use crate::schedule::{Known, Task, schedule};
 use crate::symbolic::{ExprId, Symbol};
 
 /// The generating function of a method.
@@ -221,15 +220,7 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
         &entries,
     )
     .within_step(tape.definitions().to_vec());
-    let hessian = symmetric(leaner_jacobian(
-        source,
-        &mut tape,
-        &entries,
-        &|_, derived| Derived {
-            rows: symmetric(derived.rows),
-            ..derived
-        },
-    ));
+    let hessian = symmetric(tape.jacobian(source, &entries));
     if too_large(source, &tape) {
         return Some(Function {
             gradient,
@@ -255,71 +246,6 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
         linearize: Some(linearize),
         pattern,
     })
-}
-
-/// Lists longer than this are not scheduled twice: their tangents are named.
-const MOST_COMPARED: usize = 400;
-
-/// The derivatives of values in the coordinates, by named tangents or by inline ones, whichever are fewer operations
-/// once they are finished as they will be written out; the list is that of the choice.
-fn leaner_jacobian(
-    source: &mut Source,
-    tape: &mut Tape,
-    values: &[ExprId],
-    finish: &dyn Fn(&mut Source, Derived) -> Derived,
-) -> Vec<Vec<ExprId>> {
-    let mut inline = tape.clone();
-    let named_rows = tape.jacobian(source, values);
-    if too_large(source, tape) {
-        return named_rows;
-    }
-    let coordinates = mu(source).symbols;
-    let inline_rows = inline.jacobian_in(source, values, &coordinates, Tangents::Inline);
-    if tape.definitions().len() > MOST_COMPARED || too_large(source, &inline) {
-        return named_rows;
-    }
-    let mut weight = |tape: &Tape, rows: &[Vec<ExprId>]| {
-        let derived = Derived {
-            definitions: tape.definitions().to_vec(),
-            values: values.to_vec(),
-            rows: rows.to_vec(),
-        };
-        let derived = finish(source, derived);
-        let rows = derived.rows.into_iter().flatten();
-        let task = Task {
-            definitions: derived.definitions,
-            outputs: derived.values.into_iter().chain(rows).collect(),
-            known: Known::Step,
-        };
-        schedule(&mut source.graph, &task).counts.weight()
-    };
-    if weight(&inline, &inline_rows) < weight(tape, &named_rows) {
-        *tape = inline;
-        inline_rows
-    } else {
-        named_rows
-    }
-}
-
-/// Values with their derivatives, and the definitions of both.
-struct Derived {
-    definitions: Vec<(Symbol, ExprId)>,
-    values: Vec<ExprId>,
-    rows: Vec<Vec<ExprId>>,
-}
-
-impl Derived {
-    /// Coordinates and unknown exchanged.
-    fn exchanged(mut self, source: &mut Source) -> Self {
-        for (_, value) in &mut self.definitions {
-            *value = exchanged(source, &[*value])[0];
-        }
-        self.values = exchanged(source, &self.values);
-        for row in &mut self.rows {
-            *row = exchanged(source, row);
-        }
-        self
-    }
 }
 
 /// The lower half as the mirror of the upper, so that each entry is computed once.
@@ -368,9 +294,7 @@ pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kern
         })
         .collect();
     let values = tape.definitions().to_vec();
-    let rows = leaner_jacobian(source, &mut tape, &residual, &|source, derived| {
-        derived.exchanged(source)
-    });
+    let rows = tape.jacobian(source, &residual);
     let slopes = tape.definitions().to_vec();
     if too_large(source, &tape) {
         return None;
@@ -383,20 +307,16 @@ pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kern
             symbols: source.symbols(Block::Unknown),
         },
     ];
-    let of_values = Derived {
-        definitions: values,
-        values: result,
-        rows: Vec::new(),
+    let mut exchange = |definitions: &[(Symbol, ExprId)]| -> Vec<(Symbol, ExprId)> {
+        definitions
+            .iter()
+            .map(|(symbol, value)| (*symbol, exchanged(source, &[*value])[0]))
+            .collect()
     };
-    let of_values = of_values.exchanged(source);
-    let of_slopes = Derived {
-        definitions: slopes,
-        values: residual,
-        rows,
-    };
-    let of_slopes = of_slopes.exchanged(source);
-    let (values, result) = (of_values.definitions, of_values.values);
-    let (slopes, residual, rows) = (of_slopes.definitions, of_slopes.values, of_slopes.rows);
+    let (values, slopes) = (exchange(&values), exchange(&slopes));
+    let residual = exchanged(source, &residual);
+    let result = exchanged(source, &result);
+    let rows: Vec<Vec<ExprId>> = rows.iter().map(|row| exchanged(source, row)).collect();
     let graph = &source.graph;
     Some(vec![
         Kernel::vector(

@@ -70,18 +70,10 @@ pub fn schedule(graph: &mut Graph, task: &Task) -> Program {
 }
 
 fn program(graph: &mut Graph, collector: &mut Collector, task: &Task) -> Program {
-    Choice::new(graph, collector, task.symbols()).program(task.roots())
-}
-
-impl Task {
-    fn symbols(&self) -> Vec<Symbol> {
-        self.definitions.iter().map(|(s, _)| *s).collect()
-    }
-
-    fn roots(&self) -> Vec<ExprId> {
-        let definitions = self.definitions.iter().map(|(_, e)| *e);
-        definitions.chain(self.outputs.iter().copied()).collect()
-    }
+    let definitions = task.definitions.iter().map(|(_, e)| *e);
+    let roots: Vec<ExprId> = definitions.chain(task.outputs.iter().copied()).collect();
+    let symbols: Vec<Symbol> = task.definitions.iter().map(|(s, _)| *s).collect();
+    Choice::new(graph, collector, symbols).program(roots)
 }
 
 /// One program for two tasks, of which the first is computed by the same operations whether alone or beside

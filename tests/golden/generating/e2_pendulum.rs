@@ -38,20 +38,29 @@ impl<S: ::lie_runtime::Scalar> Pendulum<S> {
     pub fn system(
         &self,
     ) -> ::core::result::Result<PendulumSystem<S>, ::lie_runtime::ParameterError> {
+        let _t0 = self.g * self.g;
         let _c0 = self.g;
         let _c1 = -self.g;
         let _c2 = self.g * S::ratio(2.0, 1.0);
         let _c3 = self.g * S::ratio(8.0, 1.0);
-        let _c4 = self.g * S::ratio(-2.0, 1.0);
-        let _c5 = self.g * S::ratio(4.0, 1.0);
+        let _c4 = S::ratio(8.0, 1.0) * _t0;
+        let _c5 = S::ratio(24.0, 1.0) * _t0;
+        let _c6 = self.g * S::ratio(3.0, 1.0);
+        let _c7 = self.g * S::ratio(-2.0, 1.0);
+        let _c8 = self.g * S::ratio(-4.0, 1.0);
+        let _c9 = self.g * S::ratio(4.0, 1.0);
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "g", "g"),
                 (_c1, "g", "-g"),
                 (_c2, "g", "2*g"),
                 (_c3, "g", "8*g"),
-                (_c4, "g", "-2*g"),
-                (_c5, "g", "4*g"),
+                (_c4, "g", "8*g^2"),
+                (_c5, "g", "24*g^2"),
+                (_c6, "g", "3*g"),
+                (_c7, "g", "-2*g"),
+                (_c8, "g", "-4*g"),
+                (_c9, "g", "4*g"),
             ],
         )?;
         ::core::result::Result::Ok(PendulumSystem {
@@ -62,6 +71,10 @@ impl<S: ::lie_runtime::Scalar> Pendulum<S> {
             _k3: _c3,
             _k4: _c4,
             _k5: _c5,
+            _k6: _c6,
+            _k7: _c7,
+            _k8: _c8,
+            _k9: _c9,
         })
     }
 
@@ -89,10 +102,18 @@ pub struct PendulumSystem<S = f64> {
     _k2: S,
     /// `8*g`
     _k3: S,
-    /// `-2*g`
+    /// `8*g^2`
     _k4: S,
-    /// `4*g`
+    /// `24*g^2`
     _k5: S,
+    /// `3*g`
+    _k6: S,
+    /// `-2*g`
+    _k7: S,
+    /// `-4*g`
+    _k8: S,
+    /// `4*g`
+    _k9: S,
 }
 
 impl<S> PendulumSystem<S> {
@@ -356,6 +377,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for PendulumSystem<S> {
             _k3: _constant(self._k3),
             _k4: _constant(self._k4),
             _k5: _constant(self._k5),
+            _k6: _constant(self._k6),
+            _k7: _constant(self._k7),
+            _k8: _constant(self._k8),
+            _k9: _constant(self._k9),
         }
     }
 }
@@ -628,22 +653,18 @@ pub struct PendulumGenerating6<'a, S: ::lie_runtime::Scalar> {
     _h1: S,
     /// `h^3/24`
     _h2: S,
-    /// `h^5/720`
+    /// `-h^5/5760`
     _h3: S,
-    /// `g^2*h^5/720`
+    /// `h^5/480`
     _h4: S,
-    /// `-h^5/2880`
+    /// `g*h^5/5760`
     _h5: S,
     /// `h^5/1440`
     _h6: S,
     /// `g*h^5/240`
     _h7: S,
-    /// `g^2*h^5/360`
-    _h8: S,
-    /// `g^3*h^5/120`
-    _h9: S,
     /// `g^2*h^3/12`
-    _h10: S,
+    _h8: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> PendulumGenerating6<'a, S> {
@@ -653,22 +674,19 @@ impl<'a, S: ::lie_runtime::Scalar> PendulumGenerating6<'a, S> {
         let _t0 = h * h;
         let _t1 = h * _t0;
         let _t2 = _t0 * _t1;
-        let _t3 = system._parameters.g * system._parameters.g;
-        let _t4 = _t2 * _t3;
+        let _t3 = system._parameters.g * _t2;
         Self {
             system,
             h,
             _h0: S::ratio(1.0, 5760.0) * _t2,
             _h1: -(system._parameters.g * h),
             _h2: S::ratio(1.0, 24.0) * _t1,
-            _h3: S::ratio(1.0, 720.0) * _t2,
-            _h4: S::ratio(1.0, 720.0) * _t4,
-            _h5: S::ratio(-1.0, 2880.0) * _t2,
+            _h3: S::ratio(-1.0, 5760.0) * _t2,
+            _h4: S::ratio(1.0, 480.0) * _t2,
+            _h5: S::ratio(1.0, 5760.0) * _t3,
             _h6: S::ratio(1.0, 1440.0) * _t2,
-            _h7: system._parameters.g * S::ratio(1.0, 240.0) * _t2,
-            _h8: S::ratio(1.0, 360.0) * _t4,
-            _h9: system._parameters.g * S::ratio(1.0, 120.0) * _t4,
-            _h10: S::ratio(1.0, 12.0) * _t1 * _t3,
+            _h7: S::ratio(1.0, 240.0) * _t3,
+            _h8: system._parameters.g * system._parameters.g * S::ratio(1.0, 12.0) * _t1,
         }
     }
 }
@@ -703,7 +721,7 @@ for PendulumGenerating6<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 17 additions, 40 multiplications.
+    /// 25 additions, 49 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -718,28 +736,31 @@ for PendulumGenerating6<'_, S> {
         let _t3 = _t2 * S::ratio(4.0, 1.0);
         let _t4 = self.system.g * -(_L * x) * self.system._k3;
         let _t5 = _L * _t3;
-        let _t6 = _t2 * S::ratio(12.0, 1.0);
-        let _t7 = _t4 * self._h5;
-        let _t8 = _L * _t2 * self._h6 - _t5 * self._h5 + _t0 * self._h4;
-        let _t9 = _L * _L;
-        let _t10 = _t2 * self._h7;
-        xi[0] = _L * self.h + (_t0 * _t3 - x * _t4 + y * _t5) * self._h0;
-        xi[1] = self._h1 - (_L * _t4 - _t1 * _t6) * self._h0;
-        xi[2] = _t2 * self._h2
-            + (_L * _t5
-                + self.system.g
-                    * (x * _t6
-                        - (-(_t0 * _L) - x * (_t1 * S::ratio(3.0, 1.0)))
-                            * self.system._k3)) * self._h0;
-        hessian[(0, 0)] = self.h + y * _t2 * self._h3 + x * x * self._h4;
-        hessian[(0, 1)] = _t7;
-        hessian[(0, 2)] = _t8;
-        hessian[(1, 0)] = _t7;
-        hessian[(1, 1)] = _t9 * self._h4;
-        hessian[(1, 2)] = _t10;
-        hessian[(2, 0)] = _t8;
-        hessian[(2, 1)] = _t10;
-        hessian[(2, 2)] = _t9 * self._h8 + x * self._h9 + self._h10;
+        let _t6 = _L * self._h3;
+        let _t7 = self.system._k3 * (self.system.g * -_L);
+        let _t8 = self._h3 * (_t4 + x * _t7);
+        let _t9 = _L * self.system._k4;
+        let _t10 = (_t5 + (_t5 + _t0 * self.system._k4) + y * _t9) * self._h0;
+        let _t11 = _t2 * self._h7;
+        xi[0] = _L * self.h - self._h3 * (_t0 * _t3 - x * _t4 + y * _t5);
+        xi[1] = _t4 * _t6 + _t1 * _t2 * self._h4 + self._h1;
+        xi[2] = _t2 * self._h2 - _t5 * _t6
+            + (x * (_t2 * S::ratio(12.0, 1.0))
+                - (-(_t0 * _L) - x * (_t1 * S::ratio(3.0, 1.0))) * self.system._k3)
+                * self._h5;
+        hessian[(0, 0)] = self.h
+            - (y * _t3 - x * (self.system._k3 * (self.system.g * -x))) * self._h3
+            + y * _t2 * self._h6;
+        hessian[(0, 1)] = _t8;
+        hessian[(0, 2)] = _t10;
+        hessian[(1, 0)] = _t8;
+        hessian[(1, 1)] = _t7 * _t6;
+        hessian[(1, 2)] = _t11;
+        hessian[(2, 0)] = _t10;
+        hessian[(2, 1)] = _t11;
+        hessian[(2, 2)] = (x * self.system._k5
+            - self.system._k3 * (-(_L * _L) - x * self.system._k6)) * self._h5
+            - _t9 * _t6 + self._h8;
     }
 }
 
@@ -1095,34 +1116,23 @@ pub struct PendulumCayleyGenerating4<'a, S: ::lie_runtime::Scalar> {
     _h1: S,
     /// `h/2`
     _h2: S,
-    /// `g*h^3/12`
-    _h3: S,
-    /// `h^3`
-    _h4: S,
-    /// `6*h`
-    _h5: S,
     /// `g^2*h^3/24`
-    _h6: S,
+    _h3: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> PendulumCayleyGenerating4<'a, S> {
     /// The equation of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a PendulumSystem<S>, h: S) -> Self {
-        let _t0 = h * h;
-        let _t1 = h * _t0;
-        let _t2 = system._parameters.g * h;
+        let _t0 = system._parameters.g * h;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: S::ratio(1.0, 48.0) * _t1,
-            _h1: S::ratio(-1.0, 2.0) * _t2,
+            _h0: h * h * h * S::ratio(1.0, 48.0),
+            _h1: S::ratio(-1.0, 2.0) * _t0,
             _h2: h * S::ratio(1.0, 2.0),
-            _h3: S::ratio(1.0, 12.0) * _t2 * _t0,
-            _h4: _t1,
-            _h5: h * S::ratio(6.0, 1.0),
-            _h6: h * S::ratio(1.0, 24.0) * _t2 * _t2,
+            _h3: h * S::ratio(1.0, 24.0) * _t0 * _t0,
         }
     }
 }
@@ -1154,7 +1164,7 @@ for PendulumCayleyGenerating4<'_, S> {
         let [[_L, x, y]] = self.base.data.0;
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = _u_L * _u_L;
-        let _t1 = self.system._k4 * _t0 * self._h0 + self._h1;
+        let _t1 = self.system._k7 * _t0 * self._h0 + self._h1;
         let _t2 = self.system.g * _u_y * self.system._k2 * self._h0;
         let _t3 = _u_L * self._h2
             + (_u_L * (self.system._k2 * _u_x - _t0 * S::ratio(3.0, 1.0))
@@ -1167,7 +1177,7 @@ for PendulumCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 28 additions, 41 multiplications.
+    /// 30 additions, 41 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1178,31 +1188,31 @@ for PendulumCayleyGenerating4<'_, S> {
         let [[_L, x, y]] = self.base.data.0;
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = _u_L * _u_L;
-        let _t1 = self.system._k4 * _t0 * self._h0 + self._h1;
+        let _t1 = self.system._k7 * _t0 * self._h0 + self._h1;
         let _t2 = self.system.g * _u_y * self.system._k2 * self._h0;
-        let _t3 = _u_L * S::ratio(3.0, 1.0);
+        let _t3 = _u_L * S::ratio(2.0, 1.0);
         let _t4 = _u_L * self._h2
-            + (_u_L * (self.system._k2 * _u_x - _u_L * _t3) * S::ratio(-2.0, 1.0)
-                + _u_L * S::ratio(2.0, 1.0) * _t0) * self._h0;
+            + (_u_L * (self.system._k2 * _u_x - _t0 * S::ratio(3.0, 1.0))
+                * S::ratio(-2.0, 1.0) + _t3 * _t0) * self._h0;
         let _t5 = _t4 * _u_L;
         let _t6 = _t1 * _u_x + _t2 * _u_y;
         let _t7 = _u_x - _t4 * _u_y;
         let _t8 = _u_y + _t4 * _u_x;
-        let _t9 = _u_L * self._h3;
+        let _t9 = (_u_x * self.system._k8 + _u_L * S::ratio(6.0, 1.0) * (_u_L + _t3)
+            + S::ratio(6.0, 1.0) * _t0) * self._h0 + self._h2;
         let _t10 = _t6 + S::ratio(2.0, 1.0) * _t5;
-        let _t11 = self._h4 * (self.system.g * _u_x - (_u_L + _u_L) * _t3) - self._h5;
-        let _t12 = _t11 * S::ratio(1.0, 12.0);
+        let _t11 = _u_L * self.system._k8 * self._h0;
         residual[0] = _u_L - _L + _t1 * _u_y - _t2 * _u_x + _t4 * (_t6 + _t5);
         residual[1] = _t7 - x;
         residual[2] = _t8 - y;
-        matrix[(0, 0)] = S::one() + _t4 * _t4 - _t8 * _t9 - _t10 * _t12;
-        matrix[(0, 1)] = _t4 * _t1 - _t2 - _t10 * _t9;
-        matrix[(0, 2)] = _t1 + _t4 * _t2 - _t7 * self._h6;
-        matrix[(1, 0)] = _u_y * _t12;
-        matrix[(1, 1)] = S::one() + _u_y * _t9;
+        matrix[(0, 0)] = S::one() + _t4 * _t4 + _t9 * _t10 + _t11 * _t8;
+        matrix[(0, 1)] = _t4 * _t1 - _t2 + _t11 * _t10;
+        matrix[(0, 2)] = _t1 + _t4 * _t2 - _t7 * self._h3;
+        matrix[(1, 0)] = -(_t9 * _u_y);
+        matrix[(1, 1)] = S::one() - _t11 * _u_y;
         matrix[(1, 2)] = -_t4;
-        matrix[(2, 0)] = _u_x * _t11 * S::ratio(-1.0, 12.0);
-        matrix[(2, 1)] = _t4 - _u_x * _t9;
+        matrix[(2, 0)] = _t9 * _u_x;
+        matrix[(2, 1)] = _t4 + _t11 * _u_x;
         matrix[(2, 2)] = S::one();
     }
 
@@ -1215,11 +1225,11 @@ for PendulumCayleyGenerating4<'_, S> {
         let [[_u_L, _u_x, _u_y]] = unknown.data.0;
         let _t0 = _u_L * _u_L;
         let _t1 = (_u_L * self._h2
-            + (_u_L * S::ratio(6.0, 1.0) * _t0 - _u_L * _u_x * self.system._k5
+            + (_u_L * S::ratio(6.0, 1.0) * _t0 - _u_L * _u_x * self.system._k9
                 + _u_L * S::ratio(2.0, 1.0) * _t0) * self._h0) * S::ratio(2.0, 1.0);
         mu[0] = _L
             - S::ratio(2.0, 1.0)
-                * ((self.system._k4 * _t0 * self._h0 + self._h1) * _u_y
+                * ((self.system._k7 * _t0 * self._h0 + self._h1) * _u_y
                     - self.system.g * _u_y * self.system._k2 * self._h0 * _u_x);
         mu[1] = x + _u_y * _t1;
         mu[2] = y - _u_x * _t1;

@@ -69,24 +69,28 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _t6 = _t4 - _t5;
         let _t7 = _t3 - _t5;
         let _t8 = _t3 - _t4;
-        let _t9 = _t4 * S::ratio(4.0, 1.0);
-        let _t10 = _t3 * S::ratio(4.0, 1.0);
-        let _t11 = _t5 * S::ratio(4.0, 1.0);
-        let _t12 = _t0 * _t5;
-        let _t13 = _t0 * _t4;
-        let _t14 = _t1 * _t5;
-        let _t15 = _t2 * _t4;
-        let _t16 = _t2 * _t3;
-        let _t17 = _t1 * _t3;
-        let _t18 = _t1 * S::ratio(8.0, 1.0);
-        let _t19 = _t2 * S::ratio(8.0, 1.0);
-        let _t20 = _t1 * S::ratio(6.0, 1.0);
-        let _t21 = _t2 * S::ratio(6.0, 1.0);
-        let _t22 = _t0 * _t12;
-        let _t23 = _t0 * _t13;
-        let _t24 = _t8 * (_t5 * _t8);
-        let _t25 = _t7 * (_t4 * _t7);
-        let _t26 = _t6 * (_t3 * _t6);
+        let _t9 = _t1 * _t5;
+        let _t10 = _t8 * _t9;
+        let _t11 = _t2 * _t4;
+        let _t12 = _t7 * _t11;
+        let _t13 = _t0 * S::ratio(2.0, 1.0);
+        let _t14 = _t2 * _t3;
+        let _t15 = _t1 * _t3;
+        let _t16 = _t6 * S::ratio(2.0, 1.0);
+        let _t17 = _t4 * S::ratio(8.0, 1.0);
+        let _t18 = _t4 * S::ratio(4.0, 1.0);
+        let _t19 = _t3 * S::ratio(4.0, 1.0);
+        let _t20 = _t5 * S::ratio(8.0, 1.0);
+        let _t21 = _t5 * S::ratio(4.0, 1.0);
+        let _t22 = _t0 * S::ratio(8.0, 1.0);
+        let _t23 = _t1 * S::ratio(8.0, 1.0);
+        let _t24 = _t2 * S::ratio(8.0, 1.0);
+        let _t25 = _t1 * S::ratio(24.0, 1.0);
+        let _t26 = _t2 * S::ratio(24.0, 1.0);
+        let _t27 = _t0 * S::ratio(24.0, 1.0);
+        let _t28 = _t0 * _t0;
+        let _t29 = _t0 * S::ratio(3.0, 1.0);
+        let _t30 = S::ratio(24.0, 1.0) * _t28;
         let _c0 = _t0;
         let _c1 = _t1;
         let _c2 = _t2;
@@ -107,90 +111,51 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _c17 = -_t0;
         let _c18 = _t8;
         let _c19 = _t6;
-        let _c20 = _t4 * S::ratio(8.0, 1.0);
-        let _c21 = _t3 * S::ratio(8.0, 1.0);
-        let _c22 = _t0 * S::ratio(4.0, 1.0);
-        let _c23 = _t1 * S::ratio(4.0, 1.0);
-        let _c24 = _t10 - _t9;
-        let _c25 = _t5 * S::ratio(8.0, 1.0);
-        let _c26 = _t2 * S::ratio(4.0, 1.0);
-        let _c27 = _t10 - _t11;
-        let _c28 = _t9 - _t11;
-        let _c29 = _t5 * S::ratio(2.0, 1.0);
-        let _c30 = _t4 * S::ratio(2.0, 1.0);
-        let _c31 = _t5 * S::ratio(3.0, 1.0);
-        let _c32 = _t0 * _t3;
-        let _c33 = _t4 * S::ratio(3.0, 1.0);
-        let _c34 = _t10;
-        let _c35 = S::ratio(8.0, 1.0) * _t12;
-        let _c36 = S::ratio(8.0, 1.0) * _t13;
-        let _c37 = _t14;
-        let _c38 = _t15;
-        let _c39 = S::ratio(2.0, 1.0) * _t12;
-        let _c40 = _t16;
-        let _c41 = _t17;
+        let _c20 = S::ratio(-2.0, 1.0) * _t10;
+        let _c21 = S::ratio(-2.0, 1.0) * _t12;
+        let _c22 = _t5 * _t8 * _t13;
+        let _c23 = _t4 * _t7 * _t13;
+        let _c24 = _t6 * S::ratio(-2.0, 1.0) * _t14;
+        let _c25 = _t15 * _t16;
+        let _c26 = _t17;
+        let _c27 = _t3 * S::ratio(8.0, 1.0);
+        let _c28 = _t0 * S::ratio(4.0, 1.0);
+        let _c29 = _t1 * S::ratio(4.0, 1.0);
+        let _c30 = _t19 - _t18;
+        let _c31 = _t20;
+        let _c32 = _t2 * S::ratio(4.0, 1.0);
+        let _c33 = _t19 - _t21;
+        let _c34 = _t18 - _t21;
+        let _c35 = _t19;
+        let _c36 = _t18;
+        let _c37 = _t21;
+        let _c38 = S::ratio(3.0, 1.0) * _t9;
+        let _c39 = S::ratio(3.0, 1.0) * _t11;
+        let _c40 = _t9 * _t22;
+        let _c41 = _t11 * _t22;
         let _c42 = _t1 * S::ratio(2.0, 1.0);
-        let _c43 = S::ratio(2.0, 1.0) * _t13;
-        let _c44 = _t2 * S::ratio(2.0, 1.0);
-        let _c45 = S::ratio(6.0, 1.0) * _t12;
-        let _c46 = _t11;
-        let _c47 = S::ratio(6.0, 1.0) * _t13;
-        let _c48 = _t9;
-        let _c49 = _t3 * S::ratio(2.0, 1.0);
-        let _c50 = _t3 * S::ratio(3.0, 1.0);
-        let _c51 = _t13;
-        let _c52 = _t1 * _t4;
-        let _c53 = _t12;
-        let _c54 = S::ratio(8.0, 1.0) * _t17;
-        let _c55 = S::ratio(2.0, 1.0) * _t14;
-        let _c56 = _t0 * S::ratio(2.0, 1.0);
-        let _c57 = S::ratio(2.0, 1.0) * _t17;
-        let _c58 = S::ratio(6.0, 1.0) * _t14;
-        let _c59 = S::ratio(6.0, 1.0) * _t17;
-        let _c60 = _t2 * _t5;
-        let _c61 = S::ratio(8.0, 1.0) * _t16;
-        let _c62 = S::ratio(2.0, 1.0) * _t15;
-        let _c63 = S::ratio(2.0, 1.0) * _t16;
-        let _c64 = S::ratio(6.0, 1.0) * _t15;
-        let _c65 = S::ratio(6.0, 1.0) * _t16;
-        let _c66 = S::ratio(3.0, 1.0) * _t14;
-        let _c67 = S::ratio(3.0, 1.0) * _t15;
-        let _c68 = _t12 * _t18;
-        let _c69 = _t13 * _t19;
-        let _c70 = _t1 * _t14 + _t2 * _t15;
-        let _c71 = _t1 * _t12;
-        let _c72 = _t2 * _t13;
-        let _c73 = _t14 * _t20 + _t15 * _t21;
-        let _c74 = _t12 * _t20;
-        let _c75 = _t13 * _t21;
-        let _c76 = S::ratio(8.0, 1.0) * _t22 + _t16 * _t19;
-        let _c77 = _t17 * _t19;
-        let _c78 = S::ratio(3.0, 1.0) * _t16;
-        let _c79 = S::ratio(3.0, 1.0) * _t12;
-        let _c80 = _t22 + _t2 * _t16;
-        let _c81 = _t2 * _t17;
-        let _c82 = S::ratio(6.0, 1.0) * _t22 + _t16 * _t21;
-        let _c83 = _t17 * _t21;
-        let _c84 = S::ratio(8.0, 1.0) * _t23 + _t17 * _t18;
-        let _c85 = S::ratio(3.0, 1.0) * _t17;
-        let _c86 = S::ratio(3.0, 1.0) * _t13;
-        let _c87 = _t23 + _t1 * _t17;
-        let _c88 = S::ratio(6.0, 1.0) * _t23 + _t17 * _t20;
-        let _c89 = S::ratio(8.0, 1.0) * _t14;
-        let _c90 = S::ratio(8.0, 1.0) * _t15;
-        let _c91 = _t14 * _t18 + _t15 * _t19;
-        let _c92 = _t24;
-        let _c93 = _t25;
-        let _c94 = S::ratio(2.0, 1.0) * _t24;
-        let _c95 = S::ratio(2.0, 1.0) * _t25;
-        let _c96 = _t8 * _t12;
-        let _c97 = _t7 * _t13;
-        let _c98 = S::ratio(2.0, 1.0) * _t26;
-        let _c99 = _t26;
-        let _c100 = _t6 * _t16;
-        let _c101 = _t6 * _t17;
-        let _c102 = _t8 * _t14;
-        let _c103 = _t7 * _t15;
+        let _c43 = _t9 * _t23 + _t11 * _t24;
+        let _c44 = _t9 * _t25 + _t11 * _t26;
+        let _c45 = _t9 * _t27;
+        let _c46 = _t11 * _t27;
+        let _c47 = _t2 * S::ratio(2.0, 1.0);
+        let _c48 = _t20 * _t28 + _t14 * _t24;
+        let _c49 = _t14 * _t23;
+        let _c50 = S::ratio(3.0, 1.0) * _t14;
+        let _c51 = _t5 * _t29;
+        let _c52 = _t5 * _t30 + _t14 * _t26;
+        let _c53 = _t14 * _t25;
+        let _c54 = _t13;
+        let _c55 = _t17 * _t28 + _t15 * _t23;
+        let _c56 = S::ratio(3.0, 1.0) * _t15;
+        let _c57 = _t4 * _t29;
+        let _c58 = _t4 * _t30 + _t15 * _t25;
+        let _c59 = _t3 * S::ratio(2.0, 1.0);
+        let _c60 = _t4 * S::ratio(2.0, 1.0);
+        let _c61 = _t5 * S::ratio(2.0, 1.0);
+        let _c62 = S::ratio(2.0, 1.0) * _t10;
+        let _c63 = S::ratio(2.0, 1.0) * _t12;
+        let _c64 = _t14 * _t16;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "mgl", "mgl*c1"),
@@ -213,90 +178,51 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
                 (_c17, "mgl", "-mgl*c1"),
                 (_c18, "I1", "1/I1 - 1/I2"),
                 (_c19, "I2", "1/I2 - 1/I3"),
-                (_c20, "I2", "8/I2"),
-                (_c21, "I1", "8/I1"),
-                (_c22, "mgl", "4*mgl*c1"),
-                (_c23, "mgl", "4*mgl*c2"),
-                (_c24, "I1", "4/I1 - 4/I2"),
-                (_c25, "I3", "8/I3"),
-                (_c26, "mgl", "4*mgl*c3"),
-                (_c27, "I1", "4/I1 - 4/I3"),
-                (_c28, "I2", "4/I2 - 4/I3"),
-                (_c29, "I3", "2/I3"),
-                (_c30, "I2", "2/I2"),
-                (_c31, "I3", "3/I3"),
-                (_c32, "I1", "mgl*c1/I1"),
-                (_c33, "I2", "3/I2"),
-                (_c34, "I1", "4/I1"),
-                (_c35, "I3", "8*mgl*c1/I3"),
-                (_c36, "I2", "8*mgl*c1/I2"),
-                (_c37, "I3", "mgl*c2/I3"),
-                (_c38, "I2", "mgl*c3/I2"),
-                (_c39, "I3", "2*mgl*c1/I3"),
-                (_c40, "I1", "mgl*c3/I1"),
-                (_c41, "I1", "mgl*c2/I1"),
+                (_c20, "I1", "-2*mgl*c2*(1/I1 - 1/I2)/I3"),
+                (_c21, "I1", "-2*mgl*c3*(1/I1 - 1/I3)/I2"),
+                (_c22, "I1", "2*mgl*c1*(1/I1 - 1/I2)/I3"),
+                (_c23, "I1", "2*mgl*c1*(1/I1 - 1/I3)/I2"),
+                (_c24, "I1", "-2*mgl*c3*(1/I2 - 1/I3)/I1"),
+                (_c25, "I1", "2*mgl*c2*(1/I2 - 1/I3)/I1"),
+                (_c26, "I2", "8/I2"),
+                (_c27, "I1", "8/I1"),
+                (_c28, "mgl", "4*mgl*c1"),
+                (_c29, "mgl", "4*mgl*c2"),
+                (_c30, "I1", "4/I1 - 4/I2"),
+                (_c31, "I3", "8/I3"),
+                (_c32, "mgl", "4*mgl*c3"),
+                (_c33, "I1", "4/I1 - 4/I3"),
+                (_c34, "I2", "4/I2 - 4/I3"),
+                (_c35, "I1", "4/I1"),
+                (_c36, "I2", "4/I2"),
+                (_c37, "I3", "4/I3"),
+                (_c38, "I3", "3*mgl*c2/I3"),
+                (_c39, "I2", "3*mgl*c3/I2"),
+                (_c40, "I3", "8*mgl^2*c1*c2/I3"),
+                (_c41, "I2", "8*mgl^2*c1*c3/I2"),
                 (_c42, "mgl", "2*mgl*c2"),
-                (_c43, "I2", "2*mgl*c1/I2"),
-                (_c44, "mgl", "2*mgl*c3"),
-                (_c45, "I3", "6*mgl*c1/I3"),
-                (_c46, "I3", "4/I3"),
-                (_c47, "I2", "6*mgl*c1/I2"),
-                (_c48, "I2", "4/I2"),
-                (_c49, "I1", "2/I1"),
-                (_c50, "I1", "3/I1"),
-                (_c51, "I2", "mgl*c1/I2"),
-                (_c52, "I2", "mgl*c2/I2"),
-                (_c53, "I3", "mgl*c1/I3"),
-                (_c54, "I1", "8*mgl*c2/I1"),
-                (_c55, "I3", "2*mgl*c2/I3"),
-                (_c56, "mgl", "2*mgl*c1"),
-                (_c57, "I1", "2*mgl*c2/I1"),
-                (_c58, "I3", "6*mgl*c2/I3"),
-                (_c59, "I1", "6*mgl*c2/I1"),
-                (_c60, "I3", "mgl*c3/I3"),
-                (_c61, "I1", "8*mgl*c3/I1"),
-                (_c62, "I2", "2*mgl*c3/I2"),
-                (_c63, "I1", "2*mgl*c3/I1"),
-                (_c64, "I2", "6*mgl*c3/I2"),
-                (_c65, "I1", "6*mgl*c3/I1"),
-                (_c66, "I3", "3*mgl*c2/I3"),
-                (_c67, "I2", "3*mgl*c3/I2"),
-                (_c68, "I3", "8*mgl^2*c1*c2/I3"),
-                (_c69, "I2", "8*mgl^2*c1*c3/I2"),
-                (_c70, "I2", "mgl^2*c2^2/I3 + mgl^2*c3^2/I2"),
-                (_c71, "I3", "mgl^2*c1*c2/I3"),
-                (_c72, "I2", "mgl^2*c1*c3/I2"),
-                (_c73, "I2", "6*mgl^2*c2^2/I3 + 6*mgl^2*c3^2/I2"),
-                (_c74, "I3", "6*mgl^2*c1*c2/I3"),
-                (_c75, "I2", "6*mgl^2*c1*c3/I2"),
-                (_c76, "I1", "8*mgl^2*c1^2/I3 + 8*mgl^2*c3^2/I1"),
-                (_c77, "I1", "8*mgl^2*c2*c3/I1"),
-                (_c78, "I1", "3*mgl*c3/I1"),
-                (_c79, "I3", "3*mgl*c1/I3"),
-                (_c80, "I1", "mgl^2*c1^2/I3 + mgl^2*c3^2/I1"),
-                (_c81, "I1", "mgl^2*c2*c3/I1"),
-                (_c82, "I1", "6*mgl^2*c1^2/I3 + 6*mgl^2*c3^2/I1"),
-                (_c83, "I1", "6*mgl^2*c2*c3/I1"),
-                (_c84, "I1", "8*mgl^2*c1^2/I2 + 8*mgl^2*c2^2/I1"),
-                (_c85, "I1", "3*mgl*c2/I1"),
-                (_c86, "I2", "3*mgl*c1/I2"),
-                (_c87, "I1", "mgl^2*c1^2/I2 + mgl^2*c2^2/I1"),
-                (_c88, "I1", "6*mgl^2*c1^2/I2 + 6*mgl^2*c2^2/I1"),
-                (_c89, "I3", "8*mgl*c2/I3"),
-                (_c90, "I2", "8*mgl*c3/I2"),
-                (_c91, "I2", "8*mgl^2*c2^2/I3 + 8*mgl^2*c3^2/I2"),
-                (_c92, "I1", "(1/I1 - 1/I2)^2/I3"),
-                (_c93, "I1", "(1/I1 - 1/I3)^2/I2"),
-                (_c94, "I1", "2*(1/I1 - 1/I2)^2/I3"),
-                (_c95, "I1", "2*(1/I1 - 1/I3)^2/I2"),
-                (_c96, "I1", "mgl*c1*(1/I1 - 1/I2)/I3"),
-                (_c97, "I1", "mgl*c1*(1/I1 - 1/I3)/I2"),
-                (_c98, "I1", "2*(1/I2 - 1/I3)^2/I1"),
-                (_c99, "I1", "(1/I2 - 1/I3)^2/I1"),
-                (_c100, "I1", "mgl*c3*(1/I2 - 1/I3)/I1"),
-                (_c101, "I1", "mgl*c2*(1/I2 - 1/I3)/I1"),
-                (_c102, "I1", "mgl*c2*(1/I1 - 1/I2)/I3"),
-                (_c103, "I1", "mgl*c3*(1/I1 - 1/I3)/I2"),
+                (_c43, "I2", "8*mgl^2*c2^2/I3 + 8*mgl^2*c3^2/I2"),
+                (_c44, "I2", "24*mgl^2*c2^2/I3 + 24*mgl^2*c3^2/I2"),
+                (_c45, "I3", "24*mgl^2*c1*c2/I3"),
+                (_c46, "I2", "24*mgl^2*c1*c3/I2"),
+                (_c47, "mgl", "2*mgl*c3"),
+                (_c48, "I1", "8*mgl^2*c1^2/I3 + 8*mgl^2*c3^2/I1"),
+                (_c49, "I1", "8*mgl^2*c2*c3/I1"),
+                (_c50, "I1", "3*mgl*c3/I1"),
+                (_c51, "I3", "3*mgl*c1/I3"),
+                (_c52, "I1", "24*mgl^2*c1^2/I3 + 24*mgl^2*c3^2/I1"),
+                (_c53, "I1", "24*mgl^2*c2*c3/I1"),
+                (_c54, "mgl", "2*mgl*c1"),
+                (_c55, "I1", "8*mgl^2*c1^2/I2 + 8*mgl^2*c2^2/I1"),
+                (_c56, "I1", "3*mgl*c2/I1"),
+                (_c57, "I2", "3*mgl*c1/I2"),
+                (_c58, "I1", "24*mgl^2*c1^2/I2 + 24*mgl^2*c2^2/I1"),
+                (_c59, "I1", "2/I1"),
+                (_c60, "I2", "2/I2"),
+                (_c61, "I3", "2/I3"),
+                (_c62, "I1", "2*mgl*c2*(1/I1 - 1/I2)/I3"),
+                (_c63, "I1", "2*mgl*c3*(1/I1 - 1/I3)/I2"),
+                (_c64, "I1", "2*mgl*c3*(1/I2 - 1/I3)/I1"),
             ],
         )?;
         ::core::result::Result::Ok(HeavyTopSystem {
@@ -366,45 +292,6 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
             _k62: _c62,
             _k63: _c63,
             _k64: _c64,
-            _k65: _c65,
-            _k66: _c66,
-            _k67: _c67,
-            _k68: _c68,
-            _k69: _c69,
-            _k70: _c70,
-            _k71: _c71,
-            _k72: _c72,
-            _k73: _c73,
-            _k74: _c74,
-            _k75: _c75,
-            _k76: _c76,
-            _k77: _c77,
-            _k78: _c78,
-            _k79: _c79,
-            _k80: _c80,
-            _k81: _c81,
-            _k82: _c82,
-            _k83: _c83,
-            _k84: _c84,
-            _k85: _c85,
-            _k86: _c86,
-            _k87: _c87,
-            _k88: _c88,
-            _k89: _c89,
-            _k90: _c90,
-            _k91: _c91,
-            _k92: _c92,
-            _k93: _c93,
-            _k94: _c94,
-            _k95: _c95,
-            _k96: _c96,
-            _k97: _c97,
-            _k98: _c98,
-            _k99: _c99,
-            _k100: _c100,
-            _k101: _c101,
-            _k102: _c102,
-            _k103: _c103,
         })
     }
 
@@ -467,174 +354,96 @@ pub struct HeavyTopSystem<S = f64> {
     _k18: S,
     /// `1/I2 - 1/I3`
     _k19: S,
-    /// `8/I2`
+    /// `-2*mgl*c2*(1/I1 - 1/I2)/I3`
     _k20: S,
-    /// `8/I1`
+    /// `-2*mgl*c3*(1/I1 - 1/I3)/I2`
     _k21: S,
-    /// `4*mgl*c1`
+    /// `2*mgl*c1*(1/I1 - 1/I2)/I3`
     _k22: S,
-    /// `4*mgl*c2`
+    /// `2*mgl*c1*(1/I1 - 1/I3)/I2`
     _k23: S,
-    /// `4/I1 - 4/I2`
+    /// `-2*mgl*c3*(1/I2 - 1/I3)/I1`
     _k24: S,
-    /// `8/I3`
+    /// `2*mgl*c2*(1/I2 - 1/I3)/I1`
     _k25: S,
-    /// `4*mgl*c3`
+    /// `8/I2`
     _k26: S,
-    /// `4/I1 - 4/I3`
+    /// `8/I1`
     _k27: S,
-    /// `4/I2 - 4/I3`
+    /// `4*mgl*c1`
     _k28: S,
-    /// `2/I3`
+    /// `4*mgl*c2`
     _k29: S,
-    /// `2/I2`
+    /// `4/I1 - 4/I2`
     _k30: S,
-    /// `3/I3`
+    /// `8/I3`
     _k31: S,
-    /// `mgl*c1/I1`
+    /// `4*mgl*c3`
     _k32: S,
-    /// `3/I2`
+    /// `4/I1 - 4/I3`
     _k33: S,
-    /// `4/I1`
+    /// `4/I2 - 4/I3`
     _k34: S,
-    /// `8*mgl*c1/I3`
+    /// `4/I1`
     _k35: S,
-    /// `8*mgl*c1/I2`
+    /// `4/I2`
     _k36: S,
-    /// `mgl*c2/I3`
+    /// `4/I3`
     _k37: S,
-    /// `mgl*c3/I2`
+    /// `3*mgl*c2/I3`
     _k38: S,
-    /// `2*mgl*c1/I3`
+    /// `3*mgl*c3/I2`
     _k39: S,
-    /// `mgl*c3/I1`
+    /// `8*mgl^2*c1*c2/I3`
     _k40: S,
-    /// `mgl*c2/I1`
+    /// `8*mgl^2*c1*c3/I2`
     _k41: S,
     /// `2*mgl*c2`
     _k42: S,
-    /// `2*mgl*c1/I2`
-    _k43: S,
-    /// `2*mgl*c3`
-    _k44: S,
-    /// `6*mgl*c1/I3`
-    _k45: S,
-    /// `4/I3`
-    _k46: S,
-    /// `6*mgl*c1/I2`
-    _k47: S,
-    /// `4/I2`
-    _k48: S,
-    /// `2/I1`
-    _k49: S,
-    /// `3/I1`
-    _k50: S,
-    /// `mgl*c1/I2`
-    _k51: S,
-    /// `mgl*c2/I2`
-    _k52: S,
-    /// `mgl*c1/I3`
-    _k53: S,
-    /// `8*mgl*c2/I1`
-    _k54: S,
-    /// `2*mgl*c2/I3`
-    _k55: S,
-    /// `2*mgl*c1`
-    _k56: S,
-    /// `2*mgl*c2/I1`
-    _k57: S,
-    /// `6*mgl*c2/I3`
-    _k58: S,
-    /// `6*mgl*c2/I1`
-    _k59: S,
-    /// `mgl*c3/I3`
-    _k60: S,
-    /// `8*mgl*c3/I1`
-    _k61: S,
-    /// `2*mgl*c3/I2`
-    _k62: S,
-    /// `2*mgl*c3/I1`
-    _k63: S,
-    /// `6*mgl*c3/I2`
-    _k64: S,
-    /// `6*mgl*c3/I1`
-    _k65: S,
-    /// `3*mgl*c2/I3`
-    _k66: S,
-    /// `3*mgl*c3/I2`
-    _k67: S,
-    /// `8*mgl^2*c1*c2/I3`
-    _k68: S,
-    /// `8*mgl^2*c1*c3/I2`
-    _k69: S,
-    /// `mgl^2*c2^2/I3 + mgl^2*c3^2/I2`
-    _k70: S,
-    /// `mgl^2*c1*c2/I3`
-    _k71: S,
-    /// `mgl^2*c1*c3/I2`
-    _k72: S,
-    /// `6*mgl^2*c2^2/I3 + 6*mgl^2*c3^2/I2`
-    _k73: S,
-    /// `6*mgl^2*c1*c2/I3`
-    _k74: S,
-    /// `6*mgl^2*c1*c3/I2`
-    _k75: S,
-    /// `8*mgl^2*c1^2/I3 + 8*mgl^2*c3^2/I1`
-    _k76: S,
-    /// `8*mgl^2*c2*c3/I1`
-    _k77: S,
-    /// `3*mgl*c3/I1`
-    _k78: S,
-    /// `3*mgl*c1/I3`
-    _k79: S,
-    /// `mgl^2*c1^2/I3 + mgl^2*c3^2/I1`
-    _k80: S,
-    /// `mgl^2*c2*c3/I1`
-    _k81: S,
-    /// `6*mgl^2*c1^2/I3 + 6*mgl^2*c3^2/I1`
-    _k82: S,
-    /// `6*mgl^2*c2*c3/I1`
-    _k83: S,
-    /// `8*mgl^2*c1^2/I2 + 8*mgl^2*c2^2/I1`
-    _k84: S,
-    /// `3*mgl*c2/I1`
-    _k85: S,
-    /// `3*mgl*c1/I2`
-    _k86: S,
-    /// `mgl^2*c1^2/I2 + mgl^2*c2^2/I1`
-    _k87: S,
-    /// `6*mgl^2*c1^2/I2 + 6*mgl^2*c2^2/I1`
-    _k88: S,
-    /// `8*mgl*c2/I3`
-    _k89: S,
-    /// `8*mgl*c3/I2`
-    _k90: S,
     /// `8*mgl^2*c2^2/I3 + 8*mgl^2*c3^2/I2`
-    _k91: S,
-    /// `(1/I1 - 1/I2)^2/I3`
-    _k92: S,
-    /// `(1/I1 - 1/I3)^2/I2`
-    _k93: S,
-    /// `2*(1/I1 - 1/I2)^2/I3`
-    _k94: S,
-    /// `2*(1/I1 - 1/I3)^2/I2`
-    _k95: S,
-    /// `mgl*c1*(1/I1 - 1/I2)/I3`
-    _k96: S,
-    /// `mgl*c1*(1/I1 - 1/I3)/I2`
-    _k97: S,
-    /// `2*(1/I2 - 1/I3)^2/I1`
-    _k98: S,
-    /// `(1/I2 - 1/I3)^2/I1`
-    _k99: S,
-    /// `mgl*c3*(1/I2 - 1/I3)/I1`
-    _k100: S,
-    /// `mgl*c2*(1/I2 - 1/I3)/I1`
-    _k101: S,
-    /// `mgl*c2*(1/I1 - 1/I2)/I3`
-    _k102: S,
-    /// `mgl*c3*(1/I1 - 1/I3)/I2`
-    _k103: S,
+    _k43: S,
+    /// `24*mgl^2*c2^2/I3 + 24*mgl^2*c3^2/I2`
+    _k44: S,
+    /// `24*mgl^2*c1*c2/I3`
+    _k45: S,
+    /// `24*mgl^2*c1*c3/I2`
+    _k46: S,
+    /// `2*mgl*c3`
+    _k47: S,
+    /// `8*mgl^2*c1^2/I3 + 8*mgl^2*c3^2/I1`
+    _k48: S,
+    /// `8*mgl^2*c2*c3/I1`
+    _k49: S,
+    /// `3*mgl*c3/I1`
+    _k50: S,
+    /// `3*mgl*c1/I3`
+    _k51: S,
+    /// `24*mgl^2*c1^2/I3 + 24*mgl^2*c3^2/I1`
+    _k52: S,
+    /// `24*mgl^2*c2*c3/I1`
+    _k53: S,
+    /// `2*mgl*c1`
+    _k54: S,
+    /// `8*mgl^2*c1^2/I2 + 8*mgl^2*c2^2/I1`
+    _k55: S,
+    /// `3*mgl*c2/I1`
+    _k56: S,
+    /// `3*mgl*c1/I2`
+    _k57: S,
+    /// `24*mgl^2*c1^2/I2 + 24*mgl^2*c2^2/I1`
+    _k58: S,
+    /// `2/I1`
+    _k59: S,
+    /// `2/I2`
+    _k60: S,
+    /// `2/I3`
+    _k61: S,
+    /// `2*mgl*c2*(1/I1 - 1/I2)/I3`
+    _k62: S,
+    /// `2*mgl*c3*(1/I1 - 1/I3)/I2`
+    _k63: S,
+    /// `2*mgl*c3*(1/I2 - 1/I3)/I1`
+    _k64: S,
 }
 
 impl<S> HeavyTopSystem<S> {
@@ -1105,45 +914,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
             _k62: _constant(self._k62),
             _k63: _constant(self._k63),
             _k64: _constant(self._k64),
-            _k65: _constant(self._k65),
-            _k66: _constant(self._k66),
-            _k67: _constant(self._k67),
-            _k68: _constant(self._k68),
-            _k69: _constant(self._k69),
-            _k70: _constant(self._k70),
-            _k71: _constant(self._k71),
-            _k72: _constant(self._k72),
-            _k73: _constant(self._k73),
-            _k74: _constant(self._k74),
-            _k75: _constant(self._k75),
-            _k76: _constant(self._k76),
-            _k77: _constant(self._k77),
-            _k78: _constant(self._k78),
-            _k79: _constant(self._k79),
-            _k80: _constant(self._k80),
-            _k81: _constant(self._k81),
-            _k82: _constant(self._k82),
-            _k83: _constant(self._k83),
-            _k84: _constant(self._k84),
-            _k85: _constant(self._k85),
-            _k86: _constant(self._k86),
-            _k87: _constant(self._k87),
-            _k88: _constant(self._k88),
-            _k89: _constant(self._k89),
-            _k90: _constant(self._k90),
-            _k91: _constant(self._k91),
-            _k92: _constant(self._k92),
-            _k93: _constant(self._k93),
-            _k94: _constant(self._k94),
-            _k95: _constant(self._k95),
-            _k96: _constant(self._k96),
-            _k97: _constant(self._k97),
-            _k98: _constant(self._k98),
-            _k99: _constant(self._k99),
-            _k100: _constant(self._k100),
-            _k101: _constant(self._k101),
-            _k102: _constant(self._k102),
-            _k103: _constant(self._k103),
         }
     }
 }
@@ -1248,42 +1018,18 @@ pub struct HeavyTopGenerating4<'a, S: ::lie_runtime::Scalar> {
     _h5: S,
     /// `mgl*c3*h`
     _h6: S,
-    /// `(1/I1 - 1/I2)^2*h^3/(12*I3)`
-    _h7: S,
-    /// `(1/I1 - 1/I3)^2*h^3/(12*I2)`
-    _h8: S,
-    /// `(1/I1 - 1/I2)*h^3/24`
-    _h9: S,
-    /// `(1/I1 - 1/I3)*h^3/24`
-    _h10: S,
-    /// `-mgl*c2*(1/I1 - 1/I2)*h^3/(12*I3)`
-    _h11: S,
-    /// `-mgl*c3*(1/I1 - 1/I3)*h^3/(12*I2)`
-    _h12: S,
-    /// `mgl*c1*(1/I1 - 1/I2)*h^3/(12*I3)`
-    _h13: S,
-    /// `mgl*c1*(1/I1 - 1/I3)*h^3/(12*I2)`
-    _h14: S,
-    /// `(1/I2 - 1/I3)^2*h^3/(12*I1)`
-    _h15: S,
-    /// `(1/I2 - 1/I3)*h^3/24`
-    _h16: S,
-    /// `-mgl*c3*(1/I2 - 1/I3)*h^3/(12*I1)`
-    _h17: S,
-    /// `mgl*c2*(1/I2 - 1/I3)*h^3/(12*I1)`
-    _h18: S,
     /// `h^3*(mgl^2*c2^2/I3 + mgl^2*c3^2/I2)/12`
-    _h19: S,
+    _h7: S,
     /// `-mgl^2*c1*c2*h^3/(12*I3)`
-    _h20: S,
+    _h8: S,
     /// `-mgl^2*c1*c3*h^3/(12*I2)`
-    _h21: S,
+    _h9: S,
     /// `h^3*(mgl^2*c1^2/I3 + mgl^2*c3^2/I1)/12`
-    _h22: S,
+    _h10: S,
     /// `-mgl^2*c2*c3*h^3/(12*I1)`
-    _h23: S,
+    _h11: S,
     /// `h^3*(mgl^2*c1^2/I2 + mgl^2*c2^2/I1)/12`
-    _h24: S,
+    _h12: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> HeavyTopGenerating4<'a, S> {
@@ -1292,58 +1038,35 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopGenerating4<'a, S> {
     pub fn new(system: &'a HeavyTopSystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I1;
         let _t1 = h * (h * h);
-        let _t2 = S::ratio(1.0, 24.0) * _t1;
-        let _t3 = S::one() / system._parameters.I2;
-        let _t4 = S::one() / system._parameters.I3;
-        let _t5 = system._parameters.mgl * system._parameters.c1;
-        let _t6 = system._parameters.mgl * system._parameters.c2;
-        let _t7 = _t0 - _t3;
-        let _t8 = S::ratio(1.0, 12.0) * _t1;
-        let _t9 = _t4 * _t7;
-        let _t10 = _t0 - _t4;
-        let _t11 = _t3 * _t10;
-        let _t12 = S::ratio(-1.0, 12.0) * _t1;
-        let _t13 = system._parameters.c3 * _t12;
-        let _t14 = system._parameters.mgl * _t13;
-        let _t15 = _t8 * _t5;
-        let _t16 = _t3 - _t4;
-        let _t17 = _t0 * _t16;
-        let _t18 = _t8 * _t17;
-        let _t19 = system._parameters.mgl * system._parameters.mgl;
-        let _t20 = system._parameters.c2 * _t19;
-        let _t21 = system._parameters.c2 * _t4;
-        let _t22 = _t19 * (system._parameters.c3 * system._parameters.c3);
-        let _t23 = system._parameters.c1 * _t19;
-        let _t24 = system._parameters.c1 * _t23;
-        let _t25 = _t0 * _t20;
+        let _t2 = S::one() / system._parameters.I2;
+        let _t3 = S::one() / system._parameters.I3;
+        let _t4 = system._parameters.mgl * h;
+        let _t5 = system._parameters.mgl * system._parameters.mgl;
+        let _t6 = system._parameters.c2 * _t5;
+        let _t7 = system._parameters.c2 * _t3;
+        let _t8 = _t5 * (system._parameters.c3 * system._parameters.c3);
+        let _t9 = S::ratio(1.0, 12.0) * _t1;
+        let _t10 = system._parameters.c1 * _t5;
+        let _t11 = S::ratio(-1.0, 12.0) * _t1;
+        let _t12 = system._parameters.c3 * _t11;
+        let _t13 = system._parameters.c1 * _t10;
+        let _t14 = _t0 * _t6;
         Self {
             system,
             h,
-            _h0: _t0 * h,
-            _h1: _t2,
-            _h2: _t3 * h,
-            _h3: _t4 * h,
-            _h4: h * _t5,
-            _h5: h * _t6,
-            _h6: system._parameters.mgl * system._parameters.c3 * h,
-            _h7: _t7 * _t8 * _t9,
-            _h8: _t10 * _t8 * _t11,
-            _h9: _t7 * _t2,
-            _h10: _t10 * _t2,
-            _h11: _t12 * _t6 * _t9,
-            _h12: _t11 * _t14,
-            _h13: _t9 * _t15,
-            _h14: _t11 * _t15,
-            _h15: _t16 * _t18,
-            _h16: _t16 * _t2,
-            _h17: _t17 * _t14,
-            _h18: _t6 * _t18,
-            _h19: (_t20 * _t21 + _t3 * _t22) * _t8,
-            _h20: _t12 * _t23 * _t21,
-            _h21: _t3 * _t23 * _t13,
-            _h22: (_t4 * _t24 + _t0 * _t22) * _t8,
-            _h23: _t13 * _t25,
-            _h24: (_t3 * _t24 + system._parameters.c2 * _t25) * _t8,
+            _h0: h * _t0,
+            _h1: S::ratio(1.0, 24.0) * _t1,
+            _h2: h * _t2,
+            _h3: h * _t3,
+            _h4: system._parameters.c1 * _t4,
+            _h5: system._parameters.c2 * _t4,
+            _h6: system._parameters.c3 * _t4,
+            _h7: (_t6 * _t7 + _t2 * _t8) * _t9,
+            _h8: _t10 * _t11 * _t7,
+            _h9: _t2 * _t10 * _t12,
+            _h10: (_t3 * _t13 + _t0 * _t8) * _t9,
+            _h11: _t12 * _t14,
+            _h12: (_t2 * _t13 + system._parameters.c2 * _t14) * _t9,
         }
     }
 }
@@ -1382,7 +1105,7 @@ for HeavyTopGenerating4<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 34 additions, 66 multiplications.
+    /// 39 additions, 84 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1391,78 +1114,85 @@ for HeavyTopGenerating4<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[m1, m2, m3, g1, g2, g3]] = p.data.0;
-        let _t0 = m1 * m2;
-        let _t1 = self.system._k8
-            * (g1 * self.system._k1 - g2 * self.system._k0 - self.system._k18 * _t0);
-        let _t2 = _t1 + _t1;
-        let _t3 = self.system._k18 * _t2;
-        let _t4 = m1 * m3;
-        let _t5 = self.system._k7
-            * (g3 * self.system._k0 - g1 * self.system._k2 + self.system._k10 * _t4);
-        let _t6 = _t5 + _t5;
-        let _t7 = self.system._k10 * _t6;
-        let _t8 = m2 * m3;
-        let _t9 = self.system._k6
-            * (g2 * self.system._k2 - g3 * self.system._k1 - self.system._k19 * _t8);
-        let _t10 = _t9 + _t9;
-        let _t11 = self.system._k19 * _t10;
-        let _t12 = m2 * m2;
-        let _t13 = m3 * m3;
-        let _t14 = self._h7 * _t0 - _t2 * self._h9;
-        let _t15 = self._h8 * _t4 + _t6 * self._h10;
-        let _t16 = m2 * self._h11 + m3 * self._h12;
-        let _t17 = m2 * self._h13;
-        let _t18 = m3 * self._h14;
-        let _t19 = m1 * m1;
-        let _t20 = self._h15 * _t8 - _t10 * self._h16;
-        let _t21 = m1 * self._h11;
-        let _t22 = m1 * self._h13 + m3 * self._h17;
-        let _t23 = m3 * self._h18;
-        let _t24 = m1 * self._h12;
-        let _t25 = m2 * self._h17;
-        let _t26 = m1 * self._h14 + m2 * self._h18;
-        xi[0] = m1 * self._h0 + (m3 * _t7 - m2 * _t3) * self._h1;
-        xi[1] = m2 * self._h2 + (-(m1 * _t3) - m3 * _t11) * self._h1;
-        xi[2] = m3 * self._h3 + (m1 * _t7 - m2 * _t11) * self._h1;
-        xi[3] = self._h4 + (self.system._k1 * _t2 - self.system._k2 * _t6) * self._h1;
-        xi[4] = self._h5 + (self.system._k2 * _t10 - self.system._k0 * _t2) * self._h1;
-        xi[5] = self._h6 + (self.system._k0 * _t6 - self.system._k1 * _t10) * self._h1;
-        hessian[(0, 0)] = self._h0 + self._h7 * _t12 + self._h8 * _t13;
-        hessian[(0, 1)] = _t14;
-        hessian[(0, 2)] = _t15;
-        hessian[(0, 3)] = _t16;
-        hessian[(0, 4)] = _t17;
-        hessian[(0, 5)] = _t18;
-        hessian[(1, 0)] = _t14;
-        hessian[(1, 1)] = self._h2 + self._h7 * _t19 + self._h15 * _t13;
-        hessian[(1, 2)] = _t20;
-        hessian[(1, 3)] = _t21;
-        hessian[(1, 4)] = _t22;
-        hessian[(1, 5)] = _t23;
-        hessian[(2, 0)] = _t15;
-        hessian[(2, 1)] = _t20;
-        hessian[(2, 2)] = self._h3 + self._h8 * _t19 + self._h15 * _t12;
-        hessian[(2, 3)] = _t24;
-        hessian[(2, 4)] = _t25;
-        hessian[(2, 5)] = _t26;
-        hessian[(3, 0)] = _t16;
-        hessian[(3, 1)] = _t21;
-        hessian[(3, 2)] = _t24;
-        hessian[(3, 3)] = self._h19;
-        hessian[(3, 4)] = self._h20;
-        hessian[(3, 5)] = self._h21;
-        hessian[(4, 0)] = _t17;
-        hessian[(4, 1)] = _t22;
-        hessian[(4, 2)] = _t25;
-        hessian[(4, 3)] = self._h20;
-        hessian[(4, 4)] = self._h22;
-        hessian[(4, 5)] = self._h23;
-        hessian[(5, 0)] = _t18;
-        hessian[(5, 1)] = _t23;
-        hessian[(5, 2)] = _t26;
-        hessian[(5, 3)] = self._h21;
-        hessian[(5, 4)] = self._h23;
-        hessian[(5, 5)] = self._h24;
+        let _t0 = m2 * self.system._k11;
+        let _t1 = m1 * self.system._k11;
+        let _t2 = self.system._k8
+            * (g1 * self.system._k1 - g2 * self.system._k0 + m2 * _t1);
+        let _t3 = _t2 + _t2;
+        let _t4 = m3 * self.system._k10;
+        let _t5 = m1 * self.system._k10;
+        let _t6 = self.system._k7
+            * (g3 * self.system._k0 - g1 * self.system._k2 + m3 * _t5);
+        let _t7 = _t6 + _t6;
+        let _t8 = m3 * self.system._k9;
+        let _t9 = m2 * self.system._k9;
+        let _t10 = self.system._k6
+            * (g2 * self.system._k2 - g3 * self.system._k1 + m3 * _t9);
+        let _t11 = _t10 + _t10;
+        let _t12 = self.system._k8 * _t0;
+        let _t13 = self.system._k7 * _t4;
+        let _t14 = self.system._k8 * _t1;
+        let _t15 = _t14 + _t14;
+        let _t16 = self._h1 * (self.system._k11 * _t3 + _t0 * _t15);
+        let _t17 = self.system._k7 * _t5;
+        let _t18 = _t17 + _t17;
+        let _t19 = self._h1 * (self.system._k10 * _t7 + _t4 * _t18);
+        let _t20 = self._h1 * (m2 * self.system._k20 + m3 * self.system._k21);
+        let _t21 = self._h1 * (m2 * self.system._k22);
+        let _t22 = self._h1 * (m3 * self.system._k23);
+        let _t23 = self.system._k6 * _t8;
+        let _t24 = self.system._k6 * _t9;
+        let _t25 = _t24 + _t24;
+        let _t26 = self._h1 * (self.system._k9 * _t11 + _t8 * _t25);
+        let _t27 = self._h1 * (m1 * self.system._k20);
+        let _t28 = self._h1 * (m1 * self.system._k22 + m3 * self.system._k24);
+        let _t29 = self._h1 * (m3 * self.system._k25);
+        let _t30 = self._h1 * (m1 * self.system._k21);
+        let _t31 = self._h1 * (m2 * self.system._k24);
+        let _t32 = self._h1 * (m1 * self.system._k23 + m2 * self.system._k25);
+        xi[0] = m1 * self._h0 + (_t0 * _t3 + _t4 * _t7) * self._h1;
+        xi[1] = m2 * self._h2 + (_t1 * _t3 + _t8 * _t11) * self._h1;
+        xi[2] = m3 * self._h3 + (_t5 * _t7 + _t9 * _t11) * self._h1;
+        xi[3] = self._h4 + (self.system._k1 * _t3 - self.system._k2 * _t7) * self._h1;
+        xi[4] = self._h5 + (self.system._k2 * _t11 - self.system._k0 * _t3) * self._h1;
+        xi[5] = self._h6 + (self.system._k0 * _t7 - self.system._k1 * _t11) * self._h1;
+        hessian[(0, 0)] = self._h0
+            + self._h1 * (_t0 * (_t12 + _t12) + _t4 * (_t13 + _t13));
+        hessian[(0, 1)] = _t16;
+        hessian[(0, 2)] = _t19;
+        hessian[(0, 3)] = _t20;
+        hessian[(0, 4)] = _t21;
+        hessian[(0, 5)] = _t22;
+        hessian[(1, 0)] = _t16;
+        hessian[(1, 1)] = self._h2 + self._h1 * (_t1 * _t15 + _t8 * (_t23 + _t23));
+        hessian[(1, 2)] = _t26;
+        hessian[(1, 3)] = _t27;
+        hessian[(1, 4)] = _t28;
+        hessian[(1, 5)] = _t29;
+        hessian[(2, 0)] = _t19;
+        hessian[(2, 1)] = _t26;
+        hessian[(2, 2)] = self._h3 + self._h1 * (_t5 * _t18 + _t9 * _t25);
+        hessian[(2, 3)] = _t30;
+        hessian[(2, 4)] = _t31;
+        hessian[(2, 5)] = _t32;
+        hessian[(3, 0)] = _t20;
+        hessian[(3, 1)] = _t27;
+        hessian[(3, 2)] = _t30;
+        hessian[(3, 3)] = self._h7;
+        hessian[(3, 4)] = self._h8;
+        hessian[(3, 5)] = self._h9;
+        hessian[(4, 0)] = _t21;
+        hessian[(4, 1)] = _t28;
+        hessian[(4, 2)] = _t31;
+        hessian[(4, 3)] = self._h8;
+        hessian[(4, 4)] = self._h10;
+        hessian[(4, 5)] = self._h11;
+        hessian[(5, 0)] = _t22;
+        hessian[(5, 1)] = _t29;
+        hessian[(5, 2)] = _t32;
+        hessian[(5, 3)] = self._h9;
+        hessian[(5, 4)] = self._h11;
+        hessian[(5, 5)] = self._h12;
     }
 }
 
@@ -1778,132 +1508,78 @@ pub struct HeavyTopGenerating6<'a, S: ::lie_runtime::Scalar> {
     _h6: S,
     /// `mgl*c3*h`
     _h7: S,
-    /// `h^3/12`
-    _h8: S,
-    /// `h^5/(480*I2)`
-    _h9: S,
-    /// `h^5/(480*I3)`
-    _h10: S,
-    /// `(1/I1 - 1/I2)*h^5/(720*I3)`
-    _h11: S,
-    /// `(1/I1 - 1/I3)*h^5/(720*I2)`
-    _h12: S,
-    /// `h^5/480`
-    _h13: S,
-    /// `(1/I1 - 1/I2)*h^5/1440`
-    _h14: S,
-    /// `(1/I1 - 1/I3)*h^5/1440`
-    _h15: S,
-    /// `h^5/(5760*I1)`
-    _h16: S,
-    /// `h^5/(1440*I1)`
-    _h17: S,
     /// `(1/I1 - 1/I2)*h^5/5760`
-    _h18: S,
-    /// `h^5/240`
-    _h19: S,
-    /// `h^5/1440`
-    _h20: S,
+    _h8: S,
     /// `(1/I1 - 1/I3)*h^5/5760`
-    _h21: S,
-    /// `mgl*c3*h^5/(480*I2)`
-    _h22: S,
-    /// `mgl*c2*h^5/(480*I3)`
-    _h23: S,
-    /// `mgl*c2*(1/I1 - 1/I2)*h^5/(720*I3)`
-    _h24: S,
-    /// `mgl*c3*(1/I1 - 1/I3)*h^5/(720*I2)`
-    _h25: S,
-    /// `mgl*c2*h^5/(240*I3)`
-    _h26: S,
-    /// `mgl*c3*h^5/(240*I2)`
-    _h27: S,
-    /// `h^5/(720*I1)`
-    _h28: S,
-    /// `mgl*c1*h^3/(12*I3)`
-    _h29: S,
-    /// `mgl*c1*h^5/(480*I3)`
-    _h30: S,
-    /// `mgl*c1*(1/I1 - 1/I2)*h^5/(720*I3)`
-    _h31: S,
-    /// `mgl*c3*h^5/(240*I1)`
-    _h32: S,
-    /// `mgl*c1*h^3/(12*I2)`
-    _h33: S,
-    /// `mgl*c1*h^5/(480*I2)`
-    _h34: S,
-    /// `mgl*c1*(1/I1 - 1/I3)*h^5/(720*I2)`
-    _h35: S,
-    /// `mgl*c2*h^5/(240*I1)`
-    _h36: S,
-    /// `h^5/(480*I1)`
-    _h37: S,
-    /// `(1/I2 - 1/I3)*h^5/(720*I1)`
-    _h38: S,
-    /// `(1/I2 - 1/I3)*h^5/1440`
-    _h39: S,
-    /// `h^5/(5760*I2)`
-    _h40: S,
-    /// `h^5/(1440*I2)`
-    _h41: S,
+    _h9: S,
+    /// `h^5/(5760*I1)`
+    _h10: S,
+    /// `h^5/480`
+    _h11: S,
+    /// `(1/I1 - 1/I2)*h^5/1440`
+    _h12: S,
+    /// `(1/I1 - 1/I3)*h^5/1440`
+    _h13: S,
     /// `(1/I2 - 1/I3)*h^5/5760`
-    _h42: S,
-    /// `mgl*c2*h^3/(12*I3)`
-    _h43: S,
-    /// `h^5/(720*I2)`
-    _h44: S,
-    /// `mgl*c3*h^5/(480*I1)`
-    _h45: S,
-    /// `mgl*c3*(1/I2 - 1/I3)*h^5/(720*I1)`
-    _h46: S,
-    /// `mgl*c1*h^5/(240*I3)`
-    _h47: S,
-    /// `mgl*c2*h^3/(12*I1)`
-    _h48: S,
-    /// `mgl*c2*h^5/(480*I1)`
-    _h49: S,
-    /// `mgl*c2*(1/I2 - 1/I3)*h^5/(720*I1)`
-    _h50: S,
-    /// `mgl*c1*h^5/(240*I2)`
-    _h51: S,
+    _h14: S,
+    /// `h^5/(5760*I2)`
+    _h15: S,
+    /// `(1/I2 - 1/I3)*h^5/1440`
+    _h16: S,
     /// `h^5/(5760*I3)`
-    _h52: S,
-    /// `h^5/(1440*I3)`
-    _h53: S,
-    /// `mgl*c3*h^3/(12*I2)`
-    _h54: S,
-    /// `h^5/(720*I3)`
-    _h55: S,
-    /// `mgl*c3*h^3/(12*I1)`
-    _h56: S,
+    _h17: S,
+    /// `mgl*c2*h^5/5760`
+    _h18: S,
+    /// `mgl*c3*h^5/5760`
+    _h19: S,
+    /// `mgl*c1*h^5/5760`
+    _h20: S,
+    /// `mgl*c3*h^5/(480*I2)`
+    _h21: S,
+    /// `mgl*c2*h^5/(480*I3)`
+    _h22: S,
+    /// `mgl*c2*(1/I1 - 1/I2)*h^5/(720*I3)`
+    _h23: S,
+    /// `mgl*c3*(1/I1 - 1/I3)*h^5/(720*I2)`
+    _h24: S,
+    /// `mgl*c1*h^5/(480*I3)`
+    _h25: S,
+    /// `mgl*c1*(1/I1 - 1/I2)*h^5/(720*I3)`
+    _h26: S,
+    /// `mgl*c1*h^5/(480*I2)`
+    _h27: S,
+    /// `mgl*c1*(1/I1 - 1/I3)*h^5/(720*I2)`
+    _h28: S,
+    /// `mgl*c3*h^5/(480*I1)`
+    _h29: S,
+    /// `mgl*c3*(1/I2 - 1/I3)*h^5/(720*I1)`
+    _h30: S,
+    /// `mgl*c2*h^5/(480*I1)`
+    _h31: S,
+    /// `mgl*c2*(1/I2 - 1/I3)*h^5/(720*I1)`
+    _h32: S,
     /// `mgl^2*c1*c2*h^5/(240*I3)`
-    _h57: S,
+    _h33: S,
     /// `mgl^2*c1*c3*h^5/(240*I2)`
-    _h58: S,
-    /// `mgl*c2*h^5/1440`
-    _h59: S,
-    /// `mgl*c3*h^5/1440`
-    _h60: S,
+    _h34: S,
     /// `h^3*(mgl^2*c2^2/I3 + mgl^2*c3^2/I2)/12`
-    _h61: S,
+    _h35: S,
     /// `h^5*(mgl^2*c1^2/I3 + mgl^2*c3^2/I1)/240`
-    _h62: S,
+    _h36: S,
     /// `mgl^2*c2*c3*h^5/(240*I1)`
-    _h63: S,
+    _h37: S,
     /// `-mgl^2*c1*c2*h^3/(12*I3)`
-    _h64: S,
+    _h38: S,
     /// `h^5*(mgl^2*c1^2/I2 + mgl^2*c2^2/I1)/240`
-    _h65: S,
+    _h39: S,
     /// `-mgl^2*c1*c3*h^3/(12*I2)`
-    _h66: S,
-    /// `mgl*c1*h^5/1440`
-    _h67: S,
+    _h40: S,
     /// `h^3*(mgl^2*c1^2/I3 + mgl^2*c3^2/I1)/12`
-    _h68: S,
+    _h41: S,
     /// `-mgl^2*c2*c3*h^3/(12*I1)`
-    _h69: S,
+    _h42: S,
     /// `h^3*(mgl^2*c1^2/I2 + mgl^2*c2^2/I1)/12`
-    _h70: S,
+    _h43: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> HeavyTopGenerating6<'a, S> {
@@ -1917,43 +1593,37 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopGenerating6<'a, S> {
         let _t4 = S::ratio(1.0, 5760.0) * _t3;
         let _t5 = S::one() / system._parameters.I2;
         let _t6 = S::one() / system._parameters.I3;
-        let _t7 = system._parameters.mgl * system._parameters.c1;
-        let _t8 = system._parameters.mgl * system._parameters.c2;
-        let _t9 = system._parameters.mgl * system._parameters.c3;
-        let _t10 = S::ratio(1.0, 12.0) * _t2;
-        let _t11 = S::ratio(1.0, 480.0) * _t3;
-        let _t12 = S::ratio(1.0, 720.0) * _t3;
-        let _t13 = _t0 - _t5;
-        let _t14 = _t6 * _t13;
-        let _t15 = _t0 - _t6;
-        let _t16 = _t5 * _t15;
-        let _t17 = S::ratio(1.0, 1440.0) * _t3;
-        let _t18 = S::ratio(1.0, 240.0) * _t3;
-        let _t19 = system._parameters.mgl * _t3;
-        let _t20 = system._parameters.c3 * _t19;
-        let _t21 = _t5 * S::ratio(1.0, 480.0);
-        let _t22 = system._parameters.c2 * _t19;
-        let _t23 = _t6 * S::ratio(1.0, 480.0);
-        let _t24 = S::ratio(1.0, 720.0) * _t22;
-        let _t25 = S::ratio(1.0, 720.0) * _t20;
-        let _t26 = S::ratio(1.0, 240.0) * _t22;
-        let _t27 = S::ratio(1.0, 240.0) * _t20;
-        let _t28 = _t6 * _t7;
-        let _t29 = system._parameters.c1 * _t19;
-        let _t30 = S::ratio(1.0, 720.0) * _t29;
-        let _t31 = _t5 * _t7;
-        let _t32 = _t5 - _t6;
-        let _t33 = _t0 * _t32;
-        let _t34 = _t6 * _t8;
-        let _t35 = _t0 * S::ratio(1.0, 480.0);
-        let _t36 = S::ratio(1.0, 240.0) * _t29;
-        let _t37 = _t0 * _t8;
-        let _t38 = _t5 * _t9;
-        let _t39 = _t0 * _t9;
-        let _t40 = _t7 * _t28 + _t9 * _t39;
-        let _t41 = S::ratio(-1.0, 12.0) * _t2;
-        let _t42 = _t7 * _t31 + _t8 * _t37;
-        let _t43 = _t9 * _t41;
+        let _t7 = system._parameters.mgl * h;
+        let _t8 = _t0 - _t5;
+        let _t9 = _t0 - _t6;
+        let _t10 = S::ratio(1.0, 1440.0) * _t3;
+        let _t11 = _t5 - _t6;
+        let _t12 = system._parameters.mgl * _t3;
+        let _t13 = system._parameters.c2 * _t12;
+        let _t14 = system._parameters.c1 * _t12;
+        let _t15 = system._parameters.c3 * _t5;
+        let _t16 = S::ratio(1.0, 480.0) * _t12;
+        let _t17 = _t6 * S::ratio(1.0, 480.0);
+        let _t18 = S::ratio(1.0, 720.0) * (_t6 * _t8);
+        let _t19 = _t9 * S::ratio(1.0, 720.0);
+        let _t20 = _t5 * _t14;
+        let _t21 = system._parameters.c3 * _t0;
+        let _t22 = _t11 * S::ratio(1.0, 720.0);
+        let _t23 = _t0 * _t13;
+        let _t24 = system._parameters.c2 * _t6;
+        let _t25 = system._parameters.mgl * S::ratio(1.0, 240.0);
+        let _t26 = _t14 * _t25;
+        let _t27 = system._parameters.mgl * system._parameters.mgl;
+        let _t28 = system._parameters.c2 * _t27;
+        let _t29 = system._parameters.c3 * _t27;
+        let _t30 = S::ratio(1.0, 12.0) * _t2;
+        let _t31 = system._parameters.c1 * _t27;
+        let _t32 = system._parameters.c1 * _t31;
+        let _t33 = _t6 * _t32 + _t21 * _t29;
+        let _t34 = S::ratio(1.0, 240.0) * _t3;
+        let _t35 = S::ratio(-1.0, 12.0) * _t2;
+        let _t36 = _t31 * _t35;
+        let _t37 = _t5 * _t32 + system._parameters.c2 * _t0 * _t28;
         Self {
             system,
             h,
@@ -1962,72 +1632,45 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopGenerating6<'a, S> {
             _h2: _t4,
             _h3: _t5 * h,
             _h4: _t6 * h,
-            _h5: h * _t7,
-            _h6: h * _t8,
-            _h7: h * _t9,
-            _h8: _t10,
-            _h9: _t5 * _t11,
-            _h10: _t6 * _t11,
-            _h11: _t12 * _t14,
-            _h12: _t12 * _t16,
-            _h13: _t11,
-            _h14: _t13 * _t17,
-            _h15: _t15 * _t17,
-            _h16: _t0 * _t4,
-            _h17: _t0 * _t17,
-            _h18: _t13 * _t4,
-            _h19: _t18,
-            _h20: _t17,
-            _h21: _t15 * _t4,
-            _h22: _t20 * _t21,
-            _h23: _t22 * _t23,
-            _h24: _t14 * _t24,
-            _h25: _t16 * _t25,
-            _h26: _t6 * _t26,
-            _h27: _t5 * _t27,
-            _h28: _t0 * _t12,
-            _h29: _t10 * _t28,
-            _h30: _t29 * _t23,
-            _h31: _t14 * _t30,
-            _h32: _t0 * _t27,
-            _h33: _t10 * _t31,
-            _h34: _t29 * _t21,
-            _h35: _t16 * _t30,
-            _h36: _t0 * _t26,
-            _h37: _t0 * _t11,
-            _h38: _t12 * _t33,
-            _h39: _t32 * _t17,
-            _h40: _t5 * _t4,
-            _h41: _t5 * _t17,
-            _h42: _t32 * _t4,
-            _h43: _t10 * _t34,
-            _h44: _t5 * _t12,
-            _h45: _t20 * _t35,
-            _h46: _t33 * _t25,
-            _h47: _t6 * _t36,
-            _h48: _t10 * _t37,
-            _h49: _t22 * _t35,
-            _h50: _t33 * _t24,
-            _h51: _t5 * _t36,
-            _h52: _t6 * _t4,
-            _h53: _t6 * _t17,
-            _h54: _t10 * _t38,
-            _h55: _t6 * _t12,
-            _h56: _t10 * _t39,
-            _h57: _t28 * _t26,
-            _h58: _t31 * _t27,
-            _h59: S::ratio(1.0, 1440.0) * _t22,
-            _h60: S::ratio(1.0, 1440.0) * _t20,
-            _h61: (_t8 * _t34 + _t9 * _t38) * _t10,
-            _h62: _t40 * _t18,
-            _h63: _t37 * _t27,
-            _h64: _t8 * _t28 * _t41,
-            _h65: _t42 * _t18,
-            _h66: _t31 * _t43,
-            _h67: S::ratio(1.0, 1440.0) * _t29,
-            _h68: _t40 * _t10,
-            _h69: _t37 * _t43,
-            _h70: _t42 * _t10,
+            _h5: system._parameters.c1 * _t7,
+            _h6: system._parameters.c2 * _t7,
+            _h7: system._parameters.c3 * _t7,
+            _h8: _t8 * _t4,
+            _h9: _t9 * _t4,
+            _h10: _t0 * _t4,
+            _h11: S::ratio(1.0, 480.0) * _t3,
+            _h12: _t8 * _t10,
+            _h13: _t9 * _t10,
+            _h14: _t11 * _t4,
+            _h15: _t5 * _t4,
+            _h16: _t11 * _t10,
+            _h17: _t6 * _t4,
+            _h18: S::ratio(1.0, 5760.0) * _t13,
+            _h19: system._parameters.c3 * S::ratio(1.0, 5760.0) * _t12,
+            _h20: S::ratio(1.0, 5760.0) * _t14,
+            _h21: _t15 * _t16,
+            _h22: _t13 * _t17,
+            _h23: _t13 * _t18,
+            _h24: _t12 * _t15 * _t19,
+            _h25: _t14 * _t17,
+            _h26: _t14 * _t18,
+            _h27: S::ratio(1.0, 480.0) * _t20,
+            _h28: _t20 * _t19,
+            _h29: _t21 * _t16,
+            _h30: _t12 * _t21 * _t22,
+            _h31: S::ratio(1.0, 480.0) * _t23,
+            _h32: _t23 * _t22,
+            _h33: _t24 * _t26,
+            _h34: _t15 * _t26,
+            _h35: (_t24 * _t28 + _t15 * _t29) * _t30,
+            _h36: _t33 * _t34,
+            _h37: _t13 * _t21 * _t25,
+            _h38: _t24 * _t36,
+            _h39: _t37 * _t34,
+            _h40: _t15 * _t36,
+            _h41: _t33 * _t30,
+            _h42: _t21 * _t28 * _t35,
+            _h43: _t37 * _t30,
         }
     }
 }
@@ -2067,19 +1710,19 @@ for HeavyTopGenerating6<'_, S> {
         let _t21 = g2 * _t18 - g3 * _t19;
         let _t22 = _t1 * _t11 - _t13 * _t18 + self.system._k0 * _t20
             - self.system._k2 * _t21;
-        let _t23 = _t22 * self.system._k20 - _t17 * S::ratio(4.0, 1.0);
+        let _t23 = _t22 * self.system._k26 - _t17 * S::ratio(4.0, 1.0);
         let _t24 = g3 * _t11 - g1 * _t18;
         let _t25 = _t6 * _t18 - _t1 * _t19 - self.system._k1 * _t20
             + self.system._k2 * _t24;
-        let _t26 = _t25 * self.system._k21 - _t10 * S::ratio(4.0, 1.0);
+        let _t26 = _t25 * self.system._k27 - _t10 * S::ratio(4.0, 1.0);
         let _t27 = _t20 * _t11 - _t21 * _t18
             + S::ratio(3.0, 1.0) * (g3 * _t14 - g1 * _t2);
         let _t28 = _t24 * _t18 - _t20 * _t19
             - S::ratio(3.0, 1.0) * (g3 * _t7 - g2 * _t2);
         let _t29 = _t22 + S::ratio(3.0, 1.0) * (m3 * _t14 - m1 * _t2);
         let _t30 = _t25 - (m3 * _t7 - m2 * _t2) * S::ratio(3.0, 1.0);
-        let _t31 = _t27 * self.system._k22 - _t28 * self.system._k23
-            + (m1 * _t29 + m2 * _t30) * self.system._k24;
+        let _t31 = _t27 * self.system._k28 - _t28 * self.system._k29
+            + (m1 * _t29 + m2 * _t30) * self.system._k30;
         let _t32 = self.system._k2 * _t15 - self.system._k0 * _t3;
         let _t33 = self.system._k1 * _t3 - self.system._k2 * _t8;
         let _t34 = _t11 * _t23 - _t19 * _t26
@@ -2091,12 +1734,12 @@ for HeavyTopGenerating6<'_, S> {
         let _t35 = _t8 * _t5 - _t15 * _t12;
         let _t36 = _t13 * _t19 - _t6 * _t11 - self.system._k0 * _t24
             + self.system._k1 * _t21;
-        let _t37 = _t36 * self.system._k25 - _t35 * S::ratio(4.0, 1.0);
+        let _t37 = _t36 * self.system._k31 - _t35 * S::ratio(4.0, 1.0);
         let _t38 = _t21 * _t19 - _t24 * _t11
             - S::ratio(3.0, 1.0) * (g2 * _t14 - g1 * _t7);
         let _t39 = _t36 - S::ratio(3.0, 1.0) * (m2 * _t14 - m1 * _t7);
-        let _t40 = _t28 * self.system._k26 - _t38 * self.system._k22
-            - (m1 * _t39 + m3 * _t30) * self.system._k27;
+        let _t40 = _t28 * self.system._k32 - _t38 * self.system._k28
+            - (m1 * _t39 + m3 * _t30) * self.system._k33;
         let _t41 = self.system._k0 * _t8 - self.system._k1 * _t15;
         let _t42 = _t18 * _t26 - _t11 * _t37
             + self.system._k7
@@ -2108,16 +1751,16 @@ for HeavyTopGenerating6<'_, S> {
             - S::ratio(4.0, 1.0) * (_t32 * _t11 - _t33 * _t19);
         let _t44 = self.system._k2 * _t26 - self.system._k0 * _t37
             + S::ratio(4.0, 1.0) * (_t41 * _t11 - _t33 * _t18);
-        let _t45 = _t8 * self.system._k27;
-        let _t46 = _t3 * self.system._k24;
+        let _t45 = _t8 * self.system._k33;
+        let _t46 = _t3 * self.system._k30;
         let _t47 = _t34 * _t4 - _t42 * _t9
             + S::ratio(12.0, 1.0) * (_t7 * _t35 - _t2 * _t17)
             - self.system._k6
                 * (_t1 * _t23 - _t6 * _t37
                     + S::ratio(4.0, 1.0) * (_t24 * _t41 - _t20 * _t32) - g2 * _t43
                     + g3 * _t44);
-        let _t48 = _t38 * self.system._k23 - _t27 * self.system._k26
-            + (m2 * _t39 + m3 * _t29) * self.system._k28;
+        let _t48 = _t38 * self.system._k29 - _t27 * self.system._k32
+            + (m2 * _t39 + m3 * _t29) * self.system._k34;
         let _t49 = _t19 * _t37 - _t18 * _t23
             + self.system._k6
                 * (_t48
@@ -2126,7 +1769,7 @@ for HeavyTopGenerating6<'_, S> {
                             * (g2 * _t41 - g3 * _t32 + m2 * _t35 - m3 * _t17)));
         let _t50 = self.system._k1 * _t37 - self.system._k2 * _t23
             - S::ratio(4.0, 1.0) * (_t41 * _t19 - _t32 * _t18);
-        let _t51 = _t15 * self.system._k28;
+        let _t51 = _t15 * self.system._k34;
         let _t52 = _t34 * _t0 + _t49 * _t16
             - S::ratio(12.0, 1.0) * (_t14 * _t35 - _t2 * _t10)
             - self.system._k7
@@ -2162,7 +1805,7 @@ for HeavyTopGenerating6<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 861 additions, 1121 multiplications.
+    /// 872 additions, 1122 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -2171,637 +1814,630 @@ for HeavyTopGenerating6<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[m1, m2, m3, g1, g2, g3]] = p.data.0;
-        let _t0 = m2 * self.system._k7;
-        let _t1 = _t0 - m2 * self.system._k6;
-        let _t2 = m1 * self.system._k6;
-        let _t3 = m1 * _t0 - m2 * _t2 - g2 * self.system._k0 + g1 * self.system._k1;
-        let _t4 = self.system._k8 * _t3;
-        let _t5 = _t4 + _t4;
-        let _t6 = m3 * self.system._k8;
-        let _t7 = m3 * _t2 - m1 * _t6 + g3 * self.system._k0 - g1 * self.system._k2;
+        let _t0 = m2 * self.system._k11;
+        let _t1 = m1 * self.system._k11;
+        let _t2 = g1 * self.system._k1 - g2 * self.system._k0 + m2 * _t1;
+        let _t3 = self.system._k8 * _t2;
+        let _t4 = _t3 + _t3;
+        let _t5 = m3 * self.system._k10;
+        let _t6 = m1 * self.system._k10;
+        let _t7 = g3 * self.system._k0 - g1 * self.system._k2 + m3 * _t6;
         let _t8 = self.system._k7 * _t7;
         let _t9 = _t8 + _t8;
-        let _t10 = _t6 - m3 * self.system._k6;
-        let _t11 = _t1 * _t5 - _t9 * _t10;
-        let _t12 = _t2 - m1 * self.system._k7;
-        let _t13 = _t6 - m3 * self.system._k7;
-        let _t14 = m2 * _t6 - m3 * _t0 - g3 * self.system._k1 + g2 * self.system._k2;
+        let _t10 = _t0 * _t4 + _t5 * _t9;
+        let _t11 = m1 * self.system._k6;
+        let _t12 = m3 * self.system._k9;
+        let _t13 = m2 * self.system._k9;
+        let _t14 = g2 * self.system._k2 - g3 * self.system._k1 + m3 * _t13;
         let _t15 = self.system._k6 * _t14;
         let _t16 = _t15 + _t15;
-        let _t17 = _t13 * _t16 - _t5 * _t12;
-        let _t18 = g2 * _t2;
-        let _t19 = g1 * _t0;
-        let _t20 = _t19 - _t18;
-        let _t21 = g3 * _t0;
-        let _t22 = g2 * _t6;
-        let _t23 = _t22 - _t21;
-        let _t24 = _t3 * _t2 - _t14 * _t6 + self.system._k0 * _t20
-            - self.system._k2 * _t23;
-        let _t25 = _t24 * self.system._k20 - _t17 * S::ratio(4.0, 1.0);
-        let _t26 = g3 * _t2;
-        let _t27 = g1 * _t6;
-        let _t28 = _t26 - _t27;
-        let _t29 = _t7 * _t6 - _t3 * _t0 - self.system._k1 * _t20
-            + self.system._k2 * _t28;
-        let _t30 = _t29 * self.system._k21 - _t11 * S::ratio(4.0, 1.0);
-        let _t31 = _t20 * _t2 - _t23 * _t6 + S::ratio(3.0, 1.0) * (g3 * _t15 - g1 * _t4);
-        let _t32 = _t28 * _t6 - _t20 * _t0 - S::ratio(3.0, 1.0) * (g3 * _t8 - g2 * _t4);
-        let _t33 = _t24 + S::ratio(3.0, 1.0) * (m3 * _t15 - m1 * _t4);
-        let _t34 = _t12 * _t33;
-        let _t35 = _t29 - (m3 * _t8 - m2 * _t4) * S::ratio(3.0, 1.0);
-        let _t36 = _t31 * self.system._k22 - _t32 * self.system._k23
-            + S::ratio(4.0, 1.0) * (_t34 - _t1 * _t35);
-        let _t37 = self.system._k2 * _t16 - self.system._k0 * _t5;
-        let _t38 = g1 * _t37;
-        let _t39 = self.system._k1 * _t5 - self.system._k2 * _t9;
-        let _t40 = _t2 * _t25 - _t0 * _t30
+        let _t17 = _t1 * _t4 + _t12 * _t16;
+        let _t18 = m3 * self.system._k8;
+        let _t19 = m2 * self.system._k7;
+        let _t20 = g1 * _t19 - g2 * _t11;
+        let _t21 = g2 * _t18 - g3 * _t19;
+        let _t22 = _t2 * _t11 - _t14 * _t18 + self.system._k0 * _t20
+            - self.system._k2 * _t21;
+        let _t23 = _t22 * self.system._k26 - _t17 * S::ratio(4.0, 1.0);
+        let _t24 = g3 * _t11 - g1 * _t18;
+        let _t25 = _t7 * _t18 - _t2 * _t19 - self.system._k1 * _t20
+            + self.system._k2 * _t24;
+        let _t26 = _t25 * self.system._k27 - _t10 * S::ratio(4.0, 1.0);
+        let _t27 = _t20 * _t11 - _t21 * _t18
+            + S::ratio(3.0, 1.0) * (g3 * _t15 - g1 * _t3);
+        let _t28 = _t24 * _t18 - _t20 * _t19
+            - S::ratio(3.0, 1.0) * (g3 * _t8 - g2 * _t3);
+        let _t29 = _t22 + S::ratio(3.0, 1.0) * (m3 * _t15 - m1 * _t3);
+        let _t30 = _t25 - (m3 * _t8 - m2 * _t3) * S::ratio(3.0, 1.0);
+        let _t31 = _t27 * self.system._k28 - _t28 * self.system._k29
+            + (m1 * _t29 + m2 * _t30) * self.system._k30;
+        let _t32 = self.system._k2 * _t16 - self.system._k0 * _t4;
+        let _t33 = self.system._k1 * _t4 - self.system._k2 * _t9;
+        let _t34 = _t11 * _t23 - _t19 * _t26
             + self.system._k8
-                * (_t36
-                    + (_t36
-                        + (_t38 - g2 * _t39 + m1 * _t17 - m2 * _t11)
+                * (_t31
+                    + (_t31
+                        + (g1 * _t32 - g2 * _t33 + m1 * _t17 - m2 * _t10)
                             * S::ratio(12.0, 1.0)));
-        let _t41 = _t2 - m1 * self.system._k8;
-        let _t42 = _t0 - m2 * self.system._k8;
-        let _t43 = _t41 * _t9 - _t16 * _t42;
-        let _t44 = _t14 * _t0 - _t7 * _t2 - self.system._k0 * _t28
-            + self.system._k1 * _t23;
-        let _t45 = _t44 * self.system._k25 - _t43 * S::ratio(4.0, 1.0);
-        let _t46 = _t23 * _t0 - _t28 * _t2 - S::ratio(3.0, 1.0) * (g2 * _t15 - g1 * _t8);
-        let _t47 = _t44 - S::ratio(3.0, 1.0) * (m2 * _t15 - m1 * _t8);
-        let _t48 = _t41 * _t47;
-        let _t49 = _t32 * self.system._k26 - _t46 * self.system._k22
-            - S::ratio(4.0, 1.0) * (_t48 - _t10 * _t35);
-        let _t50 = self.system._k0 * _t9 - self.system._k1 * _t16;
-        let _t51 = g1 * _t50;
-        let _t52 = _t6 * _t30 - _t2 * _t45
+        let _t35 = m2 * self._h8;
+        let _t36 = _t6 * _t9 + _t13 * _t16;
+        let _t37 = _t14 * _t19 - _t7 * _t11 - self.system._k0 * _t24
+            + self.system._k1 * _t21;
+        let _t38 = _t37 * self.system._k31 - _t36 * S::ratio(4.0, 1.0);
+        let _t39 = _t21 * _t19 - _t24 * _t11
+            - S::ratio(3.0, 1.0) * (g2 * _t15 - g1 * _t8);
+        let _t40 = _t37 - S::ratio(3.0, 1.0) * (m2 * _t15 - m1 * _t8);
+        let _t41 = _t28 * self.system._k32 - _t39 * self.system._k28
+            - (m1 * _t40 + m3 * _t30) * self.system._k33;
+        let _t42 = self.system._k0 * _t9 - self.system._k1 * _t16;
+        let _t43 = _t18 * _t26 - _t11 * _t38
             + self.system._k7
-                * (_t49
-                    + (_t49
+                * (_t41
+                    + (_t41
                         - S::ratio(12.0, 1.0)
-                            * (_t51 - g3 * _t39 + m1 * _t43 - m3 * _t11)));
-        let _t53 = self.system._k0 * _t25;
-        let _t54 = self.system._k1 * _t30;
-        let _t55 = _t53 - _t54 - S::ratio(4.0, 1.0) * (_t37 * _t2 - _t39 * _t0);
-        let _t56 = self.system._k0 * _t45;
-        let _t57 = self.system._k2 * _t30;
-        let _t58 = _t57 - _t56 + S::ratio(4.0, 1.0) * (_t50 * _t2 - _t39 * _t6);
-        let _t59 = _t9 * self.system._k27;
-        let _t60 = _t5 * self.system._k24;
-        let _t61 = _t1 * _t40 - _t10 * _t52
-            - S::ratio(12.0, 1.0) * (_t8 * _t43 - _t4 * _t17)
+                            * (g1 * _t42 - g3 * _t33 + m1 * _t36 - m3 * _t10)));
+        let _t44 = m3 * self._h9;
+        let _t45 = self.system._k0 * _t23;
+        let _t46 = self.system._k1 * _t26;
+        let _t47 = _t33 * _t19;
+        let _t48 = _t45 - _t46 - S::ratio(4.0, 1.0) * (_t32 * _t11 - _t47);
+        let _t49 = self.system._k0 * _t38;
+        let _t50 = self.system._k2 * _t26;
+        let _t51 = _t42 * _t11;
+        let _t52 = _t50 - _t49 + S::ratio(4.0, 1.0) * (_t51 - _t33 * _t18);
+        let _t53 = _t4 * self._h12;
+        let _t54 = _t9 * self._h13;
+        let _t55 = m1 * self._h0 + _t10 * self._h1 - _t34 * _t35 + _t43 * _t44
+            + self._h10
+                * (_t2 * _t23 - _t7 * _t38
+                    + S::ratio(4.0, 1.0) * (_t24 * _t42 - _t20 * _t32) - g2 * _t48
+                    + g3 * _t52);
+        let _t56 = m1 * self._h8;
+        let _t57 = _t39 * self.system._k29 - _t27 * self.system._k32
+            + (m2 * _t40 + m3 * _t29) * self.system._k34;
+        let _t58 = _t19 * _t38 - _t18 * _t23
             + self.system._k6
-                * (_t3 * _t25 - _t7 * _t45
-                    + S::ratio(4.0, 1.0) * (_t28 * _t50 - _t20 * _t37) - g2 * _t55
-                    + g3 * _t58);
-        let _t62 = _t42 * _t47;
-        let _t63 = _t46 * self.system._k23 - _t31 * self.system._k26
-            + S::ratio(4.0, 1.0) * (_t62 - _t13 * _t33);
-        let _t64 = g2 * _t50;
-        let _t65 = _t0 * _t45 - _t6 * _t25
-            + self.system._k6
-                * (_t63
-                    + (_t63
+                * (_t57
+                    + (_t57
                         + S::ratio(12.0, 1.0)
-                            * (_t64 - g3 * _t37 + m2 * _t43 - m3 * _t17)));
-        let _t66 = self.system._k1 * _t45;
-        let _t67 = self.system._k2 * _t25;
-        let _t68 = _t66 - _t67 - S::ratio(4.0, 1.0) * (_t50 * _t0 - _t37 * _t6);
-        let _t69 = _t16 * self.system._k28;
-        let _t70 = _t12 * _t40 - _t13 * _t65
-            - S::ratio(12.0, 1.0) * (_t15 * _t43 - _t4 * _t11)
-            - self.system._k7
-                * (_t14 * _t45 - _t3 * _t30
-                    - S::ratio(4.0, 1.0) * (_t23 * _t50 - _t20 * _t39) + g1 * _t55
-                    - g3 * _t68);
-        let _t71 = _t41 * _t52 - _t42 * _t65
-            - S::ratio(12.0, 1.0) * (_t15 * _t17 - _t8 * _t11)
+                            * (g2 * _t42 - g3 * _t32 + m2 * _t36 - m3 * _t17)));
+        let _t59 = m3 * self._h14;
+        let _t60 = self.system._k1 * _t38;
+        let _t61 = self.system._k2 * _t23;
+        let _t62 = _t32 * _t18;
+        let _t63 = _t60 - _t61 - S::ratio(4.0, 1.0) * (_t42 * _t19 - _t62);
+        let _t64 = _t16 * self._h16;
+        let _t65 = m2 * self._h3 + _t17 * self._h1 - _t34 * _t56 - _t58 * _t59
+            + self._h15
+                * (_t14 * _t38 - _t2 * _t26
+                    - S::ratio(4.0, 1.0) * (_t21 * _t42 - _t20 * _t33) + g1 * _t48
+                    - g3 * _t63);
+        let _t66 = m1 * self._h9;
+        let _t67 = m2 * self._h14;
+        let _t68 = m3 * self._h4 + _t36 * self._h1 + _t43 * _t66 - _t58 * _t67
+            + self._h17
+                * (_t7 * _t26 - _t14 * _t23
+                    + S::ratio(4.0, 1.0) * (_t21 * _t32 - _t24 * _t33) - g1 * _t52
+                    + g2 * _t63);
+        let _t69 = m2 * self._h15;
+        let _t70 = m3 * self._h17;
+        let _t71 = m1 * self._h10;
+        let _t72 = self.system._k8 * _t0;
+        let _t73 = _t72 + _t72;
+        let _t74 = self.system._k7 * _t5;
+        let _t75 = _t74 + _t74;
+        let _t76 = _t0 * _t73 + _t5 * _t75;
+        let _t77 = self.system._k11 * (_t4 + m1 * _t73);
+        let _t78 = self.system._k10 * (_t9 + m1 * _t75);
+        let _t79 = g2 * self.system._k14;
+        let _t80 = _t11 * _t0 + self.system._k0 * _t79 + self.system._k6 * _t2;
+        let _t81 = _t80 - S::ratio(3.0, 1.0) * (_t3 + m1 * _t72);
+        let _t82 = g3 * self.system._k6;
+        let _t83 = -(_t11 * _t5) - self.system._k0 * _t82 - self.system._k6 * _t7;
+        let _t84 = _t83 + S::ratio(3.0, 1.0) * (_t8 + m1 * _t74);
+        let _t85 = _t83 * self.system._k31 - _t78 * S::ratio(4.0, 1.0);
+        let _t86 = _t80 * self.system._k26 - _t77 * S::ratio(4.0, 1.0);
+        let _t87 = _t73 * self.system._k17;
+        let _t88 = self.system._k0 * _t75;
+        let _t89 = self.system._k2 * _t82 + _t18 * _t5 - _t19 * _t0
+            - self.system._k1 * _t79;
+        let _t90 = _t89 * self.system._k27 - _t76 * S::ratio(4.0, 1.0);
+        let _t91 = self.system._k1 * _t73 - self.system._k2 * _t75;
+        let _t92 = _t23 * _t0 - _t38 * _t5 - _t7 * _t85 + _t2 * _t86
+            + S::ratio(4.0, 1.0)
+                * (_t42 * _t82 - _t32 * _t79 - _t20 * _t87 + _t24 * _t88)
+            - g2
+                * (self.system._k0 * _t86 - self.system._k1 * _t90
+                    + S::ratio(4.0, 1.0) * (_t19 * _t91 - _t11 * _t87)
+                    - _t32 * self.system._k35);
+        let _t93 = _t89 - S::ratio(3.0, 1.0) * (m3 * _t74 - m2 * _t72);
+        let _t94 = _t18 * _t82 - _t19 * _t79
+            - S::ratio(3.0, 1.0) * (g3 * _t74 - g2 * _t72);
+        let _t95 = g1 * S::ratio(3.0, 1.0);
+        let _t96 = self.system._k30 * (_t29 + m1 * _t81 + m2 * _t93)
+            - _t94 * self.system._k29
+            + (_t11 * _t79 + self.system._k6 * _t20 - _t72 * _t95) * self.system._k28;
+        let _t97 = self.system._k6 * _t23 + _t11 * _t86 - _t19 * _t90
             + self.system._k8
-                * (_t7 * _t30 - _t14 * _t25
-                    + S::ratio(4.0, 1.0) * (_t23 * _t37 - _t28 * _t39) - g1 * _t58
-                    + g2 * _t68);
-        let _t72 = self.system._k8 * _t1 * _t1 + self.system._k7 * _t10 * _t10;
-        let _t73 = self.system._k18 * _t5 + _t1 * _t12 * self.system._k29;
-        let _t74 = _t4 * _t73;
-        let _t75 = self.system._k10 * _t9 - _t41 * _t10 * self.system._k30;
-        let _t76 = _t8 * _t75;
-        let _t77 = _t4 * S::ratio(3.0, 1.0);
-        let _t78 = _t1 * self.system._k31;
-        let _t79 = _t1 * _t2;
-        let _t80 = g2 * self.system._k32 - (self.system._k6 * _t3 + _t79);
-        let _t81 = -_t77 - m1 * _t78 - _t80;
-        let _t82 = _t5 * self._h14;
-        let _t83 = _t8 * S::ratio(3.0, 1.0);
-        let _t84 = _t10 * self.system._k33;
-        let _t85 = _t10 * _t2;
-        let _t86 = self.system._k6 * _t7 - _t85 + g3 * self.system._k32;
-        let _t87 = _t86 - _t83 + m1 * _t84;
-        let _t88 = _t9 * self._h15;
-        let _t89 = g3 * _t50;
-        let _t90 = g2 * _t37;
-        let _t91 = _t75 + self.system._k29 * _t86;
-        let _t92 = _t73 + self.system._k30 * -_t80;
-        let _t93 = _t10 * _t45 + _t1 * _t25 + (_t89 + _t90) * self.system._k34
-            + _t1 * _t20 * self.system._k35 - _t28 * _t10 * self.system._k36
-            + S::ratio(4.0, 1.0) * (_t7 * _t91 + _t3 * _t92);
-        let _t94 = _t1 * self.system._k37 + _t10 * self.system._k38;
-        let _t95 = _t0 * S::ratio(2.0, 1.0);
-        let _t96 = g3 * self.system._k40 + g2 * self.system._k41
-            - (_t10 * _t6 + _t1 * _t0);
-        let _t97 = _t72 - self.system._k6 * _t96;
-        let _t98 = _t6 * S::ratio(2.0, 1.0);
-        let _t99 = g2
-            * (self.system._k6 * _t37 - self.system._k0 * _t92 - _t94 * _t95
-                - _t79 * self.system._k39 - _t97 * self.system._k42)
+                * (_t96
+                    + (_t96
+                        + S::ratio(12.0, 1.0)
+                            * (_t17 - m2 * _t76 + m1 * _t77 - g2 * _t91 + g1 * _t87)));
+        let _t98 = _t94 * self.system._k32
+            - self.system._k33 * (_t40 + m1 * _t84 + m3 * _t93)
+            - (-(_t11 * _t82) - self.system._k6 * _t24 + _t74 * _t95) * self.system._k28;
+        let _t99 = _t18 * _t90 - self.system._k6 * _t38 - _t11 * _t85
+            + self.system._k7
+                * (_t98
+                    + (_t98
+                        - S::ratio(12.0, 1.0)
+                            * (_t36 - m3 * _t76 + m1 * _t78 - g3 * _t91 + g1 * _t88)));
+        let _t100 = self._h0 + _t76 * self._h1
+            - self._h11 * (_t36 * _t74 - _t17 * _t72 - _t3 * _t77 + _t8 * _t78)
+            + self._h12 * (_t29 * _t73 + _t4 * _t81)
+            - self._h13 * (_t40 * _t75 + _t9 * _t84);
+        let _t101 = self.system._k8 * _t1;
+        let _t102 = _t101 + _t101;
+        let _t103 = self.system._k6 * _t12;
+        let _t104 = _t103 + _t103;
+        let _t105 = _t1 * _t102 + _t12 * _t104;
+        let _t106 = g3 * self.system._k12;
+        let _t107 = g1 * self.system._k7;
+        let _t108 = _t11 * _t1 - _t18 * _t12 - self.system._k2 * _t106
+            + self.system._k0 * _t107;
+        let _t109 = self.system._k26 * _t108 - S::ratio(4.0, 1.0) * _t105;
+        let _t110 = self.system._k11 * (_t4 + m2 * _t102);
+        let _t111 = -(_t19 * _t1) - self.system._k1 * _t107 - self.system._k7 * _t2;
+        let _t112 = self.system._k27 * _t111 - S::ratio(4.0, 1.0) * _t110;
+        let _t113 = _t108 + S::ratio(3.0, 1.0) * (m3 * _t103 - m1 * _t101);
+        let _t114 = _t111 + S::ratio(3.0, 1.0) * (_t3 + m2 * _t101);
+        let _t115 = g2 * S::ratio(3.0, 1.0);
+        let _t116 = -(_t19 * _t107) - self.system._k7 * _t20 + _t101 * _t115;
+        let _t117 = _t11 * _t107 - _t18 * _t106
+            + S::ratio(3.0, 1.0) * (g3 * _t103 - g1 * _t101);
+        let _t118 = self.system._k30 * (_t30 + m1 * _t113 + m2 * _t114)
+            - _t116 * self.system._k29 + _t117 * self.system._k28;
+        let _t119 = self.system._k1 * _t102;
+        let _t120 = self.system._k2 * _t104 - self.system._k0 * _t102;
+        let _t121 = _t11 * _t109 - self.system._k7 * _t26 - _t19 * _t112
+            + self.system._k8
+                * (_t118
+                    + (_t118
+                        - S::ratio(12.0, 1.0)
+                            * (_t10 + m2 * _t110 - m1 * _t105 + g2 * _t119
+                                - g1 * _t120)));
+        let _t122 = self.system._k9 * (_t16 + m2 * _t104);
+        let _t123 = _t19 * _t12 + self.system._k1 * _t106 + self.system._k7 * _t14;
+        let _t124 = _t123 - S::ratio(3.0, 1.0) * (_t15 + m2 * _t103);
+        let _t125 = self.system._k31 * _t123 - S::ratio(4.0, 1.0) * _t122;
+        let _t126 = _t104 * self.system._k15;
+        let _t127 = self.system._k0 * _t109 - self.system._k1 * _t112
+            + S::ratio(4.0, 1.0) * (_t19 * _t119 - _t11 * _t120)
+            + _t33 * self.system._k36;
+        let _t128 = _t23 * _t1 - _t7 * _t125 + _t2 * _t109
+            - S::ratio(4.0, 1.0) * (_t32 * _t107 + _t20 * _t120 - _t24 * _t126)
+            - g2 * _t127
             + g3
-                * (self.system._k6 * _t50 + self.system._k0 * _t91 - _t94 * _t98
-                    - _t85 * self.system._k43 - _t97 * self.system._k44);
-        let _t100 = _t2 * S::ratio(4.0, 1.0);
-        let _t101 = _t0 * S::ratio(8.0, 1.0);
-        let _t102 = g3 * _t6;
-        let _t103 = g2 * _t0;
-        let _t104 = self.system._k6 * (_t102 + _t103) + g3 * _t84 + g2 * _t78;
-        let _t105 = _t96 + m3 * _t84 + m2 * _t78;
-        let _t106 = _t12 * _t81 - self.system._k1 * _t104
-            + (self.system._k18 * _t33 - _t1 * _t105
-                + self.system._k0 * (self.system._k6 * (_t20 - _t18) - g1 * _t78));
-        let _t107 = _t1 * self.system._k45;
-        let _t108 = self.system._k6 * _t25 + _t92 * _t100 + _t97 * _t101
-            + (_t106
-                + (_t106 + S::ratio(3.0, 1.0) * (_t17 - m1 * _t73)
-                    - (m2 * _t72 + g2 * _t94) * S::ratio(6.0, 1.0) - g1 * _t107))
-                * self.system._k46;
-        let _t109 = _t6 * S::ratio(8.0, 1.0);
-        let _t110 = _t41 * _t87 + self.system._k2 * _t104
-            + (self.system._k0 * (self.system._k6 * (_t28 + _t26) + g1 * _t84)
-                - (self.system._k10 * _t47 - _t10 * _t105));
-        let _t111 = _t10 * self.system._k47;
-        let _t112 = self.system._k6 * _t45 - _t91 * _t100 + _t97 * _t109
-            + (-_t110
-                + (S::ratio(3.0, 1.0) * (_t43 + m1 * _t75)
-                    - S::ratio(6.0, 1.0) * (m3 * _t72 + g3 * _t94) - g1 * _t111 - _t110))
-                * self.system._k48;
-        let _t113 = self._h0 + _t72 * self._h8 + _t10 * _t43 * self._h9
-            + _t1 * _t17 * self._h10 + _t1 * _t33 * self._h11 + _t10 * _t47 * self._h12
-            - (_t74 + _t76) * self._h13;
-        let _t114 = _t12 * self._h10;
-        let _t115 = self.system._k8 * _t12 * _t12 + self.system._k6 * _t13 * _t13;
-        let _t116 = _t4 * self._h19;
-        let _t117 = self.system._k19 * _t16 + _t13 * _t42 * self.system._k49;
-        let _t118 = _t13 * self.system._k50;
-        let _t119 = _t12 * self.system._k31;
-        let _t120 = g3 * self.system._k38 + g1 * self.system._k51
-            - (_t13 * _t6 + _t12 * _t2);
-        let _t121 = _t120 + m3 * _t118 + m1 * _t119;
-        let _t122 = _t15 * S::ratio(3.0, 1.0);
-        let _t123 = _t13 * _t0;
-        let _t124 = g3 * self.system._k52 - (self.system._k7 * _t14 + _t123);
-        let _t125 = -_t122 - m2 * _t118 - _t124;
-        let _t126 = _t12 * self.system._k53 + _t13 * self.system._k40;
-        let _t127 = _t115 - self.system._k7 * _t120;
-        let _t128 = _t13 * self.system._k54;
-        let _t129 = _t117 + self.system._k29 * -_t124;
-        let _t130 = _t12 * _t0;
-        let _t131 = self.system._k7 * _t3 - _t130 + g1 * self.system._k52;
-        let _t132 = _t73 - self.system._k49 * _t131;
-        let _t133 = _t2 * S::ratio(2.0, 1.0);
-        let _t134 = self.system._k7 * _t39 - self.system._k1 * _t132
-            - _t130 * self.system._k55 - _t126 * _t133 - _t127 * self.system._k56;
-        let _t135 = _t2 * S::ratio(8.0, 1.0);
-        let _t136 = _t0 * S::ratio(4.0, 1.0);
-        let _t137 = self.system._k7 * (_t20 + _t19) + g2 * _t119;
-        let _t138 = g1 * _t2;
-        let _t139 = self.system._k7 * (_t102 + _t138) + g3 * _t118 + g1 * _t119;
-        let _t140 = _t131 - _t77 + m2 * _t119;
-        let _t141 = _t12 * _t121 + self.system._k1 * _t137
-            + (self.system._k18 * _t35 + _t1 * _t140 + self.system._k0 * _t139);
-        let _t142 = _t12 * self.system._k58;
-        let _t143 = self.system._k7 * _t30 + _t127 * _t135 + _t132 * _t136
-            - self.system._k46
-                * (_t141
-                    + (_t141 - S::ratio(3.0, 1.0) * (_t11 - m2 * _t73)
-                        + S::ratio(6.0, 1.0) * (m1 * _t115 + g1 * _t126) + g2 * _t142));
-        let _t144 = self.system._k7 * (_t23 - _t21) - g2 * _t118;
-        let _t145 = _t10 * _t140 + _t41 * _t125
-            + (self.system._k2 * _t137 + self.system._k0 * _t144);
-        let _t146 = m1 * _t117;
-        let _t147 = _t13 * self.system._k59;
-        let _t148 = _t115 * _t116 - _t73 * self._h1 - _t40 * self._h18 - _t17 * _t114
-            - _t34 * self._h11 + _t8 * _t117 * self._h13 + _t121 * _t82 - _t125 * _t88
-            - self._h16
-                * (_t12 * _t25 + _t38 * self.system._k48
-                    + S::ratio(8.0, 1.0) * (_t20 * _t126 + _t3 * _t127) + _t28 * _t128
-                    + _t7 * S::ratio(4.0, 1.0) * _t129);
-        let _t149 = _t148
-            - self._h17
-                * (g2 * _t134
+                * (self.system._k2 * _t112 - self.system._k0 * _t125
+                    - S::ratio(4.0, 1.0) * (_t18 * _t119 - _t11 * _t126));
+        let _t129 = _t19 * _t106 + self.system._k7 * _t21 - _t103 * _t115;
+        let _t130 = _t116 * self.system._k32 - _t129 * self.system._k28
+            - self.system._k33 * (m1 * _t124 + m3 * _t114);
+        let _t131 = self._h11 * (_t17 * _t101 + _t3 * _t105 - _t8 * _t122)
+            - self._h8 * (_t34 + m2 * _t121) + self._h12 * (_t29 * _t102 + _t4 * _t113)
+            + _t110 * self._h1;
+        let _t132 = _t131 - _t124 * _t54 + self._h10 * _t128
+            + (_t18 * _t112 - _t11 * _t125
+                + self.system._k7
+                    * (_t130
+                        + (_t130
+                            + S::ratio(12.0, 1.0)
+                                * (m3 * _t110 - m1 * _t122 + g3 * _t119 - g1 * _t126))))
+                * _t44;
+        let _t133 = self.system._k7 * _t6;
+        let _t134 = _t133 + _t133;
+        let _t135 = self.system._k6 * _t13;
+        let _t136 = _t135 + _t135;
+        let _t137 = _t6 * _t134 + _t13 * _t136;
+        let _t138 = g2 * self.system._k8;
+        let _t139 = g1 * self.system._k13;
+        let _t140 = _t19 * _t13 - _t11 * _t6 + self.system._k1 * _t138
+            - self.system._k0 * _t139;
+        let _t141 = self.system._k31 * _t140 - S::ratio(4.0, 1.0) * _t137;
+        let _t142 = self.system._k10 * (_t9 + m3 * _t134);
+        let _t143 = _t18 * _t6 + self.system._k2 * _t139 + self.system._k8 * _t7;
+        let _t144 = self.system._k27 * _t143 - S::ratio(4.0, 1.0) * _t142;
+        let _t145 = _t140 - S::ratio(3.0, 1.0) * (m2 * _t135 - m1 * _t133);
+        let _t146 = _t143 - S::ratio(3.0, 1.0) * (_t8 + m3 * _t133);
+        let _t147 = g3 * S::ratio(3.0, 1.0);
+        let _t148 = _t18 * _t139 + self.system._k8 * _t24 - _t133 * _t147;
+        let _t149 = _t19 * _t138 - _t11 * _t139
+            - S::ratio(3.0, 1.0) * (g2 * _t135 - g1 * _t133);
+        let _t150 = _t148 * self.system._k32
+            - self.system._k33 * (_t30 + m1 * _t145 + m3 * _t146)
+            - _t149 * self.system._k28;
+        let _t151 = _t134 * self.system._k16;
+        let _t152 = self.system._k0 * _t134 - self.system._k1 * _t136;
+        let _t153 = self.system._k8 * _t26 - _t11 * _t141 + _t18 * _t144
+            + self.system._k7
+                * (_t150
+                    + (_t150
+                        + S::ratio(12.0, 1.0)
+                            * (_t10 + m3 * _t142 - m1 * _t137 + g3 * _t151
+                                - g1 * _t152)));
+        let _t154 = self.system._k9 * (_t16 + m3 * _t136);
+        let _t155 = -(_t18 * _t13) - self.system._k2 * _t138 - self.system._k8 * _t14;
+        let _t156 = _t155 + S::ratio(3.0, 1.0) * (_t15 + m3 * _t135);
+        let _t157 = self.system._k26 * _t155 - S::ratio(4.0, 1.0) * _t154;
+        let _t158 = self.system._k2 * _t136;
+        let _t159 = self.system._k0 * _t157 - self.system._k1 * _t144
+            + S::ratio(4.0, 1.0) * (_t19 * _t151 - _t11 * _t158);
+        let _t160 = self.system._k2 * _t144 - self.system._k0 * _t141
+            - S::ratio(4.0, 1.0) * (_t18 * _t151 - _t11 * _t152)
+            - _t33 * self.system._k37;
+        let _t161 = self._h10
+            * (_t2 * _t157 - _t38 * _t6 - _t7 * _t141
+                + S::ratio(4.0, 1.0) * (_t42 * _t139 - _t20 * _t158 + _t24 * _t152)
+                - g2 * _t159 + g3 * _t160);
+        let _t162 = -(_t18 * _t138) - self.system._k8 * _t21 + _t135 * _t147;
+        let _t163 = _t162 * self.system._k28 - _t148 * self.system._k29
+            + self.system._k30 * (m1 * _t156 + m2 * _t146);
+        let _t164 = _t11 * _t157 - _t19 * _t144
+            + self.system._k8
+                * (_t163
+                    + (_t163
+                        - S::ratio(12.0, 1.0)
+                            * (m2 * _t142 - m1 * _t154 + g2 * _t151 - g1 * _t158)));
+        let _t165 = self._h9 * (_t43 + m3 * _t153)
+            - self._h11 * (_t36 * _t133 - _t3 * _t154 + _t8 * _t137)
+            - self._h13 * (_t40 * _t134 + _t9 * _t145) + _t142 * self._h1;
+        let _t166 = _t165 + _t156 * _t53 + _t161 - _t164 * _t35;
+        let _t167 = m2 * self.system._k20 + m3 * self.system._k21;
+        let _t168 = m1 * self.system._k20;
+        let _t169 = m1 * self.system._k21;
+        let _t170 = self.system._k0 * _t19;
+        let _t171 = self.system._k1 * _t11 + _t170;
+        let _t172 = _t171 - m1 * self.system._k38;
+        let _t173 = self.system._k2 * _t11;
+        let _t174 = m3 * self.system._k13;
+        let _t175 = _t173 - self.system._k0 * _t174;
+        let _t176 = _t175 - m1 * self.system._k39;
+        let _t177 = self.system._k2 * _t38;
+        let _t178 = self.system._k1 * _t23;
+        let _t179 = self.system._k31 * _t175 - S::ratio(4.0, 1.0) * _t169;
+        let _t180 = self.system._k26 * _t171 - S::ratio(4.0, 1.0) * _t168;
+        let _t181 = _t20 * self.system._k40;
+        let _t182 = _t24 * self.system._k41;
+        let _t183 = -(self.system._k2 * (_t18 - _t174)) - _t19 * self.system._k42;
+        let _t184 = self.system._k27 * _t183 - S::ratio(4.0, 1.0) * _t167;
+        let _t185 = self.system._k0 * _t180 - self.system._k1 * _t184
+            + _t19 * self.system._k43 + _t11 * self.system._k40;
+        let _t186 = self.system._k2 * _t184 - self.system._k0 * _t179
+            - _t18 * self.system._k43 - _t11 * self.system._k41;
+        let _t187 = self._h10
+            * (_t177 + _t178 - _t7 * _t179 + _t2 * _t180
+                + S::ratio(4.0, 1.0) * (_t42 * _t174 - _t32 * _t19) + _t181 - _t182
+                - g2 * _t185 + g3 * _t186);
+        let _t188 = _t18 * _t174 - _t19 * _t19 + g3 * self.system._k39
+            + g2 * self.system._k38;
+        let _t189 = _t3 * S::ratio(3.0, 1.0);
+        let _t190 = _t11 * _t19 - _t189 - g1 * self.system._k38;
+        let _t191 = _t183 + m3 * self.system._k39 + m2 * self.system._k38;
+        let _t192 = _t190 * self.system._k28 - _t188 * self.system._k29
+            + self.system._k30 * (m1 * _t172 + m2 * _t191);
+        let _t193 = _t11 * _t180 - _t19 * _t184
+            + self.system._k8
+                * (_t192
+                    + (_t192 + S::ratio(12.0, 1.0) * (_t32 - m2 * _t167 + m1 * _t168)
+                        - g2 * self.system._k44 - g1 * self.system._k45));
+        let _t194 = _t8 * S::ratio(3.0, 1.0);
+        let _t195 = -(_t11 * _t174) + _t194 - g1 * self.system._k39;
+        let _t196 = _t188 * self.system._k32 - _t195 * self.system._k28
+            - self.system._k33 * (m1 * _t176 + m3 * _t191);
+        let _t197 = _t18 * _t184 - _t11 * _t179
+            + self.system._k7
+                * (_t196
+                    + (_t196 - S::ratio(12.0, 1.0) * (_t42 - m3 * _t167 + m1 * _t169)
+                        + g3 * self.system._k44 + g1 * self.system._k46));
+        let _t198 = _t36 * self._h21 + _t17 * self._h22 + _t29 * self._h23
+            + _t40 * self._h24 + _t167 * self._h1
+            + self._h11 * (_t3 * _t168 - _t8 * _t169) + _t172 * _t53 - _t176 * _t54;
+        let _t199 = _t198 + _t187 - _t193 * _t35 + _t197 * _t44;
+        let _t200 = m2 * self.system._k24;
+        let _t201 = self.system._k1 * _t18;
+        let _t202 = self.system._k2 * _t19 + _t201;
+        let _t203 = self.system._k31 * _t202 - S::ratio(4.0, 1.0) * _t200;
+        let _t204 = m1 * self.system._k22 + m3 * self.system._k24;
+        let _t205 = m1 * self.system._k14;
+        let _t206 = -(_t18 * self.system._k47) - self.system._k0 * (_t11 - _t205);
+        let _t207 = self.system._k26 * _t206 - S::ratio(4.0, 1.0) * _t204;
+        let _t208 = m2 * self.system._k22;
+        let _t209 = _t170 - self.system._k1 * _t205;
+        let _t210 = self.system._k27 * _t209 - S::ratio(4.0, 1.0) * _t208;
+        let _t211 = self.system._k0 * _t207 - self.system._k1 * _t210
+            - _t19 * self.system._k40 - _t11 * self.system._k48;
+        let _t212 = _t18 * self.system._k40;
+        let _t213 = _t11 * self.system._k49;
+        let _t214 = _t212 - self.system._k0 * _t203 + self.system._k2 * _t210 - _t213;
+        let _t215 = self._h10
+            * (_t48
+                - (_t2 * _t207 - _t45 - _t7 * _t203 - _t32 * S::ratio(4.0, 1.0) * _t205
+                    - _t20 * self.system._k48 - _t24 * self.system._k49) + g2 * _t211
+                - g3 * _t214);
+        let _t216 = _t206 + m3 * self.system._k50 + m1 * self.system._k51;
+        let _t217 = _t202 - m2 * self.system._k50;
+        let _t218 = _t189 + -(_t19 * _t205) - g2 * self.system._k51;
+        let _t219 = _t11 * _t205 - _t18 * _t18 + g3 * self.system._k50
+            + g1 * self.system._k51;
+        let _t220 = _t209 - m2 * self.system._k51;
+        let _t221 = _t219 * self.system._k28 - _t218 * self.system._k29
+            + self.system._k30 * (m1 * _t216 + m2 * _t220);
+        let _t222 = _t11 * _t207 - _t19 * _t210
+            + self.system._k8
+                * (_t221
+                    + (_t221 - S::ratio(12.0, 1.0) * (_t33 + m2 * _t208 - m1 * _t204)
+                        + g2 * self.system._k45 + g1 * self.system._k52));
+        let _t223 = _t15 * S::ratio(3.0, 1.0);
+        let _t224 = _t19 * _t18 - _t223 - g2 * self.system._k50;
+        let _t225 = _t218 * self.system._k32 - _t224 * self.system._k28
+            - self.system._k33 * (m1 * _t217 + m3 * _t220);
+        let _t226 = g3 * self.system._k45;
+        let _t227 = g1 * self.system._k53;
+        let _t228 = _t18 * _t210 - _t11 * _t203
+            + self.system._k7
+                * (_t225
+                    + (_t225 - _t226 + S::ratio(12.0, 1.0) * (m3 * _t208 - m1 * _t200)
+                        + _t227));
+        let _t229 = _t208 * self._h1 - _t215 - _t17 * self._h25 - _t29 * self._h26
+            + self._h11 * (_t3 * _t204 - _t8 * _t200) + _t216 * _t53 - _t217 * _t54
+            - _t222 * _t35;
+        let _t230 = _t229 + _t228 * _t44;
+        let _t231 = m1 * self.system._k23 + m2 * self.system._k25;
+        let _t232 = m2 * self.system._k12;
+        let _t233 = -(self.system._k1 * (_t19 - _t232)) - _t11 * self.system._k54;
+        let _t234 = self.system._k31 * _t233 - S::ratio(4.0, 1.0) * _t231;
+        let _t235 = m3 * self.system._k25;
+        let _t236 = _t201 - self.system._k2 * _t232;
+        let _t237 = self.system._k26 * _t236 - S::ratio(4.0, 1.0) * _t235;
+        let _t238 = _t19 * self.system._k41;
+        let _t239 = m3 * self.system._k23;
+        let _t240 = _t173 + self.system._k0 * _t18;
+        let _t241 = self.system._k27 * _t240 - S::ratio(4.0, 1.0) * _t239;
+        let _t242 = _t213 - _t238 + self.system._k0 * _t237 - self.system._k1 * _t241;
+        let _t243 = self.system._k2 * _t241 - self.system._k0 * _t234
+            + _t18 * self.system._k41 + _t11 * self.system._k55;
+        let _t244 = _t236 - m3 * self.system._k56;
+        let _t245 = _t233 + m2 * self.system._k56 + m1 * self.system._k57;
+        let _t246 = _t11 * _t18 - _t194 - g3 * self.system._k57;
+        let _t247 = _t223 + -(_t18 * _t232) - g3 * self.system._k56;
+        let _t248 = _t240 - m3 * self.system._k57;
+        let _t249 = _t247 * self.system._k28 - _t246 * self.system._k29
+            + self.system._k30 * (m1 * _t244 + m2 * _t248);
+        let _t250 = g2 * self.system._k46;
+        let _t251 = _t11 * _t237 - _t19 * _t241
+            + self.system._k8
+                * (_t249
+                    + (_t250 - _t227 + _t249
+                        - S::ratio(12.0, 1.0) * (m2 * _t239 - m1 * _t235)));
+        let _t252 = _t19 * _t232 - _t11 * _t11 + g2 * self.system._k56
+            + g1 * self.system._k57;
+        let _t253 = _t246 * self.system._k32 - _t252 * self.system._k28
+            - self.system._k33 * (m1 * _t245 + m3 * _t248);
+        let _t254 = _t18 * _t241 - _t11 * _t234
+            + self.system._k7
+                * (_t253
+                    + (_t253 + S::ratio(12.0, 1.0) * (_t33 + m3 * _t239 - m1 * _t231)
+                        - g3 * self.system._k46 - g1 * self.system._k58));
+        let _t255 = self._h10
+            * (_t52
+                + (_t2 * _t237 - _t49 - _t7 * _t234 + _t51 * S::ratio(4.0, 1.0)
+                    + _t20 * self.system._k49 + _t24 * self.system._k55) - g2 * _t242
+                + g3 * _t243) - _t36 * self._h27;
+        let _t256 = _t255 - _t40 * self._h28 + _t239 * self._h1
+            + self._h11 * (_t3 * _t235 - _t8 * _t231) + _t244 * _t53 - _t245 * _t54
+            - _t251 * _t35 + _t254 * _t44;
+        let _t257 = _t38 * _t12 - _t26 * _t1 + _t14 * _t125 - _t2 * _t112
+            - S::ratio(4.0, 1.0)
+                * (_t42 * _t106 - _t33 * _t107 - _t20 * _t119 + _t21 * _t126)
+            + g1 * _t127;
+        let _t258 = self.system._k34 * (_t40 + m2 * _t124 + m3 * _t113)
+            - _t117 * self.system._k32 + _t129 * self.system._k29;
+        let _t259 = self.system._k7 * _t38 + _t19 * _t125 - _t18 * _t109
+            + self.system._k6
+                * (_t258
+                    + (_t258
+                        + S::ratio(12.0, 1.0)
+                            * (_t36 - m3 * _t105 + m2 * _t122 - g3 * _t120
+                                + g2 * _t126)));
+        let _t260 = self._h3
+            + self._h11 * (_t36 * _t103 - _t10 * _t101 - _t3 * _t110 + _t15 * _t122)
+            + self._h12 * (_t30 * _t102 + _t4 * _t114)
+            + self._h16 * (_t40 * _t104 + _t16 * _t124);
+        let _t261 = _t260 + _t105 * self._h1
+            + self._h15
+                * (_t257
+                    - g3
+                        * (self.system._k1 * _t125 - self.system._k2 * _t109
+                            + S::ratio(4.0, 1.0) * (_t18 * _t120 - _t19 * _t126)
+                            - _t42 * self.system._k36)) - _t121 * _t56;
+        let _t262 = self.system._k34 * (_t29 + m2 * _t145 + m3 * _t156)
+            - _t162 * self.system._k32 + _t149 * self.system._k29;
+        let _t263 = _t19 * _t141 - self.system._k8 * _t23 - _t18 * _t157
+            + self.system._k6
+                * (_t262
+                    + (_t262
+                        - S::ratio(12.0, 1.0)
+                            * (_t17 + m3 * _t154 - m2 * _t137 + g3 * _t158
+                                - g2 * _t152)));
+        let _t264 = self.system._k1 * _t141 - self.system._k2 * _t157
+            + S::ratio(4.0, 1.0) * (_t18 * _t158 - _t19 * _t152)
+            + _t32 * self.system._k37;
+        let _t265 = self._h15
+            * (_t38 * _t13 + _t14 * _t141 - _t2 * _t144
+                - S::ratio(4.0, 1.0) * (_t42 * _t138 - _t20 * _t151 + _t21 * _t152)
+                + g1 * _t159 - g3 * _t264);
+        let _t266 = self._h11 * (_t36 * _t135 - _t3 * _t142 + _t15 * _t137)
+            - self._h14 * (_t58 + m3 * _t263) + self._h16 * (_t40 * _t136 + _t16 * _t145)
+            + _t154 * self._h1;
+        let _t267 = _t266 + _t146 * _t53 + _t265 - _t164 * _t56;
+        let _t268 = self.system._k1 * _t179 - self.system._k2 * _t180 - _t212 + _t238;
+        let _t269 = _t195 * self.system._k29 - _t190 * self.system._k32
+            + self.system._k34 * (m2 * _t176 + m3 * _t172);
+        let _t270 = _t19 * _t179 - _t18 * _t180
+            + self.system._k6
+                * (_t269
+                    + (_t269 - S::ratio(12.0, 1.0) * (m3 * _t168 - m2 * _t169) + _t226
+                        - _t250));
+        let _t271 = self._h15
+            * (_t48
+                + (_t14 * _t179 - _t46 - _t2 * _t184 + _t47 * S::ratio(4.0, 1.0)
+                    + _t20 * self.system._k43 + _t21 * self.system._k41) + g1 * _t185
+                - g3 * _t268) - _t10 * self._h22;
+        let _t272 = _t271 + _t30 * self._h23 - self._h11 * (_t3 * _t167 - _t15 * _t169)
+            + _t168 * self._h1 + _t191 * _t53 + _t176 * _t64 - _t193 * _t56
+            - _t270 * _t59;
+        let _t273 = self.system._k0 * _t26;
+        let _t274 = _t21 * self.system._k49;
+        let _t275 = self.system._k1 * _t203 - self.system._k2 * _t207
+            + _t18 * self.system._k48 + _t19 * self.system._k49;
+        let _t276 = self._h15
+            * (_t177 - _t181 + _t273 + _t14 * _t203 - _t2 * _t210
+                - S::ratio(4.0, 1.0) * (_t42 * _t18 - _t33 * _t205) + _t274 + g1 * _t211
+                - g3 * _t275);
+        let _t277 = _t224 * self.system._k29 - _t219 * self.system._k32
+            + self.system._k34 * (m2 * _t217 + m3 * _t216);
+        let _t278 = _t19 * _t203 - _t18 * _t207
+            + self.system._k6
+                * (_t277
+                    + (_t277 + S::ratio(12.0, 1.0) * (_t42 - m3 * _t204 + m2 * _t200)
+                        - g3 * self.system._k52 - g2 * self.system._k53));
+        let _t279 = _t36 * self._h29 + _t10 * self._h25 - _t30 * self._h26
+            + _t40 * self._h30 - self._h11 * (_t3 * _t208 - _t15 * _t200)
+            + _t204 * self._h1 + _t220 * _t53 + _t217 * _t64;
+        let _t280 = _t279 + _t276 - _t222 * _t56 - _t278 * _t59;
+        let _t281 = self.system._k1 * _t234 - self.system._k2 * _t237
+            - _t18 * self.system._k49 - _t19 * self.system._k55;
+        let _t282 = self._h15
+            * (_t63
+                - (_t14 * _t234 - _t60 - _t2 * _t241 - _t42 * S::ratio(4.0, 1.0) * _t232
+                    - _t20 * self.system._k41 - _t21 * self.system._k55) - g1 * _t242
+                + g3 * _t281);
+        let _t283 = _t252 * self.system._k29 - _t247 * self.system._k32
+            + self.system._k34 * (m2 * _t245 + m3 * _t244);
+        let _t284 = _t19 * _t234 - _t18 * _t237
+            + self.system._k6
+                * (_t283
+                    + (_t283 - S::ratio(12.0, 1.0) * (_t32 + m3 * _t235 - m2 * _t231)
+                        + g3 * self.system._k53 + g2 * self.system._k58));
+        let _t285 = _t235 * self._h1 - _t282 - _t36 * self._h31 - _t40 * self._h32
+            - self._h11 * (_t3 * _t239 - _t15 * _t231) + _t248 * _t53 + _t245 * _t64
+            - _t251 * _t56;
+        let _t286 = _t285 - _t284 * _t59;
+        let _t287 = _t26 * _t6 - _t23 * _t13 - _t14 * _t157 + _t7 * _t144
+            + S::ratio(4.0, 1.0)
+                * (_t32 * _t138 - _t33 * _t139 - _t24 * _t151 + _t21 * _t158)
+            - g1 * _t160;
+        let _t288 = self._h4
+            - self._h11 * (_t17 * _t135 - _t10 * _t133 - _t8 * _t142 + _t15 * _t154)
+            - self._h13 * (_t30 * _t134 + _t9 * _t146)
+            + self._h16 * (_t29 * _t136 + _t16 * _t156);
+        let _t289 = self._h17
+            * (_t52
+                - (_t7 * _t184 - _t50 - _t14 * _t180 - _t33 * S::ratio(4.0, 1.0) * _t174
+                    - _t24 * self.system._k43 - _t21 * self.system._k40) + g1 * _t186
+                - g2 * _t268);
+        let _t290 = _t30 * self._h24 - _t289 - _t10 * self._h21
+            + self._h11 * (_t8 * _t167 - _t15 * _t168) + _t169 * self._h1 - _t191 * _t54
+            + _t172 * _t64 + _t197 * _t66;
+        let _t291 = _t290 - _t270 * _t67;
+        let _t292 = self._h17
+            * (_t63
+                + (_t7 * _t210 - _t61 - _t14 * _t207 + _t62 * S::ratio(4.0, 1.0)
+                    + _t24 * self.system._k40 + _t21 * self.system._k48) - g1 * _t214
+                + g2 * _t275) - _t17 * self._h29;
+        let _t293 = _t292 + _t29 * self._h30 + self._h11 * (_t8 * _t208 - _t15 * _t204)
+            + _t200 * self._h1 - _t220 * _t54 + _t216 * _t64 + _t228 * _t66
+            - _t278 * _t67;
+        let _t294 = self._h17
+            * (_t178 + _t182 + _t273 - _t274 - _t14 * _t237 + _t7 * _t241
+                + S::ratio(4.0, 1.0) * (_t32 * _t232 - _t33 * _t11) - g1 * _t243
+                + g2 * _t281);
+        let _t295 = _t17 * self._h31 + _t10 * self._h27 - _t30 * self._h28
+            - _t29 * self._h32 + self._h11 * (_t8 * _t239 - _t15 * _t235)
+            + _t231 * self._h1 - _t248 * _t54 + _t244 * _t64;
+        let _t296 = _t295 + _t294 + _t254 * _t66 - _t284 * _t67;
+        let _t297 = _t3 * self._h33;
+        let _t298 = _t8 * self._h34;
+        let _t299 = _t3 * self._h36 - _t32 * self._h25 + _t8 * self._h37 + _t211 * _t69
+            - _t214 * _t70 + self._h18 * _t222 - self._h19 * _t228 + self._h38;
+        let _t300 = _t242 * _t69 - _t42 * self._h27 - _t3 * self._h37 - _t8 * self._h39
+            - _t243 * _t70 + self._h18 * _t251 - self._h19 * _t254 + self._h40;
+        let _t301 = _t15 * self._h37;
+        let _t302 = _t3 * self._h34 - _t42 * self._h31 + _t15 * self._h39 - _t242 * _t71
+            + _t281 * _t70 - self._h20 * _t251 + self._h19 * _t284 + self._h42;
+        xi[0] = _t55 - (_t8 * _t36 - _t3 * _t17) * self._h11 + _t29 * _t53 - _t40 * _t54;
+        xi[1] = _t65 + self._h11 * (_t15 * _t36 - _t3 * _t10) + _t30 * _t53
+            + _t40 * _t64;
+        xi[2] = _t68 - self._h11 * (_t15 * _t17 - _t8 * _t10) - _t30 * _t54
+            + _t29 * _t64;
+        xi[3] = self._h5 + _t33 * self._h1 + _t48 * _t69 - _t52 * _t70
+            - self._h11 * (_t8 * _t42 - _t3 * _t32) + _t34 * self._h18
+            - _t43 * self._h19;
+        xi[4] = self._h6 + _t32 * self._h1 - _t48 * _t71 + _t63 * _t70
+            + self._h11 * (_t15 * _t42 - _t3 * _t33) - _t34 * self._h20
+            + _t58 * self._h19;
+        xi[5] = self._h7 + _t42 * self._h1 + _t52 * _t71 - _t63 * _t69
+            - self._h11 * (_t15 * _t32 - _t8 * _t33) + _t43 * self._h20
+            - _t58 * self._h18;
+        hessian[(0, 0)] = _t100
+            + self._h10
+                * (_t92
                     + g3
-                        * (self.system._k0 * _t129 - self.system._k2 * _t132
-                            - _t12 * _t6 * self.system._k55
-                            + _t13 * _t2 * self.system._k57)) - _t1 * self._h2 * _t143;
-        let _t150 = _t149
-            + _t10
-                * (_t2 * _t129 - _t6 * _t132
-                    + self.system._k7
-                        * (_t145
-                            + (_t145 + S::ratio(3.0, 1.0) * (m3 * _t73 - _t146)
-                                + g3 * _t142 - g1 * _t147))) * self._h20;
-        let _t151 = _t41 * self._h9;
-        let _t152 = _t4 * self._h13;
-        let _t153 = self.system._k7 * _t41 * _t41 + self.system._k6 * _t42 * _t42;
-        let _t154 = _t8 * self._h19;
-        let _t155 = _t42 * self.system._k50;
-        let _t156 = _t42 * _t6;
-        let _t157 = self.system._k8 * _t14 - _t156 + g2 * self.system._k60;
-        let _t158 = _t157 - _t122 + m3 * _t155;
-        let _t159 = _t41 * self.system._k33;
-        let _t160 = g2 * self.system._k37 + g1 * self.system._k53
-            - (_t42 * _t0 + _t41 * _t2);
-        let _t161 = _t160 + m2 * _t155 + m1 * _t159;
-        let _t162 = _t42 * self.system._k61;
-        let _t163 = _t41 * self.system._k51 + _t42 * self.system._k41;
-        let _t164 = _t153 - self.system._k8 * _t160;
-        let _t165 = _t117 - self.system._k30 * _t157;
-        let _t166 = _t3 * S::ratio(4.0, 1.0);
-        let _t167 = _t41 * _t6;
-        let _t168 = g1 * self.system._k60 - (self.system._k8 * _t7 + _t167);
-        let _t169 = _t75 - self.system._k49 * -_t168;
-        let _t170 = self.system._k0 * _t165 + self.system._k1 * _t169
-            - _t41 * _t0 * self.system._k62 + _t42 * _t2 * self.system._k63;
-        let _t171 = self.system._k8 * _t39 + self.system._k2 * _t169
-            - _t167 * self.system._k62 - _t163 * _t133 - self.system._k56 * _t164;
-        let _t172 = -_t83 - m3 * _t159 - _t168;
-        let _t173 = self.system._k8 * (_t28 - _t27) - g3 * _t159;
-        let _t174 = self.system._k8 * (_t23 + _t22) + g3 * _t155;
-        let _t175 = _t1 * _t172 + _t12 * _t158
-            + (self.system._k1 * _t173 + self.system._k0 * _t174);
-        let _t176 = _t41 * self.system._k64;
-        let _t177 = _t42 * self.system._k65;
-        let _t178 = self._h20
-            * (_t2 * _t165 + _t0 * _t169
-                - self.system._k8
-                    * (_t175
-                        + (_t175 + S::ratio(3.0, 1.0) * (m2 * _t75 + _t146) - g2 * _t176
-                            + g1 * _t177)));
-        let _t179 = _t6 * S::ratio(4.0, 1.0);
-        let _t180 = self.system._k8 * (_t103 + _t138) + g2 * _t155 + g1 * _t159;
-        let _t181 = _t41 * _t161 - self.system._k2 * _t173
-            + (self.system._k10 * _t35 - _t10 * _t172 + self.system._k0 * _t180);
-        let _t182 = self.system._k8 * _t30 + _t164 * _t135 - _t169 * _t179
-            - self.system._k48
-                * (_t181
-                    + (_t181 - S::ratio(3.0, 1.0) * (_t11 + m3 * _t75)
-                        + S::ratio(6.0, 1.0) * (m1 * _t153 + g1 * _t163) + g3 * _t176));
-        let _t183 = _t75 * self._h1 + _t52 * self._h21 - _t43 * _t151 - _t48 * self._h12
-            - _t117 * _t152 - _t153 * _t154 - _t158 * _t82 - _t161 * _t88
-            - self._h16
-                * (_t41 * _t45 + _t51 * self.system._k46 - _t20 * _t162
-                    - S::ratio(8.0, 1.0) * (_t28 * _t163 + _t7 * _t164) - _t165 * _t166);
-        let _t184 = _t183 - self._h17 * (g2 * _t170 + g3 * _t171) + _t1 * _t178
-            - _t10 * self._h2 * _t182;
-        let _t185 = _t12 * self._h26;
-        let _t186 = _t41 * self._h27;
-        let _t187 = self.system._k1 * _t2 + m2 * self.system._k51;
-        let _t188 = _t187 - m1 * self.system._k66;
-        let _t189 = self.system._k2 * _t2 + m3 * self.system._k53;
-        let _t190 = _t189 - m1 * self.system._k67;
-        let _t191 = _t20 * self.system._k68;
-        let _t192 = _t28 * self.system._k69;
-        let _t193 = _t41 * self.system._k38 + self.system._k8 * _t189;
-        let _t194 = _t12 * self.system._k37 + self.system._k7 * _t187;
-        let _t195 = m3 * self.system._k46;
-        let _t196 = self.system._k2 * _t45 - _t50 * _t195;
-        let _t197 = m2 * self.system._k48;
-        let _t198 = self.system._k1 * _t25 - _t37 * _t197;
-        let _t199 = self.system._k2 * _t6 + m3 * self.system._k60;
-        let _t200 = self.system._k1 * _t0 + m2 * self.system._k52;
-        let _t201 = _t199 + _t200;
-        let _t202 = _t94 + self.system._k6 * _t201;
-        let _t203 = _t0 * self.system._k70 + _t2 * self.system._k71
-            + self.system._k0 * _t194 + self.system._k1 * _t202;
-        let _t204 = _t6 * self.system._k70 + _t2 * self.system._k72
-            + self.system._k0 * _t193 + self.system._k2 * _t202;
-        let _t205 = _t201 - m3 * self.system._k67 - m2 * self.system._k66;
-        let _t206 = _t6 * _t6;
-        let _t207 = _t0 * _t0;
-        let _t208 = _t206 + _t207 - g3 * self.system._k67 - g2 * self.system._k66;
-        let _t209 = _t0 * _t2;
-        let _t210 = _t77 - _t209 + g1 * self.system._k66;
-        let _t211 = _t1 * _t205 + _t12 * _t188
-            + (self.system._k1 * _t208 - self.system._k0 * _t210);
-        let _t212 = _t37 * S::ratio(3.0, 1.0);
-        let _t213 = m2 * S::ratio(6.0, 1.0);
-        let _t214 = S::ratio(2.0, 1.0) * (_t2 * _t194 + _t0 * _t202)
-            + self.system._k8
-                * (_t211
-                    + (_t211 + _t212 - g2 * self.system._k73 - g1 * self.system._k74
-                        - _t94 * _t213 - m1 * _t142));
-        let _t215 = _t6 * _t2;
-        let _t216 = _t83 + _t215 - g1 * self.system._k67;
-        let _t217 = _t10 * _t205 + _t41 * _t190
-            + (self.system._k2 * _t208 + self.system._k0 * _t216);
-        let _t218 = _t50 * S::ratio(3.0, 1.0);
-        let _t219 = m3 * S::ratio(6.0, 1.0);
-        let _t220 = S::ratio(2.0, 1.0) * (_t2 * _t193 + _t6 * _t202)
-            + self.system._k7
-                * (_t217
-                    + (_t217 + _t218 - g3 * self.system._k73 - g1 * self.system._k75
-                        - _t94 * _t219 - m1 * _t176));
-        let _t221 = _t94 * self._h8 + _t43 * self._h22 + _t17 * self._h23
-            + _t33 * self._h24 + _t47 * self._h25 - _t4 * _t185 + _t8 * _t186
-            + _t188 * _t82 - _t190 * _t88;
-        let _t222 = _t221
-            + self._h16
-                * (_t196 + _t191 - _t192
-                    - S::ratio(8.0, 1.0) * (_t7 * _t193 - _t3 * _t194) + _t198)
-            - (g2 * _t203 + g3 * _t204) * self._h28
-            + self._h20 * (_t1 * _t214 + _t10 * _t220);
-        let _t223 = m1 * self.system._k34;
-        let _t224 = self.system._k2 * _t0 + m3 * self.system._k37;
-        let _t225 = _t42 * self.system._k40 + self.system._k8 * _t224;
-        let _t226 = self.system._k0 * _t2 + m1 * self.system._k32;
-        let _t227 = _t199 + _t226;
-        let _t228 = _t126 + self.system._k7 * _t227;
-        let _t229 = _t42 * self._h32;
-        let _t230 = _t227 - m3 * self.system._k78 - m1 * self.system._k79;
-        let _t231 = _t224 - m2 * self.system._k78;
-        let _t232 = self.system._k0 * _t0 + m1 * self.system._k41;
-        let _t233 = _t1 * self.system._k53 + self.system._k6 * _t232;
-        let _t234 = _t0 * self.system._k71 + _t2 * self.system._k80
-            + self.system._k0 * _t228 + self.system._k1 * _t233;
-        let _t235 = _t6 * self.system._k71;
-        let _t236 = _t2 * self.system._k81;
-        let _t237 = _t235 - _t236 - self.system._k0 * _t225 + self.system._k2 * _t233;
-        let _t238 = _t232 - m2 * self.system._k79;
-        let _t239 = _t77 + _t209 - g2 * self.system._k79;
-        let _t240 = _t2 * _t2;
-        let _t241 = _t206 + _t240 - g3 * self.system._k78 - g1 * self.system._k79;
-        let _t242 = _t1 * _t238 + _t12 * _t230
-            + (self.system._k1 * _t239 + self.system._k0 * _t241);
-        let _t243 = _t39 * S::ratio(3.0, 1.0);
-        let _t244 = m1 * S::ratio(6.0, 1.0);
-        let _t245 = S::ratio(2.0, 1.0) * (_t2 * _t228 + _t0 * _t233)
-            + self.system._k8
-                * (_t242
-                    + (_t242 + _t243 - g2 * self.system._k74 - g1 * self.system._k82
-                        - m2 * _t107 - _t126 * _t244));
-        let _t246 = _t6 * _t0;
-        let _t247 = _t122 - _t246 + g2 * self.system._k78;
-        let _t248 = _t10 * _t238 - _t41 * _t231
-            + (self.system._k2 * _t239 + self.system._k0 * _t247);
-        let _t249 = g3 * self.system._k74;
-        let _t250 = g1 * self.system._k83;
-        let _t251 = S::ratio(2.0, 1.0) * (_t2 * _t225 - _t6 * _t233)
-            - self.system._k7
-                * (_t248 - (_t249 - _t250 + m3 * _t107 - m1 * _t177 - _t248));
-        let _t252 = _t126 * _t116 - _t1 * self._h29
-            - self._h16
-                * (_t53 + _t20 * self.system._k76 + _t28 * self.system._k77
-                    - _t37 * _t223 + S::ratio(8.0, 1.0) * (_t7 * _t225 + _t3 * _t228)
-                    + _t55);
-        let _t253 = _t252 - _t17 * self._h30 - _t33 * self._h31 + _t8 * _t229
-            - _t230 * _t82 - _t231 * _t88 + self._h28 * (g2 * _t234 + g3 * _t237)
-            - self._h20 * (_t1 * _t245 - _t10 * _t251);
-        let _t254 = _t200 + _t226;
-        let _t255 = _t163 + self.system._k8 * _t254;
-        let _t256 = self.system._k1 * _t6 + m2 * self.system._k38;
-        let _t257 = _t13 * self.system._k41 + self.system._k7 * _t256;
-        let _t258 = _t13 * self._h36;
-        let _t259 = _t256 - m3 * self.system._k85;
-        let _t260 = _t254 - m2 * self.system._k85 - m1 * self.system._k86;
-        let _t261 = _t0 * self.system._k72;
-        let _t262 = self.system._k0 * _t6 + m1 * self.system._k40;
-        let _t263 = _t10 * self.system._k51 + self.system._k6 * _t262;
-        let _t264 = _t261 - _t236 - self.system._k0 * _t257 + self.system._k1 * _t263;
-        let _t265 = _t6 * self.system._k72 + _t2 * self.system._k87
-            + self.system._k0 * _t255 + self.system._k2 * _t263;
-        let _t266 = _t262 - m3 * self.system._k86;
-        let _t267 = _t83 - _t215 + g3 * self.system._k86;
-        let _t268 = _t122 + _t246 - g3 * self.system._k85;
-        let _t269 = _t1 * _t266 - _t12 * _t259
-            - (self.system._k1 * _t267 + self.system._k0 * _t268);
-        let _t270 = g2 * self.system._k75;
-        let _t271 = S::ratio(2.0, 1.0) * (_t2 * _t257 - _t0 * _t263)
-            - self.system._k8
-                * (_t269 - (_t270 - _t250 + m2 * _t111 - m1 * _t147 - _t269));
-        let _t272 = _t207 + _t240 - g2 * self.system._k85 - g1 * self.system._k86;
-        let _t273 = _t10 * _t266 + _t41 * _t260
-            - (self.system._k2 * _t267 - self.system._k0 * _t272);
-        let _t274 = S::ratio(2.0, 1.0) * (_t2 * _t255 + _t6 * _t263)
-            + self.system._k7
-                * (_t273
-                    + (_t273 + _t243 - g3 * self.system._k75 - g1 * self.system._k88
-                        - m3 * _t111 - _t163 * _t244));
-        let _t275 = self._h16
-            * (_t58
-                - (_t56 - _t20 * self.system._k77 - _t28 * self.system._k84
-                    - _t50 * _t223 - S::ratio(8.0, 1.0) * (_t7 * _t255 + _t3 * _t257)))
-            - _t10 * self._h33 - _t43 * self._h34;
-        let _t276 = _t275 - _t47 * self._h35 - _t163 * _t154 - _t4 * _t258 + _t259 * _t82
-            + _t260 * _t88 + self._h28 * (g2 * _t264 + g3 * _t265)
-            + self._h20 * (_t1 * _t271 - _t10 * _t274);
-        let _t277 = _t15 * _t117;
-        let _t278 = _t16 * self._h39;
-        let _t279 = g1 * _t39;
-        let _t280 = (_t13 * _t45 + _t12 * _t30 + self.system._k48 * (_t89 + _t279)
-            - _t20 * _t12 * self.system._k89 + _t23 * _t128
-            + S::ratio(4.0, 1.0) * (_t14 * _t129 - _t3 * _t132)) * self._h40;
-        let _t281 = _t42 * _t125 - self.system._k2 * _t139
-            + (self.system._k19 * _t47 - _t13 * _t121 + self.system._k1 * _t144);
-        let _t282 = self.system._k7 * _t45 + _t129 * _t136 + _t127 * _t109
-            + self.system._k34
-                * (_t281
-                    + (_t281 + S::ratio(3.0, 1.0) * (_t43 - m2 * _t117)
-                        - S::ratio(6.0, 1.0) * (m3 * _t115 + g3 * _t126) - g2 * _t147));
-        let _t283 = self._h3 + _t115 * self._h8 + self._h13 * (_t74 - _t277)
-            + _t13 * _t43 * self._h37 + _t11 * _t114 - _t12 * _t35 * self._h11
-            + _t13 * _t47 * self._h38 - _t140 * _t82;
-        let _t284 = _t283 + _t125 * _t278 + _t280
-            + (g1 * _t134
-                + g3
-                    * (self.system._k7 * _t50 - self.system._k1 * _t129 - _t126 * _t98
-                        - _t123 * self.system._k57 - self.system._k44 * _t127))
-                * self._h41;
-        let _t285 = _t42 * self._h37;
-        let _t286 = _t15 * self._h19;
-        let _t287 = _t41 * self.system._k90;
-        let _t288 = self.system._k8 * _t37 - self.system._k2 * _t165
-            - _t156 * self.system._k63 - _t163 * _t95 - self.system._k42 * _t164;
-        let _t289 = _t42 * _t161 + self.system._k2 * _t174
-            + (self.system._k19 * _t33 + _t13 * _t158 + self.system._k1 * _t180);
-        let _t290 = self.system._k8 * _t25 + _t164 * _t101 + _t165 * _t179
-            - self.system._k34
-                * (_t289
-                    + (_t289 - S::ratio(3.0, 1.0) * (_t17 - m3 * _t117)
-                        + S::ratio(6.0, 1.0) * (m2 * _t153 + g2 * _t163) + g3 * _t177));
-        let _t291 = _t153 * _t286 - _t117 * self._h1 - _t65 * self._h42 - _t43 * _t285
-            - _t62 * self._h38 - _t75 * _t152 + _t172 * _t82 + _t161 * _t278
-            - self._h40
-                * (_t42 * _t45 + _t64 * self.system._k46 + _t20 * _t287
-                    + S::ratio(8.0, 1.0) * (_t23 * _t163 + _t14 * _t164)
-                    - _t169 * _t166);
-        let _t292 = _t291 + self._h41 * (g1 * _t170 - g3 * _t288) - _t12 * _t178
-            - _t13 * self._h2 * _t290;
-        let _t293 = _t235 - _t261 - self.system._k1 * _t193 + self.system._k2 * _t194;
-        let _t294 = _t13 * _t188 - _t42 * _t190
-            - (self.system._k2 * _t210 + self.system._k1 * _t216);
-        let _t295 = S::ratio(2.0, 1.0) * (_t0 * _t193 - _t6 * _t194)
-            - self.system._k6
-                * (_t294 + (_t294 - _t249 + _t270 - m3 * _t142 + m2 * _t176));
-        let _t296 = self._h40
-            * (_t55
-                - (_t54 - _t20 * self.system._k91 - _t23 * self.system._k69
-                    - _t39 * _t197 - S::ratio(8.0, 1.0) * (_t14 * _t193 + _t3 * _t202)))
-            - _t12 * self._h43 - _t11 * self._h23;
-        let _t297 = _t296 + _t35 * self._h24 - _t94 * _t116 - _t15 * _t186 - _t205 * _t82
-            + _t190 * _t278 + (g1 * _t203 + g3 * _t293) * self._h44
-            - self._h20 * (_t12 * _t214 - _t13 * _t295);
-        let _t298 = _t1 * self._h47;
-        let _t299 = _t23 * self.system._k77;
-        let _t300 = self.system._k0 * _t30 - _t39 * _t223;
-        let _t301 = _t6 * self.system._k80 + _t0 * self.system._k81
-            + self.system._k1 * _t225 + self.system._k2 * _t228;
-        let _t302 = _t13 * _t230 + _t42 * _t231
-            + (self.system._k2 * _t241 - self.system._k1 * _t247);
-        let _t303 = S::ratio(2.0, 1.0) * (_t0 * _t225 + _t6 * _t228)
-            + self.system._k6
-                * (_t302
-                    + (_t302 + _t218 - g3 * self.system._k82 - g2 * self.system._k83
-                        - _t126 * _t219 - m2 * _t177));
-        let _t304 = _t126 * self._h8 + _t43 * self._h45 + _t11 * self._h30
-            - _t35 * self._h31 + _t47 * self._h46 + _t4 * _t298 - _t15 * _t229
-            + _t238 * _t82 + _t231 * _t278;
-        let _t305 = _t304
-            + self._h40
-                * (_t196 - _t191 + _t299
-                    + S::ratio(8.0, 1.0) * (_t14 * _t225 - _t3 * _t233) + _t300)
-            - self._h44 * (g1 * _t234 + g3 * _t301)
-            + self._h20 * (_t12 * _t245 + _t13 * _t303);
-        let _t306 = _t10 * self._h51;
-        let _t307 = _t6 * self.system._k81 + _t0 * self.system._k87
-            + self.system._k1 * _t255 + self.system._k2 * _t257;
-        let _t308 = _t13 * _t259 + _t42 * _t260
-            + (self.system._k2 * _t268 + self.system._k1 * _t272);
-        let _t309 = S::ratio(2.0, 1.0) * (_t0 * _t255 + _t6 * _t257)
-            + self.system._k6
-                * (_t308
-                    + (_t308 + _t212 - g3 * self.system._k83 - g2 * self.system._k88
-                        - m3 * _t147 - _t163 * _t213));
-        let _t310 = _t163 * _t286 - _t13 * self._h48
-            - self._h40
-                * (_t66 + _t20 * self.system._k69 + _t23 * self.system._k84
-                    - _t50 * _t197 + S::ratio(8.0, 1.0) * (_t14 * _t255 + _t3 * _t263)
-                    + _t68);
-        let _t311 = _t310 - _t43 * self._h49 - _t47 * self._h50 + _t4 * _t306
-            + _t266 * _t82 - _t260 * _t278 - self._h44 * (g1 * _t264 - g3 * _t307)
-            - self._h20 * (_t12 * _t271 + _t13 * _t309);
-        let _t312 = self._h4 + _t153 * self._h8 + self._h13 * (_t76 + _t277)
-            + _t17 * _t285 + _t11 * _t151 - _t41 * _t35 * self._h12
-            - _t42 * _t33 * self._h38 - _t172 * _t88;
-        let _t313 = _t312 - _t158 * _t278
-            + (_t42 * _t25 + _t41 * _t30 + self.system._k46 * (_t90 + _t279)
-                + _t28 * _t287 - _t23 * _t162
-                - S::ratio(4.0, 1.0) * (_t14 * _t165 + _t7 * _t169)) * self._h52;
-        let _t314 = _t35 * self._h25 - _t41 * self._h54
-            - self._h52
-                * (_t57 + _t28 * self.system._k91 + _t23 * self.system._k68
-                    - _t39 * _t195 + S::ratio(8.0, 1.0) * (_t14 * _t194 + _t7 * _t202)
-                    + _t58);
-        let _t315 = _t314 - _t11 * self._h22 + _t94 * _t154 + _t15 * _t185 + _t205 * _t88
-            + _t188 * _t278 + (g1 * _t204 - g2 * _t293) * self._h55
-            - self._h20 * (_t41 * _t220 + _t42 * _t295);
-        let _t316 = self._h52
-            * (_t68
-                - (_t67 - _t28 * self.system._k68 - _t23 * self.system._k76
-                    - _t37 * _t195 - S::ratio(8.0, 1.0) * (_t14 * _t228 + _t7 * _t233)))
-            - _t42 * self._h56 - _t17 * self._h45;
-        let _t317 = _t316 + _t33 * self._h46 - _t126 * _t286 - _t8 * _t298 - _t238 * _t88
-            - _t230 * _t278 - self._h55 * (g1 * _t237 - g2 * _t301)
-            - self._h20 * (_t41 * _t251 + _t42 * _t303);
-        let _t318 = _t163 * self._h8 + _t17 * self._h49 + _t11 * self._h34
-            - _t35 * self._h35 - _t33 * self._h50 - _t8 * _t306 + _t15 * _t258
-            - _t266 * _t88 + _t259 * _t278;
-        let _t319 = _t318
-            + self._h52
-                * (_t198 + _t192 - _t299
-                    - S::ratio(8.0, 1.0) * (_t14 * _t257 - _t7 * _t263) + _t300)
-            - self._h55 * (g1 * _t265 + g2 * _t307)
-            + self._h20 * (_t41 * _t274 + _t42 * _t309);
-        let _t320 = _t4 * self._h57;
-        let _t321 = _t8 * self._h58;
-        let _t322 = m2 * self._h44;
-        let _t323 = m3 * self._h55;
-        let _t324 = _t4 * self._h62 - _t37 * self._h30 + _t8 * self._h63 - _t234 * _t322
-            - _t237 * _t323 - self._h59 * _t245 + self._h60 * _t251 + self._h64;
-        let _t325 = self._h59 * _t271 - _t50 * self._h34 - _t4 * self._h63
-            - _t8 * self._h65 - _t264 * _t322 - _t265 * _t323 - self._h60 * _t274
-            + self._h66;
-        let _t326 = _t15 * self._h63;
-        let _t327 = m1 * self._h28;
-        let _t328 = _t4 * self._h58 - _t50 * self._h49 + _t15 * self._h65 + _t264 * _t327
-            - _t307 * _t323 - self._h67 * _t271 - self._h60 * _t309 + self._h69;
-        xi[0] = m1 * self._h0 + _t11 * self._h1
-            + (_t61 - _t47 * _t59 + _t33 * _t60) * self._h2;
-        xi[1] = m2 * self._h3 + _t17 * self._h1
-            - (_t70 - _t47 * _t69 - _t35 * _t60) * self._h2;
-        xi[2] = m3 * self._h4 + _t43 * self._h1
-            + self._h2 * (_t71 + _t33 * _t69 - _t35 * _t59);
-        xi[3] = self._h5 + _t39 * self._h1
-            + self._h2
-                * (_t0 * _t55 - _t6 * _t58 + self.system._k1 * _t40
-                    - self.system._k2 * _t52
-                    - S::ratio(12.0, 1.0) * (_t8 * _t50 - _t4 * _t37));
-        xi[4] = self._h6 + _t37 * self._h1
-            - (_t2 * _t55 - _t6 * _t68 + self.system._k0 * _t40 - self.system._k2 * _t65
-                - S::ratio(12.0, 1.0) * (_t15 * _t50 - _t4 * _t39)) * self._h2;
-        xi[5] = self._h7 + _t50 * self._h1
-            + self._h2
-                * (_t2 * _t58 - _t0 * _t68 + self.system._k0 * _t52
-                    - self.system._k1 * _t65
-                    - S::ratio(12.0, 1.0) * (_t15 * _t37 - _t8 * _t39));
-        hessian[(0, 0)] = _t113 + _t81 * _t82 + _t87 * _t88 + _t93 * self._h16
-            + _t99 * self._h17 + self._h2 * (_t1 * _t108 + _t10 * _t112);
-        hessian[(0, 1)] = _t150;
-        hessian[(0, 2)] = _t184;
-        hessian[(0, 3)] = _t222;
-        hessian[(0, 4)] = _t253;
-        hessian[(0, 5)] = _t276;
-        hessian[(1, 0)] = _t150;
-        hessian[(1, 1)] = _t284 + self._h2 * (_t12 * _t143 + _t13 * _t282);
-        hessian[(1, 2)] = _t292;
-        hessian[(1, 3)] = _t297;
-        hessian[(1, 4)] = _t305;
-        hessian[(1, 5)] = _t311;
-        hessian[(2, 0)] = _t184;
-        hessian[(2, 1)] = _t292;
-        hessian[(2, 2)] = _t313 + (g1 * _t171 + g2 * _t288) * self._h53
-            + self._h2 * (_t41 * _t182 + _t42 * _t290);
-        hessian[(2, 3)] = _t315;
-        hessian[(2, 4)] = _t317;
-        hessian[(2, 5)] = _t319;
-        hessian[(3, 0)] = _t222;
-        hessian[(3, 1)] = _t297;
-        hessian[(3, 2)] = _t315;
-        hessian[(3, 3)] = _t50 * self._h22 + _t37 * self._h23 - _t320 + _t321
-            + _t203 * _t322 + _t204 * _t323 + _t214 * self._h59 + _t220 * self._h60
-            + self._h61;
-        hessian[(3, 4)] = _t324;
-        hessian[(3, 5)] = _t325;
-        hessian[(4, 0)] = _t253;
-        hessian[(4, 1)] = _t305;
-        hessian[(4, 2)] = _t317;
-        hessian[(4, 3)] = _t324;
-        hessian[(4, 4)] = _t320 + _t50 * self._h45 + _t39 * self._h30 - _t326
-            + _t234 * _t327 + _t301 * _t323 + _t245 * self._h67 + self._h60 * _t303
-            + self._h68;
-        hessian[(4, 5)] = _t328;
-        hessian[(5, 0)] = _t276;
-        hessian[(5, 1)] = _t311;
-        hessian[(5, 2)] = _t319;
-        hessian[(5, 3)] = _t325;
-        hessian[(5, 4)] = _t328;
-        hessian[(5, 5)] = _t326 - _t321 + _t37 * self._h49 + _t39 * self._h34
-            + _t265 * _t327 + _t307 * _t322 + self._h67 * _t274 + self._h59 * _t309
-            + self._h70;
+                        * (self.system._k2 * _t90 - self.system._k0 * _t85
+                            - S::ratio(4.0, 1.0) * (_t18 * _t91 - _t11 * _t88)
+                            + _t42 * self.system._k35)) - _t97 * _t35 + _t99 * _t44;
+        hessian[(0, 1)] = _t132;
+        hessian[(0, 2)] = _t166;
+        hessian[(0, 3)] = _t199;
+        hessian[(0, 4)] = _t230;
+        hessian[(0, 5)] = _t256;
+        hessian[(1, 0)] = _t132;
+        hessian[(1, 1)] = _t261 - _t259 * _t59;
+        hessian[(1, 2)] = _t267;
+        hessian[(1, 3)] = _t272;
+        hessian[(1, 4)] = _t280;
+        hessian[(1, 5)] = _t286;
+        hessian[(2, 0)] = _t166;
+        hessian[(2, 1)] = _t267;
+        hessian[(2, 2)] = _t288 + _t137 * self._h1 + self._h17 * (_t287 + g2 * _t264)
+            + _t153 * _t66 - _t263 * _t67;
+        hessian[(2, 3)] = _t291;
+        hessian[(2, 4)] = _t293;
+        hessian[(2, 5)] = _t296;
+        hessian[(3, 0)] = _t199;
+        hessian[(3, 1)] = _t272;
+        hessian[(3, 2)] = _t291;
+        hessian[(3, 3)] = _t42 * self._h21 + _t32 * self._h22 - _t297 + _t298
+            + _t185 * _t69 - _t186 * _t70 + _t193 * self._h18 - _t197 * self._h19
+            + self._h35;
+        hessian[(3, 4)] = _t299;
+        hessian[(3, 5)] = _t300;
+        hessian[(4, 0)] = _t230;
+        hessian[(4, 1)] = _t280;
+        hessian[(4, 2)] = _t293;
+        hessian[(4, 3)] = _t299;
+        hessian[(4, 4)] = _t297 + _t42 * self._h29 + _t33 * self._h25 - _t301
+            - _t211 * _t71 + _t275 * _t70 - _t222 * self._h20 + self._h19 * _t278
+            + self._h41;
+        hessian[(4, 5)] = _t302;
+        hessian[(5, 0)] = _t256;
+        hessian[(5, 1)] = _t286;
+        hessian[(5, 2)] = _t296;
+        hessian[(5, 3)] = _t300;
+        hessian[(5, 4)] = _t302;
+        hessian[(5, 5)] = _t301 - _t298 + _t32 * self._h31 + _t33 * self._h27
+            + _t243 * _t71 - _t281 * _t69 + self._h20 * _t254 - self._h18 * _t284
+            + self._h43;
     }
 }
 
@@ -3598,28 +3234,18 @@ pub struct HeavyTopCayleyGenerating4<'a, S: ::lie_runtime::Scalar> {
     _h5: S,
     /// `mgl*c1*h/2`
     _h6: S,
-    /// `h^3`
-    _h7: S,
-    /// `12*h/I1`
-    _h8: S,
-    /// `h^3/24`
-    _h9: S,
-    /// `12*h/I2`
-    _h10: S,
-    /// `12*h/I3`
-    _h11: S,
     /// `mgl^2*c1*c2*h^3/(24*I3)`
-    _h12: S,
+    _h7: S,
     /// `mgl^2*c1*c3*h^3/(24*I2)`
-    _h13: S,
+    _h8: S,
     /// `h^3*(mgl^2*c1^2/I3 + mgl^2*c3^2/I1)/24`
-    _h14: S,
+    _h9: S,
     /// `mgl^2*c2*c3*h^3/(24*I1)`
-    _h15: S,
+    _h10: S,
     /// `h^3*(mgl^2*c1^2/I2 + mgl^2*c2^2/I1)/24`
-    _h16: S,
+    _h11: S,
     /// `h^3*(mgl^2*c2^2/I3 + mgl^2*c3^2/I2)/24`
-    _h17: S,
+    _h12: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> HeavyTopCayleyGenerating4<'a, S> {
@@ -3632,16 +3258,15 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopCayleyGenerating4<'a, S> {
         let _t3 = S::one() / system._parameters.I1;
         let _t4 = S::one() / system._parameters.I3;
         let _t5 = S::one() / system._parameters.I2;
-        let _t6 = h * S::ratio(12.0, 1.0);
-        let _t7 = S::ratio(1.0, 24.0) * _t0;
-        let _t8 = system._parameters.mgl * system._parameters.mgl;
-        let _t9 = system._parameters.c1 * _t8;
-        let _t10 = system._parameters.c2 * _t4;
-        let _t11 = system._parameters.c3 * _t7;
-        let _t12 = system._parameters.c1 * _t9;
-        let _t13 = _t8 * (system._parameters.c3 * system._parameters.c3);
-        let _t14 = system._parameters.c2 * _t8;
-        let _t15 = _t3 * _t14;
+        let _t6 = S::ratio(1.0, 24.0) * _t0;
+        let _t7 = system._parameters.mgl * system._parameters.mgl;
+        let _t8 = system._parameters.c1 * _t7;
+        let _t9 = system._parameters.c2 * _t4;
+        let _t10 = system._parameters.c3 * _t6;
+        let _t11 = system._parameters.c1 * _t8;
+        let _t12 = _t7 * (system._parameters.c3 * system._parameters.c3);
+        let _t13 = system._parameters.c2 * _t7;
+        let _t14 = _t3 * _t13;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
@@ -3653,17 +3278,12 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopCayleyGenerating4<'a, S> {
             _h4: _t4 * _t1,
             _h5: _t5 * _t1,
             _h6: system._parameters.c1 * _t2,
-            _h7: _t0,
-            _h8: _t3 * _t6,
-            _h9: _t7,
-            _h10: _t5 * _t6,
-            _h11: _t4 * _t6,
-            _h12: _t7 * _t9 * _t10,
-            _h13: _t5 * _t9 * _t11,
-            _h14: (_t4 * _t12 + _t3 * _t13) * _t7,
-            _h15: _t11 * _t15,
-            _h16: (_t5 * _t12 + system._parameters.c2 * _t15) * _t7,
-            _h17: (_t14 * _t10 + _t5 * _t13) * _t7,
+            _h7: _t6 * _t8 * _t9,
+            _h8: _t5 * _t8 * _t10,
+            _h9: (_t4 * _t11 + _t3 * _t12) * _t6,
+            _h10: _t10 * _t14,
+            _h11: (_t5 * _t11 + system._parameters.c2 * _t14) * _t6,
+            _h12: (_t13 * _t9 + _t5 * _t12) * _t6,
         }
     }
 }
@@ -3711,12 +3331,12 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t14 = self.system._k8 * _u_m3;
         let _t15 = _t14 * S::ratio(2.0, 1.0);
         let _t16 = (self.system._k0 * _t3 - _t7 * self.system._k1
-            + _t9 * self.system._k44 + _t11 * self.system._k44 - (_t12 + _t13) * _t15)
+            + _t9 * self.system._k47 + _t11 * self.system._k47 - (_t12 + _t13) * _t15)
             * self._h0 + self._h1;
         let _t17 = _t16 * _u_g2;
         let _t18 = _t10 * S::ratio(2.0, 1.0);
         let _t19 = _u_g2 * self.system._k42 + _u_m2 * _t18;
-        let _t20 = _u_m3 * _t15 + _u_g3 * self.system._k44;
+        let _t20 = _u_m3 * _t15 + _u_g3 * self.system._k47;
         let _t21 = _t8 * S::ratio(2.0, 1.0);
         let _t22 = self.system._k0 * _u_g2;
         let _t23 = _u_g1 * self.system._k1;
@@ -3738,7 +3358,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t36 = (self.system._k2 * _t7 - self.system._k0 * _t27
             + _t9 * self.system._k42 + _t30 * self.system._k42 - (_t12 + _t35) * _t18)
             * self._h0 + self._h3;
-        let _t37 = _u_g1 * self.system._k56 + _u_m1 * _t21;
+        let _t37 = _u_g1 * self.system._k54 + _u_m1 * _t21;
         let _t38 = _t4 + _t5;
         let _t39 = self.system._k19 * _t7;
         let _t40 = self.system._k8
@@ -3757,7 +3377,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t47 = _t16 * _u_g1;
         let _t48 = _u_m1 + _t36 * _u_g3;
         let _t49 = (_t27 * self.system._k1 - self.system._k2 * _t3 - (_t35 + _t13) * _t21
-            + _t11 * self.system._k56 + _t30 * self.system._k56) * self._h0 + self._h6;
+            + _t11 * self.system._k54 + _t30 * self.system._k54) * self._h0 + self._h6;
         let _t50 = _t49 * _u_g1;
         let _t51 = _u_m3 + _t49 * _u_g2;
         let _t52 = _u_m2 - _t49 * _u_g3;
@@ -3774,7 +3394,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 331 additions, 378 multiplications.
+    /// 369 additions, 429 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -3786,13 +3406,13 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
         let _t0 = self.system._k0 * _u_g3;
         let _t1 = self.system._k2 * _u_g1;
-        let _t2 = _u_m1 * _u_m3;
-        let _t3 = self.system._k7 * (_t0 - _t1 + self.system._k10 * _t2);
+        let _t2 = self.system._k10 * _u_m1;
+        let _t3 = self.system._k7 * (_t0 - _t1 + _u_m3 * _t2);
         let _t4 = _t3 + _t3;
         let _t5 = self.system._k1 * _u_g3;
         let _t6 = self.system._k2 * _u_g2;
-        let _t7 = _u_m2 * _u_m3;
-        let _t8 = self.system._k6 * (_t6 - _t5 - self.system._k19 * _t7);
+        let _t7 = _u_m2 * self.system._k9;
+        let _t8 = self.system._k6 * (_t6 - _t5 + _u_m3 * _t7);
         let _t9 = _t8 + _t8;
         let _t10 = self.system._k6 * _u_m1;
         let _t11 = _t10 * _t10;
@@ -3804,242 +3424,260 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t17 = self.system._k8 * _u_m3;
         let _t18 = _t17 * S::ratio(2.0, 1.0);
         let _t19 = (self.system._k0 * _t4 - self.system._k1 * _t9
-            + _t11 * self.system._k44 + _t13 * self.system._k44 - _t16 * _t18) * self._h0
+            + _t11 * self.system._k47 + _t13 * self.system._k47 - _t16 * _t18) * self._h0
             + self._h1;
         let _t20 = _t19 * _u_g2;
         let _t21 = _t10 * _u_m1;
         let _t22 = S::ratio(3.0, 1.0) * _t21;
         let _t23 = _t12 * S::ratio(2.0, 1.0);
         let _t24 = _u_g2 * self.system._k42 + _u_m2 * _t23;
-        let _t25 = _u_m3 * _t18 + _u_g3 * self.system._k44;
+        let _t25 = _u_m3 * _t18 + _u_g3 * self.system._k47;
         let _t26 = _t10 * S::ratio(2.0, 1.0);
         let _t27 = self.system._k0 * _u_g2;
         let _t28 = self.system._k1 * _u_g1;
         let _t29 = _t27 + _t28;
         let _t30 = _t0 + _t1;
-        let _t31 = _u_m1 * _u_m2;
-        let _t32 = self.system._k8 * (_t28 - _t27 - self.system._k18 * _t31);
+        let _t31 = _u_m1 * self.system._k11;
+        let _t32 = self.system._k8 * (_t28 - _t27 + _u_m2 * _t31);
         let _t33 = _t32 + _t32;
-        let _t34 = self.system._k18 * _t33;
-        let _t35 = self.system._k10 * _t4;
+        let _t34 = _u_m2 * self.system._k11;
+        let _t35 = self.system._k10 * _u_m3;
         let _t36 = _t17 * _t17;
         let _t37 = _t11 + _t13;
         let _t38 = _t37 + _t36;
         let _t39 = self.system._k6
             * ((_t24 + _t22 + _t25) * _t26 - (_t29 - _t12 * _u_m1) * _t23
-                - (_t30 - _t17 * _u_m1) * _t18) - _u_m2 * _t34 + _u_m3 * _t35
-            + _t38 * _t26;
+                - (_t30 - _t17 * _u_m1) * _t18) + _t33 * _t34 + _t4 * _t35 + _t38 * _t26;
         let _t40 = _u_m1 * self._h2 + _t39 * self._h0;
         let _t41 = _t17 * _u_m3;
         let _t42 = S::ratio(3.0, 1.0) * _t41;
-        let _t43 = _u_g1 * self.system._k56 + _u_m1 * _t26;
+        let _t43 = _u_g1 * self.system._k54 + _u_m1 * _t26;
         let _t44 = _t5 + _t6;
-        let _t45 = self.system._k19 * _t9;
-        let _t46 = self.system._k8
+        let _t45 = self.system._k8
             * ((_t43 + _t42 + _t24) * _t18 - (_t30 - _t10 * _u_m3) * _t26
-                - (_t44 - _t12 * _u_m3) * _t23) + _u_m1 * _t35 - _u_m2 * _t45
-            + _t38 * _t18;
-        let _t47 = _u_m3 * self._h4 + _t46 * self._h0;
-        let _t48 = _t47 * _u_m3;
-        let _t49 = _t48 + _t19 * _u_g3;
-        let _t50 = self.system._k2 * _t17;
-        let _t51 = _t14 + _t50;
-        let _t52 = (self.system._k2 * _t9 - self.system._k0 * _t33
-            + _t11 * self.system._k42 + _t36 * self.system._k42 - _t51 * _t23) * self._h0
+                - (_t44 - _t12 * _u_m3) * _t23) + _t4 * _t2 + _t9 * _t7 + _t38 * _t18;
+        let _t46 = _u_m3 * self._h4 + _t45 * self._h0;
+        let _t47 = _t46 * _u_m3;
+        let _t48 = _t47 + _t19 * _u_g3;
+        let _t49 = self.system._k2 * _t17;
+        let _t50 = _t14 + _t49;
+        let _t51 = (self.system._k2 * _t9 - self.system._k0 * _t33
+            + _t11 * self.system._k42 + _t36 * self.system._k42 - _t50 * _t23) * self._h0
             + self._h3;
-        let _t53 = _t52 * _u_g2;
-        let _t54 = _t40 * _u_m1;
-        let _t55 = _t12 * _u_m2;
-        let _t56 = S::ratio(3.0, 1.0) * _t55;
+        let _t52 = _t51 * _u_g2;
+        let _t53 = _t40 * _u_m1;
+        let _t54 = _t12 * _u_m2;
+        let _t55 = S::ratio(3.0, 1.0) * _t54;
+        let _t56 = _u_m3 * self.system._k9;
         let _t57 = self.system._k7
-            * ((_t43 + _t56 + _t25) * _t23 - (_t29 - _t10 * _u_m2) * _t26
-                - (_t44 - _t17 * _u_m2) * _t18) - _u_m1 * _t34 - _u_m3 * _t45
-            + _t38 * _t23;
+            * ((_t43 + _t55 + _t25) * _t23 - (_t29 - _t10 * _u_m2) * _t26
+                - (_t44 - _t17 * _u_m2) * _t18) + _t33 * _t31 + _t9 * _t56 + _t38 * _t23;
         let _t58 = _u_m2 * self._h5 + _t57 * self._h0;
         let _t59 = _t58 * _u_m2;
-        let _t60 = _t54 + _t59;
-        let _t61 = _t60 + _t53;
-        let _t62 = _t52 * _u_g1;
+        let _t60 = _t53 + _t59;
+        let _t61 = _t60 + _t52;
+        let _t62 = _t51 * _u_g1;
         let _t63 = _u_m3 - _t62;
         let _t64 = _t19 * _u_g1;
         let _t65 = _u_m2 + _t64;
-        let _t66 = _u_m1 + _t52 * _u_g3;
-        let _t67 = _t50 + _t15;
+        let _t66 = _u_m1 + _t51 * _u_g3;
+        let _t67 = _t49 + _t15;
         let _t68 = (self.system._k1 * _t33 - self.system._k2 * _t4 - _t67 * _t26
-            + _t13 * self.system._k56 + _t36 * self.system._k56) * self._h0 + self._h6;
+            + _t13 * self.system._k54 + _t36 * self.system._k54) * self._h0 + self._h6;
         let _t69 = _t68 * _u_g1;
-        let _t70 = _t49 + _t69;
+        let _t70 = _t48 + _t69;
         let _t71 = _u_m3 + _t68 * _u_g2;
         let _t72 = _u_m1 - _t20;
         let _t73 = _u_m2 - _t68 * _u_g3;
         let _t74 = _t61 + _t69;
-        let _t75 = _t47 * _u_g2 - (_u_g1 + _t58 * _u_g3);
-        let _t76 = _u_g2 - _t40 * _u_g3 + _t47 * _u_g1;
+        let _t75 = _t46 * _u_g2 - (_u_g1 + _t58 * _u_g3);
+        let _t76 = _u_g2 - _t40 * _u_g3 + _t46 * _u_g1;
         let _t77 = _t58 * _u_g1 - (_u_g3 + _t40 * _u_g2);
-        let _t78 = _t49 + _t59 + _t53 + S::ratio(2.0, 1.0) * _t54;
-        let _t79 = _t13 + _t36 + _t11 * S::ratio(3.0, 1.0);
-        let _t80 = self.system._k1 * _u_g2 + _t55;
+        let _t78 = _t12 * _t23;
+        let _t79 = _t17 * _t18;
+        let _t80 = self.system._k1 * _u_g2 + _t54;
         let _t81 = _t41 + self.system._k2 * _u_g3;
-        let _t82 = _u_m2 * _u_m2;
-        let _t83 = _u_m3 * _u_m3;
-        let _t84 = (self._h7
-            * (self.system._k6 * _t79
-                + self.system._k6 * (_t79 + (_t80 + _t22 + _t81) * self.system._k49)
-                + self.system._k92 * _t82 + self.system._k93 * _t83) + self._h8)
-            * S::ratio(1.0, 24.0);
-        let _t85 = _t63 + _t40 * _u_m2;
-        let _t86 = _t10 * _t12;
-        let _t87 = _t29 - _u_m2 * _t26 - _u_m1 * _t23;
-        let _t88 = _t12 * _t26;
-        let _t89 = _t34 - self.system._k94 * _t31;
-        let _t90 = self._h0
-            * (_t89 - self.system._k34 * _t86
-                + (self.system._k6 * _t87 - _t88) * self.system._k30);
-        let _t91 = _t65 - _t40 * _u_m3;
-        let _t92 = _t10 * _t17;
-        let _t93 = _t30 - _u_m3 * _t26 - _u_m1 * _t18;
-        let _t94 = _t17 * _t26;
-        let _t95 = _t35 + self.system._k95 * _t2;
-        let _t96 = self._h0
-            * (_t95 + self.system._k34 * _t92
-                - (self.system._k6 * _t93 - _t94) * self.system._k29);
-        let _t97 = -_t77;
-        let _t98 = (self.system._k6 * (self.system._k0 * _t12 - _t10 * self.system._k42)
-            - _u_m2 * self.system._k96) * self._h9;
-        let _t99 = (self.system._k6 * (self.system._k0 * _t17 - _t10 * self.system._k44)
-            - _u_m3 * self.system._k97) * self._h9;
-        let _t100 = _t40 * _t58;
-        let _t101 = self._h0
-            * (_t89 - self.system._k48 * _t86
-                + self.system._k49 * (self.system._k7 * _t87 - _t88));
-        let _t102 = _t12 * _t17;
-        let _t103 = _t44 - _u_m3 * _t23 - _u_m2 * _t18;
-        let _t104 = _t17 * _t23;
-        let _t105 = _t45 - self.system._k98 * _t7;
-        let _t106 = self._h0
-            * (_t105 - self.system._k48 * _t102
-                + (self.system._k7 * _t103 - _t104) * self.system._k29);
-        let _t107 = _t11 + _t36 + _t13 * S::ratio(3.0, 1.0);
-        let _t108 = self.system._k0 * _u_g1 + _t21;
-        let _t109 = _u_m1 * _u_m1;
-        let _t110 = S::ratio(1.0, 24.0)
-            * (self._h7
-                * (self.system._k7 * _t107
-                    + self.system._k7
-                        * (_t107 + (_t108 + _t56 + _t81) * self.system._k30)
-                    + self.system._k92 * _t109 + self.system._k99 * _t83) + self._h10);
-        let _t111 = self._h9
-            * (self.system._k7 * _t51 - _u_m1 * self.system._k96
-                + _u_m3 * self.system._k100);
-        let _t112 = self._h9
-            * (self.system._k7 * (self.system._k1 * _t17 - _t12 * self.system._k44)
-                - _u_m3 * self.system._k101);
-        let _t113 = _t40 * _t47;
-        let _t114 = self._h0
-            * (_t95 + self.system._k46 * _t92
-                - self.system._k49 * (self.system._k8 * _t93 - _t94));
-        let _t115 = self._h0
-            * (_t105 - self.system._k46 * _t102
-                + self.system._k30 * (self.system._k8 * _t103 - _t104));
-        let _t116 = _t37 + _t36 * S::ratio(3.0, 1.0);
-        let _t117 = S::ratio(1.0, 24.0)
-            * (self._h7
-                * (self.system._k8 * _t116
-                    + self.system._k8
-                        * (_t116 + (_t108 + _t42 + _t80) * self.system._k29)
-                    + self.system._k93 * _t109 + self.system._k99 * _t82) + self._h11);
-        let _t118 = self._h9
-            * (self.system._k8 * (_t12 * self.system._k2 - _t17 * self.system._k42)
-                + _u_m2 * self.system._k100);
-        let _t119 = self._h9
-            * (self.system._k8 * _t16 - _u_m1 * self.system._k97
-                - _u_m2 * self.system._k101);
-        let _t120 = _t58 * _t52;
-        let _t121 = _t47 * _t19;
-        let _t122 = _t97 * self._h12;
-        let _t123 = _t76 * self._h13;
-        let _t124 = self._h9
-            * (self.system._k6 * _t67 + _u_m2 * self.system._k102
-                + _u_m3 * self.system._k103);
-        let _t125 = self._h9
-            * (self.system._k7 * (_t10 * self.system._k1 - _t12 * self.system._k56)
-                + _u_m1 * self.system._k102);
-        let _t126 = self._h9
-            * (self.system._k8 * (_t10 * self.system._k2 - _t17 * self.system._k56)
-                + _u_m1 * self.system._k103);
-        let _t127 = _t71 - _t58 * _u_m1;
-        let _t128 = _t70 + _t54 + S::ratio(2.0, 1.0) * _t59;
-        let _t129 = _t72 + _t58 * _u_m3;
-        let _t130 = -_t75;
-        let _t131 = _t58 * _t47;
-        let _t132 = _t40 * _t68;
-        let _t133 = _t130 * self._h15;
-        let _t134 = _t73 + _t47 * _u_m1;
-        let _t135 = _t66 - _t47 * _u_m2;
-        let _t136 = _t74 + S::ratio(2.0, 1.0) * _t48;
-        residual[0] = _t66 - m1 - _t20 + _t40 * (_t49 + _t61) + _t58 * _t63
-            - _t47 * _t65;
+        let _t82 = self.system._k8 * _t34;
+        let _t83 = _t82 + _t82;
+        let _t84 = self.system._k7 * _t35;
+        let _t85 = _t84 + _t84;
+        let _t86 = self.system._k6
+            * (_t11 * S::ratio(6.0, 1.0) + _t78 + _t79
+                + (_t80 + _t22 + _t81) * self.system._k35) + _t83 * _t34 + _t85 * _t35
+            + (_t13 + _t36 + _t11 * S::ratio(3.0, 1.0)) * self.system._k59;
+        let _t87 = _t86 * self._h0 + self._h2;
+        let _t88 = _t48 + _t59 + _t52 + S::ratio(2.0, 1.0) * _t53;
+        let _t89 = _t10 * _t12;
+        let _t90 = S::ratio(4.0, 1.0) * _t89;
+        let _t91 = _t29 - _u_m2 * _t26 - _u_m1 * _t23;
+        let _t92 = _t33 * self.system._k11;
+        let _t93 = (self.system._k7 * (_t90 - self.system._k59 * _t91) + _t92
+            + _t83 * _t31 + self.system._k35 * _t89) * self._h0;
+        let _t94 = _t63 + _t40 * _u_m2;
+        let _t95 = _t10 * _t17;
+        let _t96 = S::ratio(4.0, 1.0) * _t95;
+        let _t97 = _t30 - _u_m3 * _t26 - _u_m1 * _t18;
+        let _t98 = self.system._k10 * _t4;
+        let _t99 = (self.system._k8 * (_t96 - self.system._k59 * _t97) + _t98
+            + _t85 * _t2 + self.system._k35 * _t95) * self._h0;
+        let _t100 = _t65 - _t40 * _u_m3;
+        let _t101 = _t10 * self.system._k42;
+        let _t102 = (-(self.system._k0 * _t83)
+            - self.system._k59 * (self.system._k0 * _t12 - _t101)) * self._h0;
+        let _t103 = -_t77;
+        let _t104 = _t10 * self.system._k47;
+        let _t105 = (self.system._k0 * _t85
+            - self.system._k59 * (self.system._k0 * _t17 - _t104)) * self._h0;
+        let _t106 = _t40 * _t58;
+        let _t107 = self.system._k8 * _t31;
+        let _t108 = _t107 + _t107;
+        let _t109 = (_t92 + self.system._k6 * (_t90 - self.system._k60 * _t91)
+            + _t108 * _t34 + self.system._k36 * _t89) * self._h0;
+        let _t110 = _t10 * _t26;
+        let _t111 = self.system._k0 * _u_g1 + _t21;
+        let _t112 = self.system._k6 * _t56;
+        let _t113 = _t112 + _t112;
+        let _t114 = self.system._k7
+            * (_t79 + _t110 + _t13 * S::ratio(6.0, 1.0)
+                + (_t111 + _t55 + _t81) * self.system._k36) + _t108 * _t31 + _t113 * _t56
+            + (_t11 + _t36 + _t13 * S::ratio(3.0, 1.0)) * self.system._k60;
+        let _t115 = _t114 * self._h0 + self._h5;
+        let _t116 = _t9 * self.system._k9;
+        let _t117 = _t12 * _t17;
+        let _t118 = S::ratio(4.0, 1.0) * _t117;
+        let _t119 = _t44 - _u_m3 * _t23 - _u_m2 * _t18;
+        let _t120 = (_t116 + self.system._k8 * (_t118 - self.system._k60 * _t119)
+            + _t113 * _t7 + self.system._k36 * _t117) * self._h0;
+        let _t121 = (self.system._k2 * _t113 - self.system._k0 * _t108
+            - _t50 * self.system._k60) * self._h0;
+        let _t122 = _t12 * self.system._k47;
+        let _t123 = (-(self.system._k1 * _t113)
+            - self.system._k60 * (self.system._k1 * _t17 - _t122)) * self._h0;
+        let _t124 = _t40 * _t46;
+        let _t125 = self.system._k7 * _t2;
+        let _t126 = _t125 + _t125;
+        let _t127 = (_t98 + self.system._k6 * (_t96 - self.system._k61 * _t97)
+            + _t126 * _t35 + self.system._k37 * _t95) * self._h0;
+        let _t128 = self.system._k6 * _t7;
+        let _t129 = _t128 + _t128;
+        let _t130 = (_t116 + self.system._k7 * (_t118 - self.system._k61 * _t119)
+            + _t129 * _t56 + self.system._k37 * _t117) * self._h0;
+        let _t131 = (self.system._k8
+            * (_t78 + _t110 + _t36 * S::ratio(6.0, 1.0)
+                + (_t111 + _t42 + _t80) * self.system._k37) + _t126 * _t2 + _t129 * _t7
+            + (_t37 + _t36 * S::ratio(3.0, 1.0)) * self.system._k61) * self._h0;
+        let _t132 = _t131 + self._h4;
+        let _t133 = _t17 * self.system._k42;
+        let _t134 = (self.system._k2 * _t129
+            - self.system._k61 * (_t12 * self.system._k2 - _t133)) * self._h0;
+        let _t135 = (self.system._k0 * _t126 - self.system._k1 * _t129
+            - _t16 * self.system._k61) * self._h0;
+        let _t136 = _t58 * _t51;
+        let _t137 = _t46 * _t19;
+        let _t138 = _t12 * self.system._k42;
+        let _t139 = -(_t17 * self.system._k47);
+        let _t140 = (self.system._k6 * (_t139 - _t138) - _u_m2 * self.system._k62
+            - _u_m3 * self.system._k63) * self._h0;
+        let _t141 = (self.system._k7 * (_t12 * self.system._k28 - _t101)
+            - _u_m1 * self.system._k62) * self._h0;
+        let _t142 = (self.system._k8 * (_t17 * self.system._k28 - _t104)
+            - _u_m1 * self.system._k63) * self._h0;
+        let _t143 = _t103 * self._h7;
+        let _t144 = _t76 * self._h8;
+        let _t145 = _t12 * self.system._k54;
+        let _t146 = (self.system._k6 * (_t10 * self.system._k29 - _t145)
+            + _u_m2 * self.system._k22) * self._h0;
+        let _t147 = _t10 * self.system._k54;
+        let _t148 = (self.system._k7 * (_t139 - _t147) + _u_m1 * self.system._k22
+            - _u_m3 * self.system._k64) * self._h0;
+        let _t149 = (self.system._k8 * (_t17 * self.system._k29 - _t122)
+            - _u_m2 * self.system._k64) * self._h0;
+        let _t150 = _t17 * self.system._k54;
+        let _t151 = (self.system._k6 * (_t10 * self.system._k32 - _t150)
+            + _u_m3 * self.system._k23) * self._h0;
+        let _t152 = (self.system._k7 * (_t12 * self.system._k32 - _t133)
+            + _u_m3 * self.system._k25) * self._h0;
+        let _t153 = (self.system._k8 * (-_t138 - _t147) + _u_m1 * self.system._k23
+            + _u_m2 * self.system._k25) * self._h0;
+        let _t154 = _t71 - _t58 * _u_m1;
+        let _t155 = _t70 + _t53 + S::ratio(2.0, 1.0) * _t59;
+        let _t156 = _t72 + _t58 * _u_m3;
+        let _t157 = (self.system._k1 * _t83 - self.system._k2 * _t85
+            - _t67 * self.system._k59) * self._h0;
+        let _t158 = -_t75;
+        let _t159 = (self.system._k1 * _t108
+            - (_t10 * self.system._k1 - _t145) * self.system._k60) * self._h0;
+        let _t160 = _t58 * _t46;
+        let _t161 = (-(self.system._k2 * _t126)
+            - (_t10 * self.system._k2 - _t150) * self.system._k61) * self._h0;
+        let _t162 = _t40 * _t68;
+        let _t163 = self._h10 * _t158;
+        let _t164 = _t73 + _t46 * _u_m1;
+        let _t165 = _t66 - _t46 * _u_m2;
+        let _t166 = _t74 + S::ratio(2.0, 1.0) * _t47;
+        residual[0] = _t66 - m1 - _t20 + _t40 * (_t48 + _t61) + _t58 * _t63
+            - _t46 * _t65;
         residual[1] = _t73 - m2 + _t64 + _t58 * (_t60 + _t70) - _t40 * _t71
-            + _t47 * _t72;
-        residual[2] = _t71 - m3 - _t62 + _t47 * (_t74 + _t48) + _t40 * _t73
+            + _t46 * _t72;
+        residual[2] = _t71 - m3 - _t62 + _t46 * (_t74 + _t47) + _t40 * _t73
             - _t58 * _t66;
         residual[3] = -g1 - _t75;
         residual[4] = _t76 - g2;
         residual[5] = -g3 - _t77;
-        matrix[(0, 0)] = S::one() + _t40 * _t40 + _t78 * _t84 - _t85 * _t90 - _t91 * _t96
-            - _t97 * _t98 + _t76 * _t99;
-        matrix[(0, 1)] = _t100 - _t47 - _t78 * _t101 + _t91 * _t106 + _t85 * _t110
-            - _t97 * _t111 + _t76 * _t112;
-        matrix[(0, 2)] = _t58 + _t113 + _t78 * _t114 - _t85 * _t115 - _t91 * _t117
-            - _t97 * _t118 + _t76 * _t119;
-        matrix[(0, 3)] = _t123 - _t120 - _t121 - _t122 - _t78 * _t124 - _t85 * _t125
-            + _t91 * _t126;
-        matrix[(0, 4)] = _t40 * _t52 - _t19 + _t97 * self._h14 + _t76 * self._h15
-            - _t78 * _t98 - _t85 * _t111 + _t91 * _t118;
-        matrix[(0, 5)] = _t52 + _t40 * _t19 - _t97 * self._h15 - _t76 * self._h16
-            - _t78 * _t99 - _t85 * _t112 + _t91 * _t119;
-        matrix[(1, 0)] = _t47 + _t100 - _t127 * _t84 - _t128 * _t90 + _t129 * _t96
-            + _t97 * _t124 - _t130 * _t99;
-        matrix[(1, 1)] = S::one() + _t58 * _t58 + _t127 * _t101 - _t129 * _t106
-            + _t128 * _t110 + _t97 * _t125 - _t130 * _t112;
-        matrix[(1, 2)] = _t131 - _t40 - _t127 * _t114 - _t128 * _t115 + _t129 * _t117
-            + _t97 * _t126 - _t130 * _t119;
-        matrix[(1, 3)] = _t19 + _t58 * _t68 - _t97 * self._h17 - _t130 * self._h13
-            + _t127 * _t124 - _t128 * _t125 - _t129 * _t126;
-        matrix[(1, 4)] = _t122 - _t121 - _t132 - _t133 + _t127 * _t98 - _t128 * _t111
-            - _t129 * _t118;
-        matrix[(1, 5)] = _t58 * _t19 - _t68 + _t97 * self._h13 + _t130 * self._h16
-            + _t127 * _t99 - _t128 * _t112 - _t129 * _t119;
-        matrix[(2, 0)] = _t113 - _t58 + _t134 * _t84 + _t135 * _t90 + _t136 * _t96
-            - _t76 * _t124 + _t130 * _t98;
-        matrix[(2, 1)] = _t40 + _t131 - _t134 * _t101 - _t136 * _t106 - _t135 * _t110
-            - _t76 * _t125 + _t130 * _t111;
-        matrix[(2, 2)] = S::one() + _t47 * _t47 + _t134 * _t114 + _t135 * _t115
-            + _t136 * _t117 - _t76 * _t126 + _t130 * _t118;
-        matrix[(2, 3)] = _t47 * _t68 - _t52 + _t76 * self._h17 + _t130 * self._h12
-            - _t134 * _t124 + _t135 * _t125 - _t136 * _t126;
-        matrix[(2, 4)] = _t68 + _t47 * _t52 - _t76 * self._h12 - _t130 * self._h14
-            - _t134 * _t98 + _t135 * _t111 - _t136 * _t118;
-        matrix[(2, 5)] = _t133 - _t120 - _t132 - _t123 - _t134 * _t99 + _t135 * _t112
-            - _t136 * _t119;
-        matrix[(3, 0)] = -(_u_g3 * _t90) - _u_g2 * _t96;
-        matrix[(3, 1)] = _u_g3 * _t110 + _u_g2 * _t106;
-        matrix[(3, 2)] = -(_u_g3 * _t115) - _u_g2 * _t117;
-        matrix[(3, 3)] = S::one() - _u_g3 * _t125 + _u_g2 * _t126;
-        matrix[(3, 4)] = _u_g2 * _t118 - _t47 - _u_g3 * _t111;
-        matrix[(3, 5)] = _t58 - _u_g3 * _t112 + _u_g2 * _t119;
-        matrix[(4, 0)] = _u_g1 * _t96 - _u_g3 * _t84;
-        matrix[(4, 1)] = _u_g3 * _t101 - _u_g1 * _t106;
-        matrix[(4, 2)] = _u_g1 * _t117 - _u_g3 * _t114;
-        matrix[(4, 3)] = _t47 + _u_g3 * _t124 - _u_g1 * _t126;
-        matrix[(4, 4)] = S::one() + _u_g3 * _t98 - _u_g1 * _t118;
-        matrix[(4, 5)] = _u_g3 * _t99 - _t40 - _u_g1 * _t119;
-        matrix[(5, 0)] = _u_g2 * _t84 + _u_g1 * _t90;
-        matrix[(5, 1)] = -(_u_g2 * _t101) - _u_g1 * _t110;
-        matrix[(5, 2)] = _u_g2 * _t114 + _u_g1 * _t115;
-        matrix[(5, 3)] = _u_g1 * _t125 - _t58 - _u_g2 * _t124;
-        matrix[(5, 4)] = _t40 - _u_g2 * _t98 + _u_g1 * _t111;
-        matrix[(5, 5)] = S::one() - _u_g2 * _t99 + _u_g1 * _t112;
+        matrix[(0, 0)] = S::one() + _t40 * _t40 + _t87 * _t88 + _t93 * _t94
+            - _t99 * _t100 + _t102 * _t103 - _t105 * _t76;
+        matrix[(0, 1)] = _t106 - _t46 + _t109 * _t88 + _t115 * _t94 - _t120 * _t100
+            + _t121 * _t103 - _t123 * _t76;
+        matrix[(0, 2)] = _t58 + _t124 + _t127 * _t88 + _t130 * _t94 - _t132 * _t100
+            + _t134 * _t103 - _t135 * _t76;
+        matrix[(0, 3)] = _t140 * _t88 - _t136 - _t137 + _t141 * _t94 - _t142 * _t100
+            - _t143 + _t144;
+        matrix[(0, 4)] = _t40 * _t51 - _t19 + _t146 * _t88 + _t148 * _t94 - _t149 * _t100
+            + _t103 * self._h9 + _t76 * self._h10;
+        matrix[(0, 5)] = _t51 + _t40 * _t19 + _t151 * _t88 + _t152 * _t94 - _t153 * _t100
+            - _t103 * self._h10 - _t76 * self._h11;
+        matrix[(1, 0)] = _t46 + _t106 - _t87 * _t154 + _t93 * _t155 + _t99 * _t156
+            - _t157 * _t103 + _t105 * _t158;
+        matrix[(1, 1)] = S::one() + _t58 * _t58 - _t109 * _t154 + _t115 * _t155
+            + _t120 * _t156 - _t159 * _t103 + _t123 * _t158;
+        matrix[(1, 2)] = _t160 - _t40 - _t127 * _t154 + _t130 * _t155 + _t132 * _t156
+            - _t161 * _t103 + _t135 * _t158;
+        matrix[(1, 3)] = _t19 + _t58 * _t68 - _t140 * _t154 + _t141 * _t155
+            + _t142 * _t156 - _t103 * self._h12 - self._h8 * _t158;
+        matrix[(1, 4)] = _t143 - _t137 - _t162 - _t146 * _t154 + _t148 * _t155
+            + _t149 * _t156 - _t163;
+        matrix[(1, 5)] = _t58 * _t19 - _t68 - _t151 * _t154 + _t152 * _t155
+            + _t153 * _t156 + _t103 * self._h8 + self._h11 * _t158;
+        matrix[(2, 0)] = _t124 - _t58 + _t87 * _t164 - _t93 * _t165 + _t99 * _t166
+            + _t157 * _t76 - _t102 * _t158;
+        matrix[(2, 1)] = _t40 + _t160 + _t109 * _t164 - _t115 * _t165 + _t120 * _t166
+            + _t159 * _t76 - _t121 * _t158;
+        matrix[(2, 2)] = S::one() + _t46 * _t46 + _t127 * _t164 - _t130 * _t165
+            + _t132 * _t166 + _t161 * _t76 - _t134 * _t158;
+        matrix[(2, 3)] = _t46 * _t68 - _t51 + _t140 * _t164 - _t141 * _t165
+            + _t142 * _t166 + _t76 * self._h12 + self._h7 * _t158;
+        matrix[(2, 4)] = _t68 + _t46 * _t51 + _t146 * _t164 - _t148 * _t165
+            + _t149 * _t166 - _t76 * self._h7 - self._h9 * _t158;
+        matrix[(2, 5)] = _t163 - _t136 - _t162 - _t144 + _t151 * _t164 - _t152 * _t165
+            + _t153 * _t166;
+        matrix[(3, 0)] = _t93 * _u_g3 - _t99 * _u_g2;
+        matrix[(3, 1)] = _t115 * _u_g3 - _t120 * _u_g2;
+        matrix[(3, 2)] = _t130 * _u_g3 - _t132 * _u_g2;
+        matrix[(3, 3)] = S::one() + _t141 * _u_g3 - _t142 * _u_g2;
+        matrix[(3, 4)] = _t148 * _u_g3 - _t46 - _t149 * _u_g2;
+        matrix[(3, 5)] = _t58 + _t152 * _u_g3 - _t153 * _u_g2;
+        matrix[(4, 0)] = _t99 * _u_g1 - _t87 * _u_g3;
+        matrix[(4, 1)] = _t120 * _u_g1 - _t109 * _u_g3;
+        matrix[(4, 2)] = _t132 * _u_g1 - _t127 * _u_g3;
+        matrix[(4, 3)] = _t46 - _t140 * _u_g3 + _t142 * _u_g1;
+        matrix[(4, 4)] = S::one() - _t146 * _u_g3 + _t149 * _u_g1;
+        matrix[(4, 5)] = _t153 * _u_g1 - _t40 - _t151 * _u_g3;
+        matrix[(5, 0)] = _t87 * _u_g2 - _t93 * _u_g1;
+        matrix[(5, 1)] = _t109 * _u_g2 - _t115 * _u_g1;
+        matrix[(5, 2)] = _t127 * _u_g2 - _t130 * _u_g1;
+        matrix[(5, 3)] = _t140 * _u_g2 - _t58 - _t141 * _u_g1;
+        matrix[(5, 4)] = _t40 + _t146 * _u_g2 - _t148 * _u_g1;
+        matrix[(5, 5)] = S::one() + _t151 * _u_g2 - _t152 * _u_g1;
     }
 
     /// `mu1 = mu + 2 ad*_y p`
@@ -4052,10 +3690,10 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t0 = self.system._k7 * _u_m2;
         let _t1 = self.system._k6 * _u_m1;
         let _t2 = _t1 * S::ratio(2.0, 1.0);
-        let _t3 = _u_g1 * self.system._k56 + _u_m1 * _t2;
+        let _t3 = _u_g1 * self.system._k54 + _u_m1 * _t2;
         let _t4 = self.system._k8 * _u_m3;
         let _t5 = _t4 * S::ratio(2.0, 1.0);
-        let _t6 = _u_m3 * _t5 + _u_g3 * self.system._k44;
+        let _t6 = _u_m3 * _t5 + _u_g3 * self.system._k47;
         let _t7 = _t0 * S::ratio(2.0, 1.0);
         let _t8 = self.system._k0 * _u_g2;
         let _t9 = _u_g1 * self.system._k1;
@@ -4099,7 +3737,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
             * self._h0 + self._h3) * S::ratio(2.0, 1.0);
         let _t38 = _t0 * self.system._k1;
         let _t39 = ((self.system._k0 * _t31 - _t18 * self.system._k1
-            + _t20 * self.system._k44 + _t21 * self.system._k44 - (_t35 + _t38) * _t5)
+            + _t20 * self.system._k47 + _t21 * self.system._k47 - (_t35 + _t38) * _t5)
             * self._h0 + self._h1) * S::ratio(2.0, 1.0);
         let _t40 = self.system._k6
             * ((_t26 + _t1 * _u_m1 * S::ratio(3.0, 1.0) + _t6) * _t2
@@ -4108,7 +3746,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t41 = (_u_m1 * self._h2 + (_t40 + _t23 * _t2) * self._h0)
             * S::ratio(2.0, 1.0);
         let _t42 = ((_t15 * self.system._k1 - self.system._k2 * _t31
-            - (_t36 + _t38) * _t2 + _t21 * self.system._k56 + _t22 * self.system._k56)
+            - (_t36 + _t38) * _t2 + _t21 * self.system._k54 + _t22 * self.system._k54)
             * self._h0 + self._h6) * S::ratio(2.0, 1.0);
         mu[0] = m1 - _u_m3 * _t25 + _u_m2 * _t34 - _u_g3 * _t37 + _u_g2 * _t39;
         mu[1] = m2 + _u_m3 * _t41 - _u_m1 * _t34 + _u_g3 * _t42 - _u_g1 * _t39;

@@ -53,42 +53,30 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
         let _t0 = S::one() / self.I1;
         let _t1 = S::one() / self.I2;
         let _t2 = S::one() / self.I3;
-        let _t3 = _t1 - _t2;
-        let _t4 = _t0 - _t2;
-        let _t5 = _t0 - _t1;
-        let _t6 = _t2 * S::ratio(4.0, 1.0);
-        let _t7 = _t0 * S::ratio(4.0, 1.0);
-        let _t8 = _t1 * S::ratio(4.0, 1.0);
-        let _t9 = _t5 * (_t2 * _t5);
-        let _t10 = _t4 * (_t1 * _t4);
-        let _t11 = _t3 * (_t0 * _t3);
-        let _c0 = _t0 * S::ratio(1.0, 2.0);
-        let _c1 = _t1 * S::ratio(1.0, 2.0);
-        let _c2 = _t2 * S::ratio(1.0, 2.0);
+        let _t3 = S::ratio(4.0, 1.0) / self.I3;
+        let _t4 = S::ratio(4.0, 1.0) / self.I1;
+        let _t5 = S::ratio(4.0, 1.0) / self.I2;
+        let _c0 = S::ratio(1.0, 2.0) / self.I1;
+        let _c1 = S::ratio(1.0, 2.0) / self.I2;
+        let _c2 = S::ratio(1.0, 2.0) / self.I3;
         let _c3 = _t0;
         let _c4 = _t1;
         let _c5 = _t2;
-        let _c6 = -_t3;
-        let _c7 = _t4;
-        let _c8 = -_t5;
-        let _c9 = _t2 * S::ratio(8.0, 1.0);
-        let _c10 = _t0 * S::ratio(8.0, 1.0);
-        let _c11 = _t6 - _t7;
-        let _c12 = _t1 * S::ratio(8.0, 1.0);
-        let _c13 = _t7 - _t8;
-        let _c14 = _t8 - _t6;
-        let _c15 = _t9;
-        let _c16 = _t10;
-        let _c17 = _t0 * S::ratio(2.0, 1.0);
-        let _c18 = _t7;
-        let _c19 = _t8;
-        let _c20 = S::ratio(2.0, 1.0) * _t9;
-        let _c21 = _t6;
-        let _c22 = S::ratio(2.0, 1.0) * _t10;
-        let _c23 = S::ratio(2.0, 1.0) * _t11;
-        let _c24 = _t11;
-        let _c25 = _t1 * S::ratio(2.0, 1.0);
-        let _c26 = _t2 * S::ratio(2.0, 1.0);
+        let _c6 = _t2 - _t1;
+        let _c7 = _t0 - _t2;
+        let _c8 = _t1 - _t0;
+        let _c9 = S::ratio(8.0, 1.0) / self.I3;
+        let _c10 = S::ratio(8.0, 1.0) / self.I1;
+        let _c11 = _t3 - _t4;
+        let _c12 = S::ratio(8.0, 1.0) / self.I2;
+        let _c13 = _t4 - _t5;
+        let _c14 = _t5 - _t3;
+        let _c15 = _t4;
+        let _c16 = S::ratio(2.0, 1.0) / self.I1;
+        let _c17 = _t5;
+        let _c18 = S::ratio(2.0, 1.0) / self.I2;
+        let _c19 = _t3;
+        let _c20 = S::ratio(2.0, 1.0) / self.I3;
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "I1", "1/(2*I1)"),
@@ -106,18 +94,12 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
                 (_c12, "I2", "8/I2"),
                 (_c13, "I1", "4/I1 - 4/I2"),
                 (_c14, "I2", "4/I2 - 4/I3"),
-                (_c15, "I1", "(1/I1 - 1/I2)^2/I3"),
-                (_c16, "I1", "(1/I1 - 1/I3)^2/I2"),
-                (_c17, "I1", "2/I1"),
-                (_c18, "I1", "4/I1"),
-                (_c19, "I2", "4/I2"),
-                (_c20, "I1", "2*(1/I1 - 1/I2)^2/I3"),
-                (_c21, "I3", "4/I3"),
-                (_c22, "I1", "2*(1/I1 - 1/I3)^2/I2"),
-                (_c23, "I1", "2*(1/I2 - 1/I3)^2/I1"),
-                (_c24, "I1", "(1/I2 - 1/I3)^2/I1"),
-                (_c25, "I2", "2/I2"),
-                (_c26, "I3", "2/I3"),
+                (_c15, "I1", "4/I1"),
+                (_c16, "I1", "2/I1"),
+                (_c17, "I2", "4/I2"),
+                (_c18, "I2", "2/I2"),
+                (_c19, "I3", "4/I3"),
+                (_c20, "I3", "2/I3"),
             ],
         )?;
         ::core::result::Result::Ok(FreeRigidBodySystem {
@@ -143,12 +125,6 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
             _k18: _c18,
             _k19: _c19,
             _k20: _c20,
-            _k21: _c21,
-            _k22: _c22,
-            _k23: _c23,
-            _k24: _c24,
-            _k25: _c25,
-            _k26: _c26,
         })
     }
 
@@ -198,30 +174,18 @@ pub struct FreeRigidBodySystem<S = f64> {
     _k13: S,
     /// `4/I2 - 4/I3`
     _k14: S,
-    /// `(1/I1 - 1/I2)^2/I3`
-    _k15: S,
-    /// `(1/I1 - 1/I3)^2/I2`
-    _k16: S,
-    /// `2/I1`
-    _k17: S,
     /// `4/I1`
-    _k18: S,
+    _k15: S,
+    /// `2/I1`
+    _k16: S,
     /// `4/I2`
-    _k19: S,
-    /// `2*(1/I1 - 1/I2)^2/I3`
-    _k20: S,
-    /// `4/I3`
-    _k21: S,
-    /// `2*(1/I1 - 1/I3)^2/I2`
-    _k22: S,
-    /// `2*(1/I2 - 1/I3)^2/I1`
-    _k23: S,
-    /// `(1/I2 - 1/I3)^2/I1`
-    _k24: S,
+    _k17: S,
     /// `2/I2`
-    _k25: S,
+    _k18: S,
+    /// `4/I3`
+    _k19: S,
     /// `2/I3`
-    _k26: S,
+    _k20: S,
 }
 
 impl<S> FreeRigidBodySystem<S> {
@@ -527,12 +491,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for FreeRigidBodySystem<S>
             _k18: _constant(self._k18),
             _k19: _constant(self._k19),
             _k20: _constant(self._k20),
-            _k21: _constant(self._k21),
-            _k22: _constant(self._k22),
-            _k23: _constant(self._k23),
-            _k24: _constant(self._k24),
-            _k25: _constant(self._k25),
-            _k26: _constant(self._k26),
         }
     }
 }
@@ -634,46 +592,19 @@ pub struct FreeRigidBodyGenerating4<'a, S: ::lie_runtime::Scalar> {
     _h2: S,
     /// `h/I3`
     _h3: S,
-    /// `(1/I1 - 1/I2)^2*h^3/(12*I3)`
-    _h4: S,
-    /// `(1/I1 - 1/I3)^2*h^3/(12*I2)`
-    _h5: S,
-    /// `(1/I1 - 1/I2)*h^3/24`
-    _h6: S,
-    /// `(1/I1 - 1/I3)*h^3/24`
-    _h7: S,
-    /// `(1/I2 - 1/I3)^2*h^3/(12*I1)`
-    _h8: S,
-    /// `(1/I2 - 1/I3)*h^3/24`
-    _h9: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyGenerating4<'a, S> {
     /// The function of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
-        let _t0 = S::one() / system._parameters.I1;
-        let _t1 = h * (h * h);
-        let _t2 = S::ratio(1.0, 24.0) * _t1;
-        let _t3 = S::one() / system._parameters.I2;
-        let _t4 = S::one() / system._parameters.I3;
-        let _t5 = _t0 - _t3;
-        let _t6 = S::ratio(1.0, 12.0) * _t1;
-        let _t7 = _t0 - _t4;
-        let _t8 = _t3 - _t4;
         Self {
             system,
             h,
-            _h0: _t0 * h,
-            _h1: _t2,
-            _h2: _t3 * h,
-            _h3: _t4 * h,
-            _h4: _t4 * _t5 * _t5 * _t6,
-            _h5: _t3 * _t7 * _t7 * _t6,
-            _h6: _t5 * _t2,
-            _h7: _t7 * _t2,
-            _h8: _t0 * _t8 * _t8 * _t6,
-            _h9: _t8 * _t2,
+            _h0: h / system._parameters.I1,
+            _h1: h * h * h * S::ratio(1.0, 24.0),
+            _h2: h / system._parameters.I2,
+            _h3: h / system._parameters.I3,
         }
     }
 }
@@ -706,7 +637,7 @@ for FreeRigidBodyGenerating4<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 18 additions, 39 multiplications.
+    /// 24 additions, 48 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -715,36 +646,43 @@ for FreeRigidBodyGenerating4<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[x, y, z]] = p.data.0;
-        let _t0 = x * y;
-        let _t1 = self.system._k5 * (self.system._k8 * _t0);
-        let _t2 = _t1 + _t1;
-        let _t3 = self.system._k8 * _t2;
-        let _t4 = x * z;
-        let _t5 = self.system._k4 * (self.system._k7 * _t4);
-        let _t6 = _t5 + _t5;
-        let _t7 = self.system._k7 * _t6;
-        let _t8 = y * z;
-        let _t9 = self.system._k3 * (self.system._k6 * _t8);
-        let _t10 = _t9 + _t9;
-        let _t11 = self.system._k6 * _t10;
-        let _t12 = y * y;
-        let _t13 = z * z;
-        let _t14 = self._h4 * _t0 - _t2 * self._h6;
-        let _t15 = self._h5 * _t4 + _t6 * self._h7;
-        let _t16 = x * x;
-        let _t17 = self._h8 * _t8 - _t10 * self._h9;
-        xi[0] = x * self._h0 + (y * _t3 + z * _t7) * self._h1;
-        xi[1] = y * self._h2 + (x * _t3 + z * _t11) * self._h1;
-        xi[2] = z * self._h3 + (x * _t7 + y * _t11) * self._h1;
-        hessian[(0, 0)] = self._h0 + self._h4 * _t12 + self._h5 * _t13;
-        hessian[(0, 1)] = _t14;
-        hessian[(0, 2)] = _t15;
-        hessian[(1, 0)] = _t14;
-        hessian[(1, 1)] = self._h2 + self._h4 * _t16 + self._h8 * _t13;
-        hessian[(1, 2)] = _t17;
-        hessian[(2, 0)] = _t15;
-        hessian[(2, 1)] = _t17;
-        hessian[(2, 2)] = self._h3 + self._h5 * _t16 + self._h8 * _t12;
+        let _t0 = y * self.system._k8;
+        let _t1 = x * self.system._k8;
+        let _t2 = self.system._k5 * (y * _t1);
+        let _t3 = _t2 + _t2;
+        let _t4 = z * self.system._k7;
+        let _t5 = x * self.system._k7;
+        let _t6 = self.system._k4 * (z * _t5);
+        let _t7 = _t6 + _t6;
+        let _t8 = z * self.system._k6;
+        let _t9 = y * self.system._k6;
+        let _t10 = self.system._k3 * (z * _t9);
+        let _t11 = _t10 + _t10;
+        let _t12 = self.system._k5 * _t0;
+        let _t13 = self.system._k4 * _t4;
+        let _t14 = self.system._k5 * _t1;
+        let _t15 = _t14 + _t14;
+        let _t16 = self._h1 * (self.system._k8 * _t3 + _t0 * _t15);
+        let _t17 = self.system._k4 * _t5;
+        let _t18 = _t17 + _t17;
+        let _t19 = self._h1 * (self.system._k7 * _t7 + _t4 * _t18);
+        let _t20 = self.system._k3 * _t8;
+        let _t21 = self.system._k3 * _t9;
+        let _t22 = _t21 + _t21;
+        let _t23 = self._h1 * (self.system._k6 * _t11 + _t8 * _t22);
+        xi[0] = x * self._h0 + (_t0 * _t3 + _t4 * _t7) * self._h1;
+        xi[1] = y * self._h2 + (_t1 * _t3 + _t8 * _t11) * self._h1;
+        xi[2] = z * self._h3 + (_t5 * _t7 + _t9 * _t11) * self._h1;
+        hessian[(0, 0)] = self._h0
+            + self._h1 * (_t0 * (_t12 + _t12) + _t4 * (_t13 + _t13));
+        hessian[(0, 1)] = _t16;
+        hessian[(0, 2)] = _t19;
+        hessian[(1, 0)] = _t16;
+        hessian[(1, 1)] = self._h2 + self._h1 * (_t1 * _t15 + _t8 * (_t20 + _t20));
+        hessian[(1, 2)] = _t23;
+        hessian[(2, 0)] = _t19;
+        hessian[(2, 1)] = _t23;
+        hessian[(2, 2)] = self._h3 + self._h1 * (_t5 * _t18 + _t9 * _t22);
     }
 }
 
@@ -1673,14 +1611,6 @@ pub struct FreeRigidBodyCayleyGenerating4<'a, S: ::lie_runtime::Scalar> {
     _h2: S,
     /// `h/(2*I1)`
     _h3: S,
-    /// `h^3`
-    _h4: S,
-    /// `12*h/I1`
-    _h5: S,
-    /// `12*h/I2`
-    _h6: S,
-    /// `12*h/I3`
-    _h7: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyCayleyGenerating4<'a, S> {
@@ -1688,20 +1618,14 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyCayleyGenerating4<'a, S> {
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
         let _t0 = h * S::ratio(1.0, 2.0);
-        let _t1 = h * (h * h);
-        let _t2 = h * S::ratio(12.0, 1.0);
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
             _h0: _t0 / system._parameters.I2,
-            _h1: S::ratio(1.0, 48.0) * _t1,
+            _h1: h * h * h * S::ratio(1.0, 48.0),
             _h2: _t0 / system._parameters.I3,
             _h3: _t0 / system._parameters.I1,
-            _h4: _t1,
-            _h5: _t2 / system._parameters.I1,
-            _h6: _t2 / system._parameters.I2,
-            _h7: _t2 / system._parameters.I3,
         }
     }
 }
@@ -1776,7 +1700,7 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 131 additions, 166 multiplications.
+    /// 143 additions, 184 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1797,121 +1721,130 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
         let _t8 = _t3 * _t3;
         let _t9 = _t5 * _t5;
         let _t10 = _t8 + _t9;
-        let _t11 = _u_x * _u_z;
-        let _t12 = self.system._k4 * (self.system._k7 * _t11);
-        let _t13 = self.system._k7 * (_t12 + _t12);
-        let _t14 = _u_y * _u_z;
-        let _t15 = self.system._k3 * (self.system._k6 * _t14);
-        let _t16 = (_t15 + _t15) * self.system._k6;
+        let _t11 = self.system._k7 * _u_x;
+        let _t12 = self.system._k4 * (_u_z * _t11);
+        let _t13 = _t12 + _t12;
+        let _t14 = _u_y * self.system._k6;
+        let _t15 = self.system._k3 * (_u_z * _t14);
+        let _t16 = _t15 + _t15;
         let _t17 = _t0 * _t0;
         let _t18 = S::ratio(2.0, 1.0) * (_t10 + _t17);
         let _t19 = _u_z * self._h2
             + (self.system._k5
                 * (S::ratio(2.0, 1.0)
                     * (_t0 * (_t2 + S::ratio(2.0, 1.0) * _t7) + _u_z * _t10))
-                + _u_x * _t13 + _t16 * _u_y + _t0 * _t18) * self._h1;
+                + _t13 * _t11 + _t16 * _t14 + _t0 * _t18) * self._h1;
         let _t20 = _t19 * _u_y;
         let _t21 = S::ratio(3.0, 1.0) * _t6;
         let _t22 = _t4 + _t1;
         let _t23 = _t8 + _t17;
-        let _t24 = _u_x * _u_y;
-        let _t25 = self.system._k5 * (self.system._k8 * _t24);
-        let _t26 = (_t25 + _t25) * self.system._k8;
-        let _t27 = _u_y * self._h0
+        let _t24 = _u_x * self.system._k8;
+        let _t25 = self.system._k5 * (_u_y * _t24);
+        let _t26 = _t25 + _t25;
+        let _t27 = _u_z * self.system._k6;
+        let _t28 = _u_y * self._h0
             + (self.system._k4
                 * (S::ratio(2.0, 1.0)
                     * (_t5 * (_t21 + S::ratio(2.0, 1.0) * _t22) + _u_y * _t23))
-                + _t26 * _u_x + _t16 * _u_z + _t5 * _t18) * self._h1;
-        let _t28 = _u_x + _t27 * _u_z;
-        let _t29 = S::ratio(3.0, 1.0) * _t4;
-        let _t30 = _t6 + _t1;
-        let _t31 = _t9 + _t17;
-        let _t32 = _u_x * self._h3
+                + _t26 * _t24 + _t16 * _t27 + _t5 * _t18) * self._h1;
+        let _t29 = _u_x + _t28 * _u_z;
+        let _t30 = S::ratio(3.0, 1.0) * _t4;
+        let _t31 = _t6 + _t1;
+        let _t32 = _t9 + _t17;
+        let _t33 = _u_y * self.system._k8;
+        let _t34 = self.system._k7 * _u_z;
+        let _t35 = _u_x * self._h3
             + (self.system._k3
                 * (S::ratio(2.0, 1.0)
-                    * (_t3 * (_t29 + S::ratio(2.0, 1.0) * _t30) + _u_x * _t31))
-                + _t26 * _u_y + _u_z * _t13 + _t3 * _t18) * self._h1;
-        let _t33 = _t19 * _u_z;
-        let _t34 = _t32 * _u_x;
-        let _t35 = _t27 * _u_y;
-        let _t36 = _t34 + _t35;
-        let _t37 = _t36 + _t33;
-        let _t38 = _t19 * _u_x;
-        let _t39 = _u_y - _t32 * _u_z;
-        let _t40 = _t27 * _u_x;
-        let _t41 = _u_z + _t32 * _u_y;
-        let _t42 = _t35 + _t33 + _t34 * S::ratio(2.0, 1.0);
-        let _t43 = _u_y * _u_y;
-        let _t44 = _u_z * _u_z;
-        let _t45 = _t31 + _t8 * S::ratio(3.0, 1.0);
-        let _t46 = (self._h4
-            * (self.system._k15 * _t43 + self.system._k16 * _t44
-                + self.system._k3 * (_t45 + (_t45 + (_t30 + _t29) * self.system._k17)))
-            + self._h5) * S::ratio(1.0, 24.0);
-        let _t47 = _t3 * _t5;
-        let _t48 = _t5 * _u_x + _t3 * _u_y;
-        let _t49 = _t26 + self.system._k20 * _t24;
-        let _t50 = _t49 + _t47 * self.system._k18
-            + (_t47 + self.system._k3 * _t48) * self.system._k19;
-        let _t51 = _t3 * _t0;
-        let _t52 = _t0 * _u_x + _t3 * _u_z;
-        let _t53 = _t13 + self.system._k22 * _t11;
-        let _t54 = _t53 + _t51 * self.system._k18
-            + (_t51 + self.system._k3 * _t52) * self.system._k21;
-        let _t55 = _t32 * _t27;
-        let _t56 = _t49 + _t47 * self.system._k19
-            + (_t47 + self.system._k4 * _t48) * self.system._k18;
-        let _t57 = _t5 * _t0;
-        let _t58 = _t0 * _u_y + _t5 * _u_z;
-        let _t59 = _t16 + self.system._k23 * _t14;
-        let _t60 = _t59 + _t57 * self.system._k19
-            + (_t57 + self.system._k4 * _t58) * self.system._k21;
-        let _t61 = _u_x * _u_x;
-        let _t62 = _t23 + _t9 * S::ratio(3.0, 1.0);
-        let _t63 = S::ratio(1.0, 24.0)
-            * (self._h4
-                * (self.system._k15 * _t61 + self.system._k24 * _t44
-                    + self.system._k4
-                        * (_t62 + (_t62 + (_t22 + _t21) * self.system._k25)))
-                + self._h6);
-        let _t64 = _t32 * _t19;
-        let _t65 = _t53 + _t51 * self.system._k21
-            + (_t51 + self.system._k5 * _t52) * self.system._k18;
-        let _t66 = _t59 + _t57 * self.system._k21
-            + (_t57 + self.system._k5 * _t58) * self.system._k19;
-        let _t67 = _t10 + _t17 * S::ratio(3.0, 1.0);
-        let _t68 = S::ratio(1.0, 24.0)
-            * (self._h4
-                * (self.system._k16 * _t61 + self.system._k24 * _t43
-                    + self.system._k5 * (_t67 + (_t67 + (_t7 + _t2) * self.system._k26)))
-                + self._h7);
-        let _t69 = _u_z - _t40;
-        let _t70 = _t34 + _t33 + _t35 * S::ratio(2.0, 1.0);
-        let _t71 = _t27 * _t19;
-        let _t72 = _u_y + _t38;
-        let _t73 = _u_x - _t20;
-        let _t74 = _t36 + _t33 * S::ratio(2.0, 1.0);
-        residual[0] = _t28 - x - _t20 + _t32 * _t37;
-        residual[1] = _t39 - y + _t38 + _t27 * _t37;
-        residual[2] = _t41 - z - _t40 + _t19 * _t37;
-        matrix[(0, 0)] = S::one() + _t32 * _t32 + _t42 * _t46
-            + self._h1 * (_t41 * _t50 - _t39 * _t54);
-        matrix[(0, 1)] = _t55 - _t19 + self._h1 * (_t42 * _t56 - _t39 * _t60)
-            + _t41 * _t63;
-        matrix[(0, 2)] = _t27 + _t64 + self._h1 * (_t42 * _t65 + _t41 * _t66)
-            - _t39 * _t68;
-        matrix[(1, 0)] = _t19 + _t55 - _t69 * _t46
-            + self._h1 * (_t70 * _t50 + _t28 * _t54);
-        matrix[(1, 1)] = S::one() + _t27 * _t27 - self._h1 * (_t69 * _t56 - _t28 * _t60)
-            + _t70 * _t63;
-        matrix[(1, 2)] = _t71 - _t32 - self._h1 * (_t69 * _t65 - _t70 * _t66)
-            + _t28 * _t68;
-        matrix[(2, 0)] = _t64 - _t27 + _t72 * _t46
-            - self._h1 * (_t73 * _t50 - _t74 * _t54);
-        matrix[(2, 1)] = _t32 + _t71 + self._h1 * (_t72 * _t56 + _t74 * _t60)
-            - _t73 * _t63;
-        matrix[(2, 2)] = S::one() + _t19 * _t19 + self._h1 * (_t72 * _t65 - _t73 * _t66)
-            + _t74 * _t68;
+                    * (_t3 * (_t30 + S::ratio(2.0, 1.0) * _t31) + _u_x * _t32))
+                + _t26 * _t33 + _t13 * _t34 + _t3 * _t18) * self._h1;
+        let _t36 = _t19 * _u_z;
+        let _t37 = _t35 * _u_x;
+        let _t38 = _t28 * _u_y;
+        let _t39 = _t37 + _t38;
+        let _t40 = _t39 + _t36;
+        let _t41 = _t19 * _u_x;
+        let _t42 = _u_y - _t35 * _u_z;
+        let _t43 = _t28 * _u_x;
+        let _t44 = _u_z + _t35 * _u_y;
+        let _t45 = self.system._k5 * _t33;
+        let _t46 = _t45 + _t45;
+        let _t47 = self.system._k4 * _t34;
+        let _t48 = _t47 + _t47;
+        let _t49 = (self.system._k3
+            * (_t8 * S::ratio(6.0, 1.0) + _t32 * S::ratio(2.0, 1.0)
+                + self.system._k15 * (_t31 + _t30)) + _t46 * _t33 + _t48 * _t34
+            + (_t32 + _t8 * S::ratio(3.0, 1.0)) * self.system._k16) * self._h1
+            + self._h3;
+        let _t50 = _t38 + _t36 + S::ratio(2.0, 1.0) * _t37;
+        let _t51 = _t3 * _t5;
+        let _t52 = S::ratio(4.0, 1.0) * _t51;
+        let _t53 = _t5 * _u_x + _t3 * _u_y;
+        let _t54 = (self.system._k4 * (_t52 + self.system._k15 * _t53)
+            + self.system._k8 * (_t26 + _t46 * _u_x) + self.system._k15 * _t51)
+            * self._h1;
+        let _t55 = _t3 * _t0;
+        let _t56 = S::ratio(4.0, 1.0) * _t55;
+        let _t57 = _t0 * _u_x + _t3 * _u_z;
+        let _t58 = (self.system._k5 * (_t56 + _t57 * self.system._k15)
+            + self.system._k7 * (_t13 + _t48 * _u_x) + self.system._k15 * _t55)
+            * self._h1;
+        let _t59 = _t35 * _t28;
+        let _t60 = self.system._k5 * _t24;
+        let _t61 = _t60 + _t60;
+        let _t62 = (self.system._k3 * (_t52 + _t53 * self.system._k17)
+            + self.system._k8 * (_t26 + _t61 * _u_y) + self.system._k17 * _t51)
+            * self._h1;
+        let _t63 = self.system._k3 * _t27;
+        let _t64 = _t63 + _t63;
+        let _t65 = (self.system._k4
+            * (S::ratio(2.0, 1.0) * _t23 + _t9 * S::ratio(6.0, 1.0)
+                + self.system._k17 * (_t22 + _t21)) + _t61 * _t24 + _t64 * _t27
+            + (_t23 + _t9 * S::ratio(3.0, 1.0)) * self.system._k18) * self._h1
+            + self._h0;
+        let _t66 = _t5 * _t0;
+        let _t67 = S::ratio(4.0, 1.0) * _t66;
+        let _t68 = _t0 * _u_y + _t5 * _u_z;
+        let _t69 = (self.system._k5 * (_t67 + _t68 * self.system._k17)
+            + self.system._k6 * (_t16 + _t64 * _u_y) + self.system._k17 * _t66)
+            * self._h1;
+        let _t70 = _t35 * _t19;
+        let _t71 = self.system._k4 * _t11;
+        let _t72 = _t71 + _t71;
+        let _t73 = (self.system._k3 * (_t56 + _t57 * self.system._k19)
+            + self.system._k7 * (_t13 + _t72 * _u_z) + self.system._k19 * _t55)
+            * self._h1;
+        let _t74 = self.system._k3 * _t14;
+        let _t75 = _t74 + _t74;
+        let _t76 = (self.system._k4 * (_t67 + _t68 * self.system._k19)
+            + self.system._k6 * (_t16 + _t75 * _u_z) + self.system._k19 * _t66)
+            * self._h1;
+        let _t77 = (self.system._k5
+            * (S::ratio(2.0, 1.0) * _t10 + _t17 * S::ratio(6.0, 1.0)
+                + (_t7 + _t2) * self.system._k19) + _t72 * _t11 + _t75 * _t14
+            + (_t10 + _t17 * S::ratio(3.0, 1.0)) * self.system._k20) * self._h1
+            + self._h2;
+        let _t78 = _u_z - _t43;
+        let _t79 = _t37 + _t36 + S::ratio(2.0, 1.0) * _t38;
+        let _t80 = _t28 * _t19;
+        let _t81 = _u_y + _t41;
+        let _t82 = _u_x - _t20;
+        let _t83 = _t39 + S::ratio(2.0, 1.0) * _t36;
+        residual[0] = _t29 - x - _t20 + _t35 * _t40;
+        residual[1] = _t42 - y + _t41 + _t28 * _t40;
+        residual[2] = _t44 - z - _t43 + _t19 * _t40;
+        matrix[(0, 0)] = S::one() + _t35 * _t35 + _t49 * _t50 + _t54 * _t44
+            - _t58 * _t42;
+        matrix[(0, 1)] = _t59 - _t19 + _t62 * _t50 + _t65 * _t44 - _t69 * _t42;
+        matrix[(0, 2)] = _t28 + _t70 + _t73 * _t50 + _t76 * _t44 - _t77 * _t42;
+        matrix[(1, 0)] = _t19 + _t59 - _t49 * _t78 + _t54 * _t79 + _t58 * _t29;
+        matrix[(1, 1)] = S::one() + _t28 * _t28 - _t62 * _t78 + _t65 * _t79
+            + _t69 * _t29;
+        matrix[(1, 2)] = _t80 - _t35 - _t73 * _t78 + _t76 * _t79 + _t77 * _t29;
+        matrix[(2, 0)] = _t70 - _t28 + _t49 * _t81 - _t54 * _t82 + _t58 * _t83;
+        matrix[(2, 1)] = _t35 + _t80 + _t62 * _t81 - _t65 * _t82 + _t69 * _t83;
+        matrix[(2, 2)] = S::one() + _t19 * _t19 + _t73 * _t81 - _t76 * _t82
+            + _t77 * _t83;
     }
 
     /// `mu1 = mu + 2 ad*_y p`
@@ -1948,7 +1881,7 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
             + (self.system._k5
                 * (S::ratio(2.0, 1.0)
                     * (_t3
-                        * ((_t2 + _t5) * S::ratio(2.0, 1.0) + _t4 * S::ratio(3.0, 1.0))
+                        * (S::ratio(2.0, 1.0) * (_t2 + _t5) + _t4 * S::ratio(3.0, 1.0))
                         + _u_z * _t13)) + _u_x * _t18 + _u_y * _t11 + _t3 * _t14)
                 * self._h1;
         let _t20 = (self.system._k3
@@ -1957,7 +1890,7 @@ for FreeRigidBodyCayleyGenerating4<'_, S> {
                     + _u_x * (_t12 + _t7))) + _u_y * _t9 + _u_z * _t18 + _t1 * _t14)
             * self._h1;
         let _t21 = _u_x * self._h3 + _t20;
-        mu[0] = x - S::ratio(2.0, 1.0) * (_t16 * _u_z - _t19 * _u_y);
+        mu[0] = x - (_t16 * _u_z - _t19 * _u_y) * S::ratio(2.0, 1.0);
         mu[1] = y + S::ratio(2.0, 1.0) * (_t21 * _u_z - _t19 * _u_x);
         mu[2] = z - S::ratio(2.0, 1.0) * (_t21 * _u_y - _t16 * _u_x);
     }

@@ -4355,7 +4355,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t177 = _t9 * S::ratio(2.0, 1.0);
         let _t178 = _t12 * _t177;
         let _t179 = _t5 * _t2 + _t178;
-        let _t180 = (self.system._k7 * (_t176 + _t172 * self.system._k55) + _t165 * _t82
+        let _t180 = (self.system._k7 * (_t176 + self.system._k55 * _t172) + _t165 * _t82
             + self.system._k18 * (_t38 + _t163 * _u_m12) + _t179 * self.system._k55)
             * self._h1;
         let _t181 = _t132 + _t62 * _u_m13;
@@ -4365,7 +4365,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t185 = _t184 - _t16 * _t175;
         let _t186 = _t16 * _t177;
         let _t187 = _t0 * _t2 - _t186;
-        let _t188 = (self.system._k8 * (-(_t183 * self.system._k55) - _t185)
+        let _t188 = (self.system._k8 * (-(self.system._k55 * _t183) - _t185)
             + _t167 * _t113 + self.system._k20 * (_t33 + _t161 * _u_m12)
             - _t187 * self.system._k55) * self._h1;
         let _t189 = _t133 + _t62 * _u_m14;
@@ -4374,7 +4374,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t192 = _t191 - _t0 * _t175;
         let _t193 = _t0 * _t177;
         let _t194 = _t16 * _t2 - _t193;
-        let _t195 = (self.system._k9 * (-(_t190 * self.system._k55) - _t192)
+        let _t195 = (self.system._k9 * (-(self.system._k55 * _t190) - _t192)
             + _t161 * _t126 + self.system._k14 * (_t48 + _t167 * _u_m12)
             - _t194 * self.system._k55) * self._h1;
         let _t196 = _u_m13 - _t62 * _u_m23 + _t118 * _u_m34;
@@ -4383,7 +4383,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t199 = _t198 + _t5 * _t175;
         let _t200 = _t5 * _t177;
         let _t201 = _t12 * _t2 + _t200;
-        let _t202 = (self.system._k10 * (_t199 + _t197 * self.system._k55)
+        let _t202 = (self.system._k10 * (_t199 + self.system._k55 * _t197)
             + _t163 * _t104 + self.system._k16 * (_t43 + _t165 * _u_m12)
             + _t201 * self.system._k55) * self._h1;
         let _t203 = _u_m14 - _t62 * _u_m24 - _t94 * _u_m34;
@@ -4413,7 +4413,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t222 = _t220 + _t221 * S::ratio(4.0, 1.0);
         let _t223 = _t221 * S::ratio(2.0, 1.0);
         let _t224 = _t219 + _t223;
-        let _t225 = (self.system._k8 * (_t222 + _t218 * self.system._k56) + _t214 * _t114
+        let _t225 = (self.system._k8 * (_t222 + self.system._k56 * _t218) + _t214 * _t114
             + self.system._k22 * (_t80 + _t212 * _u_m13) + _t224 * self.system._k56)
             * self._h1;
         let _t226 = _t124 + S::ratio(2.0, 1.0) * _t103;
@@ -4423,14 +4423,14 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t230 = _t228 + _t229 * S::ratio(4.0, 1.0);
         let _t231 = _t229 * S::ratio(2.0, 1.0);
         let _t232 = _t227 + _t231;
-        let _t233 = (self.system._k9 * (_t230 + _t226 * self.system._k56) + _t212 * _t125
+        let _t233 = (self.system._k9 * (_t230 + self.system._k56 * _t226) + _t212 * _t125
             + self.system._k12 * (_t86 + _t214 * _u_m13) + _t232 * self.system._k56)
             * self._h1;
         let _t234 = _t89 * S::ratio(2.0, 1.0);
         let _t235 = _t16 * _u_m23 + _t0 * _u_m14;
         let _t236 = _t9 * _u_m34 + _t2 * _u_m12;
         let _t237 = _t235 + _t236;
-        let _t238 = (self.system._k10 * (_t234 + _t237 * self.system._k56) + _t212 * _t78
+        let _t238 = (self.system._k10 * (_t234 + self.system._k56 * _t237) + _t212 * _t78
             + _t208 * _t104 + _t206 * _t40 + _t214 * _t84 + _t89 * self.system._k56)
             * self._h1;
         let _t239 = _t62 * _t118;
@@ -4457,13 +4457,13 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t253 = _t115 * S::ratio(2.0, 1.0);
         let _t254 = _t12 * _u_m24 + _t5 * _u_m13;
         let _t255 = _t254 - _t236;
-        let _t256 = (self.system._k9 * (_t253 + _t255 * self.system._k58) + _t248 * _t125
+        let _t256 = (self.system._k9 * (_t253 + self.system._k58 * _t255) + _t248 * _t125
             + _t243 * _t126 + _t241 * _t45 + _t246 * _t83 + _t115 * self.system._k58)
             * self._h1;
         let _t257 = _t103 + S::ratio(2.0, 1.0) * _t124;
         let _t258 = _t231 + _t227 * S::ratio(4.0, 1.0);
         let _t259 = _t229 + _t228;
-        let _t260 = (self.system._k10 * (_t258 + _t257 * self.system._k58) + _t248 * _t78
+        let _t260 = (self.system._k10 * (_t258 + self.system._k58 * _t257) + _t248 * _t78
             + self.system._k13 * (_t86 + _t246 * _u_m14) + _t259 * self.system._k58)
             * self._h1;
         let _t261 = _t62 * _t128;
@@ -4492,7 +4492,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t275 = _t217 + S::ratio(2.0, 1.0) * _t76;
         let _t276 = _t223 + _t219 * S::ratio(4.0, 1.0);
         let _t277 = _t221 + _t220;
-        let _t278 = (self.system._k10 * (_t276 + _t275 * self.system._k60) + _t270 * _t84
+        let _t278 = (self.system._k10 * (_t276 + self.system._k60 * _t275) + _t270 * _t84
             + self.system._k23 * (_t80 + _t268 * _u_m23) + _t277 * self.system._k60)
             * self._h1;
         let _t279 = _t62 * _t106;

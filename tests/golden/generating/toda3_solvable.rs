@@ -351,33 +351,17 @@ pub struct TodaLatticeGenerating4<'a, S: ::lie_runtime::Scalar> {
     _h0: S,
     /// `2*h`
     _h1: S,
-    /// `h^3/12`
-    _h2: S,
-    /// `h^3/6`
-    _h3: S,
-    /// `-h^3/12`
-    _h4: S,
-    /// `-h^3/6`
-    _h5: S,
-    /// `-4*h^3/3`
-    _h6: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> TodaLatticeGenerating4<'a, S> {
     /// The function of a step of size h; what depends on h alone is computed here, once.
     #[must_use]
     pub fn new(system: &'a TodaLatticeSystem<S>, h: S) -> Self {
-        let _t0 = h * (h * h);
         Self {
             system,
             h,
-            _h0: S::ratio(1.0, 24.0) * _t0,
+            _h0: h * h * h * S::ratio(1.0, 24.0),
             _h1: h * S::ratio(2.0, 1.0),
-            _h2: S::ratio(1.0, 12.0) * _t0,
-            _h3: S::ratio(1.0, 6.0) * _t0,
-            _h4: S::ratio(-1.0, 12.0) * _t0,
-            _h5: S::ratio(-1.0, 6.0) * _t0,
-            _h6: S::ratio(-4.0, 3.0) * _t0,
         }
     }
 }
@@ -415,7 +399,7 @@ for TodaLatticeGenerating4<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 25 additions, 46 multiplications.
+    /// 29 additions, 63 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -424,57 +408,62 @@ for TodaLatticeGenerating4<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[b1, b2, b3, a1, a2]] = p.data.0;
-        let _t0 = b1 - b2;
-        let _t1 = a1 * _t0;
-        let _t2 = _t1 * S::ratio(4.0, 1.0);
-        let _t3 = a1 * _t2;
-        let _t4 = b2 - b3;
-        let _t5 = a2 * _t4;
-        let _t6 = a2 * _t5;
+        let _t0 = a1 * S::ratio(4.0, 1.0);
+        let _t1 = b1 - b2;
+        let _t2 = a1 * _t1;
+        let _t3 = b2 - b3;
+        let _t4 = a2 * _t3;
+        let _t5 = a2 * S::ratio(-4.0, 1.0);
+        let _t6 = S::ratio(4.0, 1.0) * _t1;
         let _t7 = a1 * a1;
-        let _t8 = S::ratio(-2.0, 1.0) * _t7;
-        let _t9 = a2 * a2 * S::ratio(2.0, 1.0);
-        let _t10 = S::ratio(2.0, 1.0) * _t7 - _t9;
-        let _t11 = _t8 * self._h2;
-        let _t12 = _t1 + _t1;
-        let _t13 = _t12 * self._h3;
-        let _t14 = _t9 * self._h4;
-        let _t15 = _t12 * self._h5;
-        let _t16 = _t5 + _t5;
-        let _t17 = self._h3 * _t16;
-        let _t18 = _t16 * self._h5;
-        let _t19 = S::ratio(2.0, 1.0) * _t10;
-        let _t20 = a1 * a2 * self._h6;
-        xi[0] = b1 * self.h + _t3 * self._h0;
-        xi[1] = b2 * self.h + (S::ratio(4.0, 1.0) * _t6 - _t3) * self._h0;
-        xi[2] = b3 * self.h + S::ratio(-4.0, 1.0) * _t6 * self._h0;
-        xi[3] = a1 * self._h1
-            + (_t0 * _t2 - a1 * (_t8 - _t10) * S::ratio(8.0, 1.0)) * self._h0;
-        xi[4] = a2 * self._h1
-            + (_t4 * _t5 * S::ratio(4.0, 1.0) - a2 * (_t10 - _t9) * S::ratio(8.0, 1.0))
-                * self._h0;
+        let _t8 = a2 * a2;
+        let _t9 = S::ratio(2.0, 1.0) * (_t7 - _t8);
+        let _t10 = _t7 * S::ratio(-2.0, 1.0) - _t9;
+        let _t11 = a1 * S::ratio(8.0, 1.0);
+        let _t12 = S::ratio(4.0, 1.0) * _t3;
+        let _t13 = _t9 - _t8 * S::ratio(2.0, 1.0);
+        let _t14 = -a1;
+        let _t15 = self._h0 * (_t0 * _t14);
+        let _t16 = _t2 + _t2;
+        let _t17 = self._h0 * (S::ratio(4.0, 1.0) * _t16);
+        let _t18 = a2 * S::ratio(4.0, 1.0);
+        let _t19 = -a2;
+        let _t20 = self._h0 * (_t18 * _t19);
+        let _t21 = self._h0 * (_t16 * S::ratio(-4.0, 1.0));
+        let _t22 = _t4 + _t4;
+        let _t23 = self._h0 * (S::ratio(4.0, 1.0) * _t22);
+        let _t24 = self._h0 * (_t22 * S::ratio(-4.0, 1.0));
+        let _t25 = self._h0 * (_t5 * _t11);
+        xi[0] = b1 * self.h + _t0 * _t2 * self._h0;
+        xi[1] = b2 * self.h + S::ratio(4.0, 1.0) * (a2 * _t4 - a1 * _t2) * self._h0;
+        xi[2] = b3 * self.h + _t4 * _t5 * self._h0;
+        xi[3] = a1 * self._h1 + (_t2 * _t6 - _t10 * _t11) * self._h0;
+        xi[4] = a2 * self._h1 + (_t4 * _t12 - a2 * S::ratio(8.0, 1.0) * _t13) * self._h0;
         hessian.as_mut_slice().fill(S::zero());
-        hessian[(0, 0)] = self.h - _t11;
-        hessian[(0, 1)] = _t11;
-        hessian[(0, 3)] = _t13;
-        hessian[(1, 0)] = _t11;
-        hessian[(1, 1)] = self.h - self._h2 * (_t8 - _t9);
-        hessian[(1, 2)] = _t14;
-        hessian[(1, 3)] = _t15;
-        hessian[(1, 4)] = _t17;
-        hessian[(2, 1)] = _t14;
-        hessian[(2, 2)] = self.h + _t9 * self._h2;
-        hessian[(2, 4)] = _t18;
-        hessian[(3, 0)] = _t13;
-        hessian[(3, 1)] = _t15;
+        hessian[(0, 0)] = self.h + self._h0 * (_t0 * a1);
+        hessian[(0, 1)] = _t15;
+        hessian[(0, 3)] = _t17;
+        hessian[(1, 0)] = _t15;
+        hessian[(1, 1)] = self.h + self._h0 * ((a1 * _t14 - _t8) * S::ratio(-4.0, 1.0));
+        hessian[(1, 2)] = _t20;
+        hessian[(1, 3)] = _t21;
+        hessian[(1, 4)] = _t23;
+        hessian[(2, 1)] = _t20;
+        hessian[(2, 2)] = self.h + self._h0 * (_t19 * _t5);
+        hessian[(2, 4)] = _t24;
+        hessian[(3, 0)] = _t17;
+        hessian[(3, 1)] = _t21;
         hessian[(3, 3)] = self._h1
-            + self._h3 * (_t0 * _t0 - _t8 * S::ratio(10.0, 1.0) + _t19);
-        hessian[(3, 4)] = _t20;
-        hessian[(4, 1)] = _t17;
-        hessian[(4, 2)] = _t18;
-        hessian[(4, 3)] = _t20;
+            + self._h0
+                * (_t1 * _t6
+                    - S::ratio(8.0, 1.0)
+                        * (_t10 + a1 * (a1 * S::ratio(-4.0, 1.0) - _t0)));
+        hessian[(3, 4)] = _t25;
+        hessian[(4, 1)] = _t23;
+        hessian[(4, 2)] = _t24;
+        hessian[(4, 3)] = _t25;
         hessian[(4, 4)] = self._h1
-            + self._h3 * (_t4 * _t4 - _t19 + _t9 * S::ratio(10.0, 1.0));
+            + self._h0 * (_t3 * _t12 - S::ratio(8.0, 1.0) * (_t13 + a2 * (_t5 - _t18)));
     }
 }
 
@@ -721,36 +710,24 @@ pub struct TodaLatticeGenerating6<'a, S: ::lie_runtime::Scalar> {
     _h1: S,
     /// `2*h`
     _h2: S,
-    /// `16*h^5`
-    _h3: S,
-    /// `h^5`
-    _h4: S,
-    /// `h^3/12`
-    _h5: S,
     /// `h^5/360`
-    _h6: S,
-    /// `h^5/720`
-    _h7: S,
-    /// `h^5/2880`
-    _h8: S,
-    /// `h^3/6`
-    _h9: S,
-    /// `24*h^5`
-    _h10: S,
+    _h3: S,
     /// `h^5/1440`
-    _h11: S,
+    _h4: S,
+    /// `h^5/720`
+    _h5: S,
+    /// `h^5`
+    _h6: S,
     /// `20*h^3`
-    _h12: S,
+    _h7: S,
     /// `h^5/180`
-    _h13: S,
-    /// `6*h^5`
-    _h14: S,
+    _h8: S,
+    /// `h^5/2880`
+    _h9: S,
+    /// `3*h^5`
+    _h10: S,
     /// `2*h^5`
-    _h15: S,
-    /// `4*h^5`
-    _h16: S,
-    /// `10*h^3`
-    _h17: S,
+    _h11: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> TodaLatticeGenerating6<'a, S> {
@@ -766,21 +743,15 @@ impl<'a, S: ::lie_runtime::Scalar> TodaLatticeGenerating6<'a, S> {
             _h0: S::ratio(1.0, 24.0) * _t1,
             _h1: S::ratio(1.0, 5760.0) * _t2,
             _h2: h * S::ratio(2.0, 1.0),
-            _h3: S::ratio(16.0, 1.0) * _t2,
-            _h4: _t2,
-            _h5: S::ratio(1.0, 12.0) * _t1,
-            _h6: S::ratio(1.0, 360.0) * _t2,
-            _h7: S::ratio(1.0, 720.0) * _t2,
-            _h8: S::ratio(1.0, 2880.0) * _t2,
-            _h9: S::ratio(1.0, 6.0) * _t1,
-            _h10: S::ratio(24.0, 1.0) * _t2,
-            _h11: S::ratio(1.0, 1440.0) * _t2,
-            _h12: S::ratio(20.0, 1.0) * _t1,
-            _h13: S::ratio(1.0, 180.0) * _t2,
-            _h14: S::ratio(6.0, 1.0) * _t2,
-            _h15: S::ratio(2.0, 1.0) * _t2,
-            _h16: S::ratio(4.0, 1.0) * _t2,
-            _h17: S::ratio(10.0, 1.0) * _t1,
+            _h3: S::ratio(1.0, 360.0) * _t2,
+            _h4: S::ratio(1.0, 1440.0) * _t2,
+            _h5: S::ratio(1.0, 720.0) * _t2,
+            _h6: _t2,
+            _h7: S::ratio(20.0, 1.0) * _t1,
+            _h8: S::ratio(1.0, 180.0) * _t2,
+            _h9: S::ratio(1.0, 2880.0) * _t2,
+            _h10: S::ratio(3.0, 1.0) * _t2,
+            _h11: S::ratio(2.0, 1.0) * _t2,
         }
     }
 }
@@ -865,7 +836,7 @@ for TodaLatticeGenerating6<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 243 additions, 310 multiplications.
+    /// 295 additions, 400 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -874,237 +845,287 @@ for TodaLatticeGenerating6<'_, S> {
         hessian: &mut Self::Jacobian,
     ) {
         let [[b1, b2, b3, a1, a2]] = p.data.0;
-        let _t0 = b1 - b2;
-        let _t1 = a1 * _t0;
-        let _t2 = a1 * S::ratio(4.0, 1.0);
-        let _t3 = _t1 * _t2;
-        let _t4 = _t1 * S::ratio(4.0, 1.0);
+        let _t0 = a1 * S::ratio(4.0, 1.0);
+        let _t1 = b1 - b2;
+        let _t2 = a1 * _t1;
+        let _t3 = _t0 * _t2;
+        let _t4 = S::ratio(4.0, 1.0) * _t1;
         let _t5 = a1 * a1;
-        let _t6 = _t5 * S::ratio(-2.0, 1.0);
-        let _t7 = S::ratio(2.0, 1.0) * (_t5 - a2 * a2);
-        let _t8 = _t6 - _t7;
-        let _t9 = a1 * _t8;
-        let _t10 = _t0 * _t4 - S::ratio(8.0, 1.0) * _t9;
-        let _t11 = _t1 * _t0;
+        let _t6 = a2 * a2;
+        let _t7 = S::ratio(2.0, 1.0) * (_t5 - _t6);
+        let _t8 = _t5 * S::ratio(-2.0, 1.0) - _t7;
+        let _t9 = a1 * S::ratio(8.0, 1.0);
+        let _t10 = _t2 * _t4 - _t8 * _t9;
+        let _t11 = _t2 * _t1;
         let _t12 = _t11 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t10;
-        let _t13 = _t1 * _t12;
-        let _t14 = _t12 * _t0;
+        let _t13 = _t2 * _t12;
+        let _t14 = _t12 * _t1;
         let _t15 = a1 * S::ratio(2.0, 1.0);
         let _t16 = b2 - b3;
         let _t17 = a2 * _t16;
-        let _t18 = a2 * _t17;
-        let _t19 = _t18 - a1 * _t1;
-        let _t20 = S::ratio(4.0, 1.0) * _t19;
-        let _t21 = _t1 * _t15;
-        let _t22 = a2 * S::ratio(2.0, 1.0);
-        let _t23 = _t17 * _t22;
-        let _t24 = _t21 - _t23;
-        let _t25 = _t24 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t20;
-        let _t26 = -_t21;
-        let _t27 = _t25 - (_t26 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t3);
-        let _t28 = _t11 + S::ratio(3.0, 1.0) * _t9;
-        let _t29 = _t0 * _t28;
-        let _t30 = _t3 - _t20;
-        let _t31 = a1 * S::ratio(6.0, 1.0);
-        let _t32 = _t24 - _t19 * S::ratio(6.0, 1.0);
-        let _t33 = _t26 - _t1 * _t31 - _t32;
-        let _t34 = _t30 * S::ratio(3.0, 1.0) - S::ratio(2.0, 1.0) * _t33;
-        let _t35 = _t14 + _t15 * _t27 - S::ratio(16.0, 1.0) * _t29
-            + a1 * S::ratio(8.0, 1.0) * _t34;
-        let _t36 = a1 * _t35;
-        let _t37 = _t1 * S::ratio(16.0, 1.0);
-        let _t38 = _t17 * S::ratio(4.0, 1.0);
-        let _t39 = a2 * _t22;
-        let _t40 = _t7 - _t39;
-        let _t41 = a2 * _t40;
-        let _t42 = _t16 * _t38 - S::ratio(8.0, 1.0) * _t41;
-        let _t43 = _t17 * _t16;
-        let _t44 = _t43 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t42;
-        let _t45 = _t17 * _t44;
-        let _t46 = _t44 * _t16;
-        let _t47 = _t18 * S::ratio(-4.0, 1.0);
-        let _t48 = _t23 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t47 - _t25;
-        let _t49 = _t43 + S::ratio(3.0, 1.0) * _t41;
-        let _t50 = _t16 * _t49;
-        let _t51 = _t20 - _t47;
-        let _t52 = _t32 - (_t23 + _t18 * S::ratio(6.0, 1.0));
-        let _t53 = S::ratio(3.0, 1.0) * _t51 - S::ratio(2.0, 1.0) * _t52;
-        let _t54 = _t46 + _t22 * _t48 - S::ratio(16.0, 1.0) * _t50
-            + a2 * S::ratio(8.0, 1.0) * _t53;
-        let _t55 = a2 * _t54;
-        let _t56 = _t17 * S::ratio(16.0, 1.0);
-        let _t57 = _t1 * S::ratio(8.0, 1.0);
-        let _t58 = _t42 * S::ratio(3.0, 1.0) - _t49 * S::ratio(8.0, 1.0);
-        let _t59 = _t10 * S::ratio(3.0, 1.0) - _t28 * S::ratio(8.0, 1.0);
-        let _t60 = a1 * _t59;
-        let _t61 = (a2 * _t58 - _t60) * S::ratio(-4.0, 1.0);
-        let _t62 = _t61 - _t60 * S::ratio(-4.0, 1.0);
-        let _t63 = _t17 * S::ratio(8.0, 1.0);
-        let _t64 = a2 * S::ratio(4.0, 1.0);
-        let _t65 = _t58 * _t64 - _t61;
-        let _t66 = _t28 * self._h3;
-        let _t67 = _t0 - _t0;
-        let _t68 = _t12 - _t67 * _t37;
-        let _t69 = a1 * _t15;
-        let _t70 = _t6 - _t69;
-        let _t71 = _t0 * _t67;
-        let _t72 = _t15 * _t15 - (_t71 + _t6 * S::ratio(12.0, 1.0));
-        let _t73 = _t1 + _t1;
-        let _t74 = _t28 + _t0 * _t73;
-        let _t75 = a1 * S::ratio(1.0, 5760.0);
-        let _t76 = _t1 * _t73;
-        let _t77 = _t6 * self._h5 + self._h6 * _t76;
-        let _t78 = _t39 + _t39 * S::ratio(6.0, 1.0);
-        let _t79 = _t39 + _t39;
-        let _t80 = _t12 - S::ratio(16.0, 1.0) * (_t74 - a1 * (_t78 + _t72))
-            + _t15 * S::ratio(8.0, 1.0) * (_t79 - S::ratio(2.0, 1.0) * _t70);
-        let _t81 = _t77 + (_t66 - self._h4 * (_t68 + _t80)) * _t75;
-        let _t82 = a1 * self._h7;
-        let _t83 = (_t15 * _t79 + _t15 * _t78) * _t82;
-        let _t84 = S::ratio(2.0, 1.0) * _t7;
-        let _t85 = _t6 * S::ratio(10.0, 1.0) - _t84;
-        let _t86 = _t85 - _t71;
-        let _t87 = _t14 + _t86 * _t37;
-        let _t88 = _t0 * _t0;
-        let _t89 = _t7 * S::ratio(3.0, 1.0);
-        let _t90 = _t88 + _t6 * S::ratio(15.0, 1.0) - _t89;
-        let _t91 = _t0 * (_t15 + _t15) + _t4;
-        let _t92 = _t0 * (_t15 + _t31);
-        let _t93 = _t92 + _t0 * _t31 + _t1 * S::ratio(14.0, 1.0);
-        let _t94 = _t27 + _t30 * S::ratio(12.0, 1.0)
-            - S::ratio(8.0, 1.0) * (_t33 + _t0 * _t90 - _t15 * _t91 - _t0 * _t86)
-            + a1 * S::ratio(16.0, 1.0) * _t93;
-        let _t95 = _t73 * self._h9 - self._h6 * (_t29 + _t1 * _t90);
-        let _t96 = _t95 + self._h1 * (_t87 + _t35) + a1 * _t94 * self._h8;
-        let _t97 = a2 * _t3;
-        let _t98 = _t16 * (_t22 + _t22) + _t38;
-        let _t99 = S::ratio(2.0, 1.0) * _t0;
-        let _t100 = _t16 * (_t22 + a2 * S::ratio(6.0, 1.0));
-        let _t101 = _t100 + _t17 * S::ratio(6.0, 1.0) + _t17 * S::ratio(14.0, 1.0);
-        let _t102 = _t15 * _t98
-            + _t15 * (_t101 + (_t0 * S::ratio(3.0, 1.0) - _t99) * _t64);
-        let _t103 = _t102 * _t82;
-        let _t104 = -(self._h6 * _t97) - _t103;
-        let _t105 = _t17 + _t17;
-        let _t106 = _t17 * _t105;
-        let _t107 = _t16 - _t16;
-        let _t108 = _t44 - _t107 * _t56;
-        let _t109 = _t16 * _t107;
-        let _t110 = _t22 * _t22 - (_t109 - _t39 * S::ratio(12.0, 1.0));
-        let _t111 = _t49 + _t16 * _t105;
-        let _t112 = a1 * _t68 + a2 * _t108
-            + a2
-                * (_t44
-                    - S::ratio(16.0, 1.0)
-                        * (_t111 - a2 * (_t110 + _t69 - _t6 * S::ratio(6.0, 1.0)))
-                    - _t22 * S::ratio(8.0, 1.0) * (_t70 - S::ratio(2.0, 1.0) * _t79));
-        let _t113 = _t39 * self._h5 - self._h6 * _t106
-            + (a2 * self._h1
-                * (_t44 - S::ratio(16.0, 1.0) * (_t111 - _t22 * _t79 + a2 * -_t110))
-                + a2 * S::ratio(1.0, 5760.0) * (self._h4 * _t108 - _t49 * self._h3));
-        let _t114 = -_t83 - _t113;
-        let _t115 = a1 * _t47;
-        let _t116 = S::ratio(2.0, 1.0) * _t16;
-        let _t117 = a2
-            * (_t22 * _t91 + _t22 * (_t93 + (_t16 * S::ratio(3.0, 1.0) - _t116) * _t2))
-            * self._h7;
-        let _t118 = self._h4 * _t94;
-        let _t119 = -(self._h1 * (_t87 + S::ratio(32.0, 1.0) * _t115 + _t35)) - _t117
-            - a1 * (_t118 - _t47 * self._h10) * S::ratio(1.0, 2880.0) - _t95;
-        let _t120 = _t84 - _t39 * S::ratio(10.0, 1.0);
-        let _t121 = _t120 - _t109;
-        let _t122 = _t46 + _t121 * _t56;
-        let _t123 = _t16 * _t16;
-        let _t124 = _t123 + _t89 - _t39 * S::ratio(15.0, 1.0);
-        let _t125 = _t48 + _t51 * S::ratio(12.0, 1.0)
-            - S::ratio(8.0, 1.0) * (_t52 + _t16 * _t124 - _t22 * _t98 - _t16 * _t121)
-            + a2 * S::ratio(16.0, 1.0) * _t101;
-        let _t126 = self._h4 * _t125;
-        let _t127 = _t105 * self._h9 - self._h6 * (_t50 + _t17 * _t124);
-        let _t128 = _t127 + _t103
-            + self._h1 * (_t122 - S::ratio(32.0, 1.0) * _t97 + _t54)
-            + a2 * S::ratio(1.0, 2880.0) * (_t126 + _t3 * self._h10);
-        let _t129 = _t117 - self._h6 * _t115;
-        let _t130 = -(self._h1 * (_t122 + _t54)) - a2 * self._h8 * _t125 - _t127;
-        let _t131 = _t8 * self._h4;
-        let _t132 = _t7 * S::ratio(12.0, 1.0);
-        let _t133 = _t6 * S::ratio(60.0, 1.0) - _t132
-            - (_t88 * S::ratio(3.0, 1.0) - _t0 * _t99);
-        let _t134 = self._h2 + _t62 * self._h11
-            - (_t88 - _t85) * (_t131 - self._h12) * S::ratio(1.0, 120.0)
-            + _t8 * _t90 * self._h13 + (_t0 * _t27 + _t91 * _t37) * self._h8
-            + _t1 * (self._h4 * (_t92 + _t57) + _t73 * self._h14) * S::ratio(1.0, 180.0);
-        let _t135 = _t105 * self._h14;
-        let _t136 = _t100 + _t63;
-        let _t137 = _t132 - _t39 * S::ratio(60.0, 1.0)
-            - (_t123 * S::ratio(3.0, 1.0) - _t16 * _t116);
-        let _t138 = _t58 - (_t137 + _t6 * S::ratio(24.0, 1.0)) * _t64;
-        let _t139 = -(a2 * _t59 * self._h6) - _t0 * _t102 * self._h7
-            - S::ratio(1.0, 360.0)
-                * (_t1 * (_t135 + self._h4 * (_t136 + _t98))
-                    + a1
-                        * (self._h4 * _t138
-                            - a2 * (_t131 + _t6 * self._h15 - self._h17)
-                                * S::ratio(48.0, 1.0)));
-        let _t140 = self._h2 + _t65 * self._h11
-            + (_t123 - _t120) * (self._h12 - _t40 * self._h4) * S::ratio(1.0, 120.0)
-            + _t40 * _t124 * self._h13 + (_t16 * _t48 + _t98 * _t56) * self._h8
-            + _t17 * (self._h4 * _t136 + _t135) * S::ratio(1.0, 180.0);
-        xi[0] = b1 * self.h + _t3 * self._h0 + (_t13 + _t36 - _t28 * _t37) * self._h1;
-        xi[1] = b2 * self.h + _t20 * self._h0
-            + (_t45 - _t13 + _t55 - _t36
-                - S::ratio(16.0, 1.0) * (_t17 * _t49 - _t1 * _t28)) * self._h1;
-        xi[2] = b3 * self.h + _t47 * self._h0 + (-_t45 - _t55 + _t49 * _t56) * self._h1;
+        let _t18 = a2 * _t17 - a1 * _t2;
+        let _t19 = S::ratio(4.0, 1.0) * _t18;
+        let _t20 = _t2 * _t15;
+        let _t21 = a2 * S::ratio(2.0, 1.0);
+        let _t22 = _t17 * _t21;
+        let _t23 = _t20 - _t22;
+        let _t24 = _t23 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t19;
+        let _t25 = -_t20;
+        let _t26 = _t24 - (_t25 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t3);
+        let _t27 = _t11 + a1 * _t8 * S::ratio(3.0, 1.0);
+        let _t28 = _t1 * S::ratio(16.0, 1.0);
+        let _t29 = _t3 - _t19;
+        let _t30 = a1 * S::ratio(6.0, 1.0);
+        let _t31 = _t23 - _t18 * S::ratio(6.0, 1.0);
+        let _t32 = _t25 - _t2 * _t30 - _t31;
+        let _t33 = _t29 * S::ratio(3.0, 1.0) - S::ratio(2.0, 1.0) * _t32;
+        let _t34 = _t14 + _t15 * _t26 - _t27 * _t28 + _t33 * _t9;
+        let _t35 = a1 * _t34;
+        let _t36 = _t2 * _t27;
+        let _t37 = S::ratio(4.0, 1.0) * _t16;
+        let _t38 = _t7 - _t6 * S::ratio(2.0, 1.0);
+        let _t39 = a2 * S::ratio(8.0, 1.0);
+        let _t40 = _t17 * _t37 - _t38 * _t39;
+        let _t41 = _t17 * _t16;
+        let _t42 = _t41 * S::ratio(16.0, 1.0) - S::ratio(4.0, 1.0) * _t40;
+        let _t43 = _t17 * _t42;
+        let _t44 = _t42 * _t16;
+        let _t45 = a2 * S::ratio(-4.0, 1.0);
+        let _t46 = _t17 * _t45;
+        let _t47 = _t22 * S::ratio(8.0, 1.0) - S::ratio(4.0, 1.0) * _t46 - _t24;
+        let _t48 = a2 * S::ratio(3.0, 1.0);
+        let _t49 = _t41 + _t38 * _t48;
+        let _t50 = _t16 * S::ratio(16.0, 1.0);
+        let _t51 = _t19 - _t46;
+        let _t52 = a2 * S::ratio(6.0, 1.0);
+        let _t53 = _t31 - (_t22 + _t17 * _t52);
+        let _t54 = S::ratio(3.0, 1.0) * _t51 - S::ratio(2.0, 1.0) * _t53;
+        let _t55 = _t44 + _t21 * _t47 - _t49 * _t50 + _t54 * _t39;
+        let _t56 = a2 * _t55;
+        let _t57 = _t17 * _t49;
+        let _t58 = _t40 * S::ratio(3.0, 1.0) - _t49 * S::ratio(8.0, 1.0);
+        let _t59 = _t10 * S::ratio(3.0, 1.0) - _t27 * S::ratio(8.0, 1.0);
+        let _t60 = (a2 * _t58 - a1 * _t59) * S::ratio(-4.0, 1.0);
+        let _t61 = a1 * S::ratio(-4.0, 1.0);
+        let _t62 = _t60 - _t59 * _t61;
+        let _t63 = a2 * S::ratio(4.0, 1.0);
+        let _t64 = _t63 * _t58 - _t60;
+        let _t65 = _t2 + _t2;
+        let _t66 = _t0 * a1;
+        let _t67 = S::ratio(4.0, 1.0) * _t65;
+        let _t68 = S::ratio(4.0, 1.0) * _t67;
+        let _t69 = S::ratio(16.0, 1.0) * _t65 - _t68;
+        let _t70 = a1 * _t61;
+        let _t71 = _t15 * a1;
+        let _t72 = -_t71;
+        let _t73 = a1 * _t30;
+        let _t74 = _t12 + _t1 * _t69
+            + _t15
+                * (S::ratio(8.0, 1.0) * _t71 - S::ratio(4.0, 1.0) * _t70
+                    - (S::ratio(8.0, 1.0) * _t72 - S::ratio(4.0, 1.0) * _t66))
+            - S::ratio(16.0, 1.0) * (_t27 + _t1 * _t65)
+            + (S::ratio(3.0, 1.0) * (_t66 - _t70)
+                - S::ratio(2.0, 1.0) * (_t72 - _t73 - (_t71 + _t73))) * _t9;
+        let _t75 = -a1;
+        let _t76 = _t1 * _t75;
+        let _t77 = _t76 - _t2;
+        let _t78 = _t27 * _t75 + _t2 * _t77;
+        let _t79 = _t0 * _t75;
+        let _t80 = S::ratio(16.0, 1.0) * _t77
+            - S::ratio(4.0, 1.0) * ((_t2 - _t76) * S::ratio(-4.0, 1.0));
+        let _t81 = _t12 * _t75 + _t2 * _t80;
+        let _t82 = a1 * _t75 - _t6;
+        let _t83 = _t82 * S::ratio(-4.0, 1.0);
+        let _t84 = _t15 * _t75;
+        let _t85 = _t21 * a2;
+        let _t86 = _t84 - _t85;
+        let _t87 = S::ratio(8.0, 1.0) * _t86 - S::ratio(4.0, 1.0) * _t83;
+        let _t88 = -_t84;
+        let _t89 = _t86 + S::ratio(6.0, 1.0) * _t82;
+        let _t90 = _t1 * _t80 - _t12
+            + _t15 * (_t87 - (S::ratio(8.0, 1.0) * _t88 - S::ratio(4.0, 1.0) * _t79))
+            + S::ratio(16.0, 1.0) * (_t27 - _t1 * _t77)
+            + (S::ratio(3.0, 1.0) * (_t79 - _t83)
+                - S::ratio(2.0, 1.0) * (_t88 - _t75 * _t30 - _t89)) * _t9;
+        let _t91 = a1 * _t90;
+        let _t92 = self._h0 * _t79 - self._h3 * _t78 + self._h1 * (_t81 + _t91);
+        let _t93 = -a2;
+        let _t94 = _t63 * _t93;
+        let _t95 = _t21 * _t93;
+        let _t96 = -_t95;
+        let _t97 = S::ratio(8.0, 1.0) * _t96 - S::ratio(4.0, 1.0) * _t94;
+        let _t98 = _t93 * _t52;
+        let _t99 = _t96 - _t98;
+        let _t100 = a1
+            * (_t15 * _t97
+                - (S::ratio(3.0, 1.0) * _t94 - S::ratio(2.0, 1.0) * _t99) * _t9);
+        let _t101 = self._h1 * _t100;
+        let _t102 = _t61 - _t0;
+        let _t103 = _t8 + a1 * _t102;
+        let _t104 = _t1 * _t4 - S::ratio(8.0, 1.0) * _t103;
+        let _t105 = _t1 * _t1;
+        let _t106 = S::ratio(16.0, 1.0) * _t105 - S::ratio(4.0, 1.0) * _t104;
+        let _t107 = _t14 + _t2 * _t106;
+        let _t108 = _t65 * S::ratio(-4.0, 1.0);
+        let _t109 = _t15 * _t1 + S::ratio(2.0, 1.0) * _t2;
+        let _t110 = S::ratio(8.0, 1.0) * _t109 - S::ratio(4.0, 1.0) * _t108;
+        let _t111 = -_t109;
+        let _t112 = _t110 - (S::ratio(8.0, 1.0) * _t111 - _t68);
+        let _t113 = _t105 + S::ratio(3.0, 1.0) * _t103;
+        let _t114 = _t67 - _t108;
+        let _t115 = S::ratio(6.0, 1.0) * _t65;
+        let _t116 = _t109 + _t115;
+        let _t117 = _t111 - _t115 - _t116;
+        let _t118 = _t1 * _t106 + _t15 * _t112 + _t29 * S::ratio(24.0, 1.0)
+            - S::ratio(16.0, 1.0) * (_t32 + _t1 * _t113) + S::ratio(2.0, 1.0) * _t26
+            + (S::ratio(3.0, 1.0) * _t114 - S::ratio(2.0, 1.0) * _t117) * _t9;
+        let _t119 = _t34 + a1 * _t118;
+        let _t120 = _t27 * _t1 + _t2 * _t113;
+        let _t121 = self._h1 * (_t119 + _t107) - self._h3 * _t120 + self._h0 * _t67;
+        let _t122 = a1 * _t45 * S::ratio(-3.0, 1.0);
+        let _t123 = _t2 * _t122;
+        let _t124 = _t45 * _t9;
+        let _t125 = _t17 + _t17;
+        let _t126 = S::ratio(4.0, 1.0) * _t125;
+        let _t127 = S::ratio(4.0, 1.0) * _t126;
+        let _t128 = _t21 * _t16 + S::ratio(2.0, 1.0) * _t17;
+        let _t129 = -_t128;
+        let _t130 = S::ratio(8.0, 1.0) * _t129 - _t127;
+        let _t131 = S::ratio(4.0, 1.0) * _t124;
+        let _t132 = S::ratio(6.0, 1.0) * _t125;
+        let _t133 = _t129 - _t132;
+        let _t134 = _t15 * _t130 - _t122 * _t28 - _t1 * _t131
+            - (S::ratio(3.0, 1.0) * _t126 - S::ratio(2.0, 1.0) * _t133) * _t9;
+        let _t135 = a1 * _t134;
+        let _t136 = self._h1 * (_t2 * _t124 * S::ratio(-4.0, 1.0) + _t135)
+            - self._h3 * _t123;
+        let _t137 = S::ratio(16.0, 1.0) * _t125 - _t127;
+        let _t138 = a2 * _t45;
+        let _t139 = _t42 + _t16 * _t137
+            + _t21 * (S::ratio(8.0, 1.0) * _t85 - S::ratio(4.0, 1.0) * _t138 - _t87)
+            - S::ratio(16.0, 1.0) * (_t49 + _t16 * _t125)
+            + (S::ratio(3.0, 1.0) * (_t83 - _t138)
+                - S::ratio(2.0, 1.0) * (_t89 - (_t85 + a2 * _t52))) * _t39;
+        let _t140 = _t16 * _t93;
+        let _t141 = _t140 - _t17;
+        let _t142 = S::ratio(16.0, 1.0) * _t141
+            - S::ratio(4.0, 1.0) * ((_t17 - _t140) * S::ratio(-4.0, 1.0));
+        let _t143 = _t42 * _t93 + _t17 * _t142;
+        let _t144 = _t93 * _t45;
+        let _t145 = _t16 * _t142 - _t42
+            + _t21 * (S::ratio(8.0, 1.0) * _t95 - S::ratio(4.0, 1.0) * _t144 - _t97)
+            + S::ratio(16.0, 1.0) * (_t49 - _t16 * _t141)
+            + (S::ratio(3.0, 1.0) * (_t94 - _t144)
+                - S::ratio(2.0, 1.0) * (_t99 - (_t95 + _t98))) * _t39;
+        let _t146 = a2 * _t145;
+        let _t147 = self._h3 * (_t49 * _t93 + _t17 * _t141);
+        let _t148 = self._h1 * (_t143 - _t100 + _t146) - _t147 + self._h0 * _t94;
+        let _t149 = a2 * _t0 * S::ratio(-8.0, 1.0);
+        let _t150 = S::ratio(4.0, 1.0) * _t149;
+        let _t151 = _t17 * _t150;
+        let _t152 = _t0 * _t48;
+        let _t153 = a2
+            * ((S::ratio(3.0, 1.0) * _t108 - S::ratio(2.0, 1.0) * _t116) * _t39
+                - _t21 * _t110 - _t152 * _t50 - _t16 * _t150);
+        let _t154 = _t17 * _t152;
+        let _t155 = self._h3 * (_t120 - _t154)
+            - self._h1 * (_t119 - (-_t151 - _t107) - _t153) + self._h0 * _t108;
+        let _t156 = _t45 - _t63;
+        let _t157 = _t38 + a2 * _t156;
+        let _t158 = _t16 * _t37 - S::ratio(8.0, 1.0) * _t157;
+        let _t159 = _t16 * _t16;
+        let _t160 = S::ratio(16.0, 1.0) * _t159 - S::ratio(4.0, 1.0) * _t158;
+        let _t161 = _t44 + _t17 * _t160;
+        let _t162 = _t125 * S::ratio(-4.0, 1.0);
+        let _t163 = S::ratio(8.0, 1.0) * _t128 - S::ratio(4.0, 1.0) * _t162 - _t130;
+        let _t164 = _t159 + S::ratio(3.0, 1.0) * _t157;
+        let _t165 = _t126 - _t162;
+        let _t166 = _t133 - (_t128 + _t132);
+        let _t167 = _t16 * _t160 + _t21 * _t163 + _t51 * S::ratio(24.0, 1.0)
+            - S::ratio(16.0, 1.0) * (_t53 + _t16 * _t164) + S::ratio(2.0, 1.0) * _t47
+            + (S::ratio(3.0, 1.0) * _t165 - S::ratio(2.0, 1.0) * _t166) * _t39;
+        let _t168 = _t55 + a2 * _t167;
+        let _t169 = _t49 * _t16 + _t17 * _t164;
+        let _t170 = self._h1 * (_t168 + (_t161 + _t2 * _t131) - _t135)
+            + self._h3 * (_t123 - _t169) + self._h0 * _t126;
+        let _t171 = self._h3 * _t154 + self._h1 * (_t151 - _t153);
+        let _t172 = self._h3 * _t169 - self._h1 * (_t168 - -_t161) + self._h0 * _t162;
+        let _t173 = (_t8 * self._h6 - self._h7) * S::ratio(1.0, 480.0);
+        let _t174 = _t8 * self._h8;
+        let _t175 = _t1 * self._h1;
+        let _t176 = _t2 * S::ratio(1.0, 720.0);
+        let _t177 = S::ratio(3.0, 1.0) * _t104 - S::ratio(8.0, 1.0) * _t113;
+        let _t178 = _t10 * S::ratio(12.0, 1.0) - _t27 * S::ratio(32.0, 1.0);
+        let _t179 = a1 * self._h6;
+        let _t180 = ((_t178
+            - S::ratio(4.0, 1.0)
+                * (a2 * (S::ratio(3.0, 1.0) * _t149 - S::ratio(8.0, 1.0) * _t152)
+                    - a1 * _t177) - (-(_t0 * _t177) - _t178)) * _t179
+            - self._h6 * _t59 * _t102) * S::ratio(1.0, 1440.0);
+        let _t181 = self._h2 + _t62 * self._h4 + _t33 * _t1 * self._h5 - _t104 * _t173
+            + _t113 * _t174 + (_t26 * _t1 + _t2 * _t112) * self._h9 + _t118 * _t175
+            + (_t114 * self._h10 - _t117 * self._h11) * _t176;
+        let _t182 = S::ratio(3.0, 1.0) * _t158 - S::ratio(8.0, 1.0) * _t164;
+        let _t183 = S::ratio(3.0, 1.0) * _t124 - S::ratio(8.0, 1.0) * _t122;
+        let _t184 = _t40 * S::ratio(12.0, 1.0) - _t49 * S::ratio(32.0, 1.0);
+        let _t185 = -(S::ratio(4.0, 1.0) * (a2 * _t182 - a1 * _t183)) - _t184;
+        let _t186 = _t59 * _t45 * self._h4 - _t124 * _t173 + _t122 * _t174
+            + _t2 * _t130 * self._h9 + _t134 * _t175
+            + S::ratio(1.0, 1440.0) * (_t185 - _t183 * _t61) * _t179
+            - (_t126 * self._h10 - _t133 * self._h11) * _t176;
+        let _t187 = self._h2 + _t64 * self._h4 + _t54 * _t16 * self._h5
+            + (self._h7 - _t38 * self._h6) * _t158 * S::ratio(1.0, 480.0)
+            + _t38 * _t164 * self._h8 + (_t47 * _t16 + _t17 * _t163) * self._h9;
+        xi[0] = b1 * self.h + _t3 * self._h0
+            + (_t13 + _t35 - S::ratio(16.0, 1.0) * _t36) * self._h1;
+        xi[1] = b2 * self.h + _t19 * self._h0
+            + (_t43 - _t13 + _t56 - _t35 - S::ratio(16.0, 1.0) * (_t57 - _t36))
+                * self._h1;
+        xi[2] = b3 * self.h + _t46 * self._h0
+            + (-_t43 - _t56 + S::ratio(16.0, 1.0) * _t57) * self._h1;
         xi[3] = a1 * self._h2 + _t10 * self._h0
             + self._h1
-                * (_t0 * _t35 + S::ratio(2.0, 1.0) * (_t1 * _t27) + _t34 * _t57
+                * (_t1 * _t34 + S::ratio(2.0, 1.0) * (_t2 * _t26)
+                    + _t2 * S::ratio(8.0, 1.0) * _t33
                     + S::ratio(4.0, 1.0) * (a1 * _t62 - _t8 * _t59));
-        xi[4] = a2 * self._h2 + _t42 * self._h0
+        xi[4] = a2 * self._h2 + _t40 * self._h0
             + self._h1
-                * (_t16 * _t54 + S::ratio(2.0, 1.0) * (_t17 * _t48) + _t53 * _t63
-                    + S::ratio(4.0, 1.0) * (a2 * _t65 - _t40 * _t58));
-        hessian[(0, 0)] = self.h
-            - (_t66
-                - self._h4
-                    * (_t68
-                        + (_t12
-                            - S::ratio(16.0, 1.0) * (_t74 + _t15 * _t70 + a1 * -_t72))))
-                * _t75 - _t77;
-        hessian[(0, 1)] = _t81;
-        hessian[(0, 2)] = _t83;
-        hessian[(0, 3)] = _t96;
-        hessian[(0, 4)] = _t104;
-        hessian[(1, 0)] = _t81;
-        hessian[(1, 1)] = self.h - (_t6 - _t39) * self._h5
-            - self._h6 * (_t76 + a2 * _t49 + _t106) + self._h1 * _t112
-            - (_t66 - self._h4 * _t80) * _t75;
-        hessian[(1, 2)] = _t114;
-        hessian[(1, 3)] = _t119;
-        hessian[(1, 4)] = _t128;
-        hessian[(2, 0)] = _t83;
-        hessian[(2, 1)] = _t114;
-        hessian[(2, 2)] = _t113 + self.h;
-        hessian[(2, 3)] = _t129;
-        hessian[(2, 4)] = _t130;
-        hessian[(3, 0)] = _t96;
-        hessian[(3, 1)] = _t119;
-        hessian[(3, 2)] = _t129;
-        hessian[(3, 3)] = _t134
-            + a1
-                * (_t59 * self._h15
-                    + self._h4
-                        * (_t59 - (_t133 - _t39 * S::ratio(24.0, 1.0)) * _t2
-                            + (_t59 - _t133 * _t2))) * S::ratio(1.0, 360.0)
-            + _t0 * S::ratio(1.0, 2880.0) * (_t118 + _t34 * self._h16);
-        hessian[(3, 4)] = _t139;
-        hessian[(4, 0)] = _t104;
-        hessian[(4, 1)] = _t128;
-        hessian[(4, 2)] = _t130;
-        hessian[(4, 3)] = _t139;
-        hessian[(4, 4)] = _t140
-            + a2 * S::ratio(1.0, 360.0)
-                * (_t58 * self._h15 + self._h4 * (_t138 + (_t58 - _t137 * _t64)))
-            + _t16 * S::ratio(1.0, 2880.0) * (_t126 + _t53 * self._h16);
+                * (_t16 * _t55 + S::ratio(2.0, 1.0) * (_t17 * _t47)
+                    + _t17 * S::ratio(8.0, 1.0) * _t54
+                    + S::ratio(4.0, 1.0) * (a2 * _t64 - _t38 * _t58));
+        hessian[(0, 0)] = self.h - (_t27 * a1 + _t2 * _t65) * self._h3 + self._h0 * _t66
+            + self._h1 * (_t12 * a1 + _t2 * _t69 + a1 * _t74);
+        hessian[(0, 1)] = _t92;
+        hessian[(0, 2)] = _t101;
+        hessian[(0, 3)] = _t121;
+        hessian[(0, 4)] = _t136;
+        hessian[(1, 0)] = _t92;
+        hessian[(1, 1)] = self.h + self._h3 * (_t78 - _t49 * a2 - _t17 * _t125)
+            + self._h1 * (_t42 * a2 + _t17 * _t137 - _t81 - _t91 + a2 * _t139)
+            + self._h0 * _t83;
+        hessian[(1, 2)] = _t148;
+        hessian[(1, 3)] = _t155;
+        hessian[(1, 4)] = _t170;
+        hessian[(2, 0)] = _t101;
+        hessian[(2, 1)] = _t148;
+        hessian[(2, 2)] = self.h + _t147 + self._h1 * (-_t143 - _t146)
+            + self._h0 * _t144;
+        hessian[(2, 3)] = _t171;
+        hessian[(2, 4)] = _t172;
+        hessian[(3, 0)] = _t121;
+        hessian[(3, 1)] = _t155;
+        hessian[(3, 2)] = _t171;
+        hessian[(3, 3)] = _t181 + _t180;
+        hessian[(3, 4)] = _t186;
+        hessian[(4, 0)] = _t136;
+        hessian[(4, 1)] = _t170;
+        hessian[(4, 2)] = _t172;
+        hessian[(4, 3)] = _t186;
+        hessian[(4, 4)] = _t187 + _t16 * self._h1 * _t167
+            + _t17 * S::ratio(1.0, 720.0) * (self._h10 * _t165 - self._h11 * _t166)
+            + S::ratio(1.0, 1440.0)
+                * (a2 * self._h6 * (_t184 + _t63 * _t182 - _t185)
+                    - self._h6 * _t58 * _t156);
     }
 }
 
