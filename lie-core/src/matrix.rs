@@ -6,7 +6,7 @@ use nalgebra::SMatrix;
 
 /// A square matrix read and written by entry.
 ///
-/// Implemented for [`nalgebra::SMatrix`] and for [`StageMatrix`]; a system of many coordinates
+/// Implemented for `nalgebra::SMatrix` and for [`StageMatrix`]; a system of many coordinates
 /// may bring its own sparse one.
 pub trait SquareMatrix<S: Scalar>: Clone {
     /// The number of rows and of columns.

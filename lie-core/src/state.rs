@@ -88,7 +88,7 @@ pub trait Unknown<S: Scalar>: Clone {
 
 /// A point of g*, or an element of g in the dual basis: one contiguous vector.
 ///
-/// Implemented for [`nalgebra::SVector`], for arrays, and with the feature `std` for `Vec`.
+/// Implemented for `nalgebra::SVector`, for arrays, and with the feature `std` for `Vec`.
 pub trait State<S: Scalar>: Unknown<S> {
     /// The coordinates in order.
     fn as_slice(&self) -> &[S];
