@@ -20,7 +20,7 @@ pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
     }
     match &parsed.body {
         Some(Body::Declaration(declaration)) => match compile_declaration(declaration) {
-            Ok(model) => generate(&model, &declared_choices(&model)).tokens,
+            Ok(model) => generate(&model, &declared_choices(&model)),
             Err(diagnostics) => failure(&parsed, &diagnostics),
         },
         Some(Body::Spec { path }) => expand_spec(&parsed, path, manifest),
@@ -56,7 +56,7 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
     match compile_spec(&text) {
         Ok(mut model) => {
             model.visibility = parsed.visibility.clone();
-            let items = generate(&model, &declared_choices(&model)).tokens;
+            let items = generate(&model, &declared_choices(&model));
             quote! { #items #track }
         }
         Err(diagnostics) => {

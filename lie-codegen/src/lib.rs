@@ -1,7 +1,7 @@
 //! The compiler of lie-poisson: declarations in, checked systems and Rust out.
 //!
 //! ```text
-//! macro tokens, JSON spec -> front -> ast -> check -> model -> derive -> schedule -> emit
+//! macro tokens, JSON spec -> front -> ast -> check -> model -> plan (derive, schedule) -> print
 //! ```
 //!
 //! [`compile`] drives the stages and is the module to read first. A spec from end to end:
@@ -55,7 +55,6 @@ pub mod check;
 pub mod compile;
 pub mod derive;
 pub mod diagnostic;
-pub mod emit;
 pub mod exact;
 pub mod expand;
 pub mod front;
@@ -63,6 +62,8 @@ pub mod golden;
 pub mod judge;
 pub mod methods;
 pub mod model;
+pub mod plan;
+pub mod print;
 pub mod program;
 pub mod schedule;
 pub mod structure;

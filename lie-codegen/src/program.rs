@@ -3,9 +3,11 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::compile::{format_tokens, generate, source};
+use crate::compile::generate;
+use crate::derive::Source;
 use crate::methods::{Choice, Lift, Tensor};
 use crate::model::Model;
+use crate::print::format;
 
 /// What a program is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +47,7 @@ impl Chart {
 ///
 /// Programs for [`Purpose::Bench`] contain the modules `clock` and `controls`, which the build adds.
 pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
-    let system = generate(model, choices).tokens;
+    let system = generate(model, choices);
     let name = Ident::new(&model.name, Span::call_site());
     let entries = choices.iter().map(|choice| entry(choice, purpose));
     let dimension = model.dimension();
@@ -85,7 +87,7 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
             .main()
         }
     };
-    format_tokens(main)
+    format(main)
 }
 
 /// The same system without fused equations, and the methods that are compared on it: those that are fused, once each.
@@ -94,7 +96,7 @@ fn plain(model: &Model, choices: &[Choice]) -> Option<(TokenStream, TokenStream)
     if fused.is_empty() || !model.has_expression() {
         return None;
     }
-    let system = generate(model, &[]).tokens;
+    let system = generate(model, &[]);
     let name = Ident::new(&model.name, Span::call_site());
     let system_name = format_ident!("{}System", model.name);
     let count = model.parameters.len();
@@ -138,7 +140,7 @@ fn is_fused(choice: &Choice) -> bool {
 
 /// What a judge may look at beyond the kernels of every system.
 fn evidence(model: &Model) -> TokenStream {
-    let source = source(model);
+    let source = Source::of(model);
     let mut calls = TokenStream::new();
     let mut add = |wanted: bool, call: TokenStream| {
         if wanted {

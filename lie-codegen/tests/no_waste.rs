@@ -3,8 +3,9 @@
 
 use std::collections::HashMap;
 
-use lie_codegen::compile::{compile_spec, declared_choices, expand, source};
+use lie_codegen::compile::{compile_spec, declared_choices, expand};
 use lie_codegen::derive::Kernel;
+use lie_codegen::derive::Source;
 use lie_codegen::schedule::{Operation, Program, Value};
 
 /// The operation with commuting operands in order.
@@ -53,7 +54,7 @@ fn kernels_of_all_systems() {
             continue;
         }
         let model = compile_spec(&std::fs::read_to_string(&path).unwrap()).unwrap();
-        let mut source = source(&model);
+        let mut source = Source::of(&model);
         let mut kernels: Vec<Kernel> = source.basic_kernels();
         kernels.extend(source.midpoint_kernels());
         kernels.extend(source.cayley_kernels().unwrap_or_default());

@@ -3,8 +3,9 @@
 //! The tables were derived on paper before they were compared; parameters and what depends on the
 //! step size alone are prepared. A sign change counts as an addition.
 
-use lie_codegen::compile::{compile_spec, generate};
+use lie_codegen::compile::compile_spec;
 use lie_codegen::methods::{Choice, Retraction};
+use lie_codegen::plan::plan;
 
 const FUSED: [Choice; 2] = [Choice::Midpoint, Choice::LieMidpoint(Retraction::Cayley)];
 
@@ -12,7 +13,7 @@ const FUSED: [Choice; 2] = [Choice::Midpoint, Choice::LieMidpoint(Retraction::Ca
 fn check(spec: &str, table: &[(&str, usize, usize)], open: &[(&str, usize, usize)]) {
     let path = format!("{}/../specs/{spec}.json", env!("CARGO_MANIFEST_DIR"));
     let model = compile_spec(&std::fs::read_to_string(path).unwrap()).unwrap();
-    let counts = generate(&model, &FUSED).counts;
+    let counts = plan(&model, &FUSED).counts();
     let mut wrong = Vec::new();
     for (kernel, add, mul) in table {
         let expected = open

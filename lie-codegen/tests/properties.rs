@@ -6,7 +6,8 @@ mod random;
 
 use std::collections::HashMap;
 
-use lie_codegen::compile::{compile_spec, source};
+use lie_codegen::compile::compile_spec;
+use lie_codegen::derive::Source;
 use lie_codegen::derive::{Kernel, Source};
 use lie_codegen::schedule::{Operation, Program, Value};
 use lie_codegen::symbolic::{Graph, Symbol};
@@ -82,7 +83,7 @@ fn check(system: &random::System, offset: f64) -> Result<(), TestCaseError> {
         Symbol::Step => 0.1,
         Symbol::Time => 0.0,
     };
-    let mut source = source(&model);
+    let mut source = Source::of(&model);
     for kernel in kernels(&mut source) {
         let program = kernel.program(&mut source.graph);
         let defined = values(&kernel, &source.graph, &point);

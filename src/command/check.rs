@@ -82,9 +82,9 @@ struct Report {
 
 impl Report {
     fn on(model: &Model) -> Self {
-        let emitted = compile::generate(model, &compile::declared_choices(model));
-        let operations = emitted
-            .counts
+        let plan = lie_codegen::plan::plan(model, &compile::declared_choices(model));
+        let operations = plan
+            .counts()
             .into_iter()
             .map(|(kernel, count)| (kernel, [count.add, count.mul, count.div, count.call]))
             .collect();

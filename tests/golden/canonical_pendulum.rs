@@ -387,489 +387,21 @@ for CanonicalPendulumSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::ImplicitMidpoint,
         h: S,
-    ) -> CanonicalPendulumMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         CanonicalPendulumMidpoint::new(self, h)
-    }
-}
-
-/// Gauss collocation of order 4 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct CanonicalPendulumGauss4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, CanonicalPendulumSystem<S>, 2>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for CanonicalPendulumGauss4<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        CanonicalPendulumSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        CanonicalPendulumSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        CanonicalPendulumSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 2 entries of fill-in: 28 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_3 = matrix.0[0][1][(0, 1)];
-        let _a1_3 = -(_a1_0 * _a0_3);
-        let _a3_0 = matrix.0[1][0][(1, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = -(_a3_0 * _a0_1);
-        let _a3_3 = matrix.0[1][1][(1, 1)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = matrix.0[1][0][(0, 1)];
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a1_2 = matrix.0[0][1][(1, 0)];
-        let _a2_2 = matrix.0[1][1][(0, 0)];
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = matrix.0[1][1][(0, 1)];
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = matrix.0[1][1][(1, 0)];
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_3 = S::one() / _a3_3;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][1][(1, 1)] = _a1_3;
-        matrix.0[1][0][(0, 1)] = _a2_1;
-        matrix.0[1][1][(0, 0)] = _a2_2;
-        matrix.0[1][1][(0, 1)] = _a2_3;
-        matrix.0[1][0][(1, 0)] = _a3_0;
-        matrix.0[1][0][(1, 1)] = _a3_1;
-        matrix.0[1][1][(1, 0)] = _a3_2;
-        matrix.0[1][1][(1, 1)] = _a3_3;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()).max(_a3_3.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[1][0] - factors.0[1][0][(0, 1)] * _b1;
-        let _b3 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
-            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][1][(1, 0)] * _b2;
-        let _b3 = _b3 * factors.0[1][1][(1, 1)];
-        let _b2 = (_b2 - factors.0[1][1][(0, 1)] * _b3) * factors.0[1][1][(0, 0)];
-        let _b1 = (_b1 - factors.0[0][1][(1, 0)] * _b2 - factors.0[0][1][(1, 1)] * _b3)
-            * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][1][(0, 1)] * _b3)
-            * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[1][0] = _b2;
-        residual.0[1][1] = _b3;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
-for CanonicalPendulumSystem<S> {
-    type Equation<'a> = CanonicalPendulumGauss4<'a, S> where Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Gauss4,
-        h: S,
-    ) -> CanonicalPendulumGauss4<'a, S> {
-        CanonicalPendulumGauss4(::lie_runtime::generic::Gauss::new(self, h))
-    }
-}
-
-/// Gauss collocation of order 6 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct CanonicalPendulumGauss6<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, CanonicalPendulumSystem<S>, 3>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for CanonicalPendulumGauss6<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        CanonicalPendulumSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        CanonicalPendulumSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        CanonicalPendulumSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 6 entries of fill-in: 74 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_3 = matrix.0[0][1][(0, 1)];
-        let _a1_3 = -(_a1_0 * _a0_3);
-        let _a0_5 = matrix.0[0][2][(0, 1)];
-        let _a1_5 = -(_a1_0 * _a0_5);
-        let _a3_0 = matrix.0[1][0][(1, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = -(_a3_0 * _a0_1);
-        let _a3_3 = matrix.0[1][1][(1, 1)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_5 = -(_a3_0 * _a0_5);
-        let _a5_0 = matrix.0[2][0][(1, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = -(_a5_0 * _a0_1);
-        let _a5_3 = -(_a5_0 * _a0_3);
-        let _a5_5 = matrix.0[2][2][(1, 1)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a2_2 = matrix.0[1][1][(0, 0)];
-        let _a2_2 = S::one() / _a2_2;
-        let _a1_2 = matrix.0[0][1][(1, 0)];
-        let _a1_2 = _a1_2 * _a2_2;
-        let _a2_1 = matrix.0[1][0][(0, 1)];
-        let _a1_1 = _a1_1 - _a1_2 * _a2_1;
-        let _a2_3 = matrix.0[1][1][(0, 1)];
-        let _a1_3 = _a1_3 - _a1_2 * _a2_3;
-        let _a2_5 = matrix.0[1][2][(0, 1)];
-        let _a1_5 = _a1_5 - _a1_2 * _a2_5;
-        let _a3_2 = matrix.0[1][1][(1, 0)];
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_1 = _a3_1 - _a3_2 * _a2_1;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a5_2 = matrix.0[2][1][(1, 0)];
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_1 = _a5_1 - _a5_2 * _a2_1;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a1_1 = S::one() / _a1_1;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a1_4 = matrix.0[0][2][(1, 0)];
-        let _a3_4 = matrix.0[1][2][(1, 0)];
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a4_1 = matrix.0[2][0][(0, 1)];
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_3 = matrix.0[2][1][(0, 1)];
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = matrix.0[2][2][(0, 0)];
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = matrix.0[2][2][(0, 1)];
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = matrix.0[2][2][(1, 0)];
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_5 = S::one() / _a5_5;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][1][(1, 0)] = _a1_2;
-        matrix.0[0][1][(1, 1)] = _a1_3;
-        matrix.0[0][2][(1, 1)] = _a1_5;
-        matrix.0[1][1][(0, 0)] = _a2_2;
-        matrix.0[1][0][(1, 0)] = _a3_0;
-        matrix.0[1][0][(1, 1)] = _a3_1;
-        matrix.0[1][1][(1, 0)] = _a3_2;
-        matrix.0[1][1][(1, 1)] = _a3_3;
-        matrix.0[1][2][(1, 0)] = _a3_4;
-        matrix.0[1][2][(1, 1)] = _a3_5;
-        matrix.0[2][0][(0, 1)] = _a4_1;
-        matrix.0[2][1][(0, 1)] = _a4_3;
-        matrix.0[2][2][(0, 0)] = _a4_4;
-        matrix.0[2][2][(0, 1)] = _a4_5;
-        matrix.0[2][0][(1, 0)] = _a5_0;
-        matrix.0[2][0][(1, 1)] = _a5_1;
-        matrix.0[2][1][(1, 0)] = _a5_2;
-        matrix.0[2][1][(1, 1)] = _a5_3;
-        matrix.0[2][2][(1, 0)] = _a5_4;
-        matrix.0[2][2][(1, 1)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a2_2.abs())
-                .max(_a1_1.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b2 = residual.0[1][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0
-            - factors.0[0][1][(1, 0)] * _b2;
-        let _b3 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
-            - factors.0[1][1][(1, 0)] * _b2 - factors.0[1][0][(1, 1)] * _b1;
-        let _b4 = residual.0[2][0] - factors.0[2][0][(0, 1)] * _b1
-            - factors.0[2][1][(0, 1)] * _b3;
-        let _b5 = residual.0[2][1] - factors.0[2][0][(1, 0)] * _b0
-            - factors.0[2][1][(1, 0)] * _b2 - factors.0[2][0][(1, 1)] * _b1
-            - factors.0[2][1][(1, 1)] * _b3 - factors.0[2][2][(1, 0)] * _b4;
-        let _b5 = _b5 * factors.0[2][2][(1, 1)];
-        let _b4 = (_b4 - factors.0[2][2][(0, 1)] * _b5) * factors.0[2][2][(0, 0)];
-        let _b3 = (_b3 - factors.0[1][2][(1, 0)] * _b4 - factors.0[1][2][(1, 1)] * _b5)
-            * factors.0[1][1][(1, 1)];
-        let _b1 = (_b1 - factors.0[0][1][(1, 1)] * _b3 - factors.0[0][2][(1, 0)] * _b4
-            - factors.0[0][2][(1, 1)] * _b5) * factors.0[0][0][(1, 1)];
-        let _b2 = (_b2 - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][1][(0, 1)] * _b3
-            - factors.0[1][2][(0, 1)] * _b5) * factors.0[1][1][(0, 0)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][1][(0, 1)] * _b3
-            - factors.0[0][2][(0, 1)] * _b5) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[1][0] = _b2;
-        residual.0[1][1] = _b3;
-        residual.0[2][0] = _b4;
-        residual.0[2][1] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
-for CanonicalPendulumSystem<S> {
-    type Equation<'a> = CanonicalPendulumGauss6<'a, S> where Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Gauss6,
-        h: S,
-    ) -> CanonicalPendulumGauss6<'a, S> {
-        CanonicalPendulumGauss6(::lie_runtime::generic::Gauss::new(self, h))
-    }
-}
-
-/// Elimination of 2 rows in a fixed order, 0 entries of fill-in: 6 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct CanonicalPendulumElimination1;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::SMatrix<S, 2, 2>,
-    ::lie_runtime::__private::SVector<S, 2>,
-> for CanonicalPendulumElimination1 {
-    #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 2, 2>) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a1_1 = S::one() / _a1_1;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        ::lie_runtime::__private::inverse_pivots_are_safe(_a0_0.abs().max(_a1_1.abs()))
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 2, 2>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 2>,
-    ) {
-        let _b0 = vector[0];
-        let _b1 = vector[1] - factors[(1, 0)] * _b0;
-        let _b1 = _b1 * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
-        vector[0] = _b0;
-        vector[1] = _b1;
-    }
-}
-
-/// Elimination of 2 rows in a fixed order, 0 entries of fill-in: 6 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct CanonicalPendulumElimination2;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::SMatrix<S, 2, 2>,
-    ::lie_runtime::__private::SVector<S, 2>,
-> for CanonicalPendulumElimination2 {
-    #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 2, 2>) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a1_1 = S::one() / _a1_1;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        ::lie_runtime::__private::inverse_pivots_are_safe(_a0_0.abs().max(_a1_1.abs()))
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 2, 2>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 2>,
-    ) {
-        let _b0 = vector[0];
-        let _b1 = vector[1] - factors[(1, 0)] * _b0;
-        let _b1 = _b1 * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
-        vector[0] = _b0;
-        vector[1] = _b1;
     }
 }
 
 /// Elimination of 4 rows in a fixed order, 2 entries of fill-in: 28 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
-pub struct CanonicalPendulumElimination3;
+pub struct CanonicalPendulumGauss4Elimination;
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::__private::FixedElimination<
     S,
     ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 2, 2>, 2>,
     ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 2>, 2>,
-> for CanonicalPendulumElimination3 {
+> for CanonicalPendulumGauss4Elimination {
     #[inline]
     fn factor(
         matrix: &mut ::lie_runtime::__private::StageMatrix<
@@ -952,16 +484,35 @@ impl<
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
+for CanonicalPendulumSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, CanonicalPendulumSystem<S>, 2>,
+        CanonicalPendulumGauss4Elimination,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
+    }
+}
+
 /// Elimination of 6 rows in a fixed order, 6 entries of fill-in: 74 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
-pub struct CanonicalPendulumElimination4;
+pub struct CanonicalPendulumGauss6Elimination;
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::__private::FixedElimination<
     S,
     ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 2, 2>, 3>,
     ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 2>, 3>,
-> for CanonicalPendulumElimination4 {
+> for CanonicalPendulumGauss6Elimination {
     #[inline]
     fn factor(
         matrix: &mut ::lie_runtime::__private::StageMatrix<
@@ -1118,6 +669,105 @@ impl<
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
+for CanonicalPendulumSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, CanonicalPendulumSystem<S>, 3>,
+        CanonicalPendulumGauss6Elimination,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
+    }
+}
+
+/// Elimination of 2 rows in a fixed order, 0 entries of fill-in: 6 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct CanonicalPendulumGonzalezElimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 2, 2>,
+    ::lie_runtime::__private::SVector<S, 2>,
+> for CanonicalPendulumGonzalezElimination {
+    #[inline]
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 2, 2>) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a1_1 = S::one() / _a1_1;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        ::lie_runtime::__private::inverse_pivots_are_safe(_a0_0.abs().max(_a1_1.abs()))
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 2, 2>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 2>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b1 = _b1 * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
+        vector[0] = _b0;
+        vector[1] = _b1;
+    }
+}
+
+/// Elimination of 2 rows in a fixed order, 0 entries of fill-in: 6 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct CanonicalPendulumMeanValueElimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 2, 2>,
+    ::lie_runtime::__private::SVector<S, 2>,
+> for CanonicalPendulumMeanValueElimination {
+    #[inline]
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 2, 2>) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a1_1 = S::one() / _a1_1;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        ::lie_runtime::__private::inverse_pivots_are_safe(_a0_0.abs().max(_a1_1.abs()))
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 2, 2>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 2>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b1 = _b1 * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
+        vector[0] = _b0;
+        vector[1] = _b1;
+    }
+}
+
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez>
@@ -1126,10 +776,10 @@ for CanonicalPendulumSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::GonzalezGradient<S, Self>,
+            CanonicalPendulumSystem<S>,
+            ::lie_runtime::generic::GonzalezGradient<S, CanonicalPendulumSystem<S>>,
         >,
-        CanonicalPendulumElimination1,
+        CanonicalPendulumGonzalezElimination,
     >
     where
         Self: 'a;
@@ -1139,7 +789,11 @@ for CanonicalPendulumSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::GonzalezGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1152,10 +806,10 @@ for CanonicalPendulumSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            CanonicalPendulumSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, CanonicalPendulumSystem<S>>,
         >,
-        CanonicalPendulumElimination2,
+        CanonicalPendulumMeanValueElimination,
     >
     where
         Self: 'a;
@@ -1165,7 +819,11 @@ for CanonicalPendulumSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::MeanValueGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1178,10 +836,10 @@ for CanonicalPendulumSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::ItohAbeGradient<S, Self>,
+            CanonicalPendulumSystem<S>,
+            ::lie_runtime::generic::ItohAbeGradient<S, CanonicalPendulumSystem<S>>,
         >,
-        CanonicalPendulumElimination2,
+        CanonicalPendulumMeanValueElimination,
     >
     where
         Self: 'a;
@@ -1191,7 +849,11 @@ for CanonicalPendulumSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::ItohAbeGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1204,10 +866,10 @@ for CanonicalPendulumSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            CanonicalPendulumSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, CanonicalPendulumSystem<S>>,
         >,
-        CanonicalPendulumElimination2,
+        CanonicalPendulumMeanValueElimination,
     >
     where
         Self: 'a;
@@ -1217,7 +879,11 @@ for CanonicalPendulumSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::MeanValueGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1227,8 +893,8 @@ impl<
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for CanonicalPendulumSystem<S> {
     type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 2>,
-        CanonicalPendulumElimination3,
+        ::lie_runtime::generic::CohenHairerStep<'a, S, CanonicalPendulumSystem<S>, 2>,
+        CanonicalPendulumGauss4Elimination,
     >
     where
         Self: 'a;
@@ -1248,8 +914,8 @@ impl<
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for CanonicalPendulumSystem<S> {
     type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 3>,
-        CanonicalPendulumElimination4,
+        ::lie_runtime::generic::CohenHairerStep<'a, S, CanonicalPendulumSystem<S>, 3>,
+        CanonicalPendulumGauss6Elimination,
     >
     where
         Self: 'a;

@@ -290,10 +290,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeisenbergSystem<S> {
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
-    }
-
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// No operation.
@@ -306,6 +302,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeisenbergSys
         out: &mut Self::State,
     ) {
         out.as_mut_slice().fill(S::zero());
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
     }
 }
 
@@ -519,69 +519,28 @@ for HeisenbergSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::ImplicitMidpoint,
         h: S,
-    ) -> HeisenbergMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         HeisenbergMidpoint::new(self, h)
     }
 }
 
-/// Gauss collocation of order 4 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct HeisenbergGauss4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, HeisenbergSystem<S>, 2>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for HeisenbergGauss4<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 6 rows in a fixed order, 2 entries of fill-in: 36 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct HeisenbergGauss4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+> for HeisenbergGauss4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 2 entries of fill-in: 36 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix.0[0][0][(1, 0)];
@@ -629,16 +588,25 @@ for HeisenbergGauss4<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b2 = residual.0[0][2];
-        let _b5 = residual.0[1][2];
-        let _b0 = residual.0[0][0] - factors.0[0][0][(0, 2)] * _b2
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            2,
+        >,
+    ) {
+        let _b2 = vector.0[0][2];
+        let _b5 = vector.0[1][2];
+        let _b0 = vector.0[0][0] - factors.0[0][0][(0, 2)] * _b2
             - factors.0[0][1][(0, 2)] * _b5;
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 2)] * _b2
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 2)] * _b2
             - factors.0[0][1][(1, 2)] * _b5 - factors.0[0][0][(1, 0)] * _b0;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 2)] * _b2
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 2)] * _b2
             - factors.0[1][1][(0, 2)] * _b5 - factors.0[1][0][(0, 1)] * _b1;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 2)] * _b2
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 2)] * _b2
             - factors.0[1][1][(1, 2)] * _b5 - factors.0[1][0][(1, 0)] * _b0
             - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][1][(1, 0)] * _b3;
         let _b4 = _b4 * factors.0[1][1][(1, 1)];
@@ -647,106 +615,51 @@ for HeisenbergGauss4<'a, S> {
             * factors.0[0][0][(1, 1)];
         let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][1][(0, 1)] * _b4)
             * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for HeisenbergSystem<S> {
-    type Equation<'a> = HeisenbergGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, HeisenbergSystem<S>, 2>,
+        HeisenbergGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss4,
         h: S,
-    ) -> HeisenbergGauss4<'a, S> {
-        HeisenbergGauss4(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// Gauss collocation of order 6 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct HeisenbergGauss6<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, HeisenbergSystem<S>, 3>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for HeisenbergGauss6<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 9 rows in a fixed order, 6 entries of fill-in: 92 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct HeisenbergGauss6Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
+> for HeisenbergGauss6Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 6 entries of fill-in: 92 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix.0[0][0][(1, 0)];
@@ -856,25 +769,34 @@ for HeisenbergGauss6<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b2 = residual.0[0][2];
-        let _b5 = residual.0[1][2];
-        let _b8 = residual.0[2][2];
-        let _b0 = residual.0[0][0] - factors.0[0][0][(0, 2)] * _b2
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            3,
+        >,
+    ) {
+        let _b2 = vector.0[0][2];
+        let _b5 = vector.0[1][2];
+        let _b8 = vector.0[2][2];
+        let _b0 = vector.0[0][0] - factors.0[0][0][(0, 2)] * _b2
             - factors.0[0][1][(0, 2)] * _b5 - factors.0[0][2][(0, 2)] * _b8;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 2)] * _b2
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 2)] * _b2
             - factors.0[1][1][(0, 2)] * _b5 - factors.0[1][2][(0, 2)] * _b8;
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 2)] * _b2
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 2)] * _b2
             - factors.0[0][1][(1, 2)] * _b5 - factors.0[0][2][(1, 2)] * _b8
             - factors.0[0][0][(1, 0)] * _b0 - factors.0[0][1][(1, 0)] * _b3;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 2)] * _b2
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 2)] * _b2
             - factors.0[1][1][(1, 2)] * _b5 - factors.0[1][2][(1, 2)] * _b8
             - factors.0[1][0][(1, 0)] * _b0 - factors.0[1][1][(1, 0)] * _b3
             - factors.0[1][0][(1, 1)] * _b1;
-        let _b6 = residual.0[2][0] - factors.0[2][0][(0, 2)] * _b2
+        let _b6 = vector.0[2][0] - factors.0[2][0][(0, 2)] * _b2
             - factors.0[2][1][(0, 2)] * _b5 - factors.0[2][2][(0, 2)] * _b8
             - factors.0[2][0][(0, 1)] * _b1 - factors.0[2][1][(0, 1)] * _b4;
-        let _b7 = residual.0[2][1] - factors.0[2][0][(1, 2)] * _b2
+        let _b7 = vector.0[2][1] - factors.0[2][0][(1, 2)] * _b2
             - factors.0[2][1][(1, 2)] * _b5 - factors.0[2][2][(1, 2)] * _b8
             - factors.0[2][0][(1, 0)] * _b0 - factors.0[2][1][(1, 0)] * _b3
             - factors.0[2][0][(1, 1)] * _b1 - factors.0[2][1][(1, 1)] * _b4
@@ -889,106 +811,49 @@ for HeisenbergGauss6<'a, S> {
             - factors.0[1][2][(0, 1)] * _b7) * factors.0[1][1][(0, 0)];
         let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][1][(0, 1)] * _b4
             - factors.0[0][2][(0, 1)] * _b7) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-        residual.0[2][0] = _b6;
-        residual.0[2][1] = _b7;
-        residual.0[2][2] = _b8;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
+        vector.0[2][0] = _b6;
+        vector.0[2][1] = _b7;
+        vector.0[2][2] = _b8;
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for HeisenbergSystem<S> {
-    type Equation<'a> = HeisenbergGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, HeisenbergSystem<S>, 3>,
+        HeisenbergGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss6,
         h: S,
-    ) -> HeisenbergGauss6<'a, S> {
-        HeisenbergGauss6(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// The retraction method with the exponential, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct HeisenbergExpMidpoint<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpMidpoint<'a, S, HeisenbergSystem<S>>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for HeisenbergExpMidpoint<'a, S> {
-    type State = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 7 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct HeisenbergExpMidpointElimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for HeisenbergExpMidpointElimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 7 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -1004,36 +869,18 @@ for HeisenbergExpMidpoint<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b2 = residual[2];
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b2 = vector[2];
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
         let _b1 = _b1 * factors[(1, 1)];
         let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
     }
 }
 
@@ -1043,13 +890,20 @@ impl<
     S,
     ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
 > for HeisenbergSystem<S> {
-    type Equation<'a> = HeisenbergExpMidpoint<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpMidpoint<'a, S, HeisenbergSystem<S>>,
+        HeisenbergExpMidpointElimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
         h: S,
-    ) -> HeisenbergExpMidpoint<'a, S> {
-        HeisenbergExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::ExpMidpoint::new(self, h),
+        )
     }
 }
 
@@ -1213,7 +1067,7 @@ impl<
         &'a self,
         _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
         h: S,
-    ) -> HeisenbergCayleyMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         HeisenbergCayleyMidpoint::new(self, h)
     }
 }
@@ -1498,14 +1352,14 @@ for HeisenbergGonzalezGradient<S> {
 
 /// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 8 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
-pub struct HeisenbergElimination1;
+pub struct HeisenbergOrbitGonzalezElimination;
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::__private::FixedElimination<
     S,
     ::lie_runtime::__private::SMatrix<S, 3, 3>,
     ::lie_runtime::__private::SVector<S, 3>,
-> for HeisenbergElimination1 {
+> for HeisenbergOrbitGonzalezElimination {
     #[inline]
     fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
@@ -1771,48 +1625,6 @@ for HeisenbergMeanValueGradient<S> {
     }
 }
 
-/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 7 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct HeisenbergElimination2;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::SMatrix<S, 3, 3>,
-    ::lie_runtime::__private::SVector<S, 3>,
-> for HeisenbergElimination2 {
-    #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a1_1 = S::one() / _a1_1;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        ::lie_runtime::__private::inverse_pivots_are_safe(_a0_0.abs().max(_a1_1.abs()))
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
-    ) {
-        let _b2 = vector[2];
-        let _b0 = vector[0];
-        let _b1 = vector[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
-        let _b1 = _b1 * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
-        vector[0] = _b0;
-        vector[1] = _b1;
-        vector[2] = _b2;
-    }
-}
-
 /// The symmetrised coordinate-increment method, unknown `u = mu1`: `u - mu - h Pi((mu + u)/2) g(mu, u) = 0`.
 #[derive(Clone, Debug)]
 pub struct HeisenbergItohAbe<'a, S: ::lie_runtime::Scalar> {
@@ -2045,286 +1857,6 @@ for HeisenbergItohAbeGradient<S> {
     }
 }
 
-/// Elimination of 6 rows in a fixed order, 2 entries of fill-in: 36 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct HeisenbergElimination3;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
-> for HeisenbergElimination3 {
-    #[inline]
-    fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            2,
-        >,
-    ) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_4 = matrix.0[0][1][(0, 1)];
-        let _a1_4 = -(_a1_0 * _a0_4);
-        let _a4_0 = matrix.0[1][0][(1, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = -(_a4_0 * _a0_1);
-        let _a4_4 = matrix.0[1][1][(1, 1)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a1_1 = S::one() / _a1_1;
-        let _a3_1 = matrix.0[1][0][(0, 1)];
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a1_3 = matrix.0[0][1][(1, 0)];
-        let _a3_3 = matrix.0[1][1][(0, 0)];
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = matrix.0[1][1][(0, 1)];
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_3 = matrix.0[1][1][(1, 0)];
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_4 = S::one() / _a4_4;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][1][(1, 1)] = _a1_4;
-        matrix.0[1][0][(0, 1)] = _a3_1;
-        matrix.0[1][1][(0, 0)] = _a3_3;
-        matrix.0[1][1][(0, 1)] = _a3_4;
-        matrix.0[1][0][(1, 0)] = _a4_0;
-        matrix.0[1][0][(1, 1)] = _a4_1;
-        matrix.0[1][1][(1, 0)] = _a4_3;
-        matrix.0[1][1][(1, 1)] = _a4_4;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a3_3.abs()).max(_a4_4.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            2,
-        >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
-            2,
-        >,
-    ) {
-        let _b2 = vector.0[0][2];
-        let _b5 = vector.0[1][2];
-        let _b0 = vector.0[0][0] - factors.0[0][0][(0, 2)] * _b2
-            - factors.0[0][1][(0, 2)] * _b5;
-        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 2)] * _b2
-            - factors.0[0][1][(1, 2)] * _b5 - factors.0[0][0][(1, 0)] * _b0;
-        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 2)] * _b2
-            - factors.0[1][1][(0, 2)] * _b5 - factors.0[1][0][(0, 1)] * _b1;
-        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 2)] * _b2
-            - factors.0[1][1][(1, 2)] * _b5 - factors.0[1][0][(1, 0)] * _b0
-            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][1][(1, 0)] * _b3;
-        let _b4 = _b4 * factors.0[1][1][(1, 1)];
-        let _b3 = (_b3 - factors.0[1][1][(0, 1)] * _b4) * factors.0[1][1][(0, 0)];
-        let _b1 = (_b1 - factors.0[0][1][(1, 0)] * _b3 - factors.0[0][1][(1, 1)] * _b4)
-            * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][1][(0, 1)] * _b4)
-            * factors.0[0][0][(0, 0)];
-        vector.0[0][0] = _b0;
-        vector.0[0][1] = _b1;
-        vector.0[0][2] = _b2;
-        vector.0[1][0] = _b3;
-        vector.0[1][1] = _b4;
-        vector.0[1][2] = _b5;
-    }
-}
-
-/// Elimination of 9 rows in a fixed order, 6 entries of fill-in: 92 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct HeisenbergElimination4;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
-> for HeisenbergElimination4 {
-    #[inline]
-    fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            3,
-        >,
-    ) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_4 = matrix.0[0][1][(0, 1)];
-        let _a1_4 = -(_a1_0 * _a0_4);
-        let _a0_7 = matrix.0[0][2][(0, 1)];
-        let _a1_7 = -(_a1_0 * _a0_7);
-        let _a4_0 = matrix.0[1][0][(1, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = -(_a4_0 * _a0_1);
-        let _a4_4 = matrix.0[1][1][(1, 1)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_7 = -(_a4_0 * _a0_7);
-        let _a7_0 = matrix.0[2][0][(1, 0)];
-        let _a7_0 = _a7_0 * _a0_0;
-        let _a7_1 = -(_a7_0 * _a0_1);
-        let _a7_4 = -(_a7_0 * _a0_4);
-        let _a7_7 = matrix.0[2][2][(1, 1)];
-        let _a7_7 = _a7_7 - _a7_0 * _a0_7;
-        let _a3_3 = matrix.0[1][1][(0, 0)];
-        let _a3_3 = S::one() / _a3_3;
-        let _a1_3 = matrix.0[0][1][(1, 0)];
-        let _a1_3 = _a1_3 * _a3_3;
-        let _a3_1 = matrix.0[1][0][(0, 1)];
-        let _a1_1 = _a1_1 - _a1_3 * _a3_1;
-        let _a3_4 = matrix.0[1][1][(0, 1)];
-        let _a1_4 = _a1_4 - _a1_3 * _a3_4;
-        let _a3_7 = matrix.0[1][2][(0, 1)];
-        let _a1_7 = _a1_7 - _a1_3 * _a3_7;
-        let _a4_3 = matrix.0[1][1][(1, 0)];
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_1 = _a4_1 - _a4_3 * _a3_1;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_7 = _a4_7 - _a4_3 * _a3_7;
-        let _a7_3 = matrix.0[2][1][(1, 0)];
-        let _a7_3 = _a7_3 * _a3_3;
-        let _a7_1 = _a7_1 - _a7_3 * _a3_1;
-        let _a7_4 = _a7_4 - _a7_3 * _a3_4;
-        let _a7_7 = _a7_7 - _a7_3 * _a3_7;
-        let _a1_1 = S::one() / _a1_1;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a1_6 = matrix.0[0][2][(1, 0)];
-        let _a4_6 = matrix.0[1][2][(1, 0)];
-        let _a4_6 = _a4_6 - _a4_1 * _a1_6;
-        let _a4_7 = _a4_7 - _a4_1 * _a1_7;
-        let _a6_1 = matrix.0[2][0][(0, 1)];
-        let _a6_1 = _a6_1 * _a1_1;
-        let _a6_4 = matrix.0[2][1][(0, 1)];
-        let _a6_4 = _a6_4 - _a6_1 * _a1_4;
-        let _a6_6 = matrix.0[2][2][(0, 0)];
-        let _a6_6 = _a6_6 - _a6_1 * _a1_6;
-        let _a6_7 = matrix.0[2][2][(0, 1)];
-        let _a6_7 = _a6_7 - _a6_1 * _a1_7;
-        let _a7_1 = _a7_1 * _a1_1;
-        let _a7_4 = _a7_4 - _a7_1 * _a1_4;
-        let _a7_6 = matrix.0[2][2][(1, 0)];
-        let _a7_6 = _a7_6 - _a7_1 * _a1_6;
-        let _a7_7 = _a7_7 - _a7_1 * _a1_7;
-        let _a4_4 = S::one() / _a4_4;
-        let _a6_4 = _a6_4 * _a4_4;
-        let _a6_6 = _a6_6 - _a6_4 * _a4_6;
-        let _a6_7 = _a6_7 - _a6_4 * _a4_7;
-        let _a7_4 = _a7_4 * _a4_4;
-        let _a7_6 = _a7_6 - _a7_4 * _a4_6;
-        let _a7_7 = _a7_7 - _a7_4 * _a4_7;
-        let _a6_6 = S::one() / _a6_6;
-        let _a7_6 = _a7_6 * _a6_6;
-        let _a7_7 = _a7_7 - _a7_6 * _a6_7;
-        let _a7_7 = S::one() / _a7_7;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][1][(1, 0)] = _a1_3;
-        matrix.0[0][1][(1, 1)] = _a1_4;
-        matrix.0[0][2][(1, 1)] = _a1_7;
-        matrix.0[1][1][(0, 0)] = _a3_3;
-        matrix.0[1][0][(1, 0)] = _a4_0;
-        matrix.0[1][0][(1, 1)] = _a4_1;
-        matrix.0[1][1][(1, 0)] = _a4_3;
-        matrix.0[1][1][(1, 1)] = _a4_4;
-        matrix.0[1][2][(1, 0)] = _a4_6;
-        matrix.0[1][2][(1, 1)] = _a4_7;
-        matrix.0[2][0][(0, 1)] = _a6_1;
-        matrix.0[2][1][(0, 1)] = _a6_4;
-        matrix.0[2][2][(0, 0)] = _a6_6;
-        matrix.0[2][2][(0, 1)] = _a6_7;
-        matrix.0[2][0][(1, 0)] = _a7_0;
-        matrix.0[2][0][(1, 1)] = _a7_1;
-        matrix.0[2][1][(1, 0)] = _a7_3;
-        matrix.0[2][1][(1, 1)] = _a7_4;
-        matrix.0[2][2][(1, 0)] = _a7_6;
-        matrix.0[2][2][(1, 1)] = _a7_7;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a3_3.abs())
-                .max(_a1_1.abs())
-                .max(_a4_4.abs())
-                .max(_a6_6.abs())
-                .max(_a7_7.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            3,
-        >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
-            3,
-        >,
-    ) {
-        let _b2 = vector.0[0][2];
-        let _b5 = vector.0[1][2];
-        let _b8 = vector.0[2][2];
-        let _b0 = vector.0[0][0] - factors.0[0][0][(0, 2)] * _b2
-            - factors.0[0][1][(0, 2)] * _b5 - factors.0[0][2][(0, 2)] * _b8;
-        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 2)] * _b2
-            - factors.0[1][1][(0, 2)] * _b5 - factors.0[1][2][(0, 2)] * _b8;
-        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 2)] * _b2
-            - factors.0[0][1][(1, 2)] * _b5 - factors.0[0][2][(1, 2)] * _b8
-            - factors.0[0][0][(1, 0)] * _b0 - factors.0[0][1][(1, 0)] * _b3;
-        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 2)] * _b2
-            - factors.0[1][1][(1, 2)] * _b5 - factors.0[1][2][(1, 2)] * _b8
-            - factors.0[1][0][(1, 0)] * _b0 - factors.0[1][1][(1, 0)] * _b3
-            - factors.0[1][0][(1, 1)] * _b1;
-        let _b6 = vector.0[2][0] - factors.0[2][0][(0, 2)] * _b2
-            - factors.0[2][1][(0, 2)] * _b5 - factors.0[2][2][(0, 2)] * _b8
-            - factors.0[2][0][(0, 1)] * _b1 - factors.0[2][1][(0, 1)] * _b4;
-        let _b7 = vector.0[2][1] - factors.0[2][0][(1, 2)] * _b2
-            - factors.0[2][1][(1, 2)] * _b5 - factors.0[2][2][(1, 2)] * _b8
-            - factors.0[2][0][(1, 0)] * _b0 - factors.0[2][1][(1, 0)] * _b3
-            - factors.0[2][0][(1, 1)] * _b1 - factors.0[2][1][(1, 1)] * _b4
-            - factors.0[2][2][(1, 0)] * _b6;
-        let _b7 = _b7 * factors.0[2][2][(1, 1)];
-        let _b6 = (_b6 - factors.0[2][2][(0, 1)] * _b7) * factors.0[2][2][(0, 0)];
-        let _b4 = (_b4 - factors.0[1][2][(1, 0)] * _b6 - factors.0[1][2][(1, 1)] * _b7)
-            * factors.0[1][1][(1, 1)];
-        let _b1 = (_b1 - factors.0[0][1][(1, 1)] * _b4 - factors.0[0][2][(1, 0)] * _b6
-            - factors.0[0][2][(1, 1)] * _b7) * factors.0[0][0][(1, 1)];
-        let _b3 = (_b3 - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][1][(0, 1)] * _b4
-            - factors.0[1][2][(0, 1)] * _b7) * factors.0[1][1][(0, 0)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][1][(0, 1)] * _b4
-            - factors.0[0][2][(0, 1)] * _b7) * factors.0[0][0][(0, 0)];
-        vector.0[0][0] = _b0;
-        vector.0[0][1] = _b1;
-        vector.0[0][2] = _b2;
-        vector.0[1][0] = _b3;
-        vector.0[1][1] = _b4;
-        vector.0[1][2] = _b5;
-        vector.0[2][0] = _b6;
-        vector.0[2][1] = _b7;
-        vector.0[2][2] = _b8;
-    }
-}
-
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez> for HeisenbergSystem<S> {
@@ -2348,10 +1880,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
+            HeisenbergSystem<S>,
             HeisenbergGonzalezGradient<S>,
         >,
-        HeisenbergElimination1,
+        HeisenbergOrbitGonzalezElimination,
     >
     where
         Self: 'a;
@@ -2389,10 +1921,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
+            HeisenbergSystem<S>,
             HeisenbergMeanValueGradient<S>,
         >,
-        HeisenbergElimination2,
+        HeisenbergExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2430,10 +1962,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
+            HeisenbergSystem<S>,
             HeisenbergItohAbeGradient<S>,
         >,
-        HeisenbergElimination2,
+        HeisenbergExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2467,8 +1999,8 @@ impl<
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for HeisenbergSystem<S> {
     type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 2>,
-        HeisenbergElimination3,
+        ::lie_runtime::generic::CohenHairerStep<'a, S, HeisenbergSystem<S>, 2>,
+        HeisenbergGauss4Elimination,
     >
     where
         Self: 'a;
@@ -2488,8 +2020,8 @@ impl<
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for HeisenbergSystem<S> {
     type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 3>,
-        HeisenbergElimination4,
+        ::lie_runtime::generic::CohenHairerStep<'a, S, HeisenbergSystem<S>, 3>,
+        HeisenbergGauss6Elimination,
     >
     where
         Self: 'a;
@@ -2504,90 +2036,23 @@ for HeisenbergSystem<S> {
     }
 }
 
-/// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-#[allow(clippy::type_complexity)]
-pub struct HeisenbergIsospectral4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <HeisenbergSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for HeisenbergIsospectral4<'a, S> {
-    type State = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <HeisenbergSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <HeisenbergSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <HeisenbergSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct HeisenbergIsospectral4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+> for HeisenbergIsospectral4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix.0[0][0][(1, 0)];
@@ -2743,17 +2208,26 @@ for HeisenbergIsospectral4<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            2,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
+        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
             - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 0)] * _b0
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 0)] * _b0
             - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
             - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
             - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
+        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
             - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
             - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
         let _b5 = _b5 * factors.0[1][1][(2, 2)];
@@ -2768,33 +2242,12 @@ for HeisenbergIsospectral4<'a, S> {
         let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
             - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
             - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
     }
 }
 
@@ -2802,13 +2255,30 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<2>>
 for HeisenbergSystem<S> {
-    type Equation<'a> = HeisenbergIsospectral4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::StageMomenta<
+            'a,
+            S,
+            HeisenbergSystem<S>,
+            ::lie_runtime::generic::MatrixStages<
+                S,
+                <HeisenbergSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+                2,
+            >,
+            2,
+        >,
+        HeisenbergIsospectral4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Isospectral<2>,
         h: S,
-    ) -> HeisenbergIsospectral4<'a, S> {
-        HeisenbergIsospectral4(::lie_runtime::generic::StageMomenta::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::StageMomenta::new(self, h),
+        )
     }
 }
 

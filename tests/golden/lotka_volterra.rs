@@ -626,491 +626,21 @@ for LotkaVolterraSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::ImplicitMidpoint,
         h: S,
-    ) -> LotkaVolterraMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         LotkaVolterraMidpoint::new(self, h)
-    }
-}
-
-/// Gauss collocation of order 4 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct LotkaVolterraGauss4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, LotkaVolterraSystem<S>, 2>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for LotkaVolterraGauss4<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        LotkaVolterraSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        LotkaVolterraSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        LotkaVolterraSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix.0[0][1][(0, 0)];
-        let _a1_3 = matrix.0[0][1][(1, 0)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix.0[0][1][(0, 1)];
-        let _a1_4 = matrix.0[0][1][(1, 1)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a0_5 = matrix.0[0][1][(0, 2)];
-        let _a1_5 = matrix.0[0][1][(1, 2)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix.0[0][1][(2, 0)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix.0[0][1][(2, 1)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = matrix.0[0][1][(2, 2)];
-        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
-        let _a3_0 = matrix.0[1][0][(0, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix.0[1][0][(0, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix.0[1][0][(0, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix.0[1][1][(0, 0)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix.0[1][1][(0, 1)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a3_5 = matrix.0[1][1][(0, 2)];
-        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
-        let _a4_0 = matrix.0[1][0][(1, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix.0[1][0][(1, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix.0[1][0][(1, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix.0[1][1][(1, 0)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix.0[1][1][(1, 1)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix.0[1][1][(1, 2)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a5_0 = matrix.0[1][0][(2, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix.0[1][0][(2, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = matrix.0[1][0][(2, 2)];
-        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
-        let _a5_3 = matrix.0[1][1][(2, 0)];
-        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
-        let _a5_4 = matrix.0[1][1][(2, 1)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix.0[1][1][(2, 2)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_5 = S::one() / _a5_5;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][1][(1, 0)] = _a1_3;
-        matrix.0[0][1][(1, 1)] = _a1_4;
-        matrix.0[0][1][(1, 2)] = _a1_5;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        matrix.0[0][1][(2, 0)] = _a2_3;
-        matrix.0[0][1][(2, 1)] = _a2_4;
-        matrix.0[0][1][(2, 2)] = _a2_5;
-        matrix.0[1][0][(0, 0)] = _a3_0;
-        matrix.0[1][0][(0, 1)] = _a3_1;
-        matrix.0[1][0][(0, 2)] = _a3_2;
-        matrix.0[1][1][(0, 0)] = _a3_3;
-        matrix.0[1][1][(0, 1)] = _a3_4;
-        matrix.0[1][1][(0, 2)] = _a3_5;
-        matrix.0[1][0][(1, 0)] = _a4_0;
-        matrix.0[1][0][(1, 1)] = _a4_1;
-        matrix.0[1][0][(1, 2)] = _a4_2;
-        matrix.0[1][1][(1, 0)] = _a4_3;
-        matrix.0[1][1][(1, 1)] = _a4_4;
-        matrix.0[1][1][(1, 2)] = _a4_5;
-        matrix.0[1][0][(2, 0)] = _a5_0;
-        matrix.0[1][0][(2, 1)] = _a5_1;
-        matrix.0[1][0][(2, 2)] = _a5_2;
-        matrix.0[1][1][(2, 0)] = _a5_3;
-        matrix.0[1][1][(2, 1)] = _a5_4;
-        matrix.0[1][1][(2, 2)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 0)] * _b0
-            - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
-            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
-            - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
-            - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
-            - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
-        let _b5 = _b5 * factors.0[1][1][(2, 2)];
-        let _b4 = (_b4 - factors.0[1][1][(1, 2)] * _b5) * factors.0[1][1][(1, 1)];
-        let _b3 = (_b3 - factors.0[1][1][(0, 1)] * _b4 - factors.0[1][1][(0, 2)] * _b5)
-            * factors.0[1][1][(0, 0)];
-        let _b2 = (_b2 - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][1][(2, 1)] * _b4
-            - factors.0[0][1][(2, 2)] * _b5) * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][1][(1, 0)] * _b3
-            - factors.0[0][1][(1, 1)] * _b4 - factors.0[0][1][(1, 2)] * _b5)
-            * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
-            - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
-            - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
-for LotkaVolterraSystem<S> {
-    type Equation<'a> = LotkaVolterraGauss4<'a, S> where Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Gauss4,
-        h: S,
-    ) -> LotkaVolterraGauss4<'a, S> {
-        LotkaVolterraGauss4(::lie_runtime::generic::Gauss::new(self, h))
-    }
-}
-
-/// Gauss collocation of order 6 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct LotkaVolterraGauss6<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, LotkaVolterraSystem<S>, 3>,
-);
-impl<S: ::lie_runtime::Scalar> LotkaVolterraGauss6<'_, S> {
-    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
-        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
-        below: &[
-            &[1, 2, 3, 4, 5, 6, 7, 8],
-            &[2, 3, 4, 5, 6, 7, 8],
-            &[3, 4, 5, 6, 7, 8],
-            &[4, 5, 6, 7, 8],
-            &[5, 6, 7, 8],
-            &[6, 7, 8],
-            &[7, 8],
-            &[8],
-            &[],
-        ],
-        right: &[
-            &[1, 2, 3, 4, 5, 6, 7, 8],
-            &[2, 3, 4, 5, 6, 7, 8],
-            &[3, 4, 5, 6, 7, 8],
-            &[4, 5, 6, 7, 8],
-            &[5, 6, 7, 8],
-            &[6, 7, 8],
-            &[7, 8],
-            &[8],
-            &[],
-        ],
-    };
-}
-
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for LotkaVolterraGauss6<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        LotkaVolterraSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        LotkaVolterraSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        LotkaVolterraSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        Self::ELIMINATION.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        Self::ELIMINATION.solve(factors, residual);
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
-for LotkaVolterraSystem<S> {
-    type Equation<'a> = LotkaVolterraGauss6<'a, S> where Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Gauss6,
-        h: S,
-    ) -> LotkaVolterraGauss6<'a, S> {
-        LotkaVolterraGauss6(::lie_runtime::generic::Gauss::new(self, h))
-    }
-}
-
-/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct LotkaVolterraElimination1;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::SMatrix<S, 3, 3>,
-    ::lie_runtime::__private::SVector<S, 3>,
-> for LotkaVolterraElimination1 {
-    #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
-    ) {
-        let _b0 = vector[0];
-        let _b1 = vector[1] - factors[(1, 0)] * _b0;
-        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b2 = _b2 * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
-            * factors[(0, 0)];
-        vector[0] = _b0;
-        vector[1] = _b1;
-        vector[2] = _b2;
     }
 }
 
 /// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
-pub struct LotkaVolterraElimination2;
+pub struct LotkaVolterraGauss4Elimination;
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::__private::FixedElimination<
     S,
     ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
     ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
-> for LotkaVolterraElimination2 {
+> for LotkaVolterraGauss4Elimination {
     #[inline]
     fn factor(
         matrix: &mut ::lie_runtime::__private::StageMatrix<
@@ -1316,10 +846,29 @@ impl<
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
+for LotkaVolterraSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, LotkaVolterraSystem<S>, 2>,
+        LotkaVolterraGauss4Elimination,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
+    }
+}
+
 /// Elimination of 9 rows in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
-pub struct LotkaVolterraElimination3;
-impl LotkaVolterraElimination3 {
+pub struct LotkaVolterraGauss6Elimination;
+impl LotkaVolterraGauss6Elimination {
     const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
         order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
         below: &[
@@ -1353,7 +902,7 @@ impl<
     S,
     ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
     ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
-> for LotkaVolterraElimination3 {
+> for LotkaVolterraGauss6Elimination {
     #[inline]
     fn factor(
         matrix: &mut ::lie_runtime::__private::StageMatrix<
@@ -1379,6 +928,87 @@ impl<
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
+for LotkaVolterraSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, LotkaVolterraSystem<S>, 3>,
+        LotkaVolterraGauss6Elimination,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
+    }
+}
+
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct LotkaVolterraGonzalezElimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for LotkaVolterraGonzalezElimination {
+    #[inline]
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix[(0, 2)];
+        let _a1_2 = matrix[(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a2_0 = matrix[(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix[(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix[(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_2 = S::one() / _a2_2;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        matrix[(1, 2)] = _a1_2;
+        matrix[(2, 0)] = _a2_0;
+        matrix[(2, 1)] = _a2_1;
+        matrix[(2, 2)] = _a2_2;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+        let _b2 = _b2 * factors[(2, 2)];
+        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
+            * factors[(0, 0)];
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+    }
+}
+
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez>
@@ -1387,10 +1017,10 @@ for LotkaVolterraSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::GonzalezGradient<S, Self>,
+            LotkaVolterraSystem<S>,
+            ::lie_runtime::generic::GonzalezGradient<S, LotkaVolterraSystem<S>>,
         >,
-        LotkaVolterraElimination1,
+        LotkaVolterraGonzalezElimination,
     >
     where
         Self: 'a;
@@ -1400,7 +1030,11 @@ for LotkaVolterraSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::GonzalezGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1413,10 +1047,10 @@ for LotkaVolterraSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            LotkaVolterraSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, LotkaVolterraSystem<S>>,
         >,
-        LotkaVolterraElimination1,
+        LotkaVolterraGonzalezElimination,
     >
     where
         Self: 'a;
@@ -1426,7 +1060,11 @@ for LotkaVolterraSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::MeanValueGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1439,10 +1077,10 @@ for LotkaVolterraSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::ItohAbeGradient<S, Self>,
+            LotkaVolterraSystem<S>,
+            ::lie_runtime::generic::ItohAbeGradient<S, LotkaVolterraSystem<S>>,
         >,
-        LotkaVolterraElimination1,
+        LotkaVolterraGonzalezElimination,
     >
     where
         Self: 'a;
@@ -1452,7 +1090,11 @@ for LotkaVolterraSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::ItohAbeGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1465,10 +1107,10 @@ for LotkaVolterraSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            LotkaVolterraSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, LotkaVolterraSystem<S>>,
         >,
-        LotkaVolterraElimination1,
+        LotkaVolterraGonzalezElimination,
     >
     where
         Self: 'a;
@@ -1478,7 +1120,11 @@ for LotkaVolterraSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::MeanValueGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1488,8 +1134,8 @@ impl<
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for LotkaVolterraSystem<S> {
     type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 2>,
-        LotkaVolterraElimination2,
+        ::lie_runtime::generic::CohenHairerStep<'a, S, LotkaVolterraSystem<S>, 2>,
+        LotkaVolterraGauss4Elimination,
     >
     where
         Self: 'a;
@@ -1509,8 +1155,8 @@ impl<
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for LotkaVolterraSystem<S> {
     type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 3>,
-        LotkaVolterraElimination3,
+        ::lie_runtime::generic::CohenHairerStep<'a, S, LotkaVolterraSystem<S>, 3>,
+        LotkaVolterraGauss6Elimination,
     >
     where
         Self: 'a;

@@ -609,69 +609,28 @@ for BodyWithCirculationSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::ImplicitMidpoint,
         h: S,
-    ) -> BodyWithCirculationMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         BodyWithCirculationMidpoint::new(self, h)
     }
 }
 
-/// Gauss collocation of order 4 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct BodyWithCirculationGauss4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, BodyWithCirculationSystem<S>, 2>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for BodyWithCirculationGauss4<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        BodyWithCirculationSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        BodyWithCirculationSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        BodyWithCirculationSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 6 rows in a fixed order, 4 entries of fill-in: 94 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyWithCirculationGauss4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+> for BodyWithCirculationGauss4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 4 entries of fill-in: 94 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix.0[0][0][(1, 0)];
@@ -809,17 +768,26 @@ for BodyWithCirculationGauss4<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            2,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
+        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
             - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 1)] * _b1
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 1)] * _b1
             - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
             - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
             - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
+        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
             - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
             - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
         let _b5 = _b5 * factors.0[1][1][(2, 2)];
@@ -834,106 +802,51 @@ for BodyWithCirculationGauss4<'a, S> {
         let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
             - factors.0[0][1][(0, 1)] * _b4 - factors.0[0][1][(0, 2)] * _b5)
             * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for BodyWithCirculationSystem<S> {
-    type Equation<'a> = BodyWithCirculationGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, BodyWithCirculationSystem<S>, 2>,
+        BodyWithCirculationGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss4,
         h: S,
-    ) -> BodyWithCirculationGauss4<'a, S> {
-        BodyWithCirculationGauss4(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// Gauss collocation of order 6 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct BodyWithCirculationGauss6<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, BodyWithCirculationSystem<S>, 3>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for BodyWithCirculationGauss6<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        BodyWithCirculationSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        BodyWithCirculationSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        BodyWithCirculationSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 9 rows in a fixed order, 12 entries of fill-in: 271 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyWithCirculationGauss6Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
+> for BodyWithCirculationGauss6Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 12 entries of fill-in: 271 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix.0[0][0][(1, 0)];
@@ -1279,27 +1192,36 @@ for BodyWithCirculationGauss6<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b3 = residual.0[1][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            3,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b3 = vector.0[1][0];
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0
             - factors.0[0][1][(1, 0)] * _b3;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
             - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][0][(2, 1)] * _b1;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
             - factors.0[1][1][(1, 0)] * _b3 - factors.0[1][0][(1, 1)] * _b1
             - factors.0[1][0][(1, 2)] * _b2;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
+        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
             - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][0][(2, 1)] * _b1
             - factors.0[1][0][(2, 2)] * _b2 - factors.0[1][1][(2, 1)] * _b4;
-        let _b6 = residual.0[2][0] - factors.0[2][0][(0, 1)] * _b1
+        let _b6 = vector.0[2][0] - factors.0[2][0][(0, 1)] * _b1
             - factors.0[2][0][(0, 2)] * _b2 - factors.0[2][1][(0, 1)] * _b4
             - factors.0[2][1][(0, 2)] * _b5;
-        let _b7 = residual.0[2][1] - factors.0[2][0][(1, 0)] * _b0
+        let _b7 = vector.0[2][1] - factors.0[2][0][(1, 0)] * _b0
             - factors.0[2][1][(1, 0)] * _b3 - factors.0[2][0][(1, 1)] * _b1
             - factors.0[2][0][(1, 2)] * _b2 - factors.0[2][1][(1, 1)] * _b4
             - factors.0[2][1][(1, 2)] * _b5 - factors.0[2][2][(1, 0)] * _b6;
-        let _b8 = residual.0[2][2] - factors.0[2][0][(2, 0)] * _b0
+        let _b8 = vector.0[2][2] - factors.0[2][0][(2, 0)] * _b0
             - factors.0[2][1][(2, 0)] * _b3 - factors.0[2][0][(2, 1)] * _b1
             - factors.0[2][0][(2, 2)] * _b2 - factors.0[2][1][(2, 1)] * _b4
             - factors.0[2][1][(2, 2)] * _b5 - factors.0[2][2][(2, 0)] * _b6
@@ -1328,48 +1250,34 @@ for BodyWithCirculationGauss6<'a, S> {
             - factors.0[0][1][(0, 1)] * _b4 - factors.0[0][1][(0, 2)] * _b5
             - factors.0[0][2][(0, 1)] * _b7 - factors.0[0][2][(0, 2)] * _b8)
             * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-        residual.0[2][0] = _b6;
-        residual.0[2][1] = _b7;
-        residual.0[2][2] = _b8;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
+        vector.0[2][0] = _b6;
+        vector.0[2][1] = _b7;
+        vector.0[2][2] = _b8;
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for BodyWithCirculationSystem<S> {
-    type Equation<'a> = BodyWithCirculationGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, BodyWithCirculationSystem<S>, 3>,
+        BodyWithCirculationGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss6,
         h: S,
-    ) -> BodyWithCirculationGauss6<'a, S> {
-        BodyWithCirculationGauss6(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
@@ -1433,13 +1341,20 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for BodyWithCirculationSystem<S> {
-    type Equation<'a> = BodyWithCirculationGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, BodyWithCirculationSystem<S>, 2>,
+        BodyWithCirculationGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        BodyWithCirculationGauss4(::lie_runtime::generic::Gauss::new(self, h))
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
@@ -1447,12 +1362,19 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for BodyWithCirculationSystem<S> {
-    type Equation<'a> = BodyWithCirculationGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, BodyWithCirculationSystem<S>, 3>,
+        BodyWithCirculationGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<3>,
         h: S,
     ) -> Self::Equation<'a> {
-        BodyWithCirculationGauss6(::lie_runtime::generic::Gauss::new(self, h))
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }

@@ -329,12 +329,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for Sl2QuadraticSyst
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for Sl2QuadraticSystem<S> {
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Bounded(
-            &[1.0000000000000009, 1.0000000000000009, 1.0000000000000009],
-        )
-    }
-
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 10 additions, 20 multiplications.
@@ -357,6 +351,12 @@ for Sl2QuadraticSystem<S> {
             - (_xi_e * _eta_f + _xi_f * _eta_e - S::ratio(2.0, 1.0) * _t2) * _t3;
         out[1] = f * _xi_f * _eta_f - e * _t2 + _t1 * _t3;
         out[2] = e * _xi_e * _eta_e - f * _t2 + _t0 * _t3;
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Bounded(
+            &[1.0000000000000009, 1.0000000000000009, 1.0000000000000009],
+        )
     }
 }
 
@@ -626,69 +626,28 @@ for Sl2QuadraticSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::ImplicitMidpoint,
         h: S,
-    ) -> Sl2QuadraticMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         Sl2QuadraticMidpoint::new(self, h)
     }
 }
 
-/// Gauss collocation of order 4 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct Sl2QuadraticGauss4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, Sl2QuadraticSystem<S>, 2>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for Sl2QuadraticGauss4<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct Sl2QuadraticGauss4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+> for Sl2QuadraticGauss4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix.0[0][0][(1, 0)];
@@ -844,17 +803,26 @@ for Sl2QuadraticGauss4<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            2,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
+        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
             - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 0)] * _b0
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 0)] * _b0
             - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
             - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
             - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
+        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
             - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
             - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
         let _b5 = _b5 * factors.0[1][1][(2, 2)];
@@ -869,55 +837,39 @@ for Sl2QuadraticGauss4<'a, S> {
         let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
             - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
             - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for Sl2QuadraticSystem<S> {
-    type Equation<'a> = Sl2QuadraticGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, Sl2QuadraticSystem<S>, 2>,
+        Sl2QuadraticGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss4,
         h: S,
-    ) -> Sl2QuadraticGauss4<'a, S> {
-        Sl2QuadraticGauss4(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// Gauss collocation of order 6 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct Sl2QuadraticGauss6<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, Sl2QuadraticSystem<S>, 3>,
-);
-impl<S: ::lie_runtime::Scalar> Sl2QuadraticGauss6<'_, S> {
-    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+/// Elimination of 9 rows in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct Sl2QuadraticGauss6Elimination;
+impl Sl2QuadraticGauss6Elimination {
+    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
         order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
         below: &[
             &[1, 2, 3, 4, 5, 6, 7, 8],
@@ -944,156 +896,69 @@ impl<S: ::lie_runtime::Scalar> Sl2QuadraticGauss6<'_, S> {
     };
 }
 
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for Sl2QuadraticGauss6<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
+> for Sl2QuadraticGauss6Elimination {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+    ) -> S::Mask {
+        Self::LIST.factor(matrix)
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            3,
+        >,
     ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        Self::ELIMINATION.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        Self::ELIMINATION.solve(factors, residual);
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        Self::LIST.solve(factors, vector);
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for Sl2QuadraticSystem<S> {
-    type Equation<'a> = Sl2QuadraticGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, Sl2QuadraticSystem<S>, 3>,
+        Sl2QuadraticGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss6,
         h: S,
-    ) -> Sl2QuadraticGauss6<'a, S> {
-        Sl2QuadraticGauss6(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// The retraction method with the exponential, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct Sl2QuadraticExpMidpoint<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpMidpoint<'a, S, Sl2QuadraticSystem<S>>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for Sl2QuadraticExpMidpoint<'a, S> {
-    type State = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct Sl2QuadraticExpMidpointElimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for Sl2QuadraticExpMidpointElimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -1127,38 +992,20 @@ for Sl2QuadraticExpMidpoint<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
         let _b2 = _b2 * factors[(2, 2)];
         let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
         let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
             * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
     }
 }
 
@@ -1168,13 +1015,20 @@ impl<
     S,
     ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
 > for Sl2QuadraticSystem<S> {
-    type Equation<'a> = Sl2QuadraticExpMidpoint<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpMidpoint<'a, S, Sl2QuadraticSystem<S>>,
+        Sl2QuadraticExpMidpointElimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
         h: S,
-    ) -> Sl2QuadraticExpMidpoint<'a, S> {
-        Sl2QuadraticExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::ExpMidpoint::new(self, h),
+        )
     }
 }
 
@@ -1414,70 +1268,8 @@ impl<
         &'a self,
         _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
         h: S,
-    ) -> Sl2QuadraticCayleyMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         Sl2QuadraticCayleyMidpoint::new(self, h)
-    }
-}
-
-/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct Sl2QuadraticElimination1;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::SMatrix<S, 3, 3>,
-    ::lie_runtime::__private::SVector<S, 3>,
-> for Sl2QuadraticElimination1 {
-    #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
-    ) {
-        let _b0 = vector[0];
-        let _b1 = vector[1] - factors[(1, 0)] * _b0;
-        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b2 = _b2 * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
-            * factors[(0, 0)];
-        vector[0] = _b0;
-        vector[1] = _b1;
-        vector[2] = _b2;
     }
 }
 
@@ -1505,10 +1297,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            Sl2QuadraticSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, Sl2QuadraticSystem<S>>,
         >,
-        Sl2QuadraticElimination1,
+        Sl2QuadraticExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1547,10 +1339,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            Sl2QuadraticSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, Sl2QuadraticSystem<S>>,
         >,
-        Sl2QuadraticElimination1,
+        Sl2QuadraticExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1588,10 +1380,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            Sl2QuadraticSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, Sl2QuadraticSystem<S>>,
         >,
-        Sl2QuadraticElimination1,
+        Sl2QuadraticExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1624,13 +1416,20 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for Sl2QuadraticSystem<S> {
-    type Equation<'a> = Sl2QuadraticGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, Sl2QuadraticSystem<S>, 2>,
+        Sl2QuadraticGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        Sl2QuadraticGauss4(::lie_runtime::generic::Gauss::new(self, h))
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
@@ -1638,311 +1437,20 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for Sl2QuadraticSystem<S> {
-    type Equation<'a> = Sl2QuadraticGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, Sl2QuadraticSystem<S>, 3>,
+        Sl2QuadraticGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<3>,
         h: S,
     ) -> Self::Equation<'a> {
-        Sl2QuadraticGauss6(::lie_runtime::generic::Gauss::new(self, h))
-    }
-}
-
-/// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-#[allow(clippy::type_complexity)]
-pub struct Sl2QuadraticIsospectral4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for Sl2QuadraticIsospectral4<'a, S> {
-    type State = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        Sl2QuadraticSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix.0[0][1][(0, 0)];
-        let _a1_3 = matrix.0[0][1][(1, 0)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix.0[0][1][(0, 1)];
-        let _a1_4 = matrix.0[0][1][(1, 1)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a0_5 = matrix.0[0][1][(0, 2)];
-        let _a1_5 = matrix.0[0][1][(1, 2)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix.0[0][1][(2, 0)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix.0[0][1][(2, 1)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = matrix.0[0][1][(2, 2)];
-        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
-        let _a3_0 = matrix.0[1][0][(0, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix.0[1][0][(0, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix.0[1][0][(0, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix.0[1][1][(0, 0)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix.0[1][1][(0, 1)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a3_5 = matrix.0[1][1][(0, 2)];
-        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
-        let _a4_0 = matrix.0[1][0][(1, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix.0[1][0][(1, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix.0[1][0][(1, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix.0[1][1][(1, 0)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix.0[1][1][(1, 1)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix.0[1][1][(1, 2)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a5_0 = matrix.0[1][0][(2, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix.0[1][0][(2, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = matrix.0[1][0][(2, 2)];
-        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
-        let _a5_3 = matrix.0[1][1][(2, 0)];
-        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
-        let _a5_4 = matrix.0[1][1][(2, 1)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix.0[1][1][(2, 2)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_5 = S::one() / _a5_5;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][1][(1, 0)] = _a1_3;
-        matrix.0[0][1][(1, 1)] = _a1_4;
-        matrix.0[0][1][(1, 2)] = _a1_5;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        matrix.0[0][1][(2, 0)] = _a2_3;
-        matrix.0[0][1][(2, 1)] = _a2_4;
-        matrix.0[0][1][(2, 2)] = _a2_5;
-        matrix.0[1][0][(0, 0)] = _a3_0;
-        matrix.0[1][0][(0, 1)] = _a3_1;
-        matrix.0[1][0][(0, 2)] = _a3_2;
-        matrix.0[1][1][(0, 0)] = _a3_3;
-        matrix.0[1][1][(0, 1)] = _a3_4;
-        matrix.0[1][1][(0, 2)] = _a3_5;
-        matrix.0[1][0][(1, 0)] = _a4_0;
-        matrix.0[1][0][(1, 1)] = _a4_1;
-        matrix.0[1][0][(1, 2)] = _a4_2;
-        matrix.0[1][1][(1, 0)] = _a4_3;
-        matrix.0[1][1][(1, 1)] = _a4_4;
-        matrix.0[1][1][(1, 2)] = _a4_5;
-        matrix.0[1][0][(2, 0)] = _a5_0;
-        matrix.0[1][0][(2, 1)] = _a5_1;
-        matrix.0[1][0][(2, 2)] = _a5_2;
-        matrix.0[1][1][(2, 0)] = _a5_3;
-        matrix.0[1][1][(2, 1)] = _a5_4;
-        matrix.0[1][1][(2, 2)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
         )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 0)] * _b0
-            - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
-            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
-            - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
-            - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
-            - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
-        let _b5 = _b5 * factors.0[1][1][(2, 2)];
-        let _b4 = (_b4 - factors.0[1][1][(1, 2)] * _b5) * factors.0[1][1][(1, 1)];
-        let _b3 = (_b3 - factors.0[1][1][(0, 1)] * _b4 - factors.0[1][1][(0, 2)] * _b5)
-            * factors.0[1][1][(0, 0)];
-        let _b2 = (_b2 - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][1][(2, 1)] * _b4
-            - factors.0[0][1][(2, 2)] * _b5) * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][1][(1, 0)] * _b3
-            - factors.0[0][1][(1, 1)] * _b4 - factors.0[0][1][(1, 2)] * _b5)
-            * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
-            - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
-            - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-
-    fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {
-        self.0.within_chart(unknown)
     }
 }
 
@@ -1950,13 +1458,30 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<2>>
 for Sl2QuadraticSystem<S> {
-    type Equation<'a> = Sl2QuadraticIsospectral4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::StageMomenta<
+            'a,
+            S,
+            Sl2QuadraticSystem<S>,
+            ::lie_runtime::generic::MatrixStages<
+                S,
+                <Sl2QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+                2,
+            >,
+            2,
+        >,
+        Sl2QuadraticGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Isospectral<2>,
         h: S,
-    ) -> Sl2QuadraticIsospectral4<'a, S> {
-        Sl2QuadraticIsospectral4(::lie_runtime::generic::StageMomenta::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::StageMomenta::new(self, h),
+        )
     }
 }
 

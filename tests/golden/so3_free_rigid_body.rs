@@ -364,10 +364,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for FreeRigidBodySys
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for FreeRigidBodySystem<S> {
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
-    }
-
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -394,6 +390,10 @@ for FreeRigidBodySystem<S> {
             + _eta_e2 * (_t4 + _t5)) * S::ratio(-1.0, 2.0);
         out[2] = (_xi_e3 * (_t2 + _t0 + _t1 * S::ratio(2.0, 1.0))
             + _eta_e3 * (_t3 + _t5)) * S::ratio(-1.0, 2.0);
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
     }
 }
 
@@ -680,69 +680,28 @@ for FreeRigidBodySystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::ImplicitMidpoint,
         h: S,
-    ) -> FreeRigidBodyMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         FreeRigidBodyMidpoint::new(self, h)
     }
 }
 
-/// Gauss collocation of order 4 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct FreeRigidBodyGauss4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 2>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for FreeRigidBodyGauss4<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 6 rows in a fixed order, 4 entries of fill-in: 94 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct FreeRigidBodyGauss4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+> for FreeRigidBodyGauss4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 4 entries of fill-in: 94 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix.0[0][0][(1, 0)];
@@ -880,17 +839,26 @@ for FreeRigidBodyGauss4<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            2,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
+        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
             - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 1)] * _b1
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 1)] * _b1
             - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
             - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
             - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
+        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
             - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
             - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
         let _b5 = _b5 * factors.0[1][1][(2, 2)];
@@ -905,106 +873,51 @@ for FreeRigidBodyGauss4<'a, S> {
         let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
             - factors.0[0][1][(0, 1)] * _b4 - factors.0[0][1][(0, 2)] * _b5)
             * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 2>,
+        FreeRigidBodyGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss4,
         h: S,
-    ) -> FreeRigidBodyGauss4<'a, S> {
-        FreeRigidBodyGauss4(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// Gauss collocation of order 6 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct FreeRigidBodyGauss6<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 3>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for FreeRigidBodyGauss6<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 9 rows in a fixed order, 12 entries of fill-in: 271 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct FreeRigidBodyGauss6Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
+> for FreeRigidBodyGauss6Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 12 entries of fill-in: 271 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix.0[0][0][(1, 0)];
@@ -1350,27 +1263,36 @@ for FreeRigidBodyGauss6<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b3 = residual.0[1][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            3,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b3 = vector.0[1][0];
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0
             - factors.0[0][1][(1, 0)] * _b3;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
             - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][0][(2, 1)] * _b1;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
             - factors.0[1][1][(1, 0)] * _b3 - factors.0[1][0][(1, 1)] * _b1
             - factors.0[1][0][(1, 2)] * _b2;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
+        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
             - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][0][(2, 1)] * _b1
             - factors.0[1][0][(2, 2)] * _b2 - factors.0[1][1][(2, 1)] * _b4;
-        let _b6 = residual.0[2][0] - factors.0[2][0][(0, 1)] * _b1
+        let _b6 = vector.0[2][0] - factors.0[2][0][(0, 1)] * _b1
             - factors.0[2][0][(0, 2)] * _b2 - factors.0[2][1][(0, 1)] * _b4
             - factors.0[2][1][(0, 2)] * _b5;
-        let _b7 = residual.0[2][1] - factors.0[2][0][(1, 0)] * _b0
+        let _b7 = vector.0[2][1] - factors.0[2][0][(1, 0)] * _b0
             - factors.0[2][1][(1, 0)] * _b3 - factors.0[2][0][(1, 1)] * _b1
             - factors.0[2][0][(1, 2)] * _b2 - factors.0[2][1][(1, 1)] * _b4
             - factors.0[2][1][(1, 2)] * _b5 - factors.0[2][2][(1, 0)] * _b6;
-        let _b8 = residual.0[2][2] - factors.0[2][0][(2, 0)] * _b0
+        let _b8 = vector.0[2][2] - factors.0[2][0][(2, 0)] * _b0
             - factors.0[2][1][(2, 0)] * _b3 - factors.0[2][0][(2, 1)] * _b1
             - factors.0[2][0][(2, 2)] * _b2 - factors.0[2][1][(2, 1)] * _b4
             - factors.0[2][1][(2, 2)] * _b5 - factors.0[2][2][(2, 0)] * _b6
@@ -1399,106 +1321,49 @@ for FreeRigidBodyGauss6<'a, S> {
             - factors.0[0][1][(0, 1)] * _b4 - factors.0[0][1][(0, 2)] * _b5
             - factors.0[0][2][(0, 1)] * _b7 - factors.0[0][2][(0, 2)] * _b8)
             * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-        residual.0[2][0] = _b6;
-        residual.0[2][1] = _b7;
-        residual.0[2][2] = _b8;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
+        vector.0[2][0] = _b6;
+        vector.0[2][1] = _b7;
+        vector.0[2][2] = _b8;
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 3>,
+        FreeRigidBodyGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss6,
         h: S,
-    ) -> FreeRigidBodyGauss6<'a, S> {
-        FreeRigidBodyGauss6(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// The retraction method with the exponential, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct FreeRigidBodyExpMidpoint<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpMidpoint<'a, S, FreeRigidBodySystem<S>>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for FreeRigidBodyExpMidpoint<'a, S> {
-    type State = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct FreeRigidBodyExpMidpointElimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for FreeRigidBodyExpMidpointElimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -1532,38 +1397,20 @@ for FreeRigidBodyExpMidpoint<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
         let _b2 = _b2 * factors[(2, 2)];
         let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
         let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
             * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
     }
 }
 
@@ -1573,13 +1420,20 @@ impl<
     S,
     ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
 > for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyExpMidpoint<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpMidpoint<'a, S, FreeRigidBodySystem<S>>,
+        FreeRigidBodyExpMidpointElimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
         h: S,
-    ) -> FreeRigidBodyExpMidpoint<'a, S> {
-        FreeRigidBodyExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::ExpMidpoint::new(self, h),
+        )
     }
 }
 
@@ -1810,70 +1664,8 @@ impl<
         &'a self,
         _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
         h: S,
-    ) -> FreeRigidBodyCayleyMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         FreeRigidBodyCayleyMidpoint::new(self, h)
-    }
-}
-
-/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct FreeRigidBodyElimination1;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::SMatrix<S, 3, 3>,
-    ::lie_runtime::__private::SVector<S, 3>,
-> for FreeRigidBodyElimination1 {
-    #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
-    ) {
-        let _b0 = vector[0];
-        let _b1 = vector[1] - factors[(1, 0)] * _b0;
-        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b2 = _b2 * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
-            * factors[(0, 0)];
-        vector[0] = _b0;
-        vector[1] = _b1;
-        vector[2] = _b2;
     }
 }
 
@@ -1901,10 +1693,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            FreeRigidBodySystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, FreeRigidBodySystem<S>>,
         >,
-        FreeRigidBodyElimination1,
+        FreeRigidBodyExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1943,10 +1735,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            FreeRigidBodySystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, FreeRigidBodySystem<S>>,
         >,
-        FreeRigidBodyElimination1,
+        FreeRigidBodyExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1985,10 +1777,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            FreeRigidBodySystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, FreeRigidBodySystem<S>>,
         >,
-        FreeRigidBodyElimination1,
+        FreeRigidBodyExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2021,13 +1813,20 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 2>,
+        FreeRigidBodyGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        FreeRigidBodyGauss4(::lie_runtime::generic::Gauss::new(self, h))
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
@@ -2035,100 +1834,40 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 3>,
+        FreeRigidBodyGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<3>,
         h: S,
     ) -> Self::Equation<'a> {
-        FreeRigidBodyGauss6(::lie_runtime::generic::Gauss::new(self, h))
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-#[allow(clippy::type_complexity)]
-pub struct FreeRigidBodyIsospectral4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <FreeRigidBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for FreeRigidBodyIsospectral4<'a, S> {
-    type State = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <FreeRigidBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <FreeRigidBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <FreeRigidBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct FreeRigidBodyIsospectral4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+> for FreeRigidBodyIsospectral4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix.0[0][0][(1, 0)];
@@ -2284,17 +2023,26 @@ for FreeRigidBodyIsospectral4<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            2,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
+        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
             - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 0)] * _b0
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 0)] * _b0
             - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
             - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
             - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
+        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
             - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
             - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
         let _b5 = _b5 * factors.0[1][1][(2, 2)];
@@ -2309,33 +2057,12 @@ for FreeRigidBodyIsospectral4<'a, S> {
         let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
             - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
             - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
     }
 }
 
@@ -2343,447 +2070,62 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<2>>
 for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyIsospectral4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::StageMomenta<
+            'a,
+            S,
+            FreeRigidBodySystem<S>,
+            ::lie_runtime::generic::MatrixStages<
+                S,
+                <FreeRigidBodySystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+                2,
+            >,
+            2,
+        >,
+        FreeRigidBodyIsospectral4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Isospectral<2>,
         h: S,
-    ) -> FreeRigidBodyIsospectral4<'a, S> {
-        FreeRigidBodyIsospectral4(::lie_runtime::generic::StageMomenta::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::StageMomenta::new(self, h),
+        )
     }
 }
 
 ::lie_runtime::generic_equations!(
     @ collective[S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S, 2
 );
-/// The collective Gauss method of order 2, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-#[allow(clippy::type_complexity)]
-pub struct FreeRigidBodyHopf2<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 1>,
-        1,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for FreeRigidBodyHopf2<'a, S> {
-    type State = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 1>,
-        1,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 1>,
-        1,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 1>,
-        1,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][0][(2, 1)] * _b1;
-        let _b2 = _b2 * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2) * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2)
-            * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<
     S,
     ::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 1>,
 > for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyHopf2<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::StageMomenta<
+            'a,
+            S,
+            FreeRigidBodySystem<S>,
+            ::lie_runtime::generic::QuaternionStages<S, 1>,
+            1,
+        >,
+        FreeRigidBodyExpMidpointElimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 1>,
         h: S,
-    ) -> FreeRigidBodyHopf2<'a, S> {
-        FreeRigidBodyHopf2(::lie_runtime::generic::StageMomenta::new(self, h))
-    }
-}
-
-/// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-#[allow(clippy::type_complexity)]
-pub struct FreeRigidBodyHopf4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 2>,
-        2,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for FreeRigidBodyHopf4<'a, S> {
-    type State = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 2>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 2>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 2>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix.0[0][1][(0, 0)];
-        let _a1_3 = matrix.0[0][1][(1, 0)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix.0[0][1][(0, 1)];
-        let _a1_4 = matrix.0[0][1][(1, 1)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a0_5 = matrix.0[0][1][(0, 2)];
-        let _a1_5 = matrix.0[0][1][(1, 2)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix.0[0][1][(2, 0)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix.0[0][1][(2, 1)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = matrix.0[0][1][(2, 2)];
-        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
-        let _a3_0 = matrix.0[1][0][(0, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix.0[1][0][(0, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix.0[1][0][(0, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix.0[1][1][(0, 0)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix.0[1][1][(0, 1)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a3_5 = matrix.0[1][1][(0, 2)];
-        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
-        let _a4_0 = matrix.0[1][0][(1, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix.0[1][0][(1, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix.0[1][0][(1, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix.0[1][1][(1, 0)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix.0[1][1][(1, 1)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix.0[1][1][(1, 2)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a5_0 = matrix.0[1][0][(2, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix.0[1][0][(2, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = matrix.0[1][0][(2, 2)];
-        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
-        let _a5_3 = matrix.0[1][1][(2, 0)];
-        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
-        let _a5_4 = matrix.0[1][1][(2, 1)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix.0[1][1][(2, 2)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_5 = S::one() / _a5_5;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][1][(1, 0)] = _a1_3;
-        matrix.0[0][1][(1, 1)] = _a1_4;
-        matrix.0[0][1][(1, 2)] = _a1_5;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        matrix.0[0][1][(2, 0)] = _a2_3;
-        matrix.0[0][1][(2, 1)] = _a2_4;
-        matrix.0[0][1][(2, 2)] = _a2_5;
-        matrix.0[1][0][(0, 0)] = _a3_0;
-        matrix.0[1][0][(0, 1)] = _a3_1;
-        matrix.0[1][0][(0, 2)] = _a3_2;
-        matrix.0[1][1][(0, 0)] = _a3_3;
-        matrix.0[1][1][(0, 1)] = _a3_4;
-        matrix.0[1][1][(0, 2)] = _a3_5;
-        matrix.0[1][0][(1, 0)] = _a4_0;
-        matrix.0[1][0][(1, 1)] = _a4_1;
-        matrix.0[1][0][(1, 2)] = _a4_2;
-        matrix.0[1][1][(1, 0)] = _a4_3;
-        matrix.0[1][1][(1, 1)] = _a4_4;
-        matrix.0[1][1][(1, 2)] = _a4_5;
-        matrix.0[1][0][(2, 0)] = _a5_0;
-        matrix.0[1][0][(2, 1)] = _a5_1;
-        matrix.0[1][0][(2, 2)] = _a5_2;
-        matrix.0[1][1][(2, 0)] = _a5_3;
-        matrix.0[1][1][(2, 1)] = _a5_4;
-        matrix.0[1][1][(2, 2)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::StageMomenta::new(self, h),
         )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 0)] * _b0
-            - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
-            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
-            - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
-            - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
-            - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
-        let _b5 = _b5 * factors.0[1][1][(2, 2)];
-        let _b4 = (_b4 - factors.0[1][1][(1, 2)] * _b5) * factors.0[1][1][(1, 1)];
-        let _b3 = (_b3 - factors.0[1][1][(0, 1)] * _b4 - factors.0[1][1][(0, 2)] * _b5)
-            * factors.0[1][1][(0, 0)];
-        let _b2 = (_b2 - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][1][(2, 1)] * _b4
-            - factors.0[0][1][(2, 2)] * _b5) * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][1][(1, 0)] * _b3
-            - factors.0[0][1][(1, 1)] * _b4 - factors.0[0][1][(1, 2)] * _b5)
-            * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
-            - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
-            - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -2793,13 +2135,26 @@ impl<
     S,
     ::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 2>,
 > for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyHopf4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::StageMomenta<
+            'a,
+            S,
+            FreeRigidBodySystem<S>,
+            ::lie_runtime::generic::QuaternionStages<S, 2>,
+            2,
+        >,
+        FreeRigidBodyIsospectral4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 2>,
         h: S,
-    ) -> FreeRigidBodyHopf4<'a, S> {
-        FreeRigidBodyHopf4(::lie_runtime::generic::StageMomenta::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::StageMomenta::new(self, h),
+        )
     }
 }
 
@@ -3009,7 +2364,7 @@ for FreeRigidBodySystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::SphericalMidpoint,
         h: S,
-    ) -> FreeRigidBodySphericalMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         FreeRigidBodySphericalMidpoint::new(self, h)
     }
 }
@@ -3213,7 +2568,7 @@ for FreeRigidBodySystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::MoserVeselov,
         h: S,
-    ) -> FreeRigidBodyMoserVeselov<'a, S> {
+    ) -> Self::Equation<'a> {
         FreeRigidBodyMoserVeselov::new(self, h)
     }
 }

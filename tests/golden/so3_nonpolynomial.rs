@@ -357,10 +357,6 @@ for NonpolynomialSpinSystem<S> {
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for NonpolynomialSpinSystem<S> {
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
-    }
-
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -387,6 +383,10 @@ for NonpolynomialSpinSystem<S> {
             + _eta_e2 * (_t4 + _t5)) * S::ratio(-1.0, 2.0);
         out[2] = (_xi_e3 * (_t2 + _t0 + _t1 * S::ratio(2.0, 1.0))
             + _eta_e3 * (_t3 + _t5)) * S::ratio(-1.0, 2.0);
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
     }
 }
 
@@ -701,69 +701,28 @@ for NonpolynomialSpinSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::ImplicitMidpoint,
         h: S,
-    ) -> NonpolynomialSpinMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         NonpolynomialSpinMidpoint::new(self, h)
     }
 }
 
-/// Gauss collocation of order 4 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct NonpolynomialSpinGauss4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, NonpolynomialSpinSystem<S>, 2>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for NonpolynomialSpinGauss4<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct NonpolynomialSpinGauss4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+> for NonpolynomialSpinGauss4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix.0[0][0][(1, 0)];
@@ -919,17 +878,26 @@ for NonpolynomialSpinGauss4<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            2,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
+        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
             - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 0)] * _b0
+        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 0)] * _b0
             - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
+        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
             - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
             - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
+        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
             - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
             - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
         let _b5 = _b5 * factors.0[1][1][(2, 2)];
@@ -944,55 +912,39 @@ for NonpolynomialSpinGauss4<'a, S> {
         let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
             - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
             - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[1][0] = _b3;
+        vector.0[1][1] = _b4;
+        vector.0[1][2] = _b5;
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for NonpolynomialSpinSystem<S> {
-    type Equation<'a> = NonpolynomialSpinGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, NonpolynomialSpinSystem<S>, 2>,
+        NonpolynomialSpinGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss4,
         h: S,
-    ) -> NonpolynomialSpinGauss4<'a, S> {
-        NonpolynomialSpinGauss4(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// Gauss collocation of order 6 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct NonpolynomialSpinGauss6<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, NonpolynomialSpinSystem<S>, 3>,
-);
-impl<S: ::lie_runtime::Scalar> NonpolynomialSpinGauss6<'_, S> {
-    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+/// Elimination of 9 rows in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct NonpolynomialSpinGauss6Elimination;
+impl NonpolynomialSpinGauss6Elimination {
+    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
         order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
         below: &[
             &[1, 2, 3, 4, 5, 6, 7, 8],
@@ -1019,156 +971,69 @@ impl<S: ::lie_runtime::Scalar> NonpolynomialSpinGauss6<'_, S> {
     };
 }
 
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for NonpolynomialSpinGauss6<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
+> for NonpolynomialSpinGauss6Elimination {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+    ) -> S::Mask {
+        Self::LIST.factor(matrix)
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            3,
+        >,
     ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        Self::ELIMINATION.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        Self::ELIMINATION.solve(factors, residual);
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        Self::LIST.solve(factors, vector);
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for NonpolynomialSpinSystem<S> {
-    type Equation<'a> = NonpolynomialSpinGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, NonpolynomialSpinSystem<S>, 3>,
+        NonpolynomialSpinGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss6,
         h: S,
-    ) -> NonpolynomialSpinGauss6<'a, S> {
-        NonpolynomialSpinGauss6(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// The retraction method with the exponential, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct NonpolynomialSpinExpMidpoint<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpMidpoint<'a, S, NonpolynomialSpinSystem<S>>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for NonpolynomialSpinExpMidpoint<'a, S> {
-    type State = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct NonpolynomialSpinExpMidpointElimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for NonpolynomialSpinExpMidpointElimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -1202,38 +1067,20 @@ for NonpolynomialSpinExpMidpoint<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
         let _b2 = _b2 * factors[(2, 2)];
         let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
         let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
             * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
     }
 }
 
@@ -1243,13 +1090,20 @@ impl<
     S,
     ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
 > for NonpolynomialSpinSystem<S> {
-    type Equation<'a> = NonpolynomialSpinExpMidpoint<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpMidpoint<'a, S, NonpolynomialSpinSystem<S>>,
+        NonpolynomialSpinExpMidpointElimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
         h: S,
-    ) -> NonpolynomialSpinExpMidpoint<'a, S> {
-        NonpolynomialSpinExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::ExpMidpoint::new(self, h),
+        )
     }
 }
 
@@ -1493,348 +1347,8 @@ impl<
         &'a self,
         _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
         h: S,
-    ) -> NonpolynomialSpinCayleyMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         NonpolynomialSpinCayleyMidpoint::new(self, h)
-    }
-}
-
-/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct NonpolynomialSpinElimination1;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::SMatrix<S, 3, 3>,
-    ::lie_runtime::__private::SVector<S, 3>,
-> for NonpolynomialSpinElimination1 {
-    #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
-    ) {
-        let _b0 = vector[0];
-        let _b1 = vector[1] - factors[(1, 0)] * _b0;
-        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b2 = _b2 * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
-            * factors[(0, 0)];
-        vector[0] = _b0;
-        vector[1] = _b1;
-        vector[2] = _b2;
-    }
-}
-
-/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct NonpolynomialSpinElimination2;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
-> for NonpolynomialSpinElimination2 {
-    #[inline]
-    fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            2,
-        >,
-    ) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix.0[0][1][(0, 0)];
-        let _a1_3 = matrix.0[0][1][(1, 0)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix.0[0][1][(0, 1)];
-        let _a1_4 = matrix.0[0][1][(1, 1)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a0_5 = matrix.0[0][1][(0, 2)];
-        let _a1_5 = matrix.0[0][1][(1, 2)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix.0[0][1][(2, 0)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix.0[0][1][(2, 1)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = matrix.0[0][1][(2, 2)];
-        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
-        let _a3_0 = matrix.0[1][0][(0, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix.0[1][0][(0, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix.0[1][0][(0, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix.0[1][1][(0, 0)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix.0[1][1][(0, 1)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a3_5 = matrix.0[1][1][(0, 2)];
-        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
-        let _a4_0 = matrix.0[1][0][(1, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix.0[1][0][(1, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix.0[1][0][(1, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix.0[1][1][(1, 0)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix.0[1][1][(1, 1)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix.0[1][1][(1, 2)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a5_0 = matrix.0[1][0][(2, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix.0[1][0][(2, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = matrix.0[1][0][(2, 2)];
-        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
-        let _a5_3 = matrix.0[1][1][(2, 0)];
-        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
-        let _a5_4 = matrix.0[1][1][(2, 1)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix.0[1][1][(2, 2)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_5 = S::one() / _a5_5;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][1][(1, 0)] = _a1_3;
-        matrix.0[0][1][(1, 1)] = _a1_4;
-        matrix.0[0][1][(1, 2)] = _a1_5;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        matrix.0[0][1][(2, 0)] = _a2_3;
-        matrix.0[0][1][(2, 1)] = _a2_4;
-        matrix.0[0][1][(2, 2)] = _a2_5;
-        matrix.0[1][0][(0, 0)] = _a3_0;
-        matrix.0[1][0][(0, 1)] = _a3_1;
-        matrix.0[1][0][(0, 2)] = _a3_2;
-        matrix.0[1][1][(0, 0)] = _a3_3;
-        matrix.0[1][1][(0, 1)] = _a3_4;
-        matrix.0[1][1][(0, 2)] = _a3_5;
-        matrix.0[1][0][(1, 0)] = _a4_0;
-        matrix.0[1][0][(1, 1)] = _a4_1;
-        matrix.0[1][0][(1, 2)] = _a4_2;
-        matrix.0[1][1][(1, 0)] = _a4_3;
-        matrix.0[1][1][(1, 1)] = _a4_4;
-        matrix.0[1][1][(1, 2)] = _a4_5;
-        matrix.0[1][0][(2, 0)] = _a5_0;
-        matrix.0[1][0][(2, 1)] = _a5_1;
-        matrix.0[1][0][(2, 2)] = _a5_2;
-        matrix.0[1][1][(2, 0)] = _a5_3;
-        matrix.0[1][1][(2, 1)] = _a5_4;
-        matrix.0[1][1][(2, 2)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            2,
-        >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
-            2,
-        >,
-    ) {
-        let _b0 = vector.0[0][0];
-        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = vector.0[1][0] - factors.0[1][0][(0, 0)] * _b0
-            - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = vector.0[1][1] - factors.0[1][0][(1, 0)] * _b0
-            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
-            - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = vector.0[1][2] - factors.0[1][0][(2, 0)] * _b0
-            - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
-            - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
-        let _b5 = _b5 * factors.0[1][1][(2, 2)];
-        let _b4 = (_b4 - factors.0[1][1][(1, 2)] * _b5) * factors.0[1][1][(1, 1)];
-        let _b3 = (_b3 - factors.0[1][1][(0, 1)] * _b4 - factors.0[1][1][(0, 2)] * _b5)
-            * factors.0[1][1][(0, 0)];
-        let _b2 = (_b2 - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][1][(2, 1)] * _b4
-            - factors.0[0][1][(2, 2)] * _b5) * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][1][(1, 0)] * _b3
-            - factors.0[0][1][(1, 1)] * _b4 - factors.0[0][1][(1, 2)] * _b5)
-            * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
-            - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
-            - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
-        vector.0[0][0] = _b0;
-        vector.0[0][1] = _b1;
-        vector.0[0][2] = _b2;
-        vector.0[1][0] = _b3;
-        vector.0[1][1] = _b4;
-        vector.0[1][2] = _b5;
-    }
-}
-
-/// Elimination of 9 rows in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct NonpolynomialSpinElimination3;
-impl NonpolynomialSpinElimination3 {
-    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
-        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
-        below: &[
-            &[1, 2, 3, 4, 5, 6, 7, 8],
-            &[2, 3, 4, 5, 6, 7, 8],
-            &[3, 4, 5, 6, 7, 8],
-            &[4, 5, 6, 7, 8],
-            &[5, 6, 7, 8],
-            &[6, 7, 8],
-            &[7, 8],
-            &[8],
-            &[],
-        ],
-        right: &[
-            &[1, 2, 3, 4, 5, 6, 7, 8],
-            &[2, 3, 4, 5, 6, 7, 8],
-            &[3, 4, 5, 6, 7, 8],
-            &[4, 5, 6, 7, 8],
-            &[5, 6, 7, 8],
-            &[6, 7, 8],
-            &[7, 8],
-            &[8],
-            &[],
-        ],
-    };
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
-> for NonpolynomialSpinElimination3 {
-    #[inline]
-    fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            3,
-        >,
-    ) -> S::Mask {
-        Self::LIST.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            3,
-        >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
-            3,
-        >,
-    ) {
-        Self::LIST.solve(factors, vector);
     }
 }
 
@@ -1846,10 +1360,10 @@ for NonpolynomialSpinSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::GonzalezGradient<S, Self>,
+            NonpolynomialSpinSystem<S>,
+            ::lie_runtime::generic::GonzalezGradient<S, NonpolynomialSpinSystem<S>>,
         >,
-        NonpolynomialSpinElimination1,
+        NonpolynomialSpinExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1859,7 +1373,11 @@ for NonpolynomialSpinSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::GonzalezGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1874,10 +1392,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::GonzalezGradient<S, Self>,
+            NonpolynomialSpinSystem<S>,
+            ::lie_runtime::generic::GonzalezGradient<S, NonpolynomialSpinSystem<S>>,
         >,
-        NonpolynomialSpinElimination1,
+        NonpolynomialSpinExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1900,10 +1418,10 @@ for NonpolynomialSpinSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            NonpolynomialSpinSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, NonpolynomialSpinSystem<S>>,
         >,
-        NonpolynomialSpinElimination1,
+        NonpolynomialSpinExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1913,7 +1431,11 @@ for NonpolynomialSpinSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::MeanValueGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1928,10 +1450,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            NonpolynomialSpinSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, NonpolynomialSpinSystem<S>>,
         >,
-        NonpolynomialSpinElimination1,
+        NonpolynomialSpinExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1954,10 +1476,10 @@ for NonpolynomialSpinSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::ItohAbeGradient<S, Self>,
+            NonpolynomialSpinSystem<S>,
+            ::lie_runtime::generic::ItohAbeGradient<S, NonpolynomialSpinSystem<S>>,
         >,
-        NonpolynomialSpinElimination1,
+        NonpolynomialSpinExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1967,7 +1489,11 @@ for NonpolynomialSpinSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::ItohAbeGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -1982,10 +1508,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::ItohAbeGradient<S, Self>,
+            NonpolynomialSpinSystem<S>,
+            ::lie_runtime::generic::ItohAbeGradient<S, NonpolynomialSpinSystem<S>>,
         >,
-        NonpolynomialSpinElimination1,
+        NonpolynomialSpinExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2008,10 +1534,10 @@ for NonpolynomialSpinSystem<S> {
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            NonpolynomialSpinSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, NonpolynomialSpinSystem<S>>,
         >,
-        NonpolynomialSpinElimination1,
+        NonpolynomialSpinExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2021,7 +1547,11 @@ for NonpolynomialSpinSystem<S> {
         h: S,
     ) -> Self::Equation<'a> {
         ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::DiscreteGradientStep::new(self, h),
+            ::lie_runtime::generic::DiscreteGradientStep::<
+                S,
+                _,
+                ::lie_runtime::generic::MeanValueGradient<S, _>,
+            >::new(self, h),
         )
     }
 }
@@ -2031,8 +1561,8 @@ impl<
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for NonpolynomialSpinSystem<S> {
     type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 2>,
-        NonpolynomialSpinElimination2,
+        ::lie_runtime::generic::CohenHairerStep<'a, S, NonpolynomialSpinSystem<S>, 2>,
+        NonpolynomialSpinGauss4Elimination,
     >
     where
         Self: 'a;
@@ -2052,8 +1582,8 @@ impl<
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for NonpolynomialSpinSystem<S> {
     type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::CohenHairerStep<'a, S, Self, 3>,
-        NonpolynomialSpinElimination3,
+        ::lie_runtime::generic::CohenHairerStep<'a, S, NonpolynomialSpinSystem<S>, 3>,
+        NonpolynomialSpinGauss6Elimination,
     >
     where
         Self: 'a;
@@ -2068,745 +1598,66 @@ for NonpolynomialSpinSystem<S> {
     }
 }
 
-/// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-#[allow(clippy::type_complexity)]
-pub struct NonpolynomialSpinIsospectral4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <NonpolynomialSpinSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for NonpolynomialSpinIsospectral4<'a, S> {
-    type State = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <NonpolynomialSpinSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <NonpolynomialSpinSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <NonpolynomialSpinSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            2,
-        >,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix.0[0][1][(0, 0)];
-        let _a1_3 = matrix.0[0][1][(1, 0)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix.0[0][1][(0, 1)];
-        let _a1_4 = matrix.0[0][1][(1, 1)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a0_5 = matrix.0[0][1][(0, 2)];
-        let _a1_5 = matrix.0[0][1][(1, 2)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix.0[0][1][(2, 0)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix.0[0][1][(2, 1)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = matrix.0[0][1][(2, 2)];
-        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
-        let _a3_0 = matrix.0[1][0][(0, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix.0[1][0][(0, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix.0[1][0][(0, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix.0[1][1][(0, 0)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix.0[1][1][(0, 1)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a3_5 = matrix.0[1][1][(0, 2)];
-        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
-        let _a4_0 = matrix.0[1][0][(1, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix.0[1][0][(1, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix.0[1][0][(1, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix.0[1][1][(1, 0)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix.0[1][1][(1, 1)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix.0[1][1][(1, 2)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a5_0 = matrix.0[1][0][(2, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix.0[1][0][(2, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = matrix.0[1][0][(2, 2)];
-        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
-        let _a5_3 = matrix.0[1][1][(2, 0)];
-        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
-        let _a5_4 = matrix.0[1][1][(2, 1)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix.0[1][1][(2, 2)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_5 = S::one() / _a5_5;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][1][(1, 0)] = _a1_3;
-        matrix.0[0][1][(1, 1)] = _a1_4;
-        matrix.0[0][1][(1, 2)] = _a1_5;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        matrix.0[0][1][(2, 0)] = _a2_3;
-        matrix.0[0][1][(2, 1)] = _a2_4;
-        matrix.0[0][1][(2, 2)] = _a2_5;
-        matrix.0[1][0][(0, 0)] = _a3_0;
-        matrix.0[1][0][(0, 1)] = _a3_1;
-        matrix.0[1][0][(0, 2)] = _a3_2;
-        matrix.0[1][1][(0, 0)] = _a3_3;
-        matrix.0[1][1][(0, 1)] = _a3_4;
-        matrix.0[1][1][(0, 2)] = _a3_5;
-        matrix.0[1][0][(1, 0)] = _a4_0;
-        matrix.0[1][0][(1, 1)] = _a4_1;
-        matrix.0[1][0][(1, 2)] = _a4_2;
-        matrix.0[1][1][(1, 0)] = _a4_3;
-        matrix.0[1][1][(1, 1)] = _a4_4;
-        matrix.0[1][1][(1, 2)] = _a4_5;
-        matrix.0[1][0][(2, 0)] = _a5_0;
-        matrix.0[1][0][(2, 1)] = _a5_1;
-        matrix.0[1][0][(2, 2)] = _a5_2;
-        matrix.0[1][1][(2, 0)] = _a5_3;
-        matrix.0[1][1][(2, 1)] = _a5_4;
-        matrix.0[1][1][(2, 2)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 0)] * _b0
-            - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
-            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
-            - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
-            - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
-            - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
-        let _b5 = _b5 * factors.0[1][1][(2, 2)];
-        let _b4 = (_b4 - factors.0[1][1][(1, 2)] * _b5) * factors.0[1][1][(1, 1)];
-        let _b3 = (_b3 - factors.0[1][1][(0, 1)] * _b4 - factors.0[1][1][(0, 2)] * _b5)
-            * factors.0[1][1][(0, 0)];
-        let _b2 = (_b2 - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][1][(2, 1)] * _b4
-            - factors.0[0][1][(2, 2)] * _b5) * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][1][(1, 0)] * _b3
-            - factors.0[0][1][(1, 1)] * _b4 - factors.0[0][1][(1, 2)] * _b5)
-            * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
-            - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
-            - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<2>>
 for NonpolynomialSpinSystem<S> {
-    type Equation<'a> = NonpolynomialSpinIsospectral4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::StageMomenta<
+            'a,
+            S,
+            NonpolynomialSpinSystem<S>,
+            ::lie_runtime::generic::MatrixStages<
+                S,
+                <NonpolynomialSpinSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+                2,
+            >,
+            2,
+        >,
+        NonpolynomialSpinGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Isospectral<2>,
         h: S,
-    ) -> NonpolynomialSpinIsospectral4<'a, S> {
-        NonpolynomialSpinIsospectral4(::lie_runtime::generic::StageMomenta::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::StageMomenta::new(self, h),
+        )
     }
 }
 
 ::lie_runtime::generic_equations!(
     @ collective[S : ::lie_runtime::Scalar] NonpolynomialSpinSystem < S >, S, 2
 );
-/// The collective Gauss method of order 2, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-#[allow(clippy::type_complexity)]
-pub struct NonpolynomialSpinHopf2<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 1>,
-        1,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for NonpolynomialSpinHopf2<'a, S> {
-    type State = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 1>,
-        1,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 1>,
-        1,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 1>,
-        1,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][0][(2, 1)] * _b1;
-        let _b2 = _b2 * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2) * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2)
-            * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<
     S,
     ::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 1>,
 > for NonpolynomialSpinSystem<S> {
-    type Equation<'a> = NonpolynomialSpinHopf2<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::StageMomenta<
+            'a,
+            S,
+            NonpolynomialSpinSystem<S>,
+            ::lie_runtime::generic::QuaternionStages<S, 1>,
+            1,
+        >,
+        NonpolynomialSpinExpMidpointElimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 1>,
         h: S,
-    ) -> NonpolynomialSpinHopf2<'a, S> {
-        NonpolynomialSpinHopf2(::lie_runtime::generic::StageMomenta::new(self, h))
-    }
-}
-
-/// The collective Gauss method of order 4, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-#[allow(clippy::type_complexity)]
-pub struct NonpolynomialSpinHopf4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 2>,
-        2,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for NonpolynomialSpinHopf4<'a, S> {
-    type State = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 2>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 2>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        NonpolynomialSpinSystem<S>,
-        ::lie_runtime::generic::QuaternionStages<S, 2>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix.0[0][1][(0, 0)];
-        let _a1_3 = matrix.0[0][1][(1, 0)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix.0[0][1][(0, 1)];
-        let _a1_4 = matrix.0[0][1][(1, 1)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a0_5 = matrix.0[0][1][(0, 2)];
-        let _a1_5 = matrix.0[0][1][(1, 2)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix.0[0][1][(2, 0)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix.0[0][1][(2, 1)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = matrix.0[0][1][(2, 2)];
-        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
-        let _a3_0 = matrix.0[1][0][(0, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix.0[1][0][(0, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix.0[1][0][(0, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix.0[1][1][(0, 0)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix.0[1][1][(0, 1)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a3_5 = matrix.0[1][1][(0, 2)];
-        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
-        let _a4_0 = matrix.0[1][0][(1, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix.0[1][0][(1, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix.0[1][0][(1, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix.0[1][1][(1, 0)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix.0[1][1][(1, 1)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix.0[1][1][(1, 2)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a5_0 = matrix.0[1][0][(2, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix.0[1][0][(2, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = matrix.0[1][0][(2, 2)];
-        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
-        let _a5_3 = matrix.0[1][1][(2, 0)];
-        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
-        let _a5_4 = matrix.0[1][1][(2, 1)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix.0[1][1][(2, 2)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_5 = S::one() / _a5_5;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][1][(1, 0)] = _a1_3;
-        matrix.0[0][1][(1, 1)] = _a1_4;
-        matrix.0[0][1][(1, 2)] = _a1_5;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        matrix.0[0][1][(2, 0)] = _a2_3;
-        matrix.0[0][1][(2, 1)] = _a2_4;
-        matrix.0[0][1][(2, 2)] = _a2_5;
-        matrix.0[1][0][(0, 0)] = _a3_0;
-        matrix.0[1][0][(0, 1)] = _a3_1;
-        matrix.0[1][0][(0, 2)] = _a3_2;
-        matrix.0[1][1][(0, 0)] = _a3_3;
-        matrix.0[1][1][(0, 1)] = _a3_4;
-        matrix.0[1][1][(0, 2)] = _a3_5;
-        matrix.0[1][0][(1, 0)] = _a4_0;
-        matrix.0[1][0][(1, 1)] = _a4_1;
-        matrix.0[1][0][(1, 2)] = _a4_2;
-        matrix.0[1][1][(1, 0)] = _a4_3;
-        matrix.0[1][1][(1, 1)] = _a4_4;
-        matrix.0[1][1][(1, 2)] = _a4_5;
-        matrix.0[1][0][(2, 0)] = _a5_0;
-        matrix.0[1][0][(2, 1)] = _a5_1;
-        matrix.0[1][0][(2, 2)] = _a5_2;
-        matrix.0[1][1][(2, 0)] = _a5_3;
-        matrix.0[1][1][(2, 1)] = _a5_4;
-        matrix.0[1][1][(2, 2)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::StageMomenta::new(self, h),
         )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[1][0] - factors.0[1][0][(0, 0)] * _b0
-            - factors.0[1][0][(0, 1)] * _b1 - factors.0[1][0][(0, 2)] * _b2;
-        let _b4 = residual.0[1][1] - factors.0[1][0][(1, 0)] * _b0
-            - factors.0[1][0][(1, 1)] * _b1 - factors.0[1][0][(1, 2)] * _b2
-            - factors.0[1][1][(1, 0)] * _b3;
-        let _b5 = residual.0[1][2] - factors.0[1][0][(2, 0)] * _b0
-            - factors.0[1][0][(2, 1)] * _b1 - factors.0[1][0][(2, 2)] * _b2
-            - factors.0[1][1][(2, 0)] * _b3 - factors.0[1][1][(2, 1)] * _b4;
-        let _b5 = _b5 * factors.0[1][1][(2, 2)];
-        let _b4 = (_b4 - factors.0[1][1][(1, 2)] * _b5) * factors.0[1][1][(1, 1)];
-        let _b3 = (_b3 - factors.0[1][1][(0, 1)] * _b4 - factors.0[1][1][(0, 2)] * _b5)
-            * factors.0[1][1][(0, 0)];
-        let _b2 = (_b2 - factors.0[0][1][(2, 0)] * _b3 - factors.0[0][1][(2, 1)] * _b4
-            - factors.0[0][1][(2, 2)] * _b5) * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][1][(1, 0)] * _b3
-            - factors.0[0][1][(1, 1)] * _b4 - factors.0[0][1][(1, 2)] * _b5)
-            * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
-            - factors.0[0][1][(0, 0)] * _b3 - factors.0[0][1][(0, 1)] * _b4
-            - factors.0[0][1][(0, 2)] * _b5) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[1][0] = _b3;
-        residual.0[1][1] = _b4;
-        residual.0[1][2] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -2816,13 +1667,26 @@ impl<
     S,
     ::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 2>,
 > for NonpolynomialSpinSystem<S> {
-    type Equation<'a> = NonpolynomialSpinHopf4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::StageMomenta<
+            'a,
+            S,
+            NonpolynomialSpinSystem<S>,
+            ::lie_runtime::generic::QuaternionStages<S, 2>,
+            2,
+        >,
+        NonpolynomialSpinGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 2>,
         h: S,
-    ) -> NonpolynomialSpinHopf4<'a, S> {
-        NonpolynomialSpinHopf4(::lie_runtime::generic::StageMomenta::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::StageMomenta::new(self, h),
+        )
     }
 }
 
@@ -3041,7 +1905,7 @@ for NonpolynomialSpinSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::SphericalMidpoint,
         h: S,
-    ) -> NonpolynomialSpinSphericalMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         NonpolynomialSpinSphericalMidpoint::new(self, h)
     }
 }

@@ -271,10 +271,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for QuarticBodySyste
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for QuarticBodySystem<S> {
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
-    }
-
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -301,6 +297,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for QuarticBodySy
             + _eta_e2 * (_t5 + _t4)) * S::ratio(-1.0, 2.0);
         out[2] = (_xi_e3 * (_t2 + _t0 + _t1 * S::ratio(2.0, 1.0))
             + _eta_e3 * (_t5 + _t3)) * S::ratio(-1.0, 2.0);
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
     }
 }
 

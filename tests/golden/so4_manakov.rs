@@ -606,10 +606,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for ManakovTopSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSystem<S> {
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
-    }
-
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 36 additions, 48 multiplications.
@@ -660,6 +656,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSys
             + _eta_E24 * _t20) * S::ratio(-1.0, 2.0);
         out[5] = (_xi_E34 * (_t7 + S::ratio(2.0, 1.0) * _t14) + m12 * _t10
             + _eta_E34 * _t13) * S::ratio(-1.0, 2.0);
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
     }
 }
 
@@ -1224,18 +1224,16 @@ for ManakovTopSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::ImplicitMidpoint,
         h: S,
-    ) -> ManakovTopMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         ManakovTopMidpoint::new(self, h)
     }
 }
 
-/// Gauss collocation of order 4 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct ManakovTopGauss4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, ManakovTopSystem<S>, 2>,
-);
-impl<S: ::lie_runtime::Scalar> ManakovTopGauss4<'_, S> {
-    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+/// Elimination of 12 rows in a fixed order, 24 entries of fill-in: 588 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct ManakovTopGauss4Elimination;
+impl ManakovTopGauss4Elimination {
+    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
         order: &[0, 5, 6, 1, 2, 3, 4, 7, 8, 9, 10, 11],
         below: &[
             &[1, 2, 3, 4, 7, 8, 9, 10],
@@ -1268,108 +1266,62 @@ impl<S: ::lie_runtime::Scalar> ManakovTopGauss4<'_, S> {
     };
 }
 
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for ManakovTopGauss4<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 6, 6>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 6>, 2>,
+> for ManakovTopGauss4Elimination {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 6, 6>,
+            2,
+        >,
+    ) -> S::Mask {
+        Self::LIST.factor(matrix)
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 6, 6>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 6>,
+            2,
+        >,
     ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 24 entries of fill-in: 588 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        Self::ELIMINATION.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        Self::ELIMINATION.solve(factors, residual);
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        Self::LIST.solve(factors, vector);
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for ManakovTopSystem<S> {
-    type Equation<'a> = ManakovTopGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, ManakovTopSystem<S>, 2>,
+        ManakovTopGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss4,
         h: S,
-    ) -> ManakovTopGauss4<'a, S> {
-        ManakovTopGauss4(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// Gauss collocation of order 6 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct ManakovTopGauss6<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, ManakovTopSystem<S>, 3>,
-);
-impl<S: ::lie_runtime::Scalar> ManakovTopGauss6<'_, S> {
-    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+/// Elimination of 18 rows in a fixed order, 60 entries of fill-in: 1802 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct ManakovTopGauss6Elimination;
+impl ManakovTopGauss6Elimination {
+    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
         order: &[0, 5, 6, 11, 12, 1, 2, 3, 4, 7, 8, 9, 10, 13, 14, 15, 16, 17],
         below: &[
             &[1, 2, 3, 4, 7, 8, 9, 10, 13, 14, 15, 16],
@@ -1414,156 +1366,69 @@ impl<S: ::lie_runtime::Scalar> ManakovTopGauss6<'_, S> {
     };
 }
 
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for ManakovTopGauss6<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 6, 6>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 6>, 3>,
+> for ManakovTopGauss6Elimination {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 6, 6>,
+            3,
+        >,
+    ) -> S::Mask {
+        Self::LIST.factor(matrix)
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 6, 6>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 6>,
+            3,
+        >,
     ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 60 entries of fill-in: 1802 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        Self::ELIMINATION.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        Self::ELIMINATION.solve(factors, residual);
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        Self::LIST.solve(factors, vector);
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for ManakovTopSystem<S> {
-    type Equation<'a> = ManakovTopGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, ManakovTopSystem<S>, 3>,
+        ManakovTopGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss6,
         h: S,
-    ) -> ManakovTopGauss6<'a, S> {
-        ManakovTopGauss6(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// The retraction method with the exponential, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct ManakovTopExpMidpoint<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpMidpoint<'a, S, ManakovTopSystem<S>>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for ManakovTopExpMidpoint<'a, S> {
-    type State = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct ManakovTopExpMidpointElimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 6, 6>,
+    ::lie_runtime::__private::SVector<S, 6>,
+> for ManakovTopExpMidpointElimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 6, 6>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -1719,15 +1584,18 @@ for ManakovTopExpMidpoint<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b3 = residual[3] - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 6, 6>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 6>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+        let _b3 = vector[3] - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
             - factors[(3, 2)] * _b2;
-        let _b4 = residual[4] - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
+        let _b4 = vector[4] - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
             - factors[(4, 2)] * _b2 - factors[(4, 3)] * _b3;
-        let _b5 = residual[5] - factors[(5, 0)] * _b0 - factors[(5, 1)] * _b1
+        let _b5 = vector[5] - factors[(5, 0)] * _b0 - factors[(5, 1)] * _b1
             - factors[(5, 2)] * _b2 - factors[(5, 3)] * _b3 - factors[(5, 4)] * _b4;
         let _b5 = _b5 * factors[(5, 5)];
         let _b4 = (_b4 - factors[(4, 5)] * _b5) * factors[(4, 4)];
@@ -1740,33 +1608,12 @@ for ManakovTopExpMidpoint<'a, S> {
         let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2
             - factors[(0, 3)] * _b3 - factors[(0, 4)] * _b4 - factors[(0, 5)] * _b5)
             * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-        residual[3] = _b3;
-        residual[4] = _b4;
-        residual[5] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+        vector[3] = _b3;
+        vector[4] = _b4;
+        vector[5] = _b5;
     }
 }
 
@@ -1776,13 +1623,20 @@ impl<
     S,
     ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
 > for ManakovTopSystem<S> {
-    type Equation<'a> = ManakovTopExpMidpoint<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpMidpoint<'a, S, ManakovTopSystem<S>>,
+        ManakovTopExpMidpointElimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
         h: S,
-    ) -> ManakovTopExpMidpoint<'a, S> {
-        ManakovTopExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::ExpMidpoint::new(self, h),
+        )
     }
 }
 
@@ -2335,208 +2189,8 @@ impl<
         &'a self,
         _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Cayley>,
         h: S,
-    ) -> ManakovTopCayleyMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         ManakovTopCayleyMidpoint::new(self, h)
-    }
-}
-
-/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct ManakovTopElimination1;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::SMatrix<S, 6, 6>,
-    ::lie_runtime::__private::SVector<S, 6>,
-> for ManakovTopElimination1 {
-    #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 6, 6>) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix[(0, 3)];
-        let _a1_3 = matrix[(1, 3)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix[(0, 4)];
-        let _a1_4 = matrix[(1, 4)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a0_5 = matrix[(0, 5)];
-        let _a1_5 = matrix[(1, 5)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix[(2, 3)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix[(2, 4)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = matrix[(2, 5)];
-        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
-        let _a3_0 = matrix[(3, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix[(3, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix[(3, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix[(3, 3)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix[(3, 4)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a3_5 = matrix[(3, 5)];
-        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
-        let _a4_0 = matrix[(4, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix[(4, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix[(4, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix[(4, 3)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix[(4, 4)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix[(4, 5)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a5_0 = matrix[(5, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix[(5, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = matrix[(5, 2)];
-        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
-        let _a5_3 = matrix[(5, 3)];
-        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
-        let _a5_4 = matrix[(5, 4)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix[(5, 5)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_5 = S::one() / _a5_5;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(1, 3)] = _a1_3;
-        matrix[(1, 4)] = _a1_4;
-        matrix[(1, 5)] = _a1_5;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        matrix[(2, 3)] = _a2_3;
-        matrix[(2, 4)] = _a2_4;
-        matrix[(2, 5)] = _a2_5;
-        matrix[(3, 0)] = _a3_0;
-        matrix[(3, 1)] = _a3_1;
-        matrix[(3, 2)] = _a3_2;
-        matrix[(3, 3)] = _a3_3;
-        matrix[(3, 4)] = _a3_4;
-        matrix[(3, 5)] = _a3_5;
-        matrix[(4, 0)] = _a4_0;
-        matrix[(4, 1)] = _a4_1;
-        matrix[(4, 2)] = _a4_2;
-        matrix[(4, 3)] = _a4_3;
-        matrix[(4, 4)] = _a4_4;
-        matrix[(4, 5)] = _a4_5;
-        matrix[(5, 0)] = _a5_0;
-        matrix[(5, 1)] = _a5_1;
-        matrix[(5, 2)] = _a5_2;
-        matrix[(5, 3)] = _a5_3;
-        matrix[(5, 4)] = _a5_4;
-        matrix[(5, 5)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 6, 6>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 6>,
-    ) {
-        let _b0 = vector[0];
-        let _b1 = vector[1] - factors[(1, 0)] * _b0;
-        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b3 = vector[3] - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
-            - factors[(3, 2)] * _b2;
-        let _b4 = vector[4] - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
-            - factors[(4, 2)] * _b2 - factors[(4, 3)] * _b3;
-        let _b5 = vector[5] - factors[(5, 0)] * _b0 - factors[(5, 1)] * _b1
-            - factors[(5, 2)] * _b2 - factors[(5, 3)] * _b3 - factors[(5, 4)] * _b4;
-        let _b5 = _b5 * factors[(5, 5)];
-        let _b4 = (_b4 - factors[(4, 5)] * _b5) * factors[(4, 4)];
-        let _b3 = (_b3 - factors[(3, 4)] * _b4 - factors[(3, 5)] * _b5)
-            * factors[(3, 3)];
-        let _b2 = (_b2 - factors[(2, 3)] * _b3 - factors[(2, 4)] * _b4
-            - factors[(2, 5)] * _b5) * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2 - factors[(1, 3)] * _b3
-            - factors[(1, 4)] * _b4 - factors[(1, 5)] * _b5) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2
-            - factors[(0, 3)] * _b3 - factors[(0, 4)] * _b4 - factors[(0, 5)] * _b5)
-            * factors[(0, 0)];
-        vector[0] = _b0;
-        vector[1] = _b1;
-        vector[2] = _b2;
-        vector[3] = _b3;
-        vector[4] = _b4;
-        vector[5] = _b5;
     }
 }
 
@@ -2563,10 +2217,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            ManakovTopSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, ManakovTopSystem<S>>,
         >,
-        ManakovTopElimination1,
+        ManakovTopExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2604,10 +2258,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            ManakovTopSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, ManakovTopSystem<S>>,
         >,
-        ManakovTopElimination1,
+        ManakovTopExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2645,10 +2299,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            ManakovTopSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, ManakovTopSystem<S>>,
         >,
-        ManakovTopElimination1,
+        ManakovTopExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2681,13 +2335,20 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for ManakovTopSystem<S> {
-    type Equation<'a> = ManakovTopGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, ManakovTopSystem<S>, 2>,
+        ManakovTopGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        ManakovTopGauss4(::lie_runtime::generic::Gauss::new(self, h))
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
@@ -2695,13 +2356,20 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for ManakovTopSystem<S> {
-    type Equation<'a> = ManakovTopGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, ManakovTopSystem<S>, 3>,
+        ManakovTopGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<3>,
         h: S,
     ) -> Self::Equation<'a> {
-        ManakovTopGauss6(::lie_runtime::generic::Gauss::new(self, h))
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
@@ -3110,7 +2778,7 @@ for ManakovTopSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::MoserVeselov,
         h: S,
-    ) -> ManakovTopMoserVeselov<'a, S> {
+    ) -> Self::Equation<'a> {
         ManakovTopMoserVeselov::new(self, h)
     }
 }

@@ -1580,18 +1580,16 @@ for Su3QuadraticSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::ImplicitMidpoint,
         h: S,
-    ) -> Su3QuadraticMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         Su3QuadraticMidpoint::new(self, h)
     }
 }
 
-/// Gauss collocation of order 4 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct Su3QuadraticGauss4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, Su3QuadraticSystem<S>, 2>,
-);
-impl<S: ::lie_runtime::Scalar> Su3QuadraticGauss4<'_, S> {
-    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+/// Elimination of 16 rows in a fixed order, 8 entries of fill-in: 1384 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct Su3QuadraticGauss4Elimination;
+impl Su3QuadraticGauss4Elimination {
+    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
         order: &[6, 14, 2, 0, 1, 3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 15],
         below: &[
             &[0, 1, 3, 4, 5, 8, 9, 11, 12, 13],
@@ -1632,108 +1630,62 @@ impl<S: ::lie_runtime::Scalar> Su3QuadraticGauss4<'_, S> {
     };
 }
 
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for Su3QuadraticGauss4<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 8, 8>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 8>, 2>,
+> for Su3QuadraticGauss4Elimination {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 8, 8>,
+            2,
+        >,
+    ) -> S::Mask {
+        Self::LIST.factor(matrix)
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 8, 8>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 8>,
+            2,
+        >,
     ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 8 entries of fill-in: 1384 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        Self::ELIMINATION.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        Self::ELIMINATION.solve(factors, residual);
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        Self::LIST.solve(factors, vector);
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for Su3QuadraticSystem<S> {
-    type Equation<'a> = Su3QuadraticGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, Su3QuadraticSystem<S>, 2>,
+        Su3QuadraticGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss4,
         h: S,
-    ) -> Su3QuadraticGauss4<'a, S> {
-        Su3QuadraticGauss4(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// Gauss collocation of order 6 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct Su3QuadraticGauss6<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, Su3QuadraticSystem<S>, 3>,
-);
-impl<S: ::lie_runtime::Scalar> Su3QuadraticGauss6<'_, S> {
-    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+/// Elimination of 24 rows in a fixed order, 24 entries of fill-in: 4356 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct Su3QuadraticGauss6Elimination;
+impl Su3QuadraticGauss6Elimination {
+    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
         order: &[
             6, 14, 22, 2, 10, 0, 1, 3, 4, 5, 7, 8, 9, 11, 12, 13, 15, 16, 17, 18, 19, 20,
             21, 23,
@@ -1793,558 +1745,67 @@ impl<S: ::lie_runtime::Scalar> Su3QuadraticGauss6<'_, S> {
     };
 }
 
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for Su3QuadraticGauss6<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 8, 8>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 8>, 3>,
+> for Su3QuadraticGauss6Elimination {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 8, 8>,
+            3,
+        >,
+    ) -> S::Mask {
+        Self::LIST.factor(matrix)
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 8, 8>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 8>,
+            3,
+        >,
     ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 24 entries of fill-in: 4356 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        Self::ELIMINATION.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        Self::ELIMINATION.solve(factors, residual);
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        Self::LIST.solve(factors, vector);
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for Su3QuadraticSystem<S> {
-    type Equation<'a> = Su3QuadraticGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, Su3QuadraticSystem<S>, 3>,
+        Su3QuadraticGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss6,
         h: S,
-    ) -> Su3QuadraticGauss6<'a, S> {
-        Su3QuadraticGauss6(::lie_runtime::generic::Gauss::new(self, h))
-    }
-}
-
-/// The retraction method with the exponential, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct Su3QuadraticExpMidpoint<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpMidpoint<'a, S, Su3QuadraticSystem<S>>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for Su3QuadraticExpMidpoint<'a, S> {
-    type State = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 232 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix[(0, 3)];
-        let _a1_3 = matrix[(1, 3)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix[(0, 4)];
-        let _a1_4 = matrix[(1, 4)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a0_5 = matrix[(0, 5)];
-        let _a1_5 = matrix[(1, 5)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a0_6 = matrix[(0, 6)];
-        let _a1_6 = matrix[(1, 6)];
-        let _a1_6 = _a1_6 - _a1_0 * _a0_6;
-        let _a0_7 = matrix[(0, 7)];
-        let _a1_7 = matrix[(1, 7)];
-        let _a1_7 = _a1_7 - _a1_0 * _a0_7;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix[(2, 3)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix[(2, 4)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = matrix[(2, 5)];
-        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
-        let _a2_6 = matrix[(2, 6)];
-        let _a2_6 = _a2_6 - _a2_0 * _a0_6;
-        let _a2_7 = matrix[(2, 7)];
-        let _a2_7 = _a2_7 - _a2_0 * _a0_7;
-        let _a3_0 = matrix[(3, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix[(3, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix[(3, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix[(3, 3)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix[(3, 4)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a3_5 = matrix[(3, 5)];
-        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
-        let _a3_6 = matrix[(3, 6)];
-        let _a3_6 = _a3_6 - _a3_0 * _a0_6;
-        let _a3_7 = matrix[(3, 7)];
-        let _a3_7 = _a3_7 - _a3_0 * _a0_7;
-        let _a4_0 = matrix[(4, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix[(4, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix[(4, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix[(4, 3)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix[(4, 4)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix[(4, 5)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a4_6 = matrix[(4, 6)];
-        let _a4_6 = _a4_6 - _a4_0 * _a0_6;
-        let _a4_7 = matrix[(4, 7)];
-        let _a4_7 = _a4_7 - _a4_0 * _a0_7;
-        let _a5_0 = matrix[(5, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix[(5, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = matrix[(5, 2)];
-        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
-        let _a5_3 = matrix[(5, 3)];
-        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
-        let _a5_4 = matrix[(5, 4)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix[(5, 5)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a5_6 = matrix[(5, 6)];
-        let _a5_6 = _a5_6 - _a5_0 * _a0_6;
-        let _a5_7 = matrix[(5, 7)];
-        let _a5_7 = _a5_7 - _a5_0 * _a0_7;
-        let _a6_0 = matrix[(6, 0)];
-        let _a6_0 = _a6_0 * _a0_0;
-        let _a6_1 = matrix[(6, 1)];
-        let _a6_1 = _a6_1 - _a6_0 * _a0_1;
-        let _a6_2 = matrix[(6, 2)];
-        let _a6_2 = _a6_2 - _a6_0 * _a0_2;
-        let _a6_3 = matrix[(6, 3)];
-        let _a6_3 = _a6_3 - _a6_0 * _a0_3;
-        let _a6_4 = matrix[(6, 4)];
-        let _a6_4 = _a6_4 - _a6_0 * _a0_4;
-        let _a6_5 = matrix[(6, 5)];
-        let _a6_5 = _a6_5 - _a6_0 * _a0_5;
-        let _a6_6 = matrix[(6, 6)];
-        let _a6_6 = _a6_6 - _a6_0 * _a0_6;
-        let _a6_7 = matrix[(6, 7)];
-        let _a6_7 = _a6_7 - _a6_0 * _a0_7;
-        let _a7_0 = matrix[(7, 0)];
-        let _a7_0 = _a7_0 * _a0_0;
-        let _a7_1 = matrix[(7, 1)];
-        let _a7_1 = _a7_1 - _a7_0 * _a0_1;
-        let _a7_2 = matrix[(7, 2)];
-        let _a7_2 = _a7_2 - _a7_0 * _a0_2;
-        let _a7_3 = matrix[(7, 3)];
-        let _a7_3 = _a7_3 - _a7_0 * _a0_3;
-        let _a7_4 = matrix[(7, 4)];
-        let _a7_4 = _a7_4 - _a7_0 * _a0_4;
-        let _a7_5 = matrix[(7, 5)];
-        let _a7_5 = _a7_5 - _a7_0 * _a0_5;
-        let _a7_6 = matrix[(7, 6)];
-        let _a7_6 = _a7_6 - _a7_0 * _a0_6;
-        let _a7_7 = matrix[(7, 7)];
-        let _a7_7 = _a7_7 - _a7_0 * _a0_7;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a2_6 = _a2_6 - _a2_1 * _a1_6;
-        let _a2_7 = _a2_7 - _a2_1 * _a1_7;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a3_6 = _a3_6 - _a3_1 * _a1_6;
-        let _a3_7 = _a3_7 - _a3_1 * _a1_7;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a4_6 = _a4_6 - _a4_1 * _a1_6;
-        let _a4_7 = _a4_7 - _a4_1 * _a1_7;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a5_6 = _a5_6 - _a5_1 * _a1_6;
-        let _a5_7 = _a5_7 - _a5_1 * _a1_7;
-        let _a6_1 = _a6_1 * _a1_1;
-        let _a6_2 = _a6_2 - _a6_1 * _a1_2;
-        let _a6_3 = _a6_3 - _a6_1 * _a1_3;
-        let _a6_4 = _a6_4 - _a6_1 * _a1_4;
-        let _a6_5 = _a6_5 - _a6_1 * _a1_5;
-        let _a6_6 = _a6_6 - _a6_1 * _a1_6;
-        let _a6_7 = _a6_7 - _a6_1 * _a1_7;
-        let _a7_1 = _a7_1 * _a1_1;
-        let _a7_2 = _a7_2 - _a7_1 * _a1_2;
-        let _a7_3 = _a7_3 - _a7_1 * _a1_3;
-        let _a7_4 = _a7_4 - _a7_1 * _a1_4;
-        let _a7_5 = _a7_5 - _a7_1 * _a1_5;
-        let _a7_6 = _a7_6 - _a7_1 * _a1_6;
-        let _a7_7 = _a7_7 - _a7_1 * _a1_7;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a3_6 = _a3_6 - _a3_2 * _a2_6;
-        let _a3_7 = _a3_7 - _a3_2 * _a2_7;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a4_6 = _a4_6 - _a4_2 * _a2_6;
-        let _a4_7 = _a4_7 - _a4_2 * _a2_7;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a5_6 = _a5_6 - _a5_2 * _a2_6;
-        let _a5_7 = _a5_7 - _a5_2 * _a2_7;
-        let _a6_2 = _a6_2 * _a2_2;
-        let _a6_3 = _a6_3 - _a6_2 * _a2_3;
-        let _a6_4 = _a6_4 - _a6_2 * _a2_4;
-        let _a6_5 = _a6_5 - _a6_2 * _a2_5;
-        let _a6_6 = _a6_6 - _a6_2 * _a2_6;
-        let _a6_7 = _a6_7 - _a6_2 * _a2_7;
-        let _a7_2 = _a7_2 * _a2_2;
-        let _a7_3 = _a7_3 - _a7_2 * _a2_3;
-        let _a7_4 = _a7_4 - _a7_2 * _a2_4;
-        let _a7_5 = _a7_5 - _a7_2 * _a2_5;
-        let _a7_6 = _a7_6 - _a7_2 * _a2_6;
-        let _a7_7 = _a7_7 - _a7_2 * _a2_7;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a4_6 = _a4_6 - _a4_3 * _a3_6;
-        let _a4_7 = _a4_7 - _a4_3 * _a3_7;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a5_6 = _a5_6 - _a5_3 * _a3_6;
-        let _a5_7 = _a5_7 - _a5_3 * _a3_7;
-        let _a6_3 = _a6_3 * _a3_3;
-        let _a6_4 = _a6_4 - _a6_3 * _a3_4;
-        let _a6_5 = _a6_5 - _a6_3 * _a3_5;
-        let _a6_6 = _a6_6 - _a6_3 * _a3_6;
-        let _a6_7 = _a6_7 - _a6_3 * _a3_7;
-        let _a7_3 = _a7_3 * _a3_3;
-        let _a7_4 = _a7_4 - _a7_3 * _a3_4;
-        let _a7_5 = _a7_5 - _a7_3 * _a3_5;
-        let _a7_6 = _a7_6 - _a7_3 * _a3_6;
-        let _a7_7 = _a7_7 - _a7_3 * _a3_7;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_6 = _a5_6 - _a5_4 * _a4_6;
-        let _a5_7 = _a5_7 - _a5_4 * _a4_7;
-        let _a6_4 = _a6_4 * _a4_4;
-        let _a6_5 = _a6_5 - _a6_4 * _a4_5;
-        let _a6_6 = _a6_6 - _a6_4 * _a4_6;
-        let _a6_7 = _a6_7 - _a6_4 * _a4_7;
-        let _a7_4 = _a7_4 * _a4_4;
-        let _a7_5 = _a7_5 - _a7_4 * _a4_5;
-        let _a7_6 = _a7_6 - _a7_4 * _a4_6;
-        let _a7_7 = _a7_7 - _a7_4 * _a4_7;
-        let _a5_5 = S::one() / _a5_5;
-        let _a6_5 = _a6_5 * _a5_5;
-        let _a6_6 = _a6_6 - _a6_5 * _a5_6;
-        let _a6_7 = _a6_7 - _a6_5 * _a5_7;
-        let _a7_5 = _a7_5 * _a5_5;
-        let _a7_6 = _a7_6 - _a7_5 * _a5_6;
-        let _a7_7 = _a7_7 - _a7_5 * _a5_7;
-        let _a6_6 = S::one() / _a6_6;
-        let _a7_6 = _a7_6 * _a6_6;
-        let _a7_7 = _a7_7 - _a7_6 * _a6_7;
-        let _a7_7 = S::one() / _a7_7;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(1, 3)] = _a1_3;
-        matrix[(1, 4)] = _a1_4;
-        matrix[(1, 5)] = _a1_5;
-        matrix[(1, 6)] = _a1_6;
-        matrix[(1, 7)] = _a1_7;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        matrix[(2, 3)] = _a2_3;
-        matrix[(2, 4)] = _a2_4;
-        matrix[(2, 5)] = _a2_5;
-        matrix[(2, 6)] = _a2_6;
-        matrix[(2, 7)] = _a2_7;
-        matrix[(3, 0)] = _a3_0;
-        matrix[(3, 1)] = _a3_1;
-        matrix[(3, 2)] = _a3_2;
-        matrix[(3, 3)] = _a3_3;
-        matrix[(3, 4)] = _a3_4;
-        matrix[(3, 5)] = _a3_5;
-        matrix[(3, 6)] = _a3_6;
-        matrix[(3, 7)] = _a3_7;
-        matrix[(4, 0)] = _a4_0;
-        matrix[(4, 1)] = _a4_1;
-        matrix[(4, 2)] = _a4_2;
-        matrix[(4, 3)] = _a4_3;
-        matrix[(4, 4)] = _a4_4;
-        matrix[(4, 5)] = _a4_5;
-        matrix[(4, 6)] = _a4_6;
-        matrix[(4, 7)] = _a4_7;
-        matrix[(5, 0)] = _a5_0;
-        matrix[(5, 1)] = _a5_1;
-        matrix[(5, 2)] = _a5_2;
-        matrix[(5, 3)] = _a5_3;
-        matrix[(5, 4)] = _a5_4;
-        matrix[(5, 5)] = _a5_5;
-        matrix[(5, 6)] = _a5_6;
-        matrix[(5, 7)] = _a5_7;
-        matrix[(6, 0)] = _a6_0;
-        matrix[(6, 1)] = _a6_1;
-        matrix[(6, 2)] = _a6_2;
-        matrix[(6, 3)] = _a6_3;
-        matrix[(6, 4)] = _a6_4;
-        matrix[(6, 5)] = _a6_5;
-        matrix[(6, 6)] = _a6_6;
-        matrix[(6, 7)] = _a6_7;
-        matrix[(7, 0)] = _a7_0;
-        matrix[(7, 1)] = _a7_1;
-        matrix[(7, 2)] = _a7_2;
-        matrix[(7, 3)] = _a7_3;
-        matrix[(7, 4)] = _a7_4;
-        matrix[(7, 5)] = _a7_5;
-        matrix[(7, 6)] = _a7_6;
-        matrix[(7, 7)] = _a7_7;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs())
-                .max(_a6_6.abs())
-                .max(_a7_7.abs()),
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
         )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b3 = residual[3] - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
-            - factors[(3, 2)] * _b2;
-        let _b4 = residual[4] - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
-            - factors[(4, 2)] * _b2 - factors[(4, 3)] * _b3;
-        let _b5 = residual[5] - factors[(5, 0)] * _b0 - factors[(5, 1)] * _b1
-            - factors[(5, 2)] * _b2 - factors[(5, 3)] * _b3 - factors[(5, 4)] * _b4;
-        let _b6 = residual[6] - factors[(6, 0)] * _b0 - factors[(6, 1)] * _b1
-            - factors[(6, 2)] * _b2 - factors[(6, 3)] * _b3 - factors[(6, 4)] * _b4
-            - factors[(6, 5)] * _b5;
-        let _b7 = residual[7] - factors[(7, 0)] * _b0 - factors[(7, 1)] * _b1
-            - factors[(7, 2)] * _b2 - factors[(7, 3)] * _b3 - factors[(7, 4)] * _b4
-            - factors[(7, 5)] * _b5 - factors[(7, 6)] * _b6;
-        let _b7 = _b7 * factors[(7, 7)];
-        let _b6 = (_b6 - factors[(6, 7)] * _b7) * factors[(6, 6)];
-        let _b5 = (_b5 - factors[(5, 6)] * _b6 - factors[(5, 7)] * _b7)
-            * factors[(5, 5)];
-        let _b4 = (_b4 - factors[(4, 5)] * _b5 - factors[(4, 6)] * _b6
-            - factors[(4, 7)] * _b7) * factors[(4, 4)];
-        let _b3 = (_b3 - factors[(3, 4)] * _b4 - factors[(3, 5)] * _b5
-            - factors[(3, 6)] * _b6 - factors[(3, 7)] * _b7) * factors[(3, 3)];
-        let _b2 = (_b2 - factors[(2, 3)] * _b3 - factors[(2, 4)] * _b4
-            - factors[(2, 5)] * _b5 - factors[(2, 6)] * _b6 - factors[(2, 7)] * _b7)
-            * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2 - factors[(1, 3)] * _b3
-            - factors[(1, 4)] * _b4 - factors[(1, 5)] * _b5 - factors[(1, 6)] * _b6
-            - factors[(1, 7)] * _b7) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2
-            - factors[(0, 3)] * _b3 - factors[(0, 4)] * _b4 - factors[(0, 5)] * _b5
-            - factors[(0, 6)] * _b6 - factors[(0, 7)] * _b7) * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-        residual[3] = _b3;
-        residual[4] = _b4;
-        residual[5] = _b5;
-        residual[6] = _b6;
-        residual[7] = _b7;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<
-    S,
-    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
-> for Su3QuadraticSystem<S> {
-    type Equation<'a> = Su3QuadraticExpMidpoint<'a, S> where Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
-        h: S,
-    ) -> Su3QuadraticExpMidpoint<'a, S> {
-        Su3QuadraticExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
     }
 }
 
 /// Elimination of 8 rows in a fixed order, 0 entries of fill-in: 232 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
-pub struct Su3QuadraticElimination1;
+pub struct Su3QuadraticExpMidpointElimination;
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::__private::FixedElimination<
     S,
     ::lie_runtime::__private::SMatrix<S, 8, 8>,
     ::lie_runtime::__private::SVector<S, 8>,
-> for Su3QuadraticElimination1 {
+> for Su3QuadraticExpMidpointElimination {
     #[inline]
     fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 8, 8>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
@@ -2707,6 +2168,29 @@ impl<
 
 impl<
     S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for Su3QuadraticSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpMidpoint<'a, S, Su3QuadraticSystem<S>>,
+        Su3QuadraticExpMidpointElimination,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::ExpMidpoint::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez>
 for Su3QuadraticSystem<S> {
     type Equation<'a> = Su3QuadraticMidpoint<'a, S> where Self: 'a;
@@ -2729,10 +2213,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            Su3QuadraticSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, Su3QuadraticSystem<S>>,
         >,
-        Su3QuadraticElimination1,
+        Su3QuadraticExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2771,10 +2255,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            Su3QuadraticSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, Su3QuadraticSystem<S>>,
         >,
-        Su3QuadraticElimination1,
+        Su3QuadraticExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2812,10 +2296,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            Su3QuadraticSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, Su3QuadraticSystem<S>>,
         >,
-        Su3QuadraticElimination1,
+        Su3QuadraticExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -2848,13 +2332,20 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for Su3QuadraticSystem<S> {
-    type Equation<'a> = Su3QuadraticGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, Su3QuadraticSystem<S>, 2>,
+        Su3QuadraticGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        Su3QuadraticGauss4(::lie_runtime::generic::Gauss::new(self, h))
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
@@ -2862,481 +2353,20 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for Su3QuadraticSystem<S> {
-    type Equation<'a> = Su3QuadraticGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, Su3QuadraticSystem<S>, 3>,
+        Su3QuadraticGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<3>,
         h: S,
     ) -> Self::Equation<'a> {
-        Su3QuadraticGauss6(::lie_runtime::generic::Gauss::new(self, h))
-    }
-}
-
-/// The collective Gauss method of order 2, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-#[allow(clippy::type_complexity)]
-pub struct Su3QuadraticIsospectral2<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            1,
-        >,
-        1,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for Su3QuadraticIsospectral2<'a, S> {
-    type State = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            1,
-        >,
-        1,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            1,
-        >,
-        1,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::StageMomenta<
-        'a,
-        S,
-        Su3QuadraticSystem<S>,
-        ::lie_runtime::generic::MatrixStages<
-            S,
-            <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
-            1,
-        >,
-        1,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 232 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix.0[0][0][(0, 3)];
-        let _a1_3 = matrix.0[0][0][(1, 3)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix.0[0][0][(0, 4)];
-        let _a1_4 = matrix.0[0][0][(1, 4)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a0_5 = matrix.0[0][0][(0, 5)];
-        let _a1_5 = matrix.0[0][0][(1, 5)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a0_6 = matrix.0[0][0][(0, 6)];
-        let _a1_6 = matrix.0[0][0][(1, 6)];
-        let _a1_6 = _a1_6 - _a1_0 * _a0_6;
-        let _a0_7 = matrix.0[0][0][(0, 7)];
-        let _a1_7 = matrix.0[0][0][(1, 7)];
-        let _a1_7 = _a1_7 - _a1_0 * _a0_7;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix.0[0][0][(2, 3)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix.0[0][0][(2, 4)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = matrix.0[0][0][(2, 5)];
-        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
-        let _a2_6 = matrix.0[0][0][(2, 6)];
-        let _a2_6 = _a2_6 - _a2_0 * _a0_6;
-        let _a2_7 = matrix.0[0][0][(2, 7)];
-        let _a2_7 = _a2_7 - _a2_0 * _a0_7;
-        let _a3_0 = matrix.0[0][0][(3, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix.0[0][0][(3, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix.0[0][0][(3, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix.0[0][0][(3, 3)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix.0[0][0][(3, 4)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a3_5 = matrix.0[0][0][(3, 5)];
-        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
-        let _a3_6 = matrix.0[0][0][(3, 6)];
-        let _a3_6 = _a3_6 - _a3_0 * _a0_6;
-        let _a3_7 = matrix.0[0][0][(3, 7)];
-        let _a3_7 = _a3_7 - _a3_0 * _a0_7;
-        let _a4_0 = matrix.0[0][0][(4, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix.0[0][0][(4, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix.0[0][0][(4, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix.0[0][0][(4, 3)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix.0[0][0][(4, 4)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix.0[0][0][(4, 5)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a4_6 = matrix.0[0][0][(4, 6)];
-        let _a4_6 = _a4_6 - _a4_0 * _a0_6;
-        let _a4_7 = matrix.0[0][0][(4, 7)];
-        let _a4_7 = _a4_7 - _a4_0 * _a0_7;
-        let _a5_0 = matrix.0[0][0][(5, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix.0[0][0][(5, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = matrix.0[0][0][(5, 2)];
-        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
-        let _a5_3 = matrix.0[0][0][(5, 3)];
-        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
-        let _a5_4 = matrix.0[0][0][(5, 4)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix.0[0][0][(5, 5)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a5_6 = matrix.0[0][0][(5, 6)];
-        let _a5_6 = _a5_6 - _a5_0 * _a0_6;
-        let _a5_7 = matrix.0[0][0][(5, 7)];
-        let _a5_7 = _a5_7 - _a5_0 * _a0_7;
-        let _a6_0 = matrix.0[0][0][(6, 0)];
-        let _a6_0 = _a6_0 * _a0_0;
-        let _a6_1 = matrix.0[0][0][(6, 1)];
-        let _a6_1 = _a6_1 - _a6_0 * _a0_1;
-        let _a6_2 = matrix.0[0][0][(6, 2)];
-        let _a6_2 = _a6_2 - _a6_0 * _a0_2;
-        let _a6_3 = matrix.0[0][0][(6, 3)];
-        let _a6_3 = _a6_3 - _a6_0 * _a0_3;
-        let _a6_4 = matrix.0[0][0][(6, 4)];
-        let _a6_4 = _a6_4 - _a6_0 * _a0_4;
-        let _a6_5 = matrix.0[0][0][(6, 5)];
-        let _a6_5 = _a6_5 - _a6_0 * _a0_5;
-        let _a6_6 = matrix.0[0][0][(6, 6)];
-        let _a6_6 = _a6_6 - _a6_0 * _a0_6;
-        let _a6_7 = matrix.0[0][0][(6, 7)];
-        let _a6_7 = _a6_7 - _a6_0 * _a0_7;
-        let _a7_0 = matrix.0[0][0][(7, 0)];
-        let _a7_0 = _a7_0 * _a0_0;
-        let _a7_1 = matrix.0[0][0][(7, 1)];
-        let _a7_1 = _a7_1 - _a7_0 * _a0_1;
-        let _a7_2 = matrix.0[0][0][(7, 2)];
-        let _a7_2 = _a7_2 - _a7_0 * _a0_2;
-        let _a7_3 = matrix.0[0][0][(7, 3)];
-        let _a7_3 = _a7_3 - _a7_0 * _a0_3;
-        let _a7_4 = matrix.0[0][0][(7, 4)];
-        let _a7_4 = _a7_4 - _a7_0 * _a0_4;
-        let _a7_5 = matrix.0[0][0][(7, 5)];
-        let _a7_5 = _a7_5 - _a7_0 * _a0_5;
-        let _a7_6 = matrix.0[0][0][(7, 6)];
-        let _a7_6 = _a7_6 - _a7_0 * _a0_6;
-        let _a7_7 = matrix.0[0][0][(7, 7)];
-        let _a7_7 = _a7_7 - _a7_0 * _a0_7;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a2_6 = _a2_6 - _a2_1 * _a1_6;
-        let _a2_7 = _a2_7 - _a2_1 * _a1_7;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a3_6 = _a3_6 - _a3_1 * _a1_6;
-        let _a3_7 = _a3_7 - _a3_1 * _a1_7;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a4_6 = _a4_6 - _a4_1 * _a1_6;
-        let _a4_7 = _a4_7 - _a4_1 * _a1_7;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a5_6 = _a5_6 - _a5_1 * _a1_6;
-        let _a5_7 = _a5_7 - _a5_1 * _a1_7;
-        let _a6_1 = _a6_1 * _a1_1;
-        let _a6_2 = _a6_2 - _a6_1 * _a1_2;
-        let _a6_3 = _a6_3 - _a6_1 * _a1_3;
-        let _a6_4 = _a6_4 - _a6_1 * _a1_4;
-        let _a6_5 = _a6_5 - _a6_1 * _a1_5;
-        let _a6_6 = _a6_6 - _a6_1 * _a1_6;
-        let _a6_7 = _a6_7 - _a6_1 * _a1_7;
-        let _a7_1 = _a7_1 * _a1_1;
-        let _a7_2 = _a7_2 - _a7_1 * _a1_2;
-        let _a7_3 = _a7_3 - _a7_1 * _a1_3;
-        let _a7_4 = _a7_4 - _a7_1 * _a1_4;
-        let _a7_5 = _a7_5 - _a7_1 * _a1_5;
-        let _a7_6 = _a7_6 - _a7_1 * _a1_6;
-        let _a7_7 = _a7_7 - _a7_1 * _a1_7;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a3_6 = _a3_6 - _a3_2 * _a2_6;
-        let _a3_7 = _a3_7 - _a3_2 * _a2_7;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a4_6 = _a4_6 - _a4_2 * _a2_6;
-        let _a4_7 = _a4_7 - _a4_2 * _a2_7;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a5_6 = _a5_6 - _a5_2 * _a2_6;
-        let _a5_7 = _a5_7 - _a5_2 * _a2_7;
-        let _a6_2 = _a6_2 * _a2_2;
-        let _a6_3 = _a6_3 - _a6_2 * _a2_3;
-        let _a6_4 = _a6_4 - _a6_2 * _a2_4;
-        let _a6_5 = _a6_5 - _a6_2 * _a2_5;
-        let _a6_6 = _a6_6 - _a6_2 * _a2_6;
-        let _a6_7 = _a6_7 - _a6_2 * _a2_7;
-        let _a7_2 = _a7_2 * _a2_2;
-        let _a7_3 = _a7_3 - _a7_2 * _a2_3;
-        let _a7_4 = _a7_4 - _a7_2 * _a2_4;
-        let _a7_5 = _a7_5 - _a7_2 * _a2_5;
-        let _a7_6 = _a7_6 - _a7_2 * _a2_6;
-        let _a7_7 = _a7_7 - _a7_2 * _a2_7;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a4_6 = _a4_6 - _a4_3 * _a3_6;
-        let _a4_7 = _a4_7 - _a4_3 * _a3_7;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a5_6 = _a5_6 - _a5_3 * _a3_6;
-        let _a5_7 = _a5_7 - _a5_3 * _a3_7;
-        let _a6_3 = _a6_3 * _a3_3;
-        let _a6_4 = _a6_4 - _a6_3 * _a3_4;
-        let _a6_5 = _a6_5 - _a6_3 * _a3_5;
-        let _a6_6 = _a6_6 - _a6_3 * _a3_6;
-        let _a6_7 = _a6_7 - _a6_3 * _a3_7;
-        let _a7_3 = _a7_3 * _a3_3;
-        let _a7_4 = _a7_4 - _a7_3 * _a3_4;
-        let _a7_5 = _a7_5 - _a7_3 * _a3_5;
-        let _a7_6 = _a7_6 - _a7_3 * _a3_6;
-        let _a7_7 = _a7_7 - _a7_3 * _a3_7;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_6 = _a5_6 - _a5_4 * _a4_6;
-        let _a5_7 = _a5_7 - _a5_4 * _a4_7;
-        let _a6_4 = _a6_4 * _a4_4;
-        let _a6_5 = _a6_5 - _a6_4 * _a4_5;
-        let _a6_6 = _a6_6 - _a6_4 * _a4_6;
-        let _a6_7 = _a6_7 - _a6_4 * _a4_7;
-        let _a7_4 = _a7_4 * _a4_4;
-        let _a7_5 = _a7_5 - _a7_4 * _a4_5;
-        let _a7_6 = _a7_6 - _a7_4 * _a4_6;
-        let _a7_7 = _a7_7 - _a7_4 * _a4_7;
-        let _a5_5 = S::one() / _a5_5;
-        let _a6_5 = _a6_5 * _a5_5;
-        let _a6_6 = _a6_6 - _a6_5 * _a5_6;
-        let _a6_7 = _a6_7 - _a6_5 * _a5_7;
-        let _a7_5 = _a7_5 * _a5_5;
-        let _a7_6 = _a7_6 - _a7_5 * _a5_6;
-        let _a7_7 = _a7_7 - _a7_5 * _a5_7;
-        let _a6_6 = S::one() / _a6_6;
-        let _a7_6 = _a7_6 * _a6_6;
-        let _a7_7 = _a7_7 - _a7_6 * _a6_7;
-        let _a7_7 = S::one() / _a7_7;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][0][(1, 3)] = _a1_3;
-        matrix.0[0][0][(1, 4)] = _a1_4;
-        matrix.0[0][0][(1, 5)] = _a1_5;
-        matrix.0[0][0][(1, 6)] = _a1_6;
-        matrix.0[0][0][(1, 7)] = _a1_7;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        matrix.0[0][0][(2, 3)] = _a2_3;
-        matrix.0[0][0][(2, 4)] = _a2_4;
-        matrix.0[0][0][(2, 5)] = _a2_5;
-        matrix.0[0][0][(2, 6)] = _a2_6;
-        matrix.0[0][0][(2, 7)] = _a2_7;
-        matrix.0[0][0][(3, 0)] = _a3_0;
-        matrix.0[0][0][(3, 1)] = _a3_1;
-        matrix.0[0][0][(3, 2)] = _a3_2;
-        matrix.0[0][0][(3, 3)] = _a3_3;
-        matrix.0[0][0][(3, 4)] = _a3_4;
-        matrix.0[0][0][(3, 5)] = _a3_5;
-        matrix.0[0][0][(3, 6)] = _a3_6;
-        matrix.0[0][0][(3, 7)] = _a3_7;
-        matrix.0[0][0][(4, 0)] = _a4_0;
-        matrix.0[0][0][(4, 1)] = _a4_1;
-        matrix.0[0][0][(4, 2)] = _a4_2;
-        matrix.0[0][0][(4, 3)] = _a4_3;
-        matrix.0[0][0][(4, 4)] = _a4_4;
-        matrix.0[0][0][(4, 5)] = _a4_5;
-        matrix.0[0][0][(4, 6)] = _a4_6;
-        matrix.0[0][0][(4, 7)] = _a4_7;
-        matrix.0[0][0][(5, 0)] = _a5_0;
-        matrix.0[0][0][(5, 1)] = _a5_1;
-        matrix.0[0][0][(5, 2)] = _a5_2;
-        matrix.0[0][0][(5, 3)] = _a5_3;
-        matrix.0[0][0][(5, 4)] = _a5_4;
-        matrix.0[0][0][(5, 5)] = _a5_5;
-        matrix.0[0][0][(5, 6)] = _a5_6;
-        matrix.0[0][0][(5, 7)] = _a5_7;
-        matrix.0[0][0][(6, 0)] = _a6_0;
-        matrix.0[0][0][(6, 1)] = _a6_1;
-        matrix.0[0][0][(6, 2)] = _a6_2;
-        matrix.0[0][0][(6, 3)] = _a6_3;
-        matrix.0[0][0][(6, 4)] = _a6_4;
-        matrix.0[0][0][(6, 5)] = _a6_5;
-        matrix.0[0][0][(6, 6)] = _a6_6;
-        matrix.0[0][0][(6, 7)] = _a6_7;
-        matrix.0[0][0][(7, 0)] = _a7_0;
-        matrix.0[0][0][(7, 1)] = _a7_1;
-        matrix.0[0][0][(7, 2)] = _a7_2;
-        matrix.0[0][0][(7, 3)] = _a7_3;
-        matrix.0[0][0][(7, 4)] = _a7_4;
-        matrix.0[0][0][(7, 5)] = _a7_5;
-        matrix.0[0][0][(7, 6)] = _a7_6;
-        matrix.0[0][0][(7, 7)] = _a7_7;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs())
-                .max(_a6_6.abs())
-                .max(_a7_7.abs()),
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
         )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = residual.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][0][(2, 1)] * _b1;
-        let _b3 = residual.0[0][3] - factors.0[0][0][(3, 0)] * _b0
-            - factors.0[0][0][(3, 1)] * _b1 - factors.0[0][0][(3, 2)] * _b2;
-        let _b4 = residual.0[0][4] - factors.0[0][0][(4, 0)] * _b0
-            - factors.0[0][0][(4, 1)] * _b1 - factors.0[0][0][(4, 2)] * _b2
-            - factors.0[0][0][(4, 3)] * _b3;
-        let _b5 = residual.0[0][5] - factors.0[0][0][(5, 0)] * _b0
-            - factors.0[0][0][(5, 1)] * _b1 - factors.0[0][0][(5, 2)] * _b2
-            - factors.0[0][0][(5, 3)] * _b3 - factors.0[0][0][(5, 4)] * _b4;
-        let _b6 = residual.0[0][6] - factors.0[0][0][(6, 0)] * _b0
-            - factors.0[0][0][(6, 1)] * _b1 - factors.0[0][0][(6, 2)] * _b2
-            - factors.0[0][0][(6, 3)] * _b3 - factors.0[0][0][(6, 4)] * _b4
-            - factors.0[0][0][(6, 5)] * _b5;
-        let _b7 = residual.0[0][7] - factors.0[0][0][(7, 0)] * _b0
-            - factors.0[0][0][(7, 1)] * _b1 - factors.0[0][0][(7, 2)] * _b2
-            - factors.0[0][0][(7, 3)] * _b3 - factors.0[0][0][(7, 4)] * _b4
-            - factors.0[0][0][(7, 5)] * _b5 - factors.0[0][0][(7, 6)] * _b6;
-        let _b7 = _b7 * factors.0[0][0][(7, 7)];
-        let _b6 = (_b6 - factors.0[0][0][(6, 7)] * _b7) * factors.0[0][0][(6, 6)];
-        let _b5 = (_b5 - factors.0[0][0][(5, 6)] * _b6 - factors.0[0][0][(5, 7)] * _b7)
-            * factors.0[0][0][(5, 5)];
-        let _b4 = (_b4 - factors.0[0][0][(4, 5)] * _b5 - factors.0[0][0][(4, 6)] * _b6
-            - factors.0[0][0][(4, 7)] * _b7) * factors.0[0][0][(4, 4)];
-        let _b3 = (_b3 - factors.0[0][0][(3, 4)] * _b4 - factors.0[0][0][(3, 5)] * _b5
-            - factors.0[0][0][(3, 6)] * _b6 - factors.0[0][0][(3, 7)] * _b7)
-            * factors.0[0][0][(3, 3)];
-        let _b2 = (_b2 - factors.0[0][0][(2, 3)] * _b3 - factors.0[0][0][(2, 4)] * _b4
-            - factors.0[0][0][(2, 5)] * _b5 - factors.0[0][0][(2, 6)] * _b6
-            - factors.0[0][0][(2, 7)] * _b7) * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2 - factors.0[0][0][(1, 3)] * _b3
-            - factors.0[0][0][(1, 4)] * _b4 - factors.0[0][0][(1, 5)] * _b5
-            - factors.0[0][0][(1, 6)] * _b6 - factors.0[0][0][(1, 7)] * _b7)
-            * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2
-            - factors.0[0][0][(0, 3)] * _b3 - factors.0[0][0][(0, 4)] * _b4
-            - factors.0[0][0][(0, 5)] * _b5 - factors.0[0][0][(0, 6)] * _b6
-            - factors.0[0][0][(0, 7)] * _b7) * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[0][3] = _b3;
-        residual.0[0][4] = _b4;
-        residual.0[0][5] = _b5;
-        residual.0[0][6] = _b6;
-        residual.0[0][7] = _b7;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
     }
 }
 
@@ -3344,13 +2374,30 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<1>>
 for Su3QuadraticSystem<S> {
-    type Equation<'a> = Su3QuadraticIsospectral2<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::StageMomenta<
+            'a,
+            S,
+            Su3QuadraticSystem<S>,
+            ::lie_runtime::generic::MatrixStages<
+                S,
+                <Su3QuadraticSystem<S> as ::lie_runtime::MatrixPoisson<S>>::Matrix,
+                1,
+            >,
+            1,
+        >,
+        Su3QuadraticExpMidpointElimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Isospectral<1>,
         h: S,
-    ) -> Su3QuadraticIsospectral2<'a, S> {
-        Su3QuadraticIsospectral2(::lie_runtime::generic::StageMomenta::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::StageMomenta::new(self, h),
+        )
     }
 }
 

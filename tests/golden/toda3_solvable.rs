@@ -539,69 +539,28 @@ for TodaLatticeSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::ImplicitMidpoint,
         h: S,
-    ) -> TodaLatticeMidpoint<'a, S> {
+    ) -> Self::Equation<'a> {
         TodaLatticeMidpoint::new(self, h)
     }
 }
 
-/// Gauss collocation of order 4 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct TodaLatticeGauss4<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, TodaLatticeSystem<S>, 2>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for TodaLatticeGauss4<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        2,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 10 rows in a fixed order, 2 entries of fill-in: 110 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct TodaLatticeGauss4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 5, 5>, 2>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 5>, 2>,
+> for TodaLatticeGauss4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 2 entries of fill-in: 110 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 5, 5>,
+            2,
+        >,
+    ) -> S::Mask {
         let _a0_0 = matrix.0[0][0][(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a3_0 = matrix.0[0][0][(3, 0)];
@@ -772,23 +731,32 @@ for TodaLatticeGauss4<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual.0[0][0];
-        let _b2 = residual.0[0][2];
-        let _b5 = residual.0[1][0];
-        let _b7 = residual.0[1][2];
-        let _b3 = residual.0[0][3] - factors.0[0][0][(3, 0)] * _b0
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 5, 5>,
+            2,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 5>,
+            2,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b2 = vector.0[0][2];
+        let _b5 = vector.0[1][0];
+        let _b7 = vector.0[1][2];
+        let _b3 = vector.0[0][3] - factors.0[0][0][(3, 0)] * _b0
             - factors.0[0][1][(3, 0)] * _b5;
-        let _b8 = residual.0[1][3] - factors.0[1][0][(3, 0)] * _b0
+        let _b8 = vector.0[1][3] - factors.0[1][0][(3, 0)] * _b0
             - factors.0[1][1][(3, 0)] * _b5 - factors.0[1][0][(3, 3)] * _b3;
-        let _b1 = residual.0[0][1] - factors.0[0][0][(1, 3)] * _b3
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 3)] * _b3
             - factors.0[0][1][(1, 3)] * _b8;
-        let _b4 = residual.0[0][4] - factors.0[0][0][(4, 2)] * _b2
+        let _b4 = vector.0[0][4] - factors.0[0][0][(4, 2)] * _b2
             - factors.0[0][1][(4, 2)] * _b7 - factors.0[0][0][(4, 1)] * _b1;
-        let _b6 = residual.0[1][1] - factors.0[1][0][(1, 3)] * _b3
+        let _b6 = vector.0[1][1] - factors.0[1][0][(1, 3)] * _b3
             - factors.0[1][1][(1, 3)] * _b8 - factors.0[1][0][(1, 1)] * _b1
             - factors.0[1][0][(1, 4)] * _b4;
-        let _b9 = residual.0[1][4] - factors.0[1][0][(4, 2)] * _b2
+        let _b9 = vector.0[1][4] - factors.0[1][0][(4, 2)] * _b2
             - factors.0[1][1][(4, 2)] * _b7 - factors.0[1][0][(4, 1)] * _b1
             - factors.0[1][0][(4, 4)] * _b4 - factors.0[1][1][(4, 1)] * _b6;
         let _b9 = _b9 * factors.0[1][1][(4, 4)];
@@ -809,59 +777,43 @@ for TodaLatticeGauss4<'a, S> {
             * factors.0[0][0][(2, 2)];
         let _b0 = (_b0 - factors.0[0][0][(0, 3)] * _b3 - factors.0[0][1][(0, 3)] * _b8)
             * factors.0[0][0][(0, 0)];
-        residual.0[0][0] = _b0;
-        residual.0[0][1] = _b1;
-        residual.0[0][2] = _b2;
-        residual.0[0][3] = _b3;
-        residual.0[0][4] = _b4;
-        residual.0[1][0] = _b5;
-        residual.0[1][1] = _b6;
-        residual.0[1][2] = _b7;
-        residual.0[1][3] = _b8;
-        residual.0[1][4] = _b9;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+        vector.0[0][3] = _b3;
+        vector.0[0][4] = _b4;
+        vector.0[1][0] = _b5;
+        vector.0[1][1] = _b6;
+        vector.0[1][2] = _b7;
+        vector.0[1][3] = _b8;
+        vector.0[1][4] = _b9;
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for TodaLatticeSystem<S> {
-    type Equation<'a> = TodaLatticeGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, TodaLatticeSystem<S>, 2>,
+        TodaLatticeGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss4,
         h: S,
-    ) -> TodaLatticeGauss4<'a, S> {
-        TodaLatticeGauss4(::lie_runtime::generic::Gauss::new(self, h))
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
-/// Gauss collocation of order 6 with elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct TodaLatticeGauss6<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::Gauss<'a, S, TodaLatticeSystem<S>, 3>,
-);
-impl<S: ::lie_runtime::Scalar> TodaLatticeGauss6<'_, S> {
-    const ELIMINATION: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+/// Elimination of 15 rows in a fixed order, 6 entries of fill-in: 309 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct TodaLatticeGauss6Elimination;
+impl TodaLatticeGauss6Elimination {
+    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
         order: &[0, 2, 5, 7, 10, 12, 3, 8, 13, 1, 4, 6, 9, 11, 14],
         below: &[
             &[3, 8, 13],
@@ -900,286 +852,67 @@ impl<S: ::lie_runtime::Scalar> TodaLatticeGauss6<'_, S> {
     };
 }
 
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for TodaLatticeGauss6<'a, S> {
-    type State = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::Gauss<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        3,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 5, 5>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 5>, 3>,
+> for TodaLatticeGauss6Elimination {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 5, 5>,
+            3,
+        >,
+    ) -> S::Mask {
+        Self::LIST.factor(matrix)
     }
 
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 5, 5>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 5>,
+            3,
+        >,
     ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 6 entries of fill-in: 309 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        Self::ELIMINATION.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        Self::ELIMINATION.solve(factors, residual);
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        Self::LIST.solve(factors, vector);
     }
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for TodaLatticeSystem<S> {
-    type Equation<'a> = TodaLatticeGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, TodaLatticeSystem<S>, 3>,
+        TodaLatticeGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Gauss6,
         h: S,
-    ) -> TodaLatticeGauss6<'a, S> {
-        TodaLatticeGauss6(::lie_runtime::generic::Gauss::new(self, h))
-    }
-}
-
-/// The retraction method with the exponential, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct TodaLatticeExpMidpoint<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpMidpoint<'a, S, TodaLatticeSystem<S>>,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for TodaLatticeExpMidpoint<'a, S> {
-    type State = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpMidpoint<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 33 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_3 = matrix[(0, 3)];
-        let _a1_3 = matrix[(1, 3)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a3_0 = matrix[(3, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix[(3, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_3 = matrix[(3, 3)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_3 = S::one() / _a3_3;
-        let _a1_3 = _a1_3 * _a3_3;
-        let _a1_1 = _a1_1 - _a1_3 * _a3_1;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a1_2 = matrix[(1, 2)];
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a1_4 = matrix[(1, 4)];
-        let _a2_4 = matrix[(2, 4)];
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a4_1 = matrix[(4, 1)];
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = matrix[(4, 2)];
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_4 = matrix[(4, 4)];
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a2_2 = S::one() / _a2_2;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_4 = S::one() / _a4_4;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 3)] = _a1_3;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        matrix[(2, 4)] = _a2_4;
-        matrix[(3, 0)] = _a3_0;
-        matrix[(3, 1)] = _a3_1;
-        matrix[(3, 3)] = _a3_3;
-        matrix[(4, 1)] = _a4_1;
-        matrix[(4, 2)] = _a4_2;
-        matrix[(4, 4)] = _a4_4;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a3_3.abs())
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a4_4.abs()),
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
         )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b3 = residual[3] - factors[(3, 0)] * _b0;
-        let _b1 = residual[1] - factors[(1, 0)] * _b0 - factors[(1, 3)] * _b3;
-        let _b2 = residual[2] - factors[(2, 1)] * _b1;
-        let _b4 = residual[4] - factors[(4, 1)] * _b1 - factors[(4, 2)] * _b2;
-        let _b4 = _b4 * factors[(4, 4)];
-        let _b2 = (_b2 - factors[(2, 4)] * _b4) * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2 - factors[(1, 4)] * _b4)
-            * factors[(1, 1)];
-        let _b3 = (_b3 - factors[(3, 1)] * _b1) * factors[(3, 3)];
-        let _b0 = (_b0 - factors[(0, 3)] * _b3 - factors[(0, 1)] * _b1)
-            * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-        residual[3] = _b3;
-        residual[4] = _b4;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<
-    S,
-    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
-> for TodaLatticeSystem<S> {
-    type Equation<'a> = TodaLatticeExpMidpoint<'a, S> where Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
-        h: S,
-    ) -> TodaLatticeExpMidpoint<'a, S> {
-        TodaLatticeExpMidpoint(::lie_runtime::generic::ExpMidpoint::new(self, h))
     }
 }
 
 /// Elimination of 5 rows in a fixed order, 0 entries of fill-in: 33 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
-pub struct TodaLatticeElimination1;
+pub struct TodaLatticeExpMidpointElimination;
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::__private::FixedElimination<
     S,
     ::lie_runtime::__private::SMatrix<S, 5, 5>,
     ::lie_runtime::__private::SVector<S, 5>,
-> for TodaLatticeElimination1 {
+> for TodaLatticeExpMidpointElimination {
     #[inline]
     fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 5, 5>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
@@ -1270,6 +1003,29 @@ impl<
 
 impl<
     S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for TodaLatticeSystem<S> {
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpMidpoint<'a, S, TodaLatticeSystem<S>>,
+        TodaLatticeExpMidpointElimination,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::ExpMidpoint::new(self, h),
+        )
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez> for TodaLatticeSystem<S> {
     type Equation<'a> = TodaLatticeMidpoint<'a, S> where Self: 'a;
     fn equation<'a>(
@@ -1291,10 +1047,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            TodaLatticeSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, TodaLatticeSystem<S>>,
         >,
-        TodaLatticeElimination1,
+        TodaLatticeExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1333,10 +1089,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            TodaLatticeSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, TodaLatticeSystem<S>>,
         >,
-        TodaLatticeElimination1,
+        TodaLatticeExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1374,10 +1130,10 @@ impl<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
-            Self,
-            ::lie_runtime::generic::MeanValueGradient<S, Self>,
+            TodaLatticeSystem<S>,
+            ::lie_runtime::generic::MeanValueGradient<S, TodaLatticeSystem<S>>,
         >,
-        TodaLatticeElimination1,
+        TodaLatticeExpMidpointElimination,
     >
     where
         Self: 'a;
@@ -1410,13 +1166,20 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for TodaLatticeSystem<S> {
-    type Equation<'a> = TodaLatticeGauss4<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, TodaLatticeSystem<S>, 2>,
+        TodaLatticeGauss4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        TodaLatticeGauss4(::lie_runtime::generic::Gauss::new(self, h))
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 
@@ -1424,13 +1187,20 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for TodaLatticeSystem<S> {
-    type Equation<'a> = TodaLatticeGauss6<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::Gauss<'a, S, TodaLatticeSystem<S>, 3>,
+        TodaLatticeGauss6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::CohenHairer<3>,
         h: S,
     ) -> Self::Equation<'a> {
-        TodaLatticeGauss6(::lie_runtime::generic::Gauss::new(self, h))
+        ::lie_runtime::__private::Eliminated::new(
+            ::lie_runtime::generic::Gauss::new(self, h),
+        )
     }
 }
 

@@ -21,7 +21,10 @@ use std::fmt::Write as _;
 
 use clock::Clock;
 use draw::Declaration;
-use lie_codegen::compile::{compile_spec, declared_choices, generate, source};
+use lie_codegen::compile::{compile_spec, declared_choices};
+use lie_codegen::derive::Source;
+use lie_codegen::plan::plan;
+use lie_codegen::print::{Surface, print};
 use lie_codegen::schedule::Counts;
 
 /// What a declaration cost.
@@ -90,11 +93,12 @@ fn measure(declaration: &Declaration) -> Cost {
     };
     let choices = declared_choices(&model);
     let clock = Clock::start();
-    let emitted = generate(&model, &choices);
+    let plan = plan(&model, &choices);
+    let items = print(&plan, &Surface::of(&model));
     cost.generate = clock.seconds();
-    cost.operations = emitted.counts.iter().map(|(_, c)| c.weight()).sum();
+    cost.operations = plan.counts().iter().map(|(_, c)| c.weight()).sum();
     let clock = Clock::start();
-    if let Ok(file) = syn::parse2(emitted.tokens) {
+    if let Ok(file) = syn::parse2(items) {
         drop(prettyplease::unparse(&file));
     }
     cost.format = clock.seconds();
@@ -106,7 +110,7 @@ fn dissect(cost: &mut Cost) -> Vec<KernelCost> {
     let Ok(model) = compile_spec(&cost.text) else {
         return Vec::new();
     };
-    let mut source = source(&model);
+    let mut source = Source::of(&model);
     let mut kernels = source.basic_kernels();
     kernels.extend(source.midpoint_kernels());
     let mut costs = Vec::new();

@@ -7,7 +7,7 @@ use crate::schedule::{Known, Program, Task, schedule, schedule_beside};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// A vector argument and the symbols of its entries.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Argument {
     /// Its name in the signature.
     pub name: &'static str,
@@ -23,7 +23,7 @@ impl Argument {
 }
 
 /// What a kernel writes.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Shape {
     /// Returns one scalar.
     Scalar,

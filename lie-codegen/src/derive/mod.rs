@@ -11,6 +11,7 @@ mod lagrangian;
 mod poisson;
 mod realization;
 mod second_kind;
+mod source;
 mod spherical;
 mod splitting;
 mod tape;
@@ -18,60 +19,13 @@ mod tape;
 pub use generating::{Function, Generating};
 pub use kernel::{Argument, Kernel, Shape};
 pub use realization::Realization;
+pub use source::Source;
 pub use splitting::{PieceKernel, Update};
 pub(crate) use tape::{Tangents, Tape};
 
-use crate::algebra::{Representation, TripleEntry};
-use crate::structure::group::Group;
-use crate::structure::inertia::Body;
-use crate::structure::one_parameter::Block as OneParameter;
-use crate::structure::separable::Piece;
-use crate::structure::spins::Spin;
-use crate::symbolic::{ExprId, Graph, Symbol};
+use crate::symbolic::{ExprId, Symbol};
 use crate::trace::{self, Formulas};
 use lie_core::generic;
-
-/// What the kernels are derived from.
-#[derive(Clone, Debug)]
-pub struct Source {
-    /// The arena of all expressions.
-    pub graph: Graph,
-    /// Number of coordinates n.
-    pub dimension: usize,
-    /// Structure constants `(i, j, k, C_ij^k)` with `i < j`; none where the bracket is another one.
-    pub constants: Vec<(usize, usize, usize, ExprId)>,
-    /// The entries `(i, j, Pi_ij)`, `i < j`, of a Poisson matrix that is not that of a Lie algebra alone.
-    pub poisson: Option<Vec<(usize, usize, ExprId)>>,
-    /// The Hamiltonian, if it is an expression in mu; else that of the Lagrangian, by Newton's iteration.
-    pub hamiltonian: Option<ExprId>,
-    /// The Lagrangian, in the symbols of an element of the algebra.
-    pub lagrangian: Option<ExprId>,
-    /// The discrete Lagrangian, in the same symbols and the step size.
-    pub discrete: Option<ExprId>,
-    /// The energy: the Hamiltonian, of a system that depends on the time without the momentum of the time.
-    pub energy: ExprId,
-    /// The number of momenta of a system on `T*G`, which are its first coordinates.
-    pub momenta: Option<usize>,
-    /// The Casimirs.
-    pub casimirs: Vec<ExprId>,
-    /// The triple product `(a, b, c, d, T_abc^d)`, all nonzero entries, where the declared
-    /// representation is closed under it.
-    pub triple: Option<Vec<TripleEntry>>,
-    /// The coordinate pieces of H, if it is a sum of functions of one coordinate each.
-    pub pieces: Option<Vec<Piece>>,
-    /// The declared realization.
-    pub realization: Option<Realization>,
-    /// The representation, where it carries collective methods.
-    pub matrices: Option<Representation>,
-    /// The group of the declared matrices, where it is not part of the state.
-    pub group: Option<Group>,
-    /// The summands of a direct sum of algebras so(3).
-    pub spins: Option<Vec<Spin>>,
-    /// The free rigid body that the system is.
-    pub body: Option<Body>,
-    /// The closed form of `exp(s ad*_(e_i))` for each basis element, where a method needs them.
-    pub actions: Option<Vec<Option<Vec<OneParameter>>>>,
-}
 
 /// Vector arguments of kernels besides the state; each has n symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,31 +56,6 @@ impl Block {
 }
 
 impl Source {
-    /// A source without anything in it.
-    pub fn empty(mut graph: Graph) -> Self {
-        let hamiltonian = graph.integer(0);
-        Self {
-            graph,
-            dimension: 0,
-            constants: Vec::new(),
-            poisson: None,
-            hamiltonian: Some(hamiltonian),
-            lagrangian: None,
-            discrete: None,
-            energy: hamiltonian,
-            momenta: None,
-            group: None,
-            casimirs: Vec::new(),
-            triple: None,
-            pieces: None,
-            realization: None,
-            matrices: None,
-            spins: None,
-            body: None,
-            actions: None,
-        }
-    }
-
     pub(crate) fn coordinates(&mut self) -> Vec<ExprId> {
         (0..self.dimension)
             .map(|i| self.graph.symbol(Symbol::Coordinate(i)))

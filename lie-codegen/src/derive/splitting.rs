@@ -31,7 +31,7 @@ pub struct PieceKernel {
 }
 
 /// What is done to an entry of mu with an output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Update {
     /// It is added.
     Add,
@@ -267,7 +267,8 @@ fn hyperbolic(
 mod tests {
     use std::collections::BTreeMap;
 
-    use crate::compile::{compile_spec, source};
+    use crate::compile::compile_spec;
+    use crate::derive::Source;
     use crate::symbolic::Symbol;
 
     /// On the filiform algebra `[e1, e2] = e3, [e1, e3] = e4, [e1, e4] = e5` the flow of `mu1^2/2` has terms of the
@@ -279,7 +280,7 @@ mod tests {
                         "brackets": ["[e1, e2] = e3", "[e1, e3] = e4", "[e1, e4] = e5"]},
             "state": ["x", "y", "z", "u", "v"], "hamiltonian": "x^2/2 + y^2"}"#;
         let model = compile_spec(spec).expect("a spec without mistakes");
-        let mut source = source(&model);
+        let mut source = Source::of(&model);
         let pieces = source.splitting_kernels().expect("H is separable");
         let flow = pieces.iter().find(|piece| piece.coordinate == 0);
         let kernel = flow

@@ -1,5 +1,6 @@
 use super::*;
-use crate::compile::{compile_spec, source};
+use crate::compile::compile_spec;
+use crate::derive::Source;
 use crate::derive::{Kernel, Shape};
 use crate::symbolic::{Graph, Symbol};
 
@@ -54,7 +55,7 @@ fn check(name: &str) -> usize {
     let model = compile_spec(&text).expect("a spec without mistakes");
     let parameters = model.defaults();
     let judge = Judge::of_spec(&text, &model, &parameters).expect("a declaration");
-    let mut source = source(&model);
+    let mut source = Source::of(&model);
     let kernels = source.basic_kernels();
     let initial = model.initial_values(&parameters).expect("an initial state");
     let n = initial.len();

@@ -6,7 +6,7 @@ use super::{CATALOGUE, find};
 use crate::suggest::did_you_mean;
 
 /// A method with its options. Numbers are orders, except where stages are said.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Choice {
     /// `midpoint`

@@ -1,12 +1,62 @@
 //! The value of a method in the runtime, as Rust.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Choice;
 use super::options::{Gradient, Lift, Retraction, Scheme, Tensor};
 
 impl Choice {
+    /// The type of a method in the runtime whose equation a plan may have code for.
+    pub(crate) fn type_of(&self) -> TokenStream {
+        let of = |name: &str, parameters: TokenStream| {
+            let name = format_ident!("{name}");
+            quote! { ::lie_runtime::methods::#name #parameters }
+        };
+        let stages = |order: u32| Literal::u32_unsuffixed(order / 2);
+        match self {
+            Self::Gauss(stages) => of(&format!("Gauss{}", 2 * stages), quote! {}),
+            Self::LieMidpoint(retraction) => {
+                let tau = type_of_retraction(*retraction);
+                of("LieMidpoint", quote! { <::lie_runtime::methods::#tau> })
+            }
+            Self::DiscreteGradient(gradient, _) => of(&type_of(*gradient).to_string(), quote! {}),
+            Self::OrbitEnergy(gradient) => {
+                let gradient = type_of(*gradient);
+                of(
+                    "OrbitEnergy",
+                    quote! { <::lie_runtime::methods::#gradient> },
+                )
+            }
+            Self::CohenHairer(order) => {
+                let stages = stages(*order);
+                of("CohenHairer", quote! { <#stages> })
+            }
+            Self::Generating(order, retraction) => {
+                let (tau, order) = (
+                    type_of_retraction(*retraction),
+                    Literal::u32_unsuffixed(*order),
+                );
+                of(
+                    "Generating",
+                    quote! { <::lie_runtime::methods::#tau, #order> },
+                )
+            }
+            Self::Isospectral(order) => {
+                let stages = stages(*order);
+                of("Isospectral", quote! { <#stages> })
+            }
+            Self::Collective(order, Lift::Hopf) => {
+                let stages = stages(*order);
+                of(
+                    "Collective",
+                    quote! { <::lie_runtime::methods::Hopf, #stages> },
+                )
+            }
+            other => other.constructor(),
+        }
+    }
+
     /// The value of the method in the runtime, as Rust; `tolerances` is in scope.
     pub fn constructor(&self) -> TokenStream {
         let method = |name: Ident| quote! { ::lie_runtime::methods::#name };
@@ -96,6 +146,13 @@ impl Choice {
 
 fn function_of(retraction: Retraction) -> Ident {
     format_ident!("{}", retraction.name())
+}
+
+fn type_of_retraction(retraction: Retraction) -> Ident {
+    match retraction {
+        Retraction::Exp => format_ident!("Exp"),
+        Retraction::Cayley => format_ident!("Cayley"),
+    }
 }
 
 fn type_of(gradient: Gradient) -> Ident {

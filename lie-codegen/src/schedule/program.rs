@@ -3,13 +3,13 @@
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Function, Symbol};
 
-/// An operand.
+/// An operand; P says what is known before the program runs.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Value {
+pub enum Value<P = ExprId> {
     /// A symbol of the kernel: a coordinate, an input.
     Symbol(Symbol),
-    /// An expression in what is known beforehand: a prepared constant.
-    Prepared(ExprId),
+    /// A prepared constant: in the arena, an expression in what is known beforehand.
+    Prepared(P),
     /// An exact number.
     Number(Rational),
     /// The result of an earlier operation.
@@ -18,23 +18,23 @@ pub enum Value {
 
 /// One operation; its result is the temporary of its position.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Operation {
+pub enum Operation<P = ExprId> {
     /// `a + b`
-    Add(Value, Value),
+    Add(Value<P>, Value<P>),
     /// `a - b`
-    Sub(Value, Value),
+    Sub(Value<P>, Value<P>),
     /// `a * b`
-    Mul(Value, Value),
+    Mul(Value<P>, Value<P>),
     /// `a / b`
-    Div(Value, Value),
+    Div(Value<P>, Value<P>),
     /// `-a`
-    Neg(Value),
+    Neg(Value<P>),
     /// The square root.
-    Sqrt(Value),
+    Sqrt(Value<P>),
     /// `a^exponent` for an exponent that is no multiple of 1/2.
-    Power(Value, Rational),
+    Power(Value<P>, Rational),
     /// A function.
-    Call(Function, Vec<Value>),
+    Call(Function, Vec<Value<P>>),
 }
 
 impl Value {
@@ -52,7 +52,13 @@ impl Operation {
     /// The operation with the temporaries at other places.
     #[must_use]
     pub fn renumbered(&self, place: &dyn Fn(usize) -> usize) -> Self {
-        let at = |value: &Value| value.clone().renumbered(place);
+        self.map(&mut |value| value.clone().renumbered(place))
+    }
+}
+
+impl<P> Operation<P> {
+    /// The operation with other operands, which are asked for in order.
+    pub fn map<Q>(&self, at: &mut dyn FnMut(&Value<P>) -> Value<Q>) -> Operation<Q> {
         match self {
             Operation::Add(a, b) => Operation::Add(at(a), at(b)),
             Operation::Sub(a, b) => Operation::Sub(at(a), at(b)),
@@ -68,7 +74,7 @@ impl Operation {
     }
 
     /// Its operands.
-    pub fn operands(&self) -> Vec<&Value> {
+    pub fn operands(&self) -> Vec<&Value<P>> {
         match self {
             Operation::Add(a, b)
             | Operation::Sub(a, b)
@@ -83,7 +89,7 @@ impl Operation {
 }
 
 /// How many operations a program has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Counts {
     /// Additions, subtractions and sign changes.
     pub add: usize,
@@ -102,7 +108,7 @@ impl Counts {
     }
 
     /// Counts one operation.
-    pub fn record(&mut self, operation: &Operation) {
+    pub fn record<P>(&mut self, operation: &Operation<P>) {
         match operation {
             Operation::Add(..) | Operation::Sub(..) | Operation::Neg(_) => self.add += 1,
             Operation::Mul(..) => self.mul += 1,
@@ -143,14 +149,54 @@ impl std::fmt::Display for Counts {
 }
 
 /// A straight-line program.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Program {
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Program<P = ExprId> {
     /// The operations, in order.
-    pub operations: Vec<Operation>,
+    pub operations: Vec<Operation<P>>,
     /// The results.
-    pub outputs: Vec<Value>,
+    pub outputs: Vec<Value<P>>,
     /// How many operations there are.
     pub counts: Counts,
+}
+
+impl<P> Default for Program<P> {
+    fn default() -> Self {
+        Self {
+            operations: Vec::new(),
+            outputs: Vec::new(),
+            counts: Counts::default(),
+        }
+    }
+}
+
+impl<P> Program<P> {
+    /// All operands and results, in order.
+    pub fn values(&self) -> impl Iterator<Item = &Value<P>> {
+        let operands = self.operations.iter().flat_map(Operation::operands);
+        operands.chain(&self.outputs)
+    }
+
+    /// Whether it reads a symbol.
+    pub fn reads(&self, symbol: Symbol) -> bool {
+        self.values()
+            .any(|value| matches!(value, Value::Symbol(read) if *read == symbol))
+    }
+
+    /// The program over other prepared constants, which are asked for in the order of their use.
+    pub fn with_prepared<Q>(&self, prepared: &mut dyn FnMut(&P) -> Q) -> Program<Q> {
+        let mut at = |value: &Value<P>| match value {
+            Value::Symbol(symbol) => Value::Symbol(*symbol),
+            Value::Prepared(constant) => Value::Prepared(prepared(constant)),
+            Value::Number(number) => Value::Number(number.clone()),
+            Value::Temporary(index) => Value::Temporary(*index),
+        };
+        let operations = self.operations.iter();
+        Program {
+            operations: operations.map(|operation| operation.map(&mut at)).collect(),
+            outputs: self.outputs.iter().map(&mut at).collect(),
+            counts: self.counts,
+        }
+    }
 }
 
 impl Program {
@@ -185,12 +231,6 @@ impl Program {
         }
         let outputs = self.outputs.iter();
         outputs.map(|output| get(output, &done)).collect()
-    }
-
-    /// All operands and results, in order.
-    pub fn values(&self) -> impl Iterator<Item = &Value> {
-        let operands = self.operations.iter().flat_map(Operation::operands);
-        operands.chain(&self.outputs)
     }
 
     /// The part of the program behind some of its results.

@@ -15,7 +15,8 @@ pub use system::{Square, SymbolicSystem};
 #[cfg(test)]
 mod tests {
     use super::{Formulas, kernels, step};
-    use crate::compile::{compile_spec, source};
+    use crate::compile::compile_spec;
+    use crate::derive::Source;
     use lie_core::generic;
 
     const SPEC: &str = r#"{
@@ -31,7 +32,7 @@ mod tests {
 
     #[test]
     fn an_equation_with_one_path_is_written_down() {
-        let mut source = source(&compile_spec(SPEC).expect("a sound spec"));
+        let mut source = Source::of(&compile_spec(SPEC).expect("a sound spec"));
         let dimension = source.dimension;
         let found = kernels(&mut source, &FORMULAS, |system, h| {
             step(generic::Midpoint::new(system, h))
@@ -45,7 +46,7 @@ mod tests {
     /// The exponential series ends by a comparison.
     #[test]
     fn an_equation_that_compares_is_refused() {
-        let mut source = source(&compile_spec(SPEC).expect("a sound spec"));
+        let mut source = Source::of(&compile_spec(SPEC).expect("a sound spec"));
         let found = kernels(&mut source, &FORMULAS, |system, h| {
             step(generic::ExpMidpoint::new(system, h))
         });

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use lie_codegen::compile::{compile_spec, source};
+use lie_codegen::compile::compile_spec;
+use lie_codegen::derive::Source;
 use lie_codegen::derive::{Kernel, Shape, Source};
 use lie_codegen::structure::separable;
 use lie_codegen::symbolic::Symbol;
@@ -21,7 +22,7 @@ pub type Arguments<'a> = &'a [(&'a str, &'a [f64])];
 impl System {
     pub fn of(name: &str, text: &str) -> Self {
         let model = compile_spec(text).expect("a sound declaration");
-        let mut source = source(&model);
+        let mut source = Source::of(&model);
         if model.is_lie_poisson() {
             source.actions = Some(separable::actions(&model));
         }

@@ -8,9 +8,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::panic::catch_unwind;
 
 use cases::Case;
-use lie_codegen::compile::{compile_spec, declared_choices, generate};
+use lie_codegen::compile::{compile_spec, declared_choices};
 use lie_codegen::diagnostic::{Diagnostic, Origin};
 use lie_codegen::front::file::oversized;
+use lie_codegen::plan::plan;
+use lie_codegen::print::{Surface, print};
 
 /// The stack that `lie` gives the compiler.
 const STACK: usize = 256 << 20;
@@ -31,8 +33,8 @@ fn verdict(case: &Case) -> Result<String, String> {
         Some(mistake) => vec![mistake],
         None => match compile_spec(&case.text) {
             Ok(model) => {
-                let emitted = generate(&model, &declared_choices(&model));
-                if emitted.counts.is_empty() {
+                let plan = plan(&model, &declared_choices(&model));
+                if plan.counts().is_empty() || print(&plan, &Surface::of(&model)).is_empty() {
                     return Err("no kernel".into());
                 }
                 readable(&model.warnings, &case.text)?;

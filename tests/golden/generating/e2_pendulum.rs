@@ -339,10 +339,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for PendulumSystem<S
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for PendulumSystem<S> {
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
-    }
-
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 4 additions, 9 multiplications.
@@ -360,6 +356,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for PendulumSyste
         out.as_mut_slice().fill(S::zero());
         out[0] = (_xi_J * (x * _eta_P1 + y * _eta_P2 + _L * _eta_J * S::ratio(2.0, 1.0))
             + _eta_J * (x * _xi_P1 + y * _xi_P2)) * S::ratio(-1.0, 2.0);
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
     }
 }
 
@@ -503,69 +503,18 @@ for PendulumGenerating4<'_, S> {
     }
 }
 
-/// The method of `S = h H + h^3 S3` in exponential coordinates, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct PendulumGenerating4Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        PendulumSystem<S>,
-        PendulumGenerating4<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for PendulumGenerating4Equation<'a, S> {
-    type State = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        PendulumSystem<S>,
-        PendulumGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        PendulumSystem<S>,
-        PendulumGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        PendulumSystem<S>,
-        PendulumGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 8 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct PendulumGenerating4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for PendulumGenerating4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 8 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
         let _a1_1 = matrix[(1, 1)];
         let _a1_1 = S::one() / _a1_1;
         let _a0_0 = matrix[(0, 0)];
@@ -586,37 +535,19 @@ for PendulumGenerating4Equation<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b1 = residual[1];
-        let _b0 = residual[0];
-        let _b2 = residual[2] - factors[(2, 0)] * _b0;
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b1 = vector[1];
+        let _b0 = vector[0];
+        let _b2 = vector[2] - factors[(2, 0)] * _b0;
         let _b2 = _b2 * factors[(2, 2)];
         let _b0 = (_b0 - factors[(0, 2)] * _b2) * factors[(0, 0)];
         let _b1 = (_b1 - factors[(1, 0)] * _b0) * factors[(1, 1)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
     }
 }
 
@@ -626,13 +557,23 @@ impl<
     S,
     ::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 4>,
 > for PendulumSystem<S> {
-    type Equation<'a> = PendulumGenerating4Equation<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpRetraction<
+            'a,
+            S,
+            PendulumSystem<S>,
+            PendulumGenerating4<'a, S>,
+        >,
+        PendulumGenerating4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 4>,
         h: S,
-    ) -> PendulumGenerating4Equation<'a, S> {
-        PendulumGenerating4Equation(
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
             ::lie_runtime::generic::ExpRetraction::with_function(
                 self,
                 PendulumGenerating4::new(self, h),
@@ -764,69 +705,18 @@ for PendulumGenerating6<'_, S> {
     }
 }
 
-/// The method of `S = h H + h^3 S3 + h^5 S5` in exponential coordinates, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct PendulumGenerating6Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        PendulumSystem<S>,
-        PendulumGenerating6<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for PendulumGenerating6Equation<'a, S> {
-    type State = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        PendulumSystem<S>,
-        PendulumGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        PendulumSystem<S>,
-        PendulumGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        PendulumSystem<S>,
-        PendulumGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct PendulumGenerating6Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for PendulumGenerating6Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -860,38 +750,20 @@ for PendulumGenerating6Equation<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
         let _b2 = _b2 * factors[(2, 2)];
         let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
         let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
             * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
     }
 }
 
@@ -901,13 +773,23 @@ impl<
     S,
     ::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 6>,
 > for PendulumSystem<S> {
-    type Equation<'a> = PendulumGenerating6Equation<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpRetraction<
+            'a,
+            S,
+            PendulumSystem<S>,
+            PendulumGenerating6<'a, S>,
+        >,
+        PendulumGenerating6Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 6>,
         h: S,
-    ) -> PendulumGenerating6Equation<'a, S> {
-        PendulumGenerating6Equation(
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
             ::lie_runtime::generic::ExpRetraction::with_function(
                 self,
                 PendulumGenerating6::new(self, h),
@@ -1097,7 +979,7 @@ for PendulumSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::GeneratingSecondKind2,
         h: S,
-    ) -> PendulumSecondKind2Equation<'a, S> {
+    ) -> Self::Equation<'a> {
         PendulumSecondKind2Equation::new(self, h)
     }
 }
@@ -1318,7 +1200,7 @@ impl<
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Cayley, 4>,
         h: S,
-    ) -> PendulumCayleyGenerating4<'a, S> {
+    ) -> Self::Equation<'a> {
         PendulumCayleyGenerating4::new(self, h)
     }
 }
@@ -1326,8 +1208,5 @@ impl<
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] PendulumSystem < S >, S : midpoint, gauss4, gauss6, exp,
     cayley, discrete_gradients, orbit_energy, cohen_hairer, generating2,
-    generating2_cayley, isospectral2_cayley, isospectral4, isospectral6
-);
-::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] PendulumSystem < S >, S : splitting
+    generating2_cayley, isospectral2_cayley, isospectral4, isospectral6, splitting
 );

@@ -290,10 +290,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeisenbergSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeisenbergSystem<S> {
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
-    }
-
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// No operation.
@@ -306,6 +302,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeisenbergSys
         out: &mut Self::State,
     ) {
         out.as_mut_slice().fill(S::zero());
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
     }
 }
 
@@ -469,69 +469,18 @@ for HeisenbergGenerating4<'_, S> {
     }
 }
 
-/// The method of `S = h H + h^3 S3` in exponential coordinates, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct HeisenbergGenerating4Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergGenerating4<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for HeisenbergGenerating4Equation<'a, S> {
-    type State = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 8 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct HeisenbergGenerating4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for HeisenbergGenerating4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 8 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -547,36 +496,18 @@ for HeisenbergGenerating4Equation<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b2 = residual[2];
-        let _b0 = residual[0] - factors[(0, 2)] * _b2;
-        let _b1 = residual[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b2 = vector[2];
+        let _b0 = vector[0] - factors[(0, 2)] * _b2;
+        let _b1 = vector[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
         let _b1 = _b1 * factors[(1, 1)];
         let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
     }
 }
 
@@ -586,13 +517,23 @@ impl<
     S,
     ::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 4>,
 > for HeisenbergSystem<S> {
-    type Equation<'a> = HeisenbergGenerating4Equation<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpRetraction<
+            'a,
+            S,
+            HeisenbergSystem<S>,
+            HeisenbergGenerating4<'a, S>,
+        >,
+        HeisenbergGenerating4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 4>,
         h: S,
-    ) -> HeisenbergGenerating4Equation<'a, S> {
-        HeisenbergGenerating4Equation(
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
             ::lie_runtime::generic::ExpRetraction::with_function(
                 self,
                 HeisenbergGenerating4::new(self, h),
@@ -826,130 +767,29 @@ for HeisenbergGenerating6<'_, S> {
     }
 }
 
-/// The method of `S = h H + h^3 S3 + h^5 S5` in exponential coordinates, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct HeisenbergGenerating6Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergGenerating6<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for HeisenbergGenerating6Equation<'a, S> {
-    type State = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        HeisenbergSystem<S>,
-        HeisenbergGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 8 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a1_1 = S::one() / _a1_1;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        ::lie_runtime::__private::inverse_pivots_are_safe(_a0_0.abs().max(_a1_1.abs()))
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b2 = residual[2];
-        let _b0 = residual[0] - factors[(0, 2)] * _b2;
-        let _b1 = residual[1] - factors[(1, 2)] * _b2 - factors[(1, 0)] * _b0;
-        let _b1 = _b1 * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1) * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<
     S,
     ::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 6>,
 > for HeisenbergSystem<S> {
-    type Equation<'a> = HeisenbergGenerating6Equation<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpRetraction<
+            'a,
+            S,
+            HeisenbergSystem<S>,
+            HeisenbergGenerating6<'a, S>,
+        >,
+        HeisenbergGenerating4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 6>,
         h: S,
-    ) -> HeisenbergGenerating6Equation<'a, S> {
-        HeisenbergGenerating6Equation(
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
             ::lie_runtime::generic::ExpRetraction::with_function(
                 self,
                 HeisenbergGenerating6::new(self, h),
@@ -1126,7 +966,7 @@ for HeisenbergSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::GeneratingSecondKind2,
         h: S,
-    ) -> HeisenbergSecondKind2Equation<'a, S> {
+    ) -> Self::Equation<'a> {
         HeisenbergSecondKind2Equation::new(self, h)
     }
 }
@@ -1337,7 +1177,7 @@ impl<
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Cayley, 4>,
         h: S,
-    ) -> HeisenbergCayleyGenerating4<'a, S> {
+    ) -> Self::Equation<'a> {
         HeisenbergCayleyGenerating4::new(self, h)
     }
 }

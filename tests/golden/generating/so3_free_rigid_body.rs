@@ -427,10 +427,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for FreeRigidBodySys
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S>
 for FreeRigidBodySystem<S> {
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
-    }
-
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 12 additions, 18 multiplications.
@@ -457,6 +453,10 @@ for FreeRigidBodySystem<S> {
             + _eta_e2 * (_t4 + _t5)) * S::ratio(-1.0, 2.0);
         out[2] = (_xi_e3 * (_t2 + _t0 + _t1 * S::ratio(2.0, 1.0))
             + _eta_e3 * (_t3 + _t5)) * S::ratio(-1.0, 2.0);
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
     }
 }
 
@@ -686,69 +686,18 @@ for FreeRigidBodyGenerating4<'_, S> {
     }
 }
 
-/// The method of `S = h H + h^3 S3` in exponential coordinates, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct FreeRigidBodyGenerating4Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodyGenerating4<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for FreeRigidBodyGenerating4Equation<'a, S> {
-    type State = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodyGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodyGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodyGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct FreeRigidBodyGenerating4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for FreeRigidBodyGenerating4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -782,38 +731,20 @@ for FreeRigidBodyGenerating4Equation<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
         let _b2 = _b2 * factors[(2, 2)];
         let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
         let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
             * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
     }
 }
 
@@ -823,13 +754,23 @@ impl<
     S,
     ::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 4>,
 > for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyGenerating4Equation<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpRetraction<
+            'a,
+            S,
+            FreeRigidBodySystem<S>,
+            FreeRigidBodyGenerating4<'a, S>,
+        >,
+        FreeRigidBodyGenerating4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 4>,
         h: S,
-    ) -> FreeRigidBodyGenerating4Equation<'a, S> {
-        FreeRigidBodyGenerating4Equation(
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
             ::lie_runtime::generic::ExpRetraction::with_function(
                 self,
                 FreeRigidBodyGenerating4::new(self, h),
@@ -1188,150 +1129,29 @@ for FreeRigidBodyGenerating6<'_, S> {
     }
 }
 
-/// The method of `S = h H + h^3 S3 + h^5 S5` in exponential coordinates, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct FreeRigidBodyGenerating6Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodyGenerating6<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for FreeRigidBodyGenerating6Equation<'a, S> {
-    type State = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodyGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodyGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        FreeRigidBodySystem<S>,
-        FreeRigidBodyGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b2 = _b2 * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
-            * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<
     S,
     ::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 6>,
 > for FreeRigidBodySystem<S> {
-    type Equation<'a> = FreeRigidBodyGenerating6Equation<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpRetraction<
+            'a,
+            S,
+            FreeRigidBodySystem<S>,
+            FreeRigidBodyGenerating6<'a, S>,
+        >,
+        FreeRigidBodyGenerating4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 6>,
         h: S,
-    ) -> FreeRigidBodyGenerating6Equation<'a, S> {
-        FreeRigidBodyGenerating6Equation(
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
             ::lie_runtime::generic::ExpRetraction::with_function(
                 self,
                 FreeRigidBodyGenerating6::new(self, h),
@@ -1590,7 +1410,7 @@ for FreeRigidBodySystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::GeneratingSecondKind2,
         h: S,
-    ) -> FreeRigidBodySecondKind2Equation<'a, S> {
+    ) -> Self::Equation<'a> {
         FreeRigidBodySecondKind2Equation::new(self, h)
     }
 }
@@ -1978,7 +1798,7 @@ impl<
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Cayley, 4>,
         h: S,
-    ) -> FreeRigidBodyCayleyGenerating4<'a, S> {
+    ) -> Self::Equation<'a> {
         FreeRigidBodyCayleyGenerating4::new(self, h)
     }
 }
@@ -1987,8 +1807,5 @@ impl<
     [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : midpoint, gauss4, gauss6,
     exp, cayley, discrete_gradients, orbit_energy, cohen_hairer, generating2,
     generating2_cayley, isospectral2_cayley, isospectral4, isospectral6, hopf2, hopf4,
-    hopf6, spherical, moser_veselov
-);
-::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : splitting
+    hopf6, spherical, moser_veselov, splitting
 );

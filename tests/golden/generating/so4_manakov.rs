@@ -810,10 +810,6 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for ManakovTopSystem
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSystem<S> {
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
-    }
-
     /// `out_b = T_abc^d xi^a eta^c mu_d`, with `(abc + cba)/2 = T_abc^d` in the representation
     ///
     /// 36 additions, 48 multiplications.
@@ -864,6 +860,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for ManakovTopSys
             + _eta_E24 * _t20) * S::ratio(-1.0, 2.0);
         out[5] = (_xi_E34 * (_t7 + S::ratio(2.0, 1.0) * _t14) + m12 * _t10
             + _eta_E34 * _t13) * S::ratio(-1.0, 2.0);
+    }
+
+    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
+        ::lie_runtime::__private::Spectrum::Imaginary
     }
 }
 
@@ -1344,69 +1344,18 @@ for ManakovTopGenerating4<'_, S> {
     }
 }
 
-/// The method of `S = h H + h^3 S3` in exponential coordinates, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct ManakovTopGenerating4Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopGenerating4<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for ManakovTopGenerating4Equation<'a, S> {
-    type State = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct ManakovTopGenerating4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 6, 6>,
+    ::lie_runtime::__private::SVector<S, 6>,
+> for ManakovTopGenerating4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 6, 6>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -1562,15 +1511,18 @@ for ManakovTopGenerating4Equation<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b3 = residual[3] - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 6, 6>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 6>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+        let _b3 = vector[3] - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
             - factors[(3, 2)] * _b2;
-        let _b4 = residual[4] - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
+        let _b4 = vector[4] - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
             - factors[(4, 2)] * _b2 - factors[(4, 3)] * _b3;
-        let _b5 = residual[5] - factors[(5, 0)] * _b0 - factors[(5, 1)] * _b1
+        let _b5 = vector[5] - factors[(5, 0)] * _b0 - factors[(5, 1)] * _b1
             - factors[(5, 2)] * _b2 - factors[(5, 3)] * _b3 - factors[(5, 4)] * _b4;
         let _b5 = _b5 * factors[(5, 5)];
         let _b4 = (_b4 - factors[(4, 5)] * _b5) * factors[(4, 4)];
@@ -1583,33 +1535,12 @@ for ManakovTopGenerating4Equation<'a, S> {
         let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2
             - factors[(0, 3)] * _b3 - factors[(0, 4)] * _b4 - factors[(0, 5)] * _b5)
             * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-        residual[3] = _b3;
-        residual[4] = _b4;
-        residual[5] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+        vector[3] = _b3;
+        vector[4] = _b4;
+        vector[5] = _b5;
     }
 }
 
@@ -1619,13 +1550,23 @@ impl<
     S,
     ::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 4>,
 > for ManakovTopSystem<S> {
-    type Equation<'a> = ManakovTopGenerating4Equation<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpRetraction<
+            'a,
+            S,
+            ManakovTopSystem<S>,
+            ManakovTopGenerating4<'a, S>,
+        >,
+        ManakovTopGenerating4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 4>,
         h: S,
-    ) -> ManakovTopGenerating4Equation<'a, S> {
-        ManakovTopGenerating4Equation(
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
             ::lie_runtime::generic::ExpRetraction::with_function(
                 self,
                 ManakovTopGenerating4::new(self, h),
@@ -3033,288 +2974,29 @@ for ManakovTopGenerating6<'_, S> {
     }
 }
 
-/// The method of `S = h H + h^3 S3 + h^5 S5` in exponential coordinates, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct ManakovTopGenerating6Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopGenerating6<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for ManakovTopGenerating6Equation<'a, S> {
-    type State = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        ManakovTopSystem<S>,
-        ManakovTopGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 106 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix[(0, 3)];
-        let _a1_3 = matrix[(1, 3)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix[(0, 4)];
-        let _a1_4 = matrix[(1, 4)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a0_5 = matrix[(0, 5)];
-        let _a1_5 = matrix[(1, 5)];
-        let _a1_5 = _a1_5 - _a1_0 * _a0_5;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix[(2, 3)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix[(2, 4)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a2_5 = matrix[(2, 5)];
-        let _a2_5 = _a2_5 - _a2_0 * _a0_5;
-        let _a3_0 = matrix[(3, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix[(3, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix[(3, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix[(3, 3)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix[(3, 4)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a3_5 = matrix[(3, 5)];
-        let _a3_5 = _a3_5 - _a3_0 * _a0_5;
-        let _a4_0 = matrix[(4, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix[(4, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix[(4, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix[(4, 3)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix[(4, 4)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a4_5 = matrix[(4, 5)];
-        let _a4_5 = _a4_5 - _a4_0 * _a0_5;
-        let _a5_0 = matrix[(5, 0)];
-        let _a5_0 = _a5_0 * _a0_0;
-        let _a5_1 = matrix[(5, 1)];
-        let _a5_1 = _a5_1 - _a5_0 * _a0_1;
-        let _a5_2 = matrix[(5, 2)];
-        let _a5_2 = _a5_2 - _a5_0 * _a0_2;
-        let _a5_3 = matrix[(5, 3)];
-        let _a5_3 = _a5_3 - _a5_0 * _a0_3;
-        let _a5_4 = matrix[(5, 4)];
-        let _a5_4 = _a5_4 - _a5_0 * _a0_4;
-        let _a5_5 = matrix[(5, 5)];
-        let _a5_5 = _a5_5 - _a5_0 * _a0_5;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a2_5 = _a2_5 - _a2_1 * _a1_5;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a3_5 = _a3_5 - _a3_1 * _a1_5;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a4_5 = _a4_5 - _a4_1 * _a1_5;
-        let _a5_1 = _a5_1 * _a1_1;
-        let _a5_2 = _a5_2 - _a5_1 * _a1_2;
-        let _a5_3 = _a5_3 - _a5_1 * _a1_3;
-        let _a5_4 = _a5_4 - _a5_1 * _a1_4;
-        let _a5_5 = _a5_5 - _a5_1 * _a1_5;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a3_5 = _a3_5 - _a3_2 * _a2_5;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a4_5 = _a4_5 - _a4_2 * _a2_5;
-        let _a5_2 = _a5_2 * _a2_2;
-        let _a5_3 = _a5_3 - _a5_2 * _a2_3;
-        let _a5_4 = _a5_4 - _a5_2 * _a2_4;
-        let _a5_5 = _a5_5 - _a5_2 * _a2_5;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_5 = _a4_5 - _a4_3 * _a3_5;
-        let _a5_3 = _a5_3 * _a3_3;
-        let _a5_4 = _a5_4 - _a5_3 * _a3_4;
-        let _a5_5 = _a5_5 - _a5_3 * _a3_5;
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_4 = _a5_4 * _a4_4;
-        let _a5_5 = _a5_5 - _a5_4 * _a4_5;
-        let _a5_5 = S::one() / _a5_5;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(1, 3)] = _a1_3;
-        matrix[(1, 4)] = _a1_4;
-        matrix[(1, 5)] = _a1_5;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        matrix[(2, 3)] = _a2_3;
-        matrix[(2, 4)] = _a2_4;
-        matrix[(2, 5)] = _a2_5;
-        matrix[(3, 0)] = _a3_0;
-        matrix[(3, 1)] = _a3_1;
-        matrix[(3, 2)] = _a3_2;
-        matrix[(3, 3)] = _a3_3;
-        matrix[(3, 4)] = _a3_4;
-        matrix[(3, 5)] = _a3_5;
-        matrix[(4, 0)] = _a4_0;
-        matrix[(4, 1)] = _a4_1;
-        matrix[(4, 2)] = _a4_2;
-        matrix[(4, 3)] = _a4_3;
-        matrix[(4, 4)] = _a4_4;
-        matrix[(4, 5)] = _a4_5;
-        matrix[(5, 0)] = _a5_0;
-        matrix[(5, 1)] = _a5_1;
-        matrix[(5, 2)] = _a5_2;
-        matrix[(5, 3)] = _a5_3;
-        matrix[(5, 4)] = _a5_4;
-        matrix[(5, 5)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b3 = residual[3] - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
-            - factors[(3, 2)] * _b2;
-        let _b4 = residual[4] - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
-            - factors[(4, 2)] * _b2 - factors[(4, 3)] * _b3;
-        let _b5 = residual[5] - factors[(5, 0)] * _b0 - factors[(5, 1)] * _b1
-            - factors[(5, 2)] * _b2 - factors[(5, 3)] * _b3 - factors[(5, 4)] * _b4;
-        let _b5 = _b5 * factors[(5, 5)];
-        let _b4 = (_b4 - factors[(4, 5)] * _b5) * factors[(4, 4)];
-        let _b3 = (_b3 - factors[(3, 4)] * _b4 - factors[(3, 5)] * _b5)
-            * factors[(3, 3)];
-        let _b2 = (_b2 - factors[(2, 3)] * _b3 - factors[(2, 4)] * _b4
-            - factors[(2, 5)] * _b5) * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2 - factors[(1, 3)] * _b3
-            - factors[(1, 4)] * _b4 - factors[(1, 5)] * _b5) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2
-            - factors[(0, 3)] * _b3 - factors[(0, 4)] * _b4 - factors[(0, 5)] * _b5)
-            * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-        residual[3] = _b3;
-        residual[4] = _b4;
-        residual[5] = _b5;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<
     S,
     ::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 6>,
 > for ManakovTopSystem<S> {
-    type Equation<'a> = ManakovTopGenerating6Equation<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpRetraction<
+            'a,
+            S,
+            ManakovTopSystem<S>,
+            ManakovTopGenerating6<'a, S>,
+        >,
+        ManakovTopGenerating4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 6>,
         h: S,
-    ) -> ManakovTopGenerating6Equation<'a, S> {
-        ManakovTopGenerating6Equation(
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
             ::lie_runtime::generic::ExpRetraction::with_function(
                 self,
                 ManakovTopGenerating6::new(self, h),
@@ -3900,7 +3582,7 @@ for ManakovTopSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::GeneratingSecondKind2,
         h: S,
-    ) -> ManakovTopSecondKind2Equation<'a, S> {
+    ) -> Self::Equation<'a> {
         ManakovTopSecondKind2Equation::new(self, h)
     }
 }
@@ -5042,7 +4724,7 @@ impl<
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Cayley, 4>,
         h: S,
-    ) -> ManakovTopCayleyGenerating4<'a, S> {
+    ) -> Self::Equation<'a> {
         ManakovTopCayleyGenerating4::new(self, h)
     }
 }
@@ -5050,8 +4732,6 @@ impl<
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] ManakovTopSystem < S >, S : midpoint, gauss4, gauss6,
     exp, cayley, discrete_gradients, orbit_energy, cohen_hairer, generating2,
-    generating2_cayley, isospectral2_cayley, isospectral4, isospectral6, moser_veselov_n
-);
-::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] ManakovTopSystem < S >, S : splitting
+    generating2_cayley, isospectral2_cayley, isospectral4, isospectral6, moser_veselov_n,
+    splitting
 );

@@ -467,69 +467,18 @@ for TodaLatticeGenerating4<'_, S> {
     }
 }
 
-/// The method of `S = h H + h^3 S3` in exponential coordinates, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct TodaLatticeGenerating4Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        TodaLatticeGenerating4<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for TodaLatticeGenerating4Equation<'a, S> {
-    type State = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        TodaLatticeGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        TodaLatticeGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        TodaLatticeGenerating4<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
+/// Elimination of 5 rows in a fixed order, 0 entries of fill-in: 65 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct TodaLatticeGenerating4Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 5, 5>,
+    ::lie_runtime::__private::SVector<S, 5>,
+> for TodaLatticeGenerating4Elimination {
     #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 65 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 5, 5>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -632,13 +581,16 @@ for TodaLatticeGenerating4Equation<'a, S> {
     }
 
     #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b3 = residual[3] - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 5, 5>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 5>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+        let _b3 = vector[3] - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
             - factors[(3, 2)] * _b2;
-        let _b4 = residual[4] - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
+        let _b4 = vector[4] - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
             - factors[(4, 2)] * _b2 - factors[(4, 3)] * _b3;
         let _b4 = _b4 * factors[(4, 4)];
         let _b3 = (_b3 - factors[(3, 4)] * _b4) * factors[(3, 3)];
@@ -648,32 +600,11 @@ for TodaLatticeGenerating4Equation<'a, S> {
             - factors[(1, 4)] * _b4) * factors[(1, 1)];
         let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2
             - factors[(0, 3)] * _b3 - factors[(0, 4)] * _b4) * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-        residual[3] = _b3;
-        residual[4] = _b4;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+        vector[3] = _b3;
+        vector[4] = _b4;
     }
 }
 
@@ -683,13 +614,23 @@ impl<
     S,
     ::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 4>,
 > for TodaLatticeSystem<S> {
-    type Equation<'a> = TodaLatticeGenerating4Equation<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpRetraction<
+            'a,
+            S,
+            TodaLatticeSystem<S>,
+            TodaLatticeGenerating4<'a, S>,
+        >,
+        TodaLatticeGenerating4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 4>,
         h: S,
-    ) -> TodaLatticeGenerating4Equation<'a, S> {
-        TodaLatticeGenerating4Equation(
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
             ::lie_runtime::generic::ExpRetraction::with_function(
                 self,
                 TodaLatticeGenerating4::new(self, h),
@@ -1129,229 +1070,29 @@ for TodaLatticeGenerating6<'_, S> {
     }
 }
 
-/// The method of `S = h H + h^3 S3 + h^5 S5` in exponential coordinates, elimination specialised to the pattern of the system.
-#[derive(Debug)]
-pub struct TodaLatticeGenerating6Equation<'a, S: ::lie_runtime::Scalar>(
-    ::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        TodaLatticeGenerating6<'a, S>,
-    >,
-);
-impl<'a, S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
-for TodaLatticeGenerating6Equation<'a, S> {
-    type State = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        TodaLatticeGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::State;
-    type Unknown = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        TodaLatticeGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Unknown;
-    type Matrix = <::lie_runtime::generic::ExpRetraction<
-        'a,
-        S,
-        TodaLatticeSystem<S>,
-        TodaLatticeGenerating6<'a, S>,
-    > as ::lie_runtime::Equation<S>>::Matrix;
-    fn zero_unknown(&self) -> Self::Unknown {
-        self.0.zero_unknown()
-    }
-
-    fn zero_matrix(&self) -> Self::Matrix {
-        self.0.zero_matrix()
-    }
-
-    fn set_base(&mut self, mu: &Self::State) {
-        self.0.set_base(mu);
-    }
-
-    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
-        self.0.initial_guess(unknown);
-    }
-
-    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
-        self.0.residual(unknown, residual);
-    }
-
-    #[inline]
-    fn linearize(
-        &mut self,
-        unknown: &Self::Unknown,
-        residual: &mut Self::Unknown,
-        matrix: &mut Self::Matrix,
-    ) {
-        self.0.linearize(unknown, residual, matrix);
-    }
-
-    /// Elimination in a fixed order, 0 entries of fill-in: 65 multiplications with the solution.
-    #[inline]
-    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a0_3 = matrix[(0, 3)];
-        let _a1_3 = matrix[(1, 3)];
-        let _a1_3 = _a1_3 - _a1_0 * _a0_3;
-        let _a0_4 = matrix[(0, 4)];
-        let _a1_4 = matrix[(1, 4)];
-        let _a1_4 = _a1_4 - _a1_0 * _a0_4;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a2_3 = matrix[(2, 3)];
-        let _a2_3 = _a2_3 - _a2_0 * _a0_3;
-        let _a2_4 = matrix[(2, 4)];
-        let _a2_4 = _a2_4 - _a2_0 * _a0_4;
-        let _a3_0 = matrix[(3, 0)];
-        let _a3_0 = _a3_0 * _a0_0;
-        let _a3_1 = matrix[(3, 1)];
-        let _a3_1 = _a3_1 - _a3_0 * _a0_1;
-        let _a3_2 = matrix[(3, 2)];
-        let _a3_2 = _a3_2 - _a3_0 * _a0_2;
-        let _a3_3 = matrix[(3, 3)];
-        let _a3_3 = _a3_3 - _a3_0 * _a0_3;
-        let _a3_4 = matrix[(3, 4)];
-        let _a3_4 = _a3_4 - _a3_0 * _a0_4;
-        let _a4_0 = matrix[(4, 0)];
-        let _a4_0 = _a4_0 * _a0_0;
-        let _a4_1 = matrix[(4, 1)];
-        let _a4_1 = _a4_1 - _a4_0 * _a0_1;
-        let _a4_2 = matrix[(4, 2)];
-        let _a4_2 = _a4_2 - _a4_0 * _a0_2;
-        let _a4_3 = matrix[(4, 3)];
-        let _a4_3 = _a4_3 - _a4_0 * _a0_3;
-        let _a4_4 = matrix[(4, 4)];
-        let _a4_4 = _a4_4 - _a4_0 * _a0_4;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_3 = _a2_3 - _a2_1 * _a1_3;
-        let _a2_4 = _a2_4 - _a2_1 * _a1_4;
-        let _a3_1 = _a3_1 * _a1_1;
-        let _a3_2 = _a3_2 - _a3_1 * _a1_2;
-        let _a3_3 = _a3_3 - _a3_1 * _a1_3;
-        let _a3_4 = _a3_4 - _a3_1 * _a1_4;
-        let _a4_1 = _a4_1 * _a1_1;
-        let _a4_2 = _a4_2 - _a4_1 * _a1_2;
-        let _a4_3 = _a4_3 - _a4_1 * _a1_3;
-        let _a4_4 = _a4_4 - _a4_1 * _a1_4;
-        let _a2_2 = S::one() / _a2_2;
-        let _a3_2 = _a3_2 * _a2_2;
-        let _a3_3 = _a3_3 - _a3_2 * _a2_3;
-        let _a3_4 = _a3_4 - _a3_2 * _a2_4;
-        let _a4_2 = _a4_2 * _a2_2;
-        let _a4_3 = _a4_3 - _a4_2 * _a2_3;
-        let _a4_4 = _a4_4 - _a4_2 * _a2_4;
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_3 = _a4_3 * _a3_3;
-        let _a4_4 = _a4_4 - _a4_3 * _a3_4;
-        let _a4_4 = S::one() / _a4_4;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(1, 3)] = _a1_3;
-        matrix[(1, 4)] = _a1_4;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        matrix[(2, 3)] = _a2_3;
-        matrix[(2, 4)] = _a2_4;
-        matrix[(3, 0)] = _a3_0;
-        matrix[(3, 1)] = _a3_1;
-        matrix[(3, 2)] = _a3_2;
-        matrix[(3, 3)] = _a3_3;
-        matrix[(3, 4)] = _a3_4;
-        matrix[(4, 0)] = _a4_0;
-        matrix[(4, 1)] = _a4_1;
-        matrix[(4, 2)] = _a4_2;
-        matrix[(4, 3)] = _a4_3;
-        matrix[(4, 4)] = _a4_4;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
-        let _b0 = residual[0];
-        let _b1 = residual[1] - factors[(1, 0)] * _b0;
-        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b3 = residual[3] - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
-            - factors[(3, 2)] * _b2;
-        let _b4 = residual[4] - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
-            - factors[(4, 2)] * _b2 - factors[(4, 3)] * _b3;
-        let _b4 = _b4 * factors[(4, 4)];
-        let _b3 = (_b3 - factors[(3, 4)] * _b4) * factors[(3, 3)];
-        let _b2 = (_b2 - factors[(2, 3)] * _b3 - factors[(2, 4)] * _b4)
-            * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2 - factors[(1, 3)] * _b3
-            - factors[(1, 4)] * _b4) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2
-            - factors[(0, 3)] * _b3 - factors[(0, 4)] * _b4) * factors[(0, 0)];
-        residual[0] = _b0;
-        residual[1] = _b1;
-        residual[2] = _b2;
-        residual[3] = _b3;
-        residual[4] = _b4;
-    }
-
-    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
-        self.0.result(unknown, mu);
-    }
-
-    fn group_factor(
-        &mut self,
-        unknown: &Self::Unknown,
-        xi: &mut Self::State,
-    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
-        self.0.group_factor(unknown, xi)
-    }
-
-    fn velocity(
-        &mut self,
-        unknown: &Self::Unknown,
-        stage: usize,
-        xi: &mut Self::State,
-    ) -> usize {
-        self.0.velocity(unknown, stage, xi)
-    }
-}
-
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<
     S,
     ::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 6>,
 > for TodaLatticeSystem<S> {
-    type Equation<'a> = TodaLatticeGenerating6Equation<'a, S> where Self: 'a;
+    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+        ::lie_runtime::generic::ExpRetraction<
+            'a,
+            S,
+            TodaLatticeSystem<S>,
+            TodaLatticeGenerating6<'a, S>,
+        >,
+        TodaLatticeGenerating4Elimination,
+    >
+    where
+        Self: 'a;
     fn equation<'a>(
         &'a self,
         _method: &::lie_runtime::methods::Generating<::lie_runtime::methods::Exp, 6>,
         h: S,
-    ) -> TodaLatticeGenerating6Equation<'a, S> {
-        TodaLatticeGenerating6Equation(
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::__private::Eliminated::new(
             ::lie_runtime::generic::ExpRetraction::with_function(
                 self,
                 TodaLatticeGenerating6::new(self, h),
@@ -1567,15 +1308,12 @@ for TodaLatticeSystem<S> {
         &'a self,
         _method: &::lie_runtime::methods::GeneratingSecondKind2,
         h: S,
-    ) -> TodaLatticeSecondKind2Equation<'a, S> {
+    ) -> Self::Equation<'a> {
         TodaLatticeSecondKind2Equation::new(self, h)
     }
 }
 
 ::lie_runtime::generic_equations!(
     [S : ::lie_runtime::Scalar] TodaLatticeSystem < S >, S : midpoint, gauss4, gauss6,
-    exp, discrete_gradients, orbit_energy, cohen_hairer, generating2
-);
-::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] TodaLatticeSystem < S >, S : splitting
+    exp, discrete_gradients, orbit_energy, cohen_hairer, generating2, splitting
 );

@@ -1,43 +1,64 @@
-//! The parameter struct: what the user constructs.
+//! The parameter struct, which the user constructs, and the struct of the system.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::Writer;
-use crate::symbolic::{ExprId, Symbol};
+use super::Printer;
+use super::function::Owner;
+use super::names::{ident, index};
+use crate::plan::Code;
+use crate::schedule::Value;
+use crate::symbolic::Symbol;
 
-impl Writer<'_> {
+impl Printer<'_> {
+    /// The field of the system that holds a constant.
+    pub(super) fn constant_name(&self, position: usize) -> Ident {
+        ident(&self.plan.constants.entries[position].name)
+    }
+
+    fn constant_names(&self) -> Vec<Ident> {
+        let count = self.plan.constants.entries.len();
+        (0..count)
+            .map(|position| self.constant_name(position))
+            .collect()
+    }
+
+    /// Statements and values of a program whose symbols are parameters.
+    fn of_parameters(
+        &self,
+        code: &Code,
+        parameter: &dyn Fn(&Ident) -> TokenStream,
+    ) -> (TokenStream, Vec<TokenStream>) {
+        self.program(code, &|value| match value {
+            Value::Symbol(symbol @ Symbol::Parameter(_)) => parameter(&self.local(*symbol)),
+            other => self.value(other, Owner::System),
+        })
+    }
+
+    /// The field that bears the scalar where there is no parameter.
+    fn marker(&self) -> Option<TokenStream> {
+        let none = self.plan.parameters.is_empty();
+        none.then(|| quote! { _scalar: ::core::marker::PhantomData })
+    }
+
     /// The parameter struct with its defaults.
-    pub fn parameters(&mut self) -> TokenStream {
-        let (visibility, name) = (&self.blueprint.visibility, &self.blueprint.name);
-        let system = format_ident!("{}System", name);
-        let docs = self.blueprint.docs.iter().map(|line| format!(" {line}"));
-        let fields = self.blueprint.parameters.iter().map(|p| {
-            let (name, doc) = (&p.name, format!(" {}", p.doc));
+    pub(super) fn parameters(&self) -> TokenStream {
+        let (visibility, name, system) =
+            (&self.surface.visibility, self.name(), self.system_name());
+        let docs = self.plan.docs.iter().map(|line| format!(" {line}"));
+        let names = self.parameters_by_name();
+        let fields = names.iter().zip(&self.plan.parameters).map(|(name, p)| {
+            let doc = format!(" {}", p.doc);
             quote! { #[doc = #doc] pub #name: S }
         });
-        let names: Vec<_> = self
-            .blueprint
-            .parameters
-            .iter()
-            .map(|p| p.name.clone())
-            .collect();
-        let defaults: Vec<ExprId> = self
-            .blueprint
-            .parameters
-            .iter()
-            .map(|p| p.default)
-            .collect();
-        let (statements, values) = self.preparation(&defaults, &|_| quote! { S::zero() });
+        let (statements, values) =
+            self.of_parameters(&self.plan.defaults, &|_| quote! { S::zero() });
         let marker = names.is_empty().then(|| {
             quote! { #[doc(hidden)] pub _scalar: ::core::marker::PhantomData<S> }
         });
-        let marker_value = names
-            .is_empty()
-            .then(|| quote! { _scalar: ::core::marker::PhantomData });
+        let marker_value = self.marker();
         let build = self.build();
-        let signs = self.blueprint.parameters.iter().any(|p| p.positive);
-        let errors = if signs {
+        let errors = if self.plan.parameters.iter().any(|p| p.positive) {
             " If a parameter that must be positive is not, or a constant that the system needs is not finite."
         } else {
             " If a constant that the system needs is not finite, such as the inverse of a zero."
@@ -83,99 +104,84 @@ impl Writer<'_> {
     }
 
     /// The declared initial state, for the parameters at hand.
-    fn initial_state(&mut self) -> TokenStream {
-        let Some(initial) = self.blueprint.initial.clone() else {
-            return TokenStream::new();
-        };
-        let n = super::names::index(self.source.dimension);
-        let (statements, values) = self.preparation(&initial, &|name| quote! { self.#name });
-        quote! {
+    fn initial_state(&self) -> Option<TokenStream> {
+        let initial = self.plan.initial.as_ref()?;
+        let n = index(self.plan.dimension());
+        let (statements, values) = self.of_parameters(initial, &|name| quote! { self.#name });
+        Some(quote! {
             #[doc = " The initial state of the declaration."]
             #[must_use]
             pub fn initial_state(&self) -> ::lie_runtime::__private::SVector<S, #n> {
                 #statements
                 ::lie_runtime::__private::SVector::from([#(#values),*])
             }
-        }
+        })
     }
 
     /// The body of `system()`: every prepared constant, each tested.
-    fn build(&mut self) -> TokenStream {
-        let system = format_ident!("{}System", self.blueprint.name);
-        let constants = self.prepared.all().to_vec();
-        let (statements, values) = self.preparation(&constants, &|name| quote! { self.#name });
-        let mut lets = TokenStream::new();
-        let mut checks = TokenStream::new();
-        let mut fields = Vec::new();
-        for (position, (id, value)) in constants.iter().zip(&values).enumerate() {
-            let name = self.prepared_name(*id, position);
-            let text = self.constant_text(*id);
-            let parameter = self
-                .source
-                .graph
-                .symbols(*id)
-                .into_iter()
-                .find(|s| matches!(s, Symbol::Parameter(_)))
-                .map_or_else(String::new, |s| self.shown(s));
-            // A bare name of the user could be read as a constant of the user.
-            let local = format_ident!("_c{position}");
-            lets.extend(quote! { let #local = #value; });
-            checks.extend(quote! { (#local, #parameter, #text), });
-            fields.push(quote! { #name: #local });
-        }
-        let check = (!checks.is_empty())
-            .then(|| quote! { ::lie_runtime::__private::all_finite(&[#checks])?; });
+    fn build(&self) -> TokenStream {
+        let system = self.system_name();
+        let constants = &self.plan.constants;
+        let (statements, values) =
+            self.of_parameters(&constants.program, &|name| quote! { self.#name });
+        let names = self.constant_names();
+        // A bare name of the user could be read as a constant of the user.
+        let locals: Vec<Ident> = (0..names.len()).map(|k| format_ident!("_c{k}")).collect();
+        let checks = constants.entries.iter().zip(&locals).map(|(entry, local)| {
+            let parameter = entry.parameter.map(Symbol::Parameter);
+            let parameter = parameter.map(|symbol| self.plan.names.shown(symbol));
+            let (parameter, text) = (parameter.unwrap_or_default(), &entry.text);
+            quote! { (#local, #parameter, #text), }
+        });
+        let check = (!names.is_empty())
+            .then(|| quote! { ::lie_runtime::__private::all_finite(&[#(#checks)*])?; });
         let branch = self
             .has_branches()
             .then(|| quote! { _branch: ::core::option::Option::None, });
-        let positive = self.blueprint.parameters.iter().filter(|p| p.positive);
-        let positive: Vec<_> = positive
-            .map(|p| {
-                let (name, text) = (&p.name, p.name.to_string());
-                quote! { (self.#name, #text) }
-            })
-            .collect();
-        let signs = (!positive.is_empty())
-            .then(|| quote! { ::lie_runtime::__private::all_positive(&[#(#positive),*])?; });
+        let signs = self.signs();
         quote! {
             #signs
             #statements
-            #lets
+            #(let #locals = #values;)*
             #check
             ::core::result::Result::Ok(#system {
                 _parameters: ::core::clone::Clone::clone(self),
                 #branch
-                #(#fields),*
+                #(#names: #locals),*
             })
         }
     }
 
+    /// The test of the parameters that must be positive.
+    fn signs(&self) -> Option<TokenStream> {
+        let names = self.parameters_by_name();
+        let parameters = names.iter().zip(&self.plan.parameters);
+        let positive: Vec<_> = parameters
+            .filter(|(_, p)| p.positive)
+            .map(|(name, _)| {
+                let text = name.to_string();
+                quote! { (self.#name, #text) }
+            })
+            .collect();
+        (!positive.is_empty())
+            .then(|| quote! { ::lie_runtime::__private::all_positive(&[#(#positive),*])?; })
+    }
+
     /// The struct that holds the prepared constants.
-    pub fn system_struct(&mut self) -> TokenStream {
-        let (visibility, name) = (&self.blueprint.visibility, &self.blueprint.name);
-        let system = format_ident!("{}System", name);
-        let constants = self.prepared.all().to_vec();
-        let fields = constants.iter().enumerate().map(|(position, id)| {
-            let (field, doc) = (
-                self.prepared_name(*id, position),
-                format!(" `{}`", self.constant_text(*id)),
-            );
+    pub(super) fn system_struct(&self) -> TokenStream {
+        let (visibility, name, system) =
+            (&self.surface.visibility, self.name(), self.system_name());
+        let entries = self.plan.constants.entries.iter();
+        let fields = entries.zip(self.constant_names()).map(|(entry, field)| {
+            let doc = format!(" `{}`", entry.text);
             quote! { #[doc = #doc] #field: S }
         });
         let doc = format!(" The system [`{name}`] with its derived constants.");
-        let names: Vec<_> = self
-            .blueprint
-            .parameters
-            .iter()
-            .map(|p| p.name.clone())
-            .collect();
-        let count = super::names::index(names.len());
-        let places: Vec<_> = (0..names.len()).map(super::names::index).collect();
-        let marker = names
-            .is_empty()
-            .then(|| quote! { _scalar: ::core::marker::PhantomData });
+        let names = self.parameters_by_name();
+        let (count, places) = (index(names.len()), (0..names.len()).map(index));
+        let marker = self.marker();
         let branch = self.has_branches().then(|| {
-            let size = super::names::index(self.source.dimension);
+            let size = index(self.plan.dimension());
             quote! {
                 #[doc = " A velocity of the branch of the Legendre transform; none for that which begins at rest."]
                 _branch: ::core::option::Option<[S; #size]>,
@@ -211,19 +217,11 @@ impl Writer<'_> {
     }
 
     /// The same system over dual numbers.
-    pub fn lift(&self) -> TokenStream {
-        let name = &self.blueprint.name;
-        let system = format_ident!("{}System", name);
-        let constants = self.prepared.all().iter().enumerate();
-        let fields: Vec<_> = constants
-            .map(|(position, id)| self.prepared_name(*id, position))
-            .collect();
-        let names: Vec<_> = self.blueprint.parameters.iter().map(|p| &p.name).collect();
-        let marker = self
-            .blueprint
-            .parameters
-            .is_empty()
-            .then(|| quote! { _scalar: ::core::marker::PhantomData });
+    pub(super) fn lift(&self) -> TokenStream {
+        let (name, system) = (self.name(), self.system_name());
+        let fields = self.constant_names();
+        let names = self.parameters_by_name();
+        let marker = self.marker();
         let branch = self
             .has_branches()
             .then(|| quote! { _branch: self._branch.map(|branch| branch.map(_constant)), });

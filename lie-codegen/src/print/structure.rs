@@ -1,20 +1,17 @@
 //! The impls of traits for structure that not every system has: a representation, spins, inertia.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::Writer;
-use super::names::index;
-use super::prepared::{Owner, Prepared};
-use crate::derive::Kernel;
+use super::Printer;
+use super::function::Owner;
+use super::names::{ident, index};
 use crate::exact::Rational;
-use crate::structure::inertia::Body;
-use crate::structure::spectrum::{Spectrum, spectrum};
-use crate::symbolic::ExprId;
+use crate::plan::{Code, Spectrum};
 
-impl Writer<'_> {
+impl Printer<'_> {
     /// The impls that the system has a structure for.
-    pub fn structure(&mut self) -> TokenStream {
+    pub(super) fn structure(&self) -> TokenStream {
         let matrices = self.matrix_poisson();
         let spins = self.spin_poisson();
         let inertia = self.inertia_poisson();
@@ -24,17 +21,11 @@ impl Writer<'_> {
     }
 
     fn matrix_poisson(&self) -> Option<TokenStream> {
-        let representation = self.source.matrices.as_ref()?;
-        let dual = representation.dual.as_ref()?;
+        let representation = self.plan.structure.representation.as_ref()?;
         let system = self.system_name();
-        let size = index(representation.dimension);
-        let skew = representation
-            .matrices
-            .iter()
-            .chain(dual)
-            .all(|matrix| is_skew(matrix));
+        let (size, skew) = (index(representation.size), representation.skew);
         let matrices = representation.matrices.iter().map(|matrix| entries(matrix));
-        let dual = dual.iter().map(|matrix| entries(matrix));
+        let dual = representation.dual.iter().map(|matrix| entries(matrix));
         let spectrum = self.spectrum();
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for #system<S> {
@@ -58,18 +49,14 @@ impl Writer<'_> {
         })
     }
 
-    /// What is known of the eigenvalues of the representation, where one carries the methods that need it.
-    pub(super) fn known_spectrum(&self) -> Option<Spectrum> {
-        let representation = self.source.matrices.as_ref()?;
-        Some(spectrum(&representation.matrices))
-    }
-
-    /// The method of the traits that says it.
+    /// The method of the traits that says what is known of the eigenvalues of the representation.
     pub(super) fn spectrum(&self) -> Option<TokenStream> {
-        let value = match self.known_spectrum()? {
+        let representation = self.plan.structure.representation.as_ref()?;
+        let value = match &representation.spectrum {
             Spectrum::Imaginary => quote! { ::lie_runtime::__private::Spectrum::Imaginary },
             Spectrum::Bounded(weights) => {
-                let weights = weights.into_iter().map(Literal::f64_unsuffixed);
+                let weights = weights.iter().map(Rational::to_f64);
+                let weights = weights.map(Literal::f64_unsuffixed);
                 quote! { ::lie_runtime::__private::Spectrum::Bounded(&[#(#weights),*]) }
             }
         };
@@ -81,11 +68,10 @@ impl Writer<'_> {
     }
 
     fn matrix_group(&self) -> Option<TokenStream> {
-        let group = self.source.group.as_ref()?;
+        let group = self.plan.structure.group.as_ref()?;
         let system = self.system_name();
         let size = index(group.size);
-        let (closed, right) = (group.closed, group.right);
-        let orthogonal = group.matrices.iter().all(|matrix| is_skew(matrix));
+        let (closed, orthogonal, right) = (group.closed, group.orthogonal, group.right);
         let matrices = group.matrices.iter().map(|matrix| entries(matrix));
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for #system<S> {
@@ -104,7 +90,7 @@ impl Writer<'_> {
     }
 
     fn cotangent_poisson(&self) -> Option<TokenStream> {
-        let momenta = index(self.source.momenta?);
+        let momenta = index(self.plan.structure.momenta?);
         let system = self.system_name();
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::CotangentPoisson<S> for #system<S> {
@@ -126,15 +112,14 @@ impl Writer<'_> {
         })
     }
 
-    fn spin_poisson(&mut self) -> Option<TokenStream> {
-        let spins = self.source.spins.clone()?;
+    fn spin_poisson(&self) -> Option<TokenStream> {
+        let spins = self.plan.structure.spins.as_ref()?;
         let system = self.system_name();
-        let triples = spins.iter().map(|spin| {
-            let triple = spin.coordinates.map(index);
+        let triples = spins.coordinates.iter().map(|coordinates| {
+            let triple = coordinates.map(index);
             quote! { [#(#triple),*] }
         });
-        let scales: Vec<ExprId> = spins.iter().map(|spin| spin.scale).collect();
-        let (argument, value) = self.chosen("spin", &scales);
+        let (argument, value) = self.chosen("spin", &spins.scales);
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for #system<S> {
                 fn spins(&self) -> &[[usize; 3]] {
@@ -149,17 +134,15 @@ impl Writer<'_> {
         })
     }
 
-    fn inertia_poisson(&mut self) -> Option<TokenStream> {
-        let Body::Many { planes, moments } = self.source.body.clone()? else {
-            return None;
-        };
+    fn inertia_poisson(&self) -> Option<TokenStream> {
+        let inertia = self.plan.structure.inertia.as_ref()?;
         let system = self.system_name();
-        let size = index(moments.len());
-        let planes = planes.iter().map(|&(from, to)| {
+        let size = index(inertia.moments.len());
+        let planes = inertia.planes.iter().map(|&(from, to)| {
             let (from, to) = (index(from), index(to));
             quote! { ::lie_runtime::__private::Plane::new(#from, #to) }
         });
-        let (argument, value) = self.chosen("axis", &moments);
+        let (argument, value) = self.chosen("axis", &inertia.moments);
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::InertiaPoisson<S> for #system<S> {
                 type Matrix = ::lie_runtime::__private::SMatrix<S, #size, #size>;
@@ -181,20 +164,17 @@ impl Writer<'_> {
         })
     }
 
+    /// The value of a program that depends on the constants of the system alone.
+    pub(super) fn value_of(&self, code: &Code) -> TokenStream {
+        let (statements, outputs) = self.program(code, &|value| self.value(value, Owner::System));
+        quote! { #statements #(#outputs)* }
+    }
+
     /// One of several constants, by an argument.
-    fn chosen(&mut self, argument: &str, values: &[ExprId]) -> (proc_macro2::Ident, TokenStream) {
-        let mut texts = Vec::new();
-        for value in values {
-            let kernel = Kernel::scalar("", "", Vec::new(), *value);
-            let program = kernel.program(&mut self.source.graph);
-            let mut none = Prepared::default();
-            let (statements, outputs) = self.program(&program, |writer, value| {
-                writer.value(value, Owner::System, &mut none)
-            });
-            texts.push(quote! { #statements #(#outputs)* });
-        }
+    fn chosen(&self, argument: &str, values: &[Code]) -> (Ident, TokenStream) {
+        let texts: Vec<_> = values.iter().map(|value| self.value_of(value)).collect();
         let same = values.iter().all(|value| *value == values[0]);
-        let name = super::names::ident(&if same {
+        let name = ident(&if same {
             format!("_{argument}")
         } else {
             argument.to_owned()
@@ -212,14 +192,6 @@ impl Writer<'_> {
         let value = quote! { match #name { #(#arms)* _ => { #last } } };
         (name, value)
     }
-}
-
-fn is_skew(matrix: &[Vec<Rational>]) -> bool {
-    matrix.iter().enumerate().all(|(i, row)| {
-        row.iter()
-            .enumerate()
-            .all(|(j, entry)| (entry + &matrix[j][i]).is_zero())
-    })
 }
 
 /// The nonzero entries of a matrix.

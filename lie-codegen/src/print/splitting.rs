@@ -3,45 +3,29 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::Writer;
+use super::Printer;
+use super::function::Owner;
 use super::names::index;
-use super::prepared::{Owner, Prepared};
-use crate::derive::{Kernel, PieceKernel, Shape, Update};
-use crate::methods::Choice;
+use crate::derive::{Shape, Update};
+use crate::plan::{Flow, Function};
 use crate::schedule::Value;
 use crate::symbolic::Symbol;
 
-impl Writer<'_> {
-    /// The hook of splittings, if H has coordinate pieces: fused where a splitting is asked for,
-    /// generic elsewhere.
-    pub fn splitting(&mut self) -> TokenStream {
-        let Some(pieces) = self.source.splitting_kernels() else {
-            return TokenStream::new();
-        };
-        let splits = |choice: &Choice| matches!(choice.solved(), Choice::Splitting(..));
-        if self.blueprint.methods.iter().any(splits) {
-            return self.fused_splitting(&pieces);
-        }
-        let system = self.system_name();
-        quote! {
-            ::lie_runtime::generic_equations!(
-                [S: ::lie_runtime::Scalar] #system<S>, S: splitting
-            );
-        }
-    }
-
-    fn fused_splitting(&mut self, pieces: &[PieceKernel]) -> TokenStream {
-        let (visibility, system) = (&self.blueprint.visibility, self.system_name());
-        let name = format_ident!("{}Splitting", self.blueprint.name);
-        let n = index(self.source.dimension);
+impl Printer<'_> {
+    /// The flows of the pieces of H and their hook.
+    pub(super) fn splitting(&self) -> Option<TokenStream> {
+        let pieces = &self.plan.splitting.as_ref()?.flows;
+        let (visibility, system) = (&self.surface.visibility, self.system_name());
+        let name = self.type_name("Splitting");
+        let n = index(self.plan.dimension());
         let state = quote! { ::lie_runtime::__private::SVector<S, #n> };
-        let series = pieces.iter().any(|piece| piece.kernel.is_none());
+        let series = pieces.iter().any(|piece| piece.function.is_none());
         let generic = quote! { ::lie_runtime::generic::CoordinateFlows };
         let field = series.then(|| quote! { series: #generic<'a, S, #system<S>>, });
         let value = series.then(|| quote! { series: #generic::new(system), });
         let names: Vec<String> = pieces
             .iter()
-            .map(|piece| format!("`{}`", self.blueprint.coordinates[piece.coordinate]))
+            .map(|piece| format!("`{}`", self.plan.names.coordinates[piece.coordinate]))
             .collect();
         let doc = match names.as_slice() {
             [] => " The flows of the pieces of H: none moves the state.".to_owned(),
@@ -69,7 +53,7 @@ impl Writer<'_> {
                 ::lie_runtime::generic::piece_direction(self.system, coordinate, _t, _mu, _xi);
             }
         };
-        quote! {
+        Some(quote! {
             #[doc = #doc]
             #[derive(Debug)]
             #visibility struct #name<'a, S: ::lie_runtime::Scalar> {
@@ -117,14 +101,14 @@ impl Writer<'_> {
                     #name::new(self)
                 }
             }
-        }
+        })
     }
 
     /// The flow of one piece as a function.
-    fn flow(&mut self, piece: &PieceKernel, function: &Ident, state: &TokenStream) -> TokenStream {
-        let coordinate = self.blueprint.coordinates[piece.coordinate].to_string();
+    fn flow(&self, piece: &Flow, function: &Ident, state: &TokenStream) -> TokenStream {
+        let coordinate = &self.plan.names.coordinates[piece.coordinate];
         let mu = self.argument("mu");
-        let Some(kernel) = &piece.kernel else {
+        let Some(kernel) = &piece.function else {
             let doc = format!(" The flow of the piece in `{coordinate}`, by its series.");
             let coordinate = index(piece.coordinate);
             return quote! {
@@ -135,19 +119,11 @@ impl Writer<'_> {
             };
         };
         let title = format!(" The flow of the piece in `{coordinate}` over a time t.");
-        let mut program = kernel.program(&mut self.source.graph);
-        for update in &piece.updates {
-            match update {
-                Update::Add | Update::Subtract => program.counts.add += 1,
-                Update::Multiply => program.counts.mul += 1,
-                Update::Divide => program.counts.div += 1,
-            }
-        }
-        let docs = self.kernel_docs(&format!("splitting flow {coordinate}"), kernel, &program);
-        let unpacked = self.unpack(&kernel.arguments[0], &program, &quote! { #mu });
-        let (statements, outputs) = self.program(&program, |writer, value| match value {
+        let docs = self.docs(kernel);
+        let unpacked = self.unpack(&kernel.arguments[0], kernel, &quote! { #mu });
+        let (statements, outputs) = self.program(&kernel.program, &|value| match value {
             Value::Symbol(Symbol::Time) => quote! { t },
-            value => writer.value(value, Owner::Equation, &mut Prepared::default()),
+            value => self.value(value, Owner::Equation),
         });
         let writes = updates(kernel, &piece.updates, &mu, &outputs);
         quote! {
@@ -166,7 +142,7 @@ impl Writer<'_> {
 
 /// The statements that change mu.
 fn updates(
-    kernel: &Kernel,
+    kernel: &Function,
     updates: &[Update],
     mu: &Ident,
     outputs: &[TokenStream],

@@ -4,11 +4,15 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::Writer;
+use super::Printer;
+use super::function::Owner;
 use super::names::ident;
-use super::prepared::{Owner, Prepared};
 use crate::exact::Rational;
-use crate::schedule::{Operation, Program, Value};
+use crate::plan::{Code, Constant};
+use crate::schedule;
+
+type Operation = schedule::Operation<Constant>;
+type Value = schedule::Value<Constant>;
 
 /// An expression with more operations than this is bound to a local even if it is used once.
 const LONGEST: usize = 16;
@@ -28,12 +32,12 @@ struct Text {
     length: usize,
 }
 
-impl Writer<'_> {
+impl Printer<'_> {
     /// The statements of a program and the tokens of its results.
-    pub fn program(
-        &mut self,
-        program: &Program,
-        mut leaf: impl FnMut(&mut Self, &Value) -> TokenStream,
+    pub(super) fn program(
+        &self,
+        program: &Code,
+        leaf: &dyn Fn(&Value) -> TokenStream,
     ) -> (TokenStream, Vec<TokenStream>) {
         let mut uses = vec![0usize; program.operations.len()];
         let mut inner = vec![false; program.operations.len()];
@@ -56,7 +60,7 @@ impl Writer<'_> {
                 let mut get = |value: &Value| match value {
                     Value::Temporary(i) => texts[*i].clone(),
                     other => Text {
-                        tokens: leaf(self, other),
+                        tokens: leaf(other),
                         binding: Binding::Atom,
                         length: 0,
                     },
@@ -81,21 +85,21 @@ impl Writer<'_> {
             .iter()
             .map(|value| match value {
                 Value::Temporary(i) => texts[*i].tokens.clone(),
-                other => leaf(self, other),
+                other => leaf(other),
             })
             .collect();
         (statements, outputs)
     }
 
     /// The tokens of a value that is not a temporary.
-    pub fn value(&mut self, value: &Value, owner: Owner, step: &mut Prepared) -> TokenStream {
+    pub(super) fn value(&self, value: &Value, owner: Owner) -> TokenStream {
         match value {
             Value::Symbol(symbol) => {
                 let name = self.local(*symbol);
                 quote! { #name }
             }
             Value::Number(number) => self::number(number),
-            Value::Prepared(id) => self.constant(*id, owner, step),
+            Value::Prepared(constant) => self.constant(*constant, owner),
             Value::Temporary(i) => {
                 let name = format_ident!("_t{i}");
                 quote! { #name }

@@ -2,14 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
-
-use super::names::index;
 use crate::schedule::Counts;
 
 /// One step of the factorisation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Step {
     /// `a_kk <- 1/a_kk`
     Pivot(usize),
@@ -20,7 +16,7 @@ pub enum Step {
 }
 
 /// The elimination of a pattern.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Elimination {
     /// Order of the pivots.
     pub order: Vec<usize>,
@@ -29,20 +25,20 @@ pub struct Elimination {
     /// Entries that are zero before and not after.
     pub fill: Vec<(usize, usize)>,
     /// All entries of the factors, by row.
-    rows: BTreeMap<usize, BTreeSet<usize>>,
+    pub rows: BTreeMap<usize, BTreeSet<usize>>,
     /// Pivots that are one, and stay it.
-    unit: BTreeSet<usize>,
+    pub unit: BTreeSet<usize>,
 }
-
-/// Reads an entry of the matrix.
-pub type Read<'a> = dyn Fn(usize, usize) -> TokenStream + 'a;
-/// Writes an entry of the matrix.
-pub type Write<'a> = dyn Fn(usize, usize, TokenStream) -> TokenStream + 'a;
 
 /// More multiplications than this are run from a table instead of being written out.
 pub const UNROLLED: usize = 300;
 
 impl Elimination {
+    /// Whether it is written out.
+    pub fn is_unrolled(&self) -> bool {
+        self.multiplications() <= UNROLLED
+    }
+
     /// The elimination of an n x n pattern whose diagonal is full; `unit` lists the rows whose
     /// diagonal entry is one. The pivot that makes the least fill-in comes first (Markowitz 1957).
     pub fn new(n: usize, pattern: &[(usize, usize)], unit: &BTreeSet<usize>) -> Self {
@@ -93,13 +89,8 @@ impl Elimination {
     }
 
     /// Entries of row `i` left (multipliers) and right of the pivot, in elimination order.
-    fn split(&self, i: usize) -> (Vec<usize>, Vec<usize>) {
-        let place: BTreeMap<usize, usize> = self
-            .order
-            .iter()
-            .enumerate()
-            .map(|(p, k)| (*k, p))
-            .collect();
+    pub fn split(&self, i: usize) -> (Vec<usize>, Vec<usize>) {
+        let place = self.places();
         let mut entries: Vec<usize> = self.rows[&i].iter().copied().filter(|j| *j != i).collect();
         entries.sort_by_key(|j| place[j]);
         entries.into_iter().partition(|j| place[j] < place[&i])
@@ -138,152 +129,11 @@ impl Elimination {
             + scaling
     }
 
-    /// The factorisation written out over a matrix; evaluates to the mask of safe lanes.
-    pub fn factor_tokens(&self, read: &Read<'_>, write: &Write<'_>) -> TokenStream {
-        let mut code = Factorisation {
-            read,
-            known: BTreeSet::new(),
-            body: TokenStream::new(),
-        };
-        let mut changed: BTreeSet<(usize, usize)> = BTreeSet::new();
-        let mut inverses = Vec::new();
-        for step in &self.steps {
-            match *step {
-                Step::Pivot(k) => {
-                    let pivot = code.entry(k, k);
-                    code.body.extend(quote! { let #pivot = S::one() / #pivot; });
-                    inverses.push(pivot);
-                    changed.insert((k, k));
-                }
-                Step::Multiplier(i, k) => {
-                    let (entry, pivot) = (code.entry(i, k), code.entry(k, k));
-                    code.body.extend(quote! { let #entry = #entry * #pivot; });
-                    changed.insert((i, k));
-                }
-                Step::Update(i, k, j) => {
-                    let (factor, right) = (code.entry(i, k), code.entry(k, j));
-                    let name = local(i, j);
-                    if self.fill.contains(&(i, j)) && changed.insert((i, j)) {
-                        code.known.insert((i, j));
-                        code.body
-                            .extend(quote! { let #name = -(#factor * #right); });
-                    } else {
-                        code.entry(i, j);
-                        code.body
-                            .extend(quote! { let #name = #name - #factor * #right; });
-                        changed.insert((i, j));
-                    }
-                }
-            }
-        }
-        let writes = changed.iter().map(|&(i, j)| {
-            let name = local(i, j);
-            write(i, j, quote! { #name })
-        });
-        let safe = match inverses.split_first() {
-            None => quote! { <S::Mask as ::lie_runtime::Mask>::splat(true) },
-            Some((first, rest)) => quote! {
-                ::lie_runtime::__private::inverse_pivots_are_safe(#first.abs() #(.max(#rest.abs()))*)
-            },
-        };
-        let body = code.body;
-        quote! { #body #(#writes)* #safe }
+    /// The place of each pivot in the order.
+    pub fn places(&self) -> BTreeMap<usize, usize> {
+        let order = self.order.iter().enumerate();
+        order.map(|(place, pivot)| (*pivot, place)).collect()
     }
-
-    /// The elimination as a table for the runtime.
-    pub fn table_tokens(&self) -> TokenStream {
-        let place: BTreeMap<usize, usize> = self
-            .order
-            .iter()
-            .enumerate()
-            .map(|(p, k)| (*k, p))
-            .collect();
-        let list = |mut entries: Vec<usize>| {
-            entries.sort_by_key(|k| place[k]);
-            let entries = entries.into_iter().map(index);
-            quote! { &[#(#entries),*] }
-        };
-        let order = self.order.iter().copied().map(index);
-        let below = self.order.iter().map(|&k| {
-            list(
-                self.order
-                    .iter()
-                    .copied()
-                    .filter(|i| place[i] > place[&k] && self.rows[i].contains(&k))
-                    .collect(),
-            )
-        });
-        let right = self.order.iter().map(|&k| list(self.split(k).1));
-        quote! {
-            ::lie_runtime::__private::StaticElimination {
-                order: &[#(#order),*],
-                below: &[#(#below),*],
-                right: &[#(#right),*],
-            }
-        }
-    }
-
-    /// The solution written out: the right-hand side is replaced by the solution.
-    pub fn solve_tokens(
-        &self,
-        read: &Read<'_>,
-        entry: &dyn Fn(usize) -> TokenStream,
-    ) -> TokenStream {
-        let mut body = TokenStream::new();
-        let name = |i: usize| format_ident!("_b{i}");
-        for &i in &self.order {
-            let b = name(i);
-            let value = entry(i);
-            let (left, _) = self.split(i);
-            let terms = left.iter().map(|&k| {
-                let (factor, other) = (read(i, k), name(k));
-                quote! { - #factor * #other }
-            });
-            body.extend(quote! { let #b = #value #(#terms)*; });
-        }
-        for &i in self.order.iter().rev() {
-            let b = name(i);
-            let (_, right) = self.split(i);
-            let terms = right.iter().map(|&j| {
-                let (factor, other) = (read(i, j), name(j));
-                quote! { - #factor * #other }
-            });
-            let pivot = read(i, i);
-            match (right.is_empty(), self.unit.contains(&i)) {
-                (true, true) => {}
-                (true, false) => body.extend(quote! { let #b = #b * #pivot; }),
-                (false, true) => body.extend(quote! { let #b = #b #(#terms)*; }),
-                (false, false) => body.extend(quote! { let #b = (#b #(#terms)*) * #pivot; }),
-            }
-        }
-        let writes = (0..self.order.len()).map(|i| {
-            let (target, b) = (entry(i), name(i));
-            quote! { #target = #b; }
-        });
-        quote! { #body #(#writes)* }
-    }
-}
-
-/// The factorisation under construction: entries are loaded at their first use.
-struct Factorisation<'a> {
-    read: &'a Read<'a>,
-    known: BTreeSet<(usize, usize)>,
-    body: TokenStream,
-}
-
-impl Factorisation<'_> {
-    fn entry(&mut self, i: usize, j: usize) -> Ident {
-        let name = local(i, j);
-        if self.known.insert((i, j)) {
-            let value = (self.read)(i, j);
-            self.body.extend(quote! { let #name = #value; });
-        }
-        name
-    }
-}
-
-fn local(i: usize, j: usize) -> Ident {
-    format_ident!("_a{i}_{j}")
 }
 
 fn cheapest(rows: &BTreeMap<usize, BTreeSet<usize>>, active: &BTreeSet<usize>) -> Option<usize> {

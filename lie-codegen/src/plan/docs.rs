@@ -1,0 +1,85 @@
+//! The doc lines of a system.
+
+use crate::model::{Model, Structure};
+
+/// What the bracket is, in words.
+fn bracket_in_words(model: &Model) -> String {
+    let dimension = model.dimension();
+    let dual = format!("on the dual of a Lie algebra of dimension {dimension}");
+    match model.structure {
+        Structure::Lie => dual,
+        Structure::Extended => format!("{dual}, its bracket with a constant term"),
+        Structure::General => {
+            let brackets = model.poisson.entries.iter().map(|(i, j, value)| {
+                let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);
+                format!("`{{{a}, {b}}} = {}`", model.display(*value))
+            });
+            let brackets: Vec<String> = brackets.collect();
+            match brackets.as_slice() {
+                [] => "with the bracket that is zero".into(),
+                brackets => format!("with the brackets {}", brackets.join(", ")),
+            }
+        }
+    }
+}
+
+/// The doc lines of the generated type: the user's own, then the mathematics.
+pub(super) fn docs(model: &Model) -> Vec<String> {
+    let mut docs = model.description.clone();
+    let names: Vec<&str> = model.coordinates.iter().map(|c| c.text.as_str()).collect();
+    docs.push(String::new());
+    let energy = if model.has_expression() {
+        format!("`H = {}`", model.display(model.energy))
+    } else {
+        "The Legendre transform of its Lagrangian, by Newton's iteration,".to_owned()
+    };
+    if let Some(lagrangian) = &model.lagrangian {
+        let velocity: Vec<&str> = lagrangian
+            .velocity
+            .iter()
+            .map(|v| v.text.as_str())
+            .collect();
+        if let Some(discrete) = lagrangian.discrete {
+            docs.push(format!(
+                "Discrete Lagrangian `l_d = {}` of a step with the coordinates `{}`.",
+                model.display(discrete),
+                velocity.join(", ")
+            ));
+        }
+        docs.push(format!(
+            "Lagrangian `l = {}` of the velocity `{}`.",
+            model.display(lagrangian.value),
+            velocity.join(", ")
+        ));
+    }
+    docs.push(format!("{energy} {},", bracket_in_words(model)));
+    docs.push(format!(
+        "coordinates `{}`; the Poisson matrix has generic rank {}.",
+        names.join(", "),
+        model.generic_rank
+    ));
+    if let Some(configuration) = &model.configuration {
+        docs.push(format!("Coordinates: {}.", configuration.description()));
+    }
+    if !model.casimirs.is_empty() {
+        let casimirs: Vec<String> = model
+            .casimirs
+            .iter()
+            .map(|c| format!("`{} = {}`", c.name, model.display(c.expr)))
+            .collect();
+        docs.push(format!("Casimirs: {}.", casimirs.join(", ")));
+    }
+    for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
+        docs.push(format!(
+            "`{}` is multi-valued: an angle in it jumps, and its drift is not measured.",
+            casimir.name
+        ));
+    }
+    for reference in &model.references {
+        docs.push(String::new());
+        docs.push(format!("Reference: {reference}"));
+    }
+    docs.into_iter()
+        .map(|line| line.trim_end().to_string())
+        .collect()
+}

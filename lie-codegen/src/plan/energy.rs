@@ -1,0 +1,196 @@
+//! Methods that keep the energy: discrete gradients, with orbits, and collocation.
+//!
+//! For a quadratic H the discrete gradients are the gradient at the middle: the methods along them
+//! run on the equations of the midpoint rule and of Gauss collocation. For other polynomials they have
+//! closed forms, which are fused; for all else the generic equation is assembled from the kernels and
+//! its elimination specialised to the pattern.
+
+use super::constants::Table;
+use super::equation::{Gradient as Closed, Item, Partner, Solver};
+use super::planner::Planner;
+use super::steps::Form;
+use crate::methods::{Choice, Gradient, Tensor};
+
+/// Polynomials up to this degree have fused closed forms.
+const CLOSED: u32 = 6;
+/// Beyond this number of nodes of H times coordinates to the power of the derivatives that are taken,
+/// closed forms swell.
+const LARGEST: usize = 10_000;
+
+/// What a discrete gradient is called.
+struct Names {
+    /// The method.
+    method: &'static str,
+    /// The same with orbits.
+    orbit: &'static str,
+    /// The generic equations by key, without and with orbits.
+    generic: [&'static str; 2],
+    /// Doc lines of its fused equation.
+    docs: &'static [&'static str],
+}
+
+const fn names(gradient: Gradient) -> Names {
+    match gradient {
+        Gradient::Gonzalez => Names {
+            method: "Gonzalez",
+            orbit: "OrbitGonzalez",
+            generic: ["gonzalez", "orbit_gonzalez"],
+            docs: &[
+                "The midpoint discrete gradient method, unknown `u = mu1`: `u - mu - h Pi((mu + u)/2) g(mu, u) = 0`.",
+            ],
+        },
+        Gradient::MeanValue => Names {
+            method: "MeanValue",
+            orbit: "OrbitMeanValue",
+            generic: ["mean_value", "orbit_mean_value"],
+            docs: &[
+                "The mean-value discrete gradient method, unknown `u = mu1`: `u - mu - h Pi((mu + u)/2) g(mu, u) = 0`.",
+            ],
+        },
+        Gradient::ItohAbe => Names {
+            method: "ItohAbe",
+            orbit: "OrbitItohAbe",
+            generic: ["itoh_abe", "orbit_itoh_abe"],
+            docs: &[
+                "The symmetrised coordinate-increment method, unknown `u = mu1`: `u - mu - h Pi((mu + u)/2) g(mu, u) = 0`.",
+            ],
+        },
+    }
+}
+
+impl Planner<'_> {
+    /// The equations of these methods: fused where asked for, the others named in `generic`.
+    pub(super) fn energy(&mut self, generic: &mut Vec<String>) {
+        let mut hooks = Vec::new();
+        let mut left: [Vec<String>; 3] = Default::default();
+        let [steps, orbits, collocation] = &mut left;
+        for gradient in Gradient::ALL.iter().copied() {
+            let [plain, orbit] = names(gradient).generic;
+            let choice = Choice::DiscreteGradient(gradient, Tensor::Midpoint);
+            if self.asked(&choice) {
+                hooks.push(Item::Method(choice, self.discrete_gradient(gradient)));
+            } else {
+                steps.push(plain.to_owned());
+            }
+            if !self.source.is_lie() {
+                continue;
+            }
+            let choice = Choice::OrbitEnergy(gradient);
+            if self.asked(&choice) {
+                hooks.push(Item::Method(choice, self.orbit_energy(gradient)));
+            } else {
+                orbits.push(orbit.to_owned());
+            }
+        }
+        for stages in 1..=3_usize {
+            let choice = Choice::CohenHairer(2 * stages as u32);
+            if self.asked(&choice) {
+                hooks.push(Item::Method(choice, self.cohen_hairer(stages)));
+            } else {
+                collocation.push(format!("cohen_hairer{}", 2 * stages));
+            }
+        }
+        for (family, left) in ["discrete_gradients", "orbit_energy", "cohen_hairer"]
+            .into_iter()
+            .zip(left)
+        {
+            if left.len() == 3 {
+                generic.push(family.to_owned());
+            } else {
+                generic.extend(left);
+            }
+        }
+        self.items.extend(hooks);
+    }
+
+    pub(super) fn quadratic(&self) -> bool {
+        self.model.hamiltonian_degree.is_some_and(|d| d <= 2)
+    }
+
+    /// The degree of H if discrete gradients have closed forms of reasonable size.
+    fn closed(&self) -> Option<u32> {
+        let degree = self.model.hamiltonian_degree?;
+        let nodes = self.source.graph.dependencies(&[self.source.hamiltonian?]);
+        let size = (2..degree).fold(nodes.len(), |size, _| {
+            size.saturating_mul(self.source.dimension)
+        });
+        (degree <= CLOSED && size <= LARGEST).then_some(degree)
+    }
+
+    /// The equation of a discrete gradient method.
+    fn discrete_gradient(&mut self, gradient: Gradient) -> Solver {
+        if self.quadratic() {
+            return self.midpoint();
+        }
+        let names = names(gradient);
+        self.once(names.method, |planner| {
+            let partner = Partner::DiscreteGradient(gradient);
+            if let Some(degree) = planner.closed() {
+                let kernels = planner.source.discrete_gradient_kernels(gradient, degree);
+                let form = Form {
+                    docs: names.docs,
+                    ..Form::new(names.method, gradient.name(), partner)
+                };
+                return planner.fused(form, &kernels);
+            }
+            let pattern = planner.step_pattern(gradient);
+            planner.eliminated(partner, names.method, gradient.name(), 1, pattern)
+        })
+    }
+
+    /// The equation of coadjoint motion along a discrete gradient.
+    fn orbit_energy(&mut self, gradient: Gradient) -> Solver {
+        // for a quadratic H all three are the mean value, by one node
+        let gradient = if self.quadratic() {
+            Gradient::MeanValue
+        } else {
+            gradient
+        };
+        let names = names(gradient);
+        self.once(names.orbit, |planner| {
+            let degree = planner.closed().filter(|degree| *degree > 2);
+            if let Some(degree) = degree {
+                planner.closed_gradient(gradient, degree);
+            }
+            let derivative = planner.derivative_pattern(gradient);
+            let pattern = planner.exp_pattern(&derivative);
+            let partner = Partner::OrbitEnergy(gradient, degree.is_some());
+            let label = format!("orbit-energy {}", gradient.name());
+            planner.eliminated(partner, names.orbit, &label, 1, pattern)
+        })
+    }
+
+    /// The equation of energy-preserving collocation.
+    fn cohen_hairer(&mut self, stages: usize) -> Solver {
+        if stages == 1 {
+            return self.discrete_gradient(Gradient::MeanValue);
+        }
+        if self.quadratic() {
+            return self.gauss(stages);
+        }
+        let order = 2 * stages;
+        self.once(&format!("cohen-hairer{order}"), |planner| {
+            let pattern = planner.step_pattern(Gradient::MeanValue);
+            let (suffix, label) = (
+                format!("CohenHairer{order}"),
+                format!("cohen-hairer{order}"),
+            );
+            let partner = Partner::CohenHairer(stages);
+            planner.eliminated(partner, &suffix, &label, stages, pattern)
+        })
+    }
+
+    fn closed_gradient(&mut self, gradient: Gradient, degree: u32) {
+        let kernels = self.source.gradient_kernels(gradient, degree);
+        let mut none = Table::default();
+        let functions = kernels.iter().map(|kernel| {
+            let label = format!("{} gradient {}", gradient.name(), kernel.name);
+            self.labelled(label, kernel, &mut none)
+        });
+        let functions = functions.collect();
+        self.items.push(Item::Gradient(Closed {
+            gradient,
+            functions,
+        }));
+    }
+}

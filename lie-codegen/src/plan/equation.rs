@@ -1,0 +1,187 @@
+//! The steps that have code of their own.
+
+use super::constants::Constants;
+use super::elimination::Elimination;
+use super::function::Function;
+use crate::methods::{self, Choice, Lift};
+use crate::schedule::Counts;
+
+/// A definition that the steps of methods are made of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Item {
+    /// A fused equation.
+    Fused(Box<Fused>),
+    /// The elimination of a pattern, for generic equations.
+    Sparse(Sparse),
+    /// A discrete gradient in closed form.
+    Gradient(Gradient),
+    /// A generating function.
+    Generating(Box<Generating>),
+    /// A method and the equation that its step solves.
+    Method(Choice, Solver),
+    /// The collective methods over the representation with so many stages: their steps are those of the isospectral ones.
+    Collective(usize),
+}
+
+/// An equation with kernels of its own.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Fused {
+    /// The end of its type's name.
+    pub suffix: &'static str,
+    /// Its doc lines.
+    pub docs: &'static [&'static str],
+    /// Residual, residual with Jacobian, and where there are such the initial guess and the state at the end.
+    pub functions: Vec<Function>,
+    /// The elimination of its Jacobian.
+    pub elimination: Elimination,
+    /// What is computed once for a step size.
+    pub step: Constants,
+    /// Where Newton's iteration begins.
+    pub guess: Guess,
+    /// The generic equation of the same step.
+    pub partner: Partner,
+    /// Whether the method is of coadjoint form.
+    pub coadjoint: bool,
+    /// How a step is kept on the chart of its retraction, where that has poles.
+    pub chart: Option<Chart>,
+    /// Where the state at the end of the step is found.
+    pub ending: Ending,
+}
+
+/// Where Newton's iteration begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Guess {
+    /// At `mu + h f(mu)`.
+    WholeStep,
+    /// At `mu + (h/2) f(mu)`.
+    HalfStep,
+    /// Where a kernel says.
+    Kernel,
+}
+
+/// The element of a step that must be joined to the identity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Chart {
+    /// `h grad H` at the unknown.
+    OfField,
+    /// The group factor of the equation.
+    OfFactor,
+}
+
+/// Where the state at the end of a step is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Ending {
+    /// It is the unknown.
+    Unknown,
+    /// A kernel computes it.
+    Kernel,
+    /// The generic equation does.
+    Partner,
+}
+
+/// A generic equation of the numeric core.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Partner {
+    /// The midpoint rule.
+    Midpoint,
+    /// Gauss collocation with so many stages.
+    Gauss(usize),
+    /// The retraction method with the exponential.
+    ExpMidpoint,
+    /// The retraction method with the Cayley map.
+    CayleyMidpoint,
+    /// A discrete gradient method.
+    DiscreteGradient(methods::Gradient),
+    /// Coadjoint motion along a discrete gradient, which may be one in closed form.
+    OrbitEnergy(methods::Gradient, bool),
+    /// Energy-preserving collocation with so many stages.
+    CohenHairer(usize),
+    /// The exponential retraction along a generating function, by the end of its type's name.
+    ExpRetraction(&'static str),
+    /// Coordinates of the second kind, along a fused generating function if one is named.
+    SecondKind(Option<&'static str>),
+    /// The Cayley map along the generating function of order 4.
+    CayleyGenerating4,
+    /// The spherical midpoint method, with so many spins.
+    Spherical(usize),
+    /// The discrete rigid body in three dimensions.
+    DiscreteTop,
+    /// The discrete rigid body in more.
+    DiscreteBody,
+    /// Momenta at so many stages over a map.
+    Stages(Lift, usize),
+}
+
+/// The equation that the step of a method solves.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Solver {
+    /// A fused one, by the end of its type's name.
+    Fused(&'static str),
+    /// A generic one under an elimination of its own, by the end of that type's name.
+    Eliminated(Partner, String),
+}
+
+/// The elimination of a pattern that repeats one block for each pair of stages.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Sparse {
+    /// The end of its type's name.
+    pub suffix: String,
+    /// Its name in the table of operation counts.
+    pub label: String,
+    /// The number of stages.
+    pub stages: usize,
+    /// The elimination.
+    pub elimination: Elimination,
+}
+
+/// A discrete gradient in closed form.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Gradient {
+    /// Which.
+    pub gradient: methods::Gradient,
+    /// The gradient, and the gradient with its derivative.
+    pub functions: Vec<Function>,
+}
+
+/// A generating function.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Generating {
+    /// The end of its type's name.
+    pub suffix: &'static str,
+    /// The function, as a formula.
+    pub formula: &'static str,
+    /// Its gradient.
+    pub gradient: Function,
+    /// Its gradient and Hessian; without it the Hessian comes from the gradient over dual numbers.
+    pub linearize: Option<Function>,
+    /// What is computed once for a step size.
+    pub step: Constants,
+}
+
+impl Item {
+    /// Its kernels.
+    pub fn functions(&self) -> impl Iterator<Item = &Function> {
+        let (list, gradient, linearize) = match self {
+            Self::Fused(fused) => (fused.functions.as_slice(), None, None),
+            Self::Gradient(gradient) => (gradient.functions.as_slice(), None, None),
+            Self::Generating(function) => {
+                let function: &Generating = function;
+                (
+                    &[][..],
+                    Some(&function.gradient),
+                    function.linearize.as_ref(),
+                )
+            }
+            Self::Sparse(_) | Self::Method(..) | Self::Collective(_) => (&[][..], None, None),
+        };
+        list.iter().chain(gradient).chain(linearize)
+    }
+
+    /// The label and the operation counts of an elimination that stands alone.
+    pub fn elimination(&self) -> Option<(String, Counts)> {
+        match self {
+            Self::Sparse(sparse) => Some((sparse.label.clone(), sparse.elimination.counts())),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Generating-function methods: fused functions for the generic equations of the exponential and of
+//! coordinates of the second kind, and the fused equation with the Cayley map.
+
+use super::constants::Table;
+use super::equation::{Chart, Generating as Planned, Guess, Item, Partner, Solver};
+use super::planner::Planner;
+use super::steps::Form;
+use crate::derive::{Generating, Kernel, Shape};
+use crate::methods::{Choice, Retraction};
+use crate::schedule::Program;
+
+/// A function with more operations than this is not written out: its Hessian then comes from its
+/// gradient over dual numbers, or all of it from the generic form.
+const MOST_OPERATIONS: usize = 12_000;
+
+/// How a method with a fused function is named.
+struct Named {
+    /// The end of the function's name.
+    suffix: &'static str,
+    /// Label in the table of operation counts, and id.
+    label: &'static str,
+    /// The function.
+    formula: &'static str,
+}
+
+const FOUR: Named = Named {
+    suffix: "Generating4",
+    label: "generating4",
+    formula: "`S = h H + h^3 S3` in exponential coordinates",
+};
+const SIX: Named = Named {
+    suffix: "Generating6",
+    label: "generating6",
+    formula: "`S = h H + h^3 S3 + h^5 S5` in exponential coordinates",
+};
+const SECOND: Named = Named {
+    suffix: "SecondKind2",
+    label: "generating-second-kind2",
+    formula: "`S = h H + h^2 S2` in coordinates of the second kind",
+};
+
+impl Planner<'_> {
+    /// The equations of generating-function methods that are asked for; the names of the others go
+    /// to the generic ones.
+    pub(super) fn generating(&mut self, generic: &mut Vec<String>) {
+        generic.push("generating2".to_owned());
+        for (order, named) in [(4, FOUR), (6, SIX)] {
+            let choice = Choice::Generating(order, Retraction::Exp);
+            let kind = Generating::First(Retraction::Exp, order);
+            self.method(generic, choice, named.label, |planner| {
+                planner.along_function(&named, kind)
+            });
+        }
+        self.method(generic, Choice::GeneratingSecondKind2, "second_kind", |p| {
+            p.second_kind()
+                .or_else(|| p.along_function(&SECOND, Generating::Second))
+        });
+        if self.source.triple.is_some() {
+            generic.push("generating2_cayley".to_owned());
+            let choice = Choice::Generating(4, Retraction::Cayley);
+            self.method(
+                generic,
+                choice,
+                "generating4_cayley",
+                Self::cayley_generating,
+            );
+        }
+    }
+
+    /// Plans a method if it is asked for; else, or where it is not worth it, its key goes to the generic ones.
+    pub(super) fn method(
+        &mut self,
+        generic: &mut Vec<String>,
+        choice: Choice,
+        key: &str,
+        make: impl FnOnce(&mut Self) -> Option<Solver>,
+    ) {
+        match self.asked(&choice).then(|| make(self)).flatten() {
+            Some(solver) => self.items.push(Item::Method(choice, solver)),
+            None => generic.push(key.to_owned()),
+        }
+    }
+
+    /// A generic equation along a fused function; `None` if the function would be too long.
+    fn along_function(&mut self, named: &Named, kind: Generating) -> Option<Solver> {
+        let function = self.source.generating_function(kind)?;
+        let short = function.gradient.program(&mut self.source.graph);
+        if size(&short) > MOST_OPERATIONS {
+            return None;
+        }
+        let long = function.linearize.and_then(|linearize| {
+            let program = linearize.program(&mut self.source.graph);
+            (size(&program) <= MOST_OPERATIONS).then_some((linearize, program))
+        });
+        let mut step = Table::default();
+        let label = format!("{} gradient", named.label);
+        let gradient = self.of_program(label, &function.gradient, &short, &mut step);
+        let linearize = long.map(|(kernel, program)| {
+            let label = format!("{} linearize", named.label);
+            self.of_program(label, &kernel, &program, &mut step)
+        });
+        let planned = Planned {
+            suffix: named.suffix,
+            formula: named.formula,
+            gradient,
+            linearize,
+            step: self.prepared(&step, "_h"),
+        };
+        self.items.push(Item::Generating(Box::new(planned)));
+        let (partner, pattern) = match kind {
+            Generating::Second => (
+                Partner::SecondKind(Some(named.suffix)),
+                self.second_kind_pattern(&function.pattern),
+            ),
+            Generating::First(..) => (
+                Partner::ExpRetraction(named.suffix),
+                self.exp_pattern(&function.pattern),
+            ),
+        };
+        Some(self.eliminated(partner, named.suffix, named.label, 1, pattern))
+    }
+
+    /// The equation in coordinates of the second kind, where every action has a closed form.
+    fn second_kind(&mut self) -> Option<Solver> {
+        let kernels = self.source.second_kind_kernels()?;
+        if !self.short(&kernels) {
+            return None;
+        }
+        let form = Form {
+            docs: &[
+                "The generating-function method in coordinates of the second kind, unknown p, with",
+                "`S = h H + h^2 S2`: the actions `exp(xi_i ad*_(e_i))`, `xi = grad S(p)`, in closed form.",
+            ],
+            coadjoint: true,
+            ..Form::new(
+                "SecondKind2Equation",
+                SECOND.label,
+                Partner::SecondKind(None),
+            )
+        };
+        Some(self.fused(form, &kernels))
+    }
+
+    /// Whether the longest of the kernels of an equation may be written out.
+    fn short(&mut self, kernels: &[Kernel]) -> bool {
+        let mut kernels = kernels.iter();
+        let longest = kernels.find(|kernel| matches!(kernel.shape, Shape::VectorAndMatrix(..)));
+        longest
+            .is_none_or(|kernel| size(&kernel.program(&mut self.source.graph)) <= MOST_OPERATIONS)
+    }
+
+    fn cayley_generating(&mut self) -> Option<Solver> {
+        let kernels = self.source.cayley_generating_kernels(4)?;
+        if !self.short(&kernels) {
+            return None;
+        }
+        let form = Form {
+            docs: &[
+                "The generating-function method of order 4 with the Cayley map, unknown p:",
+                "`p - ad*_xi p/2 - Q_xi p/4 - mu = 0` with `xi = grad S(p)`, `S = h H + h^3 S3`, then",
+                "`mu1 = mu + ad*_xi p`.",
+            ],
+            guess: Guess::HalfStep,
+            coadjoint: true,
+            chart: Some(Chart::OfFactor),
+            ..Form::new(
+                "CayleyGenerating4",
+                "generating4 cayley",
+                Partner::CayleyGenerating4,
+            )
+        };
+        Some(self.fused(form, &kernels))
+    }
+}
+
+/// All operations of a program.
+fn size(program: &Program) -> usize {
+    let counts = program.counts;
+    counts.add + counts.mul + counts.div + counts.call
+}

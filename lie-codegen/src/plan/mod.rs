@@ -1,0 +1,95 @@
+//! What is generated for a system, as plain data: names, kernels as straight-line programs, equations with their
+//! eliminations, tables.
+//!
+//! Everything is decided here and nothing is text of a language yet: [`crate::print`] writes a plan as Rust,
+//! `lie expand --plan` shows it, and another back end can run its programs. A plan can be compared, hashed, kept and
+//! sent to another thread.
+
+mod collective;
+mod constants;
+mod docs;
+pub mod elimination;
+mod energy;
+mod equation;
+mod function;
+mod generating;
+mod names;
+mod pattern;
+mod planner;
+mod splitting;
+mod steps;
+mod structure;
+mod system;
+mod text;
+
+pub use constants::{Code, Constant, Constants, Prepared};
+pub use equation::{
+    Chart, Ending, Fused, Generating, Gradient, Guess, Item, Partner, Solver, Sparse,
+};
+pub use function::Function;
+pub use names::Names;
+pub use planner::plan;
+pub use splitting::{Flow, Splitting};
+pub use structure::{Group, Inertia, Realization, Representation, Spectrum, Spins, Structure};
+pub use system::{Casimir, Energy, System};
+
+use crate::schedule::Counts;
+
+/// The plan of a system and of the methods that were asked for.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Plan {
+    /// What everything is called.
+    pub names: Names,
+    /// Doc lines of the system, Markdown.
+    pub docs: Vec<String>,
+    /// The parameters, in the order of their names.
+    pub parameters: Vec<Parameter>,
+    /// Their defaults.
+    pub defaults: Code,
+    /// The initial state for given parameters, if one is declared.
+    pub initial: Option<Code>,
+    /// What is computed once from the parameters.
+    pub constants: Constants,
+    /// The system: its facts and the kernels of its traits.
+    pub system: System,
+    /// What a system may have beyond its bracket.
+    pub structure: Structure,
+    /// The steps that have code of their own, in the order of their definition.
+    pub items: Vec<Item>,
+    /// The methods that run on generic equations, by the keys of `generic_equations!`.
+    pub generic: Vec<String>,
+    /// The flows of the pieces of H, where a splitting is asked for.
+    pub splitting: Option<Splitting>,
+}
+
+/// A parameter of a system.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Parameter {
+    /// What it is, Markdown.
+    pub doc: String,
+    /// Whether it must be positive.
+    pub positive: bool,
+}
+
+impl Plan {
+    /// The number of coordinates n.
+    pub fn dimension(&self) -> usize {
+        self.names.coordinates.len()
+    }
+
+    /// The operation counts of all kernels and eliminations, by label.
+    pub fn counts(&self) -> Vec<(String, Counts)> {
+        let system = self.system.functions();
+        let realization = self.structure.realization.iter();
+        let realized = realization.flat_map(|realization| &realization.functions);
+        let counted = |function: &Function| (function.label.clone(), function.program.counts);
+        let mut counts: Vec<_> = system.chain(realized).map(counted).collect();
+        for item in &self.items {
+            counts.extend(item.functions().map(counted));
+            counts.extend(item.elimination());
+        }
+        let flows = self.splitting.iter().flat_map(|splitting| &splitting.flows);
+        counts.extend(flows.filter_map(|flow| flow.function.as_ref()).map(counted));
+        counts
+    }
+}

@@ -1,0 +1,109 @@
+//! The state of a plan in the making.
+
+use super::constants::Table;
+use super::equation::{Item, Solver};
+use super::names::Names;
+use super::{Parameter, Plan};
+use crate::derive::Source;
+use crate::methods::Choice;
+use crate::model::Model;
+use crate::structure::separable;
+
+/// The plan of a checked system with fused code for these methods; all others run on the generic forms.
+pub fn plan(model: &Model, choices: &[Choice]) -> Plan {
+    let mut planner = Planner::new(model, choices);
+    let system = planner.system();
+    let structure = planner.structure();
+    let generic = planner.equations();
+    let splitting = planner.splitting();
+    let defaults: Vec<_> = model.parameters.iter().map(|p| p.default).collect();
+    let defaults = planner.preparation(&defaults);
+    let table = std::mem::take(&mut planner.constants);
+    let constants = planner.prepared(&table, "_k");
+    let initial = model.initial.as_ref();
+    let initial = initial.map(|initial| planner.preparation(initial));
+    let (splitting, generic) = match splitting {
+        Some(Ok(splitting)) => (Some(splitting), generic),
+        Some(Err(key)) => (None, [generic, vec![key]].concat()),
+        None => (None, generic),
+    };
+    Plan {
+        names: planner.names,
+        docs: super::docs::docs(model),
+        parameters: parameters(model),
+        defaults,
+        initial,
+        constants,
+        system,
+        structure,
+        items: planner.items,
+        generic,
+        splitting,
+    }
+}
+
+/// A plan in the making.
+pub(super) struct Planner<'a> {
+    pub(super) model: &'a Model,
+    pub(super) source: Source,
+    pub(super) names: Names,
+    /// The methods whose equations get fused code.
+    pub(super) methods: Vec<Choice>,
+    /// The constants of the system.
+    pub(super) constants: Table,
+    pub(super) items: Vec<Item>,
+    /// Equations that several methods share, by a key.
+    pub(super) known: Vec<(String, Solver)>,
+    /// The patterns that have an elimination, as stages and one block.
+    pub(super) eliminations: Vec<(usize, Vec<(usize, usize)>, String)>,
+}
+
+impl<'a> Planner<'a> {
+    fn new(model: &'a Model, choices: &[Choice]) -> Self {
+        let mut source = Source::of(model);
+        let solved = choices.iter().map(Choice::solved);
+        if solved
+            .clone()
+            .any(|choice| *choice == Choice::GeneratingSecondKind2)
+        {
+            source.actions = Some(separable::actions(model));
+        }
+        Self {
+            model,
+            source,
+            names: Names::of(model),
+            // without an expression of H there is nothing to fuse
+            methods: solved.filter(|_| model.has_expression()).cloned().collect(),
+            constants: Table::default(),
+            items: Vec::new(),
+            known: Vec::new(),
+            eliminations: Vec::new(),
+        }
+    }
+
+    /// Whether fused code is wanted for a method.
+    pub(super) fn asked(&self, choice: &Choice) -> bool {
+        self.methods.contains(choice)
+    }
+}
+
+fn parameters(model: &Model) -> Vec<Parameter> {
+    let described = model.parameters.iter().map(|p| {
+        let mut doc = match &p.description {
+            Some(description) => description.clone(),
+            None => format!("The parameter `{}`", p.name),
+        };
+        if let Some(unit) = &p.unit {
+            doc.push_str(&format!(" \\[{unit}]"));
+        }
+        doc.push('.');
+        if p.positive {
+            doc.push_str(" Positive.");
+        }
+        Parameter {
+            doc,
+            positive: p.positive,
+        }
+    });
+    described.collect()
+}

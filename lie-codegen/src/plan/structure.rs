@@ -1,0 +1,194 @@
+//! What a system may have beyond its bracket: matrices, spins, inertia, a realization.
+
+use super::constants::Code;
+use super::function::Function;
+use super::planner::Planner;
+use crate::derive::Kernel;
+use crate::exact::Rational;
+use crate::structure::inertia::Body;
+use crate::structure::spectrum;
+use crate::symbolic::ExprId;
+
+/// Matrices by rows.
+pub type Matrices = Vec<Vec<Vec<Rational>>>;
+
+/// The structure of a system.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Structure {
+    /// The group of the declared matrices.
+    pub group: Option<Group>,
+    /// The representation, where it carries collective methods.
+    pub representation: Option<Representation>,
+    /// The summands of a direct sum of algebras so(3).
+    pub spins: Option<Spins>,
+    /// The inertia of a free rigid body in four dimensions or more.
+    pub inertia: Option<Inertia>,
+    /// The number of momenta of a system on `T*G`, which are its first coordinates.
+    pub momenta: Option<usize>,
+    /// The declared realization.
+    pub realization: Option<Realization>,
+}
+
+/// A matrix group.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Group {
+    /// The size of the matrices.
+    pub size: usize,
+    /// The matrix of each basis element.
+    pub matrices: Matrices,
+    /// Whether Gauss methods in the entries stay in the group.
+    pub closed: bool,
+    /// Whether the matrices are antisymmetric.
+    pub orthogonal: bool,
+    /// Whether the system is right-invariant.
+    pub right: bool,
+}
+
+/// A representation with its dual.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Representation {
+    /// The size of the matrices.
+    pub size: usize,
+    /// The matrix of each basis element.
+    pub matrices: Matrices,
+    /// Their dual matrices.
+    pub dual: Matrices,
+    /// Whether all of them are antisymmetric.
+    pub skew: bool,
+    /// What is known of the eigenvalues.
+    pub spectrum: Spectrum,
+}
+
+/// What is known of the eigenvalues of all elements of a representation.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Spectrum {
+    /// None is real but 0.
+    Imaginary,
+    /// The absolute value of each is at most the sum of these weights times the absolute coordinates.
+    Bounded(Vec<Rational>),
+}
+
+/// The summands of a direct sum of algebras so(3).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Spins {
+    /// The coordinates of each.
+    pub coordinates: Vec<[usize; 3]>,
+    /// The constant of the bracket of each.
+    pub scales: Vec<Code>,
+}
+
+/// The inertia of a free rigid body.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Inertia {
+    /// From and to of each basis element `E_(to, from) - E_(from, to)`.
+    pub planes: Vec<(usize, usize)>,
+    /// The moment of each axis.
+    pub moments: Vec<Code>,
+}
+
+/// A Poisson map from canonical coordinates.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Realization {
+    /// Names of the canonical coordinates.
+    pub names: Vec<String>,
+    /// The map and its derivatives.
+    pub functions: Vec<Function>,
+    /// A point near which points over a state are sought, entry by entry.
+    pub start: Vec<Code>,
+    /// Whether the declaration gives it.
+    pub given: bool,
+    /// Whether Gauss methods over it are methods for the state.
+    pub descends: bool,
+}
+
+impl Planner<'_> {
+    /// The structure of the system.
+    pub(super) fn structure(&mut self) -> Structure {
+        let spins = self.spins();
+        let inertia = self.inertia();
+        Structure {
+            group: self.group(),
+            representation: self.representation(),
+            spins,
+            inertia,
+            momenta: self.source.momenta,
+            realization: self.realization(),
+        }
+    }
+
+    fn group(&self) -> Option<Group> {
+        let group = self.source.group.as_ref()?;
+        Some(Group {
+            size: group.size,
+            matrices: group.matrices.clone(),
+            closed: group.closed,
+            orthogonal: group.matrices.iter().all(|matrix| is_skew(matrix)),
+            right: group.right,
+        })
+    }
+
+    fn representation(&self) -> Option<Representation> {
+        let representation = self.source.matrices.as_ref()?;
+        let dual = representation.dual.as_ref()?;
+        let mut all = representation.matrices.iter().chain(dual);
+        Some(Representation {
+            size: representation.dimension,
+            matrices: representation.matrices.clone(),
+            dual: dual.clone(),
+            skew: all.all(|matrix| is_skew(matrix)),
+            spectrum: match spectrum::spectrum(&representation.matrices) {
+                spectrum::Spectrum::Imaginary => Spectrum::Imaginary,
+                spectrum::Spectrum::Bounded(weights) => {
+                    Spectrum::Bounded(weights.into_iter().filter_map(Rational::from_f64).collect())
+                }
+            },
+        })
+    }
+
+    fn spins(&mut self) -> Option<Spins> {
+        let spins = self.source.spins.clone()?;
+        Some(Spins {
+            coordinates: spins.iter().map(|spin| spin.coordinates).collect(),
+            scales: spins.iter().map(|spin| self.value(spin.scale)).collect(),
+        })
+    }
+
+    fn inertia(&mut self) -> Option<Inertia> {
+        let Body::Many { planes, moments } = self.source.body.clone()? else {
+            return None;
+        };
+        Some(Inertia {
+            planes,
+            moments: moments.iter().map(|moment| self.value(*moment)).collect(),
+        })
+    }
+
+    fn realization(&mut self) -> Option<Realization> {
+        let realization = self.source.realization.clone()?;
+        let kernels = self.source.realization_kernels()?;
+        let functions = self.functions(&kernels);
+        let start = realization.start.iter();
+        Some(Realization {
+            start: start.map(|value| self.value(*value)).collect(),
+            functions,
+            names: realization.names,
+            given: realization.given,
+            descends: realization.descends,
+        })
+    }
+
+    /// The program of one value that depends on the parameters alone.
+    fn value(&mut self, value: ExprId) -> Code {
+        let kernel = Kernel::scalar("", "", Vec::new(), value);
+        let program = kernel.program(&mut self.source.graph);
+        self.code_of_system(&program)
+    }
+}
+
+fn is_skew(matrix: &[Vec<Rational>]) -> bool {
+    matrix.iter().enumerate().all(|(i, row)| {
+        row.iter()
+            .enumerate()
+            .all(|(j, entry)| (entry + &matrix[j][i]).is_zero())
+    })
+}

@@ -1,0 +1,149 @@
+//! The kernels of the traits of a system.
+
+use super::function::Function;
+use super::planner::Planner;
+use crate::derive::{Kernel, Shape};
+use crate::methods::Choice;
+
+/// What a system says of itself, and its kernels by trait.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct System {
+    /// The total degree of H, if it is a polynomial.
+    pub hamiltonian_degree: Option<u32>,
+    /// The largest total degree of an entry of the Poisson matrix that is not linear, if all are polynomials.
+    pub poisson_degree: Option<u32>,
+    /// The Casimirs.
+    pub casimirs: Vec<Casimir>,
+    /// What the energy is.
+    pub energy: Energy,
+    /// Whether Hessian and Jacobian are written out: some method that was asked for solves an equation.
+    pub derivatives: bool,
+    /// The kernels of `Poisson`.
+    pub poisson: Vec<Function>,
+    /// The kernels of `LiePoisson`, of a Lie algebra.
+    pub algebra: Vec<Function>,
+    /// The kernel of `CayleyPoisson`, where the representation is closed under the triple product.
+    pub triple: Option<Function>,
+    /// The kernels of `LagrangianPoisson`, of a system by its Lagrangian.
+    pub lagrangian: Vec<Function>,
+    /// The kernels of `DiscreteLagrangianPoisson`, of a system by its discrete Lagrangian.
+    pub discrete: Vec<Function>,
+}
+
+/// A conserved function of the bracket.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Casimir {
+    /// Its name.
+    pub name: String,
+    /// Its total degree, if it is a polynomial.
+    pub degree: Option<u32>,
+    /// Whether it has several branches.
+    pub multivalued: bool,
+    /// Its gradient.
+    pub gradient: Function,
+}
+
+/// How the energy of a state is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Energy {
+    /// It is an expression.
+    Expression,
+    /// It is the Legendre transform of a Lagrangian, by Newton's iteration from a point of a branch.
+    Legendre,
+}
+
+impl System {
+    /// All kernels.
+    pub fn functions(&self) -> impl Iterator<Item = &Function> {
+        let gradients = self.casimirs.iter().map(|casimir| &casimir.gradient);
+        self.poisson
+            .iter()
+            .chain(&self.algebra)
+            .chain(&self.triple)
+            .chain(gradients)
+            .chain(&self.lagrangian)
+            .chain(&self.discrete)
+    }
+}
+
+impl Planner<'_> {
+    /// The kernels of the traits.
+    pub(super) fn system(&mut self) -> System {
+        let derivatives = self.needs_derivatives();
+        let kernels = if derivatives {
+            self.source.basic_kernels()
+        } else {
+            self.source.explicit_kernels()
+        };
+        let (mut poisson, mut algebra, mut triple) = (Vec::new(), Vec::new(), None);
+        let (gradients, others): (Vec<Kernel>, Vec<Kernel>) = kernels
+            .into_iter()
+            .partition(|kernel| kernel.name == "casimir_gradient");
+        for kernel in others {
+            match kernel.name {
+                "casimirs" => poisson.push(self.casimirs(kernel)),
+                "ad" | "ad_star" | "ad_star_matrix" => algebra.push(self.function(&kernel)),
+                "triple" => triple = Some(self.function(&kernel)),
+                _ => poisson.push(self.function(&kernel)),
+            }
+        }
+        let casimirs = self.casimir_gradients(&gradients);
+        let lagrangian = self.source.lagrangian_kernels().unwrap_or_default();
+        let lagrangian = self.functions(&lagrangian);
+        let discrete = self.source.discrete_kernels().unwrap_or_default();
+        System {
+            hamiltonian_degree: self.model.hamiltonian_degree,
+            // of an algebra nothing is said: its Poisson matrix is linear
+            poisson_degree: self.model.poisson.degree.filter(|_| !self.source.is_lie()),
+            casimirs,
+            energy: if self.source.hamiltonian.is_some() {
+                Energy::Expression
+            } else {
+                Energy::Legendre
+            },
+            derivatives,
+            poisson,
+            algebra,
+            triple,
+            lagrangian,
+            discrete: self.functions(&discrete),
+        }
+    }
+
+    pub(super) fn functions(&mut self, kernels: &[Kernel]) -> Vec<Function> {
+        kernels.iter().map(|kernel| self.function(kernel)).collect()
+    }
+
+    /// Whether a method that is asked for solves an equation, or none is named, so that it may be any.
+    fn needs_derivatives(&self) -> bool {
+        let explicit = |choice: &Choice| choice.entry().is_some_and(|row| row.explicit);
+        self.methods.is_empty() || !self.methods.iter().all(explicit)
+    }
+
+    /// All Casimirs into a slice, which has no entries that would have to be cleared.
+    fn casimirs(&mut self, mut kernel: Kernel) -> Function {
+        let count = self.source.casimirs.len();
+        if let Shape::Vector(indices) = &kernel.shape
+            && indices.len() == count
+        {
+            kernel.shape = Shape::Vector((0..self.source.dimension.max(count)).collect());
+        }
+        self.function(&kernel)
+    }
+
+    fn casimir_gradients(&mut self, kernels: &[Kernel]) -> Vec<Casimir> {
+        let model = self.model;
+        let casimirs = model.casimirs.iter().zip(kernels);
+        casimirs
+            .map(|(casimir, kernel)| Casimir {
+                name: casimir.name.clone(),
+                degree: casimir.degree,
+                multivalued: casimir.multivalued,
+                gradient: Function {
+                    label: format!("casimir_gradient {}", casimir.name),
+                    ..self.function(kernel)
+                },
+            })
+            .collect()
+    }
+}

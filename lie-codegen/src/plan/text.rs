@@ -1,0 +1,247 @@
+//! A plan as text for people: what is computed, by how many operations, with a digest that changes when the operations do.
+
+use std::fmt;
+use std::hash::{Hash, Hasher};
+
+use super::{Code, Constants, Fused, Generating, Item, Partner, Plan, Solver};
+use super::{Energy, Function, Spectrum, Structure};
+
+/// The width of the column of labels.
+const LABEL: usize = 34;
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = &self.names;
+        writeln!(f, "plan of {}", names.system)?;
+        for line in self.docs.iter().filter(|line| !line.is_empty()) {
+            writeln!(f, "  {line}")?;
+        }
+        list(f, "coordinates", &names.coordinates)?;
+        list(f, "basis", &names.basis)?;
+        let parameters = names.parameters.iter().zip(&self.parameters);
+        let sign = |positive| if positive { " > 0" } else { "" };
+        let parameters = parameters.map(|(name, p)| format!("{name}{}", sign(p.positive)));
+        list(f, "parameters", &parameters.collect::<Vec<_>>())?;
+        constants(f, "constants of the system", &self.constants)?;
+        section(f, "system")?;
+        for function in self.system.functions() {
+            write!(f, "{function}")?;
+        }
+        if self.system.energy == Energy::Legendre {
+            writeln!(
+                f,
+                "  the energy is a Legendre transform by Newton's iteration"
+            )?;
+        }
+        if !self.system.derivatives {
+            writeln!(
+                f,
+                "  Hessian and Jacobian by dual numbers: no method needs them"
+            )?;
+        }
+        write!(f, "{}", self.structure)?;
+        for item in &self.items {
+            write!(f, "{item}")?;
+        }
+        if let Some(splitting) = &self.splitting {
+            section(f, "flows of the pieces of H")?;
+            for flow in &splitting.flows {
+                match &flow.function {
+                    Some(function) => write!(f, "{function}")?,
+                    None => writeln!(f, "  {}: by its series", names.coordinates[flow.coordinate])?,
+                }
+            }
+        }
+        list(f, "generic", &self.generic)
+    }
+}
+
+impl fmt::Display for Function {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        line(f, &self.label, &self.program)?;
+        writeln!(f, "    {}", self.formula)?;
+        for explicit in &self.explicit {
+            writeln!(f, "      {explicit}")?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Structure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(group) = &self.group {
+            let size = group.size;
+            let is = |yes, text| if yes { text } else { "" };
+            writeln!(
+                f,
+                "\ngroup of {size} x {size} matrices{}{}{}",
+                is(group.closed, ", closed under Gauss methods"),
+                is(group.orthogonal, ", orthogonal"),
+                is(group.right, ", right-invariant")
+            )?;
+        }
+        if let Some(representation) = &self.representation {
+            let size = representation.size;
+            let spectrum = match representation.spectrum {
+                Spectrum::Imaginary => "imaginary eigenvalues",
+                Spectrum::Bounded(_) => "real eigenvalues, bounded",
+            };
+            writeln!(
+                f,
+                "representation by {size} x {size} matrices with dual: {spectrum}"
+            )?;
+        }
+        if let Some(spins) = &self.spins {
+            writeln!(f, "spins {:?}", spins.coordinates)?;
+        }
+        if let Some(inertia) = &self.inertia {
+            writeln!(f, "free rigid body, planes {:?}", inertia.planes)?;
+        }
+        if let Some(momenta) = self.momenta {
+            writeln!(
+                f,
+                "cotangent bundle, the first {momenta} coordinates are momenta"
+            )?;
+        }
+        if let Some(realization) = &self.realization {
+            section(f, "realization")?;
+            for function in &realization.functions {
+                write!(f, "{function}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Item {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fused(fused) => write!(f, "{fused}"),
+            Self::Generating(function) => write!(f, "{function}"),
+            Self::Gradient(gradient) => {
+                section(
+                    f,
+                    &format!(
+                        "discrete gradient {} in closed form",
+                        gradient.gradient.name()
+                    ),
+                )?;
+                gradient
+                    .functions
+                    .iter()
+                    .try_for_each(|function| write!(f, "{function}"))
+            }
+            Self::Sparse(sparse) => {
+                let counts = sparse.elimination.counts();
+                writeln!(f, "\n{}: {counts}", sparse.label)
+            }
+            Self::Method(choice, solver) => writeln!(f, "{} -> {solver}", choice.label()),
+            Self::Collective(stages) => {
+                writeln!(f, "collective{} -> the same", 2 * stages)
+            }
+        }
+    }
+}
+
+impl fmt::Display for Fused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        section(f, &format!("equation {}", self.suffix))?;
+        for doc in self.docs {
+            writeln!(f, "  {doc}")?;
+        }
+        constants(f, "  constants of the step", &self.step)?;
+        for function in &self.functions {
+            write!(f, "{function}")?;
+        }
+        writeln!(
+            f,
+            "  elimination in the order {:?}, {} entries of fill-in: {}",
+            self.elimination.order,
+            self.elimination.fill.len(),
+            self.elimination.counts()
+        )
+    }
+}
+
+impl fmt::Display for Generating {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        section(f, &format!("generating function {}", self.suffix))?;
+        writeln!(f, "  {}", self.formula)?;
+        constants(f, "  constants of the step", &self.step)?;
+        write!(f, "{}", self.gradient)?;
+        match &self.linearize {
+            Some(linearize) => write!(f, "{linearize}"),
+            None => writeln!(f, "  the Hessian over dual numbers"),
+        }
+    }
+}
+
+impl fmt::Display for Solver {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fused(suffix) => write!(f, "equation {suffix}"),
+            Self::Eliminated(partner, elimination) => write!(f, "{partner} by {elimination}"),
+        }
+    }
+}
+
+impl fmt::Display for Partner {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "generic {self:?}")
+    }
+}
+
+fn section(f: &mut fmt::Formatter<'_>, title: &str) -> fmt::Result {
+    writeln!(f, "\n{title}")
+}
+
+fn list(f: &mut fmt::Formatter<'_>, title: &str, entries: &[String]) -> fmt::Result {
+    if entries.is_empty() {
+        return Ok(());
+    }
+    writeln!(f, "\n{title}: {}", entries.join(", "))
+}
+
+fn constants(f: &mut fmt::Formatter<'_>, title: &str, constants: &Constants) -> fmt::Result {
+    if constants.entries.is_empty() {
+        return Ok(());
+    }
+    line(f, title, &constants.program)?;
+    for entry in &constants.entries {
+        writeln!(f, "    {} = {}", entry.name, entry.text)?;
+    }
+    Ok(())
+}
+
+/// A label with the operation counts and the digest of its program.
+fn line(f: &mut fmt::Formatter<'_>, label: &str, program: &Code) -> fmt::Result {
+    writeln!(
+        f,
+        "  {label:LABEL$} {} #{:08x}",
+        program.counts,
+        digest(program)
+    )
+}
+
+/// A digest of the operations, the same on every machine.
+fn digest(program: &Code) -> u32 {
+    let mut hasher = Fnv(0xcbf2_9ce4_8422_2325);
+    format!("{program:?}").hash(&mut hasher);
+    let value = hasher.finish();
+    (value ^ (value >> 32)) as u32
+}
+
+/// The hash function of Fowler, Noll and Vo, 64 bits (RFC 9923).
+struct Fnv(u64);
+
+impl Hasher for Fnv {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+}

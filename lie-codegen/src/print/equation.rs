@@ -1,0 +1,329 @@
+//! Fused equations of implicit steps.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::Printer;
+use super::function::{Body, Owner, entries, matrix_entries};
+use super::names::{ident, index};
+use crate::derive::Shape;
+use crate::plan::elimination::Elimination;
+use crate::plan::{Chart, Constants, Ending, Function, Fused, Guess, Partner};
+use crate::schedule::Value;
+use crate::symbolic::Symbol;
+
+/// The constants of a step size: fields of a struct, how they are computed, the fields of its value.
+pub(super) struct StepConstants {
+    pub fields: TokenStream,
+    pub statements: TokenStream,
+    pub values: TokenStream,
+}
+
+impl Printer<'_> {
+    /// The struct of a fused equation and its impl.
+    pub(super) fn fused(&self, fused: &Fused) -> TokenStream {
+        let n = index(self.plan.dimension());
+        let visibility = &self.surface.visibility;
+        let (system, name) = (self.system_name(), self.type_name(fused.suffix));
+        let docs = fused.docs.iter().map(|line| format!(" {line}"));
+        let StepConstants {
+            fields,
+            statements,
+            values,
+        } = self.step_constants(&fused.step);
+        let methods = self.equation_methods(fused);
+        let table = (!fused.elimination.is_unrolled()).then(|| {
+            let list = fused.elimination.table_tokens();
+            quote! {
+                impl<S: ::lie_runtime::Scalar> #name<'_, S> {
+                    const ELIMINATION: ::lie_runtime::__private::StaticElimination = #list;
+                }
+            }
+        });
+        quote! {
+            #(#[doc = #docs])*
+            #[derive(Clone, Debug)]
+            #visibility struct #name<'a, S: ::lie_runtime::Scalar> {
+                system: &'a #system<S>,
+                base: ::lie_runtime::__private::SVector<S, #n>,
+                h: S,
+                #fields
+            }
+
+            impl<'a, S: ::lie_runtime::Scalar> #name<'a, S> {
+                #[doc = " The equation of a step of size h; what depends on h alone is computed here, once."]
+                #[must_use]
+                pub fn new(system: &'a #system<S>, h: S) -> Self {
+                    #statements
+                    Self { system, base: ::lie_runtime::Poisson::zero_state(system), h, #values }
+                }
+            }
+
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for #name<'_, S> {
+                type State = ::lie_runtime::__private::SVector<S, #n>;
+                type Unknown = Self::State;
+                type Matrix = ::lie_runtime::__private::SMatrix<S, #n, #n>;
+
+                fn zero_unknown(&self) -> Self::Unknown {
+                    Self::State::repeat(S::zero())
+                }
+
+                fn zero_matrix(&self) -> Self::Matrix {
+                    Self::Matrix::repeat(S::zero())
+                }
+
+                #[inline]
+                fn set_base(&mut self, mu: &Self::State) {
+                    self.base = *mu;
+                }
+
+                #methods
+            }
+
+            #table
+        }
+    }
+
+    /// The constants of a step size.
+    pub(super) fn step_constants(&self, constants: &Constants) -> StepConstants {
+        let names: Vec<_> = constants.entries.iter().map(|c| ident(&c.name)).collect();
+        let texts = constants.entries.iter().map(|c| format!(" `{}`", c.text));
+        let (statements, values) = self.program(&constants.program, &|value| match value {
+            Value::Symbol(Symbol::Step) => quote! { h },
+            Value::Symbol(symbol) => {
+                let name = self.local(*symbol);
+                quote! { system._parameters.#name }
+            }
+            other => self.value(other, Owner::System),
+        });
+        StepConstants {
+            fields: quote! { #(#[doc = #texts] #names: S,)* },
+            statements,
+            values: quote! { #(#names: #values),* },
+        }
+    }
+
+    fn equation_methods(&self, fused: &Fused) -> TokenStream {
+        let functions = fused.functions.iter();
+        let kernels: TokenStream = functions.map(|f| self.equation_kernel(fused, f)).collect();
+        let ending = self.ending(fused);
+        let guess = initial_guess(fused.guess);
+        let elimination = elimination_methods(&fused.elimination);
+        let motion = self.motion(fused);
+        let chart = fused.chart.map(within_chart);
+        quote! { #kernels #ending #guess #elimination #motion #chart }
+    }
+
+    /// A kernel as a method of the equation.
+    fn equation_kernel(&self, fused: &Fused, function: &Function) -> TokenStream {
+        let docs = self.docs(function);
+        let name = ident(function.name);
+        let unknown = self.argument("unknown");
+        let place = self.places_of_arguments(fused);
+        let body = |targets: &[&str]| {
+            let body = Body::of(Owner::Equation, &place, targets);
+            match &function.shape {
+                Shape::VectorAndMatrix(..) => self.linearize_body(fused, function, &body),
+                _ => self.body(function, &body),
+            }
+        };
+        let (residual, matrix, mu) = (
+            self.argument("residual"),
+            self.argument("matrix"),
+            self.argument("mu"),
+        );
+        let (signature, body) = match (&function.shape, function.name) {
+            (Shape::VectorAndMatrix(..), _) => (
+                quote! { #unknown: &Self::State, #residual: &mut Self::State, #matrix: &mut Self::Matrix },
+                body(&["residual", "matrix"]),
+            ),
+            (_, "initial_guess") => (quote! { #unknown: &mut Self::Unknown }, body(&["unknown"])),
+            (_, "result") => (
+                quote! { #unknown: &Self::State, #mu: &mut Self::State },
+                body(&["mu"]),
+            ),
+            _ => (
+                quote! { #unknown: &Self::State, #residual: &mut Self::State },
+                body(&["residual"]),
+            ),
+        };
+        quote! {
+            #docs
+            #[inline]
+            fn #name(&mut self, #signature) {
+                #body
+            }
+        }
+    }
+
+    /// Where the arguments of a kernel of an equation are found.
+    fn places_of_arguments(&self, fused: &Fused) -> impl Fn(&str) -> TokenStream + use<> {
+        let unknown = self.argument("unknown");
+        let ratios = match fused.partner {
+            Partner::Spherical(spins) => index(2 * spins),
+            _ => index(0),
+        };
+        move |name: &str| match name {
+            "mu" => quote! { self.base },
+            "inverse" => {
+                quote! { ::lie_runtime::generic::inverse_length(&self.base, #unknown) }
+            }
+            "ratios" => {
+                quote! { ::lie_runtime::generic::sphere_ratios::<S, _, #ratios>(self.system, &self.base, #unknown) }
+            }
+            _ => quote! { #unknown },
+        }
+    }
+
+    /// Residual and Jacobian; entries that only fill in during elimination are cleared.
+    fn linearize_body(&self, fused: &Fused, function: &Function, body: &Body<'_>) -> TokenStream {
+        let (statements, outputs) = self.statements(function, body);
+        let Shape::VectorAndMatrix(indices, places) = &function.shape else {
+            return TokenStream::new();
+        };
+        let (residual, matrix) = (self.argument("residual"), self.argument("matrix"));
+        let (vector, slopes) = outputs.split_at(indices.len());
+        let vector = entries(&residual, indices, vector);
+        let slopes = matrix_entries(&matrix, places, slopes);
+        let fill = &fused.elimination.fill;
+        let zeros = vec![quote! { S::zero() }; fill.len()];
+        let fill = matrix_entries(&matrix, fill, &zeros);
+        quote! { #statements #vector #slopes #fill }
+    }
+
+    /// The state at the end, where no kernel writes it.
+    fn ending(&self, fused: &Fused) -> Option<TokenStream> {
+        let body = match fused.ending {
+            Ending::Kernel => return None,
+            Ending::Unknown => quote! { *mu = *unknown; },
+            Ending::Partner => {
+                let partner = self.partner_here(fused);
+                quote! {
+                    let mut equation = #partner;
+                    ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+                    ::lie_runtime::Equation::result(&mut equation, unknown, mu);
+                }
+            }
+        };
+        Some(quote! {
+            #[inline]
+            fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+                #body
+            }
+        })
+    }
+
+    fn partner_here(&self, fused: &Fused) -> TokenStream {
+        self.partner_value(&fused.partner, &quote! { self.system }, &quote! { self.h })
+    }
+
+    /// How a solved step moves the group element: the generic equation says it.
+    fn motion(&self, fused: &Fused) -> TokenStream {
+        let partner = self.partner_here(fused);
+        if fused.coadjoint {
+            quote! {
+                fn group_factor(&mut self, unknown: &Self::State, xi: &mut Self::State) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+                    let mut equation = #partner;
+                    ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+                    ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
+                }
+            }
+        } else {
+            quote! {
+                fn velocity(&mut self, unknown: &Self::State, stage: usize, xi: &mut Self::State) -> usize {
+                    let mut equation = #partner;
+                    ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+                    ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
+                }
+            }
+        }
+    }
+}
+
+/// The initial guess along the field.
+fn initial_guess(guess: Guess) -> Option<TokenStream> {
+    let factor = match guess {
+        Guess::WholeStep => quote! { self.h },
+        Guess::HalfStep => quote! { self.h * S::ratio(1.0, 2.0) },
+        Guess::Kernel => return None,
+    };
+    Some(quote! {
+        #[inline]
+        fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+            let mut field = self.base;
+            ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+            *unknown = self.base;
+            ::lie_runtime::State::axpy(unknown, #factor, &field);
+        }
+    })
+}
+
+/// Whether the element of a step is joined to the identity.
+fn within_chart(chart: Chart) -> TokenStream {
+    let joined = match chart {
+        Chart::OfField => quote! {
+            ::lie_runtime::generic::cayley_chart_of_step(self.system, self.h, unknown)
+        },
+        Chart::OfFactor => quote! {
+            let mut xi = ::lie_runtime::Poisson::zero_state(self.system);
+            let _ = self.group_factor(unknown, &mut xi);
+            ::lie_runtime::generic::cayley_chart(self.system, &xi)
+        },
+    };
+    quote! {
+        fn within_chart(&mut self, unknown: &Self::State) -> S::Mask {
+            #joined
+        }
+    }
+}
+
+/// `factor` and `solve` of the Jacobian of an equation: written out, or from an index list where that would be long.
+fn elimination_methods(elimination: &Elimination) -> TokenStream {
+    let (fill, multiplications) = (elimination.fill.len(), elimination.multiplications());
+    let cost =
+        format!("{fill} entries of fill-in: {multiplications} multiplications with the solution.");
+    if !elimination.is_unrolled() {
+        let doc = format!(" Sparse elimination from an index list, {cost}");
+        return quote! {
+            #[doc = #doc]
+            fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+                Self::ELIMINATION.factor(matrix)
+            }
+
+            fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+                Self::ELIMINATION.solve(factors, residual);
+            }
+        };
+    }
+    let factor = elimination.factor_tokens(&|i, j| place("matrix", i, j), &|i, j, value| {
+        let place = place("matrix", i, j);
+        quote! { #place = #value; }
+    });
+    let solve = elimination.solve_tokens(&|i, j| place("factors", i, j), &|i| {
+        let i = index(i);
+        quote! { residual[#i] }
+    });
+    let doc = format!(
+        " Sparse elimination in the order {:?}, {cost}",
+        elimination.order
+    );
+    quote! {
+        #[doc = #doc]
+        #[inline]
+        fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+            #factor
+        }
+
+        #[inline]
+        fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+            #solve
+        }
+    }
+}
+
+/// An entry of a matrix.
+fn place(matrix: &str, i: usize, j: usize) -> TokenStream {
+    let (matrix, i, j) = (ident(matrix), index(i), index(j));
+    quote! { #matrix[(#i, #j)] }
+}

@@ -1,0 +1,50 @@
+//! The hooks by which the runtime finds the equation of a method.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::Printer;
+use super::names::index;
+use crate::methods::Choice;
+use crate::plan::Solver;
+
+impl Printer<'_> {
+    /// The impl of `Implicit` for a method.
+    pub(super) fn method(&self, choice: &Choice, solver: &Solver) -> TokenStream {
+        let system = self.system_name();
+        let method = choice.type_of();
+        let (equation, value) = match solver {
+            Solver::Fused(suffix) => {
+                let name = self.type_name(suffix);
+                (quote! { #name<'a, S> }, quote! { #name::new(self, h) })
+            }
+            Solver::Eliminated(partner, elimination) => {
+                let (inner, elimination) =
+                    (self.partner_type(partner), self.type_name(elimination));
+                let value = self.partner_value(partner, &quote! { self }, &quote! { h });
+                (
+                    quote! { ::lie_runtime::__private::Eliminated<#inner, #elimination> },
+                    quote! { ::lie_runtime::__private::Eliminated::new(#value) },
+                )
+            }
+        };
+        quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, #method> for #system<S> {
+                type Equation<'a> = #equation where Self: 'a;
+                fn equation<'a>(&'a self, _method: &#method, h: S) -> Self::Equation<'a> {
+                    #value
+                }
+            }
+        }
+    }
+
+    /// The collective methods over the representation run on the equations of the isospectral ones.
+    pub(super) fn collective(&self, stages: usize) -> TokenStream {
+        let (system, stages) = (self.system_name(), index(stages));
+        quote! {
+            ::lie_runtime::generic_equations!(
+                @collective [S: ::lie_runtime::Scalar] #system<S>, S, #stages
+            );
+        }
+    }
+}

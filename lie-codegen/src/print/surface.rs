@@ -1,0 +1,35 @@
+//! Where the names of a declaration stand, so that the compiler and an editor find them.
+
+use proc_macro2::{Span, TokenStream};
+
+use crate::diagnostic::Origin;
+use crate::model::Model;
+
+/// What generated items take from the place of their declaration.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Visibility of the generated types.
+    pub visibility: TokenStream,
+    /// Where the name of the system stands.
+    pub name: Span,
+    /// Where the coordinates are declared.
+    pub coordinates: Vec<Span>,
+    /// Where the parameters are declared.
+    pub parameters: Vec<Span>,
+}
+
+impl Surface {
+    /// That of a declaration.
+    pub fn of(model: &Model) -> Self {
+        let span = |origin: Origin| match origin {
+            Origin::Span(span) => span,
+            Origin::Text { .. } => Span::call_site(),
+        };
+        Self {
+            visibility: model.visibility.clone(),
+            name: span(model.name_origin),
+            coordinates: model.coordinates.iter().map(|c| span(c.origin)).collect(),
+            parameters: model.parameters.iter().map(|p| span(p.origin)).collect(),
+        }
+    }
+}

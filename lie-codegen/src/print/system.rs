@@ -1,0 +1,326 @@
+//! The trait impls of a system.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::Printer;
+use super::names::{ident, index};
+use crate::derive::Shape;
+use crate::plan::{Energy, Function};
+
+impl Printer<'_> {
+    /// The impls of `Poisson` and, where they apply, `LiePoisson` and `CayleyPoisson`.
+    pub(super) fn traits(&self) -> TokenStream {
+        let plan = &self.plan.system;
+        let poisson: TokenStream = plan
+            .poisson
+            .iter()
+            .map(|function| match function.name {
+                "casimirs" => self.casimirs(function),
+                _ => self.system_method(function, None),
+            })
+            .collect();
+        let gradients = self.casimir_gradients();
+        let derived = match (plan.energy, plan.derivatives) {
+            (Energy::Legendre, _) => Some(by_legendre()),
+            (Energy::Expression, false) => Some(by_duals()),
+            (Energy::Expression, true) => None,
+        };
+        let system = self.system_name();
+        let n = index(self.plan.dimension());
+        let facts = self.facts();
+        let algebra = self.trait_of("LiePoisson", &plan.algebra, None);
+        let spectrum = self.spectrum();
+        let cayley = self.trait_of("CayleyPoisson", plan.triple.as_slice(), spectrum);
+        quote! {
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for #system<S> {
+                type State = ::lie_runtime::__private::SVector<S, #n>;
+                type Jacobian = ::lie_runtime::__private::SMatrix<S, #n, #n>;
+
+                #facts
+
+                fn zero_state(&self) -> Self::State {
+                    Self::State::repeat(S::zero())
+                }
+
+                fn zero_jacobian(&self) -> Self::Jacobian {
+                    Self::Jacobian::repeat(S::zero())
+                }
+
+                #poisson
+                #gradients
+                #derived
+            }
+
+            #algebra
+
+            #cayley
+        }
+    }
+
+    /// The impls of `LagrangianPoisson` and `DiscreteLagrangianPoisson`, if there are such Lagrangians.
+    pub(super) fn lagrangian(&self) -> Option<TokenStream> {
+        let plan = &self.plan.system;
+        let branch = self.has_branches().then(|| {
+            quote! {
+                fn branch(&self) -> ::core::option::Option<Self::State> {
+                    self._branch.map(<Self::State>::from)
+                }
+            }
+        });
+        let lagrangian = self.trait_of("LagrangianPoisson", &plan.lagrangian, branch);
+        let discrete = self.trait_of("DiscreteLagrangianPoisson", &plan.discrete, None);
+        Some(quote! { #lagrangian #discrete })
+    }
+
+    /// Whether the velocity of a momentum is found along a path, of which the system remembers a point.
+    pub(super) fn has_branches(&self) -> bool {
+        self.plan.system.energy == Energy::Legendre
+    }
+
+    /// The impl of a trait by these kernels, if there are any; those of a discrete Lagrangian are given the step size.
+    fn trait_of(
+        &self,
+        name: &str,
+        functions: &[Function],
+        rest: Option<TokenStream>,
+    ) -> Option<TokenStream> {
+        let step = (name == "DiscreteLagrangianPoisson").then(|| quote! { , _h: S });
+        let (name, system) = (ident(name), self.system_name());
+        let methods = functions
+            .iter()
+            .map(|f| self.system_method(f, step.as_ref()));
+        let methods: Vec<_> = methods.collect();
+        (!methods.is_empty()).then(|| {
+            quote! {
+                #[allow(non_snake_case, clippy::many_single_char_names)]
+                impl<S: ::lie_runtime::Scalar> ::lie_runtime::#name<S> for #system<S> {
+                    #(#methods)*
+                    #rest
+                }
+            }
+        })
+    }
+
+    /// What the system says of itself: its size, its names and the degrees of its functions.
+    fn facts(&self) -> TokenStream {
+        let (plan, names) = (&self.plan.system, &self.plan.names);
+        let n = index(self.plan.dimension());
+        let (name, coordinates) = (&names.system, &names.coordinates);
+        let of_h = degree("hamiltonian_degree", plan.hamiltonian_degree);
+        let of_matrix = degree("poisson_degree", plan.poisson_degree);
+        let casimirs = self.facts_of_casimirs();
+        quote! {
+            fn dimension(&self) -> usize {
+                #n
+            }
+
+            fn name(&self) -> &str {
+                #name
+            }
+
+            fn coordinate(&self, index: usize) -> &str {
+                [#(#coordinates),*][index]
+            }
+
+            #casimirs
+            #of_h
+            #of_matrix
+        }
+    }
+
+    fn facts_of_casimirs(&self) -> Option<TokenStream> {
+        let casimirs = &self.plan.system.casimirs;
+        if casimirs.is_empty() {
+            return None;
+        }
+        let (count, names) = (index(casimirs.len()), casimirs.iter().map(|c| &c.name));
+        let degrees = casimirs.iter().map(|c| option(c.degree));
+        let multivalued = casimirs.iter().map(|c| c.multivalued);
+        let multivalued = casimirs.iter().any(|c| c.multivalued).then(|| {
+            quote! {
+                fn casimir_is_multivalued(&self, index: usize) -> bool {
+                    [#(#multivalued),*][index]
+                }
+            }
+        });
+        Some(quote! {
+            fn casimir_count(&self) -> usize {
+                #count
+            }
+
+            fn casimir_name(&self, index: usize) -> &str {
+                [#(#names),*][index]
+            }
+
+            fn casimir_degree(&self, index: usize) -> ::core::option::Option<u32> {
+                [#(#degrees),*][index]
+            }
+
+            #multivalued
+        })
+    }
+
+    /// A kernel as a method of a trait.
+    fn system_method(&self, function: &Function, step: Option<&TokenStream>) -> TokenStream {
+        let targets: &[&str] = match function.shape {
+            Shape::VectorAndMatrix(..) => &["field", "jacobian"],
+            _ => &["out"],
+        };
+        let docs = self.docs(function);
+        let name = ident(function.name);
+        let body = self.system_body(function, targets, None);
+        let arguments = function.arguments.iter().map(|a| {
+            let name = self.argument_if(a.name, function.reads(a));
+            quote! { , #name: &Self::State }
+        });
+        let vector = |position: usize| {
+            let target = self.argument(targets[position]);
+            quote! { , #target: &mut Self::State }
+        };
+        let matrix = |position: usize| {
+            let target = self.argument(targets[position]);
+            quote! { , #target: &mut Self::Jacobian }
+        };
+        let (results, output) = match function.shape {
+            Shape::Scalar => (TokenStream::new(), Some(quote! { -> S })),
+            Shape::Vector(_) => (vector(0), None),
+            Shape::Matrix(_) => (matrix(0), None),
+            Shape::VectorAndMatrix(..) => {
+                let (vector, matrix) = (vector(0), matrix(1));
+                (quote! { #vector #matrix }, None)
+            }
+        };
+        quote! {
+            #docs
+            #[inline]
+            fn #name(&self #step #(#arguments)* #results) #output {
+                #body
+            }
+        }
+    }
+
+    /// All Casimirs into a slice.
+    fn casimirs(&self, function: &Function) -> TokenStream {
+        let docs = self.docs(function);
+        let body = self.system_body(function, &["out"], None);
+        let mu = self.argument_if("mu", function.reads(&function.arguments[0]));
+        let out = self.argument_if("out", !self.plan.system.casimirs.is_empty());
+        quote! {
+            #docs
+            #[inline]
+            fn casimirs(&self, #mu: &Self::State, #out: &mut [S]) {
+                #body
+            }
+        }
+    }
+
+    fn casimir_gradients(&self) -> TokenStream {
+        let casimirs = &self.plan.system.casimirs;
+        let count = casimirs.len();
+        if count == 0 {
+            return quote! {
+                #[doc = " The system has no Casimir to differentiate."]
+                fn casimir_gradient(&self, _index: usize, _mu: &Self::State, _out: &mut Self::State) {
+                    panic!("the system has no Casimir");
+                }
+            };
+        }
+        let docs = casimirs.iter().map(|casimir| {
+            let counts = casimir.gradient.program.counts;
+            format!(" Gradient of `{}`: {counts}.", casimir.name)
+        });
+        let arms = casimirs.iter().enumerate().map(|(position, casimir)| {
+            let body = self.system_body(&casimir.gradient, &["out"], None);
+            let position = index(position);
+            quote! { #position => { #body } }
+        });
+        let read = casimirs
+            .iter()
+            .any(|c| c.gradient.reads(&c.gradient.arguments[0]));
+        let (mu, out) = (self.argument_if("mu", read), self.argument("out"));
+        let message = format!(
+            "the system has {count} Casimir{}",
+            if count == 1 { "" } else { "s" }
+        );
+        quote! {
+            #[doc = " `out_i = dC/dmu_i` of one Casimir."]
+            #(#[doc = #docs])*
+            fn casimir_gradient(&self, _index: usize, #mu: &Self::State, #out: &mut Self::State) {
+                match _index {
+                    #(#arms)*
+                    _ => panic!(#message),
+                }
+            }
+        }
+    }
+}
+
+fn option(degree: Option<u32>) -> TokenStream {
+    match degree {
+        Some(degree) => {
+            let degree = index(degree as usize);
+            quote! { ::core::option::Option::Some(#degree) }
+        }
+        None => quote! { ::core::option::Option::None },
+    }
+}
+
+/// A method that gives a degree, where there is one.
+fn degree(name: &str, degree: Option<u32>) -> Option<TokenStream> {
+    degree?;
+    let (name, degree) = (ident(name), option(degree));
+    Some(quote! {
+        fn #name(&self) -> ::core::option::Option<u32> {
+            #degree
+        }
+    })
+}
+
+/// The derivatives that no method asked for needs: the other methods find them by dual numbers.
+fn by_duals() -> TokenStream {
+    quote! {
+        #[doc = " `out_ij = d^2H/dmu_i dmu_j`, by dual numbers: no method that was asked for needs it."]
+        fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+            ::lie_runtime::generic::hessian_by_duals(self, mu, out);
+        }
+
+        #[doc = " `out_ij = df_i/dmu_j`, by dual numbers: no method that was asked for needs it."]
+        fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+            ::lie_runtime::generic::jacobian_by_duals(self, mu, out);
+        }
+    }
+}
+
+/// The methods of `Poisson` for a Hamiltonian that has no expression.
+fn by_legendre() -> TokenStream {
+    quote! {
+        #[doc = " The system with the velocity of mu as a point of its branch."]
+        fn following(&self, mu: &Self::State) -> ::core::option::Option<Self> {
+            let velocity = ::lie_runtime::lagrangian::legendre::follow(self, mu)?;
+            let _branch = ::core::option::Option::Some(velocity.data.0[0]);
+            ::core::option::Option::Some(Self { _branch, ..::core::clone::Clone::clone(self) })
+        }
+
+        #[doc = " `H(mu) = <mu, xi> - l(xi)`, `l'(xi) = mu` by Newton's iteration."]
+        fn hamiltonian(&self, mu: &Self::State) -> S {
+            ::lie_runtime::lagrangian::legendre::hamiltonian(self, mu)
+        }
+
+        #[doc = " `out = xi`, `l'(xi) = mu`."]
+        fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
+            ::lie_runtime::lagrangian::legendre::velocity(self, mu, out);
+        }
+
+        #[doc = " `out = l''(xi)^-1`, `l'(xi) = mu`."]
+        fn hessian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+            ::lie_runtime::lagrangian::legendre::hessian(self, mu, out);
+        }
+
+        #[doc = " `out_ij = df_i/dmu_j`"]
+        fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
+            ::lie_runtime::generic::jacobian(self, mu, out);
+        }
+    }
+}
