@@ -64,12 +64,7 @@ trait Fused {
 }
 
 macro_rules! fused {
-    ($($file:ident $path:literal $name:ident $system:ident,)+) => {$(
-        #[path = $path]
-        #[rustfmt::skip]
-        #[allow(dead_code)]
-        mod $file;
-
+    ($($file:ident $name:ident $system:ident,)+) => {$(
         impl Fused for $file::$name {
             const FILE: &'static str = stringify!($file);
             type System<S: Scalar> = $file::$system<S>;
@@ -83,14 +78,19 @@ macro_rules! fused {
     )+};
 }
 
+use spec_systems::generating::{
+    e2_pendulum, heisenberg_h3, se3_heavy_top, so3_free_rigid_body, so3_nonpolynomial, so4_manakov,
+    toda3_solvable,
+};
+
 fused!(
-    e2_pendulum "golden/generating/e2_pendulum.rs" Pendulum PendulumSystem,
-    heisenberg_h3 "golden/generating/heisenberg_h3.rs" Heisenberg HeisenbergSystem,
-    se3_heavy_top "golden/generating/se3_heavy_top.rs" HeavyTop HeavyTopSystem,
-    so3_free_rigid_body "golden/generating/so3_free_rigid_body.rs" FreeRigidBody FreeRigidBodySystem,
-    so3_nonpolynomial "golden/generating/so3_nonpolynomial.rs" NonpolynomialSpin NonpolynomialSpinSystem,
-    so4_manakov "golden/generating/so4_manakov.rs" ManakovTop ManakovTopSystem,
-    toda3_solvable "golden/generating/toda3_solvable.rs" TodaLattice TodaLatticeSystem,
+    e2_pendulum Pendulum PendulumSystem,
+    heisenberg_h3 Heisenberg HeisenbergSystem,
+    se3_heavy_top HeavyTop HeavyTopSystem,
+    so3_free_rigid_body FreeRigidBody FreeRigidBodySystem,
+    so3_nonpolynomial NonpolynomialSpin NonpolynomialSpinSystem,
+    so4_manakov ManakovTop ManakovTopSystem,
+    toda3_solvable TodaLattice TodaLatticeSystem,
 );
 
 /// Calls a macro once per fused system, `cayley` where that retraction exists, else `exp`.

@@ -2,18 +2,11 @@
 //! profiler to count. `tests/instruction_counts.rs` builds and runs this under callgrind; by hand:
 //! `cargo bench --bench instruction_counts -- generated vector_field 1000`.
 
-#[path = "../../tests/golden/se3_heavy_top.rs"]
-#[rustfmt::skip]
-#[allow(dead_code)]
-mod se3_heavy_top;
-#[path = "../../tests/golden/su3_quadratic.rs"]
-#[rustfmt::skip]
-#[allow(dead_code)]
-mod su3_quadratic;
 mod plain;
 
 use lie_runtime::{Poisson, generic};
-use se3_heavy_top::{HeavyTop, HeavyTopSystem};
+use spec_systems::se3_heavy_top::{HeavyTop, HeavyTopSystem};
+use spec_systems::su3_quadratic;
 use std::hint::black_box;
 use std::process::ExitCode;
 

@@ -21,6 +21,8 @@ use crate::compile::{compile_spec, expand, with_options};
 use crate::diagnostic::{MOST_SHOWN, Origin, not_shown};
 use crate::front::line_column;
 use crate::methods::Choice;
+use crate::model::Model;
+use crate::plan::plan;
 
 /// The environment variable that makes [`Golden::check`] write instead of compare.
 pub const UPDATE: &str = "LIE_UPDATE_GOLDEN";
@@ -76,18 +78,34 @@ impl Golden {
     /// Adds the generated code of a spec file with fused code for the methods (every option of an
     /// id that applies). The golden file bears the name of the spec.
     pub fn spec(&mut self, path: impl AsRef<Path>, methods: &[&str]) -> &mut Self {
-        let path = path.as_ref();
-        match generate(path, methods) {
-            Ok(code) => {
-                let name = path
-                    .file_stem()
-                    .map(|stem| stem.to_string_lossy().into_owned())
-                    .unwrap_or_default();
-                self.text(&format!("{name}.rs"), code);
+        self.of_spec(path.as_ref(), methods, "rs", expand)
+    }
+
+    /// Adds the plan of that code: formulas, operation counts and a digest of each kernel, which changes with its
+    /// operations. It is short enough to be reviewed; the file ends in `.plan`.
+    pub fn plan(&mut self, path: impl AsRef<Path>, methods: &[&str]) -> &mut Self {
+        self.of_spec(path.as_ref(), methods, "plan", |model, choices| {
+            plan(model, choices).to_string()
+        })
+    }
+
+    fn of_spec(
+        &mut self,
+        path: &Path,
+        methods: &[&str],
+        extension: &str,
+        write: impl FnOnce(&Model, &[Choice]) -> String,
+    ) -> &mut Self {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        match read(path, methods) {
+            Ok((model, choices)) => {
+                self.text(&format!("{stem}.{extension}"), write(&model, &choices))
             }
-            Err(problem) => self.problems.push(problem),
+            Err(problem) => {
+                self.problems.push(problem);
+                self
+            }
         }
-        self
     }
 
     /// Adds any text under a file name.
@@ -161,7 +179,8 @@ impl Golden {
             .filter_map(Result::ok)
             .map(|entry| entry.file_name().to_string_lossy().into_owned())
             .filter(|name| {
-                name.ends_with(".rs") && name != "mod.rs" && !self.files.contains_key(name)
+                let golden = name.ends_with(".rs") || name.ends_with(".plan");
+                golden && name != "mod.rs" && !self.files.contains_key(name)
             })
             .collect();
         names.sort();
@@ -169,7 +188,8 @@ impl Golden {
     }
 }
 
-fn generate(path: &Path, methods: &[&str]) -> Result<String, String> {
+/// The checked system of a spec file, and the methods with every option that applies.
+fn read(path: &Path, methods: &[&str]) -> Result<(Model, Vec<Choice>), String> {
     let place = path.display();
     let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: {error}"))?;
     let model = compile_spec(&text).map_err(|diagnostics| {
@@ -198,7 +218,8 @@ fn generate(path: &Path, methods: &[&str]) -> Result<String, String> {
             .map_err(|unusable| format!("{place}: {}{REMEDY}{}", unusable.message, unusable.help))
     });
     let choices: Vec<Choice> = choices.collect::<Result<_, _>>()?;
-    Ok(expand(&model, &with_options(&model, &choices)))
+    let choices = with_options(&model, &choices);
+    Ok((model, choices))
 }
 
 fn difference(path: &Path, golden: &str, new: &str) -> String {

@@ -1,80 +1,92 @@
-//! A method that is asked for has its equation written out, and no other has.
+//! A method that is asked for has its equation planned, and no other has.
 
 use lie_codegen::compile::{compile_spec, expand};
 use lie_codegen::methods::{Choice, Gradient, Lift, Retraction, Tensor};
+use lie_codegen::plan::{Item, Method, Plan, plan};
 
-/// The names of the types in the code of a spec with some methods.
-fn types(spec: &str, choices: &[Choice]) -> Vec<String> {
+fn planned(spec: &str, choice: &Choice) -> Plan {
     let path = format!("{}/../specs/{spec}.json", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("a spec");
     let model = compile_spec(&text).expect("a sound declaration");
-    let code = expand(&model, choices);
-    let lines = code
-        .lines()
-        .filter_map(|line| line.trim().strip_prefix("pub struct "));
-    lines
-        .map(|line| {
-            line.split(['<', '(', ' ', ';'])
-                .next()
-                .expect("a name")
-                .to_owned()
-        })
-        .collect()
+    plan(&model, std::slice::from_ref(choice))
+}
+
+/// The methods that have an equation.
+fn methods(plan: &Plan) -> Vec<&Choice> {
+    let methods = plan.items.iter().filter_map(|item| match item {
+        Item::Method(Method::Catalogue(choice), _) => Some(choice),
+        _ => None,
+    });
+    methods.collect()
 }
 
 #[test]
-fn what_is_asked_for_is_written_out() {
+fn what_is_asked_for_is_planned() {
     use Choice::{
-        CohenHairer, Collective, DiscreteGradient, Gauss, Generating, GeneratingSecondKind2,
-        Isospectral, LieMidpoint, Midpoint, MoserVeselov, OrbitEnergy, SphericalMidpoint,
-        Splitting,
+        Collective, Gauss, Generating, GeneratingSecondKind2, Isospectral, LieMidpoint, Midpoint,
+        MoserVeselov, SphericalMidpoint,
     };
     use Retraction::{Cayley, Exp};
-    let spec = "so3_free_rigid_body";
-    let plain = types(spec, &[]);
-    for (choice, equation) in [
-        (Midpoint, "Midpoint"),
-        (Gauss(2), "Gauss4"),
-        (Gauss(3), "Gauss6"),
-        (LieMidpoint(Exp), "ExpMidpoint"),
-        (LieMidpoint(Cayley), "CayleyMidpoint"),
-        // of order 2 these are the equations of the retraction
-        (Generating(2, Exp), "ExpMidpoint"),
-        (Generating(2, Cayley), "CayleyMidpoint"),
-        (Isospectral(2), "CayleyMidpoint"),
-        (Collective(2, Lift::Representation), "CayleyMidpoint"),
-        (Generating(4, Exp), "Generating4"),
-        (Generating(6, Exp), "Generating6"),
-        (Generating(4, Cayley), "CayleyGenerating4"),
-        (GeneratingSecondKind2, "SecondKind2Equation"),
-        (Isospectral(4), "Isospectral4"),
-        (Collective(4, Lift::Representation), "Isospectral4"),
-        (Collective(2, Lift::Hopf), "Hopf2"),
-        (Collective(4, Lift::Hopf), "Hopf4"),
-        (SphericalMidpoint, "SphericalMidpoint"),
-        (MoserVeselov, "MoserVeselov"),
-        (Splitting(2, Default::default()), "Splitting"),
+    // a method, that whose equation it solves, and how many definitions this is made of
+    for (choice, solved, definitions) in [
+        (Midpoint, Midpoint, 1),
+        (Gauss(2), Gauss(2), 1),
+        (Gauss(3), Gauss(3), 1),
+        (LieMidpoint(Exp), LieMidpoint(Exp), 1),
+        (LieMidpoint(Cayley), LieMidpoint(Cayley), 1),
+        (Generating(2, Exp), LieMidpoint(Exp), 1),
+        (Generating(2, Cayley), LieMidpoint(Cayley), 1),
+        (Isospectral(2), LieMidpoint(Cayley), 1),
+        (Collective(2, Lift::Representation), LieMidpoint(Cayley), 1),
+        (Generating(4, Exp), Generating(4, Exp), 2),
+        (Generating(6, Exp), Generating(6, Exp), 2),
+        (Generating(4, Cayley), Generating(4, Cayley), 1),
+        (GeneratingSecondKind2, GeneratingSecondKind2, 1),
+        (Isospectral(4), Isospectral(4), 2),
+        (Collective(4, Lift::Representation), Isospectral(4), 2),
+        (Collective(2, Lift::Hopf), Collective(2, Lift::Hopf), 1),
+        (Collective(4, Lift::Hopf), Collective(4, Lift::Hopf), 1),
+        (SphericalMidpoint, SphericalMidpoint, 1),
+        (MoserVeselov, MoserVeselov, 1),
     ] {
-        let found = types(spec, std::slice::from_ref(&choice));
-        let new: Vec<&String> = found.iter().filter(|name| !plain.contains(name)).collect();
-        assert!(
-            new.iter()
-                .any(|name| name.ends_with(&format!("Body{equation}"))),
-            "{choice:?}: {new:?}"
-        );
-        // eliminations and functions beside it, but no other equation
-        let others = new.iter().filter(|name| !name.contains("Elimination"));
-        assert!(others.count() <= 2, "{choice:?}: {new:?}");
+        let plan = planned("so3_free_rigid_body", &choice);
+        assert_eq!(methods(&plan), [&solved], "{choice:?}");
+        assert_eq!(plan.items.len(), definitions + 1, "{choice:?}");
     }
-    let plain = types("so3_nonpolynomial", &[]);
+    let splitting = planned(
+        "so3_free_rigid_body",
+        &Choice::Splitting(2, Default::default()),
+    );
+    assert!(splitting.splitting.is_some() && splitting.items.is_empty());
+}
+
+/// Where H is not quadratic, the methods that keep the energy have equations of their own.
+#[test]
+fn energy_methods_are_planned() {
     for choice in [
-        DiscreteGradient(Gradient::Gonzalez, Tensor::default()),
-        OrbitEnergy(Gradient::MeanValue),
-        CohenHairer(4),
+        Choice::DiscreteGradient(Gradient::Gonzalez, Tensor::default()),
+        Choice::OrbitEnergy(Gradient::MeanValue),
+        Choice::CohenHairer(4),
     ] {
-        let found = types("so3_nonpolynomial", std::slice::from_ref(&choice));
-        assert!(found.len() > plain.len(), "{choice:?}: {found:?}");
+        let plan = planned("so3_nonpolynomial", &choice);
+        assert_eq!(methods(&plan), [&choice]);
+        assert_eq!(plan.items.len(), 2, "{choice:?}");
     }
+}
+
+/// A plan is data: it goes to other threads, equal declarations have equal ones, and another method makes another.
+#[test]
+fn plans_are_compared_hashed_and_sent() {
+    use std::collections::HashSet;
+    let plans: Vec<Plan> = std::thread::scope(|scope| {
+        let spawn = |choice| scope.spawn(move || planned("se3_heavy_top", &choice));
+        let threads = [Choice::Midpoint, Choice::Midpoint, Choice::Gauss(2)].map(spawn);
+        let join = |thread: std::thread::ScopedJoinHandle<'_, Plan>| thread.join().expect("a plan");
+        threads.into_iter().map(join).collect()
+    });
+    assert_eq!(plans[0], plans[1]);
+    assert_ne!(plans[0], plans[2]);
+    assert_eq!(plans.into_iter().collect::<HashSet<_>>().len(), 2);
 }
 
 /// Second derivatives are written out for methods that solve equations, and where no method is named.

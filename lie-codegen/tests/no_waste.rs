@@ -4,8 +4,7 @@
 use std::collections::HashMap;
 
 use lie_codegen::compile::{compile_spec, declared_choices, expand};
-use lie_codegen::derive::Kernel;
-use lie_codegen::derive::Source;
+use lie_codegen::derive::{Kernel, Source};
 use lie_codegen::schedule::{Operation, Program, Value};
 
 /// The operation with commuting operands in order.

@@ -7,7 +7,6 @@ mod random;
 use std::collections::HashMap;
 
 use lie_codegen::compile::compile_spec;
-use lie_codegen::derive::Source;
 use lie_codegen::derive::{Kernel, Source};
 use lie_codegen::schedule::{Operation, Program, Value};
 use lie_codegen::symbolic::{Graph, Symbol};

@@ -100,6 +100,9 @@ pub struct Expand {
     /// Emits fused code for this method (repeatable), in place of the spec's `methods`
     #[arg(long, value_name = "ID")]
     pub method: Vec<String>,
+    /// Prints the plan of the code instead: what is computed, with operation counts
+    #[arg(long)]
+    pub plan: bool,
 }
 
 /// `lie methods`.

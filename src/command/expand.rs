@@ -1,6 +1,7 @@
-//! `lie expand`: prints the generated code of a spec.
+//! `lie expand`: prints the generated code of a spec, or the plan of it.
 
 use lie_codegen::compile;
+use lie_codegen::plan::plan;
 
 use super::{args, method, print};
 use crate::compiler;
@@ -30,6 +31,10 @@ pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
     } else {
         choices = compile::with_options(&spec.model, &choices);
     }
-    print(&compile::expand(&spec.model, &choices))?;
+    if arguments.plan {
+        print(&plan(&spec.model, &choices).to_string())?;
+    } else {
+        print(&compile::expand(&spec.model, &choices))?;
+    }
     Ok(0)
 }

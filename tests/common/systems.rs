@@ -1,4 +1,4 @@
-//! The systems of `specs/` by their golden files, and how tests go through them.
+//! The systems of `specs/`, and how tests go through them.
 
 // Each test file uses its own part of this.
 #![allow(dead_code, unused_macros, unused_imports)]
@@ -8,87 +8,29 @@ use lie_runtime::methods::{
 };
 use lie_runtime::{Implicit, LiePoisson, Lift, Poisson, Scalar, State};
 
-#[path = "../golden/canonical_pendulum.rs"]
-#[rustfmt::skip]
-pub mod canonical_pendulum;
-#[path = "../golden/e2_pendulum.rs"]
-#[rustfmt::skip]
-pub mod e2_pendulum;
-#[path = "../golden/heisenberg_h3.rs"]
-#[rustfmt::skip]
-pub mod heisenberg_h3;
-#[path = "../golden/lotka_volterra.rs"]
-#[rustfmt::skip]
-pub mod lotka_volterra;
-#[path = "../golden/se2_circulation.rs"]
-#[rustfmt::skip]
-pub mod se2_circulation;
-#[path = "../golden/se3_heavy_top.rs"]
-#[rustfmt::skip]
-pub mod se3_heavy_top;
-#[path = "../golden/se3_kirchhoff.rs"]
-#[rustfmt::skip]
-pub mod se3_kirchhoff;
-#[path = "../golden/sl2_quadratic.rs"]
-#[rustfmt::skip]
-pub mod sl2_quadratic;
-#[path = "../golden/so3_cotangent_euler_arnold.rs"]
-#[rustfmt::skip]
-pub mod so3_cotangent_euler_arnold;
-#[path = "../golden/so3_cotangent_group.rs"]
-#[rustfmt::skip]
-pub mod so3_cotangent_group;
-#[path = "../golden/so3_discrete_lagrangian.rs"]
-#[rustfmt::skip]
-pub mod so3_discrete_lagrangian;
-#[path = "../golden/so3_free_rigid_body.rs"]
-#[rustfmt::skip]
-pub mod so3_free_rigid_body;
-#[path = "../golden/so3_gravity_gradient.rs"]
-#[rustfmt::skip]
-pub mod so3_gravity_gradient;
-#[path = "../golden/so3_gyrostat_lagrangian.rs"]
-#[rustfmt::skip]
-pub mod so3_gyrostat_lagrangian;
-#[path = "../golden/so3_nonpolynomial.rs"]
-#[rustfmt::skip]
-pub mod so3_nonpolynomial;
-#[path = "../golden/so3_quartic_lagrangian.rs"]
-#[rustfmt::skip]
-pub mod so3_quartic_lagrangian;
-#[path = "../golden/so4_manakov.rs"]
-#[rustfmt::skip]
-pub mod so4_manakov;
-#[path = "../golden/su3_quadratic.rs"]
-#[rustfmt::skip]
-pub mod su3_quadratic;
-#[path = "../golden/toda3_solvable.rs"]
-#[rustfmt::skip]
-pub mod toda3_solvable;
-
-pub use canonical_pendulum::CanonicalPendulum;
-pub use e2_pendulum::Pendulum;
-pub use heisenberg_h3::Heisenberg;
-pub use lotka_volterra::LotkaVolterra;
-pub use se2_circulation::BodyWithCirculation;
-pub use se3_heavy_top::HeavyTop;
-pub use se3_kirchhoff::KirchhoffBody;
-pub use sl2_quadratic::Sl2Quadratic;
-pub use so3_cotangent_euler_arnold::CotangentEulerArnold;
-pub use so3_cotangent_group::CotangentBody;
-pub use so3_discrete_lagrangian::DiscreteBody;
-pub use so3_free_rigid_body::FreeRigidBody;
-pub use so3_gravity_gradient::Satellite;
-pub use so3_gyrostat_lagrangian::Gyrostat;
-pub use so3_nonpolynomial::NonpolynomialSpin;
-pub use so3_quartic_lagrangian::QuarticBody;
-pub use so4_manakov::ManakovTop;
-pub use su3_quadratic::Su3Quadratic;
-pub use toda3_solvable::TodaLattice;
+pub use spec_systems::canonical_pendulum::{self, CanonicalPendulum};
+pub use spec_systems::e2_pendulum::{self, Pendulum};
+pub use spec_systems::heisenberg_h3::{self, Heisenberg};
+pub use spec_systems::lotka_volterra::{self, LotkaVolterra};
+pub use spec_systems::se2_circulation::{self, BodyWithCirculation};
+pub use spec_systems::se3_heavy_top::{self, HeavyTop};
+pub use spec_systems::se3_kirchhoff::{self, KirchhoffBody};
+pub use spec_systems::sl2_quadratic::{self, Sl2Quadratic};
+pub use spec_systems::so3_cotangent_euler_arnold::{self, CotangentEulerArnold};
+pub use spec_systems::so3_cotangent_group::{self, CotangentBody};
+pub use spec_systems::so3_discrete_lagrangian::{self, DiscreteBody};
+pub use spec_systems::so3_free_rigid_body::{self, FreeRigidBody};
+pub use spec_systems::so3_gravity_gradient::{self, Satellite};
+pub use spec_systems::so3_gyrostat_lagrangian::{self, Gyrostat};
+pub use spec_systems::so3_nonpolynomial::{self, NonpolynomialSpin};
+pub use spec_systems::so3_quartic_lagrangian::{self, QuarticBody};
+pub use spec_systems::so4_manakov::{self, ManakovTop};
+pub use spec_systems::su3_quadratic::{self, Su3Quadratic};
+pub use spec_systems::toda3_solvable::{self, TodaLattice};
 
 /// A system of `specs/` with its default parameters, over any scalar.
 pub trait Declared {
-    /// The name of its spec, golden file and reference values.
+    /// The name of its spec and reference values.
     const FILE: &'static str;
     type System<S: Scalar>: LiePoisson<S>
         + Lift<S>
@@ -110,12 +52,12 @@ macro_rules! declared {
             const FILE: &'static str = stringify!($file);
             type System<S: Scalar> = $file::$system<S>;
             fn declared<S: Scalar>() -> Self::System<S> {
-                $name::<S>::default()
+                $file::$name::<S>::default()
                     .system()
                     .expect("the default parameters are valid")
             }
             fn initial<S: Scalar>() -> <Self::System<S> as Poisson<S>>::State {
-                $name::<S>::default().initial_state()
+                $file::$name::<S>::default().initial_state()
             }
         }
     };
@@ -205,7 +147,7 @@ impl<S: Scalar, P> OfPoisson<S> for P where
 
 /// A system of `specs/` whose bracket is not that of an algebra alone.
 pub trait Bracketed {
-    /// The name of its spec and golden file.
+    /// The name of its spec.
     const FILE: &'static str;
     type System<S: Scalar>: OfPoisson<S>;
     fn declared<S: Scalar>() -> Self::System<S>;

@@ -26,10 +26,10 @@ pub struct LotkaVolterra<S = f64> {
 impl<S: ::lie_runtime::Scalar> ::core::default::Default for LotkaVolterra<S> {
     fn default() -> Self {
         Self {
-            a: S::ratio(-2.0, 1.0),
-            b: S::ratio(-1.0, 1.0),
+            a: S::from_f64(-2.0),
+            b: S::from_f64(-1.0),
             nu: S::one(),
-            mu: S::ratio(2.0, 1.0),
+            mu: S::from_f64(2.0),
         }
     }
 }
@@ -65,8 +65,8 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
         let _c9 = _t0;
         let _c10 = _t0 * self.mu - _t1 * self.nu;
         let _c11 = self.b;
-        let _c12 = self.nu * S::ratio(2.0, 1.0);
-        let _c13 = self.mu * S::ratio(2.0, 1.0);
+        let _c12 = self.nu * S::from_f64(2.0);
+        let _c13 = self.mu * S::from_f64(2.0);
         ::lie_runtime::__private::all_finite(
             &[
                 (_c0, "a", "a*b"),
@@ -87,16 +87,16 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
         )?;
         ::core::result::Result::Ok(LotkaVolterraSystem {
             _parameters: ::core::clone::Clone::clone(self),
-            _k0: _c0,
+            a_b: _c0,
             a: _c1,
             nu: _c2,
             mu: _c3,
-            _k4: _c4,
-            _k5: _c5,
-            _k6: _c6,
-            _k7: _c7,
-            _k8: _c8,
-            _k9: _c9,
+            minus_a: _c4,
+            minus_nu: _c5,
+            minus_inverse_a_b: _c6,
+            minus_inverse_a: _c7,
+            inverse_a_b: _c8,
+            inverse_a: _c9,
             _k10: _c10,
             b: _c11,
             _k12: _c12,
@@ -110,7 +110,7 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
         ::lie_runtime::__private::SVector::from([
             S::one(),
             S::ratio(19.0, 10.0),
-            S::ratio(1.0, 2.0),
+            S::from_f64(0.5),
         ])
     }
 }
@@ -121,7 +121,7 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
 pub struct LotkaVolterraSystem<S = f64> {
     _parameters: LotkaVolterra<S>,
     /// `a*b`
-    _k0: S,
+    a_b: S,
     /// `a`
     a: S,
     /// `nu`
@@ -129,17 +129,17 @@ pub struct LotkaVolterraSystem<S = f64> {
     /// `mu`
     mu: S,
     /// `-a`
-    _k4: S,
+    minus_a: S,
     /// `-nu`
-    _k5: S,
+    minus_nu: S,
     /// `-1/(a*b)`
-    _k6: S,
+    minus_inverse_a_b: S,
     /// `-1/a`
-    _k7: S,
+    minus_inverse_a: S,
     /// `1/(a*b)`
-    _k8: S,
+    inverse_a_b: S,
     /// `1/a`
-    _k9: S,
+    inverse_a: S,
     /// `-nu/(a*b) + mu/a`
     _k10: S,
     /// `b`
@@ -222,7 +222,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let [[y1, y2, y3]] = mu.data.0;
-        y2 + y1 * self._k0 - self.a * y3 + self.nu * y2.log() - self.mu * y3.log()
+        y2 + y1 * self.a_b - self.a * y3 + self.nu * y2.log() - self.mu * y3.log()
     }
 
     /// `out_i = dH/dmu_i`
@@ -231,9 +231,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
     #[inline]
     fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
         let [[_, y2, y3]] = mu.data.0;
-        out[0] = self._k0;
+        out[0] = self.a_b;
         out[1] = S::one() + self.nu / y2;
-        out[2] = self._k4 - self.mu / y3;
+        out[2] = self.minus_a - self.mu / y3;
     }
 
     /// `out_ij = d^2H/dmu_i dmu_j`
@@ -245,7 +245,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
         let _t0 = S::one() / y2;
         let _t1 = S::one() / y3;
         out.as_mut_slice().fill(S::zero());
-        out[(1, 1)] = self._k5 * _t0 * _t0;
+        out[(1, 1)] = self.minus_nu * _t0 * _t0;
         out[(2, 2)] = self.mu * _t1 * _t1;
     }
 
@@ -259,11 +259,11 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
         let _t1 = y1 * y3;
         let _t2 = y2 * y3;
         out.as_mut_slice().fill(S::zero());
-        out[(0, 1)] = self._k6 * _t0;
-        out[(0, 2)] = self._k7 * _t1;
-        out[(1, 0)] = self._k8 * _t0;
+        out[(0, 1)] = self.minus_inverse_a_b * _t0;
+        out[(0, 2)] = self.minus_inverse_a * _t1;
+        out[(1, 0)] = self.inverse_a_b * _t0;
         out[(1, 2)] = -_t2;
-        out[(2, 0)] = self._k9 * _t1;
+        out[(2, 0)] = self.inverse_a * _t1;
         out[(2, 1)] = _t2;
     }
 
@@ -279,7 +279,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[y1, y2, y3]] = mu.data.0;
-        out[0] = y1 * (y3 + y2 * self._k6 + self._k10);
+        out[0] = y1 * (y3 + y2 * self.minus_inverse_a_b + self._k10);
         out[1] = y2 * (y1 + self.a * y3 + self.mu);
         out[2] = y3 * (y2 + self.nu + self.b * y1);
     }
@@ -290,8 +290,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[y1, y2, y3]] = mu.data.0;
-        out[(0, 0)] = y3 + y2 * self._k6 + self._k10;
-        out[(0, 1)] = y1 * self._k6;
+        out[(0, 0)] = y3 + y2 * self.minus_inverse_a_b + self._k10;
+        out[(0, 1)] = y1 * self.minus_inverse_a_b;
         out[(0, 2)] = y1;
         out[(1, 0)] = y2;
         out[(1, 1)] = y1 + self.a * y3 + self.mu;
@@ -312,14 +312,14 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
         jacobian: &mut Self::Jacobian,
     ) {
         let [[y1, y2, y3]] = mu.data.0;
-        let _t0 = y3 + y2 * self._k6 + self._k10;
+        let _t0 = y3 + y2 * self.minus_inverse_a_b + self._k10;
         let _t1 = y1 + self.a * y3 + self.mu;
         let _t2 = y2 + self.nu + self.b * y1;
         field[0] = y1 * _t0;
         field[1] = y2 * _t1;
         field[2] = y3 * _t2;
         jacobian[(0, 0)] = _t0;
-        jacobian[(0, 1)] = y1 * self._k6;
+        jacobian[(0, 1)] = y1 * self.minus_inverse_a_b;
         jacobian[(0, 2)] = y1;
         jacobian[(1, 0)] = y2;
         jacobian[(1, 1)] = _t1;
@@ -335,7 +335,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
     #[inline]
     fn casimirs(&self, mu: &Self::State, out: &mut [S]) {
         let [[y1, y2, y3]] = mu.data.0;
-        out[0] = y1.log() * self._k0 - self.b * y2.log() + y3.log();
+        out[0] = y1.log() * self.a_b - self.b * y2.log() + y3.log();
     }
 
     /// `out_ij = d(Pi(mu) xi)_i/dmu_j`
@@ -353,15 +353,15 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
         let _t0 = y2 * _xi_y2;
         let _t1 = y3 * _xi_y3;
         let _t2 = y1 * _xi_y1;
-        out[(0, 0)] = -(self._k8 * _t0) - self._k9 * _t1;
-        out[(0, 1)] = y1 * _xi_y2 * self._k6;
-        out[(0, 2)] = y1 * _xi_y3 * self._k7;
-        out[(1, 0)] = y2 * _xi_y1 * self._k8;
-        out[(1, 1)] = self._k8 * _t2 - _t1;
+        out[(0, 0)] = -(self.inverse_a_b * _t0) - self.inverse_a * _t1;
+        out[(0, 1)] = y1 * _xi_y2 * self.minus_inverse_a_b;
+        out[(0, 2)] = y1 * _xi_y3 * self.minus_inverse_a;
+        out[(1, 0)] = y2 * _xi_y1 * self.inverse_a_b;
+        out[(1, 1)] = self.inverse_a_b * _t2 - _t1;
         out[(1, 2)] = -(y2 * _xi_y3);
-        out[(2, 0)] = y3 * _xi_y1 * self._k9;
+        out[(2, 0)] = y3 * _xi_y1 * self.inverse_a;
         out[(2, 1)] = y3 * _xi_y2;
-        out[(2, 2)] = self._k9 * _t2 + _t0;
+        out[(2, 2)] = self.inverse_a * _t2 + _t0;
     }
 
     /// `out_i = dC/dmu_i` of one Casimir.
@@ -370,7 +370,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
         match _index {
             0 => {
                 let [[y1, y2, y3]] = mu.data.0;
-                out[0] = self._k0 / y1;
+                out[0] = self.a_b / y1;
                 out[1] = -(self.b / y2);
                 out[2] = S::one() / y3;
             }
@@ -391,16 +391,16 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for LotkaVolterraSystem<S>
                 nu: _constant(self._parameters.nu),
                 mu: _constant(self._parameters.mu),
             },
-            _k0: _constant(self._k0),
+            a_b: _constant(self.a_b),
             a: _constant(self.a),
             nu: _constant(self.nu),
             mu: _constant(self.mu),
-            _k4: _constant(self._k4),
-            _k5: _constant(self._k5),
-            _k6: _constant(self._k6),
-            _k7: _constant(self._k7),
-            _k8: _constant(self._k8),
-            _k9: _constant(self._k9),
+            minus_a: _constant(self.minus_a),
+            minus_nu: _constant(self.minus_nu),
+            minus_inverse_a_b: _constant(self.minus_inverse_a_b),
+            minus_inverse_a: _constant(self.minus_inverse_a),
+            inverse_a_b: _constant(self.inverse_a_b),
+            inverse_a: _constant(self.inverse_a),
             _k10: _constant(self._k10),
             b: _constant(self.b),
             _k12: _constant(self._k12),
@@ -416,21 +416,21 @@ pub struct LotkaVolterraMidpoint<'a, S: ::lie_runtime::Scalar> {
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
     /// `h/4`
-    _h0: S,
+    h_over_4: S,
     /// `h/(4*a*b)`
-    _h1: S,
+    h_over_4_a_b: S,
     /// `h/(4*a)`
-    _h2: S,
+    h_over_4_a: S,
     /// `-h/4`
-    _h3: S,
+    minus_h_over_4: S,
     /// `-a*h/4`
-    _h4: S,
+    minus_a_h_over_4: S,
     /// `mu*h/2`
-    _h5: S,
+    mu_h_over_2: S,
     /// `-b*h/4`
-    _h6: S,
+    minus_b_h_over_4: S,
     /// `nu*h/2`
-    _h7: S,
+    nu_h_over_2: S,
     /// `nu*h/(2*a*b) - mu*h/(2*a) + 1`
     _h8: S,
     /// `-mu*h/2 + 1`
@@ -445,24 +445,24 @@ impl<'a, S: ::lie_runtime::Scalar> LotkaVolterraMidpoint<'a, S> {
     pub fn new(system: &'a LotkaVolterraSystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.b;
         let _t1 = h * (S::one() / system._parameters.a);
-        let _t2 = S::ratio(1.0, 4.0) * _t1;
-        let _t3 = h * S::ratio(-1.0, 4.0);
-        let _t4 = system._parameters.mu * S::ratio(1.0, 2.0);
+        let _t2 = S::from_f64(0.25) * _t1;
+        let _t3 = h * S::from_f64(-0.25);
+        let _t4 = system._parameters.mu * S::from_f64(0.5);
         let _t5 = h * _t4;
-        let _t6 = system._parameters.nu * S::ratio(1.0, 2.0);
+        let _t6 = system._parameters.nu * S::from_f64(0.5);
         let _t7 = h * _t6;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: h * S::ratio(1.0, 4.0),
-            _h1: _t0 * _t2,
-            _h2: _t2,
-            _h3: _t3,
-            _h4: system._parameters.a * _t3,
-            _h5: _t5,
-            _h6: system._parameters.b * _t3,
-            _h7: _t7,
+            h_over_4: h * S::from_f64(0.25),
+            h_over_4_a_b: _t0 * _t2,
+            h_over_4_a: _t2,
+            minus_h_over_4: _t3,
+            minus_a_h_over_4: system._parameters.a * _t3,
+            mu_h_over_2: _t5,
+            minus_b_h_over_4: system._parameters.b * _t3,
+            nu_h_over_2: _t7,
             _h8: S::one() + _t0 * _t1 * _t6 - _t1 * _t4,
             _h9: S::one() - _t5,
             _h10: S::one() - _t7,
@@ -502,9 +502,10 @@ for LotkaVolterraMidpoint<'_, S> {
         let _t3 = y3 + _u_y3;
         let _t4 = _t3 * (self.system.a + self.system._k13 / _t3);
         residual[0] = _u_y1 - y1
-            + _t0 * (self.system._k8 * _t2 - self.system._k9 * _t4) * self._h0;
-        residual[1] = _u_y2 - y2 - _t1 * (_t0 + _t4) * self._h0;
-        residual[2] = _u_y3 - y3 - _t3 * (self.system.b * _t0 + _t2) * self._h0;
+            + _t0 * (self.system.inverse_a_b * _t2 - self.system.inverse_a * _t4)
+                * self.h_over_4;
+        residual[1] = _u_y2 - y2 - _t1 * (_t0 + _t4) * self.h_over_4;
+        residual[2] = _u_y3 - y3 - _t3 * (self.system.b * _t0 + _t2) * self.h_over_4;
     }
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`, and `dr/du = 1 - (h/2) Df(m)`
@@ -521,26 +522,27 @@ for LotkaVolterraMidpoint<'_, S> {
         let [[_u_y1, _u_y2, _u_y3]] = unknown.data.0;
         let _t0 = y2 + _u_y2;
         let _t1 = y1 + _u_y1;
-        let _t2 = _t1 * self._h1;
+        let _t2 = _t1 * self.h_over_4_a_b;
         let _t3 = y3 + _u_y3;
         let _t4 = _t1 * _t3;
-        let _t5 = _t0 * self._h3;
-        let _t6 = _t0 * self._h4;
-        let _t7 = _t3 * self._h3;
-        let _t8 = _t1 * self._h3;
+        let _t5 = _t0 * self.minus_h_over_4;
+        let _t6 = _t0 * self.minus_a_h_over_4;
+        let _t7 = _t3 * self.minus_h_over_4;
+        let _t8 = _t1 * self.minus_h_over_4;
         residual[0] = _u_y1 - y1 + _t0 * (S::one() + self.system._k12 / _t0) * _t2
-            - (self.system.a + self.system._k13 / _t3) * self._h2 * _t4;
-        residual[1] = _u_y2 - y2 + _t1 * _t5 + _t3 * _t6 - _t0 * self._h5;
-        residual[2] = _u_y3 - y3 + self._h6 * _t4 + _t3 * _t5 - _t3 * self._h7;
-        matrix[(0, 0)] = _t7 + _t0 * self._h1 + self._h8;
+            - (self.system.a + self.system._k13 / _t3) * self.h_over_4_a * _t4;
+        residual[1] = _u_y2 - y2 + _t1 * _t5 + _t3 * _t6 - _t0 * self.mu_h_over_2;
+        residual[2] = _u_y3 - y3 + self.minus_b_h_over_4 * _t4 + _t3 * _t5
+            - _t3 * self.nu_h_over_2;
+        matrix[(0, 0)] = _t7 + _t0 * self.h_over_4_a_b + self._h8;
         matrix[(0, 1)] = _t2;
         matrix[(0, 2)] = _t8;
         matrix[(1, 0)] = _t5;
-        matrix[(1, 1)] = _t8 + _t3 * self._h4 + self._h9;
+        matrix[(1, 1)] = _t8 + _t3 * self.minus_a_h_over_4 + self._h9;
         matrix[(1, 2)] = _t6;
-        matrix[(2, 0)] = _t3 * self._h6;
+        matrix[(2, 0)] = _t3 * self.minus_b_h_over_4;
         matrix[(2, 1)] = _t7;
-        matrix[(2, 2)] = _t5 + _t1 * self._h6 + self._h10;
+        matrix[(2, 2)] = _t5 + _t1 * self.minus_b_h_over_4 + self._h10;
     }
 
     #[inline]

@@ -32,8 +32,8 @@ pub struct HeavyTop<S = f64> {
 impl<S: ::lie_runtime::Scalar> ::core::default::Default for HeavyTop<S> {
     fn default() -> Self {
         Self {
-            I1: S::ratio(2.0, 1.0),
-            I2: S::ratio(3.0, 2.0),
+            I1: S::from_f64(2.0),
+            I2: S::from_f64(1.5),
             I3: S::one(),
             mgl: S::one(),
             c1: S::ratio(1.0, 3.0),
@@ -69,9 +69,9 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _c0 = _t0;
         let _c1 = _t1;
         let _c2 = _t2;
-        let _c3 = S::ratio(1.0, 2.0) / self.I1;
-        let _c4 = S::ratio(1.0, 2.0) / self.I2;
-        let _c5 = S::ratio(1.0, 2.0) / self.I3;
+        let _c3 = S::from_f64(0.5) / self.I1;
+        let _c4 = S::from_f64(0.5) / self.I2;
+        let _c5 = S::from_f64(0.5) / self.I3;
         let _c6 = _t3;
         let _c7 = _t4;
         let _c8 = _t5;
@@ -108,24 +108,24 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         )?;
         ::core::result::Result::Ok(HeavyTopSystem {
             _parameters: ::core::clone::Clone::clone(self),
-            _k0: _c0,
-            _k1: _c1,
-            _k2: _c2,
-            _k3: _c3,
-            _k4: _c4,
-            _k5: _c5,
-            _k6: _c6,
-            _k7: _c7,
-            _k8: _c8,
+            mgl_c1: _c0,
+            mgl_c2: _c1,
+            mgl_c3: _c2,
+            inverse_2_I1: _c3,
+            inverse_2_I2: _c4,
+            inverse_2_I3: _c5,
+            inverse_I1: _c6,
+            inverse_I2: _c7,
+            inverse_I3: _c8,
             _k9: _c9,
             _k10: _c10,
             _k11: _c11,
-            _k12: _c12,
-            _k13: _c13,
-            _k14: _c14,
-            _k15: _c15,
-            _k16: _c16,
-            _k17: _c17,
+            minus_inverse_I2: _c12,
+            minus_inverse_I3: _c13,
+            minus_inverse_I1: _c14,
+            minus_mgl_c2: _c15,
+            minus_mgl_c3: _c16,
+            minus_mgl_c1: _c17,
         })
     }
 
@@ -149,23 +149,23 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
 pub struct HeavyTopSystem<S = f64> {
     _parameters: HeavyTop<S>,
     /// `mgl*c1`
-    _k0: S,
+    mgl_c1: S,
     /// `mgl*c2`
-    _k1: S,
+    mgl_c2: S,
     /// `mgl*c3`
-    _k2: S,
+    mgl_c3: S,
     /// `1/(2*I1)`
-    _k3: S,
+    inverse_2_I1: S,
     /// `1/(2*I2)`
-    _k4: S,
+    inverse_2_I2: S,
     /// `1/(2*I3)`
-    _k5: S,
+    inverse_2_I3: S,
     /// `1/I1`
-    _k6: S,
+    inverse_I1: S,
     /// `1/I2`
-    _k7: S,
+    inverse_I2: S,
     /// `1/I3`
-    _k8: S,
+    inverse_I3: S,
     /// `-1/I2 + 1/I3`
     _k9: S,
     /// `1/I1 - 1/I3`
@@ -173,17 +173,17 @@ pub struct HeavyTopSystem<S = f64> {
     /// `-1/I1 + 1/I2`
     _k11: S,
     /// `-1/I2`
-    _k12: S,
+    minus_inverse_I2: S,
     /// `-1/I3`
-    _k13: S,
+    minus_inverse_I3: S,
     /// `-1/I1`
-    _k14: S,
+    minus_inverse_I1: S,
     /// `-mgl*c2`
-    _k15: S,
+    minus_mgl_c2: S,
     /// `-mgl*c3`
-    _k16: S,
+    minus_mgl_c3: S,
     /// `-mgl*c1`
-    _k17: S,
+    minus_mgl_c1: S,
 }
 
 impl<S> HeavyTopSystem<S> {
@@ -261,8 +261,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
-        g1 * self._k0 + g2 * self._k1 + g3 * self._k2 + m1 * m1 * self._k3
-            + m2 * m2 * self._k4 + m3 * m3 * self._k5
+        g1 * self.mgl_c1 + g2 * self.mgl_c2 + g3 * self.mgl_c3
+            + m1 * m1 * self.inverse_2_I1 + m2 * m2 * self.inverse_2_I2
+            + m3 * m3 * self.inverse_2_I3
     }
 
     /// `out_i = dH/dmu_i`
@@ -271,12 +272,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     #[inline]
     fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
         let [[m1, m2, m3, _, _, _]] = mu.data.0;
-        out[0] = m1 * self._k6;
-        out[1] = m2 * self._k7;
-        out[2] = m3 * self._k8;
-        out[3] = self._k0;
-        out[4] = self._k1;
-        out[5] = self._k2;
+        out[0] = m1 * self.inverse_I1;
+        out[1] = m2 * self.inverse_I2;
+        out[2] = m3 * self.inverse_I3;
+        out[3] = self.mgl_c1;
+        out[4] = self.mgl_c2;
+        out[5] = self.mgl_c3;
     }
 
     /// `out_ij = d^2H/dmu_i dmu_j`
@@ -285,9 +286,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
         out.as_mut_slice().fill(S::zero());
-        out[(0, 0)] = self._k6;
-        out[(1, 1)] = self._k7;
-        out[(2, 2)] = self._k8;
+        out[(0, 0)] = self.inverse_I1;
+        out[(1, 1)] = self.inverse_I2;
+        out[(2, 2)] = self.inverse_I3;
     }
 
     /// `out_ij = {mu_i, mu_j} = -C_ij^k mu_k`
@@ -335,12 +336,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
     #[inline]
     fn vector_field(&self, mu: &Self::State, out: &mut Self::State) {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
-        let _t0 = m2 * self._k7;
-        let _t1 = m3 * self._k8;
-        let _t2 = m1 * self._k6;
-        out[0] = g2 * self._k2 - g3 * self._k1 + m3 * (m2 * self._k9);
-        out[1] = g3 * self._k0 - g1 * self._k2 + m3 * (m1 * self._k10);
-        out[2] = g1 * self._k1 - g2 * self._k0 + m2 * (m1 * self._k11);
+        let _t0 = m2 * self.inverse_I2;
+        let _t1 = m3 * self.inverse_I3;
+        let _t2 = m1 * self.inverse_I1;
+        out[0] = g2 * self.mgl_c3 - g3 * self.mgl_c2 + m3 * (m2 * self._k9);
+        out[1] = g3 * self.mgl_c1 - g1 * self.mgl_c3 + m3 * (m1 * self._k10);
+        out[2] = g1 * self.mgl_c2 - g2 * self.mgl_c1 + m2 * (m1 * self._k11);
         out[3] = g2 * _t1 - g3 * _t0;
         out[4] = g3 * _t2 - g1 * _t1;
         out[5] = g1 * _t0 - g2 * _t2;
@@ -355,28 +356,28 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = m3 * self._k9;
         out[(0, 2)] = m2 * self._k9;
-        out[(0, 4)] = self._k2;
-        out[(0, 5)] = self._k15;
+        out[(0, 4)] = self.mgl_c3;
+        out[(0, 5)] = self.minus_mgl_c2;
         out[(1, 0)] = m3 * self._k10;
         out[(1, 2)] = m1 * self._k10;
-        out[(1, 3)] = self._k16;
-        out[(1, 5)] = self._k0;
+        out[(1, 3)] = self.minus_mgl_c3;
+        out[(1, 5)] = self.mgl_c1;
         out[(2, 0)] = m2 * self._k11;
         out[(2, 1)] = m1 * self._k11;
-        out[(2, 3)] = self._k1;
-        out[(2, 4)] = self._k17;
-        out[(3, 1)] = g3 * self._k12;
-        out[(3, 2)] = g2 * self._k8;
-        out[(3, 4)] = m3 * self._k8;
-        out[(3, 5)] = m2 * self._k12;
-        out[(4, 0)] = g3 * self._k6;
-        out[(4, 2)] = g1 * self._k13;
-        out[(4, 3)] = m3 * self._k13;
-        out[(4, 5)] = m1 * self._k6;
-        out[(5, 0)] = g2 * self._k14;
-        out[(5, 1)] = g1 * self._k7;
-        out[(5, 3)] = m2 * self._k7;
-        out[(5, 4)] = m1 * self._k14;
+        out[(2, 3)] = self.mgl_c2;
+        out[(2, 4)] = self.minus_mgl_c1;
+        out[(3, 1)] = g3 * self.minus_inverse_I2;
+        out[(3, 2)] = g2 * self.inverse_I3;
+        out[(3, 4)] = m3 * self.inverse_I3;
+        out[(3, 5)] = m2 * self.minus_inverse_I2;
+        out[(4, 0)] = g3 * self.inverse_I1;
+        out[(4, 2)] = g1 * self.minus_inverse_I3;
+        out[(4, 3)] = m3 * self.minus_inverse_I3;
+        out[(4, 5)] = m1 * self.inverse_I1;
+        out[(5, 0)] = g2 * self.minus_inverse_I1;
+        out[(5, 1)] = g1 * self.inverse_I2;
+        out[(5, 3)] = m2 * self.inverse_I2;
+        out[(5, 4)] = m1 * self.minus_inverse_I1;
     }
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
@@ -393,40 +394,40 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
         let _t0 = m2 * self._k9;
         let _t1 = m1 * self._k10;
         let _t2 = m1 * self._k11;
-        let _t3 = m2 * self._k7;
-        let _t4 = m3 * self._k8;
-        let _t5 = m1 * self._k6;
-        field[0] = g2 * self._k2 - g3 * self._k1 + m3 * _t0;
-        field[1] = g3 * self._k0 - g1 * self._k2 + m3 * _t1;
-        field[2] = g1 * self._k1 - g2 * self._k0 + m2 * _t2;
+        let _t3 = m2 * self.inverse_I2;
+        let _t4 = m3 * self.inverse_I3;
+        let _t5 = m1 * self.inverse_I1;
+        field[0] = g2 * self.mgl_c3 - g3 * self.mgl_c2 + m3 * _t0;
+        field[1] = g3 * self.mgl_c1 - g1 * self.mgl_c3 + m3 * _t1;
+        field[2] = g1 * self.mgl_c2 - g2 * self.mgl_c1 + m2 * _t2;
         field[3] = g2 * _t4 - g3 * _t3;
         field[4] = g3 * _t5 - g1 * _t4;
         field[5] = g1 * _t3 - g2 * _t5;
         jacobian.as_mut_slice().fill(S::zero());
         jacobian[(0, 1)] = m3 * self._k9;
         jacobian[(0, 2)] = _t0;
-        jacobian[(0, 4)] = self._k2;
-        jacobian[(0, 5)] = self._k15;
+        jacobian[(0, 4)] = self.mgl_c3;
+        jacobian[(0, 5)] = self.minus_mgl_c2;
         jacobian[(1, 0)] = m3 * self._k10;
         jacobian[(1, 2)] = _t1;
-        jacobian[(1, 3)] = self._k16;
-        jacobian[(1, 5)] = self._k0;
+        jacobian[(1, 3)] = self.minus_mgl_c3;
+        jacobian[(1, 5)] = self.mgl_c1;
         jacobian[(2, 0)] = m2 * self._k11;
         jacobian[(2, 1)] = _t2;
-        jacobian[(2, 3)] = self._k1;
-        jacobian[(2, 4)] = self._k17;
-        jacobian[(3, 1)] = g3 * self._k12;
-        jacobian[(3, 2)] = g2 * self._k8;
+        jacobian[(2, 3)] = self.mgl_c2;
+        jacobian[(2, 4)] = self.minus_mgl_c1;
+        jacobian[(3, 1)] = g3 * self.minus_inverse_I2;
+        jacobian[(3, 2)] = g2 * self.inverse_I3;
         jacobian[(3, 4)] = _t4;
-        jacobian[(3, 5)] = m2 * self._k12;
-        jacobian[(4, 0)] = g3 * self._k6;
-        jacobian[(4, 2)] = g1 * self._k13;
-        jacobian[(4, 3)] = m3 * self._k13;
+        jacobian[(3, 5)] = m2 * self.minus_inverse_I2;
+        jacobian[(4, 0)] = g3 * self.inverse_I1;
+        jacobian[(4, 2)] = g1 * self.minus_inverse_I3;
+        jacobian[(4, 3)] = m3 * self.minus_inverse_I3;
         jacobian[(4, 5)] = _t5;
-        jacobian[(5, 0)] = g2 * self._k14;
-        jacobian[(5, 1)] = g1 * self._k7;
+        jacobian[(5, 0)] = g2 * self.minus_inverse_I1;
+        jacobian[(5, 1)] = g1 * self.inverse_I2;
         jacobian[(5, 3)] = _t3;
-        jacobian[(5, 4)] = m1 * self._k14;
+        jacobian[(5, 4)] = m1 * self.minus_inverse_I1;
     }
 
     /// `out_i = C_i(mu)`
@@ -447,9 +448,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
             0 => {
                 let [[_, _, _, g1, g2, g3]] = mu.data.0;
                 out.as_mut_slice().fill(S::zero());
-                out[3] = g1 * S::ratio(2.0, 1.0);
-                out[4] = g2 * S::ratio(2.0, 1.0);
-                out[5] = g3 * S::ratio(2.0, 1.0);
+                out[3] = g1 * S::from_f64(2.0);
+                out[4] = g2 * S::from_f64(2.0);
+                out[5] = g3 * S::from_f64(2.0);
             }
 
             1 => {
@@ -562,12 +563,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSyste
         let _t10 = _xi_J1 * _eta_P1 + _xi_P1 * _eta_J1;
         let _t11 = m1 * _xi_J1 + g1 * _xi_P1;
         out.as_mut_slice().fill(S::zero());
-        out[0] = (_xi_J1 * (_t2 + _t0 * S::ratio(2.0, 1.0) + _t4) - g1 * (_t5 + _t6)
-            + _eta_J1 * (_t7 + _t8)) * S::ratio(-1.0, 2.0);
-        out[1] = (_xi_J2 * (_t9 + _t1 * S::ratio(2.0, 1.0) + _t4) - g2 * (_t6 + _t10)
-            + _eta_J2 * (_t8 + _t11)) * S::ratio(-1.0, 2.0);
-        out[2] = (_xi_J3 * (_t9 + _t3 * S::ratio(2.0, 1.0) + _t2) - g3 * (_t5 + _t10)
-            + _eta_J3 * (_t7 + _t11)) * S::ratio(-1.0, 2.0);
+        out[0] = (_xi_J1 * (_t2 + _t0 * S::from_f64(2.0) + _t4) - g1 * (_t5 + _t6)
+            + _eta_J1 * (_t7 + _t8)) * S::from_f64(-0.5);
+        out[1] = (_xi_J2 * (_t9 + _t1 * S::from_f64(2.0) + _t4) - g2 * (_t6 + _t10)
+            + _eta_J2 * (_t8 + _t11)) * S::from_f64(-0.5);
+        out[2] = (_xi_J3 * (_t9 + _t3 * S::from_f64(2.0) + _t2) - g3 * (_t5 + _t10)
+            + _eta_J3 * (_t7 + _t11)) * S::from_f64(-0.5);
     }
 
     fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
@@ -589,24 +590,24 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
                 c2: _constant(self._parameters.c2),
                 c3: _constant(self._parameters.c3),
             },
-            _k0: _constant(self._k0),
-            _k1: _constant(self._k1),
-            _k2: _constant(self._k2),
-            _k3: _constant(self._k3),
-            _k4: _constant(self._k4),
-            _k5: _constant(self._k5),
-            _k6: _constant(self._k6),
-            _k7: _constant(self._k7),
-            _k8: _constant(self._k8),
+            mgl_c1: _constant(self.mgl_c1),
+            mgl_c2: _constant(self.mgl_c2),
+            mgl_c3: _constant(self.mgl_c3),
+            inverse_2_I1: _constant(self.inverse_2_I1),
+            inverse_2_I2: _constant(self.inverse_2_I2),
+            inverse_2_I3: _constant(self.inverse_2_I3),
+            inverse_I1: _constant(self.inverse_I1),
+            inverse_I2: _constant(self.inverse_I2),
+            inverse_I3: _constant(self.inverse_I3),
             _k9: _constant(self._k9),
             _k10: _constant(self._k10),
             _k11: _constant(self._k11),
-            _k12: _constant(self._k12),
-            _k13: _constant(self._k13),
-            _k14: _constant(self._k14),
-            _k15: _constant(self._k15),
-            _k16: _constant(self._k16),
-            _k17: _constant(self._k17),
+            minus_inverse_I2: _constant(self.minus_inverse_I2),
+            minus_inverse_I3: _constant(self.minus_inverse_I3),
+            minus_inverse_I1: _constant(self.minus_inverse_I1),
+            minus_mgl_c2: _constant(self.minus_mgl_c2),
+            minus_mgl_c3: _constant(self.minus_mgl_c3),
+            minus_mgl_c1: _constant(self.minus_mgl_c1),
         }
     }
 }
@@ -701,35 +702,35 @@ pub struct HeavyTopMidpoint<'a, S: ::lie_runtime::Scalar> {
     /// `(1/I2 - 1/I3)*h/4`
     _h0: S,
     /// `mgl*c3*h/2`
-    _h1: S,
+    mgl_c3_h_over_2: S,
     /// `mgl*c2*h/2`
-    _h2: S,
+    mgl_c2_h_over_2: S,
     /// `(1/I1 - 1/I3)*h/4`
     _h3: S,
     /// `mgl*c1*h/2`
-    _h4: S,
+    mgl_c1_h_over_2: S,
     /// `(1/I1 - 1/I2)*h/4`
     _h5: S,
     /// `h/(4*I2)`
-    _h6: S,
+    h_over_4_I2: S,
     /// `h/(4*I3)`
-    _h7: S,
+    h_over_4_I3: S,
     /// `h/(4*I1)`
-    _h8: S,
+    h_over_4_I1: S,
     /// `-(1/I1 - 1/I3)*h/4`
     _h9: S,
     /// `-h/(4*I3)`
-    _h10: S,
+    minus_h_over_4_I3: S,
     /// `-h/(4*I1)`
-    _h11: S,
+    minus_h_over_4_I1: S,
     /// `-h/(4*I2)`
-    _h12: S,
+    minus_h_over_4_I2: S,
     /// `-mgl*c3*h/2`
-    _h13: S,
+    minus_mgl_c3_h_over_2: S,
     /// `-mgl*c1*h/2`
-    _h14: S,
+    minus_mgl_c1_h_over_2: S,
     /// `-mgl*c2*h/2`
-    _h15: S,
+    minus_mgl_c2_h_over_2: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> HeavyTopMidpoint<'a, S> {
@@ -738,33 +739,33 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopMidpoint<'a, S> {
     pub fn new(system: &'a HeavyTopSystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I2;
         let _t1 = S::one() / system._parameters.I3;
-        let _t2 = h * S::ratio(1.0, 4.0);
+        let _t2 = h * S::from_f64(0.25);
         let _t3 = system._parameters.mgl * h;
-        let _t4 = S::ratio(1.0, 2.0) * _t3;
+        let _t4 = S::from_f64(0.5) * _t3;
         let _t5 = S::one() / system._parameters.I1;
         let _t6 = _t5 - _t1;
-        let _t7 = h * S::ratio(-1.0, 4.0);
-        let _t8 = S::ratio(-1.0, 2.0) * _t3;
+        let _t7 = h * S::from_f64(-0.25);
+        let _t8 = S::from_f64(-0.5) * _t3;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
             _h0: (_t0 - _t1) * _t2,
-            _h1: system._parameters.c3 * _t4,
-            _h2: system._parameters.c2 * _t4,
+            mgl_c3_h_over_2: system._parameters.c3 * _t4,
+            mgl_c2_h_over_2: system._parameters.c2 * _t4,
             _h3: _t6 * _t2,
-            _h4: system._parameters.c1 * _t4,
+            mgl_c1_h_over_2: system._parameters.c1 * _t4,
             _h5: (_t5 - _t0) * _t2,
-            _h6: _t0 * _t2,
-            _h7: _t1 * _t2,
-            _h8: _t5 * _t2,
+            h_over_4_I2: _t0 * _t2,
+            h_over_4_I3: _t1 * _t2,
+            h_over_4_I1: _t5 * _t2,
             _h9: _t6 * _t7,
-            _h10: _t1 * _t7,
-            _h11: _t5 * _t7,
-            _h12: _t0 * _t7,
-            _h13: system._parameters.c3 * _t8,
-            _h14: system._parameters.c1 * _t8,
-            _h15: system._parameters.c2 * _t8,
+            minus_h_over_4_I3: _t1 * _t7,
+            minus_h_over_4_I1: _t5 * _t7,
+            minus_h_over_4_I2: _t0 * _t7,
+            minus_mgl_c3_h_over_2: system._parameters.c3 * _t8,
+            minus_mgl_c1_h_over_2: system._parameters.c1 * _t8,
+            minus_mgl_c2_h_over_2: system._parameters.c2 * _t8,
         }
     }
 }
@@ -800,15 +801,15 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopMidpoint<'
         let _t3 = g3 + _u_g3;
         let _t4 = m1 + _u_m1;
         let _t5 = g1 + _u_g1;
-        let _t6 = _t0 * self._h6;
-        let _t7 = _t1 * self._h7;
-        let _t8 = _t4 * self._h8;
-        residual[0] = _u_m1 - m1 + _t0 * _t1 * self._h0 - _t2 * self._h1
-            + _t3 * self._h2;
-        residual[1] = _u_m2 - m2 - _t4 * _t1 * self._h3 + _t5 * self._h1
-            - _t3 * self._h4;
-        residual[2] = _u_m3 - m3 + _t4 * _t0 * self._h5 - _t5 * self._h2
-            + _t2 * self._h4;
+        let _t6 = _t0 * self.h_over_4_I2;
+        let _t7 = _t1 * self.h_over_4_I3;
+        let _t8 = _t4 * self.h_over_4_I1;
+        residual[0] = _u_m1 - m1 + _t0 * _t1 * self._h0 - _t2 * self.mgl_c3_h_over_2
+            + _t3 * self.mgl_c2_h_over_2;
+        residual[1] = _u_m2 - m2 - _t4 * _t1 * self._h3 + _t5 * self.mgl_c3_h_over_2
+            - _t3 * self.mgl_c1_h_over_2;
+        residual[2] = _u_m3 - m3 + _t4 * _t0 * self._h5 - _t5 * self.mgl_c2_h_over_2
+            + _t2 * self.mgl_c1_h_over_2;
         residual[3] = _u_g1 - g1 + _t3 * _t6 - _t2 * _t7;
         residual[4] = _u_g2 - g2 - _t3 * _t8 + _t5 * _t7;
         residual[5] = _u_g3 - g3 + _t2 * _t8 - _t5 * _t6;
@@ -835,43 +836,46 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopMidpoint<'
         let _t6 = _t5 * self._h9;
         let _t7 = g1 + _u_g1;
         let _t8 = _t5 * self._h5;
-        let _t9 = _t1 * self._h6;
-        let _t10 = _t0 * self._h7;
-        let _t11 = _t5 * self._h8;
-        residual[0] = _u_m1 - m1 + _t0 * _t2 - _t3 * self._h1 + _t4 * self._h2;
-        residual[1] = _u_m2 - m2 + _t0 * _t6 + _t7 * self._h1 - _t4 * self._h4;
-        residual[2] = _u_m3 - m3 + _t1 * _t8 - _t7 * self._h2 + _t3 * self._h4;
+        let _t9 = _t1 * self.h_over_4_I2;
+        let _t10 = _t0 * self.h_over_4_I3;
+        let _t11 = _t5 * self.h_over_4_I1;
+        residual[0] = _u_m1 - m1 + _t0 * _t2 - _t3 * self.mgl_c3_h_over_2
+            + _t4 * self.mgl_c2_h_over_2;
+        residual[1] = _u_m2 - m2 + _t0 * _t6 + _t7 * self.mgl_c3_h_over_2
+            - _t4 * self.mgl_c1_h_over_2;
+        residual[2] = _u_m3 - m3 + _t1 * _t8 - _t7 * self.mgl_c2_h_over_2
+            + _t3 * self.mgl_c1_h_over_2;
         residual[3] = _u_g1 - g1 + _t4 * _t9 - _t3 * _t10;
         residual[4] = _u_g2 - g2 - _t4 * _t11 + _t7 * _t10;
         residual[5] = _u_g3 - g3 + _t3 * _t11 - _t7 * _t9;
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = _t0 * self._h0;
         matrix[(0, 2)] = _t2;
-        matrix[(0, 4)] = self._h13;
-        matrix[(0, 5)] = self._h2;
+        matrix[(0, 4)] = self.minus_mgl_c3_h_over_2;
+        matrix[(0, 5)] = self.mgl_c2_h_over_2;
         matrix[(1, 0)] = _t0 * self._h9;
         matrix[(1, 1)] = S::one();
         matrix[(1, 2)] = _t6;
-        matrix[(1, 3)] = self._h1;
-        matrix[(1, 5)] = self._h14;
+        matrix[(1, 3)] = self.mgl_c3_h_over_2;
+        matrix[(1, 5)] = self.minus_mgl_c1_h_over_2;
         matrix[(2, 0)] = _t1 * self._h5;
         matrix[(2, 1)] = _t8;
         matrix[(2, 2)] = S::one();
-        matrix[(2, 3)] = self._h15;
-        matrix[(2, 4)] = self._h4;
-        matrix[(3, 1)] = _t4 * self._h6;
-        matrix[(3, 2)] = _t3 * self._h10;
+        matrix[(2, 3)] = self.minus_mgl_c2_h_over_2;
+        matrix[(2, 4)] = self.mgl_c1_h_over_2;
+        matrix[(3, 1)] = _t4 * self.h_over_4_I2;
+        matrix[(3, 2)] = _t3 * self.minus_h_over_4_I3;
         matrix[(3, 3)] = S::one();
-        matrix[(3, 4)] = _t0 * self._h10;
+        matrix[(3, 4)] = _t0 * self.minus_h_over_4_I3;
         matrix[(3, 5)] = _t9;
-        matrix[(4, 0)] = _t4 * self._h11;
-        matrix[(4, 2)] = _t7 * self._h7;
+        matrix[(4, 0)] = _t4 * self.minus_h_over_4_I1;
+        matrix[(4, 2)] = _t7 * self.h_over_4_I3;
         matrix[(4, 3)] = _t10;
         matrix[(4, 4)] = S::one();
-        matrix[(4, 5)] = _t5 * self._h11;
-        matrix[(5, 0)] = _t3 * self._h8;
-        matrix[(5, 1)] = _t7 * self._h12;
-        matrix[(5, 3)] = _t1 * self._h12;
+        matrix[(4, 5)] = _t5 * self.minus_h_over_4_I1;
+        matrix[(5, 0)] = _t3 * self.h_over_4_I1;
+        matrix[(5, 1)] = _t7 * self.minus_h_over_4_I2;
+        matrix[(5, 3)] = _t1 * self.minus_h_over_4_I2;
         matrix[(5, 4)] = _t11;
         matrix[(5, 5)] = S::one();
         matrix[(1, 4)] = S::zero();
@@ -1382,19 +1386,19 @@ pub struct HeavyTopCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     base: ::lie_runtime::__private::SVector<S, 6>,
     h: S,
     /// `h/(2*I1)`
-    _h0: S,
+    h_over_2_I1: S,
     /// `h/(2*I2)`
-    _h1: S,
+    h_over_2_I2: S,
     /// `h/(2*I3)`
-    _h2: S,
+    h_over_2_I3: S,
     /// `mgl*c2*h/2`
-    _h3: S,
+    mgl_c2_h_over_2: S,
     /// `mgl*c3*h/2`
-    _h4: S,
+    mgl_c3_h_over_2: S,
     /// `(1/I2 - 1/I3)*h/2`
     _h5: S,
     /// `mgl*c1*h/2`
-    _h6: S,
+    mgl_c1_h_over_2: S,
     /// `(1/I1 - 1/I3)*h/2`
     _h7: S,
     /// `(1/I1 - 1/I2)*h/2`
@@ -1408,7 +1412,7 @@ pub struct HeavyTopCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     /// `mgl*c3*h^2/(4*I3)`
     _h12: S,
     /// `-mgl*c3*h/2`
-    _h13: S,
+    minus_mgl_c3_h_over_2: S,
     /// `mgl*c1*h^2/(4*I1)`
     _h14: S,
     /// `mgl*c1*h^2/(4*I2)`
@@ -1416,37 +1420,37 @@ pub struct HeavyTopCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     /// `mgl*c3*h^2/(4*I2)`
     _h16: S,
     /// `-mgl*c1*h/2`
-    _h17: S,
+    minus_mgl_c1_h_over_2: S,
     /// `mgl*c1*h^2/(4*I3)`
     _h18: S,
     /// `mgl*c2*h^2/(4*I3)`
     _h19: S,
     /// `-mgl*c2*h/2`
-    _h20: S,
+    minus_mgl_c2_h_over_2: S,
     /// `-h/(2*I3)`
-    _h21: S,
+    minus_h_over_2_I3: S,
     /// `-h/(2*I1)`
-    _h22: S,
+    minus_h_over_2_I1: S,
     /// `-h/(2*I2)`
-    _h23: S,
+    minus_h_over_2_I2: S,
     /// `mgl*c2*h`
-    _h24: S,
+    mgl_c2_h: S,
     /// `mgl*c3*h`
-    _h25: S,
+    mgl_c3_h: S,
     /// `(1/I2 - 1/I3)*h`
     _h26: S,
     /// `mgl*c1*h`
-    _h27: S,
+    mgl_c1_h: S,
     /// `(1/I1 - 1/I3)*h`
     _h28: S,
     /// `(1/I1 - 1/I2)*h`
     _h29: S,
     /// `h/I2`
-    _h30: S,
+    h_over_I2: S,
     /// `h/I3`
-    _h31: S,
+    h_over_I3: S,
     /// `h/I1`
-    _h32: S,
+    h_over_I1: S,
 }
 
 impl<'a, S: ::lie_runtime::Scalar> HeavyTopCayleyMidpoint<'a, S> {
@@ -1454,7 +1458,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopCayleyMidpoint<'a, S> {
     #[must_use]
     pub fn new(system: &'a HeavyTopSystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I1;
-        let _t1 = h * S::ratio(1.0, 2.0);
+        let _t1 = h * S::from_f64(0.5);
         let _t2 = S::one() / system._parameters.I2;
         let _t3 = S::one() / system._parameters.I3;
         let _t4 = system._parameters.mgl * h;
@@ -1464,48 +1468,48 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopCayleyMidpoint<'a, S> {
         let _t8 = system._parameters.c1 * _t4;
         let _t9 = _t0 - _t3;
         let _t10 = _t0 - _t2;
-        let _t11 = _t4 * (h * S::ratio(1.0, 4.0));
+        let _t11 = _t4 * (h * S::from_f64(0.25));
         let _t12 = system._parameters.c2 * _t11;
         let _t13 = system._parameters.c3 * _t11;
         let _t14 = system._parameters.c1 * _t11;
-        let _t15 = h * S::ratio(-1.0, 2.0);
+        let _t15 = h * S::from_f64(-0.5);
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t0 * _t1,
-            _h1: _t2 * _t1,
-            _h2: _t3 * _t1,
-            _h3: S::ratio(1.0, 2.0) * _t5,
-            _h4: S::ratio(1.0, 2.0) * _t6,
+            h_over_2_I1: _t0 * _t1,
+            h_over_2_I2: _t2 * _t1,
+            h_over_2_I3: _t3 * _t1,
+            mgl_c2_h_over_2: S::from_f64(0.5) * _t5,
+            mgl_c3_h_over_2: S::from_f64(0.5) * _t6,
             _h5: _t7 * _t1,
-            _h6: S::ratio(1.0, 2.0) * _t8,
+            mgl_c1_h_over_2: S::from_f64(0.5) * _t8,
             _h7: _t9 * _t1,
             _h8: _t10 * _t1,
             _h9: _t0 * _t12,
             _h10: _t0 * _t13,
             _h11: _t2 * _t12,
             _h12: _t3 * _t13,
-            _h13: S::ratio(-1.0, 2.0) * _t6,
+            minus_mgl_c3_h_over_2: S::from_f64(-0.5) * _t6,
             _h14: _t0 * _t14,
             _h15: _t2 * _t14,
             _h16: _t2 * _t13,
-            _h17: S::ratio(-1.0, 2.0) * _t8,
+            minus_mgl_c1_h_over_2: S::from_f64(-0.5) * _t8,
             _h18: _t3 * _t14,
             _h19: _t3 * _t12,
-            _h20: S::ratio(-1.0, 2.0) * _t5,
-            _h21: _t3 * _t15,
-            _h22: _t0 * _t15,
-            _h23: _t2 * _t15,
-            _h24: _t5,
-            _h25: _t6,
+            minus_mgl_c2_h_over_2: S::from_f64(-0.5) * _t5,
+            minus_h_over_2_I3: _t3 * _t15,
+            minus_h_over_2_I1: _t0 * _t15,
+            minus_h_over_2_I2: _t2 * _t15,
+            mgl_c2_h: _t5,
+            mgl_c3_h: _t6,
             _h26: _t7 * h,
-            _h27: _t8,
+            mgl_c1_h: _t8,
             _h28: _t9 * h,
             _h29: _t10 * h,
-            _h30: _t2 * h,
-            _h31: _t3 * h,
-            _h32: _t0 * h,
+            h_over_I2: _t2 * h,
+            h_over_I3: _t3 * h,
+            h_over_I1: _t0 * h,
         }
     }
 }
@@ -1536,23 +1540,26 @@ for HeavyTopCayleyMidpoint<'_, S> {
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
-        let _t0 = _u_m1 * self._h0;
+        let _t0 = _u_m1 * self.h_over_2_I1;
         let _t1 = _t0 * _u_m1;
-        let _t2 = _u_m2 * self._h1;
+        let _t2 = _u_m2 * self.h_over_2_I2;
         let _t3 = _t2 * _u_m2;
-        let _t4 = _u_m3 * self._h2;
+        let _t4 = _u_m3 * self.h_over_2_I3;
         let _t5 = _t4 * _u_m3;
         let _t6 = _t2 * _u_g1 - (_u_g3 + _t0 * _u_g2);
         let _t7 = -_t6;
         let _t8 = _u_g2 - _t0 * _u_g3 + _t4 * _u_g1;
         let _t9 = _t4 * _u_g2 - (_u_g1 + _t2 * _u_g3);
         let _t10 = -_t9;
-        residual[0] = _u_m1 - m1 + _t0 * _t1 + _t0 * _t3 + _t0 * _t5 + _t7 * self._h3
-            - _t8 * self._h4 + _u_m2 * _u_m3 * self._h5;
-        residual[1] = _u_m2 - m2 + _t2 * _t1 + _t2 * _t3 + _t2 * _t5 - _t7 * self._h6
-            + self._h4 * _t10 - _u_m1 * _u_m3 * self._h7;
-        residual[2] = _u_m3 - m3 + _t4 * _t1 + _t4 * _t3 + _t4 * _t5 + _t8 * self._h6
-            - self._h3 * _t10 + _u_m1 * _u_m2 * self._h8;
+        residual[0] = _u_m1 - m1 + _t0 * _t1 + _t0 * _t3 + _t0 * _t5
+            + _t7 * self.mgl_c2_h_over_2 - _t8 * self.mgl_c3_h_over_2
+            + _u_m2 * _u_m3 * self._h5;
+        residual[1] = _u_m2 - m2 + _t2 * _t1 + _t2 * _t3 + _t2 * _t5
+            - _t7 * self.mgl_c1_h_over_2 + self.mgl_c3_h_over_2 * _t10
+            - _u_m1 * _u_m3 * self._h7;
+        residual[2] = _u_m3 - m3 + _t4 * _t1 + _t4 * _t3 + _t4 * _t5
+            + _t8 * self.mgl_c1_h_over_2 - self.mgl_c2_h_over_2 * _t10
+            + _u_m1 * _u_m2 * self._h8;
         residual[3] = -g1 - _t9;
         residual[4] = _t8 - g2;
         residual[5] = -g3 - _t6;
@@ -1570,11 +1577,11 @@ for HeavyTopCayleyMidpoint<'_, S> {
     ) {
         let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
-        let _t0 = _u_m1 * self._h0;
+        let _t0 = _u_m1 * self.h_over_2_I1;
         let _t1 = _t0 * _u_m1;
-        let _t2 = _u_m2 * self._h1;
+        let _t2 = _u_m2 * self.h_over_2_I2;
         let _t3 = _t2 * _u_m2;
-        let _t4 = _u_m3 * self._h2;
+        let _t4 = _u_m3 * self.h_over_2_I3;
         let _t5 = _t4 * _u_m3;
         let _t6 = _t2 * _u_g1 - (_u_g3 + _t0 * _u_g2);
         let _t7 = -_t6;
@@ -1584,55 +1591,55 @@ for HeavyTopCayleyMidpoint<'_, S> {
         let _t11 = -_t10;
         let _t12 = _u_m1 * self._h7;
         let _t13 = _u_m1 * self._h8;
-        let _t14 = _t0 * S::ratio(2.0, 1.0);
+        let _t14 = _t0 * S::from_f64(2.0);
         let _t15 = _t2 * _t14;
         let _t16 = _t4 * _t14;
-        let _t17 = _t4 * self._h4;
-        let _t18 = -(_t2 * self._h3);
-        let _t19 = _t2 * _t4 * S::ratio(2.0, 1.0);
-        let _t20 = _t0 * self._h6;
-        residual[0] = _u_m1 - m1 + _t0 * _t1 + _t0 * _t3 + _t0 * _t5 + self._h3 * _t7
-            - self._h4 * _t8 + _u_m3 * _t9;
-        residual[1] = _u_m2 - m2 + _t2 * _t1 + _t2 * _t3 + _t2 * _t5 - self._h6 * _t7
-            + self._h4 * _t11 - _u_m3 * _t12;
-        residual[2] = _u_m3 - m3 + _t4 * _t1 + _t4 * _t3 + _t4 * _t5 + self._h6 * _t8
-            - self._h3 * _t11 + _u_m2 * _t13;
+        let _t17 = _t4 * self.mgl_c3_h_over_2;
+        let _t18 = -(_t2 * self.mgl_c2_h_over_2);
+        let _t19 = _t2 * _t4 * S::from_f64(2.0);
+        let _t20 = _t0 * self.mgl_c1_h_over_2;
+        residual[0] = _u_m1 - m1 + _t0 * _t1 + _t0 * _t3 + _t0 * _t5
+            + self.mgl_c2_h_over_2 * _t7 - self.mgl_c3_h_over_2 * _t8 + _u_m3 * _t9;
+        residual[1] = _u_m2 - m2 + _t2 * _t1 + _t2 * _t3 + _t2 * _t5
+            - self.mgl_c1_h_over_2 * _t7 + self.mgl_c3_h_over_2 * _t11 - _u_m3 * _t12;
+        residual[2] = _u_m3 - m3 + _t4 * _t1 + _t4 * _t3 + _t4 * _t5
+            + self.mgl_c1_h_over_2 * _t8 - self.mgl_c2_h_over_2 * _t11 + _u_m2 * _t13;
         residual[3] = -g1 - _t10;
         residual[4] = _t8 - g2;
         residual[5] = -g3 - _t6;
-        matrix[(0, 0)] = S::one() + _t0 * _t0 * S::ratio(3.0, 1.0)
-            + self._h0 * (_t3 + _t5) + _u_g2 * self._h9 + _u_g3 * self._h10;
+        matrix[(0, 0)] = S::one() + _t0 * _t0 * S::from_f64(3.0)
+            + self.h_over_2_I1 * (_t3 + _t5) + _u_g2 * self._h9 + _u_g3 * self._h10;
         matrix[(0, 1)] = _t15 + _u_m3 * self._h5 - _u_g1 * self._h11;
         matrix[(0, 2)] = _t16 + _t9 - _u_g1 * self._h12;
         matrix[(0, 3)] = _t18 - _t17;
-        matrix[(0, 4)] = _t0 * self._h3 + self._h13;
-        matrix[(0, 5)] = self._h3 + _t0 * self._h4;
+        matrix[(0, 4)] = _t0 * self.mgl_c2_h_over_2 + self.minus_mgl_c3_h_over_2;
+        matrix[(0, 5)] = self.mgl_c2_h_over_2 + _t0 * self.mgl_c3_h_over_2;
         matrix[(1, 0)] = _t15 - _u_m3 * self._h7 - _u_g2 * self._h14;
-        matrix[(1, 1)] = S::one() + _t2 * _t2 * S::ratio(3.0, 1.0)
-            + self._h1 * (_t5 + _t1) + _u_g1 * self._h15 + _u_g3 * self._h16;
+        matrix[(1, 1)] = S::one() + _t2 * _t2 * S::from_f64(3.0)
+            + self.h_over_2_I2 * (_t5 + _t1) + _u_g1 * self._h15 + _u_g3 * self._h16;
         matrix[(1, 2)] = _t19 - _t12 - _u_g2 * self._h12;
-        matrix[(1, 3)] = self._h4 + _t2 * self._h6;
+        matrix[(1, 3)] = self.mgl_c3_h_over_2 + _t2 * self.mgl_c1_h_over_2;
         matrix[(1, 4)] = -_t17 - _t20;
-        matrix[(1, 5)] = _t2 * self._h4 + self._h17;
+        matrix[(1, 5)] = _t2 * self.mgl_c3_h_over_2 + self.minus_mgl_c1_h_over_2;
         matrix[(2, 0)] = _t16 + _u_m2 * self._h8 - _u_g3 * self._h14;
         matrix[(2, 1)] = _t19 + _t13 - _u_g3 * self._h11;
-        matrix[(2, 2)] = S::one() + _t4 * _t4 * S::ratio(3.0, 1.0)
-            + self._h2 * (_t3 + _t1) + _u_g1 * self._h18 + _u_g2 * self._h19;
-        matrix[(2, 3)] = _t4 * self._h6 + self._h20;
-        matrix[(2, 4)] = self._h6 + _t4 * self._h3;
+        matrix[(2, 2)] = S::one() + _t4 * _t4 * S::from_f64(3.0)
+            + self.h_over_2_I3 * (_t3 + _t1) + _u_g1 * self._h18 + _u_g2 * self._h19;
+        matrix[(2, 3)] = _t4 * self.mgl_c1_h_over_2 + self.minus_mgl_c2_h_over_2;
+        matrix[(2, 4)] = self.mgl_c1_h_over_2 + _t4 * self.mgl_c2_h_over_2;
         matrix[(2, 5)] = _t18 - _t20;
-        matrix[(3, 1)] = _u_g3 * self._h1;
-        matrix[(3, 2)] = _u_g2 * self._h21;
+        matrix[(3, 1)] = _u_g3 * self.h_over_2_I2;
+        matrix[(3, 2)] = _u_g2 * self.minus_h_over_2_I3;
         matrix[(3, 3)] = S::one();
         matrix[(3, 4)] = -_t4;
         matrix[(3, 5)] = _t2;
-        matrix[(4, 0)] = _u_g3 * self._h22;
-        matrix[(4, 2)] = _u_g1 * self._h2;
+        matrix[(4, 0)] = _u_g3 * self.minus_h_over_2_I1;
+        matrix[(4, 2)] = _u_g1 * self.h_over_2_I3;
         matrix[(4, 3)] = _t4;
         matrix[(4, 4)] = S::one();
         matrix[(4, 5)] = -_t0;
-        matrix[(5, 0)] = _u_g2 * self._h0;
-        matrix[(5, 1)] = _u_g1 * self._h23;
+        matrix[(5, 0)] = _u_g2 * self.h_over_2_I1;
+        matrix[(5, 1)] = _u_g1 * self.minus_h_over_2_I2;
         matrix[(5, 3)] = -_t2;
         matrix[(5, 4)] = _t0;
         matrix[(5, 5)] = S::one();
@@ -1647,12 +1654,15 @@ for HeavyTopCayleyMidpoint<'_, S> {
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
         let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
-        let _t0 = _u_m2 * self._h30;
-        let _t1 = _u_m3 * self._h31;
-        let _t2 = _u_m1 * self._h32;
-        mu[0] = m1 - _u_g3 * self._h24 + _u_g2 * self._h25 - _u_m2 * _u_m3 * self._h26;
-        mu[1] = m2 + _u_g3 * self._h27 - _u_g1 * self._h25 + _u_m1 * _u_m3 * self._h28;
-        mu[2] = m3 - _u_g2 * self._h27 + _u_g1 * self._h24 - _u_m1 * _u_m2 * self._h29;
+        let _t0 = _u_m2 * self.h_over_I2;
+        let _t1 = _u_m3 * self.h_over_I3;
+        let _t2 = _u_m1 * self.h_over_I1;
+        mu[0] = m1 - _u_g3 * self.mgl_c2_h + _u_g2 * self.mgl_c3_h
+            - _u_m2 * _u_m3 * self._h26;
+        mu[1] = m2 + _u_g3 * self.mgl_c1_h - _u_g1 * self.mgl_c3_h
+            + _u_m1 * _u_m3 * self._h28;
+        mu[2] = m3 - _u_g2 * self.mgl_c1_h + _u_g1 * self.mgl_c2_h
+            - _u_m1 * _u_m2 * self._h29;
         mu[3] = g1 - _u_g3 * _t0 + _u_g2 * _t1;
         mu[4] = g2 + _u_g3 * _t2 - _u_g1 * _t1;
         mu[5] = g3 - _u_g2 * _t2 + _u_g1 * _t0;
@@ -1663,7 +1673,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
         let mut field = self.base;
         ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
         *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
+        ::lie_runtime::State::axpy(unknown, self.h * S::from_f64(0.5), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2, 3, 4, 5], 2 entries of fill-in: 99 multiplications with the solution.
@@ -2501,8 +2511,8 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     #[inline]
     fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
         let [[m1, m2, m3, _, g2, g3]] = mu.data.0;
-        let _t0 = (m1 * t * self.system._k3).tan();
-        let _t1 = _t0 * S::ratio(2.0, 1.0) / (S::one() + _t0 * _t0);
+        let _t0 = (m1 * t * self.system.inverse_2_I1).tan();
+        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
         let _t2 = _t0 * _t1;
         mu[1] += m3 * _t1 - m2 * _t2;
         mu[2] -= m2 * _t1 + m3 * _t2;
@@ -2518,8 +2528,8 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     #[inline]
     fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
         let [[m1, m2, m3, g1, _, g3]] = mu.data.0;
-        let _t0 = (m2 * t * self.system._k4).tan();
-        let _t1 = _t0 * S::ratio(2.0, 1.0) / (S::one() + _t0 * _t0);
+        let _t0 = (m2 * t * self.system.inverse_2_I2).tan();
+        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
         let _t2 = _t0 * _t1;
         mu[0] -= m3 * _t1 + m1 * _t2;
         mu[2] += m1 * _t1 - m3 * _t2;
@@ -2535,8 +2545,8 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     #[inline]
     fn _flow2(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
         let [[m1, m2, m3, g1, g2, _]] = mu.data.0;
-        let _t0 = (m3 * t * self.system._k5).tan();
-        let _t1 = _t0 * S::ratio(2.0, 1.0) / (S::one() + _t0 * _t0);
+        let _t0 = (m3 * t * self.system.inverse_2_I3).tan();
+        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
         let _t2 = _t0 * _t1;
         mu[0] += m2 * _t1 - m1 * _t2;
         mu[1] -= m2 * _t2 + m1 * _t1;
@@ -2552,7 +2562,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     #[inline]
     fn _flow3(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
         let [[_, _, _, _, g2, g3]] = mu.data.0;
-        let _t0 = t * self.system._k0;
+        let _t0 = t * self.system.mgl_c1;
         mu[1] += g3 * _t0;
         mu[2] -= g2 * _t0;
     }
@@ -2565,7 +2575,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     #[inline]
     fn _flow4(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
         let [[_, _, _, g1, _, g3]] = mu.data.0;
-        let _t0 = t * self.system._k1;
+        let _t0 = t * self.system.mgl_c2;
         mu[0] -= g3 * _t0;
         mu[2] += g1 * _t0;
     }
@@ -2578,7 +2588,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     #[inline]
     fn _flow5(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
         let [[_, _, _, g1, g2, _]] = mu.data.0;
-        let _t0 = t * self.system._k2;
+        let _t0 = t * self.system.mgl_c3;
         mu[0] += g2 * _t0;
         mu[1] -= g1 * _t0;
     }

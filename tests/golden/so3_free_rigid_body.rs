@@ -26,7 +26,7 @@ pub struct FreeRigidBody<S = f64> {
 impl<S: ::lie_runtime::Scalar> ::core::default::Default for FreeRigidBody<S> {
     fn default() -> Self {
         Self {
-            I1: S::ratio(2.0, 1.0),
+            I1: S::from_f64(2.0),
             I2: S::one(),
             I3: S::ratio(2.0, 3.0),
         }
@@ -53,9 +53,9 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
         let _t0 = S::one() / self.I1;
         let _t1 = S::one() / self.I2;
         let _t2 = S::one() / self.I3;
-        let _c0 = S::ratio(1.0, 2.0) / self.I1;
-        let _c1 = S::ratio(1.0, 2.0) / self.I2;
-        let _c2 = S::ratio(1.0, 2.0) / self.I3;
+        let _c0 = S::from_f64(0.5) / self.I1;
+        let _c1 = S::from_f64(0.5) / self.I2;
+        let _c2 = S::from_f64(0.5) / self.I3;
         let _c3 = _t0;
         let _c4 = _t1;
         let _c5 = _t2;
@@ -77,12 +77,12 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
         )?;
         ::core::result::Result::Ok(FreeRigidBodySystem {
             _parameters: ::core::clone::Clone::clone(self),
-            _k0: _c0,
-            _k1: _c1,
-            _k2: _c2,
-            _k3: _c3,
-            _k4: _c4,
-            _k5: _c5,
+            inverse_2_I1: _c0,
+            inverse_2_I2: _c1,
+            inverse_2_I3: _c2,
+            inverse_I1: _c3,
+            inverse_I2: _c4,
+            inverse_I3: _c5,
             _k6: _c6,
             _k7: _c7,
             _k8: _c8,
@@ -106,17 +106,17 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
 pub struct FreeRigidBodySystem<S = f64> {
     _parameters: FreeRigidBody<S>,
     /// `1/(2*I1)`
-    _k0: S,
+    inverse_2_I1: S,
     /// `1/(2*I2)`
-    _k1: S,
+    inverse_2_I2: S,
     /// `1/(2*I3)`
-    _k2: S,
+    inverse_2_I3: S,
     /// `1/I1`
-    _k3: S,
+    inverse_I1: S,
     /// `1/I2`
-    _k4: S,
+    inverse_I2: S,
     /// `1/I3`
-    _k5: S,
+    inverse_I3: S,
     /// `-1/I2 + 1/I3`
     _k6: S,
     /// `1/I1 - 1/I3`
@@ -196,7 +196,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn hamiltonian(&self, mu: &Self::State) -> S {
         let [[x, y, z]] = mu.data.0;
-        x * x * self._k0 + y * y * self._k1 + z * z * self._k2
+        x * x * self.inverse_2_I1 + y * y * self.inverse_2_I2 + z * z * self.inverse_2_I3
     }
 
     /// `out_i = dH/dmu_i`
@@ -205,9 +205,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn gradient(&self, mu: &Self::State, out: &mut Self::State) {
         let [[x, y, z]] = mu.data.0;
-        out[0] = x * self._k3;
-        out[1] = y * self._k4;
-        out[2] = z * self._k5;
+        out[0] = x * self.inverse_I1;
+        out[1] = y * self.inverse_I2;
+        out[2] = z * self.inverse_I3;
     }
 
     /// `out_ij = d^2H/dmu_i dmu_j`
@@ -216,9 +216,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
     #[inline]
     fn hessian(&self, _mu: &Self::State, out: &mut Self::Jacobian) {
         out.as_mut_slice().fill(S::zero());
-        out[(0, 0)] = self._k3;
-        out[(1, 1)] = self._k4;
-        out[(2, 2)] = self._k5;
+        out[(0, 0)] = self.inverse_I1;
+        out[(1, 1)] = self.inverse_I2;
+        out[(2, 2)] = self.inverse_I3;
     }
 
     /// `out_ij = {mu_i, mu_j} = -C_ij^k mu_k`
@@ -309,9 +309,9 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem
         match _index {
             0 => {
                 let [[x, y, z]] = mu.data.0;
-                out[0] = x * S::ratio(2.0, 1.0);
-                out[1] = y * S::ratio(2.0, 1.0);
-                out[2] = z * S::ratio(2.0, 1.0);
+                out[0] = x * S::from_f64(2.0);
+                out[1] = y * S::from_f64(2.0);
+                out[2] = z * S::from_f64(2.0);
             }
 
             _ => panic!("the system has 1 Casimir"),
@@ -384,12 +384,12 @@ for FreeRigidBodySystem<S> {
         let _t3 = y * _xi_e2;
         let _t4 = z * _xi_e3;
         let _t5 = x * _xi_e1;
-        out[0] = (_xi_e1 * (_t0 + _t1 + _t2 * S::ratio(2.0, 1.0))
-            + _eta_e1 * (_t3 + _t4)) * S::ratio(-1.0, 2.0);
-        out[1] = (_xi_e2 * (_t2 + _t1 + _t0 * S::ratio(2.0, 1.0))
-            + _eta_e2 * (_t4 + _t5)) * S::ratio(-1.0, 2.0);
-        out[2] = (_xi_e3 * (_t2 + _t0 + _t1 * S::ratio(2.0, 1.0))
-            + _eta_e3 * (_t3 + _t5)) * S::ratio(-1.0, 2.0);
+        out[0] = (_xi_e1 * (_t0 + _t1 + _t2 * S::from_f64(2.0)) + _eta_e1 * (_t3 + _t4))
+            * S::from_f64(-0.5);
+        out[1] = (_xi_e2 * (_t2 + _t1 + _t0 * S::from_f64(2.0)) + _eta_e2 * (_t4 + _t5))
+            * S::from_f64(-0.5);
+        out[2] = (_xi_e3 * (_t2 + _t0 + _t1 * S::from_f64(2.0)) + _eta_e3 * (_t3 + _t5))
+            * S::from_f64(-0.5);
     }
 
     fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
@@ -407,12 +407,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for FreeRigidBodySystem<S>
                 I2: _constant(self._parameters.I2),
                 I3: _constant(self._parameters.I3),
             },
-            _k0: _constant(self._k0),
-            _k1: _constant(self._k1),
-            _k2: _constant(self._k2),
-            _k3: _constant(self._k3),
-            _k4: _constant(self._k4),
-            _k5: _constant(self._k5),
+            inverse_2_I1: _constant(self.inverse_2_I1),
+            inverse_2_I2: _constant(self.inverse_2_I2),
+            inverse_2_I3: _constant(self.inverse_2_I3),
+            inverse_I1: _constant(self.inverse_I1),
+            inverse_I2: _constant(self.inverse_I2),
+            inverse_I3: _constant(self.inverse_I3),
             _k6: _constant(self._k6),
             _k7: _constant(self._k7),
             _k8: _constant(self._k8),
@@ -526,7 +526,7 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMidpoint<'a, S> {
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I2;
         let _t1 = S::one() / system._parameters.I3;
-        let _t2 = h * S::ratio(1.0, 4.0);
+        let _t2 = h * S::from_f64(0.25);
         let _t3 = S::one() / system._parameters.I1;
         let _t4 = _t3 - _t1;
         Self {
@@ -536,7 +536,7 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMidpoint<'a, S> {
             _h0: (_t0 - _t1) * _t2,
             _h1: _t4 * _t2,
             _h2: (_t3 - _t0) * _t2,
-            _h3: _t4 * h * S::ratio(-1.0, 4.0),
+            _h3: _t4 * h * S::from_f64(-0.25),
         }
     }
 }
@@ -1445,11 +1445,11 @@ pub struct FreeRigidBodyCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
     /// `h/(2*I1)`
-    _h0: S,
+    h_over_2_I1: S,
     /// `h/(2*I2)`
-    _h1: S,
+    h_over_2_I2: S,
     /// `h/(2*I3)`
-    _h2: S,
+    h_over_2_I3: S,
     /// `(1/I2 - 1/I3)*h/2`
     _h3: S,
     /// `(1/I1 - 1/I3)*h/2`
@@ -1469,7 +1469,7 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyCayleyMidpoint<'a, S> {
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I1;
-        let _t1 = h * S::ratio(1.0, 2.0);
+        let _t1 = h * S::from_f64(0.5);
         let _t2 = S::one() / system._parameters.I2;
         let _t3 = S::one() / system._parameters.I3;
         let _t4 = _t2 - _t3;
@@ -1479,9 +1479,9 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyCayleyMidpoint<'a, S> {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t0 * _t1,
-            _h1: _t2 * _t1,
-            _h2: _t3 * _t1,
+            h_over_2_I1: _t0 * _t1,
+            h_over_2_I2: _t2 * _t1,
+            h_over_2_I3: _t3 * _t1,
             _h3: _t4 * _t1,
             _h4: _t5 * _t1,
             _h5: _t6 * _t1,
@@ -1518,9 +1518,9 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let _t0 = _u_x * self._h0;
-        let _t1 = _u_y * self._h1;
-        let _t2 = _u_z * self._h2;
+        let _t0 = _u_x * self.h_over_2_I1;
+        let _t1 = _u_y * self.h_over_2_I2;
+        let _t2 = _u_z * self.h_over_2_I3;
         let _t3 = _t0 * _u_x + _t1 * _u_y + _t2 * _u_z;
         residual[0] = _u_x - x + _t0 * _t3 + _u_y * _u_z * self._h3;
         residual[1] = _u_y - y + _t1 * _t3 - _u_x * _u_z * self._h4;
@@ -1539,35 +1539,36 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
     ) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let _t0 = _u_x * self._h0;
-        let _t1 = _u_z * self._h2;
+        let _t0 = _u_x * self.h_over_2_I1;
+        let _t1 = _u_z * self.h_over_2_I3;
         let _t2 = _t1 * _u_z;
         let _t3 = _t0 * _u_x;
-        let _t4 = _u_y * self._h1;
+        let _t4 = _u_y * self.h_over_2_I2;
         let _t5 = _t4 * _u_y;
         let _t6 = _t3 + _t5;
         let _t7 = _t6 + _t2;
         let _t8 = _u_y * self._h3;
         let _t9 = _u_x * self._h4;
         let _t10 = _u_x * self._h5;
-        let _t11 = _t0 * S::ratio(2.0, 1.0);
+        let _t11 = _t0 * S::from_f64(2.0);
         let _t12 = _t4 * _t11;
         let _t13 = _t1 * _t11;
-        let _t14 = _t4 * _t1 * S::ratio(2.0, 1.0);
+        let _t14 = _t4 * _t1 * S::from_f64(2.0);
         residual[0] = _u_x - x + _t0 * _t7 + _u_z * _t8;
         residual[1] = _u_y - y + _t4 * _t7 - _u_z * _t9;
         residual[2] = _u_z - z + _t1 * _t7 + _u_y * _t10;
-        matrix[(0, 0)] = S::one() + _t0 * _t0 * S::ratio(3.0, 1.0)
-            + self._h0 * (_t5 + _t2);
+        matrix[(0, 0)] = S::one() + _t0 * _t0 * S::from_f64(3.0)
+            + self.h_over_2_I1 * (_t5 + _t2);
         matrix[(0, 1)] = _t12 + _u_z * self._h3;
         matrix[(0, 2)] = _t13 + _t8;
         matrix[(1, 0)] = _t12 - _u_z * self._h4;
-        matrix[(1, 1)] = S::one() + _t4 * _t4 * S::ratio(3.0, 1.0)
-            + self._h1 * (_t3 + _t2);
+        matrix[(1, 1)] = S::one() + _t4 * _t4 * S::from_f64(3.0)
+            + self.h_over_2_I2 * (_t3 + _t2);
         matrix[(1, 2)] = _t14 - _t9;
         matrix[(2, 0)] = _t13 + _u_y * self._h5;
         matrix[(2, 1)] = _t14 + _t10;
-        matrix[(2, 2)] = S::one() + _t1 * _t1 * S::ratio(3.0, 1.0) + self._h2 * _t6;
+        matrix[(2, 2)] = S::one() + _t1 * _t1 * S::from_f64(3.0)
+            + self.h_over_2_I3 * _t6;
     }
 
     /// `mu1 = mu + ad*_x m = mu + h f(m)`
@@ -1587,7 +1588,7 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
         let mut field = self.base;
         ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
         *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
+        ::lie_runtime::State::axpy(unknown, self.h * S::from_f64(0.5), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.
@@ -2100,6 +2101,80 @@ for FreeRigidBodySystem<S> {
 ::lie_runtime::generic_equations!(
     @ collective[S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S, 2
 );
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct FreeRigidBodyHopf2Elimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 1>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 1>,
+> for FreeRigidBodyHopf2Elimination {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            1,
+        >,
+    ) -> S::Mask {
+        let _a0_0 = matrix.0[0][0][(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix.0[0][0][(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix.0[0][0][(0, 1)];
+        let _a1_1 = matrix.0[0][0][(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix.0[0][0][(0, 2)];
+        let _a1_2 = matrix.0[0][0][(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a2_0 = matrix.0[0][0][(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix.0[0][0][(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix.0[0][0][(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_2 = S::one() / _a2_2;
+        matrix.0[0][0][(0, 0)] = _a0_0;
+        matrix.0[0][0][(1, 0)] = _a1_0;
+        matrix.0[0][0][(1, 1)] = _a1_1;
+        matrix.0[0][0][(1, 2)] = _a1_2;
+        matrix.0[0][0][(2, 0)] = _a2_0;
+        matrix.0[0][0][(2, 1)] = _a2_1;
+        matrix.0[0][0][(2, 2)] = _a2_2;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            1,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            1,
+        >,
+    ) {
+        let _b0 = vector.0[0][0];
+        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
+        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
+            - factors.0[0][0][(2, 1)] * _b1;
+        let _b2 = _b2 * factors.0[0][0][(2, 2)];
+        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2) * factors.0[0][0][(1, 1)];
+        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2)
+            * factors.0[0][0][(0, 0)];
+        vector.0[0][0] = _b0;
+        vector.0[0][1] = _b1;
+        vector.0[0][2] = _b2;
+    }
+}
+
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<
@@ -2114,7 +2189,7 @@ impl<
             ::lie_runtime::generic::QuaternionStages<S, 1>,
             1,
         >,
-        FreeRigidBodyExpMidpointElimination,
+        FreeRigidBodyHopf2Elimination,
     >
     where
         Self: 'a;
@@ -2377,11 +2452,11 @@ pub struct FreeRigidBodyMoserVeselov<'a, S: ::lie_runtime::Scalar> {
     base: ::lie_runtime::__private::SVector<S, 3>,
     h: S,
     /// `h/(2*I1)`
-    _h0: S,
+    h_over_2_I1: S,
     /// `h/(2*I2)`
-    _h1: S,
+    h_over_2_I2: S,
     /// `h/(2*I3)`
-    _h2: S,
+    h_over_2_I3: S,
     /// `(1/I2 - 1/I3)*h/2`
     _h3: S,
     /// `(1/I1 - 1/I3)*h/2`
@@ -2395,16 +2470,16 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMoserVeselov<'a, S> {
     #[must_use]
     pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
         let _t0 = S::one() / system._parameters.I1;
-        let _t1 = h * S::ratio(1.0, 2.0);
+        let _t1 = h * S::from_f64(0.5);
         let _t2 = S::one() / system._parameters.I2;
         let _t3 = S::one() / system._parameters.I3;
         Self {
             system,
             base: ::lie_runtime::Poisson::zero_state(system),
             h,
-            _h0: _t0 * _t1,
-            _h1: _t2 * _t1,
-            _h2: _t3 * _t1,
+            h_over_2_I1: _t0 * _t1,
+            h_over_2_I2: _t2 * _t1,
+            h_over_2_I3: _t3 * _t1,
             _h3: (_t2 - _t3) * _t1,
             _h4: (_t0 - _t3) * _t1,
             _h5: (_t0 - _t2) * _t1,
@@ -2438,9 +2513,9 @@ for FreeRigidBodyMoserVeselov<'_, S> {
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let _t0 = _u_x * self._h0;
-        let _t1 = _u_y * self._h1;
-        let _t2 = _u_z * self._h2;
+        let _t0 = _u_x * self.h_over_2_I1;
+        let _t1 = _u_y * self.h_over_2_I2;
+        let _t2 = _u_z * self.h_over_2_I3;
         let _t3 = (S::one() - _t0 * _t0 - _t1 * _t1 - _t2 * _t2).sqrt();
         residual[0] = _u_x * _t3 - x + _u_y * _u_z * self._h3;
         residual[1] = _u_y * _t3 - y - _u_x * _u_z * self._h4;
@@ -2459,17 +2534,17 @@ for FreeRigidBodyMoserVeselov<'_, S> {
     ) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let _t0 = _u_x * self._h0;
-        let _t1 = _u_y * self._h1;
-        let _t2 = _u_z * self._h2;
+        let _t0 = _u_x * self.h_over_2_I1;
+        let _t1 = _u_y * self.h_over_2_I2;
+        let _t2 = _u_z * self.h_over_2_I3;
         let _t3 = (S::one() - _t0 * _t0 - _t1 * _t1 - _t2 * _t2).sqrt();
         let _t4 = _u_y * self._h3;
         let _t5 = _u_x * self._h4;
         let _t6 = _u_x * self._h5;
         let _t7 = S::one() / _t3;
-        let _t8 = self._h0 * _t7 * _t0;
-        let _t9 = self._h1 * _t7 * _t1;
-        let _t10 = self._h2 * _t2 * _t7;
+        let _t8 = self.h_over_2_I1 * _t7 * _t0;
+        let _t9 = self.h_over_2_I2 * _t7 * _t1;
+        let _t10 = self.h_over_2_I3 * _t2 * _t7;
         residual[0] = _u_x * _t3 - x + _u_z * _t4;
         residual[1] = _u_y * _t3 - y - _u_z * _t5;
         residual[2] = _u_z * _t3 - z + _u_y * _t6;
@@ -2496,7 +2571,7 @@ for FreeRigidBodyMoserVeselov<'_, S> {
         let mut field = self.base;
         ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
         *unknown = self.base;
-        ::lie_runtime::State::axpy(unknown, self.h * S::ratio(1.0, 2.0), &field);
+        ::lie_runtime::State::axpy(unknown, self.h * S::from_f64(0.5), &field);
     }
 
     /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.
@@ -2600,8 +2675,8 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySplitting<'a, S> {
     #[inline]
     fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
-        let _t0 = (x * t * self.system._k0).tan();
-        let _t1 = _t0 * S::ratio(2.0, 1.0) / (S::one() + _t0 * _t0);
+        let _t0 = (x * t * self.system.inverse_2_I1).tan();
+        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
         let _t2 = _t0 * _t1;
         mu[1] += z * _t1 - y * _t2;
         mu[2] -= y * _t1 + z * _t2;
@@ -2615,8 +2690,8 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySplitting<'a, S> {
     #[inline]
     fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
-        let _t0 = (y * t * self.system._k1).tan();
-        let _t1 = _t0 * S::ratio(2.0, 1.0) / (S::one() + _t0 * _t0);
+        let _t0 = (y * t * self.system.inverse_2_I2).tan();
+        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
         let _t2 = _t0 * _t1;
         mu[0] -= z * _t1 + x * _t2;
         mu[2] += x * _t1 - z * _t2;
@@ -2630,8 +2705,8 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySplitting<'a, S> {
     #[inline]
     fn _flow2(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
-        let _t0 = (z * t * self.system._k2).tan();
-        let _t1 = _t0 * S::ratio(2.0, 1.0) / (S::one() + _t0 * _t0);
+        let _t0 = (z * t * self.system.inverse_2_I3).tan();
+        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
         let _t2 = _t0 * _t1;
         mu[0] += y * _t1 - x * _t2;
         mu[1] -= y * _t2 + x * _t1;

@@ -1,7 +1,6 @@
 use super::*;
 use crate::compile::compile_spec;
-use crate::derive::Source;
-use crate::derive::{Kernel, Shape};
+use crate::derive::{Kernel, Shape, Source};
 use crate::symbolic::{Graph, Symbol};
 
 fn spec_text(name: &str) -> String {

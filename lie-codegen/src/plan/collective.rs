@@ -1,7 +1,7 @@
 //! Equations of methods that need a structure: a representation, spins, inertia.
 
 use super::elimination::UNROLLED;
-use super::equation::{Guess, Item, Partner, Solver};
+use super::equation::{Guess, Item, Motion, Partner, Solver, Unknown};
 use super::planner::Planner;
 use super::steps::{Form, of_stages};
 use crate::methods::{Choice, Lift};
@@ -50,9 +50,10 @@ impl Planner<'_> {
                 self.asked(&choice) || self.asked(&Choice::Collective(order, Lift::Representation));
             let solver = asked.then(|| self.stages(stages, Lift::Representation));
             match solver.flatten() {
-                Some(solver) => self
-                    .items
-                    .extend([Item::Method(choice, solver), Item::Collective(stages)]),
+                Some(solver) => self.items.extend([
+                    Item::Method(choice.into(), solver),
+                    Item::Collective(stages),
+                ]),
                 None => generic.push(format!("isospectral{order}")),
             }
         }
@@ -78,7 +79,7 @@ impl Planner<'_> {
         let order = 2 * stages;
         let (suffix, label) = (format!("{suffix}{order}"), format!("{label}{order}"));
         let partner = Partner::Stages(lift, stages);
-        Some(self.eliminated(partner, &suffix, &label, stages, pattern))
+        Some(self.eliminated(partner, &suffix, &label, Unknown::Stages(stages), pattern))
     }
 
     fn spherical(&mut self) -> Option<Solver> {
@@ -89,7 +90,7 @@ impl Planner<'_> {
                 "The spherical midpoint method, unknown `u = mu1`: `u - mu - h f(w) = 0`,",
                 "`w = |mu| s/|s|` with `s = mu + u` for each spin.",
             ],
-            coadjoint: true,
+            motion: Motion::Factor,
             ..Form::new(
                 "SphericalMidpoint",
                 "spherical-midpoint",
@@ -107,7 +108,7 @@ impl Planner<'_> {
                 "equation.",
             ],
             guess: Guess::HalfStep,
-            coadjoint: true,
+            motion: Motion::Factor,
             ..Form::new("MoserVeselov", "moser-veselov", partner)
         };
         Some(self.fused(form, &kernels))

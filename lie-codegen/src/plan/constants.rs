@@ -1,6 +1,6 @@
 //! Constants that are computed before the kernels run.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use super::planner::Planner;
 use crate::schedule::{Known, Program, Task, schedule};
@@ -38,6 +38,8 @@ pub struct Prepared {
     pub name: String,
     /// The expression, in the names of the declaration.
     pub text: String,
+    /// Whether it is a parameter as it stands.
+    pub is_parameter: bool,
     /// The first parameter that it depends on.
     pub parameter: Option<usize>,
 }
@@ -93,19 +95,25 @@ impl Planner<'_> {
         self.code_of_system(&program)
     }
 
-    /// The constants of a table; `prefix` begins the names of those that are no parameter.
+    /// The constants of a table; `prefix` begins the names of those that are too long to be named after what they are.
     pub(super) fn prepared(&mut self, table: &Table, prefix: &str) -> Constants {
-        let entries = table.order.iter().enumerate();
-        let entries = entries
-            .map(|(position, id)| self.entry(*id, format!("{prefix}{position}")))
-            .collect();
+        let mut taken: BTreeSet<String> = self.names.parameters.iter().cloned().collect();
+        let mut entries = Vec::new();
+        for (position, id) in table.order.iter().enumerate() {
+            let mut entry = self.entry(*id);
+            if entry.name.is_empty() || !(entry.is_parameter || taken.insert(entry.name.clone())) {
+                entry.name = format!("{prefix}{position}");
+            }
+            entries.push(entry);
+        }
         Constants {
             entries,
             program: self.preparation(&table.order),
         }
     }
 
-    fn entry(&self, id: ExprId, name: String) -> Prepared {
+    /// A constant under the name of its parameter, or after what it is; under none where that is long.
+    fn entry(&self, id: ExprId) -> Prepared {
         let graph = &self.source.graph;
         let parameter = graph
             .symbols(id)
@@ -114,12 +122,16 @@ impl Planner<'_> {
                 Symbol::Parameter(index) => Some(index),
                 _ => None,
             });
+        let text = self.text(id);
+        let is_parameter = matches!(graph.node(id), Node::Symbol(Symbol::Parameter(_)));
         Prepared {
-            name: match graph.node(id) {
-                Node::Symbol(symbol @ Symbol::Parameter(_)) => self.names.local(*symbol),
-                _ => name,
+            name: if is_parameter {
+                text.clone()
+            } else {
+                named_after(&text).unwrap_or_default()
             },
-            text: self.text(id),
+            text,
+            is_parameter,
             parameter,
         }
     }
@@ -128,5 +140,65 @@ impl Planner<'_> {
     pub(super) fn text(&self, id: ExprId) -> String {
         let graph = &self.source.graph;
         graph.display(id, &|symbol| self.names.shown(symbol))
+    }
+}
+
+/// Longer names are not given.
+const LONGEST_NAME: usize = 28;
+
+/// The name of a short product or quotient: `inverse_I1` for `1/I1`, `h_over_2_I1` for `h/(2*I1)`.
+fn named_after(text: &str) -> Option<String> {
+    let (sign, text) = match text.strip_prefix('-') {
+        Some(rest) => ("minus_", rest),
+        None => ("", text),
+    };
+    let (above, below) = text.split_once('/').unwrap_or((text, ""));
+    let below = match below.strip_prefix('(') {
+        Some(inner) => inner.strip_suffix(')')?,
+        None => below,
+    };
+    let part = |factors: &str| {
+        let mut names = factors.split('*');
+        let plain = |name: &str| name.chars().all(|c| c.is_alphanumeric() || c == '_');
+        names
+            .all(|name| !name.is_empty() && plain(name))
+            .then(|| factors.replace('*', "_"))
+    };
+    let above = part(above)?;
+    let name = match (above.as_str(), below) {
+        (_, "") => above,
+        ("1", _) => format!("inverse_{}", part(below)?),
+        _ => format!("{above}_over_{}", part(below)?),
+    };
+    let name = format!("{sign}{name}");
+    let begins = name.starts_with(char::is_alphabetic);
+    (begins && name.len() <= LONGEST_NAME).then_some(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::named_after;
+
+    #[test]
+    fn short_products_and_quotients_have_names() {
+        for (text, name) in [
+            ("1/I1", Some("inverse_I1")),
+            ("-1/I1", Some("minus_inverse_I1")),
+            ("mgl*c1", Some("mgl_c1")),
+            ("-mgl*c1", Some("minus_mgl_c1")),
+            ("1/(2*I1)", Some("inverse_2_I1")),
+            ("h/(2*I1)", Some("h_over_2_I1")),
+            ("mgl*c2*h/2", Some("mgl_c2_h_over_2")),
+            ("µ*λ", Some("µ_λ")),
+            ("2*a", None),
+            ("-1/I2 + 1/I3", None),
+            ("(1/I2 - 1/I3)*h/4", None),
+            ("sqrt(a)", None),
+            ("a^2", None),
+            ("a*b/c/d", None),
+            ("a_very_long_name*another_long_name", None),
+        ] {
+            assert_eq!(named_after(text).as_deref(), name, "{text}");
+        }
     }
 }

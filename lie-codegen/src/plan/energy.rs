@@ -6,7 +6,7 @@
 //! its elimination specialised to the pattern.
 
 use super::constants::Table;
-use super::equation::{Gradient as Closed, Item, Partner, Solver};
+use super::equation::{Gradient as Closed, Item, Partner, Solver, Unknown};
 use super::planner::Planner;
 use super::steps::Form;
 use crate::methods::{Choice, Gradient, Tensor};
@@ -68,7 +68,10 @@ impl Planner<'_> {
             let [plain, orbit] = names(gradient).generic;
             let choice = Choice::DiscreteGradient(gradient, Tensor::Midpoint);
             if self.asked(&choice) {
-                hooks.push(Item::Method(choice, self.discrete_gradient(gradient)));
+                hooks.push(Item::Method(
+                    choice.into(),
+                    self.discrete_gradient(gradient),
+                ));
             } else {
                 steps.push(plain.to_owned());
             }
@@ -77,7 +80,7 @@ impl Planner<'_> {
             }
             let choice = Choice::OrbitEnergy(gradient);
             if self.asked(&choice) {
-                hooks.push(Item::Method(choice, self.orbit_energy(gradient)));
+                hooks.push(Item::Method(choice.into(), self.orbit_energy(gradient)));
             } else {
                 orbits.push(orbit.to_owned());
             }
@@ -85,7 +88,7 @@ impl Planner<'_> {
         for stages in 1..=3_usize {
             let choice = Choice::CohenHairer(2 * stages as u32);
             if self.asked(&choice) {
-                hooks.push(Item::Method(choice, self.cohen_hairer(stages)));
+                hooks.push(Item::Method(choice.into(), self.cohen_hairer(stages)));
             } else {
                 collocation.push(format!("cohen_hairer{}", 2 * stages));
             }
@@ -134,7 +137,13 @@ impl Planner<'_> {
                 return planner.fused(form, &kernels);
             }
             let pattern = planner.step_pattern(gradient);
-            planner.eliminated(partner, names.method, gradient.name(), 1, pattern)
+            planner.eliminated(
+                partner,
+                names.method,
+                gradient.name(),
+                Unknown::State,
+                pattern,
+            )
         })
     }
 
@@ -156,7 +165,7 @@ impl Planner<'_> {
             let pattern = planner.exp_pattern(&derivative);
             let partner = Partner::OrbitEnergy(gradient, degree.is_some());
             let label = format!("orbit-energy {}", gradient.name());
-            planner.eliminated(partner, names.orbit, &label, 1, pattern)
+            planner.eliminated(partner, names.orbit, &label, Unknown::State, pattern)
         })
     }
 
@@ -176,7 +185,7 @@ impl Planner<'_> {
                 format!("cohen-hairer{order}"),
             );
             let partner = Partner::CohenHairer(stages);
-            planner.eliminated(partner, &suffix, &label, stages, pattern)
+            planner.eliminated(partner, &suffix, &label, Unknown::Stages(stages), pattern)
         })
     }
 

@@ -18,9 +18,24 @@ pub enum Item {
     /// A generating function.
     Generating(Box<Generating>),
     /// A method and the equation that its step solves.
-    Method(Choice, Solver),
+    Method(Method, Solver),
     /// The collective methods over the representation with so many stages: their steps are those of the isospectral ones.
     Collective(usize),
+}
+
+/// A method whose step solves an equation.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// One of the catalogue.
+    Catalogue(Choice),
+    /// One that a user wrote, by the path of its type.
+    Own(&'static str),
+}
+
+impl From<Choice> for Method {
+    fn from(choice: Choice) -> Self {
+        Self::Catalogue(choice)
+    }
 }
 
 /// An equation with kernels of its own.
@@ -40,8 +55,8 @@ pub struct Fused {
     pub guess: Guess,
     /// The generic equation of the same step.
     pub partner: Partner,
-    /// Whether the method is of coadjoint form.
-    pub coadjoint: bool,
+    /// How a step moves the group element.
+    pub motion: Motion,
     /// How a step is kept on the chart of its retraction, where that has poles.
     pub chart: Option<Chart>,
     /// Where the state at the end of the step is found.
@@ -59,6 +74,17 @@ pub enum Guess {
     Kernel,
 }
 
+/// How a step moves the group element: which of its methods the equation takes from the generic one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Motion {
+    /// By one factor; the method is of coadjoint form.
+    Factor,
+    /// Along velocities at stages.
+    Velocity,
+    /// By either, as a user wrote it.
+    Either,
+}
+
 /// The element of a step that must be joined to the identity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Chart {
@@ -66,6 +92,8 @@ pub enum Chart {
     OfField,
     /// The group factor of the equation.
     OfFactor,
+    /// What the generic equation says.
+    OfPartner,
 }
 
 /// Where the state at the end of a step is found.
@@ -110,6 +138,8 @@ pub enum Partner {
     DiscreteBody,
     /// Momenta at so many stages over a map.
     Stages(Lift, usize),
+    /// That of a method which a user wrote, by the path of its type.
+    Own(&'static str),
 }
 
 /// The equation that the step of a method solves.
@@ -121,6 +151,25 @@ pub enum Solver {
     Eliminated(Partner, String),
 }
 
+/// What an equation is solved for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unknown {
+    /// A state.
+    State,
+    /// So many of them, one for each stage.
+    Stages(usize),
+}
+
+impl Unknown {
+    /// The number of states.
+    pub fn states(self) -> usize {
+        match self {
+            Self::State => 1,
+            Self::Stages(count) => count,
+        }
+    }
+}
+
 /// The elimination of a pattern that repeats one block for each pair of stages.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Sparse {
@@ -128,8 +177,8 @@ pub struct Sparse {
     pub suffix: String,
     /// Its name in the table of operation counts.
     pub label: String,
-    /// The number of stages.
-    pub stages: usize,
+    /// What is solved for.
+    pub unknown: Unknown,
     /// The elimination.
     pub elimination: Elimination,
 }

@@ -2,7 +2,9 @@
 //! coordinates of the second kind, and the fused equation with the Cayley map.
 
 use super::constants::Table;
-use super::equation::{Chart, Generating as Planned, Guess, Item, Partner, Solver};
+use super::equation::{
+    Chart, Generating as Planned, Guess, Item, Motion, Partner, Solver, Unknown,
+};
 use super::planner::Planner;
 use super::steps::Form;
 use crate::derive::{Generating, Kernel, Shape};
@@ -76,7 +78,7 @@ impl Planner<'_> {
         make: impl FnOnce(&mut Self) -> Option<Solver>,
     ) {
         match self.asked(&choice).then(|| make(self)).flatten() {
-            Some(solver) => self.items.push(Item::Method(choice, solver)),
+            Some(solver) => self.items.push(Item::Method(choice.into(), solver)),
             None => generic.push(key.to_owned()),
         }
     }
@@ -117,7 +119,7 @@ impl Planner<'_> {
                 self.exp_pattern(&function.pattern),
             ),
         };
-        Some(self.eliminated(partner, named.suffix, named.label, 1, pattern))
+        Some(self.eliminated(partner, named.suffix, named.label, Unknown::State, pattern))
     }
 
     /// The equation in coordinates of the second kind, where every action has a closed form.
@@ -131,7 +133,7 @@ impl Planner<'_> {
                 "The generating-function method in coordinates of the second kind, unknown p, with",
                 "`S = h H + h^2 S2`: the actions `exp(xi_i ad*_(e_i))`, `xi = grad S(p)`, in closed form.",
             ],
-            coadjoint: true,
+            motion: Motion::Factor,
             ..Form::new(
                 "SecondKind2Equation",
                 SECOND.label,
@@ -161,7 +163,7 @@ impl Planner<'_> {
                 "`mu1 = mu + ad*_xi p`.",
             ],
             guess: Guess::HalfStep,
-            coadjoint: true,
+            motion: Motion::Factor,
             chart: Some(Chart::OfFactor),
             ..Form::new(
                 "CayleyGenerating4",

@@ -14,6 +14,7 @@ mod equation;
 mod function;
 mod generating;
 mod names;
+mod own;
 mod pattern;
 mod planner;
 mod splitting;
@@ -24,11 +25,13 @@ mod text;
 
 pub use constants::{Code, Constant, Constants, Prepared};
 pub use equation::{
-    Chart, Ending, Fused, Generating, Gradient, Guess, Item, Partner, Solver, Sparse,
+    Chart, Ending, Fused, Generating, Gradient, Guess, Item, Method, Motion, Partner, Solver,
+    Sparse, Unknown,
 };
 pub use function::Function;
 pub use names::Names;
-pub use planner::plan;
+pub use own::Own;
+pub use planner::{plan, plan_with};
 pub use splitting::{Flow, Splitting};
 pub use structure::{Group, Inertia, Realization, Representation, Spectrum, Spins, Structure};
 pub use system::{Casimir, Energy, System};

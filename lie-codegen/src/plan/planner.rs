@@ -1,8 +1,12 @@
 //! The state of a plan in the making.
 
 use super::constants::Table;
-use super::equation::{Item, Solver};
+use super::equation::{Item, Solver, Unknown};
 use super::names::Names;
+use super::own::Own;
+use super::pattern::Pattern;
+use super::structure::Structure;
+use super::system::System;
 use super::{Parameter, Plan};
 use crate::derive::Source;
 use crate::methods::Choice;
@@ -15,31 +19,22 @@ pub fn plan(model: &Model, choices: &[Choice]) -> Plan {
     let system = planner.system();
     let structure = planner.structure();
     let generic = planner.equations();
-    let splitting = planner.splitting();
-    let defaults: Vec<_> = model.parameters.iter().map(|p| p.default).collect();
-    let defaults = planner.preparation(&defaults);
-    let table = std::mem::take(&mut planner.constants);
-    let constants = planner.prepared(&table, "_k");
-    let initial = model.initial.as_ref();
-    let initial = initial.map(|initial| planner.preparation(initial));
-    let (splitting, generic) = match splitting {
-        Some(Ok(splitting)) => (Some(splitting), generic),
-        Some(Err(key)) => (None, [generic, vec![key]].concat()),
-        None => (None, generic),
-    };
-    Plan {
-        names: planner.names,
-        docs: super::docs::docs(model),
-        parameters: parameters(model),
-        defaults,
-        initial,
-        constants,
-        system,
-        structure,
-        items: planner.items,
-        generic,
-        splitting,
+    planner.finish(system, structure, generic)
+}
+
+/// The same with methods that a user wrote.
+///
+/// # Errors
+/// What cannot be traced, with the reason.
+pub fn plan_with(model: &Model, choices: &[Choice], own: &[Own]) -> Result<Plan, String> {
+    let mut planner = Planner::new(model, choices);
+    let system = planner.system();
+    let structure = planner.structure();
+    let generic = planner.equations();
+    for method in own {
+        planner.own(method)?;
     }
+    Ok(planner.finish(system, structure, generic))
 }
 
 /// A plan in the making.
@@ -54,8 +49,8 @@ pub(super) struct Planner<'a> {
     pub(super) items: Vec<Item>,
     /// Equations that several methods share, by a key.
     pub(super) known: Vec<(String, Solver)>,
-    /// The patterns that have an elimination, as stages and one block.
-    pub(super) eliminations: Vec<(usize, Vec<(usize, usize)>, String)>,
+    /// The patterns that have an elimination, by one block, and its name.
+    pub(super) eliminations: Vec<(Unknown, Pattern, String)>,
 }
 
 impl<'a> Planner<'a> {
@@ -78,6 +73,35 @@ impl<'a> Planner<'a> {
             items: Vec::new(),
             known: Vec::new(),
             eliminations: Vec::new(),
+        }
+    }
+
+    /// What is left once all kernels are known: flows, and the constants that they use.
+    fn finish(mut self, system: System, structure: Structure, generic: Vec<String>) -> Plan {
+        let splitting = self.splitting();
+        let defaults: Vec<_> = self.model.parameters.iter().map(|p| p.default).collect();
+        let defaults = self.preparation(&defaults);
+        let table = std::mem::take(&mut self.constants);
+        let constants = self.prepared(&table, "_k");
+        let initial = self.model.initial.as_ref();
+        let initial = initial.map(|initial| self.preparation(initial));
+        let (splitting, generic) = match splitting {
+            Some(Ok(splitting)) => (Some(splitting), generic),
+            Some(Err(key)) => (None, [generic, vec![key]].concat()),
+            None => (None, generic),
+        };
+        Plan {
+            names: self.names,
+            docs: super::docs::docs(self.model),
+            parameters: parameters(self.model),
+            defaults,
+            initial,
+            constants,
+            system,
+            structure,
+            items: self.items,
+            generic,
+            splitting,
         }
     }
 

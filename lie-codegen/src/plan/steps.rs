@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use super::constants::Table;
 use super::elimination::Elimination;
-use super::equation::{Chart, Ending, Fused, Guess, Item, Partner, Solver, Sparse};
+use super::equation::{
+    Chart, Ending, Fused, Guess, Item, Motion, Partner, Solver, Sparse, Unknown,
+};
 use super::pattern::Pattern;
 use super::planner::Planner;
 use crate::derive::{Kernel, Shape};
@@ -23,8 +25,8 @@ pub(super) struct Form {
     pub guess: Guess,
     /// The generic equation of the same step.
     pub partner: Partner,
-    /// Whether the method is of coadjoint form.
-    pub coadjoint: bool,
+    /// How a step moves the group element.
+    pub motion: Motion,
     /// The element that must be joined to the identity.
     pub chart: Option<Chart>,
 }
@@ -38,7 +40,7 @@ impl Form {
             docs: &[],
             guess: Guess::WholeStep,
             partner,
-            coadjoint: false,
+            motion: Motion::Velocity,
             chart: None,
         }
     }
@@ -63,7 +65,7 @@ impl Planner<'_> {
             }
             let asked = self.asked(&choice) || self.asked_beside(&choice);
             match asked.then(|| self.solver(&choice)).flatten() {
-                Some(solver) => self.items.push(Item::Method(choice, solver)),
+                Some(solver) => self.items.push(Item::Method(choice.into(), solver)),
                 None => generic.push(key.to_owned()),
             }
         }
@@ -101,7 +103,7 @@ impl Planner<'_> {
                     Partner::ExpMidpoint,
                     "ExpMidpoint",
                     "lie-midpoint exp",
-                    1,
+                    Unknown::State,
                     pattern,
                 ))
             }
@@ -142,7 +144,8 @@ impl Planner<'_> {
         self.once(&format!("gauss{order}"), |planner| {
             let pattern = planner.field_pattern();
             let (suffix, label) = (format!("Gauss{order}"), format!("gauss{order}"));
-            planner.eliminated(Partner::Gauss(stages), &suffix, &label, stages, pattern)
+            let unknown = Unknown::Stages(stages);
+            planner.eliminated(Partner::Gauss(stages), &suffix, &label, unknown, pattern)
         })
     }
 
@@ -154,7 +157,7 @@ impl Planner<'_> {
                 "`m - ad*_x m/2 - Q_x m/4 - mu = 0` with `x = h grad H(m)`, then `mu1 = mu + ad*_x m`.",
             ],
             guess: Guess::HalfStep,
-            coadjoint: true,
+            motion: Motion::Factor,
             chart: Some(Chart::OfField),
             ..Form::new(
                 "CayleyMidpoint",
@@ -206,8 +209,10 @@ impl Planner<'_> {
                 form.guess
             },
             partner: form.partner,
-            coadjoint: form.coadjoint,
-            chart: form.chart.filter(|_| self.has_poles()),
+            motion: form.motion,
+            chart: form
+                .chart
+                .filter(|chart| *chart == Chart::OfPartner || self.has_poles()),
             ending,
             functions,
         };
@@ -229,11 +234,11 @@ impl Planner<'_> {
         partner: Partner,
         suffix: &str,
         label: &str,
-        stages: usize,
+        unknown: Unknown,
         block: Pattern,
     ) -> Solver {
         let known = self.eliminations.iter();
-        let mut known = known.filter(|(of, pattern, _)| *of == stages && *pattern == block);
+        let mut known = known.filter(|(of, pattern, _)| *of == unknown && *pattern == block);
         if let Some((_, _, name)) = known.next() {
             return Solver::Eliminated(partner, name.clone());
         }
@@ -241,11 +246,11 @@ impl Planner<'_> {
         let sparse = Sparse {
             suffix: name.clone(),
             label: format!("{label} elimination"),
-            stages,
-            elimination: of_stages(stages, self.source.dimension, &block),
+            unknown,
+            elimination: of_stages(unknown.states(), self.source.dimension, &block),
         };
         self.items.push(Item::Sparse(sparse));
-        self.eliminations.push((stages, block, name.clone()));
+        self.eliminations.push((unknown, block, name.clone()));
         Solver::Eliminated(partner, name)
     }
 }

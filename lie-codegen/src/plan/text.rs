@@ -3,7 +3,7 @@
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
-use super::{Code, Constants, Fused, Generating, Item, Partner, Plan, Solver};
+use super::{Code, Constants, Fused, Generating, Item, Method, Partner, Plan, Solver};
 use super::{Energy, Function, Spectrum, Structure};
 
 /// The width of the column of labels.
@@ -135,10 +135,19 @@ impl fmt::Display for Item {
                 let counts = sparse.elimination.counts();
                 writeln!(f, "\n{}: {counts}", sparse.label)
             }
-            Self::Method(choice, solver) => writeln!(f, "{} -> {solver}", choice.label()),
+            Self::Method(method, solver) => writeln!(f, "{method} -> {solver}"),
             Self::Collective(stages) => {
                 writeln!(f, "collective{} -> the same", 2 * stages)
             }
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Catalogue(choice) => f.write_str(&choice.label()),
+            Self::Own(path) => f.write_str(path),
         }
     }
 }

@@ -7,8 +7,8 @@ use quote::{format_ident, quote};
 
 use super::Printer;
 use super::names::{ident, index};
-use crate::plan::Sparse;
 use crate::plan::elimination::{Elimination, Step};
+use crate::plan::{Sparse, Unknown};
 
 /// Reads an entry of the matrix.
 pub type Read<'a> = dyn Fn(usize, usize) -> TokenStream + 'a;
@@ -19,7 +19,7 @@ impl Printer<'_> {
     /// The elimination of a pattern as a type.
     pub(super) fn sparse(&self, sparse: &Sparse) -> TokenStream {
         let Sparse {
-            stages,
+            unknown,
             elimination,
             ..
         } = sparse;
@@ -28,7 +28,7 @@ impl Printer<'_> {
         let entry = |name: &str, i: usize, j: usize| {
             let matrix = ident(name);
             let (p, q, i, j) = (index(i / n), index(j / n), index(i % n), index(j % n));
-            if *stages == 1 {
+            if *unknown == Unknown::State {
                 quote! { #matrix[(#i, #j)] }
             } else {
                 quote! { #matrix.0[#p][#q][(#i, #j)] }
@@ -36,7 +36,7 @@ impl Printer<'_> {
         };
         let right = |i: usize| {
             let (p, i) = (index(i / n), index(i % n));
-            if *stages == 1 {
+            if *unknown == Unknown::State {
                 quote! { vector[#i] }
             } else {
                 quote! { vector.0[#p][#i] }
@@ -64,16 +64,17 @@ impl Printer<'_> {
                 }),
             )
         };
-        let (size, count) = (index(n), index(*stages));
+        let (size, rows) = (index(n), unknown.states() * n);
         let mut matrix = quote! { ::lie_runtime::__private::SMatrix<S, #size, #size> };
         let mut vector = quote! { ::lie_runtime::__private::SVector<S, #size> };
-        if *stages > 1 {
+        if let Unknown::Stages(count) = unknown {
+            let count = index(*count);
             matrix = quote! { ::lie_runtime::__private::StageMatrix<#matrix, #count> };
             vector = quote! { ::lie_runtime::__private::Stages<#vector, #count> };
         }
         let doc = format!(
             " Elimination of {} rows in a fixed order, {} entries of fill-in: {} multiplications with the solution.",
-            stages * n,
+            rows,
             elimination.fill.len(),
             elimination.multiplications()
         );

@@ -8,7 +8,7 @@ use super::function::{Body, Owner, entries, matrix_entries};
 use super::names::{ident, index};
 use crate::derive::Shape;
 use crate::plan::elimination::Elimination;
-use crate::plan::{Chart, Constants, Ending, Function, Fused, Guess, Partner};
+use crate::plan::{Chart, Constants, Ending, Function, Fused, Guess, Motion, Partner};
 use crate::schedule::Value;
 use crate::symbolic::Symbol;
 
@@ -111,7 +111,7 @@ impl Printer<'_> {
         let guess = initial_guess(fused.guess);
         let elimination = elimination_methods(&fused.elimination);
         let motion = self.motion(fused);
-        let chart = fused.chart.map(within_chart);
+        let chart = fused.chart.map(|chart| self.within_chart(fused, chart));
         quote! { #kernels #ending #guess #elimination #motion #chart }
     }
 
@@ -122,7 +122,7 @@ impl Printer<'_> {
         let unknown = self.argument("unknown");
         let place = self.places_of_arguments(fused);
         let body = |targets: &[&str]| {
-            let body = Body::of(Owner::Equation, &place, targets);
+            let body = Body::of(Owner::Equation(&fused.step), &place, targets);
             match &function.shape {
                 Shape::VectorAndMatrix(..) => self.linearize_body(fused, function, &body),
                 _ => self.body(function, &body),
@@ -221,7 +221,7 @@ impl Printer<'_> {
     /// How a solved step moves the group element: the generic equation says it.
     fn motion(&self, fused: &Fused) -> TokenStream {
         let partner = self.partner_here(fused);
-        if fused.coadjoint {
+        let factor = (fused.motion != Motion::Velocity).then(|| {
             quote! {
                 fn group_factor(&mut self, unknown: &Self::State, xi: &mut Self::State) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
                     let mut equation = #partner;
@@ -229,13 +229,42 @@ impl Printer<'_> {
                     ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
                 }
             }
-        } else {
+        });
+        let velocity = (fused.motion != Motion::Factor).then(|| {
             quote! {
                 fn velocity(&mut self, unknown: &Self::State, stage: usize, xi: &mut Self::State) -> usize {
                     let mut equation = #partner;
                     ::lie_runtime::Equation::set_base(&mut equation, &self.base);
                     ::lie_runtime::Equation::velocity(&mut equation, unknown, stage, xi)
                 }
+            }
+        });
+        quote! { #factor #velocity }
+    }
+
+    /// Whether the element of a step is joined to the identity.
+    fn within_chart(&self, fused: &Fused, chart: Chart) -> TokenStream {
+        let joined = match chart {
+            Chart::OfField => quote! {
+                ::lie_runtime::generic::cayley_chart_of_step(self.system, self.h, unknown)
+            },
+            Chart::OfFactor => quote! {
+                let mut xi = ::lie_runtime::Poisson::zero_state(self.system);
+                let _ = self.group_factor(unknown, &mut xi);
+                ::lie_runtime::generic::cayley_chart(self.system, &xi)
+            },
+            Chart::OfPartner => {
+                let partner = self.partner_here(fused);
+                quote! {
+                    let mut equation = #partner;
+                    ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+                    ::lie_runtime::Equation::within_chart(&mut equation, unknown)
+                }
+            }
+        };
+        quote! {
+            fn within_chart(&mut self, unknown: &Self::State) -> S::Mask {
+                #joined
             }
         }
     }
@@ -245,7 +274,7 @@ impl Printer<'_> {
 fn initial_guess(guess: Guess) -> Option<TokenStream> {
     let factor = match guess {
         Guess::WholeStep => quote! { self.h },
-        Guess::HalfStep => quote! { self.h * S::ratio(1.0, 2.0) },
+        Guess::HalfStep => quote! { self.h * S::from_f64(0.5) },
         Guess::Kernel => return None,
     };
     Some(quote! {
@@ -257,25 +286,6 @@ fn initial_guess(guess: Guess) -> Option<TokenStream> {
             ::lie_runtime::State::axpy(unknown, #factor, &field);
         }
     })
-}
-
-/// Whether the element of a step is joined to the identity.
-fn within_chart(chart: Chart) -> TokenStream {
-    let joined = match chart {
-        Chart::OfField => quote! {
-            ::lie_runtime::generic::cayley_chart_of_step(self.system, self.h, unknown)
-        },
-        Chart::OfFactor => quote! {
-            let mut xi = ::lie_runtime::Poisson::zero_state(self.system);
-            let _ = self.group_factor(unknown, &mut xi);
-            ::lie_runtime::generic::cayley_chart(self.system, &xi)
-        },
-    };
-    quote! {
-        fn within_chart(&mut self, unknown: &Self::State) -> S::Mask {
-            #joined
-        }
-    }
 }
 
 /// `factor` and `solve` of the Jacobian of an equation: written out, or from an index list where that would be long.

@@ -92,7 +92,7 @@ impl Printer<'_> {
     }
 
     /// The tokens of a value that is not a temporary.
-    pub(super) fn value(&self, value: &Value, owner: Owner) -> TokenStream {
+    pub(super) fn value(&self, value: &Value, owner: Owner<'_>) -> TokenStream {
         match value {
             Value::Symbol(symbol) => {
                 let name = self.local(*symbol);
@@ -189,6 +189,11 @@ pub fn number(value: &Rational) -> TokenStream {
     if value.is_one() {
         return quote! { S::one() };
     }
+    let high = value.to_f64();
+    if Rational::from_f64(high).as_ref() == Some(value) {
+        let literal = float(high);
+        return quote! { S::from_f64(#literal) };
+    }
     const EXACT: u64 = 1 << 53;
     if let Some((n, d)) = value.to_words()
         && n.unsigned_abs() <= EXACT
@@ -197,7 +202,6 @@ pub fn number(value: &Rational) -> TokenStream {
         let (n, d) = (float(n as f64), float(d as f64));
         return quote! { S::ratio(#n, #d) };
     }
-    let high = value.to_f64();
     let low = Rational::from_f64(high).map_or(0.0, |high| (value - &high).to_f64());
     let (high, low) = (float(high), float(low));
     quote! { S::constant(#high, #low) }

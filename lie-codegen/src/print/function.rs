@@ -6,15 +6,15 @@ use quote::quote;
 use super::Printer;
 use super::names::{ident, index};
 use crate::derive::{Argument, Shape};
-use crate::plan::{Constant, Function};
+use crate::plan::{Constant, Constants, Function};
 
 /// Which struct a kernel belongs to: where its constants live.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Owner {
+#[derive(Clone, Copy)]
+pub(super) enum Owner<'a> {
     /// The system itself; `self` is the system.
     System,
-    /// An equation of fixed step size; `self.system` is the system.
-    Equation,
+    /// An equation of fixed step size, whose own constants these are; `self.system` is the system.
+    Equation(&'a Constants),
     /// A function that is given the system as `_system`.
     Argument,
 }
@@ -22,7 +22,7 @@ pub(super) enum Owner {
 /// What the body of a kernel is written into.
 pub(super) struct Body<'a> {
     /// Where its constants live.
-    pub owner: Owner,
+    pub owner: Owner<'a>,
     /// The place of each vector argument: a parameter of the function or a field.
     pub place: &'a dyn Fn(&str) -> TokenStream,
     /// What the results are written to.
@@ -34,7 +34,7 @@ pub(super) struct Body<'a> {
 impl<'a> Body<'a> {
     /// Results of the size of the state.
     pub fn of(
-        owner: Owner,
+        owner: Owner<'a>,
         place: &'a dyn Fn(&str) -> TokenStream,
         targets: &'a [&'a str],
     ) -> Self {
@@ -62,21 +62,24 @@ impl Printer<'_> {
     }
 
     /// The tokens of a constant of a kernel.
-    pub(super) fn constant(&self, constant: Constant, owner: Owner) -> TokenStream {
+    pub(super) fn constant(&self, constant: Constant, owner: Owner<'_>) -> TokenStream {
         match constant {
             Constant::Pi => {
                 quote! { S::constant(::core::f64::consts::PI, 1.2246467991473532e-16) }
             }
             Constant::Step => quote! { self.h },
             Constant::OfStep(position) => {
-                let name = ident(&format!("_h{position}"));
+                let Owner::Equation(constants) = owner else {
+                    unreachable!("only an equation has a step size")
+                };
+                let name = ident(&constants.entries[position].name);
                 quote! { self.#name }
             }
             Constant::System(position) => {
                 let name = self.constant_name(position);
                 match owner {
                     Owner::System => quote! { self.#name },
-                    Owner::Equation => quote! { self.system.#name },
+                    Owner::Equation(_) => quote! { self.system.#name },
                     Owner::Argument => quote! { _system.#name },
                 }
             }

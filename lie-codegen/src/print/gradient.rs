@@ -79,7 +79,7 @@ impl Printer<'_> {
         let docs = self.docs(&function.gradient);
         let body = self.body(
             &function.gradient,
-            &Body::of(Owner::Equation, &place, &["xi"]),
+            &Body::of(Owner::Equation(&function.step), &place, &["xi"]),
         );
         let name = self.type_name(function.suffix);
         let (linearize_docs, linearize) = match &function.linearize {
@@ -87,7 +87,7 @@ impl Printer<'_> {
                 self.docs(linearize),
                 self.body(
                     linearize,
-                    &Body::of(Owner::Equation, &place, &["xi", "hessian"]),
+                    &Body::of(Owner::Equation(&function.step), &place, &["xi", "hessian"]),
                 ),
             ),
             None => (
@@ -110,6 +110,7 @@ impl Printer<'_> {
         quote! {
             #[doc = #doc]
             #[derive(Clone, Debug)]
+            #[allow(dead_code)]
             #visibility struct #name<'a, S: ::lie_runtime::Scalar> {
                 system: &'a #system<S>,
                 h: S,

@@ -5,14 +5,16 @@ use quote::quote;
 
 use super::Printer;
 use super::names::index;
-use crate::methods::Choice;
-use crate::plan::Solver;
+use crate::plan::{Method, Solver};
 
 impl Printer<'_> {
     /// The impl of `Implicit` for a method.
-    pub(super) fn method(&self, choice: &Choice, solver: &Solver) -> TokenStream {
+    pub(super) fn method(&self, method: &Method, solver: &Solver) -> TokenStream {
         let system = self.system_name();
-        let method = choice.type_of();
+        let method = match method {
+            Method::Catalogue(choice) => choice.type_of(),
+            Method::Own(path) => super::partner::path(path),
+        };
         let (equation, value) = match solver {
             Solver::Fused(suffix) => {
                 let name = self.type_name(suffix);

@@ -57,7 +57,7 @@ impl Printer<'_> {
             Item::Sparse(sparse) => self.sparse(sparse),
             Item::Gradient(gradient) => self.gradient(gradient),
             Item::Generating(function) => self.generating(function),
-            Item::Method(choice, solver) => self.method(choice, solver),
+            Item::Method(method, solver) => self.method(method, solver),
             Item::Collective(stages) => self.collective(*stages),
         }
     }

@@ -62,6 +62,10 @@ impl Printer<'_> {
                 };
                 generic("StageMomenta", quote! { , #map, #stages })
             }
+            Partner::Own(equation) => {
+                let equation = path(equation);
+                quote! { #equation<'a, S, #system<S>> }
+            }
         }
     }
 
@@ -117,6 +121,7 @@ impl Printer<'_> {
             Partner::DiscreteTop => name("DiscreteTop"),
             Partner::DiscreteBody => name("DiscreteBody"),
             Partner::Stages(..) => name("StageMomenta"),
+            Partner::Own(equation) => path(equation),
         };
         quote! { #generic::new(#system, #h) }
     }
@@ -130,6 +135,14 @@ impl Printer<'_> {
         let (name, system) = (ident(name), self.system_name());
         quote! { ::lie_runtime::generic::#name<S, #system<S>> }
     }
+}
+
+/// A path as it was written.
+pub(super) fn path(text: &str) -> TokenStream {
+    text.parse().unwrap_or_else(|_| {
+        let message = format!("`{text}` is no path of a type");
+        quote! { ::core::compile_error!(#message) }
+    })
 }
 
 /// A discrete gradient in the runtime, and the end of the name of one in closed form.

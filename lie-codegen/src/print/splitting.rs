@@ -7,7 +7,7 @@ use super::Printer;
 use super::function::Owner;
 use super::names::index;
 use crate::derive::{Shape, Update};
-use crate::plan::{Flow, Function};
+use crate::plan::{Constants, Flow, Function};
 use crate::schedule::Value;
 use crate::symbolic::Symbol;
 
@@ -121,9 +121,10 @@ impl Printer<'_> {
         let title = format!(" The flow of the piece in `{coordinate}` over a time t.");
         let docs = self.docs(kernel);
         let unpacked = self.unpack(&kernel.arguments[0], kernel, &quote! { #mu });
+        let none = Constants::default();
         let (statements, outputs) = self.program(&kernel.program, &|value| match value {
             Value::Symbol(Symbol::Time) => quote! { t },
-            value => self.value(value, Owner::Equation),
+            value => self.value(value, Owner::Equation(&none)),
         });
         let writes = updates(kernel, &piece.updates, &mu, &outputs);
         quote! {

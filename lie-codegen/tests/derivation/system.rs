@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use lie_codegen::compile::compile_spec;
-use lie_codegen::derive::Source;
 use lie_codegen::derive::{Kernel, Shape, Source};
 use lie_codegen::structure::separable;
 use lie_codegen::symbolic::Symbol;

@@ -8,8 +8,7 @@ mod scalar;
 mod system;
 
 use lie_codegen::compile::compile_spec;
-use lie_codegen::derive::Kernel;
-use lie_codegen::derive::Source;
+use lie_codegen::derive::{Kernel, Source};
 use lie_codegen::symbolic::Symbol;
 use program::{constants, full, run};
 use random::Random;

@@ -1,0 +1,52 @@
+//! Methods that a user wrote: their equation is traced as those of the catalogue are.
+
+use super::equation::{Chart, Item, Method, Motion, Partner};
+use super::planner::Planner;
+use super::steps::Form;
+use crate::trace::{self, Formulas, Step, Sym, SymbolicSystem};
+
+/// An implicit method of a user: a type that names it, and an equation over any scalar whose unknown is a state.
+#[derive(Clone, Copy, Debug)]
+pub struct Own {
+    /// The end of the name of the fused equation's type.
+    pub name: &'static str,
+    /// The path of the method's type where the generated code stands: `crate::Trapezoid`.
+    pub method: &'static str,
+    /// The path of the equation's type, whose parameters are a lifetime, the scalar and the system, and which has a
+    /// function `new(system, h)`: `crate::TrapezoidEquation`.
+    pub equation: &'static str,
+    /// Doc lines of the fused equation.
+    pub docs: &'static [&'static str],
+    /// Formulas of its kernels, for their documentation.
+    pub formulas: Formulas,
+    /// Runs the equation over expressions: `|system, h| trace::step(TrapezoidEquation::new(system, h))`.
+    pub trace: fn(&SymbolicSystem, Sym) -> Step,
+}
+
+impl Planner<'_> {
+    /// The fused equation of a method that a user wrote.
+    pub(super) fn own(&mut self, own: &Own) -> Result<(), String> {
+        let method = own.method;
+        if !self.model.has_expression() {
+            return Err(format!(
+                "`{method}` stays generic: the Hamiltonian of `{}` has no expression",
+                self.model.name
+            ));
+        }
+        let kernels = trace::kernels(&mut self.source, &own.formulas, own.trace);
+        let kernels = kernels.ok_or_else(|| {
+            format!(
+                "`{method}` stays generic: its equation compares numbers, so that it has no formula"
+            )
+        })?;
+        let form = Form {
+            docs: own.docs,
+            motion: Motion::Either,
+            chart: Some(Chart::OfPartner),
+            ..Form::new(own.name, own.name, Partner::Own(own.equation))
+        };
+        let solver = self.fused(form, &kernels);
+        self.items.push(Item::Method(Method::Own(method), solver));
+        Ok(())
+    }
+}
