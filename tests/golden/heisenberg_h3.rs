@@ -1267,30 +1267,30 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergGonzalez
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
-    /// 15 additions, 15 multiplications.
+    /// 12 additions, 15 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
         let [_inverse_q] = ::lie_runtime::generic::inverse_length(&self.base, unknown);
-        let _t0 = p - _u_p;
-        let _t1 = -_t0;
-        let _t2 = _t1 * _inverse_q;
-        let _t3 = p + _u_p;
-        let _t4 = _t3 * S::ratio(1.0, 8.0);
-        let _t5 = _t1 * _t1 * _t2 * _t4;
-        let _t6 = z + _u_z;
-        let _t7 = _t6 * self._h0;
-        let _t8 = q - _u_q;
-        residual[0] = (_t2 * _t5 + (_t3 * _t3 + S::ratio(4.0, 1.0)) * _t4) * _t7 - _t8;
-        residual[1] = -((-_t8 * _inverse_q * _t5 + (q + _u_q) * S::ratio(1.0, 2.0)
-            + _t6 * S::ratio(1.0, 6.0)) * _t7) - _t0;
+        let _t0 = _u_p - p;
+        let _t1 = _t0 * _inverse_q;
+        let _t2 = p + _u_p;
+        let _t3 = _t2 * S::ratio(1.0, 8.0);
+        let _t4 = _t0 * _t0 * _t1 * _t3;
+        let _t5 = z + _u_z;
+        let _t6 = _t5 * self._h0;
+        let _t7 = _u_q - q;
+        residual[0] = (_t1 * _t4 + (_t2 * _t2 + S::ratio(4.0, 1.0)) * _t3) * _t6 + _t7;
+        residual[1] = _t0
+            - (_t7 * _inverse_q * _t4 + (q + _u_q) * S::ratio(1.0, 2.0)
+                + _t5 * S::ratio(1.0, 6.0)) * _t6;
         residual[2] = _u_z - z;
     }
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
     ///
-    /// 28 additions, 47 multiplications.
+    /// 25 additions, 47 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1301,42 +1301,41 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergGonzalez
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
         let [_inverse_q] = ::lie_runtime::generic::inverse_length(&self.base, unknown);
-        let _t0 = p - _u_p;
-        let _t1 = -_t0;
-        let _t2 = _t1 * _inverse_q;
-        let _t3 = _t1 * _t1;
-        let _t4 = p + _u_p;
-        let _t5 = _t4 * S::ratio(1.0, 8.0);
-        let _t6 = _t2 * _t3 * _t5;
-        let _t7 = _t2 * _t6;
-        let _t8 = _t4 * _t4;
-        let _t9 = _t4 * S::ratio(1.0, 2.0) + _t8 * _t5 + _t7;
-        let _t10 = z + _u_z;
-        let _t11 = _t10 * self._h0;
-        let _t12 = q - _u_q;
-        let _t13 = -_t12 * _inverse_q;
-        let _t14 = (q + _u_q) * S::ratio(1.0, 2.0) + _t10 * S::ratio(1.0, 6.0)
-            + _t13 * _t6;
-        let _t15 = _u_z - z;
-        let _t16 = _inverse_q * _t6;
-        let _t17 = _t16 * S::ratio(-2.0, 1.0);
-        let _t18 = _t13 * _t17;
-        let _t19 = S::ratio(1.0, 8.0)
-            * (_inverse_q * (_t4 * _t3 - _t7 * S::ratio(16.0, 1.0))
-                + _t1 * _t2 * (_t1 + _t4 * S::ratio(2.0, 1.0)));
-        let _t20 = _t15 * _inverse_q * _t17;
-        residual[0] = _t9 * _t11 - _t12;
-        residual[1] = -(_t14 * _t11) - _t0;
-        residual[2] = _t15;
-        matrix[(0, 0)] = S::one() + _t2 * _t18 * _t11;
-        matrix[(0, 1)] = (S::ratio(1.0, 2.0) + S::ratio(3.0, 8.0) * _t8 + _t16
-            + _t2 * _t19) * _t11;
-        matrix[(0, 2)] = self._h0 * (_t9 + _t2 * _t10 * _t20);
-        matrix[(1, 0)] = _t10 * (S::one() + S::ratio(2.0, 1.0) * (_t16 + _t13 * _t18))
+        let _t0 = _u_p - p;
+        let _t1 = _t0 * _inverse_q;
+        let _t2 = _t0 * _t0;
+        let _t3 = p + _u_p;
+        let _t4 = _t3 * S::ratio(1.0, 8.0);
+        let _t5 = _t1 * _t2 * _t4;
+        let _t6 = _t1 * _t5;
+        let _t7 = _t3 * _t3;
+        let _t8 = _t3 * S::ratio(1.0, 2.0) + _t7 * _t4 + _t6;
+        let _t9 = z + _u_z;
+        let _t10 = _t9 * self._h0;
+        let _t11 = _u_q - q;
+        let _t12 = _t11 * _inverse_q;
+        let _t13 = (q + _u_q) * S::ratio(1.0, 2.0) + _t9 * S::ratio(1.0, 6.0)
+            + _t12 * _t5;
+        let _t14 = _u_z - z;
+        let _t15 = _inverse_q * _t5;
+        let _t16 = _t15 * S::ratio(-2.0, 1.0);
+        let _t17 = _t12 * _t16;
+        let _t18 = S::ratio(1.0, 8.0)
+            * (_inverse_q * (_t3 * _t2 - _t6 * S::ratio(16.0, 1.0))
+                + _t0 * _t1 * (_t0 + _t3 * S::ratio(2.0, 1.0)));
+        let _t19 = _t14 * _inverse_q * _t16;
+        residual[0] = _t8 * _t10 + _t11;
+        residual[1] = _t0 - _t13 * _t10;
+        residual[2] = _t14;
+        matrix[(0, 0)] = S::one() + _t1 * _t17 * _t10;
+        matrix[(0, 1)] = (S::ratio(1.0, 2.0) + S::ratio(3.0, 8.0) * _t7 + _t15
+            + _t1 * _t18) * _t10;
+        matrix[(0, 2)] = self._h0 * (_t8 + _t1 * _t9 * _t19);
+        matrix[(1, 0)] = _t9 * (S::one() + S::ratio(2.0, 1.0) * (_t15 + _t12 * _t17))
             * self._h1;
-        matrix[(1, 1)] = S::one() - _t13 * _t19 * _t11;
-        matrix[(1, 2)] = (_t10 * (S::one() + _t13 * _t20 * S::ratio(6.0, 1.0))
-            + _t14 * S::ratio(6.0, 1.0)) * self._h2;
+        matrix[(1, 1)] = S::one() - _t12 * _t18 * _t10;
+        matrix[(1, 2)] = (_t9 * (S::one() + _t12 * _t19 * S::ratio(6.0, 1.0))
+            + _t13 * S::ratio(6.0, 1.0)) * self._h2;
         matrix[(2, 2)] = S::one();
     }
 
@@ -1591,27 +1590,26 @@ for HeisenbergMeanValue<'_, S> {
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
-    /// 13 additions, 9 multiplications.
+    /// 11 additions, 9 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
         let _t0 = p + _u_p;
-        let _t1 = p - _u_p;
-        let _t2 = -_t1;
-        let _t3 = z + _u_z;
-        let _t4 = _t3 * self._h0;
+        let _t1 = _u_p - p;
+        let _t2 = z + _u_z;
+        let _t3 = _t2 * self._h0;
         residual[0] = _u_q - q
-            + _t0 * (_t0 * _t0 + _t2 * _t2 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
-                * _t4;
-        residual[1] = -(((q + _u_q) * S::ratio(1.0, 2.0) + _t3 * S::ratio(1.0, 6.0))
-            * _t4) - _t1;
+            + _t0 * (_t0 * _t0 + _t1 * _t1 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
+                * _t3;
+        residual[1] = _t1
+            - ((q + _u_q) * S::ratio(1.0, 2.0) + _t2 * S::ratio(1.0, 6.0)) * _t3;
         residual[2] = _u_z - z;
     }
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
     ///
-    /// 17 additions, 18 multiplications.
+    /// 15 additions, 18 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1624,22 +1622,21 @@ for HeisenbergMeanValue<'_, S> {
         let _t0 = z + _u_z;
         let _t1 = p + _u_p;
         let _t2 = _t1 * _t1;
-        let _t3 = p - _u_p;
-        let _t4 = -_t3;
-        let _t5 = _t1 * (_t2 + _t4 * _t4 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
+        let _t3 = _u_p - p;
+        let _t4 = _t1 * (_t2 + _t3 * _t3 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
             * self._h0;
-        let _t6 = (q + _u_q) * S::ratio(1.0, 2.0) + _t0 * S::ratio(1.0, 6.0);
-        residual[0] = _u_q - q + _t0 * _t5;
-        residual[1] = -(_t6 * _t0 * self._h0) - _t3;
+        let _t5 = (q + _u_q) * S::ratio(1.0, 2.0) + _t0 * S::ratio(1.0, 6.0);
+        residual[0] = _u_q - q + _t0 * _t4;
+        residual[1] = _t3 - _t5 * _t0 * self._h0;
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = _t0
-            * (S::ratio(4.0, 1.0) + _t4 * (_t4 + _t1 * S::ratio(2.0, 1.0))
+            * (S::ratio(4.0, 1.0) + _t3 * (_t3 + _t1 * S::ratio(2.0, 1.0))
                 + _t2 * S::ratio(3.0, 1.0)) * self._h1;
-        matrix[(0, 2)] = _t5;
+        matrix[(0, 2)] = _t4;
         matrix[(1, 0)] = _t0 * self._h2;
         matrix[(1, 1)] = S::one();
-        matrix[(1, 2)] = (_t0 + _t6 * S::ratio(6.0, 1.0)) * self._h3;
+        matrix[(1, 2)] = (_t0 + _t5 * S::ratio(6.0, 1.0)) * self._h3;
         matrix[(2, 2)] = S::one();
     }
 
@@ -1865,27 +1862,26 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergItohAbe<
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
-    /// 13 additions, 9 multiplications.
+    /// 11 additions, 9 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[q, p, z]] = self.base.data.0;
         let [[_u_q, _u_p, _u_z]] = unknown.data.0;
         let _t0 = p + _u_p;
-        let _t1 = p - _u_p;
-        let _t2 = -_t1;
-        let _t3 = z + _u_z;
-        let _t4 = _t3 * self._h0;
+        let _t1 = _u_p - p;
+        let _t2 = z + _u_z;
+        let _t3 = _t2 * self._h0;
         residual[0] = _u_q - q
-            + _t0 * (_t0 * _t0 + _t2 * _t2 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
-                * _t4;
-        residual[1] = -((_t3 * S::ratio(1.0, 6.0) + (q + _u_q) * S::ratio(1.0, 2.0))
-            * _t4) - _t1;
+            + _t0 * (_t0 * _t0 + _t1 * _t1 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
+                * _t3;
+        residual[1] = _t1
+            - (_t2 * S::ratio(1.0, 6.0) + (q + _u_q) * S::ratio(1.0, 2.0)) * _t3;
         residual[2] = _u_z - z;
     }
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
     ///
-    /// 17 additions, 18 multiplications.
+    /// 15 additions, 18 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1898,22 +1894,21 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeisenbergItohAbe<
         let _t0 = z + _u_z;
         let _t1 = p + _u_p;
         let _t2 = _t1 * _t1;
-        let _t3 = p - _u_p;
-        let _t4 = -_t3;
-        let _t5 = _t1 * (_t2 + _t4 * _t4 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
+        let _t3 = _u_p - p;
+        let _t4 = _t1 * (_t2 + _t3 * _t3 + S::ratio(4.0, 1.0)) * S::ratio(1.0, 8.0)
             * self._h0;
-        let _t6 = _t0 * S::ratio(1.0, 6.0) + (q + _u_q) * S::ratio(1.0, 2.0);
-        residual[0] = _u_q - q + _t0 * _t5;
-        residual[1] = -(_t6 * _t0 * self._h0) - _t3;
+        let _t5 = _t0 * S::ratio(1.0, 6.0) + (q + _u_q) * S::ratio(1.0, 2.0);
+        residual[0] = _u_q - q + _t0 * _t4;
+        residual[1] = _t3 - _t5 * _t0 * self._h0;
         residual[2] = _u_z - z;
         matrix[(0, 0)] = S::one();
         matrix[(0, 1)] = _t0
-            * (S::ratio(4.0, 1.0) + _t4 * (_t4 + _t1 * S::ratio(2.0, 1.0))
+            * (S::ratio(4.0, 1.0) + _t3 * (_t3 + _t1 * S::ratio(2.0, 1.0))
                 + _t2 * S::ratio(3.0, 1.0)) * self._h1;
-        matrix[(0, 2)] = _t5;
+        matrix[(0, 2)] = _t4;
         matrix[(1, 0)] = _t0 * self._h2;
         matrix[(1, 1)] = S::one();
-        matrix[(1, 2)] = (_t0 + _t6 * S::ratio(6.0, 1.0)) * self._h3;
+        matrix[(1, 2)] = (_t0 + _t5 * S::ratio(6.0, 1.0)) * self._h3;
         matrix[(2, 2)] = S::one();
     }
 

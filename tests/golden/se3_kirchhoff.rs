@@ -239,7 +239,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
 
     /// `out_ij = df_i/dmu_j`
     ///
-    /// 32 additions, 36 multiplications.
+    /// 31 additions, 36 multiplications.
     #[inline]
     fn jacobian(&self, mu: &Self::State, out: &mut Self::Jacobian) {
         let [[m1, m2, m3, p1, p2, p3]] = mu.data.0;
@@ -251,14 +251,14 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
         let _t5 = m2 * S::ratio(1.0, 6.0) + p3 * S::ratio(4.0, 3.0);
         let _t6 = m1 + p1 * S::ratio(1.0, 4.0);
         let _t7 = m1 * S::ratio(1.0, 4.0) + p1 * S::ratio(2.0, 5.0);
-        let _t8 = _t3 - p3 * S::ratio(1.0, 4.0);
+        let _t8 = p3 * S::ratio(1.0, 4.0) - _t3;
         let _t9 = _t1 - p2 * S::ratio(1.0, 4.0);
         out.as_mut_slice().fill(S::zero());
         out[(0, 1)] = _t3 - m3 * S::ratio(2.0, 3.0) + p2 * S::ratio(1.0, 6.0);
         out[(0, 2)] = m2 * S::ratio(1.0, 2.0) - _t1 + p3 * S::ratio(1.0, 8.0);
         out[(0, 4)] = _t5 - p3 - m2 * S::ratio(1.0, 8.0);
         out[(0, 5)] = p2 * S::ratio(4.0, 3.0) - _t4 - m3 * S::ratio(1.0, 6.0);
-        out[(1, 0)] = m3 - _t8;
+        out[(1, 0)] = m3 + _t8;
         out[(1, 1)] = p1 * S::ratio(-1.0, 6.0);
         out[(1, 2)] = _t6 - m1 * S::ratio(1.0, 2.0);
         out[(1, 3)] = m3 * S::ratio(1.0, 4.0) - _t5 + p3 * S::ratio(2.0, 5.0);
@@ -276,7 +276,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
         out[(3, 5)] = -_t0 - _t1;
         out[(4, 0)] = p3;
         out[(4, 2)] = p1 * S::ratio(-1.0, 2.0);
-        out[(4, 3)] = -_t8;
+        out[(4, 3)] = _t8;
         out[(4, 4)] = p1 * S::ratio(1.0, 8.0);
         out[(4, 5)] = _t6;
         out[(5, 0)] = -p2;
@@ -288,7 +288,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
 
     /// `f_j = C_ij^k (dH/dmu_i) mu_k` and `df_i/dmu_j`
     ///
-    /// 44 additions, 54 multiplications.
+    /// 43 additions, 54 multiplications.
     #[inline]
     fn linearize(
         &self,
@@ -305,7 +305,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
         let _t5 = m2 * S::ratio(1.0, 6.0) + p3 * S::ratio(4.0, 3.0);
         let _t6 = m1 + p1 * S::ratio(1.0, 4.0);
         let _t7 = m1 * S::ratio(1.0, 4.0) + p1 * S::ratio(2.0, 5.0);
-        let _t8 = _t3 - p3 * S::ratio(1.0, 4.0);
+        let _t8 = p3 * S::ratio(1.0, 4.0) - _t3;
         let _t9 = _t1 - p2 * S::ratio(1.0, 4.0);
         field[0] = m2 * _t3 - m3 * _t1 - p3 * _t4 + p2 * _t5;
         field[1] = m3 * _t6 - m1 * _t3 + p3 * _t7 - p1 * _t5;
@@ -318,7 +318,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
         jacobian[(0, 2)] = m2 * S::ratio(1.0, 2.0) - _t1 + p3 * S::ratio(1.0, 8.0);
         jacobian[(0, 4)] = _t5 - p3 - m2 * S::ratio(1.0, 8.0);
         jacobian[(0, 5)] = p2 * S::ratio(4.0, 3.0) - _t4 - m3 * S::ratio(1.0, 6.0);
-        jacobian[(1, 0)] = m3 - _t8;
+        jacobian[(1, 0)] = m3 + _t8;
         jacobian[(1, 1)] = p1 * S::ratio(-1.0, 6.0);
         jacobian[(1, 2)] = _t6 - m1 * S::ratio(1.0, 2.0);
         jacobian[(1, 3)] = m3 * S::ratio(1.0, 4.0) - _t5 + p3 * S::ratio(2.0, 5.0);
@@ -336,7 +336,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for KirchhoffBodySystem
         jacobian[(3, 5)] = -_t0 - _t1;
         jacobian[(4, 0)] = p3;
         jacobian[(4, 2)] = p1 * S::ratio(-1.0, 2.0);
-        jacobian[(4, 3)] = -_t8;
+        jacobian[(4, 3)] = _t8;
         jacobian[(4, 4)] = p1 * S::ratio(1.0, 8.0);
         jacobian[(4, 5)] = _t6;
         jacobian[(5, 0)] = -p2;
@@ -727,7 +727,7 @@ for KirchhoffBodyMidpoint<'_, S> {
 
     /// `r = u - mu - h f(m)`, `m = (mu + u)/2`, and `dr/du = 1 - (h/2) Df(m)`
     ///
-    /// 67 additions, 72 multiplications.
+    /// 66 additions, 72 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -754,7 +754,7 @@ for KirchhoffBodyMidpoint<'_, S> {
         let _t14 = _t0 * self._h12;
         let _t15 = _t6 * self._h13;
         let _t16 = _t3 * self._h14;
-        let _t17 = _t6 * self._h15 - _t1 * self._h16;
+        let _t17 = _t1 * self._h16 - _t6 * self._h15;
         let _t18 = _t9 * self._h12;
         let _t19 = _t9 * self._h15;
         let _t20 = _t7 * self._h15;
@@ -779,7 +779,7 @@ for KirchhoffBodyMidpoint<'_, S> {
         matrix[(0, 2)] = _t6 * self._h11 - _t14;
         matrix[(0, 4)] = -_t15 - _t0 * self._h11;
         matrix[(0, 5)] = _t3 * self._h11 - _t1 * self._h13;
-        matrix[(1, 0)] = -_t16 - _t17;
+        matrix[(1, 0)] = _t17 - _t16;
         matrix[(1, 1)] = S::one() - _t18;
         matrix[(1, 2)] = -_t19 - _t7 * self._h14;
         matrix[(1, 3)] = _t6 * self._h17 - _t3 * self._h15 - _t14;
@@ -798,7 +798,7 @@ for KirchhoffBodyMidpoint<'_, S> {
         matrix[(3, 5)] = _t24 + _t15;
         matrix[(4, 0)] = _t6 * self._h21;
         matrix[(4, 2)] = _t9 * self._h14;
-        matrix[(4, 3)] = _t16 - _t17;
+        matrix[(4, 3)] = _t16 + _t17;
         matrix[(4, 4)] = S::one() + _t23;
         matrix[(4, 5)] = -_t25;
         matrix[(5, 0)] = _t1 * self._h10;

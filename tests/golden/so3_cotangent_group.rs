@@ -2524,7 +2524,7 @@ for CotangentBodyCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
-    /// 63 additions, 62 multiplications.
+    /// 62 additions, 62 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = self
@@ -2550,13 +2550,13 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         let _t13 = _u_m2 * self._h3 * _t6;
         let _t14 = _u_R12 * self._h1;
         let _t15 = _t13 * _u_R11 + _t14 * _u_R21;
-        let _t16 = _t14 * _u_R23 - (_u_m2 - _t13 * _u_R13);
+        let _t16 = _u_m2 - _t13 * _u_R13 - _t14 * _u_R23;
         let _t17 = _t5 * self._h4;
         residual[0] = _t12 - m1 - _t1 + _t2 * (_t9 + _t3) + _t7 * _t10
             - _t5 * (_u_m2 + _t11);
         residual[1] = _t11 - m2 + _t7 * (_t8 + _t3 + _t15)
-            - _t2 * (_u_m3 + _t13 * _u_R12 + _t14 * _u_R22) + _t5 * (_u_m1 - _t1) - _t16;
-        residual[2] = _t10 - m3 + _t5 * (_t9 + _t15) + _t2 * -_t16 - _t7 * _t12
+            - _t2 * (_u_m3 + _t13 * _u_R12 + _t14 * _u_R22) + _t5 * (_u_m1 - _t1) + _t16;
+        residual[2] = _t10 - m3 + _t5 * (_t9 + _t15) + _t2 * _t16 - _t7 * _t12
             + _t14 * (_u_R22 + _t13 * self._h4);
         residual[3] = _u_R11 - _R11 + _t7 * _u_R13 - _t14 * _t17;
         residual[4] = _u_R12 - _R12 - _t2 * _u_R13 + _t5 * _u_R11;
@@ -2571,7 +2571,7 @@ for CotangentBodyCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
-    /// 144 additions, 203 multiplications.
+    /// 143 additions, 203 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -2610,157 +2610,156 @@ for CotangentBodyCayleyMidpoint<'_, S> {
         let _t22 = _t10 + _t21;
         let _t23 = _t22 + _t19 * _u_R21;
         let _t24 = _u_m1 - _t1;
-        let _t25 = _t19 * _u_R23 - (_u_m2 - _t20 * _u_R13);
-        let _t26 = -_t25;
-        let _t27 = _t11 * self._h4;
-        let _t28 = _u_R11 + _t8 * _u_R13;
-        let _t29 = _t2 * _u_R13;
-        let _t30 = _t29 - _t11 * _u_R11;
-        let _t31 = _t2 * _t19;
-        let _t32 = _u_R13 - _t8 * _u_R11;
-        let _t33 = _u_R22 - _t2 * _u_R23;
-        let _t34 = _t8 * _t3;
-        let _t35 = _u_R31 - _t11 * _u_R32;
-        let _t36 = _u_R32 * self._h5;
-        let _t37 = _t3 * _t19;
-        let _t38 = _u_R33 * self.h + _t2 * S::ratio(10.0, 1.0);
-        let _t39 = self.system._k5 + _u_R11 * _t7;
-        let _t40 = _t39 * S::ratio(1.0, 2.0);
-        let _t41 = _t11 * S::ratio(2.0, 1.0);
-        let _t42 = _t2 * _t20;
-        let _t43 = self._h9 * _t6;
-        let _t44 = -(_t11 * _t0);
-        let _t45 = _u_m1 * self.h;
-        let _t46 = self.h * (_t14 + _t5 + _t21) + S::ratio(4.0, 1.0) * _t37;
-        let _t47 = _t31 * S::ratio(4.0, 1.0);
-        let _t48 = _u_R11 * S::ratio(2.0, 1.0);
-        let _t49 = _u_m2 * S::ratio(1.0, 6.0);
-        let _t50 = _t20 * S::ratio(4.0, 1.0);
-        let _t51 = _u_R22 * self.h + _t50;
-        let _t52 = -_t31;
-        let _t53 = self.h * _t18;
-        let _t54 = _t19 * S::ratio(4.0, 1.0);
-        let _t55 = self._h0 * _t39;
-        let _t56 = -_t11;
-        let _t57 = -_t2;
-        let _t58 = _t39 * self._h15;
-        let _t59 = -_t8;
+        let _t25 = _u_m2 - _t20 * _u_R13 - _t19 * _u_R23;
+        let _t26 = _t11 * self._h4;
+        let _t27 = _u_R11 + _t8 * _u_R13;
+        let _t28 = _t2 * _u_R13;
+        let _t29 = _t28 - _t11 * _u_R11;
+        let _t30 = _t2 * _t19;
+        let _t31 = _u_R13 - _t8 * _u_R11;
+        let _t32 = _u_R22 - _t2 * _u_R23;
+        let _t33 = _t8 * _t3;
+        let _t34 = _u_R31 - _t11 * _u_R32;
+        let _t35 = _u_R32 * self._h5;
+        let _t36 = _t3 * _t19;
+        let _t37 = _u_R33 * self.h + _t2 * S::ratio(10.0, 1.0);
+        let _t38 = self.system._k5 + _u_R11 * _t7;
+        let _t39 = _t38 * S::ratio(1.0, 2.0);
+        let _t40 = _t11 * S::ratio(2.0, 1.0);
+        let _t41 = _t2 * _t20;
+        let _t42 = self._h9 * _t6;
+        let _t43 = -(_t11 * _t0);
+        let _t44 = _u_m1 * self.h;
+        let _t45 = self.h * (_t14 + _t5 + _t21) + S::ratio(4.0, 1.0) * _t36;
+        let _t46 = _t30 * S::ratio(4.0, 1.0);
+        let _t47 = _u_R11 * S::ratio(2.0, 1.0);
+        let _t48 = _u_m2 * S::ratio(1.0, 6.0);
+        let _t49 = _t20 * S::ratio(4.0, 1.0);
+        let _t50 = _u_R22 * self.h + _t49;
+        let _t51 = -_t30;
+        let _t52 = self.h * _t18;
+        let _t53 = _t19 * S::ratio(4.0, 1.0);
+        let _t54 = self._h0 * _t38;
+        let _t55 = -_t11;
+        let _t56 = -_t2;
+        let _t57 = _t38 * self._h15;
+        let _t58 = -_t8;
         residual[0] = _t18 - m1 - _t1 + _t2 * (_t10 + _t4 + _t14) + _t8 * _t15
             - _t11 * _t17;
         residual[1] = _t16 - m2 + _t8 * (_t14 + _t23)
-            - _t2 * (_u_m3 + _t20 * _u_R12 + _t19 * _u_R22) + _t11 * _t24 - _t25;
-        residual[2] = _t15 - m3 + _t11 * (_t23 + _t12 + _t4) + _t2 * _t26 - _t8 * _t18
+            - _t2 * (_u_m3 + _t20 * _u_R12 + _t19 * _u_R22) + _t11 * _t24 + _t25;
+        residual[2] = _t15 - m3 + _t11 * (_t23 + _t12 + _t4) + _t2 * _t25 - _t8 * _t18
             + _t19 * (_u_R22 + _t20 * self._h4);
-        residual[3] = _t28 - _R11 - _t19 * _t27;
-        residual[4] = _u_R12 - _R12 - _t30;
-        residual[5] = _t32 - _R13 + _t31 * self._h4;
+        residual[3] = _t27 - _R11 - _t19 * _t26;
+        residual[4] = _u_R12 - _R12 - _t29;
+        residual[5] = _t31 - _R13 + _t30 * self._h4;
         residual[6] = _u_R21 - _R21 - _t11 * _u_R22 + _t8 * _u_R23;
-        residual[7] = _t33 - _R22 + _t3 * _t27;
-        residual[8] = _u_R23 - _R23 + _t2 * _u_R22 - _t34 * self._h4;
-        residual[9] = _t35 - _R31 + _t8 * _u_R33;
+        residual[7] = _t32 - _R22 + _t3 * _t26;
+        residual[8] = _u_R23 - _R23 + _t2 * _u_R22 - _t33 * self._h4;
+        residual[9] = _t34 - _R31 + _t8 * _u_R33;
         residual[10] = _u_R32 - _R32 - _t2 * _u_R33 + _t11 * _u_R31;
         residual[11] = _u_R33 - _R33 - _t8 * _u_R31 + _t2 * _u_R32;
-        matrix[(0, 0)] = S::one() - _t36 - self._h6 * (_t9 + _t13)
-            + self.system._k10 * _t37
-            + (_t2 * (_t38 + _u_m1 * self._h7)
+        matrix[(0, 0)] = S::one() - _t35 - self._h6 * (_t9 + _t13)
+            + self.system._k10 * _t36
+            + (_t2 * (_t37 + _u_m1 * self._h7)
                 - _t11 * (_u_R31 * self.h - _u_m3 * self._h8)) * S::ratio(1.0, 10.0);
-        matrix[(0, 1)] = _t2 * _t8 - _t11 + self.h * (_t15 + _t2 * _u_m2) * _t40;
-        matrix[(0, 2)] = _t8 + _t2 * _t41 - self._h2 * _t17;
-        matrix[(0, 3)] = _t42 * S::ratio(2.0, 1.0) + _u_m3 * _t43
+        matrix[(0, 1)] = _t2 * _t8 - _t11 + self.h * (_t15 + _t2 * _u_m2) * _t39;
+        matrix[(0, 2)] = _t8 + _t2 * _t40 - self._h2 * _t17;
+        matrix[(0, 3)] = _t41 * S::ratio(2.0, 1.0) + _u_m3 * _t42
             - _t3 * S::ratio(1.0, 3.0)
                 * (_u_R11 * self.h * _t6 + _t8 * S::ratio(3.0, 1.0));
         matrix[(0, 4)] = _t2 * _t3;
         matrix[(0, 5)] = _t3;
-        matrix[(0, 6)] = _t31 + self._h1 * _t32;
-        matrix[(0, 9)] = _t44;
+        matrix[(0, 6)] = _t30 + self._h1 * _t31;
+        matrix[(0, 9)] = _t43;
         matrix[(0, 10)] = -_t0;
-        matrix[(0, 11)] = self._h5 * (_t14 + _t9) + S::ratio(2.0, 5.0) * _t37
-            + _t2 * S::ratio(1.0, 5.0) * (_t45 + _t0 * S::ratio(5.0, 1.0));
-        matrix[(1, 0)] = self._h5 * _t35 - _u_m3 * self._h10
-            + _t8 * (_t38 + _u_m1 * self._h8) * S::ratio(1.0, 10.0)
+        matrix[(0, 11)] = self._h5 * (_t14 + _t9) + S::ratio(2.0, 5.0) * _t36
+            + _t2 * S::ratio(1.0, 5.0) * (_t44 + _t0 * S::ratio(5.0, 1.0));
+        matrix[(1, 0)] = self._h5 * _t34 - _u_m3 * self._h10
+            + _t8 * (_t37 + _u_m1 * self._h8) * S::ratio(1.0, 10.0)
             - _t19 * S::ratio(1.0, 2.0) * (_u_R22 * self._h11 + _t20 * self.system._k11);
-        matrix[(1, 1)] = S::one() + _t8 * _t8 + (_t46 + _t9 * self._h12) * _t40
-            - S::ratio(1.0, 3.0) * (self.h * _t32 + _t47) * _t6;
-        matrix[(1, 2)] = _t8 * _t41 - _t2 + self._h2 * _t24;
+        matrix[(1, 1)] = S::one() + _t8 * _t8 + (_t45 + _t9 * self._h12) * _t39
+            - S::ratio(1.0, 3.0) * (self.h * _t31 + _t46) * _t6;
+        matrix[(1, 2)] = _t8 * _t40 - _t2 + self._h2 * _t24;
         matrix[(1, 3)] = _t8 * _t20 * S::ratio(6.0, 1.0)
-            - (_u_m2 * (_u_R13 * self.h + _t47) - _t46 * _t48) * _t49;
-        matrix[(1, 4)] = _t34 - _u_R23 * self._h1 - _t2 * _t51 * S::ratio(1.0, 4.0);
+            - (_u_m2 * (_u_R13 * self.h + _t46) - _t45 * _t47) * _t48;
+        matrix[(1, 4)] = _t33 - _u_R23 * self._h1 - _t2 * _t50 * S::ratio(1.0, 4.0);
         matrix[(1, 5)] = -_t20;
         matrix[(1, 6)] = _t8 * _t19;
-        matrix[(1, 7)] = _t52;
+        matrix[(1, 7)] = _t51;
         matrix[(1, 8)] = -_t19;
         matrix[(1, 9)] = _t0;
-        matrix[(1, 10)] = _t44;
+        matrix[(1, 10)] = _t43;
         matrix[(1, 11)] = S::ratio(1.0, 10.0)
-            * (_t8 * (_t45 + _t0 * S::ratio(10.0, 1.0)) - _t19 * _t51)
+            * (_t8 * (_t44 + _t0 * S::ratio(10.0, 1.0)) - _t19 * _t50)
             - _u_m3 * self._h5;
         matrix[(2, 0)] = _t11 * (_u_m1 * self._h11 + _t2 * S::ratio(2.0, 1.0))
-            * S::ratio(1.0, 2.0) - _t8 - self._h6 * _t26;
-        matrix[(2, 1)] = _t2 + _t8 * _t11 - _t40 * _t53
-            + (_t11 * _t39 * self._h13 + (_t54 - self.h * _t30) * _t48) * _t49;
+            * S::ratio(1.0, 2.0) - _t8 - self._h6 * _t25;
+        matrix[(2, 1)] = _t2 + _t8 * _t11 - _t39 * _t52
+            + (_t11 * _t38 * self._h13 + (_t53 - self.h * _t29) * _t47) * _t48;
         matrix[(2, 2)] = S::one() + _t11 * _t11 * S::ratio(3.0, 1.0) + self._h2 * _t22
-            + self.system._k12 * _t37;
-        matrix[(2, 3)] = _t11 * _t50 - _t3
-            - (_u_m2 * (self.h * _t29 - _t54) + _t48 * _t53) * _t49;
-        matrix[(2, 4)] = _t20 + _t3 * _t41 + self._h1 * _t33;
-        matrix[(2, 5)] = -_t42 - _t34;
-        matrix[(2, 6)] = _t19 * _t41 - self._h1 * _t28;
+            + self.system._k12 * _t36;
+        matrix[(2, 3)] = _t11 * _t49 - _t3
+            - (_u_m2 * (self.h * _t28 - _t53) + _t47 * _t52) * _t48;
+        matrix[(2, 4)] = _t20 + _t3 * _t40 + self._h1 * _t32;
+        matrix[(2, 5)] = -_t41 - _t33;
+        matrix[(2, 6)] = _t19 * _t40 - self._h1 * _t27;
         matrix[(2, 7)] = _t19;
-        matrix[(2, 8)] = _t52;
-        matrix[(2, 11)] = self._h5 * (_t11 * _u_m1 - _t25);
-        matrix[(3, 1)] = _u_R13 * _t55;
+        matrix[(2, 8)] = _t51;
+        matrix[(2, 11)] = self._h5 * (_t11 * _u_m1 + _t25);
+        matrix[(3, 1)] = _u_R13 * _t54;
         matrix[(3, 2)] = _t19 * self.system._k13;
-        matrix[(3, 3)] = S::one() + _u_R13 * _t43;
-        matrix[(3, 4)] = _t56;
+        matrix[(3, 3)] = S::one() + _u_R13 * _t42;
+        matrix[(3, 4)] = _t55;
         matrix[(3, 5)] = _t8;
         matrix[(4, 0)] = _u_R13 * self._h6;
         matrix[(4, 2)] = _u_R11 * self._h2;
         matrix[(4, 3)] = _t11;
         matrix[(4, 4)] = S::one();
-        matrix[(4, 5)] = _t57;
+        matrix[(4, 5)] = _t56;
         matrix[(4, 11)] = _u_R13 * self._h14;
         matrix[(5, 0)] = _t19 * self.system._k10;
-        matrix[(5, 1)] = _u_R11 * _t58;
-        matrix[(5, 3)] = _t59 - _u_R11 * _t43;
+        matrix[(5, 1)] = _u_R11 * _t57;
+        matrix[(5, 3)] = _t58 - _u_R11 * _t42;
         matrix[(5, 4)] = _t2;
         matrix[(5, 5)] = S::one();
         matrix[(5, 11)] = _t19 * S::ratio(2.0, 5.0);
-        matrix[(6, 1)] = _u_R23 * _t55;
+        matrix[(6, 1)] = _u_R23 * _t54;
         matrix[(6, 2)] = _u_R22 * self._h16;
-        matrix[(6, 3)] = _u_R23 * _t43;
+        matrix[(6, 3)] = _u_R23 * _t42;
         matrix[(6, 6)] = S::one();
-        matrix[(6, 7)] = _t56;
+        matrix[(6, 7)] = _t55;
         matrix[(6, 8)] = _t8;
         matrix[(7, 0)] = _u_R23 * self._h6;
         matrix[(7, 2)] = _t3 * self.system._k14;
         matrix[(7, 6)] = _t11;
         matrix[(7, 7)] = S::one();
-        matrix[(7, 8)] = _t57;
+        matrix[(7, 8)] = _t56;
         matrix[(7, 11)] = _u_R23 * self._h14;
         matrix[(8, 0)] = _u_R22 * self._h17;
-        matrix[(8, 1)] = _t3 * _t39 * S::ratio(-2.0, 1.0);
+        matrix[(8, 1)] = _t3 * _t38 * S::ratio(-2.0, 1.0);
         matrix[(8, 3)] = _t3 * S::ratio(-4.0, 3.0) * _t6;
-        matrix[(8, 6)] = _t59;
+        matrix[(8, 6)] = _t58;
         matrix[(8, 7)] = _t2;
         matrix[(8, 8)] = S::one();
         matrix[(8, 11)] = _u_R22 * self._h5;
-        matrix[(9, 1)] = _u_R33 * _t55;
+        matrix[(9, 1)] = _u_R33 * _t54;
         matrix[(9, 2)] = _u_R32 * self._h16;
-        matrix[(9, 3)] = _u_R33 * _t43;
+        matrix[(9, 3)] = _u_R33 * _t42;
         matrix[(9, 9)] = S::one();
-        matrix[(9, 10)] = _t56;
+        matrix[(9, 10)] = _t55;
         matrix[(9, 11)] = _t8;
         matrix[(10, 0)] = _u_R33 * self._h6;
         matrix[(10, 2)] = _u_R31 * self._h2;
         matrix[(10, 9)] = _t11;
         matrix[(10, 10)] = S::one();
-        matrix[(10, 11)] = _t57 - _u_R33 * self._h5;
+        matrix[(10, 11)] = _t56 - _u_R33 * self._h5;
         matrix[(11, 0)] = _u_R32 * self._h17;
-        matrix[(11, 1)] = _u_R31 * _t58;
+        matrix[(11, 1)] = _u_R31 * _t57;
         matrix[(11, 3)] = _u_R31 * self._h18 * _t6;
-        matrix[(11, 9)] = _t59;
+        matrix[(11, 9)] = _t58;
         matrix[(11, 10)] = _t2;
-        matrix[(11, 11)] = S::one() + _t36;
+        matrix[(11, 11)] = S::one() + _t35;
         matrix[(9, 0)] = S::zero();
         matrix[(11, 2)] = S::zero();
         matrix[(6, 0)] = S::zero();
@@ -3347,7 +3346,7 @@ for CotangentBodyGonzalez<'_, S> {
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
-    /// 95 additions, 98 multiplications.
+    /// 79 additions, 98 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = self
@@ -3357,74 +3356,72 @@ for CotangentBodyGonzalez<'_, S> {
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
         let [_inverse_m1] = ::lie_runtime::generic::inverse_length(&self.base, unknown);
-        let _t0 = m2 - _u_m2;
-        let _t1 = -_t0;
-        let _t2 = _t1 * _inverse_m1;
-        let _t3 = _R11 - _u_R11;
-        let _t4 = -_t3;
-        let _t5 = m2 + _u_m2;
-        let _t6 = _t4 * _t5;
-        let _t7 = _R11 + _u_R11;
-        let _t8 = _t1 * _t7;
-        let _t9 = _t4 * _inverse_m1;
-        let _t10 = (_t4 * _t2 * (_t6 + _t8 * S::ratio(2.0, 1.0))
-            + _t1 * _t9 * (_t8 + _t6 * S::ratio(2.0, 1.0))) * S::ratio(1.0, 72.0);
-        let _t11 = _t5 * S::ratio(1.0, 24.0);
-        let _t12 = _t2 * _t10 + (_t7 * _t7 + self.system._k15) * _t11;
-        let _t13 = m3 + _u_m3;
-        let _t14 = m3 - _u_m3;
-        let _t15 = -_t14 * _inverse_m1 * _t10 + _t13 * self.system._k1;
-        let _t16 = _R12 - _u_R12;
-        let _t17 = _R21 + _u_R21;
-        let _t18 = -_t16 * _inverse_m1 * _t10 + _t17 * S::ratio(1.0, 4.0);
-        let _t19 = _R13 + _u_R13;
-        let _t20 = _R13 - _u_R13;
-        let _t21 = -_t20 * _inverse_m1 * _t10;
-        let _t22 = _R12 + _u_R12;
-        let _t23 = _R22 - _u_R22;
-        let _t24 = -_t23 * _inverse_m1 * _t10;
-        let _t25 = _R23 + _u_R23;
-        let _t26 = _R23 - _u_R23;
-        let _t27 = -_t26 * _inverse_m1 * _t10;
-        let _t28 = _R22 + _u_R22;
-        let _t29 = _R32 - _u_R32;
-        let _t30 = -_t29 * _inverse_m1 * _t10;
-        let _t31 = _R33 + _u_R33;
-        let _t32 = _R33 - _u_R33;
-        let _t33 = m1 + _u_m1;
-        let _t34 = S::one() + -_t32 * _inverse_m1 * _t10 + _t33 * S::ratio(1.0, 10.0);
-        let _t35 = _R32 + _u_R32;
-        let _t36 = m1 - _u_m1;
-        let _t37 = -_t36 * _inverse_m1 * _t10 + _t31 * S::ratio(1.0, 10.0)
-            + _t33 * self.system._k0;
-        let _t38 = _t9 * _t10 + _t5 * _t7 * _t11;
-        let _t39 = _R21 - _u_R21;
-        let _t40 = -_t39 * _inverse_m1 * _t10 + _t22 * S::ratio(1.0, 4.0);
-        let _t41 = _R31 - _u_R31;
-        let _t42 = -_t41 * _inverse_m1 * _t10;
-        let _t43 = _R31 + _u_R31;
-        let _t44 = -((_t37 * _t13 - _t15 * _t33 + _t38 * _t19 - _t21 * _t7 + _t40 * _t25
-            - _t27 * _t17 + _t42 * _t31 - _t34 * _t43) * self._h0);
-        residual[0] = (_t12 * _t13 - _t15 * _t5 + _t18 * _t19 - _t21 * _t22 + _t24 * _t25
-            - _t27 * _t28 + _t30 * _t31 - _t34 * _t35) * self._h0 - _t36;
-        residual[1] = _t44 - _t0;
+        let _t0 = _u_m2 - m2;
+        let _t1 = _t0 * _inverse_m1;
+        let _t2 = _u_R11 - _R11;
+        let _t3 = m2 + _u_m2;
+        let _t4 = _t2 * _t3;
+        let _t5 = _R11 + _u_R11;
+        let _t6 = _t0 * _t5;
+        let _t7 = _t2 * _inverse_m1;
+        let _t8 = (_t2 * _t1 * (_t4 + _t6 * S::ratio(2.0, 1.0))
+            + _t0 * _t7 * (_t6 + _t4 * S::ratio(2.0, 1.0))) * S::ratio(1.0, 72.0);
+        let _t9 = _t3 * S::ratio(1.0, 24.0);
+        let _t10 = _t1 * _t8 + (_t5 * _t5 + self.system._k15) * _t9;
+        let _t11 = m3 + _u_m3;
+        let _t12 = _u_m3 - m3;
+        let _t13 = _t12 * _inverse_m1 * _t8 + _t11 * self.system._k1;
+        let _t14 = _u_R12 - _R12;
+        let _t15 = _R21 + _u_R21;
+        let _t16 = _t14 * _inverse_m1 * _t8 + _t15 * S::ratio(1.0, 4.0);
+        let _t17 = _R13 + _u_R13;
+        let _t18 = _u_R13 - _R13;
+        let _t19 = _t18 * _inverse_m1 * _t8;
+        let _t20 = _R12 + _u_R12;
+        let _t21 = _u_R22 - _R22;
+        let _t22 = _t21 * _inverse_m1 * _t8;
+        let _t23 = _R23 + _u_R23;
+        let _t24 = _u_R23 - _R23;
+        let _t25 = _t24 * _inverse_m1 * _t8;
+        let _t26 = _R22 + _u_R22;
+        let _t27 = _u_R32 - _R32;
+        let _t28 = _t27 * _inverse_m1 * _t8;
+        let _t29 = _R33 + _u_R33;
+        let _t30 = _u_R33 - _R33;
+        let _t31 = m1 + _u_m1;
+        let _t32 = S::one() + _t30 * _inverse_m1 * _t8 + _t31 * S::ratio(1.0, 10.0);
+        let _t33 = _R32 + _u_R32;
+        let _t34 = _u_m1 - m1;
+        let _t35 = _t34 * _inverse_m1 * _t8 + _t29 * S::ratio(1.0, 10.0)
+            + _t31 * self.system._k0;
+        let _t36 = _t7 * _t8 + _t3 * _t5 * _t9;
+        let _t37 = _u_R21 - _R21;
+        let _t38 = _t37 * _inverse_m1 * _t8 + _t20 * S::ratio(1.0, 4.0);
+        let _t39 = _u_R31 - _R31;
+        let _t40 = _t39 * _inverse_m1 * _t8;
+        let _t41 = _R31 + _u_R31;
+        residual[0] = (_t10 * _t11 - _t13 * _t3 + _t16 * _t17 - _t19 * _t20 + _t22 * _t23
+            - _t25 * _t26 + _t28 * _t29 - _t32 * _t33) * self._h0 + _t34;
+        residual[1] = _t0
+            - (_t35 * _t11 - _t13 * _t31 + _t36 * _t17 - _t19 * _t5 + _t38 * _t23
+                - _t25 * _t15 + _t40 * _t29 - _t32 * _t41) * self._h0;
         residual[2] = self._h0
-            * (_t37 * _t5 - _t12 * _t33 + _t38 * _t22 - _t18 * _t7 + _t40 * _t28
-                - _t24 * _t17 + _t42 * _t35 - _t30 * _t43) - _t14;
-        residual[3] = self._h0 * (_t12 * _t19 - _t15 * _t22) - _t3;
-        residual[4] = -((_t37 * _t19 - _t15 * _t7) * self._h0) - _t16;
-        residual[5] = self._h0 * (_t37 * _t22 - _t12 * _t7) - _t20;
-        residual[6] = self._h0 * (_t12 * _t25 - _t15 * _t28) - _t39;
-        residual[7] = -((_t37 * _t25 - _t15 * _t17) * self._h0) - _t23;
-        residual[8] = self._h0 * (_t37 * _t28 - _t12 * _t17) - _t26;
-        residual[9] = self._h0 * (_t12 * _t31 - _t15 * _t35) - _t41;
-        residual[10] = -((_t37 * _t31 - _t15 * _t43) * self._h0) - _t29;
-        residual[11] = self._h0 * (_t37 * _t35 - _t12 * _t43) - _t32;
+            * (_t35 * _t3 - _t10 * _t31 + _t36 * _t20 - _t16 * _t5 + _t38 * _t26
+                - _t22 * _t15 + _t40 * _t33 - _t28 * _t41) + _t12;
+        residual[3] = self._h0 * (_t10 * _t17 - _t13 * _t20) + _t2;
+        residual[4] = _t14 - (_t35 * _t17 - _t13 * _t5) * self._h0;
+        residual[5] = self._h0 * (_t35 * _t20 - _t10 * _t5) + _t18;
+        residual[6] = self._h0 * (_t10 * _t23 - _t13 * _t26) + _t37;
+        residual[7] = _t21 - (_t35 * _t23 - _t13 * _t15) * self._h0;
+        residual[8] = self._h0 * (_t35 * _t26 - _t10 * _t15) + _t24;
+        residual[9] = self._h0 * (_t10 * _t29 - _t13 * _t33) + _t39;
+        residual[10] = _t27 - (_t35 * _t29 - _t13 * _t41) * self._h0;
+        residual[11] = self._h0 * (_t35 * _t33 - _t10 * _t41) + _t30;
     }
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
     ///
-    /// 309 additions, 523 multiplications.
+    /// 293 additions, 523 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -3439,380 +3436,378 @@ for CotangentBodyGonzalez<'_, S> {
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
         let [_inverse_m1] = ::lie_runtime::generic::inverse_length(&self.base, unknown);
-        let _t0 = m2 - _u_m2;
-        let _t1 = -_t0;
-        let _t2 = _t1 * _inverse_m1;
-        let _t3 = _R11 - _u_R11;
-        let _t4 = -_t3;
-        let _t5 = m2 + _u_m2;
-        let _t6 = _t4 * _t5;
-        let _t7 = _R11 + _u_R11;
-        let _t8 = _t1 * _t7;
-        let _t9 = _t4 * (_t6 + _t8 * S::ratio(2.0, 1.0));
-        let _t10 = _t8 + _t6 * S::ratio(2.0, 1.0);
-        let _t11 = _t4 * _inverse_m1;
+        let _t0 = _u_m2 - m2;
+        let _t1 = _t0 * _inverse_m1;
+        let _t2 = _u_R11 - _R11;
+        let _t3 = m2 + _u_m2;
+        let _t4 = _t2 * _t3;
+        let _t5 = _R11 + _u_R11;
+        let _t6 = _t0 * _t5;
+        let _t7 = _t2 * (_t4 + _t6 * S::ratio(2.0, 1.0));
+        let _t8 = _t6 + _t4 * S::ratio(2.0, 1.0);
+        let _t9 = _t2 * _inverse_m1;
+        let _t10 = _t0 * _t9;
+        let _t11 = (_t1 * _t7 + _t8 * _t10) * S::ratio(1.0, 72.0);
         let _t12 = _t1 * _t11;
-        let _t13 = (_t2 * _t9 + _t10 * _t12) * S::ratio(1.0, 72.0);
-        let _t14 = _t2 * _t13;
-        let _t15 = _t5 * _t7;
-        let _t16 = _t7 * S::ratio(1.0, 24.0);
-        let _t17 = _t5 * self.system._k9 + _t15 * _t16 + _t14;
-        let _t18 = m3 + _u_m3;
-        let _t19 = m3 - _u_m3;
-        let _t20 = -_t19 * _inverse_m1;
-        let _t21 = _t20 * _t13 + _t18 * self.system._k1;
-        let _t22 = _R12 - _u_R12;
-        let _t23 = -_t22 * _inverse_m1;
-        let _t24 = _R21 + _u_R21;
-        let _t25 = _t23 * _t13 + _t24 * S::ratio(1.0, 4.0);
-        let _t26 = _R13 + _u_R13;
-        let _t27 = _R13 - _u_R13;
-        let _t28 = -_t27 * _inverse_m1;
-        let _t29 = _t28 * _t13;
-        let _t30 = _R12 + _u_R12;
-        let _t31 = _R22 - _u_R22;
-        let _t32 = -_t31 * _inverse_m1;
-        let _t33 = _t32 * _t13;
-        let _t34 = _R23 + _u_R23;
-        let _t35 = _R23 - _u_R23;
-        let _t36 = -_t35 * _inverse_m1;
-        let _t37 = _t36 * _t13;
-        let _t38 = _R22 + _u_R22;
-        let _t39 = _R32 - _u_R32;
-        let _t40 = -_t39 * _inverse_m1;
-        let _t41 = _t40 * _t13;
-        let _t42 = _R33 + _u_R33;
-        let _t43 = _R33 - _u_R33;
-        let _t44 = -_t43 * _inverse_m1;
-        let _t45 = m1 + _u_m1;
-        let _t46 = S::one() + _t45 * S::ratio(1.0, 10.0) + _t44 * _t13;
-        let _t47 = _R32 + _u_R32;
-        let _t48 = m1 - _u_m1;
-        let _t49 = -_t48 * _inverse_m1;
-        let _t50 = _t42 * S::ratio(1.0, 10.0) + _t45 * self.system._k0 + _t49 * _t13;
-        let _t51 = _t11 * _t13;
-        let _t52 = _t51 + _t5 * S::ratio(1.0, 24.0) * _t15;
-        let _t53 = _R21 - _u_R21;
-        let _t54 = -_t53 * _inverse_m1;
-        let _t55 = _t54 * _t13 + _t30 * S::ratio(1.0, 4.0);
-        let _t56 = _R31 - _u_R31;
-        let _t57 = -_t56 * _inverse_m1;
-        let _t58 = _t57 * _t13;
-        let _t59 = _R31 + _u_R31;
-        let _t60 = -((_t50 * _t18 - _t21 * _t45 + _t52 * _t26 - _t29 * _t7 + _t55 * _t34
-            - _t37 * _t24 + _t58 * _t42 - _t46 * _t59) * self._h0);
-        let _t61 = _inverse_m1 * _t13;
-        let _t62 = _t61 * S::ratio(-2.0, 1.0);
-        let _t63 = _t49 * _t62;
-        let _t64 = _t63 * S::ratio(10.0, 1.0);
-        let _t65 = S::one() + _t44 * _t64;
-        let _t66 = _t40 * _t42;
-        let _t67 = _t32 * _t34;
-        let _t68 = _t36 * _t38;
+        let _t13 = _t3 * _t5;
+        let _t14 = _t5 * S::ratio(1.0, 24.0);
+        let _t15 = _t3 * self.system._k9 + _t13 * _t14 + _t12;
+        let _t16 = m3 + _u_m3;
+        let _t17 = _u_m3 - m3;
+        let _t18 = _t17 * _inverse_m1;
+        let _t19 = _t18 * _t11 + _t16 * self.system._k1;
+        let _t20 = _u_R12 - _R12;
+        let _t21 = _t20 * _inverse_m1;
+        let _t22 = _R21 + _u_R21;
+        let _t23 = _t21 * _t11 + _t22 * S::ratio(1.0, 4.0);
+        let _t24 = _R13 + _u_R13;
+        let _t25 = _u_R13 - _R13;
+        let _t26 = _t25 * _inverse_m1;
+        let _t27 = _t26 * _t11;
+        let _t28 = _R12 + _u_R12;
+        let _t29 = _u_R22 - _R22;
+        let _t30 = _t29 * _inverse_m1;
+        let _t31 = _t30 * _t11;
+        let _t32 = _R23 + _u_R23;
+        let _t33 = _u_R23 - _R23;
+        let _t34 = _t33 * _inverse_m1;
+        let _t35 = _t34 * _t11;
+        let _t36 = _R22 + _u_R22;
+        let _t37 = _u_R32 - _R32;
+        let _t38 = _t37 * _inverse_m1;
+        let _t39 = _t38 * _t11;
+        let _t40 = _R33 + _u_R33;
+        let _t41 = _u_R33 - _R33;
+        let _t42 = _t41 * _inverse_m1;
+        let _t43 = m1 + _u_m1;
+        let _t44 = S::one() + _t43 * S::ratio(1.0, 10.0) + _t42 * _t11;
+        let _t45 = _R32 + _u_R32;
+        let _t46 = _u_m1 - m1;
+        let _t47 = _t46 * _inverse_m1;
+        let _t48 = _t40 * S::ratio(1.0, 10.0) + _t43 * self.system._k0 + _t47 * _t11;
+        let _t49 = _t9 * _t11;
+        let _t50 = _t49 + _t3 * S::ratio(1.0, 24.0) * _t13;
+        let _t51 = _u_R21 - _R21;
+        let _t52 = _t51 * _inverse_m1;
+        let _t53 = _t52 * _t11 + _t28 * S::ratio(1.0, 4.0);
+        let _t54 = _u_R31 - _R31;
+        let _t55 = _t54 * _inverse_m1;
+        let _t56 = _t55 * _t11;
+        let _t57 = _R31 + _u_R31;
+        let _t58 = _inverse_m1 * _t11;
+        let _t59 = _t58 * S::ratio(-2.0, 1.0);
+        let _t60 = _t47 * _t59;
+        let _t61 = _t60 * S::ratio(10.0, 1.0);
+        let _t62 = S::one() + _t42 * _t61;
+        let _t63 = _t38 * _t40;
+        let _t64 = _t30 * _t32;
+        let _t65 = _t34 * _t36;
+        let _t66 = _t64 - _t65;
+        let _t67 = _t1 * _t16;
+        let _t68 = _t18 * _t3;
         let _t69 = _t67 - _t68;
-        let _t70 = _t2 * _t18;
-        let _t71 = _t20 * _t5;
+        let _t70 = _t21 * _t24;
+        let _t71 = _t26 * _t28;
         let _t72 = _t70 - _t71;
-        let _t73 = _t23 * _t26;
-        let _t74 = _t28 * _t30;
-        let _t75 = _t73 - _t74;
-        let _t76 = _t72 + _t75;
-        let _t77 = _t69 + _t76;
-        let _t78 = _t77 + _t66;
-        let _t79 = (_t8 + _t6) * S::ratio(1.0, 36.0);
-        let _t80 = _t11 * _t79
+        let _t73 = _t69 + _t72;
+        let _t74 = _t66 + _t73;
+        let _t75 = _t74 + _t63;
+        let _t76 = (_t6 + _t4) * S::ratio(1.0, 36.0);
+        let _t77 = _t9 * _t76
             + S::ratio(1.0, 72.0)
-                * (_inverse_m1 * (_t9 - _t14 * S::ratio(144.0, 1.0))
-                    + _t4
-                        * (_t2 * (_t4 + _t7 * S::ratio(2.0, 1.0))
-                            + S::ratio(2.0, 1.0) * _t12));
-        let _t81 = self.system._k9 + _t7 * _t16 + _t61 + _t2 * _t80;
-        let _t82 = _t44 * _t47;
-        let _t83 = _t66 - _t82;
-        let _t84 = _t69 + _t83;
-        let _t85 = _t75 + _t84;
-        let _t86 = _t71 - _t85;
-        let _t87 = _t20 * _t62;
-        let _t88 = self.system._k4 + S::ratio(2.0, 1.0) * (_t61 + _t20 * _t87);
-        let _t89 = _t2 * S::ratio(2.0, 1.0);
-        let _t90 = _t2 * _t79
+                * (_inverse_m1 * (_t7 - _t12 * S::ratio(144.0, 1.0))
+                    + _t2
+                        * (_t1 * (_t2 + _t5 * S::ratio(2.0, 1.0))
+                            + S::ratio(2.0, 1.0) * _t10));
+        let _t78 = self.system._k9 + _t5 * _t14 + _t58 + _t1 * _t77;
+        let _t79 = _t42 * _t45;
+        let _t80 = _t63 - _t79;
+        let _t81 = _t66 + _t80;
+        let _t82 = _t72 + _t81;
+        let _t83 = _t68 - _t82;
+        let _t84 = _t18 * _t59;
+        let _t85 = self.system._k4 + S::ratio(2.0, 1.0) * (_t58 + _t18 * _t84);
+        let _t86 = _t1 * S::ratio(2.0, 1.0);
+        let _t87 = _t1 * _t76
             + S::ratio(1.0, 72.0)
-                * (_inverse_m1 * (_t1 * _t10 - _t51 * S::ratio(144.0, 1.0))
-                    + _t1 * (_t11 * (_t1 + _t5 * S::ratio(2.0, 1.0)) + _t4 * _t89));
-        let _t91 = _t90 * S::ratio(12.0, 1.0);
-        let _t92 = _t15 + _t2 * _t91;
-        let _t93 = _t23 * _t62;
-        let _t94 = _t61 + _t23 * _t93;
-        let _t95 = _t72 + _t84;
-        let _t96 = _t95 - _t74;
-        let _t97 = _t28 * _t62;
-        let _t98 = _t61 + _t28 * _t97;
-        let _t99 = _t54 * _t62;
-        let _t100 = _t99 * S::ratio(4.0, 1.0);
-        let _t101 = S::one() + _t23 * _t100;
-        let _t102 = _t32 * _t62;
-        let _t103 = _t61 + _t32 * _t102;
-        let _t104 = _t83 + _t76;
-        let _t105 = _t36 * _t62;
-        let _t106 = _t61 + _t36 * _t105;
-        let _t107 = _t57 * _t62;
-        let _t108 = _t40 * _t62;
-        let _t109 = _t61 + _t40 * _t108;
-        let _t110 = _t44 * _t62;
-        let _t111 = _t61 + _t44 * _t110;
-        let _t112 = _t20 * _t45;
-        let _t113 = _t11 * _t26;
+                * (_inverse_m1 * (_t0 * _t8 - _t49 * S::ratio(144.0, 1.0))
+                    + _t0 * (_t9 * (_t0 + _t3 * S::ratio(2.0, 1.0)) + _t2 * _t86));
+        let _t88 = _t87 * S::ratio(12.0, 1.0);
+        let _t89 = _t13 + _t1 * _t88;
+        let _t90 = _t21 * _t59;
+        let _t91 = _t58 + _t21 * _t90;
+        let _t92 = _t69 + _t81;
+        let _t93 = _t92 - _t71;
+        let _t94 = _t26 * _t59;
+        let _t95 = _t58 + _t26 * _t94;
+        let _t96 = _t52 * _t59;
+        let _t97 = _t96 * S::ratio(4.0, 1.0);
+        let _t98 = S::one() + _t21 * _t97;
+        let _t99 = _t30 * _t59;
+        let _t100 = _t58 + _t30 * _t99;
+        let _t101 = _t80 + _t73;
+        let _t102 = _t34 * _t59;
+        let _t103 = _t58 + _t34 * _t102;
+        let _t104 = _t55 * _t59;
+        let _t105 = _t38 * _t59;
+        let _t106 = _t58 + _t38 * _t105;
+        let _t107 = _t42 * _t59;
+        let _t108 = _t58 + _t42 * _t107;
+        let _t109 = _t18 * _t43;
+        let _t110 = _t9 * _t24;
+        let _t111 = _t109 - _t110;
+        let _t112 = _t26 * _t5;
+        let _t113 = _t52 * _t32;
         let _t114 = _t112 - _t113;
-        let _t115 = _t28 * _t7;
-        let _t116 = _t54 * _t34;
+        let _t115 = _t34 * _t22;
+        let _t116 = _t55 * _t40;
         let _t117 = _t115 - _t116;
-        let _t118 = _t36 * _t24;
-        let _t119 = _t57 * _t42;
-        let _t120 = _t118 - _t119;
-        let _t121 = _t117 + _t120;
-        let _t122 = _t114 + _t121;
-        let _t123 = self.system._k3 + S::ratio(2.0, 1.0) * (_t61 + _t49 * _t63);
-        let _t124 = _t80 * S::ratio(12.0, 1.0);
-        let _t125 = _t15 + _t11 * _t124;
-        let _t126 = _t49 * _t18 - _t44 * _t59;
-        let _t127 = _t126 - _t121;
-        let _t128 = _t112 - _t127;
-        let _t129 = _t5 * _t5 + (_t61 + _t11 * _t90) * S::ratio(24.0, 1.0);
-        let _t130 = _t93 * S::ratio(4.0, 1.0);
-        let _t131 = S::one() + _t54 * _t130;
-        let _t132 = _t126 - _t114;
-        let _t133 = _t120 - _t132;
-        let _t134 = _t133 + _t115;
-        let _t135 = _t61 + _t54 * _t99;
-        let _t136 = _t121 - _t132;
-        let _t137 = _t102 * self._h0;
-        let _t138 = _t117 - _t132;
-        let _t139 = _t61 + _t57 * _t107;
-        let _t140 = _t108 * self._h0;
-        let _t141 = _t110 * S::ratio(10.0, 1.0);
-        let _t142 = S::one() + _t49 * _t141;
-        let _t143 = _t40 * _t59;
-        let _t144 = _t32 * _t24;
-        let _t145 = _t57 * _t47;
-        let _t146 = _t144 - _t145;
-        let _t147 = _t2 * _t45 - _t11 * _t30;
-        let _t148 = _t23 * _t7 - _t54 * _t38;
-        let _t149 = _t147 + _t148;
-        let _t150 = _t146 + _t149;
-        let _t151 = _t150 + _t143;
-        let _t152 = _t49 * _t5;
-        let _t153 = _t143 - _t152;
-        let _t154 = _t146 + _t153;
-        let _t155 = _t148 + _t154;
-        let _t156 = _t149 + _t154;
-        let _t157 = _t147 + _t154;
-        let _t158 = _t156 * self._h2;
-        let _t159 = _t153 + _t149;
-        let _t160 = _t20 * _t30;
-        let _t161 = _t2 * _t26 - _t160;
-        let _t162 = self._h0 * _t161;
-        let _t163 = _t87 * _t89;
-        let _t164 = _t20 * _t7;
-        let _t165 = S::ratio(2.0, 1.0) * _t63;
-        let _t166 = _t49 * _t26 - _t164;
-        let _t167 = _t166 * self._h2;
-        let _t168 = _t87 * (_t49 * S::ratio(2.0, 1.0));
-        let _t169 = _t63 * _t89;
-        let _t170 = _t49 * _t30;
-        let _t171 = _t2 * _t7 - _t170;
-        let _t172 = _t171 * self._h2;
-        let _t173 = _t2 * _t141;
-        let _t174 = _t20 * _t38;
-        let _t175 = _t2 * _t34 - _t174;
-        let _t176 = self._h0 * _t175;
-        let _t177 = _t20 * _t24;
-        let _t178 = _t49 * _t34 - _t177;
-        let _t179 = _t178 * self._h2;
-        let _t180 = _t49 * _t38;
-        let _t181 = _t180 - _t2 * _t24;
+        let _t118 = _t114 + _t117;
+        let _t119 = _t111 + _t118;
+        let _t120 = self.system._k3 + S::ratio(2.0, 1.0) * (_t58 + _t47 * _t60);
+        let _t121 = _t77 * S::ratio(12.0, 1.0);
+        let _t122 = _t13 + _t9 * _t121;
+        let _t123 = _t47 * _t16 - _t42 * _t57;
+        let _t124 = _t123 - _t118;
+        let _t125 = _t109 - _t124;
+        let _t126 = _t3 * _t3 + (_t58 + _t9 * _t87) * S::ratio(24.0, 1.0);
+        let _t127 = _t90 * S::ratio(4.0, 1.0);
+        let _t128 = S::one() + _t52 * _t127;
+        let _t129 = _t123 - _t111;
+        let _t130 = _t117 - _t129;
+        let _t131 = _t130 + _t112;
+        let _t132 = _t58 + _t52 * _t96;
+        let _t133 = _t118 - _t129;
+        let _t134 = _t99 * self._h0;
+        let _t135 = _t114 - _t129;
+        let _t136 = _t58 + _t55 * _t104;
+        let _t137 = _t105 * self._h0;
+        let _t138 = _t107 * S::ratio(10.0, 1.0);
+        let _t139 = S::one() + _t47 * _t138;
+        let _t140 = _t38 * _t57;
+        let _t141 = _t30 * _t22;
+        let _t142 = _t55 * _t45;
+        let _t143 = _t141 - _t142;
+        let _t144 = _t1 * _t43 - _t9 * _t28;
+        let _t145 = _t21 * _t5 - _t52 * _t36;
+        let _t146 = _t144 + _t145;
+        let _t147 = _t143 + _t146;
+        let _t148 = _t147 + _t140;
+        let _t149 = _t47 * _t3;
+        let _t150 = _t140 - _t149;
+        let _t151 = _t143 + _t150;
+        let _t152 = _t145 + _t151;
+        let _t153 = _t146 + _t151;
+        let _t154 = _t144 + _t151;
+        let _t155 = _t153 * self._h2;
+        let _t156 = _t150 + _t146;
+        let _t157 = _t18 * _t28;
+        let _t158 = _t1 * _t24 - _t157;
+        let _t159 = self._h0 * _t158;
+        let _t160 = _t84 * _t86;
+        let _t161 = _t18 * _t5;
+        let _t162 = S::ratio(2.0, 1.0) * _t60;
+        let _t163 = _t47 * _t24 - _t161;
+        let _t164 = _t163 * self._h2;
+        let _t165 = _t84 * (_t47 * S::ratio(2.0, 1.0));
+        let _t166 = _t60 * _t86;
+        let _t167 = _t47 * _t28;
+        let _t168 = _t1 * _t5 - _t167;
+        let _t169 = _t168 * self._h2;
+        let _t170 = _t1 * _t138;
+        let _t171 = _t18 * _t36;
+        let _t172 = _t1 * _t32 - _t171;
+        let _t173 = self._h0 * _t172;
+        let _t174 = _t18 * _t22;
+        let _t175 = _t47 * _t32 - _t174;
+        let _t176 = _t175 * self._h2;
+        let _t177 = _t47 * _t36;
+        let _t178 = _t177 - _t1 * _t22;
+        let _t179 = self._h0 * _t178;
+        let _t180 = _t18 * _t45;
+        let _t181 = _t1 * _t40 - _t180;
         let _t182 = self._h0 * _t181;
-        let _t183 = _t20 * _t47;
-        let _t184 = _t2 * _t42 - _t183;
-        let _t185 = self._h0 * _t184;
-        let _t186 = _t20 * _t59;
-        let _t187 = _t49 * _t42 - _t186;
-        let _t188 = _t187 * self._h2;
-        let _t189 = _t49 * _t47;
-        let _t190 = _t189 - _t2 * _t59;
-        let _t191 = self._h0 * _t190;
-        residual[0] = (_t17 * _t18 - _t21 * _t5 + _t25 * _t26 - _t29 * _t30 + _t33 * _t34
-            - _t37 * _t38 + _t41 * _t42 - _t46 * _t47) * self._h0 - _t48;
-        residual[1] = _t60 - _t0;
+        let _t183 = _t18 * _t57;
+        let _t184 = _t47 * _t40 - _t183;
+        let _t185 = _t184 * self._h2;
+        let _t186 = _t47 * _t45;
+        let _t187 = _t186 - _t1 * _t57;
+        let _t188 = self._h0 * _t187;
+        residual[0] = (_t15 * _t16 - _t19 * _t3 + _t23 * _t24 - _t27 * _t28 + _t31 * _t32
+            - _t35 * _t36 + _t39 * _t40 - _t44 * _t45) * self._h0 + _t46;
+        residual[1] = _t0
+            - (_t48 * _t16 - _t19 * _t43 + _t50 * _t24 - _t27 * _t5 + _t53 * _t32
+                - _t35 * _t22 + _t56 * _t40 - _t44 * _t57) * self._h0;
         residual[2] = self._h0
-            * (_t50 * _t5 - _t17 * _t45 + _t52 * _t30 - _t25 * _t7 + _t55 * _t38
-                - _t33 * _t24 + _t58 * _t47 - _t41 * _t59) - _t19;
-        residual[3] = self._h0 * (_t17 * _t26 - _t21 * _t30) - _t3;
-        residual[4] = -((_t50 * _t26 - _t21 * _t7) * self._h0) - _t22;
-        residual[5] = self._h0 * (_t50 * _t30 - _t17 * _t7) - _t27;
-        residual[6] = self._h0 * (_t17 * _t34 - _t21 * _t38) - _t53;
-        residual[7] = -((_t50 * _t34 - _t21 * _t24) * self._h0) - _t31;
-        residual[8] = self._h0 * (_t50 * _t38 - _t17 * _t24) - _t35;
-        residual[9] = self._h0 * (_t17 * _t42 - _t21 * _t47) - _t56;
-        residual[10] = -((_t50 * _t42 - _t21 * _t59) * self._h0) - _t39;
-        residual[11] = self._h0 * (_t50 * _t47 - _t17 * _t59) - _t43;
-        matrix[(0, 0)] = S::one() - self._h1 * (_t47 * _t65 - _t78 * _t64);
-        matrix[(0, 1)] = (_t21 - _t18 * _t81 + _t80 * _t86) * self._h2;
-        matrix[(0, 2)] = (_t5 * _t88
-            - S::ratio(2.0, 1.0) * (_t17 + _t87 * (_t85 + _t70))) * self._h3;
-        matrix[(0, 3)] = self._h4 * (_t18 * _t92 - _t86 * _t91);
-        matrix[(0, 4)] = (_t29 - _t26 * _t94 - _t93 * _t96) * self._h2;
-        matrix[(0, 5)] = self._h0 * (_t25 - _t30 * _t98 + _t97 * (_t95 + _t73));
-        matrix[(0, 6)] = self._h5 * (_t26 * _t101 + _t96 * _t100);
-        matrix[(0, 7)] = (_t37 - _t34 * _t103 - _t102 * (_t104 - _t68)) * self._h2;
-        matrix[(0, 8)] = self._h0 * (_t33 - _t38 * _t106 + _t105 * (_t104 + _t67));
-        matrix[(0, 9)] = _t107 * self._h0 * (_t76 + _t84);
-        matrix[(0, 10)] = (_t46 - _t42 * _t109 - _t108 * (_t77 - _t82)) * self._h2;
-        matrix[(0, 11)] = self._h0 * (_t41 - _t47 * _t111 + _t110 * _t78);
+            * (_t48 * _t3 - _t15 * _t43 + _t50 * _t28 - _t23 * _t5 + _t53 * _t36
+                - _t31 * _t22 + _t56 * _t45 - _t39 * _t57) + _t17;
+        residual[3] = self._h0 * (_t15 * _t24 - _t19 * _t28) + _t2;
+        residual[4] = _t20 - (_t48 * _t24 - _t19 * _t5) * self._h0;
+        residual[5] = self._h0 * (_t48 * _t28 - _t15 * _t5) + _t25;
+        residual[6] = self._h0 * (_t15 * _t32 - _t19 * _t36) + _t51;
+        residual[7] = _t29 - (_t48 * _t32 - _t19 * _t22) * self._h0;
+        residual[8] = self._h0 * (_t48 * _t36 - _t15 * _t22) + _t33;
+        residual[9] = self._h0 * (_t15 * _t40 - _t19 * _t45) + _t54;
+        residual[10] = _t37 - (_t48 * _t40 - _t19 * _t57) * self._h0;
+        residual[11] = self._h0 * (_t48 * _t45 - _t15 * _t57) + _t41;
+        matrix[(0, 0)] = S::one() - self._h1 * (_t45 * _t62 - _t75 * _t61);
+        matrix[(0, 1)] = (_t19 - _t16 * _t78 + _t77 * _t83) * self._h2;
+        matrix[(0, 2)] = (_t3 * _t85
+            - S::ratio(2.0, 1.0) * (_t15 + _t84 * (_t82 + _t67))) * self._h3;
+        matrix[(0, 3)] = self._h4 * (_t16 * _t89 - _t83 * _t88);
+        matrix[(0, 4)] = (_t27 - _t24 * _t91 - _t90 * _t93) * self._h2;
+        matrix[(0, 5)] = self._h0 * (_t23 - _t28 * _t95 + _t94 * (_t92 + _t70));
+        matrix[(0, 6)] = self._h5 * (_t24 * _t98 + _t93 * _t97);
+        matrix[(0, 7)] = (_t35 - _t32 * _t100 - _t99 * (_t101 - _t65)) * self._h2;
+        matrix[(0, 8)] = self._h0 * (_t31 - _t36 * _t103 + _t102 * (_t101 + _t64));
+        matrix[(0, 9)] = _t104 * self._h0 * (_t73 + _t81);
+        matrix[(0, 10)] = (_t44 - _t40 * _t106 - _t105 * (_t74 - _t79)) * self._h2;
+        matrix[(0, 11)] = self._h0 * (_t39 - _t45 * _t108 + _t107 * _t75);
         matrix[(1, 0)] = self._h1
-            * (_t59 * _t65 + S::ratio(10.0, 1.0) * (_t21 + _t63 * _t122)
-                - _t18 * _t123 * S::ratio(5.0, 1.0));
-        matrix[(1, 1)] = S::one() - self._h4 * (_t26 * _t125 - _t128 * _t124);
+            * (_t57 * _t62 + S::ratio(10.0, 1.0) * (_t19 + _t60 * _t119)
+                - _t16 * _t120 * S::ratio(5.0, 1.0));
+        matrix[(1, 1)] = S::one() - self._h4 * (_t24 * _t122 - _t125 * _t121);
         matrix[(1, 2)] = self._h6
-            * (_t45 * _t88 - S::ratio(2.0, 1.0) * (_t50 + _t87 * (_t127 + _t113)));
-        matrix[(1, 3)] = (_t26 * _t129 - S::ratio(24.0, 1.0) * (_t29 + _t90 * _t128))
+            * (_t43 * _t85 - S::ratio(2.0, 1.0) * (_t48 + _t84 * (_t124 + _t110)));
+        matrix[(1, 3)] = (_t24 * _t126 - S::ratio(24.0, 1.0) * (_t27 + _t87 * _t125))
             * self._h7;
-        matrix[(1, 4)] = (_t34 * _t131 - _t134 * _t130) * self._h8;
-        matrix[(1, 5)] = (_t52 - _t7 * _t98 - _t97 * (_t133 - _t116)) * self._h2;
-        matrix[(1, 6)] = self._h0 * (_t37 - _t34 * _t135 + _t99 * _t134);
-        matrix[(1, 7)] = _t136 * _t137;
-        matrix[(1, 8)] = (_t55 - _t24 * _t106 - _t105 * (_t138 - _t119)) * self._h2;
-        matrix[(1, 9)] = self._h0 * (_t46 - _t42 * _t139 + _t107 * (_t138 + _t118));
-        matrix[(1, 10)] = _t136 * _t140;
-        matrix[(1, 11)] = (_t18 * _t142
-            + S::ratio(10.0, 1.0) * (_t58 - _t59 * _t111 - _t110 * _t122)) * self._h9;
+        matrix[(1, 4)] = (_t32 * _t128 - _t131 * _t127) * self._h8;
+        matrix[(1, 5)] = (_t50 - _t5 * _t95 - _t94 * (_t130 - _t113)) * self._h2;
+        matrix[(1, 6)] = self._h0 * (_t35 - _t32 * _t132 + _t96 * _t131);
+        matrix[(1, 7)] = _t133 * _t134;
+        matrix[(1, 8)] = (_t53 - _t22 * _t103 - _t102 * (_t135 - _t116)) * self._h2;
+        matrix[(1, 9)] = self._h0 * (_t44 - _t40 * _t136 + _t104 * (_t135 + _t115));
+        matrix[(1, 10)] = _t133 * _t137;
+        matrix[(1, 11)] = (_t16 * _t139
+            + S::ratio(10.0, 1.0) * (_t56 - _t57 * _t108 - _t107 * _t119)) * self._h9;
         matrix[(2, 0)] = self._h6
-            * (_t5 * _t123 - S::ratio(2.0, 1.0) * (_t17 + _t63 * _t151));
+            * (_t3 * _t120 - S::ratio(2.0, 1.0) * (_t15 + _t60 * _t148));
         matrix[(2, 1)] = self._h4
-            * (_t30 * _t125 + S::ratio(12.0, 1.0) * (_t50 - _t45 * _t81 - _t80 * _t155));
-        matrix[(2, 2)] = S::one() - _t87 * self._h0 * _t156;
+            * (_t28 * _t122 + S::ratio(12.0, 1.0) * (_t48 - _t43 * _t78 - _t77 * _t152));
+        matrix[(2, 2)] = S::one() - _t84 * self._h0 * _t153;
         matrix[(2, 3)] = self._h10
-            * (_t30 * _t129 - S::ratio(24.0, 1.0) * (_t25 + _t90 * _t155)
-                - _t45 * S::ratio(2.0, 1.0) * _t92);
+            * (_t28 * _t126 - S::ratio(24.0, 1.0) * (_t23 + _t87 * _t152)
+                - _t43 * S::ratio(2.0, 1.0) * _t89);
         matrix[(2, 4)] = self._h5
-            * (_t38 * _t131 + S::ratio(4.0, 1.0) * (_t52 - _t7 * _t94 - _t93 * _t157));
-        matrix[(2, 5)] = _t97 * _t158;
-        matrix[(2, 6)] = (_t7 * _t101
-            + S::ratio(4.0, 1.0) * (_t33 - _t38 * _t135 + _t99 * _t157)) * self._h8;
-        matrix[(2, 7)] = self._h0 * (_t55 - _t24 * _t103 - _t102 * (_t159 - _t145));
-        matrix[(2, 8)] = _t105 * _t158;
-        matrix[(2, 9)] = (_t41 - _t47 * _t139 + _t107 * (_t159 + _t144)) * self._h2;
-        matrix[(2, 10)] = self._h0 * (_t58 - _t59 * _t109 - _t108 * (_t150 - _t152));
-        matrix[(2, 11)] = self._h1 * (_t5 * _t142 - _t151 * _t141);
-        matrix[(3, 0)] = _t63 * _t162;
-        matrix[(3, 1)] = self._h0 * (_t26 * _t81 - _t80 * _t160);
-        matrix[(3, 2)] = (_t30 * _t88 - _t26 * _t163) * self._h3;
-        matrix[(3, 3)] = S::one() + (_t26 * _t92 - _t160 * _t91) * self._h4;
-        matrix[(3, 4)] = (_t21 - _t93 * _t161) * self._h2;
-        matrix[(3, 5)] = self._h0 * (_t17 + _t97 * _t161);
-        matrix[(3, 6)] = _t99 * _t162;
-        matrix[(3, 7)] = _t102 * _t162;
-        matrix[(3, 8)] = _t105 * _t162;
-        matrix[(3, 9)] = _t107 * _t162;
-        matrix[(3, 10)] = _t108 * _t162;
-        matrix[(3, 11)] = _t110 * _t162;
-        matrix[(4, 0)] = (_t26 * _t123 - _t164 * _t165) * self._h3;
-        matrix[(4, 1)] = _t80 * _t167;
-        matrix[(4, 2)] = self._h6 * (_t7 * _t88 - _t26 * _t168);
-        matrix[(4, 3)] = self._h0 * (_t21 - _t90 * _t166);
-        matrix[(4, 4)] = S::one() - _t93 * self._h0 * _t166;
-        matrix[(4, 5)] = (_t50 + _t97 * _t166) * self._h2;
-        matrix[(4, 6)] = _t99 * _t167;
-        matrix[(4, 7)] = _t102 * _t167;
-        matrix[(4, 8)] = _t105 * _t167;
-        matrix[(4, 9)] = _t107 * _t167;
-        matrix[(4, 10)] = _t108 * _t167;
-        matrix[(4, 11)] = (_t26 * _t142 - _t164 * _t141) * self._h9;
-        matrix[(5, 0)] = self._h6 * (_t30 * _t123 - _t7 * _t169);
-        matrix[(5, 1)] = self._h0 * (_t80 * _t170 - _t7 * _t81);
-        matrix[(5, 2)] = _t87 * _t172;
-        matrix[(5, 3)] = (_t7 * _t92 + S::ratio(12.0, 1.0) * (_t17 - _t90 * _t170))
+            * (_t36 * _t128 + S::ratio(4.0, 1.0) * (_t50 - _t5 * _t91 - _t90 * _t154));
+        matrix[(2, 5)] = _t94 * _t155;
+        matrix[(2, 6)] = (_t5 * _t98
+            + S::ratio(4.0, 1.0) * (_t31 - _t36 * _t132 + _t96 * _t154)) * self._h8;
+        matrix[(2, 7)] = self._h0 * (_t53 - _t22 * _t100 - _t99 * (_t156 - _t142));
+        matrix[(2, 8)] = _t102 * _t155;
+        matrix[(2, 9)] = (_t39 - _t45 * _t136 + _t104 * (_t156 + _t141)) * self._h2;
+        matrix[(2, 10)] = self._h0 * (_t56 - _t57 * _t106 - _t105 * (_t147 - _t149));
+        matrix[(2, 11)] = self._h1 * (_t3 * _t139 - _t148 * _t138);
+        matrix[(3, 0)] = _t60 * _t159;
+        matrix[(3, 1)] = self._h0 * (_t24 * _t78 - _t77 * _t157);
+        matrix[(3, 2)] = (_t28 * _t85 - _t24 * _t160) * self._h3;
+        matrix[(3, 3)] = S::one() + (_t24 * _t89 - _t157 * _t88) * self._h4;
+        matrix[(3, 4)] = (_t19 - _t90 * _t158) * self._h2;
+        matrix[(3, 5)] = self._h0 * (_t15 + _t94 * _t158);
+        matrix[(3, 6)] = _t96 * _t159;
+        matrix[(3, 7)] = _t99 * _t159;
+        matrix[(3, 8)] = _t102 * _t159;
+        matrix[(3, 9)] = _t104 * _t159;
+        matrix[(3, 10)] = _t105 * _t159;
+        matrix[(3, 11)] = _t107 * _t159;
+        matrix[(4, 0)] = (_t24 * _t120 - _t161 * _t162) * self._h3;
+        matrix[(4, 1)] = _t77 * _t164;
+        matrix[(4, 2)] = self._h6 * (_t5 * _t85 - _t24 * _t165);
+        matrix[(4, 3)] = self._h0 * (_t19 - _t87 * _t163);
+        matrix[(4, 4)] = S::one() - _t90 * self._h0 * _t163;
+        matrix[(4, 5)] = (_t48 + _t94 * _t163) * self._h2;
+        matrix[(4, 6)] = _t96 * _t164;
+        matrix[(4, 7)] = _t99 * _t164;
+        matrix[(4, 8)] = _t102 * _t164;
+        matrix[(4, 9)] = _t104 * _t164;
+        matrix[(4, 10)] = _t105 * _t164;
+        matrix[(4, 11)] = (_t24 * _t139 - _t161 * _t138) * self._h9;
+        matrix[(5, 0)] = self._h6 * (_t28 * _t120 - _t5 * _t166);
+        matrix[(5, 1)] = self._h0 * (_t77 * _t167 - _t5 * _t78);
+        matrix[(5, 2)] = _t84 * _t169;
+        matrix[(5, 3)] = (_t5 * _t89 + S::ratio(12.0, 1.0) * (_t15 - _t87 * _t167))
             * self._h11;
-        matrix[(5, 4)] = self._h0 * (_t50 - _t93 * _t171);
-        matrix[(5, 5)] = S::one() - _t97 * self._h0 * _t171;
-        matrix[(5, 6)] = _t99 * _t172;
-        matrix[(5, 7)] = _t102 * _t172;
-        matrix[(5, 8)] = _t105 * _t172;
-        matrix[(5, 9)] = _t107 * _t172;
-        matrix[(5, 10)] = _t108 * _t172;
-        matrix[(5, 11)] = self._h1 * (_t30 * _t142 - _t7 * _t173);
-        matrix[(6, 0)] = _t63 * _t176;
-        matrix[(6, 1)] = self._h0 * (_t34 * _t81 - _t80 * _t174);
-        matrix[(6, 2)] = (_t38 * _t88 - _t34 * _t163) * self._h3;
-        matrix[(6, 3)] = self._h4 * (_t34 * _t92 - _t174 * _t91);
-        matrix[(6, 4)] = _t93 * _t176;
-        matrix[(6, 5)] = _t97 * _t176;
-        matrix[(6, 6)] = S::one() + _t99 * _t176;
-        matrix[(6, 7)] = (_t21 - _t102 * _t175) * self._h2;
-        matrix[(6, 8)] = self._h0 * (_t17 + _t105 * _t175);
-        matrix[(6, 9)] = _t107 * _t176;
-        matrix[(6, 10)] = _t108 * _t176;
-        matrix[(6, 11)] = _t110 * _t176;
-        matrix[(7, 0)] = (_t34 * _t123 - _t177 * _t165) * self._h3;
-        matrix[(7, 1)] = _t80 * _t179;
-        matrix[(7, 2)] = self._h6 * (_t24 * _t88 - _t34 * _t168);
-        matrix[(7, 3)] = _t90 * _t179;
-        matrix[(7, 4)] = _t93 * _t179;
-        matrix[(7, 5)] = _t97 * _t179;
-        matrix[(7, 6)] = self._h0 * (_t21 - _t99 * _t178);
-        matrix[(7, 7)] = S::one() - _t178 * _t137;
-        matrix[(7, 8)] = (_t50 + _t105 * _t178) * self._h2;
-        matrix[(7, 9)] = _t107 * _t179;
-        matrix[(7, 10)] = _t108 * _t179;
-        matrix[(7, 11)] = (_t34 * _t142 - _t177 * _t141) * self._h9;
-        matrix[(8, 0)] = self._h6 * (_t38 * _t123 - _t24 * _t169);
-        matrix[(8, 1)] = self._h0 * (_t80 * _t180 - _t24 * _t81);
-        matrix[(8, 2)] = _t87 * _t182;
-        matrix[(8, 3)] = (_t24 * _t92 - _t180 * _t91) * self._h11;
-        matrix[(8, 4)] = _t93 * _t182;
-        matrix[(8, 5)] = _t97 * _t182;
-        matrix[(8, 6)] = (_t17 - _t99 * _t181) * self._h2;
-        matrix[(8, 7)] = self._h0 * (_t50 + _t102 * _t181);
-        matrix[(8, 8)] = S::one() + _t105 * _t182;
-        matrix[(8, 9)] = _t107 * _t182;
-        matrix[(8, 10)] = _t108 * _t182;
-        matrix[(8, 11)] = self._h1 * (_t38 * _t142 - _t24 * _t173);
-        matrix[(9, 0)] = _t63 * _t185;
-        matrix[(9, 1)] = self._h0 * (_t42 * _t81 - _t80 * _t183);
-        matrix[(9, 2)] = (_t47 * _t88 - _t42 * _t163) * self._h3;
-        matrix[(9, 3)] = self._h4 * (_t42 * _t92 - _t183 * _t91);
-        matrix[(9, 4)] = _t93 * _t185;
-        matrix[(9, 5)] = _t97 * _t185;
-        matrix[(9, 6)] = _t99 * _t185;
-        matrix[(9, 7)] = _t102 * _t185;
-        matrix[(9, 8)] = _t105 * _t185;
-        matrix[(9, 9)] = S::one() + _t107 * _t185;
-        matrix[(9, 10)] = (_t21 - _t108 * _t184) * self._h2;
-        matrix[(9, 11)] = self._h0 * (_t17 + _t110 * _t184);
-        matrix[(10, 0)] = (_t42 * _t123 - _t186 * _t165) * self._h3;
-        matrix[(10, 1)] = _t80 * _t188;
-        matrix[(10, 2)] = self._h6 * (_t59 * _t88 - _t42 * _t168);
-        matrix[(10, 3)] = _t90 * _t188;
-        matrix[(10, 4)] = _t93 * _t188;
-        matrix[(10, 5)] = _t97 * _t188;
-        matrix[(10, 6)] = _t99 * _t188;
-        matrix[(10, 7)] = _t102 * _t188;
-        matrix[(10, 8)] = _t105 * _t188;
-        matrix[(10, 9)] = self._h0 * (_t21 - _t107 * _t187);
-        matrix[(10, 10)] = S::one() - _t187 * _t140;
-        matrix[(10, 11)] = (_t42 * _t142 + S::ratio(10.0, 1.0) * (_t50 - _t110 * _t186))
+        matrix[(5, 4)] = self._h0 * (_t48 - _t90 * _t168);
+        matrix[(5, 5)] = S::one() - _t94 * self._h0 * _t168;
+        matrix[(5, 6)] = _t96 * _t169;
+        matrix[(5, 7)] = _t99 * _t169;
+        matrix[(5, 8)] = _t102 * _t169;
+        matrix[(5, 9)] = _t104 * _t169;
+        matrix[(5, 10)] = _t105 * _t169;
+        matrix[(5, 11)] = self._h1 * (_t28 * _t139 - _t5 * _t170);
+        matrix[(6, 0)] = _t60 * _t173;
+        matrix[(6, 1)] = self._h0 * (_t32 * _t78 - _t77 * _t171);
+        matrix[(6, 2)] = (_t36 * _t85 - _t32 * _t160) * self._h3;
+        matrix[(6, 3)] = self._h4 * (_t32 * _t89 - _t171 * _t88);
+        matrix[(6, 4)] = _t90 * _t173;
+        matrix[(6, 5)] = _t94 * _t173;
+        matrix[(6, 6)] = S::one() + _t96 * _t173;
+        matrix[(6, 7)] = (_t19 - _t99 * _t172) * self._h2;
+        matrix[(6, 8)] = self._h0 * (_t15 + _t102 * _t172);
+        matrix[(6, 9)] = _t104 * _t173;
+        matrix[(6, 10)] = _t105 * _t173;
+        matrix[(6, 11)] = _t107 * _t173;
+        matrix[(7, 0)] = (_t32 * _t120 - _t174 * _t162) * self._h3;
+        matrix[(7, 1)] = _t77 * _t176;
+        matrix[(7, 2)] = self._h6 * (_t22 * _t85 - _t32 * _t165);
+        matrix[(7, 3)] = _t87 * _t176;
+        matrix[(7, 4)] = _t90 * _t176;
+        matrix[(7, 5)] = _t94 * _t176;
+        matrix[(7, 6)] = self._h0 * (_t19 - _t96 * _t175);
+        matrix[(7, 7)] = S::one() - _t175 * _t134;
+        matrix[(7, 8)] = (_t48 + _t102 * _t175) * self._h2;
+        matrix[(7, 9)] = _t104 * _t176;
+        matrix[(7, 10)] = _t105 * _t176;
+        matrix[(7, 11)] = (_t32 * _t139 - _t174 * _t138) * self._h9;
+        matrix[(8, 0)] = self._h6 * (_t36 * _t120 - _t22 * _t166);
+        matrix[(8, 1)] = self._h0 * (_t77 * _t177 - _t22 * _t78);
+        matrix[(8, 2)] = _t84 * _t179;
+        matrix[(8, 3)] = (_t22 * _t89 - _t177 * _t88) * self._h11;
+        matrix[(8, 4)] = _t90 * _t179;
+        matrix[(8, 5)] = _t94 * _t179;
+        matrix[(8, 6)] = (_t15 - _t96 * _t178) * self._h2;
+        matrix[(8, 7)] = self._h0 * (_t48 + _t99 * _t178);
+        matrix[(8, 8)] = S::one() + _t102 * _t179;
+        matrix[(8, 9)] = _t104 * _t179;
+        matrix[(8, 10)] = _t105 * _t179;
+        matrix[(8, 11)] = self._h1 * (_t36 * _t139 - _t22 * _t170);
+        matrix[(9, 0)] = _t60 * _t182;
+        matrix[(9, 1)] = self._h0 * (_t40 * _t78 - _t77 * _t180);
+        matrix[(9, 2)] = (_t45 * _t85 - _t40 * _t160) * self._h3;
+        matrix[(9, 3)] = self._h4 * (_t40 * _t89 - _t180 * _t88);
+        matrix[(9, 4)] = _t90 * _t182;
+        matrix[(9, 5)] = _t94 * _t182;
+        matrix[(9, 6)] = _t96 * _t182;
+        matrix[(9, 7)] = _t99 * _t182;
+        matrix[(9, 8)] = _t102 * _t182;
+        matrix[(9, 9)] = S::one() + _t104 * _t182;
+        matrix[(9, 10)] = (_t19 - _t105 * _t181) * self._h2;
+        matrix[(9, 11)] = self._h0 * (_t15 + _t107 * _t181);
+        matrix[(10, 0)] = (_t40 * _t120 - _t183 * _t162) * self._h3;
+        matrix[(10, 1)] = _t77 * _t185;
+        matrix[(10, 2)] = self._h6 * (_t57 * _t85 - _t40 * _t165);
+        matrix[(10, 3)] = _t87 * _t185;
+        matrix[(10, 4)] = _t90 * _t185;
+        matrix[(10, 5)] = _t94 * _t185;
+        matrix[(10, 6)] = _t96 * _t185;
+        matrix[(10, 7)] = _t99 * _t185;
+        matrix[(10, 8)] = _t102 * _t185;
+        matrix[(10, 9)] = self._h0 * (_t19 - _t104 * _t184);
+        matrix[(10, 10)] = S::one() - _t184 * _t137;
+        matrix[(10, 11)] = (_t40 * _t139 + S::ratio(10.0, 1.0) * (_t48 - _t107 * _t183))
             * self._h9;
-        matrix[(11, 0)] = self._h6 * (_t47 * _t123 - _t59 * _t169);
-        matrix[(11, 1)] = self._h0 * (_t80 * _t189 - _t59 * _t81);
-        matrix[(11, 2)] = _t87 * _t191;
-        matrix[(11, 3)] = (_t59 * _t92 - _t189 * _t91) * self._h11;
-        matrix[(11, 4)] = _t93 * _t191;
-        matrix[(11, 5)] = _t97 * _t191;
-        matrix[(11, 6)] = _t99 * _t191;
-        matrix[(11, 7)] = _t102 * _t191;
-        matrix[(11, 8)] = _t105 * _t191;
-        matrix[(11, 9)] = (_t17 - _t107 * _t190) * self._h2;
-        matrix[(11, 10)] = self._h0 * (_t50 + _t108 * _t190);
-        matrix[(11, 11)] = S::one() + self._h1 * (_t47 * _t142 - _t59 * _t173);
+        matrix[(11, 0)] = self._h6 * (_t45 * _t120 - _t57 * _t166);
+        matrix[(11, 1)] = self._h0 * (_t77 * _t186 - _t57 * _t78);
+        matrix[(11, 2)] = _t84 * _t188;
+        matrix[(11, 3)] = (_t57 * _t89 - _t186 * _t88) * self._h11;
+        matrix[(11, 4)] = _t90 * _t188;
+        matrix[(11, 5)] = _t94 * _t188;
+        matrix[(11, 6)] = _t96 * _t188;
+        matrix[(11, 7)] = _t99 * _t188;
+        matrix[(11, 8)] = _t102 * _t188;
+        matrix[(11, 9)] = (_t15 - _t104 * _t187) * self._h2;
+        matrix[(11, 10)] = self._h0 * (_t48 + _t105 * _t187);
+        matrix[(11, 11)] = S::one() + self._h1 * (_t45 * _t139 - _t57 * _t170);
     }
 
     #[inline]
@@ -4326,7 +4321,7 @@ for CotangentBodyMeanValue<'_, S> {
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`
     ///
-    /// 66 additions, 63 multiplications.
+    /// 63 additions, 63 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, _R11, _R12, _R13, _R21, _R22, _R23, _R31, _R32, _R33]] = self
@@ -4335,56 +4330,54 @@ for CotangentBodyMeanValue<'_, S> {
             .0;
         let [[_u_m1, _u_m2, _u_m3, _u_R11, _u_R12, _u_R13, _u_R21, _u_R22, _u_R23,
         _u_R31, _u_R32, _u_R33]] = unknown.data.0;
-        let _t0 = _R11 - _u_R11;
-        let _t1 = -_t0;
-        let _t2 = m2 + _u_m2;
-        let _t3 = _t1 * _t2;
-        let _t4 = m2 - _u_m2;
-        let _t5 = -_t4;
-        let _t6 = _R11 + _u_R11;
-        let _t7 = _t5 * _t6;
-        let _t8 = _t2 * S::ratio(1.0, 24.0);
-        let _t9 = _t1 * (_t3 + _t7 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0)
-            + (_t6 * _t6 + self.system._k15) * _t8;
-        let _t10 = m3 + _u_m3;
-        let _t11 = _t10 * self.system._k1;
-        let _t12 = _R21 + _u_R21;
-        let _t13 = _t12 * S::ratio(1.0, 4.0);
-        let _t14 = _R13 + _u_R13;
-        let _t15 = m1 + _u_m1;
-        let _t16 = S::one() + _t15 * S::ratio(1.0, 10.0);
-        let _t17 = _R32 + _u_R32;
-        let _t18 = _R33 + _u_R33;
-        let _t19 = _t18 * S::ratio(1.0, 10.0) + _t15 * self.system._k0;
-        let _t20 = _t2 * _t6 * _t8
-            + _t5 * (_t7 + _t3 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
-        let _t21 = _R12 + _u_R12;
-        let _t22 = _t21 * S::ratio(1.0, 4.0);
-        let _t23 = _R23 + _u_R23;
-        let _t24 = _R31 + _u_R31;
-        let _t25 = _R22 + _u_R22;
+        let _t0 = _u_R11 - _R11;
+        let _t1 = m2 + _u_m2;
+        let _t2 = _t0 * _t1;
+        let _t3 = _u_m2 - m2;
+        let _t4 = _R11 + _u_R11;
+        let _t5 = _t3 * _t4;
+        let _t6 = _t1 * S::ratio(1.0, 24.0);
+        let _t7 = _t0 * (_t2 + _t5 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0)
+            + (_t4 * _t4 + self.system._k15) * _t6;
+        let _t8 = m3 + _u_m3;
+        let _t9 = _t8 * self.system._k1;
+        let _t10 = _R21 + _u_R21;
+        let _t11 = _t10 * S::ratio(1.0, 4.0);
+        let _t12 = _R13 + _u_R13;
+        let _t13 = m1 + _u_m1;
+        let _t14 = S::one() + _t13 * S::ratio(1.0, 10.0);
+        let _t15 = _R32 + _u_R32;
+        let _t16 = _R33 + _u_R33;
+        let _t17 = _t16 * S::ratio(1.0, 10.0) + _t13 * self.system._k0;
+        let _t18 = _t1 * _t4 * _t6
+            + _t3 * (_t5 + _t2 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
+        let _t19 = _R12 + _u_R12;
+        let _t20 = _t19 * S::ratio(1.0, 4.0);
+        let _t21 = _R23 + _u_R23;
+        let _t22 = _R31 + _u_R31;
+        let _t23 = _R22 + _u_R22;
         residual[0] = _u_m1 - m1
-            + self._h0 * (_t9 * _t10 - _t11 * _t2 + _t13 * _t14 - _t16 * _t17);
-        residual[1] = -(self._h0
-            * (_t19 * _t10 - _t11 * _t15 + _t20 * _t14 + _t22 * _t23 - _t16 * _t24))
-            - _t4;
+            + self._h0 * (_t7 * _t8 - _t9 * _t1 + _t11 * _t12 - _t14 * _t15);
+        residual[1] = _t3
+            - self._h0
+                * (_t17 * _t8 - _t9 * _t13 + _t18 * _t12 + _t20 * _t21 - _t14 * _t22);
         residual[2] = _u_m3 - m3
             + self._h0
-                * (_t19 * _t2 - _t9 * _t15 + _t20 * _t21 - _t13 * _t6 + _t22 * _t25);
-        residual[3] = (_t9 * _t14 - _t11 * _t21) * self._h0 - _t0;
-        residual[4] = _u_R12 - _R12 - (_t19 * _t14 - _t11 * _t6) * self._h0;
-        residual[5] = _u_R13 - _R13 + self._h0 * (_t19 * _t21 - _t9 * _t6);
-        residual[6] = _u_R21 - _R21 + self._h0 * (_t9 * _t23 - _t11 * _t25);
-        residual[7] = _u_R22 - _R22 - (_t19 * _t23 - _t11 * _t12) * self._h0;
-        residual[8] = _u_R23 - _R23 + self._h0 * (_t19 * _t25 - _t9 * _t12);
-        residual[9] = _u_R31 - _R31 + self._h0 * (_t9 * _t18 - _t11 * _t17);
-        residual[10] = _u_R32 - _R32 - (_t19 * _t18 - _t11 * _t24) * self._h0;
-        residual[11] = _u_R33 - _R33 + self._h0 * (_t19 * _t17 - _t9 * _t24);
+                * (_t17 * _t1 - _t7 * _t13 + _t18 * _t19 - _t11 * _t4 + _t20 * _t23);
+        residual[3] = (_t7 * _t12 - _t9 * _t19) * self._h0 + _t0;
+        residual[4] = _u_R12 - _R12 - (_t17 * _t12 - _t9 * _t4) * self._h0;
+        residual[5] = _u_R13 - _R13 + self._h0 * (_t17 * _t19 - _t7 * _t4);
+        residual[6] = _u_R21 - _R21 + self._h0 * (_t7 * _t21 - _t9 * _t23);
+        residual[7] = _u_R22 - _R22 - (_t17 * _t21 - _t9 * _t10) * self._h0;
+        residual[8] = _u_R23 - _R23 + self._h0 * (_t17 * _t23 - _t7 * _t10);
+        residual[9] = _u_R31 - _R31 + self._h0 * (_t7 * _t16 - _t9 * _t15);
+        residual[10] = _u_R32 - _R32 - (_t17 * _t16 - _t9 * _t22) * self._h0;
+        residual[11] = _u_R33 - _R33 + self._h0 * (_t17 * _t15 - _t7 * _t22);
     }
 
     /// `r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`
     ///
-    /// 91 additions, 145 multiplications.
+    /// 88 additions, 145 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -4401,146 +4394,144 @@ for CotangentBodyMeanValue<'_, S> {
         let _t0 = m2 + _u_m2;
         let _t1 = _R11 + _u_R11;
         let _t2 = _t1 * _t1;
-        let _t3 = _R11 - _u_R11;
-        let _t4 = -_t3;
-        let _t5 = _t4 * _t0;
-        let _t6 = m2 - _u_m2;
-        let _t7 = -_t6;
-        let _t8 = _t7 * _t1;
-        let _t9 = _t0 * self.system._k9 + _t0 * S::ratio(1.0, 24.0) * _t2
-            + _t4 * (_t5 + _t8 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
-        let _t10 = m3 + _u_m3;
-        let _t11 = _t10 * self.system._k1;
-        let _t12 = _R21 + _u_R21;
-        let _t13 = _t12 * S::ratio(1.0, 4.0);
-        let _t14 = _R13 + _u_R13;
-        let _t15 = m1 + _u_m1;
-        let _t16 = S::one() + _t15 * S::ratio(1.0, 10.0);
-        let _t17 = _R32 + _u_R32;
-        let _t18 = _R33 + _u_R33;
-        let _t19 = _t18 * S::ratio(1.0, 10.0) + _t15 * self.system._k0;
-        let _t20 = _t0 * _t0;
-        let _t21 = _t1 * S::ratio(1.0, 24.0) * _t20
-            + _t7 * (_t8 + _t5 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
-        let _t22 = _R12 + _u_R12;
-        let _t23 = _t22 * S::ratio(1.0, 4.0);
-        let _t24 = _R23 + _u_R23;
-        let _t25 = _R31 + _u_R31;
-        let _t26 = _R22 + _u_R22;
-        let _t27 = _t9 * self._h0;
-        let _t28 = _t11 * self._h0;
-        let _t29 = _t19 * self._h0;
-        let _t30 = _t17 * self._h1;
-        let _t31 = _t4 * (_t4 + _t1 * S::ratio(2.0, 1.0)) + S::ratio(3.0, 1.0) * _t2
+        let _t3 = _u_R11 - _R11;
+        let _t4 = _t3 * _t0;
+        let _t5 = _u_m2 - m2;
+        let _t6 = _t5 * _t1;
+        let _t7 = _t0 * self.system._k9 + _t0 * S::ratio(1.0, 24.0) * _t2
+            + _t3 * (_t4 + _t6 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
+        let _t8 = m3 + _u_m3;
+        let _t9 = _t8 * self.system._k1;
+        let _t10 = _R21 + _u_R21;
+        let _t11 = _t10 * S::ratio(1.0, 4.0);
+        let _t12 = _R13 + _u_R13;
+        let _t13 = m1 + _u_m1;
+        let _t14 = S::one() + _t13 * S::ratio(1.0, 10.0);
+        let _t15 = _R32 + _u_R32;
+        let _t16 = _R33 + _u_R33;
+        let _t17 = _t16 * S::ratio(1.0, 10.0) + _t13 * self.system._k0;
+        let _t18 = _t0 * _t0;
+        let _t19 = _t1 * S::ratio(1.0, 24.0) * _t18
+            + _t5 * (_t6 + _t4 * S::ratio(2.0, 1.0)) * S::ratio(1.0, 72.0);
+        let _t20 = _R12 + _u_R12;
+        let _t21 = _t20 * S::ratio(1.0, 4.0);
+        let _t22 = _R23 + _u_R23;
+        let _t23 = _R31 + _u_R31;
+        let _t24 = _R22 + _u_R22;
+        let _t25 = _t7 * self._h0;
+        let _t26 = _t9 * self._h0;
+        let _t27 = _t17 * self._h0;
+        let _t28 = _t15 * self._h1;
+        let _t29 = _t3 * (_t3 + _t1 * S::ratio(2.0, 1.0)) + S::ratio(3.0, 1.0) * _t2
             + self.system._k16;
-        let _t32 = _t7 * (_t4 + _t1) + _t0 * (_t4 + _t1 * S::ratio(3.0, 1.0));
-        let _t33 = _t32 * self._h4;
-        let _t34 = _t14 * _t33;
-        let _t35 = _t7 * (_t7 + _t0 * S::ratio(2.0, 1.0)) + S::ratio(3.0, 1.0) * _t20;
-        let _t36 = S::ratio(2.0, 1.0) * _t32;
-        let _t37 = self._h2 * _t31;
-        let _t38 = _t11 * self._h6;
-        let _t39 = _t19 * self._h6;
-        let _t40 = _t31 * self._h7;
-        let _t41 = _t32 * self._h13;
-        let _t42 = _t9 * self._h6;
+        let _t30 = _t5 * (_t3 + _t1) + _t0 * (_t3 + _t1 * S::ratio(3.0, 1.0));
+        let _t31 = _t30 * self._h4;
+        let _t32 = _t12 * _t31;
+        let _t33 = _t5 * (_t5 + _t0 * S::ratio(2.0, 1.0)) + S::ratio(3.0, 1.0) * _t18;
+        let _t34 = S::ratio(2.0, 1.0) * _t30;
+        let _t35 = self._h2 * _t29;
+        let _t36 = _t9 * self._h6;
+        let _t37 = _t17 * self._h6;
+        let _t38 = _t29 * self._h7;
+        let _t39 = _t30 * self._h13;
+        let _t40 = _t7 * self._h6;
         residual[0] = _u_m1 - m1
-            + self._h0 * (_t9 * _t10 - _t11 * _t0 + _t13 * _t14 - _t16 * _t17);
-        residual[1] = -(self._h0
-            * (_t19 * _t10 - _t11 * _t15 + _t21 * _t14 + _t23 * _t24 - _t16 * _t25))
-            - _t6;
+            + self._h0 * (_t7 * _t8 - _t9 * _t0 + _t11 * _t12 - _t14 * _t15);
+        residual[1] = _t5
+            - self._h0
+                * (_t17 * _t8 - _t9 * _t13 + _t19 * _t12 + _t21 * _t22 - _t14 * _t23);
         residual[2] = _u_m3 - m3
             + self._h0
-                * (_t19 * _t0 - _t9 * _t15 + _t21 * _t22 - _t13 * _t1 + _t23 * _t26);
-        residual[3] = _t14 * _t27 - _t22 * _t28 - _t3;
-        residual[4] = _u_R12 - _R12 - (_t19 * _t14 - _t11 * _t1) * self._h0;
-        residual[5] = _u_R13 - _R13 + _t22 * _t29 - _t1 * _t27;
-        residual[6] = _u_R21 - _R21 + _t24 * _t27 - _t26 * _t28;
-        residual[7] = _u_R22 - _R22 - (_t19 * _t24 - _t11 * _t12) * self._h0;
-        residual[8] = _u_R23 - _R23 + _t26 * _t29 - _t12 * _t27;
-        residual[9] = _u_R31 - _R31 + _t18 * _t27 - _t17 * _t28;
-        residual[10] = _u_R32 - _R32 - (_t19 * _t18 - _t11 * _t25) * self._h0;
-        residual[11] = _u_R33 - _R33 + _t17 * _t29 - _t25 * _t27;
-        matrix[(0, 0)] = S::one() - _t30;
-        matrix[(0, 1)] = self._h2 * (_t10 * _t31 - _t11 * S::ratio(72.0, 1.0));
-        matrix[(0, 2)] = _t27 - _t0 * self._h3;
-        matrix[(0, 3)] = _t10 * _t33;
-        matrix[(0, 5)] = _t13 * self._h0;
-        matrix[(0, 6)] = _t14 * self._h5;
-        matrix[(0, 10)] = _t16 * self._h6;
+                * (_t17 * _t0 - _t7 * _t13 + _t19 * _t20 - _t11 * _t1 + _t21 * _t24);
+        residual[3] = _t12 * _t25 - _t20 * _t26 + _t3;
+        residual[4] = _u_R12 - _R12 - (_t17 * _t12 - _t9 * _t1) * self._h0;
+        residual[5] = _u_R13 - _R13 + _t20 * _t27 - _t1 * _t25;
+        residual[6] = _u_R21 - _R21 + _t22 * _t25 - _t24 * _t26;
+        residual[7] = _u_R22 - _R22 - (_t17 * _t22 - _t9 * _t10) * self._h0;
+        residual[8] = _u_R23 - _R23 + _t24 * _t27 - _t10 * _t25;
+        residual[9] = _u_R31 - _R31 + _t16 * _t25 - _t15 * _t26;
+        residual[10] = _u_R32 - _R32 - (_t17 * _t16 - _t9 * _t23) * self._h0;
+        residual[11] = _u_R33 - _R33 + _t15 * _t27 - _t23 * _t25;
+        matrix[(0, 0)] = S::one() - _t28;
+        matrix[(0, 1)] = self._h2 * (_t8 * _t29 - _t9 * S::ratio(72.0, 1.0));
+        matrix[(0, 2)] = _t25 - _t0 * self._h3;
+        matrix[(0, 3)] = _t8 * _t31;
+        matrix[(0, 5)] = _t11 * self._h0;
+        matrix[(0, 6)] = _t12 * self._h5;
+        matrix[(0, 10)] = _t14 * self._h6;
         matrix[(1, 0)] = self._h1
-            * (_t25 + _t11 * S::ratio(10.0, 1.0) - _t10 * self.system._k17);
-        matrix[(1, 1)] = S::one() - _t34;
-        matrix[(1, 2)] = _t15 * self._h3 - _t29;
-        matrix[(1, 3)] = _t14 * _t35 * self._h7;
-        matrix[(1, 4)] = _t24 * self._h8;
-        matrix[(1, 5)] = _t21 * self._h6;
-        matrix[(1, 8)] = _t23 * self._h6;
-        matrix[(1, 9)] = _t16 * self._h0;
-        matrix[(1, 11)] = _t10 * self._h9;
-        matrix[(2, 0)] = _t0 * self._h10 - _t27;
-        matrix[(2, 1)] = (_t15 * _t31 - _t19 * S::ratio(72.0, 1.0) - _t22 * _t36)
+            * (_t23 + _t9 * S::ratio(10.0, 1.0) - _t8 * self.system._k17);
+        matrix[(1, 1)] = S::one() - _t32;
+        matrix[(1, 2)] = _t13 * self._h3 - _t27;
+        matrix[(1, 3)] = _t12 * _t33 * self._h7;
+        matrix[(1, 4)] = _t22 * self._h8;
+        matrix[(1, 5)] = _t19 * self._h6;
+        matrix[(1, 8)] = _t21 * self._h6;
+        matrix[(1, 9)] = _t14 * self._h0;
+        matrix[(1, 11)] = _t8 * self._h9;
+        matrix[(2, 0)] = _t0 * self._h10 - _t25;
+        matrix[(2, 1)] = (_t13 * _t29 - _t17 * S::ratio(72.0, 1.0) - _t20 * _t34)
             * self._h7;
         matrix[(2, 2)] = S::one();
         matrix[(2, 3)] = self._h2
-            * (_t22 * _t35 - _t13 * S::ratio(72.0, 1.0) - _t15 * _t36);
-        matrix[(2, 4)] = _t21 * self._h0 - _t26 * self._h8;
+            * (_t20 * _t33 - _t11 * S::ratio(72.0, 1.0) - _t13 * _t34);
+        matrix[(2, 4)] = _t19 * self._h0 - _t24 * self._h8;
         matrix[(2, 6)] = _t1 * self._h8;
-        matrix[(2, 7)] = _t23 * self._h0;
+        matrix[(2, 7)] = _t21 * self._h0;
         matrix[(2, 11)] = _t0 * self._h1;
-        matrix[(3, 1)] = _t14 * _t37;
-        matrix[(3, 2)] = _t22 * self._h11;
-        matrix[(3, 3)] = S::one() + _t34;
-        matrix[(3, 4)] = _t38;
-        matrix[(3, 5)] = _t27;
-        matrix[(4, 0)] = _t14 * self._h12;
+        matrix[(3, 1)] = _t12 * _t35;
+        matrix[(3, 2)] = _t20 * self._h11;
+        matrix[(3, 3)] = S::one() + _t32;
+        matrix[(3, 4)] = _t36;
+        matrix[(3, 5)] = _t25;
+        matrix[(4, 0)] = _t12 * self._h12;
         matrix[(4, 2)] = _t1 * self._h3;
-        matrix[(4, 3)] = _t28;
+        matrix[(4, 3)] = _t26;
         matrix[(4, 4)] = S::one();
-        matrix[(4, 5)] = _t39;
-        matrix[(4, 11)] = _t14 * self._h9;
-        matrix[(5, 0)] = _t22 * self._h10;
-        matrix[(5, 1)] = _t1 * _t40;
-        matrix[(5, 3)] = (_t1 * _t32 + _t9 * S::ratio(36.0, 1.0)) * self._h13;
-        matrix[(5, 4)] = _t29;
+        matrix[(4, 5)] = _t37;
+        matrix[(4, 11)] = _t12 * self._h9;
+        matrix[(5, 0)] = _t20 * self._h10;
+        matrix[(5, 1)] = _t1 * _t38;
+        matrix[(5, 3)] = (_t1 * _t30 + _t7 * S::ratio(36.0, 1.0)) * self._h13;
+        matrix[(5, 4)] = _t27;
         matrix[(5, 5)] = S::one();
-        matrix[(5, 11)] = _t22 * self._h1;
-        matrix[(6, 1)] = _t24 * _t37;
-        matrix[(6, 2)] = _t26 * self._h11;
-        matrix[(6, 3)] = _t24 * _t33;
+        matrix[(5, 11)] = _t20 * self._h1;
+        matrix[(6, 1)] = _t22 * _t35;
+        matrix[(6, 2)] = _t24 * self._h11;
+        matrix[(6, 3)] = _t22 * _t31;
         matrix[(6, 6)] = S::one();
-        matrix[(6, 7)] = _t38;
-        matrix[(6, 8)] = _t27;
-        matrix[(7, 0)] = _t24 * self._h12;
-        matrix[(7, 2)] = _t12 * self._h3;
-        matrix[(7, 6)] = _t28;
+        matrix[(6, 7)] = _t36;
+        matrix[(6, 8)] = _t25;
+        matrix[(7, 0)] = _t22 * self._h12;
+        matrix[(7, 2)] = _t10 * self._h3;
+        matrix[(7, 6)] = _t26;
         matrix[(7, 7)] = S::one();
-        matrix[(7, 8)] = _t39;
-        matrix[(7, 11)] = _t24 * self._h9;
-        matrix[(8, 0)] = _t26 * self._h10;
-        matrix[(8, 1)] = _t12 * _t40;
-        matrix[(8, 3)] = _t12 * _t41;
-        matrix[(8, 6)] = _t42;
-        matrix[(8, 7)] = _t29;
+        matrix[(7, 8)] = _t37;
+        matrix[(7, 11)] = _t22 * self._h9;
+        matrix[(8, 0)] = _t24 * self._h10;
+        matrix[(8, 1)] = _t10 * _t38;
+        matrix[(8, 3)] = _t10 * _t39;
+        matrix[(8, 6)] = _t40;
+        matrix[(8, 7)] = _t27;
         matrix[(8, 8)] = S::one();
-        matrix[(8, 11)] = _t26 * self._h1;
-        matrix[(9, 1)] = _t18 * _t37;
-        matrix[(9, 2)] = _t17 * self._h11;
-        matrix[(9, 3)] = _t18 * _t33;
+        matrix[(8, 11)] = _t24 * self._h1;
+        matrix[(9, 1)] = _t16 * _t35;
+        matrix[(9, 2)] = _t15 * self._h11;
+        matrix[(9, 3)] = _t16 * _t31;
         matrix[(9, 9)] = S::one();
-        matrix[(9, 10)] = _t38;
-        matrix[(9, 11)] = _t27;
-        matrix[(10, 0)] = _t18 * self._h12;
-        matrix[(10, 2)] = _t25 * self._h3;
-        matrix[(10, 9)] = _t28;
+        matrix[(9, 10)] = _t36;
+        matrix[(9, 11)] = _t25;
+        matrix[(10, 0)] = _t16 * self._h12;
+        matrix[(10, 2)] = _t23 * self._h3;
+        matrix[(10, 9)] = _t26;
         matrix[(10, 10)] = S::one();
-        matrix[(10, 11)] = (_t18 + _t19 * S::ratio(10.0, 1.0)) * self._h9;
-        matrix[(11, 0)] = _t17 * self._h10;
-        matrix[(11, 1)] = _t25 * _t40;
-        matrix[(11, 3)] = _t25 * _t41;
-        matrix[(11, 9)] = _t42;
-        matrix[(11, 10)] = _t29;
-        matrix[(11, 11)] = S::one() + _t30;
+        matrix[(10, 11)] = (_t16 + _t17 * S::ratio(10.0, 1.0)) * self._h9;
+        matrix[(11, 0)] = _t15 * self._h10;
+        matrix[(11, 1)] = _t23 * _t38;
+        matrix[(11, 3)] = _t23 * _t39;
+        matrix[(11, 9)] = _t40;
+        matrix[(11, 10)] = _t27;
+        matrix[(11, 11)] = S::one() + _t28;
         matrix[(0, 9)] = S::zero();
         matrix[(0, 11)] = S::zero();
         matrix[(9, 0)] = S::zero();

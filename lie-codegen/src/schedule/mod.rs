@@ -1,8 +1,9 @@
 //! From expressions to straight-line programs with few operations.
 //!
 //! A kernel is rewritten in a few ways (`forms`: as derived, combined over common powers, collected by
-//! monomials, factored). Each form is lowered to n-ary sums and products, and pairs that occur twice are
-//! shared over all outputs of the kernel. A form has two costs: its operations, and the bound of its
+//! monomials, factored). Each form is lowered to n-ary sums and products, pairs that occur twice are
+//! shared over all outputs of the kernel, and differences are turned round where that saves a change of
+//! sign (`signs`). A form has two costs: its operations, and the bound of its
 //! rounding errors (`rounding`) at points where it matters (`points`). What errs more than the form that
 //! was written is out (`judge`), and of the rest the cheapest is kept (`choice`). Everything is
 //! deterministic.
@@ -23,6 +24,7 @@ mod program;
 mod reuse;
 mod rounding;
 mod share;
+mod signs;
 
 pub use program::{Counts, Operation, Program, Value};
 

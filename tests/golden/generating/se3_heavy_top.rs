@@ -3394,7 +3394,7 @@ for HeavyTopCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 369 additions, 429 multiplications.
+    /// 365 additions, 429 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -3490,9 +3490,9 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t72 = _u_m1 - _t20;
         let _t73 = _u_m2 - _t68 * _u_g3;
         let _t74 = _t61 + _t69;
-        let _t75 = _t46 * _u_g2 - (_u_g1 + _t58 * _u_g3);
+        let _t75 = _u_g1 + _t58 * _u_g3 - _t46 * _u_g2;
         let _t76 = _u_g2 - _t40 * _u_g3 + _t46 * _u_g1;
-        let _t77 = _t58 * _u_g1 - (_u_g3 + _t40 * _u_g2);
+        let _t77 = _u_g3 + _t40 * _u_g2 - _t58 * _u_g1;
         let _t78 = _t12 * _t23;
         let _t79 = _t17 * _t18;
         let _t80 = self.system._k1 * _u_g2 + _t54;
@@ -3524,160 +3524,158 @@ for HeavyTopCayleyGenerating4<'_, S> {
         let _t101 = _t10 * self.system._k42;
         let _t102 = (-(self.system._k0 * _t83)
             - self.system._k59 * (self.system._k0 * _t12 - _t101)) * self._h0;
-        let _t103 = -_t77;
-        let _t104 = _t10 * self.system._k47;
-        let _t105 = (self.system._k0 * _t85
-            - self.system._k59 * (self.system._k0 * _t17 - _t104)) * self._h0;
-        let _t106 = _t40 * _t58;
-        let _t107 = self.system._k8 * _t31;
-        let _t108 = _t107 + _t107;
-        let _t109 = (_t92 + self.system._k6 * (_t90 - self.system._k60 * _t91)
-            + _t108 * _t34 + self.system._k36 * _t89) * self._h0;
-        let _t110 = _t10 * _t26;
-        let _t111 = self.system._k0 * _u_g1 + _t21;
-        let _t112 = self.system._k6 * _t56;
-        let _t113 = _t112 + _t112;
-        let _t114 = self.system._k7
-            * (_t79 + _t110 + _t13 * S::ratio(6.0, 1.0)
-                + (_t111 + _t55 + _t81) * self.system._k36) + _t108 * _t31 + _t113 * _t56
+        let _t103 = _t10 * self.system._k47;
+        let _t104 = (self.system._k0 * _t85
+            - self.system._k59 * (self.system._k0 * _t17 - _t103)) * self._h0;
+        let _t105 = _t40 * _t58;
+        let _t106 = self.system._k8 * _t31;
+        let _t107 = _t106 + _t106;
+        let _t108 = (_t92 + self.system._k6 * (_t90 - self.system._k60 * _t91)
+            + _t107 * _t34 + self.system._k36 * _t89) * self._h0;
+        let _t109 = _t10 * _t26;
+        let _t110 = self.system._k0 * _u_g1 + _t21;
+        let _t111 = self.system._k6 * _t56;
+        let _t112 = _t111 + _t111;
+        let _t113 = self.system._k7
+            * (_t79 + _t109 + _t13 * S::ratio(6.0, 1.0)
+                + (_t110 + _t55 + _t81) * self.system._k36) + _t107 * _t31 + _t112 * _t56
             + (_t11 + _t36 + _t13 * S::ratio(3.0, 1.0)) * self.system._k60;
-        let _t115 = _t114 * self._h0 + self._h5;
-        let _t116 = _t9 * self.system._k9;
-        let _t117 = _t12 * _t17;
-        let _t118 = S::ratio(4.0, 1.0) * _t117;
-        let _t119 = _t44 - _u_m3 * _t23 - _u_m2 * _t18;
-        let _t120 = (_t116 + self.system._k8 * (_t118 - self.system._k60 * _t119)
-            + _t113 * _t7 + self.system._k36 * _t117) * self._h0;
-        let _t121 = (self.system._k2 * _t113 - self.system._k0 * _t108
+        let _t114 = _t113 * self._h0 + self._h5;
+        let _t115 = _t9 * self.system._k9;
+        let _t116 = _t12 * _t17;
+        let _t117 = S::ratio(4.0, 1.0) * _t116;
+        let _t118 = _t44 - _u_m3 * _t23 - _u_m2 * _t18;
+        let _t119 = (_t115 + self.system._k8 * (_t117 - self.system._k60 * _t118)
+            + _t112 * _t7 + self.system._k36 * _t116) * self._h0;
+        let _t120 = (self.system._k2 * _t112 - self.system._k0 * _t107
             - _t50 * self.system._k60) * self._h0;
-        let _t122 = _t12 * self.system._k47;
-        let _t123 = (-(self.system._k1 * _t113)
-            - self.system._k60 * (self.system._k1 * _t17 - _t122)) * self._h0;
-        let _t124 = _t40 * _t46;
-        let _t125 = self.system._k7 * _t2;
-        let _t126 = _t125 + _t125;
-        let _t127 = (_t98 + self.system._k6 * (_t96 - self.system._k61 * _t97)
-            + _t126 * _t35 + self.system._k37 * _t95) * self._h0;
-        let _t128 = self.system._k6 * _t7;
-        let _t129 = _t128 + _t128;
-        let _t130 = (_t116 + self.system._k7 * (_t118 - self.system._k61 * _t119)
-            + _t129 * _t56 + self.system._k37 * _t117) * self._h0;
-        let _t131 = (self.system._k8
-            * (_t78 + _t110 + _t36 * S::ratio(6.0, 1.0)
-                + (_t111 + _t42 + _t80) * self.system._k37) + _t126 * _t2 + _t129 * _t7
+        let _t121 = _t12 * self.system._k47;
+        let _t122 = (-(self.system._k1 * _t112)
+            - self.system._k60 * (self.system._k1 * _t17 - _t121)) * self._h0;
+        let _t123 = _t40 * _t46;
+        let _t124 = self.system._k7 * _t2;
+        let _t125 = _t124 + _t124;
+        let _t126 = (_t98 + self.system._k6 * (_t96 - self.system._k61 * _t97)
+            + _t125 * _t35 + self.system._k37 * _t95) * self._h0;
+        let _t127 = self.system._k6 * _t7;
+        let _t128 = _t127 + _t127;
+        let _t129 = (_t115 + self.system._k7 * (_t117 - self.system._k61 * _t118)
+            + _t128 * _t56 + self.system._k37 * _t116) * self._h0;
+        let _t130 = (self.system._k8
+            * (_t78 + _t109 + _t36 * S::ratio(6.0, 1.0)
+                + (_t110 + _t42 + _t80) * self.system._k37) + _t125 * _t2 + _t128 * _t7
             + (_t37 + _t36 * S::ratio(3.0, 1.0)) * self.system._k61) * self._h0;
-        let _t132 = _t131 + self._h4;
-        let _t133 = _t17 * self.system._k42;
-        let _t134 = (self.system._k2 * _t129
-            - self.system._k61 * (_t12 * self.system._k2 - _t133)) * self._h0;
-        let _t135 = (self.system._k0 * _t126 - self.system._k1 * _t129
+        let _t131 = _t130 + self._h4;
+        let _t132 = _t17 * self.system._k42;
+        let _t133 = (self.system._k2 * _t128
+            - self.system._k61 * (_t12 * self.system._k2 - _t132)) * self._h0;
+        let _t134 = (self.system._k0 * _t125 - self.system._k1 * _t128
             - _t16 * self.system._k61) * self._h0;
-        let _t136 = _t58 * _t51;
-        let _t137 = _t46 * _t19;
-        let _t138 = _t12 * self.system._k42;
-        let _t139 = -(_t17 * self.system._k47);
-        let _t140 = (self.system._k6 * (_t139 - _t138) - _u_m2 * self.system._k62
+        let _t135 = _t58 * _t51;
+        let _t136 = _t46 * _t19;
+        let _t137 = _t12 * self.system._k42;
+        let _t138 = -(_t17 * self.system._k47);
+        let _t139 = (self.system._k6 * (_t138 - _t137) - _u_m2 * self.system._k62
             - _u_m3 * self.system._k63) * self._h0;
-        let _t141 = (self.system._k7 * (_t12 * self.system._k28 - _t101)
+        let _t140 = (self.system._k7 * (_t12 * self.system._k28 - _t101)
             - _u_m1 * self.system._k62) * self._h0;
-        let _t142 = (self.system._k8 * (_t17 * self.system._k28 - _t104)
+        let _t141 = (self.system._k8 * (_t17 * self.system._k28 - _t103)
             - _u_m1 * self.system._k63) * self._h0;
-        let _t143 = _t103 * self._h7;
-        let _t144 = _t76 * self._h8;
-        let _t145 = _t12 * self.system._k54;
-        let _t146 = (self.system._k6 * (_t10 * self.system._k29 - _t145)
+        let _t142 = _t77 * self._h7;
+        let _t143 = _t76 * self._h8;
+        let _t144 = _t12 * self.system._k54;
+        let _t145 = (self.system._k6 * (_t10 * self.system._k29 - _t144)
             + _u_m2 * self.system._k22) * self._h0;
-        let _t147 = _t10 * self.system._k54;
-        let _t148 = (self.system._k7 * (_t139 - _t147) + _u_m1 * self.system._k22
+        let _t146 = _t10 * self.system._k54;
+        let _t147 = (self.system._k7 * (_t138 - _t146) + _u_m1 * self.system._k22
             - _u_m3 * self.system._k64) * self._h0;
-        let _t149 = (self.system._k8 * (_t17 * self.system._k29 - _t122)
+        let _t148 = (self.system._k8 * (_t17 * self.system._k29 - _t121)
             - _u_m2 * self.system._k64) * self._h0;
-        let _t150 = _t17 * self.system._k54;
-        let _t151 = (self.system._k6 * (_t10 * self.system._k32 - _t150)
+        let _t149 = _t17 * self.system._k54;
+        let _t150 = (self.system._k6 * (_t10 * self.system._k32 - _t149)
             + _u_m3 * self.system._k23) * self._h0;
-        let _t152 = (self.system._k7 * (_t12 * self.system._k32 - _t133)
+        let _t151 = (self.system._k7 * (_t12 * self.system._k32 - _t132)
             + _u_m3 * self.system._k25) * self._h0;
-        let _t153 = (self.system._k8 * (-_t138 - _t147) + _u_m1 * self.system._k23
+        let _t152 = (self.system._k8 * (-_t137 - _t146) + _u_m1 * self.system._k23
             + _u_m2 * self.system._k25) * self._h0;
-        let _t154 = _t71 - _t58 * _u_m1;
-        let _t155 = _t70 + _t53 + S::ratio(2.0, 1.0) * _t59;
-        let _t156 = _t72 + _t58 * _u_m3;
-        let _t157 = (self.system._k1 * _t83 - self.system._k2 * _t85
+        let _t153 = _t71 - _t58 * _u_m1;
+        let _t154 = _t70 + _t53 + S::ratio(2.0, 1.0) * _t59;
+        let _t155 = _t72 + _t58 * _u_m3;
+        let _t156 = (self.system._k1 * _t83 - self.system._k2 * _t85
             - _t67 * self.system._k59) * self._h0;
-        let _t158 = -_t75;
-        let _t159 = (self.system._k1 * _t108
-            - (_t10 * self.system._k1 - _t145) * self.system._k60) * self._h0;
-        let _t160 = _t58 * _t46;
-        let _t161 = (-(self.system._k2 * _t126)
-            - (_t10 * self.system._k2 - _t150) * self.system._k61) * self._h0;
-        let _t162 = _t40 * _t68;
-        let _t163 = self._h10 * _t158;
-        let _t164 = _t73 + _t46 * _u_m1;
-        let _t165 = _t66 - _t46 * _u_m2;
-        let _t166 = _t74 + S::ratio(2.0, 1.0) * _t47;
+        let _t157 = (self.system._k1 * _t107
+            - (_t10 * self.system._k1 - _t144) * self.system._k60) * self._h0;
+        let _t158 = _t58 * _t46;
+        let _t159 = (-(self.system._k2 * _t125)
+            - (_t10 * self.system._k2 - _t149) * self.system._k61) * self._h0;
+        let _t160 = _t40 * _t68;
+        let _t161 = self._h10 * _t75;
+        let _t162 = _t73 + _t46 * _u_m1;
+        let _t163 = _t66 - _t46 * _u_m2;
+        let _t164 = _t74 + S::ratio(2.0, 1.0) * _t47;
         residual[0] = _t66 - m1 - _t20 + _t40 * (_t48 + _t61) + _t58 * _t63
             - _t46 * _t65;
         residual[1] = _t73 - m2 + _t64 + _t58 * (_t60 + _t70) - _t40 * _t71
             + _t46 * _t72;
         residual[2] = _t71 - m3 - _t62 + _t46 * (_t74 + _t47) + _t40 * _t73
             - _t58 * _t66;
-        residual[3] = -g1 - _t75;
+        residual[3] = _t75 - g1;
         residual[4] = _t76 - g2;
-        residual[5] = -g3 - _t77;
+        residual[5] = _t77 - g3;
         matrix[(0, 0)] = S::one() + _t40 * _t40 + _t87 * _t88 + _t93 * _t94
-            - _t99 * _t100 + _t102 * _t103 - _t105 * _t76;
-        matrix[(0, 1)] = _t106 - _t46 + _t109 * _t88 + _t115 * _t94 - _t120 * _t100
-            + _t121 * _t103 - _t123 * _t76;
-        matrix[(0, 2)] = _t58 + _t124 + _t127 * _t88 + _t130 * _t94 - _t132 * _t100
-            + _t134 * _t103 - _t135 * _t76;
-        matrix[(0, 3)] = _t140 * _t88 - _t136 - _t137 + _t141 * _t94 - _t142 * _t100
-            - _t143 + _t144;
-        matrix[(0, 4)] = _t40 * _t51 - _t19 + _t146 * _t88 + _t148 * _t94 - _t149 * _t100
-            + _t103 * self._h9 + _t76 * self._h10;
-        matrix[(0, 5)] = _t51 + _t40 * _t19 + _t151 * _t88 + _t152 * _t94 - _t153 * _t100
-            - _t103 * self._h10 - _t76 * self._h11;
-        matrix[(1, 0)] = _t46 + _t106 - _t87 * _t154 + _t93 * _t155 + _t99 * _t156
-            - _t157 * _t103 + _t105 * _t158;
-        matrix[(1, 1)] = S::one() + _t58 * _t58 - _t109 * _t154 + _t115 * _t155
-            + _t120 * _t156 - _t159 * _t103 + _t123 * _t158;
-        matrix[(1, 2)] = _t160 - _t40 - _t127 * _t154 + _t130 * _t155 + _t132 * _t156
-            - _t161 * _t103 + _t135 * _t158;
-        matrix[(1, 3)] = _t19 + _t58 * _t68 - _t140 * _t154 + _t141 * _t155
-            + _t142 * _t156 - _t103 * self._h12 - self._h8 * _t158;
-        matrix[(1, 4)] = _t143 - _t137 - _t162 - _t146 * _t154 + _t148 * _t155
-            + _t149 * _t156 - _t163;
-        matrix[(1, 5)] = _t58 * _t19 - _t68 - _t151 * _t154 + _t152 * _t155
-            + _t153 * _t156 + _t103 * self._h8 + self._h11 * _t158;
-        matrix[(2, 0)] = _t124 - _t58 + _t87 * _t164 - _t93 * _t165 + _t99 * _t166
-            + _t157 * _t76 - _t102 * _t158;
-        matrix[(2, 1)] = _t40 + _t160 + _t109 * _t164 - _t115 * _t165 + _t120 * _t166
-            + _t159 * _t76 - _t121 * _t158;
-        matrix[(2, 2)] = S::one() + _t46 * _t46 + _t127 * _t164 - _t130 * _t165
-            + _t132 * _t166 + _t161 * _t76 - _t134 * _t158;
-        matrix[(2, 3)] = _t46 * _t68 - _t51 + _t140 * _t164 - _t141 * _t165
-            + _t142 * _t166 + _t76 * self._h12 + self._h7 * _t158;
-        matrix[(2, 4)] = _t68 + _t46 * _t51 + _t146 * _t164 - _t148 * _t165
-            + _t149 * _t166 - _t76 * self._h7 - self._h9 * _t158;
-        matrix[(2, 5)] = _t163 - _t136 - _t162 - _t144 + _t151 * _t164 - _t152 * _t165
-            + _t153 * _t166;
+            - _t99 * _t100 + _t102 * _t77 - _t104 * _t76;
+        matrix[(0, 1)] = _t105 - _t46 + _t108 * _t88 + _t114 * _t94 - _t119 * _t100
+            + _t120 * _t77 - _t122 * _t76;
+        matrix[(0, 2)] = _t58 + _t123 + _t126 * _t88 + _t129 * _t94 - _t131 * _t100
+            + _t133 * _t77 - _t134 * _t76;
+        matrix[(0, 3)] = _t139 * _t88 - _t135 - _t136 + _t140 * _t94 - _t141 * _t100
+            - _t142 + _t143;
+        matrix[(0, 4)] = _t40 * _t51 - _t19 + _t145 * _t88 + _t147 * _t94 - _t148 * _t100
+            + _t77 * self._h9 + _t76 * self._h10;
+        matrix[(0, 5)] = _t51 + _t40 * _t19 + _t150 * _t88 + _t151 * _t94 - _t152 * _t100
+            - _t77 * self._h10 - _t76 * self._h11;
+        matrix[(1, 0)] = _t46 + _t105 - _t87 * _t153 + _t93 * _t154 + _t99 * _t155
+            - _t156 * _t77 + _t104 * _t75;
+        matrix[(1, 1)] = S::one() + _t58 * _t58 - _t108 * _t153 + _t114 * _t154
+            + _t119 * _t155 - _t157 * _t77 + _t122 * _t75;
+        matrix[(1, 2)] = _t158 - _t40 - _t126 * _t153 + _t129 * _t154 + _t131 * _t155
+            - _t159 * _t77 + _t134 * _t75;
+        matrix[(1, 3)] = _t19 + _t58 * _t68 - _t139 * _t153 + _t140 * _t154
+            + _t141 * _t155 - _t77 * self._h12 - self._h8 * _t75;
+        matrix[(1, 4)] = _t142 - _t136 - _t160 - _t145 * _t153 + _t147 * _t154
+            + _t148 * _t155 - _t161;
+        matrix[(1, 5)] = _t58 * _t19 - _t68 - _t150 * _t153 + _t151 * _t154
+            + _t152 * _t155 + _t77 * self._h8 + self._h11 * _t75;
+        matrix[(2, 0)] = _t123 - _t58 + _t87 * _t162 - _t93 * _t163 + _t99 * _t164
+            + _t156 * _t76 - _t102 * _t75;
+        matrix[(2, 1)] = _t40 + _t158 + _t108 * _t162 - _t114 * _t163 + _t119 * _t164
+            + _t157 * _t76 - _t120 * _t75;
+        matrix[(2, 2)] = S::one() + _t46 * _t46 + _t126 * _t162 - _t129 * _t163
+            + _t131 * _t164 + _t159 * _t76 - _t133 * _t75;
+        matrix[(2, 3)] = _t46 * _t68 - _t51 + _t139 * _t162 - _t140 * _t163
+            + _t141 * _t164 + _t76 * self._h12 + self._h7 * _t75;
+        matrix[(2, 4)] = _t68 + _t46 * _t51 + _t145 * _t162 - _t147 * _t163
+            + _t148 * _t164 - _t76 * self._h7 - self._h9 * _t75;
+        matrix[(2, 5)] = _t161 - _t135 - _t160 - _t143 + _t150 * _t162 - _t151 * _t163
+            + _t152 * _t164;
         matrix[(3, 0)] = _t93 * _u_g3 - _t99 * _u_g2;
-        matrix[(3, 1)] = _t115 * _u_g3 - _t120 * _u_g2;
-        matrix[(3, 2)] = _t130 * _u_g3 - _t132 * _u_g2;
-        matrix[(3, 3)] = S::one() + _t141 * _u_g3 - _t142 * _u_g2;
-        matrix[(3, 4)] = _t148 * _u_g3 - _t46 - _t149 * _u_g2;
-        matrix[(3, 5)] = _t58 + _t152 * _u_g3 - _t153 * _u_g2;
+        matrix[(3, 1)] = _t114 * _u_g3 - _t119 * _u_g2;
+        matrix[(3, 2)] = _t129 * _u_g3 - _t131 * _u_g2;
+        matrix[(3, 3)] = S::one() + _t140 * _u_g3 - _t141 * _u_g2;
+        matrix[(3, 4)] = _t147 * _u_g3 - _t46 - _t148 * _u_g2;
+        matrix[(3, 5)] = _t58 + _t151 * _u_g3 - _t152 * _u_g2;
         matrix[(4, 0)] = _t99 * _u_g1 - _t87 * _u_g3;
-        matrix[(4, 1)] = _t120 * _u_g1 - _t109 * _u_g3;
-        matrix[(4, 2)] = _t132 * _u_g1 - _t127 * _u_g3;
-        matrix[(4, 3)] = _t46 - _t140 * _u_g3 + _t142 * _u_g1;
-        matrix[(4, 4)] = S::one() - _t146 * _u_g3 + _t149 * _u_g1;
-        matrix[(4, 5)] = _t153 * _u_g1 - _t40 - _t151 * _u_g3;
+        matrix[(4, 1)] = _t119 * _u_g1 - _t108 * _u_g3;
+        matrix[(4, 2)] = _t131 * _u_g1 - _t126 * _u_g3;
+        matrix[(4, 3)] = _t46 - _t139 * _u_g3 + _t141 * _u_g1;
+        matrix[(4, 4)] = S::one() - _t145 * _u_g3 + _t148 * _u_g1;
+        matrix[(4, 5)] = _t152 * _u_g1 - _t40 - _t150 * _u_g3;
         matrix[(5, 0)] = _t87 * _u_g2 - _t93 * _u_g1;
-        matrix[(5, 1)] = _t109 * _u_g2 - _t115 * _u_g1;
-        matrix[(5, 2)] = _t127 * _u_g2 - _t130 * _u_g1;
-        matrix[(5, 3)] = _t140 * _u_g2 - _t58 - _t141 * _u_g1;
-        matrix[(5, 4)] = _t40 + _t146 * _u_g2 - _t148 * _u_g1;
-        matrix[(5, 5)] = S::one() + _t151 * _u_g2 - _t152 * _u_g1;
+        matrix[(5, 1)] = _t108 * _u_g2 - _t114 * _u_g1;
+        matrix[(5, 2)] = _t126 * _u_g2 - _t129 * _u_g1;
+        matrix[(5, 3)] = _t139 * _u_g2 - _t58 - _t140 * _u_g1;
+        matrix[(5, 4)] = _t40 + _t145 * _u_g2 - _t147 * _u_g1;
+        matrix[(5, 5)] = S::one() + _t150 * _u_g2 - _t151 * _u_g1;
     }
 
     /// `mu1 = mu + 2 ad*_y p`

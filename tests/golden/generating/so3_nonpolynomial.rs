@@ -519,7 +519,7 @@ for NonpolynomialSpinGenerating4<'_, S> {
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     /// `xi = grad S(p)`
     ///
-    /// 54 additions, 81 multiplications, 1 division, 4 function calls.
+    /// 53 additions, 81 multiplications, 1 division, 4 function calls.
     #[inline]
     fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
         let [[x, y, z]] = p.data.0;
@@ -551,8 +551,8 @@ for NonpolynomialSpinGenerating4<'_, S> {
         let _t25 = _t22 + y * (_t23 + x * _t24);
         let _t26 = _t25 + _t25;
         let _t27 = y * _t15;
-        let _t28 = _t19 * _t12 - y * (_t27 + z * _t24);
-        let _t29 = -_t28 - _t28;
+        let _t28 = y * (_t27 + z * _t24) - _t19 * _t12;
+        let _t29 = _t28 + _t28;
         let _t30 = z * _t14 + _t27;
         let _t31 = (_t7 + y * (_t19 + _t6)) * _t26 - _t0 * _t12 * _t12
             - _t18 * (_t11 + _t10 + _t19 * z)
@@ -575,7 +575,7 @@ for NonpolynomialSpinGenerating4<'_, S> {
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 168 additions, 230 multiplications, 1 division, 4 function calls.
+    /// 167 additions, 230 multiplications, 1 division, 4 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -641,11 +641,11 @@ for NonpolynomialSpinGenerating4<'_, S> {
         let _t54 = -_t26;
         let _t55 = _t32 * _t20 + _t17 * _t23 + S::ratio(2.0, 1.0) * (_t36 + _t54 * _t10);
         let _t56 = _t28 * _t54 + S::ratio(2.0, 1.0) * (_t37 + _t32 * _t1 + _t17 * _t10);
-        let _t57 = _t14 + _t15 * _t32 - (_t17 * _t20 + _t54 * _t5);
+        let _t57 = _t17 * _t20 + _t54 * _t5 - (_t14 + _t15 * _t32);
         let _t58 = S::ratio(2.0, 1.0) * _t14;
         let _t59 = _t13 * _t33 + _t25 * (y * _t0 + S::ratio(4.0, 1.0) * _t1)
             - _t30 * (z * _t0 + _t53) + _t17 * (_t55 + _t55) - _t26 * (_t56 + _t56)
-            + _t32 * (-_t57 - _t57);
+            + _t32 * (_t57 + _t57);
         let _t60 = S::ratio(2.0, 1.0) * _t41;
         let _t61 = -_t38;
         let _t62 = _t39 * _t20 + _t61 * _t23 + S::ratio(2.0, 1.0) * (_t40 + _t60 * _t10);
@@ -954,7 +954,7 @@ for NonpolynomialSpinGenerating6<'_, S> {
     type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
     /// `xi = grad S(p)`
     ///
-    /// 228 additions, 360 multiplications, 1 division, 4 function calls.
+    /// 227 additions, 360 multiplications, 1 division, 4 function calls.
     #[inline]
     fn gradient(&mut self, p: &Self::State, xi: &mut Self::State) {
         let [[x, y, z]] = p.data.0;
@@ -993,168 +993,167 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t32 = z * _t5;
         let _t33 = _t1 - _t32;
         let _t34 = y * _t17;
-        let _t35 = _t22 * _t12 - y * (_t34 + _t16 * _t5);
-        let _t36 = -_t35;
-        let _t37 = _t36 - _t35;
-        let _t38 = z * _t16 + _t34;
-        let _t39 = _t25 * _t31 - _t0 * _t13 - _t21 * _t23
-            + y * (_t33 * _t37 + _t17 * _t29) + _t38 * _t29;
-        let _t40 = _t28 + x * _t16;
-        let _t41 = _t16 * S::ratio(24.0, 1.0);
-        let _t42 = _t3 + _t2 - x * _t27;
-        let _t43 = _t14 - _t27;
-        let _t44 = _t7 + y * _t43;
-        let _t45 = x * S::ratio(2.0, 1.0);
-        let _t46 = x * _t45;
-        let _t47 = _t1 - _t46;
-        let _t48 = _t17 * _t17;
-        let _t49 = _t26 * _t27;
-        let _t50 = z * _t49;
-        let _t51 = S::ratio(3.0, 1.0) * _t50;
-        let _t52 = _t42 * _t21 - _t37 * _t44 - y * (_t47 * _t31 - _t12 * _t29)
-            + _t40 * _t29 - _t48 * _t51;
-        let _t53 = _t12 * _t7 - _t16 * _t3;
-        let _t54 = _t16 * _t11 - _t17 * _t7;
-        let _t55 = y * _t54;
-        let _t56 = _t16 * S::ratio(3.0, 1.0);
-        let _t57 = _t17 * _t3 - _t12 * _t11;
-        let _t58 = _t40 * _t41 - _t52 * S::ratio(4.0, 1.0)
-            - S::ratio(36.0, 1.0) * _t48 * _t50
+        let _t35 = y * (_t34 + _t16 * _t5) - _t22 * _t12;
+        let _t36 = _t35 + _t35;
+        let _t37 = z * _t16 + _t34;
+        let _t38 = _t25 * _t31 - _t0 * _t13 - _t21 * _t23
+            + y * (_t33 * _t36 + _t17 * _t29) + _t37 * _t29;
+        let _t39 = _t28 + x * _t16;
+        let _t40 = _t16 * S::ratio(24.0, 1.0);
+        let _t41 = _t3 + _t2 - x * _t27;
+        let _t42 = _t14 - _t27;
+        let _t43 = _t7 + y * _t42;
+        let _t44 = x * S::ratio(2.0, 1.0);
+        let _t45 = x * _t44;
+        let _t46 = _t1 - _t45;
+        let _t47 = _t17 * _t17;
+        let _t48 = _t26 * _t27;
+        let _t49 = z * _t48;
+        let _t50 = S::ratio(3.0, 1.0) * _t49;
+        let _t51 = _t41 * _t21 - _t36 * _t43 - y * (_t46 * _t31 - _t12 * _t29)
+            + _t39 * _t29 - _t47 * _t50;
+        let _t52 = _t12 * _t7 - _t16 * _t3;
+        let _t53 = _t16 * _t11 - _t17 * _t7;
+        let _t54 = y * _t53;
+        let _t55 = _t16 * S::ratio(3.0, 1.0);
+        let _t56 = _t17 * _t3 - _t12 * _t11;
+        let _t57 = _t39 * _t40 - _t51 * S::ratio(4.0, 1.0)
+            - S::ratio(36.0, 1.0) * _t47 * _t49
             + S::ratio(8.0, 1.0)
-                * (_t53 * _t27 + y * (_t55 + _t12 * _t56 + _t57 * _t45));
-        let _t59 = S::ratio(12.0, 1.0) * _t13;
-        let _t60 = y * _t53;
-        let _t61 = _t38 * _t41 - _t0 * _t59 - _t39 * S::ratio(4.0, 1.0)
-            - S::ratio(8.0, 1.0) * (_t22 * _t54 - y * (_t60 + _t17 * _t56 + _t57 * _t5));
-        let _t62 = _t57 + S::ratio(3.0, 1.0) * (z * _t36 - x * _t30);
-        let _t63 = _t8 - x * x;
-        let _t64 = y * _t63;
-        let _t65 = _t54 - S::ratio(3.0, 1.0) * (z * _t20 - y * _t30);
-        let _t66 = _t53 - S::ratio(3.0, 1.0) * (y * _t36 - x * _t20);
-        let _t67 = S::ratio(4.0, 1.0) * (_t23 * _t65 - _t42 * _t66)
-            - _t62 * S::ratio(8.0, 1.0) * _t64;
-        let _t68 = _t67 + (_t67 - S::ratio(12.0, 1.0) * (x * _t52 - z * _t39));
-        let _t69 = _t4 * _t16 + _t18 * S::ratio(16.0, 1.0);
-        let _t70 = _t62 - _t57 * S::ratio(3.0, 1.0);
-        let _t71 = _t3 - x * _t15 + _t1 * _t5;
-        let _t72 = (_t25 * _t65 - _t71 * _t62 - y * _t47 * _t66) * S::ratio(-4.0, 1.0);
-        let _t73 = _t11 - z * _t15 + _t1 * _t45;
-        let _t74 = _t17 * _t40 + _t12 * _t38;
-        let _t75 = _t16 * _t69;
-        let _t76 = _t73 * _t37 - _t31 * _t71 + S::ratio(2.0, 1.0) * (_t74 + _t21 * _t64)
-            + S::ratio(1.0, 8.0) * _t75;
-        let _t77 = _t72 + (x * _t76 - y * _t39) * S::ratio(12.0, 1.0);
-        let _t78 = _t72 + _t77;
-        let _t79 = S::ratio(4.0, 1.0) * (_t66 * _t44 - _t73 * _t62 - y * _t33 * _t65);
-        let _t80 = _t79 + (_t79 + S::ratio(12.0, 1.0) * (y * _t52 - z * _t76));
-        let _t81 = _t16 * _t16;
-        let _t82 = _t4 * _t81;
-        let _t83 = _t12 * _t17;
-        let _t84 = S::ratio(192.0, 1.0) * _t83;
-        let _t85 = _t66 - _t53 * S::ratio(3.0, 1.0);
-        let _t86 = _t65 - _t54 * S::ratio(3.0, 1.0);
-        let _t87 = _t11 * _t61 - _t3 * _t58 + _t15 * _t68 - _t69 * _t70
-            + (x * _t78 + z * _t80) * _t19 + _t16 * (_t82 + _t84) * S::ratio(3.0, 4.0)
-            - S::ratio(16.0, 1.0) * (_t40 * _t85 + _t38 * _t86);
-        let _t88 = _t57 * S::ratio(8.0, 1.0);
-        let _t89 = z * _t54 + x * _t53;
-        let _t90 = _t74 * S::ratio(24.0, 1.0) + S::ratio(3.0, 2.0) * _t75
-            - _t76 * S::ratio(4.0, 1.0) + _t15 * _t88 + y * S::ratio(16.0, 1.0) * _t89;
-        let _t91 = _t16 * S::ratio(16.0, 1.0);
-        let _t92 = S::ratio(72.0, 1.0) * _t81;
-        let _t93 = _t8 * S::ratio(4.0, 1.0);
-        let _t94 = _t26 * _t48;
-        let _t95 = (S::one() - _t93) * _t94;
-        let _t96 = S::ratio(3.0, 1.0) * _t49 * _t95;
-        let _t97 = _t53 * _t49;
-        let _t98 = S::ratio(16.0, 1.0) * _t70;
-        let _t99 = _t3 * _t90 - _t7 * _t61 + _t72 * _t27 + _t77 * _t27
-            + y * (y * _t80 + _t68 * _t45 - _t86 * _t91) + _t12 * _t92
+                * (_t52 * _t27 + y * (_t54 + _t12 * _t55 + _t56 * _t44));
+        let _t58 = S::ratio(12.0, 1.0) * _t13;
+        let _t59 = y * _t52;
+        let _t60 = _t37 * _t40 - _t0 * _t58 - _t38 * S::ratio(4.0, 1.0)
+            - S::ratio(8.0, 1.0) * (_t22 * _t53 - y * (_t59 + _t17 * _t55 + _t56 * _t5));
+        let _t61 = _t56 + S::ratio(3.0, 1.0) * (z * _t35 - x * _t30);
+        let _t62 = _t8 - x * x;
+        let _t63 = y * _t62;
+        let _t64 = _t53 - S::ratio(3.0, 1.0) * (z * _t20 - y * _t30);
+        let _t65 = _t52 - S::ratio(3.0, 1.0) * (y * _t35 - x * _t20);
+        let _t66 = S::ratio(4.0, 1.0) * (_t23 * _t64 - _t41 * _t65)
+            - _t61 * S::ratio(8.0, 1.0) * _t63;
+        let _t67 = _t66 + (_t66 - S::ratio(12.0, 1.0) * (x * _t51 - z * _t38));
+        let _t68 = _t4 * _t16 + _t18 * S::ratio(16.0, 1.0);
+        let _t69 = _t61 - _t56 * S::ratio(3.0, 1.0);
+        let _t70 = _t3 - x * _t15 + _t1 * _t5;
+        let _t71 = (_t25 * _t64 - _t70 * _t61 - y * _t46 * _t65) * S::ratio(-4.0, 1.0);
+        let _t72 = _t11 - z * _t15 + _t1 * _t44;
+        let _t73 = _t17 * _t39 + _t12 * _t37;
+        let _t74 = _t16 * _t68;
+        let _t75 = _t72 * _t36 - _t31 * _t70 + S::ratio(2.0, 1.0) * (_t73 + _t21 * _t63)
+            + S::ratio(1.0, 8.0) * _t74;
+        let _t76 = _t71 + (x * _t75 - y * _t38) * S::ratio(12.0, 1.0);
+        let _t77 = _t71 + _t76;
+        let _t78 = S::ratio(4.0, 1.0) * (_t65 * _t43 - _t72 * _t61 - y * _t33 * _t64);
+        let _t79 = _t78 + (_t78 + S::ratio(12.0, 1.0) * (y * _t51 - z * _t75));
+        let _t80 = _t16 * _t16;
+        let _t81 = _t4 * _t80;
+        let _t82 = _t12 * _t17;
+        let _t83 = S::ratio(192.0, 1.0) * _t82;
+        let _t84 = _t65 - _t52 * S::ratio(3.0, 1.0);
+        let _t85 = _t64 - _t53 * S::ratio(3.0, 1.0);
+        let _t86 = _t11 * _t60 - _t3 * _t57 + _t15 * _t67 - _t68 * _t69
+            + (x * _t77 + z * _t79) * _t19 + _t16 * (_t81 + _t83) * S::ratio(3.0, 4.0)
+            - S::ratio(16.0, 1.0) * (_t39 * _t84 + _t37 * _t85);
+        let _t87 = _t56 * S::ratio(8.0, 1.0);
+        let _t88 = z * _t53 + x * _t52;
+        let _t89 = _t73 * S::ratio(24.0, 1.0) + S::ratio(3.0, 2.0) * _t74
+            - _t75 * S::ratio(4.0, 1.0) + _t15 * _t87 + y * S::ratio(16.0, 1.0) * _t88;
+        let _t90 = _t16 * S::ratio(16.0, 1.0);
+        let _t91 = S::ratio(72.0, 1.0) * _t80;
+        let _t92 = _t8 * S::ratio(4.0, 1.0);
+        let _t93 = _t26 * _t47;
+        let _t94 = (S::one() - _t92) * _t93;
+        let _t95 = S::ratio(3.0, 1.0) * _t48 * _t94;
+        let _t96 = _t52 * _t48;
+        let _t97 = S::ratio(16.0, 1.0) * _t69;
+        let _t98 = _t3 * _t89 - _t7 * _t60 + _t71 * _t27 + _t76 * _t27
+            + y * (y * _t79 + _t67 * _t44 - _t85 * _t90) + _t12 * _t91
             - _t17 * S::ratio(12.0, 1.0)
-                * (_t96 - (_t66 * _t49 - S::ratio(3.0, 1.0) * _t97) * _t5);
-        let _t100 = _t99 - _t40 * _t98;
-        let _t101 = _t16 * _t61 - _t12 * _t90;
-        let _t102 = _t7 * _t58 - _t11 * _t90 + y * (y * _t78 + _t68 * _t5 - _t85 * _t91)
-            - _t22 * (_t80 - _t12 * _t59) + _t17 * _t92
-            + _t0 * _t12 * S::ratio(8.0, 1.0) * _t86;
-        let _t103 = _t102 - _t38 * _t98;
-        let _t104 = _t12 * _t58 - _t17 * _t61;
-        let _t105 = _t17 * _t90 - _t16 * _t58;
-        let _t106 = z * _t57 + _t60;
-        let _t107 = _t1 * S::ratio(3.0, 1.0);
-        let _t108 = _t31 * (_t15 + _t24) - _t37 * (_t32 - _t107)
+                * (_t95 - (_t65 * _t48 - S::ratio(3.0, 1.0) * _t96) * _t5);
+        let _t99 = _t98 - _t39 * _t97;
+        let _t100 = _t16 * _t60 - _t12 * _t89;
+        let _t101 = _t7 * _t57 - _t11 * _t89 + y * (y * _t77 + _t67 * _t5 - _t84 * _t90)
+            - _t22 * (_t79 - _t12 * _t58) + _t17 * _t91
+            + _t0 * _t12 * S::ratio(8.0, 1.0) * _t85;
+        let _t102 = _t101 - _t37 * _t97;
+        let _t103 = _t12 * _t57 - _t17 * _t60;
+        let _t104 = _t17 * _t89 - _t16 * _t57;
+        let _t105 = z * _t56 + _t59;
+        let _t106 = _t1 * S::ratio(3.0, 1.0);
+        let _t107 = _t31 * (_t15 + _t24) - _t36 * (_t32 - _t106)
             + (_t16 * _t17 - _t21 * _t6) * S::ratio(4.0, 1.0);
-        let _t109 = _t1 * S::ratio(2.0, 1.0);
-        let _t110 = _t21 * (_t22 + _t27) - _t16 * _t29
-            - y * S::ratio(4.0, 1.0) * (x * _t31 - z * _t37);
-        let _t111 = S::ratio(2.0, 1.0) * _t57;
-        let _t112 = S::ratio(2.0, 1.0) * _t68;
-        let _t113 = _t23 * _t87 - _t25 * _t100
+        let _t108 = _t1 * S::ratio(2.0, 1.0);
+        let _t109 = _t21 * (_t22 + _t27) - _t16 * _t29
+            - y * S::ratio(4.0, 1.0) * (x * _t31 - z * _t36);
+        let _t110 = S::ratio(2.0, 1.0) * _t56;
+        let _t111 = S::ratio(2.0, 1.0) * _t67;
+        let _t112 = _t23 * _t86 - _t25 * _t99
             - y
-                * (y * _t101 + _t33 * _t103
-                    + S::ratio(2.0, 1.0) * (z * _t104 + _t16 * _t78) + _t53 * _t88)
+                * (y * _t100 + _t33 * _t102
+                    + S::ratio(2.0, 1.0) * (z * _t103 + _t16 * _t77) + _t52 * _t87)
             + _t0
-                * (_t12 * (_t80 - _t12 * S::ratio(3.0, 1.0) * _t13)
-                    + _t54 * _t54 * S::ratio(4.0, 1.0));
-        let _t114 = _t113 + _t22 * (_t105 - _t54 * _t59) - _t106 * _t88
-            + S::ratio(12.0, 1.0) * (_t20 * _t52 - _t30 * _t76)
+                * (_t12 * (_t79 - _t12 * S::ratio(3.0, 1.0) * _t13)
+                    + _t53 * _t53 * S::ratio(4.0, 1.0));
+        let _t113 = _t112 + _t22 * (_t104 - _t53 * _t58) - _t105 * _t87
+            + S::ratio(12.0, 1.0) * (_t20 * _t51 - _t30 * _t75)
             + S::ratio(4.0, 1.0)
-                * (_t62 * _t108
-                    + _t65
-                        * (_t22 * _t13 - _t21 * (z * _t0 + _t109)
-                            + y * _t31 * (_t0 + z * S::ratio(4.0, 1.0))) - _t66 * _t110);
-        let _t115 = _t55 + x * _t57;
-        let _t116 = y * z;
-        let _t117 = _t62
-            * (_t82 + S::ratio(64.0, 1.0) * _t83
+                * (_t61 * _t107
+                    + _t64
+                        * (_t22 * _t13 - _t21 * (z * _t0 + _t108)
+                            + y * _t31 * (_t0 + z * S::ratio(4.0, 1.0))) - _t65 * _t109);
+        let _t114 = _t54 + x * _t56;
+        let _t115 = y * z;
+        let _t116 = _t61
+            * (_t81 + S::ratio(64.0, 1.0) * _t82
                 + S::ratio(2.0, 1.0)
-                    * (_t31 * (x * _t4 - S::ratio(48.0, 1.0) * _t116)
-                        - _t37 * (_t4 * z - S::ratio(48.0, 1.0) * _t6))
-                + _t63 * _t21 * S::ratio(32.0, 1.0));
-        let _t118 = _t31 * (_t46 - _t107) - _t37 * (_t15 + _t43)
-            + S::ratio(4.0, 1.0) * (_t12 * _t16 + _t21 * _t116);
-        let _t119 = S::ratio(32.0, 1.0) * (_t15 * _t104 - _t71 * _t100 + _t73 * _t103)
-            + (_t54 * _t106 + _t53 * _t115) * S::ratio(256.0, 1.0)
-            + (_t36 * _t52 - _t30 * _t39) * S::ratio(384.0, 1.0)
+                    * (_t31 * (x * _t4 - S::ratio(48.0, 1.0) * _t115)
+                        - _t36 * (_t4 * z - S::ratio(48.0, 1.0) * _t6))
+                + _t62 * _t21 * S::ratio(32.0, 1.0));
+        let _t117 = _t31 * (_t45 - _t106) - _t36 * (_t15 + _t42)
+            + S::ratio(4.0, 1.0) * (_t12 * _t16 + _t21 * _t115);
+        let _t118 = S::ratio(32.0, 1.0) * (_t15 * _t103 - _t70 * _t99 + _t72 * _t102)
+            + (_t53 * _t105 + _t52 * _t114) * S::ratio(256.0, 1.0)
+            + (_t35 * _t51 - _t30 * _t38) * S::ratio(384.0, 1.0)
             - S::ratio(8.0, 1.0)
-                * (_t117
-                    - _t57
-                        * (_t84 + S::ratio(3.0, 1.0) * _t82 + S::ratio(32.0, 1.0) * _t89
-                            + _t4 * _t111));
-        let _t120 = _t119 - (_t65 * _t108 + _t66 * _t118) * S::ratio(128.0, 1.0)
+                * (_t116
+                    - _t56
+                        * (_t83 + S::ratio(3.0, 1.0) * _t81 + S::ratio(32.0, 1.0) * _t88
+                            + _t4 * _t110));
+        let _t119 = _t118 - (_t64 * _t107 + _t65 * _t117) * S::ratio(128.0, 1.0)
             + S::ratio(64.0, 1.0)
-                * (y * (x * _t101 + z * _t105 + _t63 * _t87) + _t40 * _t78
-                    + _t38 * _t80);
-        let _t121 = _t101 * _t27 + _t42 * _t87 - _t103 * _t44
+                * (y * (x * _t100 + z * _t104 + _t62 * _t86) + _t39 * _t77
+                    + _t37 * _t79);
+        let _t120 = _t100 * _t27 + _t41 * _t86 - _t102 * _t43
             + y
-                * (y * _t105 - _t47 * _t100
-                    + S::ratio(2.0, 1.0) * (x * _t104 + _t16 * _t80) + _t54 * _t88);
-        let _t122 = _t121 + _t115 * _t88
-            - S::ratio(12.0, 1.0) * (_t36 * _t76 - _t20 * _t39)
-            - S::ratio(36.0, 1.0) * _t97 * _t95
+                * (y * _t104 - _t46 * _t99
+                    + S::ratio(2.0, 1.0) * (x * _t103 + _t16 * _t79) + _t53 * _t87);
+        let _t121 = _t120 + _t114 * _t87
+            - S::ratio(12.0, 1.0) * (_t35 * _t75 - _t20 * _t38)
+            - S::ratio(36.0, 1.0) * _t96 * _t94
             - S::ratio(4.0, 1.0)
-                * (_t62 * _t118
-                    + _t66
-                        * (_t21 * (_t109 + x * _t51)
-                            - y * _t37 * (x * S::ratio(4.0, 1.0) + _t51) - _t96)
-                    - _t65 * _t110);
-        let _t123 = _t122
-            + (S::ratio(3.0, 1.0) - _t93) * S::ratio(45.0, 1.0) * _t50 * _t94 * _t94
+                * (_t61 * _t117
+                    + _t65
+                        * (_t21 * (_t108 + x * _t50)
+                            - y * _t36 * (x * S::ratio(4.0, 1.0) + _t50) - _t95)
+                    - _t64 * _t109);
+        let _t122 = _t121
+            + (S::ratio(3.0, 1.0) - _t92) * S::ratio(45.0, 1.0) * _t49 * _t93 * _t93
             - z * S::ratio(3.0, 1.0)
-                * (_t17 * (_t72 * _t49 + _t77 * _t49) + _t53 * S::ratio(4.0, 1.0) * _t97)
-            + (_t16 * _t54 + _t12 * _t111) * _t41;
-        xi[0] = _t3 * self.h + _t39 * self._h0
-            - (_t114 - (_t16 * _t53 + _t17 * _t111) * _t41 - _t38 * _t112) * self._h1;
-        xi[1] = _t7 * self.h + _t76 * self._h0
-            + (_t120
-                + (_t16 * _t82 + (_t17 * _t54 + _t12 * _t53) * S::ratio(512.0, 1.0))
-                    * _t56 + _t69 * S::ratio(4.0, 1.0) * _t68) * self._h2;
-        xi[2] = _t11 * self.h + _t52 * self._h0 + (_t123 + _t40 * _t112) * self._h1;
+                * (_t17 * (_t71 * _t48 + _t76 * _t48) + _t52 * S::ratio(4.0, 1.0) * _t96)
+            + (_t16 * _t53 + _t12 * _t110) * _t40;
+        xi[0] = _t3 * self.h + _t38 * self._h0
+            - (_t113 - (_t16 * _t52 + _t17 * _t110) * _t40 - _t37 * _t111) * self._h1;
+        xi[1] = _t7 * self.h + _t75 * self._h0
+            + (_t119
+                + (_t16 * _t81 + (_t17 * _t53 + _t12 * _t52) * S::ratio(512.0, 1.0))
+                    * _t55 + _t68 * S::ratio(4.0, 1.0) * _t67) * self._h2;
+        xi[2] = _t11 * self.h + _t51 * self._h0 + (_t122 + _t39 * _t111) * self._h1;
     }
 
     /// `xi = grad S(p)` and the Hessian of S
     ///
-    /// 1003 additions, 1384 multiplications, 1 division, 4 function calls.
+    /// 1000 additions, 1384 multiplications, 1 division, 4 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -1202,680 +1201,677 @@ for NonpolynomialSpinGenerating6<'_, S> {
         let _t36 = _t15 * _t12;
         let _t37 = y * _t20;
         let _t38 = _t19 * _t5;
-        let _t39 = _t36 - y * (_t37 + _t38);
-        let _t40 = -_t39;
-        let _t41 = _t40 - _t39;
-        let _t42 = S::ratio(2.0, 1.0) * _t19;
-        let _t43 = z * _t19;
-        let _t44 = _t43 + _t37;
-        let _t45 = _t26 * _t33 - _t14 - _t16 * _t24 + y * (_t35 * _t41 + _t20 * _t42)
-            + _t44 * _t42;
-        let _t46 = x * _t19;
-        let _t47 = _t29 + _t46;
-        let _t48 = _t19 * S::ratio(24.0, 1.0);
-        let _t49 = _t3 + _t2 - x * _t28;
-        let _t50 = _t6 - _t28;
-        let _t51 = _t7 + y * _t50;
-        let _t52 = x * _t30;
-        let _t53 = _t1 - _t52;
-        let _t54 = _t27 * _t28;
-        let _t55 = z * _t54;
+        let _t39 = y * (_t37 + _t38) - _t36;
+        let _t40 = _t39 + _t39;
+        let _t41 = S::ratio(2.0, 1.0) * _t19;
+        let _t42 = z * _t19;
+        let _t43 = _t42 + _t37;
+        let _t44 = _t26 * _t33 - _t14 - _t16 * _t24 + y * (_t35 * _t40 + _t20 * _t41)
+            + _t43 * _t41;
+        let _t45 = x * _t19;
+        let _t46 = _t29 + _t45;
+        let _t47 = _t19 * S::ratio(24.0, 1.0);
+        let _t48 = _t3 + _t2 - x * _t28;
+        let _t49 = _t6 - _t28;
+        let _t50 = _t7 + y * _t49;
+        let _t51 = x * _t30;
+        let _t52 = _t1 - _t51;
+        let _t53 = _t27 * _t28;
+        let _t54 = z * _t53;
+        let _t55 = _t20 * _t54;
         let _t56 = _t20 * _t55;
-        let _t57 = _t20 * _t56;
-        let _t58 = _t49 * _t24 - _t51 * _t41 - y * (_t53 * _t33 - _t12 * _t42)
-            + _t47 * _t42 - S::ratio(3.0, 1.0) * _t57;
-        let _t59 = _t12 * _t7 - _t19 * _t3;
-        let _t60 = _t19 * _t11 - _t20 * _t7;
-        let _t61 = y * _t60;
-        let _t62 = _t19 * S::ratio(3.0, 1.0);
-        let _t63 = _t12 * _t62;
-        let _t64 = _t20 * _t3 - _t12 * _t11;
-        let _t65 = _t47 * _t48 - _t58 * S::ratio(4.0, 1.0) - S::ratio(36.0, 1.0) * _t57
-            + S::ratio(8.0, 1.0) * (_t59 * _t28 + y * (_t61 + _t63 + _t64 * _t30));
-        let _t66 = y * _t59;
-        let _t67 = _t20 * _t62;
-        let _t68 = _t44 * _t48 - S::ratio(12.0, 1.0) * _t14 - _t45 * S::ratio(4.0, 1.0)
-            - S::ratio(8.0, 1.0) * (_t15 * _t60 - y * (_t66 + _t67 + _t64 * _t5));
-        let _t69 = _t8 - x * x;
-        let _t70 = _t64 + S::ratio(3.0, 1.0) * (z * _t40 - x * _t32);
-        let _t71 = _t69 * _t70;
-        let _t72 = y * S::ratio(8.0, 1.0);
-        let _t73 = _t60 - S::ratio(3.0, 1.0) * (z * _t23 - y * _t32);
-        let _t74 = _t59 - S::ratio(3.0, 1.0) * (y * _t40 - x * _t23);
-        let _t75 = S::ratio(4.0, 1.0) * (_t16 * _t73 - _t49 * _t74) - _t71 * _t72;
-        let _t76 = _t75 + (_t75 - S::ratio(12.0, 1.0) * (x * _t58 - z * _t45));
-        let _t77 = _t4 * _t19;
-        let _t78 = _t77 + _t21 * S::ratio(16.0, 1.0);
-        let _t79 = _t70 - _t64 * S::ratio(3.0, 1.0);
-        let _t80 = _t3 - x * _t18 + _t1 * _t5;
-        let _t81 = y * _t53;
-        let _t82 = (_t26 * _t73 - _t80 * _t70 - _t81 * _t74) * S::ratio(-4.0, 1.0);
-        let _t83 = _t11 - z * _t18 + _t1 * _t30;
-        let _t84 = _t69 * _t24;
-        let _t85 = _t20 * _t47 + _t12 * _t44;
-        let _t86 = _t19 * _t78;
-        let _t87 = _t83 * _t41 - _t80 * _t33 + S::ratio(2.0, 1.0) * (_t85 + y * _t84)
-            + S::ratio(1.0, 8.0) * _t86;
-        let _t88 = _t82 + (x * _t87 - y * _t45) * S::ratio(12.0, 1.0);
-        let _t89 = _t82 + _t88;
-        let _t90 = y * _t35;
-        let _t91 = S::ratio(4.0, 1.0) * (_t51 * _t74 - _t83 * _t70 - _t90 * _t73);
-        let _t92 = _t91 + (_t91 + S::ratio(12.0, 1.0) * (y * _t58 - z * _t87));
-        let _t93 = x * _t89 + z * _t92;
-        let _t94 = _t19 * _t19;
-        let _t95 = _t4 * _t94;
-        let _t96 = _t12 * _t20;
-        let _t97 = _t96 * S::ratio(192.0, 1.0);
-        let _t98 = _t74 - _t59 * S::ratio(3.0, 1.0);
-        let _t99 = _t73 - _t60 * S::ratio(3.0, 1.0);
-        let _t100 = _t11 * _t68 - _t3 * _t65 + _t18 * _t76 - _t78 * _t79 + _t93 * _t22
-            + _t19 * (_t95 + _t97) * S::ratio(3.0, 4.0)
-            - S::ratio(16.0, 1.0) * (_t47 * _t98 + _t44 * _t99);
-        let _t101 = _t64 * S::ratio(8.0, 1.0);
-        let _t102 = z * _t60 + x * _t59;
-        let _t103 = _t85 * S::ratio(24.0, 1.0) + S::ratio(3.0, 2.0) * _t86
-            - _t87 * S::ratio(4.0, 1.0) + _t18 * _t101 + y * S::ratio(16.0, 1.0) * _t102;
-        let _t104 = y * _t92;
-        let _t105 = _t76 * _t30;
-        let _t106 = _t19 * S::ratio(16.0, 1.0);
-        let _t107 = _t94 * S::ratio(72.0, 1.0);
-        let _t108 = _t20 * _t27;
-        let _t109 = S::ratio(3.0, 1.0) * _t54;
-        let _t110 = z * S::ratio(4.0, 1.0);
-        let _t111 = z * _t110;
-        let _t112 = S::one() - _t111;
-        let _t113 = _t20 * _t112;
-        let _t114 = _t108 * _t109 * _t113;
-        let _t115 = _t59 * _t109;
-        let _t116 = S::ratio(16.0, 1.0) * _t79;
-        let _t117 = _t3 * _t103 - _t7 * _t68 + _t82 * _t28 + _t88 * _t28
-            + y * (_t104 + _t105 - _t99 * _t106) + _t12 * _t107
-            - _t20 * S::ratio(12.0, 1.0) * (_t114 - (_t74 * _t54 - _t115) * _t5);
-        let _t118 = _t117 - _t47 * _t116;
-        let _t119 = _t19 * _t68 - _t12 * _t103;
-        let _t120 = y * _t89;
-        let _t121 = _t76 * _t5;
-        let _t122 = _t12 * _t12;
-        let _t123 = S::ratio(12.0, 1.0) * _t122;
-        let _t124 = _t92 - _t12 * _t123;
-        let _t125 = S::ratio(8.0, 1.0) * _t99;
-        let _t126 = _t7 * _t65 - _t11 * _t103 + y * (_t120 + _t121 - _t98 * _t106)
-            - _t15 * _t124 + _t20 * _t107 + _t13 * _t125 - _t44 * _t116;
-        let _t127 = _t12 * _t65 - _t20 * _t68;
-        let _t128 = z * _t127 + _t19 * _t89;
-        let _t129 = _t12 * S::ratio(3.0, 1.0);
-        let _t130 = _t12 * (_t92 - _t122 * _t129) + _t60 * _t60 * S::ratio(4.0, 1.0);
-        let _t131 = _t20 * _t103 - _t19 * _t65;
-        let _t132 = _t131 - _t60 * _t123;
-        let _t133 = z * _t64;
-        let _t134 = _t133 + _t66;
-        let _t135 = _t19 * _t20;
-        let _t136 = x * _t24;
-        let _t137 = _t18 + _t25;
-        let _t138 = _t1 * S::ratio(3.0, 1.0);
-        let _t139 = _t34 - _t138;
-        let _t140 = _t33 * _t137 - _t41 * _t139;
-        let _t141 = _t140 + (_t135 - y * _t136) * S::ratio(4.0, 1.0);
-        let _t142 = _t15 * _t122;
-        let _t143 = y * _t22;
-        let _t144 = z * _t0 + _t143;
-        let _t145 = _t24 * _t144;
-        let _t146 = _t0 + _t110;
-        let _t147 = y * _t33;
-        let _t148 = _t142 - _t145 + _t146 * _t147;
-        let _t149 = x * _t33 - z * _t41;
-        let _t150 = y * S::ratio(4.0, 1.0);
-        let _t151 = _t15 + _t28;
-        let _t152 = _t24 * _t151;
-        let _t153 = _t152 - S::ratio(2.0, 1.0) * _t94;
-        let _t154 = _t153 - _t149 * _t150;
-        let _t155 = S::ratio(2.0, 1.0) * _t64;
-        let _t156 = S::ratio(2.0, 1.0) * _t76;
-        let _t157 = _t16 * _t100 - _t26 * _t118
-            - y * (y * _t119 + _t35 * _t126 + S::ratio(2.0, 1.0) * _t128 + _t59 * _t101)
-            + _t0 * _t130 + _t15 * _t132 - _t134 * _t101;
-        let _t158 = _t157 + S::ratio(12.0, 1.0) * (_t23 * _t58 - _t32 * _t87)
-            + S::ratio(4.0, 1.0) * (_t70 * _t141 + _t73 * _t148 - _t74 * _t154)
-            - (_t19 * _t59 + _t20 * _t155) * _t48;
-        let _t159 = x * _t64;
-        let _t160 = _t61 + _t159;
-        let _t161 = x * _t4;
-        let _t162 = y * S::ratio(48.0, 1.0);
-        let _t163 = _t161 - z * _t162;
-        let _t164 = _t4 * z;
-        let _t165 = _t164 - x * _t162;
-        let _t166 = _t33 * _t163 - _t41 * _t165;
-        let _t167 = _t95 + _t96 * S::ratio(64.0, 1.0) + S::ratio(2.0, 1.0) * _t166
-            + S::ratio(32.0, 1.0) * _t84;
-        let _t168 = _t12 * _t19;
-        let _t169 = z * _t24;
-        let _t170 = _t52 - _t138;
-        let _t171 = _t18 + _t50;
-        let _t172 = _t33 * _t170 - _t41 * _t171;
-        let _t173 = _t172 + S::ratio(4.0, 1.0) * (_t168 + y * _t169);
-        let _t174 = x * _t119 + z * _t131 + _t69 * _t100;
-        let _t175 = S::ratio(4.0, 1.0) * _t76;
-        let _t176 = S::ratio(32.0, 1.0) * (_t18 * _t127 - _t80 * _t118 + _t83 * _t126)
-            + (_t60 * _t134 + _t59 * _t160) * S::ratio(256.0, 1.0)
-            + (_t40 * _t58 - _t32 * _t45) * S::ratio(384.0, 1.0)
+        let _t57 = _t48 * _t24 - _t50 * _t40 - y * (_t52 * _t33 - _t12 * _t41)
+            + _t46 * _t41 - S::ratio(3.0, 1.0) * _t56;
+        let _t58 = _t12 * _t7 - _t19 * _t3;
+        let _t59 = _t19 * _t11 - _t20 * _t7;
+        let _t60 = y * _t59;
+        let _t61 = _t19 * S::ratio(3.0, 1.0);
+        let _t62 = _t12 * _t61;
+        let _t63 = _t20 * _t3 - _t12 * _t11;
+        let _t64 = _t46 * _t47 - _t57 * S::ratio(4.0, 1.0) - S::ratio(36.0, 1.0) * _t56
+            + S::ratio(8.0, 1.0) * (_t58 * _t28 + y * (_t60 + _t62 + _t63 * _t30));
+        let _t65 = y * _t58;
+        let _t66 = _t20 * _t61;
+        let _t67 = _t43 * _t47 - S::ratio(12.0, 1.0) * _t14 - _t44 * S::ratio(4.0, 1.0)
+            - S::ratio(8.0, 1.0) * (_t15 * _t59 - y * (_t65 + _t66 + _t63 * _t5));
+        let _t68 = _t8 - x * x;
+        let _t69 = _t63 + S::ratio(3.0, 1.0) * (z * _t39 - x * _t32);
+        let _t70 = _t68 * _t69;
+        let _t71 = y * S::ratio(8.0, 1.0);
+        let _t72 = _t59 - S::ratio(3.0, 1.0) * (z * _t23 - y * _t32);
+        let _t73 = _t58 - S::ratio(3.0, 1.0) * (y * _t39 - x * _t23);
+        let _t74 = S::ratio(4.0, 1.0) * (_t16 * _t72 - _t48 * _t73) - _t70 * _t71;
+        let _t75 = _t74 + (_t74 - S::ratio(12.0, 1.0) * (x * _t57 - z * _t44));
+        let _t76 = _t4 * _t19;
+        let _t77 = _t76 + _t21 * S::ratio(16.0, 1.0);
+        let _t78 = _t69 - _t63 * S::ratio(3.0, 1.0);
+        let _t79 = _t3 - x * _t18 + _t1 * _t5;
+        let _t80 = y * _t52;
+        let _t81 = (_t26 * _t72 - _t79 * _t69 - _t80 * _t73) * S::ratio(-4.0, 1.0);
+        let _t82 = _t11 - z * _t18 + _t1 * _t30;
+        let _t83 = _t68 * _t24;
+        let _t84 = _t20 * _t46 + _t12 * _t43;
+        let _t85 = _t19 * _t77;
+        let _t86 = _t82 * _t40 - _t79 * _t33 + S::ratio(2.0, 1.0) * (_t84 + y * _t83)
+            + S::ratio(1.0, 8.0) * _t85;
+        let _t87 = _t81 + (x * _t86 - y * _t44) * S::ratio(12.0, 1.0);
+        let _t88 = _t81 + _t87;
+        let _t89 = y * _t35;
+        let _t90 = S::ratio(4.0, 1.0) * (_t50 * _t73 - _t82 * _t69 - _t89 * _t72);
+        let _t91 = _t90 + (_t90 + S::ratio(12.0, 1.0) * (y * _t57 - z * _t86));
+        let _t92 = x * _t88 + z * _t91;
+        let _t93 = _t19 * _t19;
+        let _t94 = _t4 * _t93;
+        let _t95 = _t12 * _t20;
+        let _t96 = _t95 * S::ratio(192.0, 1.0);
+        let _t97 = _t73 - _t58 * S::ratio(3.0, 1.0);
+        let _t98 = _t72 - _t59 * S::ratio(3.0, 1.0);
+        let _t99 = _t11 * _t67 - _t3 * _t64 + _t18 * _t75 - _t77 * _t78 + _t92 * _t22
+            + _t19 * (_t94 + _t96) * S::ratio(3.0, 4.0)
+            - S::ratio(16.0, 1.0) * (_t46 * _t97 + _t43 * _t98);
+        let _t100 = _t63 * S::ratio(8.0, 1.0);
+        let _t101 = z * _t59 + x * _t58;
+        let _t102 = _t84 * S::ratio(24.0, 1.0) + S::ratio(3.0, 2.0) * _t85
+            - _t86 * S::ratio(4.0, 1.0) + _t18 * _t100 + y * S::ratio(16.0, 1.0) * _t101;
+        let _t103 = y * _t91;
+        let _t104 = _t75 * _t30;
+        let _t105 = _t19 * S::ratio(16.0, 1.0);
+        let _t106 = _t93 * S::ratio(72.0, 1.0);
+        let _t107 = _t20 * _t27;
+        let _t108 = S::ratio(3.0, 1.0) * _t53;
+        let _t109 = z * S::ratio(4.0, 1.0);
+        let _t110 = z * _t109;
+        let _t111 = S::one() - _t110;
+        let _t112 = _t20 * _t111;
+        let _t113 = _t107 * _t108 * _t112;
+        let _t114 = _t58 * _t108;
+        let _t115 = S::ratio(16.0, 1.0) * _t78;
+        let _t116 = _t3 * _t102 - _t7 * _t67 + _t81 * _t28 + _t87 * _t28
+            + y * (_t103 + _t104 - _t98 * _t105) + _t12 * _t106
+            - _t20 * S::ratio(12.0, 1.0) * (_t113 - (_t73 * _t53 - _t114) * _t5);
+        let _t117 = _t116 - _t46 * _t115;
+        let _t118 = _t19 * _t67 - _t12 * _t102;
+        let _t119 = y * _t88;
+        let _t120 = _t75 * _t5;
+        let _t121 = _t12 * _t12;
+        let _t122 = S::ratio(12.0, 1.0) * _t121;
+        let _t123 = _t91 - _t12 * _t122;
+        let _t124 = S::ratio(8.0, 1.0) * _t98;
+        let _t125 = _t7 * _t64 - _t11 * _t102 + y * (_t119 + _t120 - _t97 * _t105)
+            - _t15 * _t123 + _t20 * _t106 + _t13 * _t124 - _t43 * _t115;
+        let _t126 = _t12 * _t64 - _t20 * _t67;
+        let _t127 = z * _t126 + _t19 * _t88;
+        let _t128 = _t12 * S::ratio(3.0, 1.0);
+        let _t129 = _t12 * (_t91 - _t121 * _t128) + _t59 * _t59 * S::ratio(4.0, 1.0);
+        let _t130 = _t20 * _t102 - _t19 * _t64;
+        let _t131 = _t130 - _t59 * _t122;
+        let _t132 = z * _t63;
+        let _t133 = _t132 + _t65;
+        let _t134 = _t19 * _t20;
+        let _t135 = x * _t24;
+        let _t136 = _t18 + _t25;
+        let _t137 = _t1 * S::ratio(3.0, 1.0);
+        let _t138 = _t34 - _t137;
+        let _t139 = _t33 * _t136 - _t40 * _t138;
+        let _t140 = _t139 + (_t134 - y * _t135) * S::ratio(4.0, 1.0);
+        let _t141 = _t15 * _t121;
+        let _t142 = y * _t22;
+        let _t143 = z * _t0 + _t142;
+        let _t144 = _t24 * _t143;
+        let _t145 = _t0 + _t109;
+        let _t146 = y * _t33;
+        let _t147 = _t141 - _t144 + _t145 * _t146;
+        let _t148 = x * _t33 - z * _t40;
+        let _t149 = y * S::ratio(4.0, 1.0);
+        let _t150 = _t15 + _t28;
+        let _t151 = _t24 * _t150;
+        let _t152 = _t151 - S::ratio(2.0, 1.0) * _t93;
+        let _t153 = _t152 - _t148 * _t149;
+        let _t154 = S::ratio(2.0, 1.0) * _t63;
+        let _t155 = S::ratio(2.0, 1.0) * _t75;
+        let _t156 = _t16 * _t99 - _t26 * _t117
+            - y * (y * _t118 + _t35 * _t125 + S::ratio(2.0, 1.0) * _t127 + _t58 * _t100)
+            + _t0 * _t129 + _t15 * _t131 - _t133 * _t100;
+        let _t157 = _t156 + S::ratio(12.0, 1.0) * (_t23 * _t57 - _t32 * _t86)
+            + S::ratio(4.0, 1.0) * (_t69 * _t140 + _t72 * _t147 - _t73 * _t153)
+            - (_t19 * _t58 + _t20 * _t154) * _t47;
+        let _t158 = x * _t63;
+        let _t159 = _t60 + _t158;
+        let _t160 = x * _t4;
+        let _t161 = y * S::ratio(48.0, 1.0);
+        let _t162 = _t160 - z * _t161;
+        let _t163 = _t4 * z;
+        let _t164 = _t163 - x * _t161;
+        let _t165 = _t33 * _t162 - _t40 * _t164;
+        let _t166 = _t94 + _t95 * S::ratio(64.0, 1.0) + S::ratio(2.0, 1.0) * _t165
+            + S::ratio(32.0, 1.0) * _t83;
+        let _t167 = _t12 * _t19;
+        let _t168 = z * _t24;
+        let _t169 = _t51 - _t137;
+        let _t170 = _t18 + _t49;
+        let _t171 = _t33 * _t169 - _t40 * _t170;
+        let _t172 = _t171 + S::ratio(4.0, 1.0) * (_t167 + y * _t168);
+        let _t173 = x * _t118 + z * _t130 + _t68 * _t99;
+        let _t174 = S::ratio(4.0, 1.0) * _t75;
+        let _t175 = S::ratio(32.0, 1.0) * (_t18 * _t126 - _t79 * _t117 + _t82 * _t125)
+            + (_t59 * _t133 + _t58 * _t159) * S::ratio(256.0, 1.0)
+            + (_t39 * _t57 - _t32 * _t44) * S::ratio(384.0, 1.0)
             - S::ratio(8.0, 1.0)
-                * (_t70 * _t167
-                    - _t64
-                        * (_t97 + S::ratio(3.0, 1.0) * _t95 + S::ratio(32.0, 1.0) * _t102
-                            + _t4 * _t155));
-        let _t177 = _t176 - (_t73 * _t141 + _t74 * _t173) * S::ratio(128.0, 1.0)
-            + S::ratio(64.0, 1.0) * (y * _t174 + _t47 * _t89 + _t44 * _t92)
-            + (_t19 * _t95 + (_t20 * _t60 + _t12 * _t59) * S::ratio(512.0, 1.0)) * _t62;
-        let _t178 = x * _t127 + _t19 * _t92;
-        let _t179 = _t54 * _t108;
-        let _t180 = _t113 * _t179;
-        let _t181 = S::ratio(36.0, 1.0) * _t180;
-        let _t182 = S::ratio(3.0, 1.0) * _t55;
-        let _t183 = _t143 + x * _t182;
-        let _t184 = _t24 * _t183;
-        let _t185 = x * S::ratio(4.0, 1.0);
-        let _t186 = _t185 + _t182;
-        let _t187 = y * _t41;
-        let _t188 = _t184 - _t186 * _t187 - _t114;
-        let _t189 = _t108 * ((S::ratio(3.0, 1.0) - _t111) * _t108);
-        let _t190 = _t82 * _t54 + _t88 * _t54;
-        let _t191 = _t59 * _t59;
-        let _t192 = z * S::ratio(3.0, 1.0);
-        let _t193 = _t119 * _t28 + _t49 * _t100 - _t51 * _t126
-            + y * (y * _t131 - _t53 * _t118 + S::ratio(2.0, 1.0) * _t178 + _t60 * _t101)
-            + _t160 * _t101 - S::ratio(12.0, 1.0) * (_t40 * _t87 - _t23 * _t45);
-        let _t194 = _t193 - _t59 * _t181
-            - S::ratio(4.0, 1.0) * (_t70 * _t173 + _t74 * _t188 - _t73 * _t154)
-            + S::ratio(45.0, 1.0) * _t189 * _t57
-            - (_t20 * _t190 + S::ratio(4.0, 1.0) * _t54 * _t191) * _t192;
-        let _t195 = -_t16;
-        let _t196 = _t18 * _t195
-            + S::ratio(2.0, 1.0) * (_t43 + y * (_t20 + z * _t90 + x * _t26));
-        let _t197 = _t196 + _t196;
-        let _t198 = _t26 * _t28
-            + y * (y * _t90 + S::ratio(2.0, 1.0) * (_t19 + x * _t195));
-        let _t199 = _t198 + _t198;
-        let _t200 = _t33 * _t146;
-        let _t201 = y * (y * _t26 + _t195 * _t5) - (_t13 + _t15 * _t90);
-        let _t202 = _t201 + _t201;
-        let _t203 = _t19 * S::ratio(4.0, 1.0);
-        let _t204 = _t0 * S::ratio(2.0, 1.0);
-        let _t205 = _t44 * S::ratio(4.0, 1.0);
-        let _t206 = _t26 * _t199 - _t145 - _t16 * _t197
-            + y * (_t200 + _t35 * _t202 + _t26 * _t203) + _t12 * (_t36 - _t90 * _t204)
-            + _t195 * _t205;
-        let _t207 = _t135 + _t44 * _t90 + _t47 * _t26;
-        let _t208 = S::ratio(1.0, 4.0) * _t78;
-        let _t209 = _t140 - _t80 * _t199 + _t83 * _t202 + S::ratio(4.0, 1.0) * _t207
-            + _t195 * _t208 + (_t69 * _t197 - _t24 * _t30) * _t22;
-        let _t210 = _t47 * S::ratio(4.0, 1.0);
-        let _t211 = _t26 * _t56;
-        let _t212 = _t49 * _t197 - _t51 * _t202
-            - y * (_t53 * _t199 - S::ratio(4.0, 1.0) * (_t149 + _t19 * _t90))
-            + _t195 * _t210 - S::ratio(6.0, 1.0) * _t211 - _t153;
-        let _t213 = _t70 * _t139;
-        let _t214 = z * _t74;
-        let _t215 = _t213 + _t214 * _t150;
-        let _t216 = y * _t5;
-        let _t217 = _t20 * _t216;
-        let _t218 = _t19 * _t1;
-        let _t219 = _t11 * _t195 - _t7 * _t26 - _t217 + _t218;
-        let _t220 = S::ratio(3.0, 1.0) * _t142 - _t60 * _t204;
-        let _t221 = -_t15;
-        let _t222 = _t3 * _t26 - _t11 * _t90 + _t20 * _t221 - _t12 * _t1;
-        let _t223 = _t222 - S::ratio(3.0, 1.0) * (_t32 - z * _t201 + x * _t198);
-        let _t224 = _t70 * _t150;
-        let _t225 = _t73 * _t144 + _t74 * _t151;
-        let _t226 = _t225 + x * _t224;
-        let _t227 = _t70 * _t137;
-        let _t228 = _t73 * _t146 + _t74 * _t185;
-        let _t229 = _t227 + y * _t228;
-        let _t230 = _t219 - S::ratio(3.0, 1.0) * (z * _t196 - y * _t198);
-        let _t231 = _t7 * _t90 - _t3 * _t195 - _t19 * _t221 + _t12 * _t216;
-        let _t232 = _t231 + S::ratio(3.0, 1.0) * (_t23 - y * _t201 + x * _t196);
-        let _t233 = _t134 + _t67;
-        let _t234 = _t233 * self._h5;
-        let _t235 = S::ratio(3.0, 1.0) * _t94;
-        let _t236 = (_t235 + _t64 * _t22) * self._h6;
-        let _t237 = _t0 * _t24 - _t33 * _t150;
-        let _t238 = _t24 * _t150;
-        let _t239 = _t200 - _t238;
-        let _t240 = _t144 * _t100 - y * _t118 * _t146 - _t15 * _t130 + _t0 * _t132
+                * (_t69 * _t166
+                    - _t63
+                        * (_t96 + S::ratio(3.0, 1.0) * _t94 + S::ratio(32.0, 1.0) * _t101
+                            + _t4 * _t154));
+        let _t176 = _t175 - (_t72 * _t140 + _t73 * _t172) * S::ratio(128.0, 1.0)
+            + S::ratio(64.0, 1.0) * (y * _t173 + _t46 * _t88 + _t43 * _t91)
+            + (_t19 * _t94 + (_t20 * _t59 + _t12 * _t58) * S::ratio(512.0, 1.0)) * _t61;
+        let _t177 = x * _t126 + _t19 * _t91;
+        let _t178 = _t53 * _t107;
+        let _t179 = _t112 * _t178;
+        let _t180 = S::ratio(36.0, 1.0) * _t179;
+        let _t181 = S::ratio(3.0, 1.0) * _t54;
+        let _t182 = _t142 + x * _t181;
+        let _t183 = _t24 * _t182;
+        let _t184 = x * S::ratio(4.0, 1.0);
+        let _t185 = _t184 + _t181;
+        let _t186 = y * _t40;
+        let _t187 = _t183 - _t185 * _t186 - _t113;
+        let _t188 = _t107 * ((S::ratio(3.0, 1.0) - _t110) * _t107);
+        let _t189 = _t81 * _t53 + _t87 * _t53;
+        let _t190 = _t58 * _t58;
+        let _t191 = z * S::ratio(3.0, 1.0);
+        let _t192 = _t118 * _t28 + _t48 * _t99 - _t50 * _t125
+            + y * (y * _t130 - _t52 * _t117 + S::ratio(2.0, 1.0) * _t177 + _t59 * _t100)
+            + _t159 * _t100 - S::ratio(12.0, 1.0) * (_t39 * _t86 - _t23 * _t44);
+        let _t193 = _t192 - _t58 * _t180
+            - S::ratio(4.0, 1.0) * (_t69 * _t172 + _t73 * _t187 - _t72 * _t153)
+            + S::ratio(45.0, 1.0) * _t188 * _t56
+            - (_t20 * _t189 + S::ratio(4.0, 1.0) * _t53 * _t190) * _t191;
+        let _t194 = -_t16;
+        let _t195 = _t18 * _t194
+            + S::ratio(2.0, 1.0) * (_t42 + y * (_t20 + z * _t89 + x * _t26));
+        let _t196 = _t195 + _t195;
+        let _t197 = _t26 * _t28
+            + y * (y * _t89 + S::ratio(2.0, 1.0) * (_t19 + x * _t194));
+        let _t198 = _t197 + _t197;
+        let _t199 = _t33 * _t145;
+        let _t200 = y * (y * _t26 + _t194 * _t5) - (_t13 + _t15 * _t89);
+        let _t201 = _t200 + _t200;
+        let _t202 = _t19 * S::ratio(4.0, 1.0);
+        let _t203 = _t0 * S::ratio(2.0, 1.0);
+        let _t204 = _t43 * S::ratio(4.0, 1.0);
+        let _t205 = _t26 * _t198 - _t144 - _t16 * _t196
+            + y * (_t199 + _t35 * _t201 + _t26 * _t202) + _t12 * (_t36 - _t89 * _t203)
+            + _t194 * _t204;
+        let _t206 = _t134 + _t43 * _t89 + _t46 * _t26;
+        let _t207 = S::ratio(1.0, 4.0) * _t77;
+        let _t208 = _t139 - _t79 * _t198 + _t82 * _t201 + S::ratio(4.0, 1.0) * _t206
+            + _t194 * _t207 + (_t68 * _t196 - _t24 * _t30) * _t22;
+        let _t209 = _t46 * S::ratio(4.0, 1.0);
+        let _t210 = _t26 * _t55;
+        let _t211 = _t48 * _t196 - _t50 * _t201
+            - y * (_t52 * _t198 - S::ratio(4.0, 1.0) * (_t148 + _t19 * _t89))
+            + _t194 * _t209 - S::ratio(6.0, 1.0) * _t210 - _t152;
+        let _t212 = _t69 * _t138;
+        let _t213 = z * _t73;
+        let _t214 = _t212 + _t213 * _t149;
+        let _t215 = y * _t5;
+        let _t216 = _t20 * _t215;
+        let _t217 = _t19 * _t1;
+        let _t218 = _t11 * _t194 - _t7 * _t26 - _t216 + _t217;
+        let _t219 = S::ratio(3.0, 1.0) * _t141 - _t59 * _t203;
+        let _t220 = -_t15;
+        let _t221 = _t3 * _t26 - _t11 * _t89 + _t20 * _t220 - _t12 * _t1;
+        let _t222 = _t221 - S::ratio(3.0, 1.0) * (_t32 - z * _t200 + x * _t197);
+        let _t223 = _t69 * _t149;
+        let _t224 = _t72 * _t143 + _t73 * _t150;
+        let _t225 = _t224 + x * _t223;
+        let _t226 = _t69 * _t136;
+        let _t227 = _t72 * _t145 + _t73 * _t184;
+        let _t228 = _t226 + y * _t227;
+        let _t229 = _t218 - S::ratio(3.0, 1.0) * (z * _t195 - y * _t197);
+        let _t230 = _t7 * _t89 - _t3 * _t194 - _t19 * _t220 + _t12 * _t215;
+        let _t231 = _t230 + S::ratio(3.0, 1.0) * (_t23 - y * _t200 + x * _t195);
+        let _t232 = _t133 + _t66;
+        let _t233 = _t232 * self._h5;
+        let _t234 = S::ratio(3.0, 1.0) * _t93;
+        let _t235 = (_t234 + _t63 * _t22) * self._h6;
+        let _t236 = _t0 * _t24 - _t33 * _t149;
+        let _t237 = _t24 * _t149;
+        let _t238 = _t199 - _t237;
+        let _t239 = _t143 * _t99 - y * _t117 * _t145 - _t15 * _t129 + _t0 * _t131
             - S::ratio(4.0, 1.0)
-                * (_t74 * _t237 - _t70 * _t239 - _t73 * (_t14 + _t15 * (_t169 - _t147)));
-        let _t241 = _t47 * S::ratio(48.0, 1.0);
-        let _t242 = _t19 * S::ratio(6.0, 1.0);
-        let _t243 = _t94 * S::ratio(24.0, 1.0) + _t195 * _t241
-            - S::ratio(4.0, 1.0) * _t212 - S::ratio(72.0, 1.0) * _t211
+                * (_t73 * _t236 - _t69 * _t238 - _t72 * (_t14 + _t15 * (_t168 - _t146)));
+        let _t240 = _t46 * S::ratio(48.0, 1.0);
+        let _t241 = _t19 * S::ratio(6.0, 1.0);
+        let _t242 = _t93 * S::ratio(24.0, 1.0) + _t194 * _t240
+            - S::ratio(4.0, 1.0) * _t211 - S::ratio(72.0, 1.0) * _t210
             + S::ratio(8.0, 1.0)
-                * (_t231 * _t28
+                * (_t230 * _t28
                     + y
-                        * (y * _t219 + S::ratio(2.0, 1.0) * (_t64 + x * _t222)
-                            + _t90 * _t242));
-        let _t244 = _t44 * S::ratio(48.0, 1.0);
-        let _t245 = S::ratio(3.0, 1.0) * _t122;
-        let _t246 = _t195 * _t244
-            - S::ratio(4.0, 1.0) * (_t206 + _t15 * (S::ratio(2.0, 1.0) * _t219 - _t245))
+                        * (y * _t218 + S::ratio(2.0, 1.0) * (_t63 + x * _t221)
+                            + _t89 * _t241));
+        let _t243 = _t43 * S::ratio(48.0, 1.0);
+        let _t244 = S::ratio(3.0, 1.0) * _t121;
+        let _t245 = _t194 * _t243
+            - S::ratio(4.0, 1.0) * (_t205 + _t15 * (S::ratio(2.0, 1.0) * _t218 - _t244))
             + S::ratio(8.0, 1.0)
-                * (y * (y * _t231 + _t26 * _t242 + _t222 * _t5)
-                    - _t0 * (_t60 + _t90 * _t129));
-        let _t247 = S::ratio(4.0, 1.0) * (_t225 + _t16 * _t230 - _t49 * _t232)
-            - (_t69 * _t223 - _t70 * _t30) * _t72;
-        let _t248 = _t247
-            + (_t247 - S::ratio(12.0, 1.0) * (_t58 - z * _t206 + x * _t212));
-        let _t249 = _t223 - S::ratio(3.0, 1.0) * _t222;
-        let _t250 = z * _t76;
-        let _t251 = (_t227 - _t80 * _t223 + _t26 * _t230 + y * (_t228 - _t53 * _t232))
+                * (y * (y * _t230 + _t26 * _t241 + _t221 * _t5)
+                    - _t0 * (_t59 + _t89 * _t128));
+        let _t246 = S::ratio(4.0, 1.0) * (_t224 + _t16 * _t229 - _t48 * _t231)
+            - (_t68 * _t222 - _t69 * _t30) * _t71;
+        let _t247 = _t246
+            + (_t246 - S::ratio(12.0, 1.0) * (_t57 - z * _t205 + x * _t211));
+        let _t248 = _t222 - S::ratio(3.0, 1.0) * _t221;
+        let _t249 = z * _t75;
+        let _t250 = (_t226 - _t79 * _t222 + _t26 * _t229 + y * (_t227 - _t52 * _t231))
             * S::ratio(-4.0, 1.0);
-        let _t252 = _t251 + S::ratio(12.0, 1.0) * (_t87 - y * _t206 + x * _t209);
-        let _t253 = _t251 + _t252;
-        let _t254 = S::ratio(4.0, 1.0)
-            * (_t213 - _t83 * _t223 - y * (_t35 * _t230 - _t74 * _t110) + _t51 * _t232);
-        let _t255 = _t254 + (_t254 - S::ratio(12.0, 1.0) * (z * _t209 - y * _t212));
-        let _t256 = _t19 * _t98 + _t20 * _t79;
-        let _t257 = y * _t98 + z * _t79 - _t135 * S::ratio(9.0, 1.0);
-        let _t258 = x * _t79 + y * _t99 - _t168 * S::ratio(9.0, 1.0);
-        let _t259 = _t232 - S::ratio(3.0, 1.0) * _t231;
-        let _t260 = _t230 - S::ratio(3.0, 1.0) * _t219;
-        let _t261 = _t94 * S::ratio(9.0, 1.0);
-        let _t262 = _t64 * S::ratio(12.0, 1.0) - _t70 * S::ratio(4.0, 1.0);
-        let _t263 = S::ratio(1.0, 4.0)
-            * (_t4 * (_t262 + _t261) + _t96 * S::ratio(576.0, 1.0)
-                - S::ratio(64.0, 1.0) * (x * _t98 + z * _t99));
-        let _t264 = _t68 * _t1 - _t65 * _t221 - _t3 * _t243 + _t11 * _t246 + _t18 * _t248
-            - _t78 * _t249
-            + S::ratio(2.0, 1.0) * (_t250 + y * (_t89 + x * _t253 + z * _t255));
-        let _t265 = _t0 * _t124 + _t36 * _t125;
-        let _t266 = _t78 * S::ratio(3.0, 1.0);
-        let _t267 = _t18 * S::ratio(8.0, 1.0);
-        let _t268 = S::ratio(48.0, 1.0) * _t207 + _t195 * _t266
-            - S::ratio(4.0, 1.0) * _t209
-            + S::ratio(16.0, 1.0) * (_t133 + y * (_t59 + z * _t219 + x * _t231))
-            + _t222 * _t267;
-        let _t269 = _t19 * _t79;
-        let _t270 = _t261 - _t79 * _t22;
-        let _t271 = S::ratio(8.0, 1.0) * _t270;
-        let _t272 = S::ratio(2.0, 1.0) * _t55;
-        let _t273 = S::ratio(12.0, 1.0) * (S::ratio(9.0, 1.0) * _t180 - _t98 * _t272);
-        let _t274 = z * _t20;
-        let _t275 = S::ratio(24.0, 1.0) * _t274;
-        let _t276 = _t103 * _t221 - _t68 * _t216 + _t3 * _t268 - _t7 * _t246
-            + _t251 * _t28 + _t252 * _t28
-            + y * (y * _t255 + S::ratio(2.0, 1.0) * (_t76 + x * _t248) - _t260 * _t106);
-        let _t277 = _t240
+        let _t251 = _t250 + S::ratio(12.0, 1.0) * (_t86 - y * _t205 + x * _t208);
+        let _t252 = _t250 + _t251;
+        let _t253 = S::ratio(4.0, 1.0)
+            * (_t212 - _t82 * _t222 - y * (_t35 * _t229 - _t73 * _t109) + _t50 * _t231);
+        let _t254 = _t253 + (_t253 - S::ratio(12.0, 1.0) * (z * _t208 - y * _t211));
+        let _t255 = _t19 * _t97 + _t20 * _t78;
+        let _t256 = y * _t97 + z * _t78 - _t134 * S::ratio(9.0, 1.0);
+        let _t257 = x * _t78 + y * _t98 - _t167 * S::ratio(9.0, 1.0);
+        let _t258 = _t231 - S::ratio(3.0, 1.0) * _t230;
+        let _t259 = _t229 - S::ratio(3.0, 1.0) * _t218;
+        let _t260 = _t93 * S::ratio(9.0, 1.0);
+        let _t261 = _t63 * S::ratio(12.0, 1.0) - _t69 * S::ratio(4.0, 1.0);
+        let _t262 = S::ratio(1.0, 4.0)
+            * (_t4 * (_t261 + _t260) + _t95 * S::ratio(576.0, 1.0)
+                - S::ratio(64.0, 1.0) * (x * _t97 + z * _t98));
+        let _t263 = _t67 * _t1 - _t64 * _t220 - _t3 * _t242 + _t11 * _t245 + _t18 * _t247
+            - _t77 * _t248
+            + S::ratio(2.0, 1.0) * (_t249 + y * (_t88 + x * _t252 + z * _t254));
+        let _t264 = _t0 * _t123 + _t36 * _t124;
+        let _t265 = _t77 * S::ratio(3.0, 1.0);
+        let _t266 = _t18 * S::ratio(8.0, 1.0);
+        let _t267 = S::ratio(48.0, 1.0) * _t206 + _t194 * _t265
+            - S::ratio(4.0, 1.0) * _t208
+            + S::ratio(16.0, 1.0) * (_t132 + y * (_t58 + z * _t218 + x * _t230))
+            + _t221 * _t266;
+        let _t268 = _t19 * _t78;
+        let _t269 = _t260 - _t78 * _t22;
+        let _t270 = S::ratio(8.0, 1.0) * _t269;
+        let _t271 = S::ratio(2.0, 1.0) * _t54;
+        let _t272 = S::ratio(12.0, 1.0) * (S::ratio(9.0, 1.0) * _t179 - _t97 * _t271);
+        let _t273 = z * _t20;
+        let _t274 = S::ratio(24.0, 1.0) * _t273;
+        let _t275 = _t102 * _t220 - _t67 * _t215 + _t3 * _t267 - _t7 * _t245
+            + _t250 * _t28 + _t251 * _t28
+            + y * (y * _t254 + S::ratio(2.0, 1.0) * (_t75 + x * _t247) - _t259 * _t105);
+        let _t276 = _t239
             + _t16
-                * (_t264
+                * (_t263
                     - S::ratio(16.0, 1.0)
-                        * (_t256 + _t90 * _t257 + _t26 * _t258 + _t47 * _t259
-                            + _t44 * _t260) + _t195 * _t263) + _t90 * _t265
+                        * (_t255 + _t89 * _t256 + _t26 * _t257 + _t46 * _t258
+                            + _t43 * _t259) + _t194 * _t262) + _t89 * _t264
             - _t26
-                * (_t276 - S::ratio(16.0, 1.0) * (_t269 + _t195 * _t258 + _t47 * _t249)
-                    + _t90 * _t271 - _t26 * _t273
-                    + (_t232 * _t54 - _t231 * _t109) * _t275);
-        let _t278 = _t120 + _t250 - S::ratio(8.0, 1.0) * _t256;
-        let _t279 = y * _t76 - S::ratio(8.0, 1.0) * _t269;
-        let _t280 = _t65 * _t216;
-        let _t281 = _t103 * _t1;
-        let _t282 = S::ratio(4.0, 1.0) * (S::ratio(9.0, 1.0) * _t142 + _t99 * _t204);
-        let _t283 = _t280 - _t281 + _t7 * _t243 - _t11 * _t268
-            + y * (y * _t253 + _t248 * _t5 - _t259 * _t106)
+                * (_t275 - S::ratio(16.0, 1.0) * (_t268 + _t194 * _t257 + _t46 * _t248)
+                    + _t89 * _t270 - _t26 * _t272
+                    + (_t231 * _t53 - _t230 * _t108) * _t274);
+        let _t277 = _t119 + _t249 - S::ratio(8.0, 1.0) * _t255;
+        let _t278 = y * _t75 - S::ratio(8.0, 1.0) * _t268;
+        let _t279 = _t64 * _t215;
+        let _t280 = _t102 * _t1;
+        let _t281 = S::ratio(4.0, 1.0) * (S::ratio(9.0, 1.0) * _t141 + _t98 * _t203);
+        let _t282 = _t279 - _t280 + _t7 * _t242 - _t11 * _t267
+            + y * (y * _t252 + _t247 * _t5 - _t258 * _t105)
             - _t0
-                * (_t92
+                * (_t91
                     - _t12 * S::ratio(4.0, 1.0)
-                        * (_t245 - _t219 * S::ratio(6.0, 1.0)
-                            + S::ratio(2.0, 1.0) * _t230));
-        let _t284 = y * (_t68 * _t195 - _t103 * _t90 - _t12 * _t268 + _t19 * _t246)
+                        * (_t244 - _t218 * S::ratio(6.0, 1.0)
+                            + S::ratio(2.0, 1.0) * _t229));
+        let _t283 = y * (_t67 * _t194 - _t102 * _t89 - _t12 * _t267 + _t19 * _t245)
             + _t35
-                * (_t283 - _t15 * (_t255 + _t12 * _t125) + _t90 * _t282
-                    - S::ratio(16.0, 1.0) * (_t195 * _t257 + _t44 * _t249)
-                    + _t26 * _t271);
-        let _t285 = z * self._h9;
-        let _t286 = self._h8 * _t42;
-        let _t287 = _t13 * self._h8;
-        let _t288 = y
-            * (self._h8 * _t284
-                + (_t65 * _t90 - _t68 * _t26 + _t12 * _t243 - _t20 * _t246) * _t285
-                + _t253 * _t286)
+                * (_t282 - _t15 * (_t254 + _t12 * _t124) + _t89 * _t281
+                    - S::ratio(16.0, 1.0) * (_t194 * _t256 + _t43 * _t248)
+                    + _t26 * _t270);
+        let _t284 = z * self._h9;
+        let _t285 = self._h8 * _t41;
+        let _t286 = _t13 * self._h8;
+        let _t287 = y
+            * (self._h8 * _t283
+                + (_t64 * _t89 - _t67 * _t26 + _t12 * _t242 - _t20 * _t245) * _t284
+                + _t252 * _t285)
             - _t15
-                * ((_t103 * _t26 - _t65 * _t195 - _t19 * _t243 + _t20 * _t268) * self._h8
+                * ((_t102 * _t26 - _t64 * _t194 - _t19 * _t242 + _t20 * _t267) * self._h8
                     + self._h10);
-        let _t289 = _t44 * self._h8;
-        let _t290 = S::ratio(1.0, 2880.0) * _t289;
-        let _t291 = _t206 * self._h0
-            - self._h3 * (_t58 * _t196 - _t87 * _t198 - _t32 * _t209 + _t23 * _t212)
+        let _t288 = _t43 * self._h8;
+        let _t289 = S::ratio(1.0, 2880.0) * _t288;
+        let _t290 = _t205 * self._h0
+            - self._h3 * (_t57 * _t195 - _t86 * _t197 - _t32 * _t208 + _t23 * _t211)
             + self._h4
-                * (_t202 * _t215 + _t219 * _t220 - _t141 * _t223 + _t197 * _t226
-                    - _t199 * _t229 - _t230 * _t148 + _t232 * _t154);
-        let _t292 = -_t80;
-        let _t293 = y * _t292;
-        let _t294 = y * _t83;
-        let _t295 = _t69 * _t22;
-        let _t296 = _t18 * _t295 + _t77 * S::ratio(1.0, 8.0)
-            + S::ratio(2.0, 1.0) * (x * (_t20 + _t293) + z * (_t12 + _t294));
-        let _t297 = _t31 + _t292 * _t28
-            + y * (_t294 + S::ratio(2.0, 1.0) * (_t12 + x * _t295));
-        let _t298 = _t297 + _t297;
-        let _t299 = _t38 - _t15 * _t83
-            + y * (_t293 + S::ratio(2.0, 1.0) * (_t20 + z * _t295));
-        let _t300 = _t299 + _t299;
-        let _t301 = _t96 + _t44 * _t83 + _t47 * _t292;
-        let _t302 = _t296 + _t296;
-        let _t303 = _t83 * _t300 - _t80 * _t298 + S::ratio(4.0, 1.0) * _t301
-            + S::ratio(1.0, 16.0) * _t95 + _t166 * S::ratio(1.0, 8.0) + _t295 * _t208
-            + S::ratio(2.0, 1.0) * _t69 * (_t24 + y * _t302);
-        let _t304 = _t168 + _t47 * _t295;
-        let _t305 = _t292 * _t56;
-        let _t306 = _t172 + _t49 * _t302
-            - y * (_t53 * _t298 - S::ratio(4.0, 1.0) * (_t169 + _t19 * _t83))
-            - _t51 * _t300 + S::ratio(4.0, 1.0) * _t304 - S::ratio(6.0, 1.0) * _t305;
-        let _t307 = y * _t30;
-        let _t308 = _t11 * _t295 - _t7 * _t292 - _t20 * _t18 + _t19 * _t307;
-        let _t309 = _t12 * _t307;
-        let _t310 = _t217 - _t11 * _t83 + _t3 * _t292 - _t309;
-        let _t311 = _t310 + S::ratio(3.0, 1.0) * (z * _t299 - x * _t297);
-        let _t312 = _t308 + S::ratio(3.0, 1.0) * (_t32 - z * _t296 + y * _t297);
-        let _t313 = _t7 * _t83 - _t3 * _t295 - _t19 * _t216 + _t12 * _t18;
-        let _t314 = _t313 - S::ratio(3.0, 1.0) * (_t40 + y * _t299 - x * _t296);
-        let _t315 = _t135 + _t44 * _t295;
-        let _t316 = _t13 * _t83;
-        let _t317 = _t140 - _t16 * _t302 + _t26 * _t298
-            + y * (_t35 * _t300 - S::ratio(4.0, 1.0) * (_t136 - _t19 * _t292))
-            + S::ratio(4.0, 1.0) * _t315 - S::ratio(2.0, 1.0) * _t316;
-        let _t318 = S::ratio(16.0, 1.0) * _t64;
-        let _t319 = y * _t308;
-        let _t320 = S::ratio(48.0, 1.0) * _t304 + x * _t318 - S::ratio(4.0, 1.0) * _t306
-            - S::ratio(72.0, 1.0) * _t305
+                * (_t201 * _t214 + _t218 * _t219 - _t140 * _t222 + _t196 * _t225
+                    - _t198 * _t228 - _t229 * _t147 + _t231 * _t153);
+        let _t291 = -_t79;
+        let _t292 = y * _t291;
+        let _t293 = y * _t82;
+        let _t294 = _t68 * _t22;
+        let _t295 = _t18 * _t294 + _t76 * S::ratio(1.0, 8.0)
+            + S::ratio(2.0, 1.0) * (x * (_t20 + _t292) + z * (_t12 + _t293));
+        let _t296 = _t31 + _t291 * _t28
+            + y * (_t293 + S::ratio(2.0, 1.0) * (_t12 + x * _t294));
+        let _t297 = _t296 + _t296;
+        let _t298 = _t38 - _t15 * _t82
+            + y * (_t292 + S::ratio(2.0, 1.0) * (_t20 + z * _t294));
+        let _t299 = _t298 + _t298;
+        let _t300 = _t95 + _t43 * _t82 + _t46 * _t291;
+        let _t301 = _t295 + _t295;
+        let _t302 = _t82 * _t299 - _t79 * _t297 + S::ratio(4.0, 1.0) * _t300
+            + S::ratio(1.0, 16.0) * _t94 + _t165 * S::ratio(1.0, 8.0) + _t294 * _t207
+            + S::ratio(2.0, 1.0) * _t68 * (_t24 + y * _t301);
+        let _t303 = _t167 + _t46 * _t294;
+        let _t304 = _t291 * _t55;
+        let _t305 = _t171 + _t48 * _t301
+            - y * (_t52 * _t297 - S::ratio(4.0, 1.0) * (_t168 + _t19 * _t82))
+            - _t50 * _t299 + S::ratio(4.0, 1.0) * _t303 - S::ratio(6.0, 1.0) * _t304;
+        let _t306 = y * _t30;
+        let _t307 = _t11 * _t294 - _t7 * _t291 - _t20 * _t18 + _t19 * _t306;
+        let _t308 = _t12 * _t306;
+        let _t309 = _t216 - _t11 * _t82 + _t3 * _t291 - _t308;
+        let _t310 = _t309 + S::ratio(3.0, 1.0) * (z * _t298 - x * _t296);
+        let _t311 = _t307 + S::ratio(3.0, 1.0) * (_t32 - z * _t295 + y * _t296);
+        let _t312 = _t7 * _t82 - _t3 * _t294 - _t19 * _t215 + _t12 * _t18;
+        let _t313 = _t312 - S::ratio(3.0, 1.0) * (_t39 + y * _t298 - x * _t295);
+        let _t314 = _t134 + _t43 * _t294;
+        let _t315 = _t13 * _t82;
+        let _t316 = _t139 - _t16 * _t301 + _t26 * _t297
+            + y * (_t35 * _t299 - S::ratio(4.0, 1.0) * (_t135 - _t19 * _t291))
+            + S::ratio(4.0, 1.0) * _t314 - S::ratio(2.0, 1.0) * _t315;
+        let _t317 = S::ratio(16.0, 1.0) * _t63;
+        let _t318 = y * _t307;
+        let _t319 = S::ratio(48.0, 1.0) * _t303 + x * _t317 - S::ratio(4.0, 1.0) * _t305
+            - S::ratio(72.0, 1.0) * _t304
             + S::ratio(8.0, 1.0)
-                * (_t313 * _t28
+                * (_t312 * _t28
                     + y
-                        * (_t319 + S::ratio(2.0, 1.0) * (_t60 + x * _t310)
-                            + _t83 * _t242));
-        let _t321 = _t235 + _t64 * S::ratio(4.0, 1.0);
-        let _t322 = y * _t313;
-        let _t323 = S::ratio(48.0, 1.0) * _t301 + _t295 * _t266
-            - S::ratio(4.0, 1.0) * _t303 + _t310 * _t267 + _t17 * _t321
-            + S::ratio(16.0, 1.0) * (x * (_t59 + _t322) + z * (_t60 + _t319));
-        let _t324 = _t103 * _t292 - _t65 * _t295 - _t19 * _t320 + _t20 * _t323;
-        let _t325 = _t68 * _t307;
-        let _t326 = S::ratio(48.0, 1.0) * _t315 + z * _t318 - S::ratio(24.0, 1.0) * _t316
-            - S::ratio(4.0, 1.0) * _t317
+                        * (_t318 + S::ratio(2.0, 1.0) * (_t59 + x * _t309)
+                            + _t82 * _t241));
+        let _t320 = _t234 + _t63 * S::ratio(4.0, 1.0);
+        let _t321 = y * _t312;
+        let _t322 = S::ratio(48.0, 1.0) * _t300 + _t294 * _t265
+            - S::ratio(4.0, 1.0) * _t302 + _t309 * _t266 + _t17 * _t320
+            + S::ratio(16.0, 1.0) * (x * (_t58 + _t321) + z * (_t59 + _t318));
+        let _t323 = _t102 * _t291 - _t64 * _t294 - _t19 * _t319 + _t20 * _t322;
+        let _t324 = _t67 * _t306;
+        let _t325 = S::ratio(48.0, 1.0) * _t314 + z * _t317 - S::ratio(24.0, 1.0) * _t315
+            - S::ratio(4.0, 1.0) * _t316
             - S::ratio(8.0, 1.0)
-                * (_t15 * _t308
+                * (_t15 * _t307
                     - y
-                        * (_t322 + S::ratio(2.0, 1.0) * (_t59 + z * _t310)
-                            + _t292 * _t242));
-        let _t327 = x * _t73;
-        let _t328 = _t214 - _t327;
-        let _t329 = S::ratio(4.0, 1.0) * (_t16 * _t312 - _t49 * _t314)
+                        * (_t321 + S::ratio(2.0, 1.0) * (_t58 + z * _t309)
+                            + _t291 * _t241));
+        let _t326 = x * _t72;
+        let _t327 = _t213 - _t326;
+        let _t328 = S::ratio(4.0, 1.0) * (_t16 * _t311 - _t48 * _t313)
             - S::ratio(8.0, 1.0)
-                * (_t71 + y * (_t69 * _t311 + S::ratio(2.0, 1.0) * _t328));
-        let _t330 = _t329 + (_t329 + S::ratio(12.0, 1.0) * (z * _t317 - x * _t306));
-        let _t331 = _t311 - S::ratio(3.0, 1.0) * _t310;
-        let _t332 = _t4 * (_t76 + _t19 * (_t262 + _t235));
-        let _t333 = _t12 * _t98 + _t20 * _t99;
-        let _t334 = _t314 - S::ratio(3.0, 1.0) * _t313;
-        let _t335 = _t312 - S::ratio(3.0, 1.0) * _t308;
-        let _t336 = _t74 * _t170 + _t73 * _t137;
-        let _t337 = S::ratio(1.0, 2.0) * _t70;
-        let _t338 = -(S::ratio(4.0, 1.0)
-            * (_t336 - _t80 * _t311 + _t26 * _t312 - _t81 * _t314)) - _t163 * _t337;
-        let _t339 = _t338 - S::ratio(12.0, 1.0) * (_t45 + y * _t317 - x * _t303);
-        let _t340 = _t338 + _t339;
-        let _t341 = y * _t340;
-        let _t342 = _t73 * _t139 + _t74 * _t171;
-        let _t343 = _t165 * _t337
-            + S::ratio(4.0, 1.0) * (_t342 - _t83 * _t311 - _t90 * _t312 + _t51 * _t314);
-        let _t344 = _t343
-            + (_t343 + S::ratio(12.0, 1.0) * (_t58 - z * _t303 + y * _t306));
-        let _t345 = y * _t344;
-        let _t346 = _t325 - _t280 - _t3 * _t320 + _t11 * _t326 + _t18 * _t330
-            - _t78 * _t331 + S::ratio(1.0, 8.0) * _t332
+                * (_t70 + y * (_t68 * _t310 + S::ratio(2.0, 1.0) * _t327));
+        let _t329 = _t328 + (_t328 + S::ratio(12.0, 1.0) * (z * _t316 - x * _t305));
+        let _t330 = _t310 - S::ratio(3.0, 1.0) * _t309;
+        let _t331 = _t4 * (_t75 + _t19 * (_t261 + _t234));
+        let _t332 = _t12 * _t97 + _t20 * _t98;
+        let _t333 = _t313 - S::ratio(3.0, 1.0) * _t312;
+        let _t334 = _t311 - S::ratio(3.0, 1.0) * _t307;
+        let _t335 = _t73 * _t169 + _t72 * _t136;
+        let _t336 = S::ratio(1.0, 2.0) * _t69;
+        let _t337 = -(S::ratio(4.0, 1.0)
+            * (_t335 - _t79 * _t310 + _t26 * _t311 - _t80 * _t313)) - _t162 * _t336;
+        let _t338 = _t337 - S::ratio(12.0, 1.0) * (_t44 + y * _t316 - x * _t302);
+        let _t339 = _t337 + _t338;
+        let _t340 = y * _t339;
+        let _t341 = _t72 * _t138 + _t73 * _t170;
+        let _t342 = _t164 * _t336
+            + S::ratio(4.0, 1.0) * (_t341 - _t82 * _t310 - _t89 * _t311 + _t50 * _t313);
+        let _t343 = _t342
+            + (_t342 + S::ratio(12.0, 1.0) * (_t57 - z * _t302 + y * _t305));
+        let _t344 = y * _t343;
+        let _t345 = _t324 - _t279 - _t3 * _t319 + _t11 * _t325 + _t18 * _t329
+            - _t77 * _t330 + S::ratio(1.0, 8.0) * _t331
             - S::ratio(16.0, 1.0)
-                * (_t333 + _t83 * _t257 + _t292 * _t258 + _t47 * _t334 + _t44 * _t335);
-        let _t347 = _t346 + _t295 * _t263
-            + S::ratio(2.0, 1.0) * (x * (_t89 + _t341) + z * (_t92 + _t345));
-        let _t348 = _t19 * _t99 + _t12 * _t79;
-        let _t349 = _t103 * _t216 - _t68 * _t18 + _t3 * _t323 - _t7 * _t326 + _t105
-            + _t338 * _t28 + _t339 * _t28
-            + y * (_t345 + S::ratio(2.0, 1.0) * (_t92 + x * _t330) - _t335 * _t106);
-        let _t350 = _t349 - S::ratio(16.0, 1.0) * (_t348 + _t295 * _t258 + _t47 * _t331)
-            + _t83 * _t271 - _t292 * _t273 + (_t314 * _t54 - _t313 * _t109) * _t275;
-        let _t351 = _t4 * _t33 - S::ratio(32.0, 1.0) * _t136 + _t41 * _t162;
-        let _t352 = _t70 * _t351
-            - S::ratio(4.0, 1.0) * (_t128 + y * (_t119 - _t100 * _t30) + _t20 * _t76)
-            - S::ratio(32.0, 1.0) * (_t64 * _t59 - _t74 * _t149)
-            + _t73 * _t239 * S::ratio(8.0, 1.0);
-        let _t353 = _t68 * _t295 - _t103 * _t83 - _t12 * _t323 + _t19 * _t326;
-        let _t354 = _t65 * _t18 - _t103 * _t307 + _t7 * _t320 - _t11 * _t323 + _t121
-            + y * (_t341 + S::ratio(2.0, 1.0) * (_t89 + z * _t330) - _t334 * _t106)
-            - _t15 * _t344;
-        let _t355 = _t354 - S::ratio(16.0, 1.0) * (_t256 + _t295 * _t257 + _t44 * _t331)
-            + _t83 * _t282 + S::ratio(8.0, 1.0) * (_t292 * _t270 + _t13 * _t335);
-        let _t356 = self._h10
-            + self._h8 * (_t65 * _t83 - _t68 * _t292 + _t12 * _t320 - _t20 * _t326);
-        let _t357 = self._h4
-            * (_t215 * _t300 + _t220 * _t308 - _t141 * _t311 + _t302 * _t226
-                - _t298 * _t229 - _t312 * _t148 + _t314 * _t154)
-            - self._h3 * (_t58 * _t296 - _t87 * _t297 - _t32 * _t303 + _t23 * _t306);
-        let _t358 = _t357 + _t317 * self._h0 + _t310 * _t234 + _t313 * _t236
-            - self._h1 * (_t15 * _t324 + _t16 * _t347 + _t83 * _t265 - _t26 * _t350)
-            - (_t352 - S::ratio(2.0, 1.0) * (_t137 * _t118 - _t139 * _t126)) * self._h11;
-        let _t359 = _t358 + self._h7 * (_t295 * _t278 + _t292 * _t279)
+                * (_t332 + _t82 * _t256 + _t291 * _t257 + _t46 * _t333 + _t43 * _t334);
+        let _t346 = _t345 + _t294 * _t262
+            + S::ratio(2.0, 1.0) * (x * (_t88 + _t340) + z * (_t91 + _t344));
+        let _t347 = _t19 * _t98 + _t12 * _t78;
+        let _t348 = _t102 * _t215 - _t67 * _t18 + _t3 * _t322 - _t7 * _t325 + _t104
+            + _t337 * _t28 + _t338 * _t28
+            + y * (_t344 + S::ratio(2.0, 1.0) * (_t91 + x * _t329) - _t334 * _t105);
+        let _t349 = _t348 - S::ratio(16.0, 1.0) * (_t347 + _t294 * _t257 + _t46 * _t330)
+            + _t82 * _t270 - _t291 * _t272 + (_t313 * _t53 - _t312 * _t108) * _t274;
+        let _t350 = _t4 * _t33 - S::ratio(32.0, 1.0) * _t135 + _t40 * _t161;
+        let _t351 = _t69 * _t350
+            - S::ratio(4.0, 1.0) * (_t127 + y * (_t118 - _t99 * _t30) + _t20 * _t75)
+            - S::ratio(32.0, 1.0) * (_t63 * _t58 - _t73 * _t148)
+            + _t72 * _t238 * S::ratio(8.0, 1.0);
+        let _t352 = _t67 * _t294 - _t102 * _t82 - _t12 * _t322 + _t19 * _t325;
+        let _t353 = _t64 * _t18 - _t102 * _t306 + _t7 * _t319 - _t11 * _t322 + _t120
+            + y * (_t340 + S::ratio(2.0, 1.0) * (_t88 + z * _t329) - _t333 * _t105)
+            - _t15 * _t343;
+        let _t354 = _t353 - S::ratio(16.0, 1.0) * (_t255 + _t294 * _t256 + _t43 * _t330)
+            + _t82 * _t281 + S::ratio(8.0, 1.0) * (_t291 * _t269 + _t13 * _t334);
+        let _t355 = self._h10
+            + self._h8 * (_t64 * _t82 - _t67 * _t291 + _t12 * _t319 - _t20 * _t325);
+        let _t356 = self._h4
+            * (_t214 * _t299 + _t219 * _t307 - _t140 * _t310 + _t301 * _t225
+                - _t297 * _t228 - _t311 * _t147 + _t313 * _t153)
+            - self._h3 * (_t57 * _t295 - _t86 * _t296 - _t32 * _t302 + _t23 * _t305);
+        let _t357 = _t356 + _t316 * self._h0 + _t309 * _t233 + _t312 * _t235
+            - self._h1 * (_t15 * _t323 + _t16 * _t346 + _t82 * _t264 - _t26 * _t349)
+            - (_t351 - S::ratio(2.0, 1.0) * (_t136 * _t117 - _t138 * _t125)) * self._h11;
+        let _t358 = _t357 + self._h7 * (_t294 * _t277 + _t291 * _t278)
             + S::ratio(1.0, 5760.0)
                 * (y
-                    * (self._h8 * (y * _t353 + _t35 * _t355)
-                        + S::ratio(2.0, 1.0) * (z * _t356 + _t19 * self._h8 * _t340))
-                    - _t344 * _t287);
-        let _t360 = _t359 + _t330 * _t290;
-        let _t361 = -_t51;
-        let _t362 = -_t81;
-        let _t363 = _t18 * _t49
-            + S::ratio(2.0, 1.0) * (_t46 + y * (_t12 + z * _t361 + x * _t362));
-        let _t364 = S::ratio(3.0, 1.0) * _t56
-            - (_t362 * _t28 + y * (y * _t361 + _t49 * _t30));
-        let _t365 = -_t364;
-        let _t366 = _t365 - _t364;
-        let _t367 = _t15 * _t361
-            - y * (y * _t362 + S::ratio(2.0, 1.0) * (_t19 + z * _t49));
-        let _t368 = -_t367;
-        let _t369 = _t368 - _t367;
-        let _t370 = _t168 + _t44 * _t361 + _t47 * _t362;
-        let _t371 = _t363 + _t363;
-        let _t372 = _t172 - _t80 * _t366 + _t83 * _t369 + S::ratio(4.0, 1.0) * _t370
-            + _t49 * _t208 + (_t69 * _t371 + _t24 * _t5) * _t22;
-        let _t373 = _t41 * _t186;
-        let _t374 = _t184 + _t49 * _t371 - _t51 * _t369
-            - y * (_t373 + _t53 * _t366 - _t361 * _t203) + _t49 * _t210
-            - _t20 * S::ratio(3.0, 1.0) * (_t112 * _t179 + _t362 * _t272);
-        let _t375 = _t11 * _t49 - _t7 * _t362 - _t20 * _t307 + _t19 * _t28;
-        let _t376 = _t3 * _t362 - _t11 * _t361 + _t20 * _t1 - _t12 * _t28;
-        let _t377 = _t376 + S::ratio(3.0, 1.0) * (_t40 + z * _t368 - x * _t365);
-        let _t378 = _t375 - S::ratio(3.0, 1.0) * (_t23 + z * _t363 - y * _t365);
-        let _t379 = _t309 - _t218 + _t7 * _t361 - _t3 * _t49;
-        let _t380 = _t379 - S::ratio(3.0, 1.0) * (y * _t368 - x * _t363);
-        let _t381 = _t94 - _t13 * _t361;
-        let _t382 = _t26 * _t366 - _t152 - _t16 * _t371
-            + y * (_t35 * _t369 + S::ratio(4.0, 1.0) * (_t149 + _t19 * _t362))
-            + S::ratio(2.0, 1.0) * _t381 + _t49 * _t205;
-        let _t383 = _t41 * _t150 - _t24 * _t182;
-        let _t384 = _t100 * _t151 - _t64 * _t101 + S::ratio(16.0, 1.0) * _t70 * _t149
-            - S::ratio(4.0, 1.0) * (_t73 * _t237 + _t74 * _t383)
+                    * (self._h8 * (y * _t352 + _t35 * _t354)
+                        + S::ratio(2.0, 1.0) * (z * _t355 + _t19 * self._h8 * _t339))
+                    - _t343 * _t286);
+        let _t359 = _t358 + _t329 * _t289;
+        let _t360 = -_t50;
+        let _t361 = -_t80;
+        let _t362 = _t18 * _t48
+            + S::ratio(2.0, 1.0) * (_t45 + y * (_t12 + z * _t360 + x * _t361));
+        let _t363 = _t361 * _t28 + y * (y * _t360 + _t48 * _t30)
+            - S::ratio(3.0, 1.0) * _t55;
+        let _t364 = _t363 + _t363;
+        let _t365 = y * (y * _t361 + S::ratio(2.0, 1.0) * (_t19 + z * _t48))
+            - _t15 * _t360;
+        let _t366 = _t365 + _t365;
+        let _t367 = _t167 + _t43 * _t360 + _t46 * _t361;
+        let _t368 = _t362 + _t362;
+        let _t369 = _t171 - _t79 * _t364 + _t82 * _t366 + S::ratio(4.0, 1.0) * _t367
+            + _t48 * _t207 + (_t68 * _t368 + _t24 * _t5) * _t22;
+        let _t370 = _t40 * _t185;
+        let _t371 = _t183 + _t48 * _t368 - _t50 * _t366
+            - y * (_t370 + _t52 * _t364 - _t360 * _t202) + _t48 * _t209
+            - _t20 * S::ratio(3.0, 1.0) * (_t111 * _t178 + _t361 * _t271);
+        let _t372 = _t11 * _t48 - _t7 * _t361 - _t20 * _t306 + _t19 * _t28;
+        let _t373 = _t3 * _t361 - _t11 * _t360 + _t20 * _t1 - _t12 * _t28;
+        let _t374 = _t373 + S::ratio(3.0, 1.0) * (_t39 + z * _t365 - x * _t363);
+        let _t375 = _t372 - S::ratio(3.0, 1.0) * (_t23 + z * _t362 - y * _t363);
+        let _t376 = _t308 - _t217 + _t7 * _t360 - _t3 * _t48;
+        let _t377 = _t376 - S::ratio(3.0, 1.0) * (y * _t365 - x * _t362);
+        let _t378 = _t93 - _t13 * _t360;
+        let _t379 = _t26 * _t364 - _t151 - _t16 * _t368
+            + y * (_t35 * _t366 + S::ratio(4.0, 1.0) * (_t148 + _t19 * _t361))
+            + S::ratio(2.0, 1.0) * _t378 + _t48 * _t204;
+        let _t380 = _t40 * _t149 - _t24 * _t181;
+        let _t381 = _t99 * _t150 - _t63 * _t100 + S::ratio(16.0, 1.0) * _t69 * _t148
+            - S::ratio(4.0, 1.0) * (_t72 * _t236 + _t73 * _t380)
             - S::ratio(2.0, 1.0)
-                * (y * (_t127 + S::ratio(2.0, 1.0) * (x * _t118 - z * _t126))
-                    + _t19 * _t76);
-        let _t385 = _t49 * _t241 - _t181 - S::ratio(4.0, 1.0) * _t374
+                * (y * (_t126 + S::ratio(2.0, 1.0) * (x * _t117 - z * _t125))
+                    + _t19 * _t75);
+        let _t382 = _t48 * _t240 - _t180 - S::ratio(4.0, 1.0) * _t371
             + S::ratio(8.0, 1.0)
-                * (_t379 * _t28 + y * (y * _t375 + _t361 * _t242 + _t376 * _t30))
-            - z * S::ratio(24.0, 1.0) * (_t59 * _t54 + _t20 * _t362 * _t109);
-        let _t386 = S::ratio(48.0, 1.0) * _t370
-            + S::ratio(16.0, 1.0) * (_t159 + y * (_t60 + z * _t375 + x * _t379))
-            + _t49 * _t266 - S::ratio(4.0, 1.0) * _t372 + _t376 * _t267;
-        let _t387 = _t103 * _t362 - _t65 * _t49 - _t19 * _t385 + _t20 * _t386;
-        let _t388 = S::ratio(24.0, 1.0) * _t381 + _t49 * _t244
-            - S::ratio(4.0, 1.0) * _t382
+                * (_t376 * _t28 + y * (y * _t372 + _t360 * _t241 + _t373 * _t30))
+            - z * S::ratio(24.0, 1.0) * (_t58 * _t53 + _t20 * _t361 * _t108);
+        let _t383 = S::ratio(48.0, 1.0) * _t367
+            + S::ratio(16.0, 1.0) * (_t158 + y * (_t59 + z * _t372 + x * _t376))
+            + _t48 * _t265 - S::ratio(4.0, 1.0) * _t369 + _t373 * _t266;
+        let _t384 = _t102 * _t361 - _t64 * _t48 - _t19 * _t382 + _t20 * _t383;
+        let _t385 = S::ratio(24.0, 1.0) * _t378 + _t48 * _t243
+            - S::ratio(4.0, 1.0) * _t379
             - S::ratio(8.0, 1.0)
-                * (_t15 * _t375
+                * (_t15 * _t372
                     - y
-                        * (y * _t379 + S::ratio(2.0, 1.0) * (_t64 + z * _t376)
-                            + _t362 * _t242));
-        let _t389 = _t74 * _t183 - _t73 * _t151;
-        let _t390 = S::ratio(4.0, 1.0) * (_t16 * _t378 - _t49 * _t380 - _t389)
-            - (_t69 * _t377 + _t70 * _t5) * _t72;
-        let _t391 = _t390
-            + (_t390 + S::ratio(12.0, 1.0) * (_t45 + z * _t382 - x * _t374));
-        let _t392 = _t377 - S::ratio(3.0, 1.0) * _t376;
-        let _t393 = x * _t76;
-        let _t394 = _t70 * _t170;
-        let _t395 = (_t394 - _t80 * _t377 + _t26 * _t378
-            - y * (_t53 * _t380 - S::ratio(4.0, 1.0) * _t327)) * S::ratio(-4.0, 1.0);
-        let _t396 = _t395 - S::ratio(12.0, 1.0) * (y * _t382 - x * _t372);
-        let _t397 = _t395 + _t396;
-        let _t398 = _t70 * _t171;
-        let _t399 = _t74 * _t186 + _t73 * _t110;
-        let _t400 = (_t83 * _t377 - _t398 - _t51 * _t380 + y * (_t35 * _t378 - _t399))
+                        * (y * _t376 + S::ratio(2.0, 1.0) * (_t63 + z * _t373)
+                            + _t361 * _t241));
+        let _t386 = _t73 * _t182 - _t72 * _t150;
+        let _t387 = S::ratio(4.0, 1.0) * (_t16 * _t375 - _t48 * _t377 - _t386)
+            - (_t68 * _t374 + _t69 * _t5) * _t71;
+        let _t388 = _t387
+            + (_t387 + S::ratio(12.0, 1.0) * (_t44 + z * _t379 - x * _t371));
+        let _t389 = _t374 - S::ratio(3.0, 1.0) * _t373;
+        let _t390 = x * _t75;
+        let _t391 = _t69 * _t169;
+        let _t392 = (_t391 - _t79 * _t374 + _t26 * _t375
+            - y * (_t52 * _t377 - S::ratio(4.0, 1.0) * _t326)) * S::ratio(-4.0, 1.0);
+        let _t393 = _t392 - S::ratio(12.0, 1.0) * (y * _t379 - x * _t369);
+        let _t394 = _t392 + _t393;
+        let _t395 = _t69 * _t170;
+        let _t396 = _t73 * _t185 + _t72 * _t109;
+        let _t397 = (_t82 * _t374 - _t395 - _t50 * _t377 + y * (_t35 * _t375 - _t396))
             * S::ratio(-4.0, 1.0);
-        let _t401 = _t400
-            + (_t400 - S::ratio(12.0, 1.0) * (_t87 + z * _t372 - y * _t374));
-        let _t402 = _t380 - S::ratio(3.0, 1.0) * _t379;
-        let _t403 = _t378 - S::ratio(3.0, 1.0) * _t375;
-        let _t404 = _t68 * _t28 - _t65 * _t1 - _t3 * _t385 + _t11 * _t388 + _t18 * _t391
-            - _t78 * _t392
-            + S::ratio(2.0, 1.0) * (_t393 + y * (_t92 + x * _t397 + z * _t401));
-        let _t405 = _t404
+        let _t398 = _t397
+            + (_t397 - S::ratio(12.0, 1.0) * (_t86 + z * _t369 - y * _t371));
+        let _t399 = _t377 - S::ratio(3.0, 1.0) * _t376;
+        let _t400 = _t375 - S::ratio(3.0, 1.0) * _t372;
+        let _t401 = _t67 * _t28 - _t64 * _t1 - _t3 * _t382 + _t11 * _t385 + _t18 * _t388
+            - _t77 * _t389
+            + S::ratio(2.0, 1.0) * (_t390 + y * (_t91 + x * _t394 + z * _t398));
+        let _t402 = _t401
             - S::ratio(16.0, 1.0)
-                * (_t348 + _t361 * _t257 + _t362 * _t258 + _t47 * _t402 + _t44 * _t403)
-            + _t49 * _t263;
-        let _t406 = S::ratio(180.0, 1.0) * _t189;
-        let _t407 = _t27 * _t54;
-        let _t408 = (_t74 * _t407 - _t27 * _t115) * _t113;
-        let _t409 = _t281 - _t325 + _t3 * _t386 - _t7 * _t388 + _t395 * _t28
-            + _t396 * _t28 + y * (y * _t401 + _t391 * _t30 - _t403 * _t106)
-            + _t361 * _t271;
-        let _t410 = _t409 - S::ratio(16.0, 1.0) * (_t49 * _t258 + _t47 * _t392)
-            + _t56 * _t406 + S::ratio(24.0, 1.0) * _t408 - _t362 * _t273
-            - (_t190 - _t20 * S::ratio(8.0, 1.0) * (_t380 * _t54 - _t379 * _t109))
-                * _t192;
-        let _t411 = _t65 * _t307 - _t103 * _t28 + _t7 * _t385 - _t11 * _t386
-            + y * (y * _t397 + S::ratio(2.0, 1.0) * (_t76 + z * _t391) - _t402 * _t106)
-            - _t15 * _t401;
-        let _t412 = _t411 - S::ratio(16.0, 1.0) * (_t269 + _t49 * _t257 + _t44 * _t392)
-            + _t361 * _t282 + S::ratio(8.0, 1.0) * (_t362 * _t270 + _t13 * _t403);
-        let _t413 = _t68 * _t49 - _t103 * _t361 - _t12 * _t386 + _t19 * _t388;
-        let _t414 = self._h8 * _t413 + self._h10;
-        let _t415 = _t65 * _t361 - _t68 * _t362 + _t12 * _t385 - _t20 * _t388;
-        let _t416 = self._h4
-            * (_t215 * _t369 + _t220 * _t375 - _t141 * _t377 + _t371 * _t226
-                - _t366 * _t229 - _t378 * _t148 + _t380 * _t154)
-            - self._h3 * (_t58 * _t363 - _t87 * _t365 - _t32 * _t372 + _t23 * _t374);
-        let _t417 = _t416 + _t382 * self._h0 + _t376 * _t234 + _t379 * _t236
+                * (_t347 + _t360 * _t256 + _t361 * _t257 + _t46 * _t399 + _t43 * _t400)
+            + _t48 * _t262;
+        let _t403 = S::ratio(180.0, 1.0) * _t188;
+        let _t404 = _t27 * _t53;
+        let _t405 = (_t73 * _t404 - _t27 * _t114) * _t112;
+        let _t406 = _t280 - _t324 + _t3 * _t383 - _t7 * _t385 + _t392 * _t28
+            + _t393 * _t28 + y * (y * _t398 + _t388 * _t30 - _t400 * _t105)
+            + _t360 * _t270;
+        let _t407 = _t406 - S::ratio(16.0, 1.0) * (_t48 * _t257 + _t46 * _t389)
+            + _t55 * _t403 + S::ratio(24.0, 1.0) * _t405 - _t361 * _t272
+            - (_t189 - _t20 * S::ratio(8.0, 1.0) * (_t377 * _t53 - _t376 * _t108))
+                * _t191;
+        let _t408 = _t64 * _t306 - _t102 * _t28 + _t7 * _t382 - _t11 * _t383
+            + y * (y * _t394 + S::ratio(2.0, 1.0) * (_t75 + z * _t388) - _t399 * _t105)
+            - _t15 * _t398;
+        let _t409 = _t408 - S::ratio(16.0, 1.0) * (_t268 + _t48 * _t256 + _t43 * _t389)
+            + _t360 * _t281 + S::ratio(8.0, 1.0) * (_t361 * _t269 + _t13 * _t400);
+        let _t410 = _t67 * _t48 - _t102 * _t360 - _t12 * _t383 + _t19 * _t385;
+        let _t411 = self._h8 * _t410 + self._h10;
+        let _t412 = _t64 * _t360 - _t67 * _t361 + _t12 * _t382 - _t20 * _t385;
+        let _t413 = self._h4
+            * (_t214 * _t366 + _t219 * _t372 - _t140 * _t374 + _t368 * _t225
+                - _t364 * _t228 - _t375 * _t147 + _t377 * _t153)
+            - self._h3 * (_t57 * _t362 - _t86 * _t363 - _t32 * _t369 + _t23 * _t371);
+        let _t414 = _t413 + _t379 * self._h0 + _t373 * _t233 + _t376 * _t235
             - self._h1
-                * (_t384 + _t15 * _t387 + _t16 * _t405 + _t361 * _t265 - _t26 * _t410)
-            + self._h7 * (_t49 * _t278 + _t362 * _t279);
-        let _t418 = _t417
+                * (_t381 + _t15 * _t384 + _t16 * _t402 + _t360 * _t264 - _t26 * _t407)
+            + self._h7 * (_t48 * _t277 + _t361 * _t278);
+        let _t415 = _t414
             + S::ratio(1.0, 5760.0)
                 * (y
-                    * (_t35 * self._h8 * _t412 + y * _t414 + _t415 * _t285
-                        + _t397 * _t286) - _t401 * _t287) + _t391 * _t290;
-        let _t419 = _t70 * _t163 + _t336 * S::ratio(8.0, 1.0);
-        let _t420 = _t70 * _t165 + S::ratio(8.0, 1.0) * _t342;
-        let _t421 = _t160 + _t63;
-        let _t422 = _t97 + _t4 * _t321 + S::ratio(64.0, 1.0) * _t102;
-        let _t423 = _t4 * _t41 - S::ratio(32.0, 1.0) * _t169 + _t33 * _t162;
-        let _t424 = _t4
-            * (_t19 * (_t175 + (_t94 + _t101) * _t62) + _t127 * S::ratio(8.0, 1.0)
-                + _t64 * _t318) + _t60 * _t59 * S::ratio(1024.0, 1.0)
-            + S::ratio(128.0, 1.0) * (_t174 + _t12 * _t89 + _t20 * _t92);
-        let _t425 = _t424 + S::ratio(32.0, 1.0) * (_t74 * _t423 - _t73 * _t351)
+                    * (_t35 * self._h8 * _t409 + y * _t411 + _t412 * _t284
+                        + _t394 * _t285) - _t398 * _t286) + _t388 * _t289;
+        let _t416 = _t69 * _t162 + _t335 * S::ratio(8.0, 1.0);
+        let _t417 = _t69 * _t164 + S::ratio(8.0, 1.0) * _t341;
+        let _t418 = _t159 + _t62;
+        let _t419 = _t96 + _t4 * _t320 + S::ratio(64.0, 1.0) * _t101;
+        let _t420 = _t4 * _t40 - S::ratio(32.0, 1.0) * _t168 + _t33 * _t161;
+        let _t421 = _t4
+            * (_t19 * (_t174 + (_t93 + _t100) * _t61) + _t126 * S::ratio(8.0, 1.0)
+                + _t63 * _t317) + _t59 * _t58 * S::ratio(1024.0, 1.0)
+            + S::ratio(128.0, 1.0) * (_t173 + _t12 * _t88 + _t20 * _t91);
+        let _t422 = _t421 + S::ratio(32.0, 1.0) * (_t73 * _t420 - _t72 * _t350)
             - S::ratio(8.0, 1.0)
-                * (_t70
-                    * (_t95
+                * (_t69
+                    * (_t94
                         + S::ratio(2.0, 1.0)
-                            * (_t33 * (_t161 - z * S::ratio(96.0, 1.0))
-                                - _t41 * (_t164 - x * S::ratio(96.0, 1.0)))) - _t118 * _t163
-                    + _t165 * _t126);
-        let _t426 = _t393 + _t104 - S::ratio(8.0, 1.0) * _t348;
-        let _t427 = (_t332 + S::ratio(16.0, 1.0) * _t93 - S::ratio(128.0, 1.0) * _t333)
+                            * (_t33 * (_t160 - z * S::ratio(96.0, 1.0))
+                                - _t40 * (_t163 - x * S::ratio(96.0, 1.0)))) - _t117 * _t162
+                    + _t164 * _t125);
+        let _t423 = _t390 + _t103 - S::ratio(8.0, 1.0) * _t347;
+        let _t424 = (_t331 + S::ratio(16.0, 1.0) * _t92 - S::ratio(128.0, 1.0) * _t332)
             * self._h14;
-        let _t428 = (_t71 + _t328 * _t22) * self._h6;
-        let _t429 = _t47 * self._h8;
-        let _t430 = S::ratio(1.0, 46080.0) * (_t78 * self._h8);
-        let _t431 = self._h3
-            * (_t58 * _t299 - _t45 * _t297 - _t32 * _t317 + _t40 * _t306)
-            - self._h11 * (_t419 * _t298 - _t300 * _t420) + _t303 * self._h0
-            + self._h5 * (_t233 * _t308 + _t421 * _t313);
-        let _t432 = _t431 - self._h4 * (_t141 * _t312 + _t314 * _t173)
-            - self._h12 * (_t167 * _t311 - _t310 * _t422)
-            - self._h1 * (_t80 * _t350 - _t83 * _t355) + _t425 * self._h13;
-        let _t433 = _t432 + self._h7 * (_t83 * _t278 + _t292 * _t426) + _t295 * _t427
-            - _t302 * _t428
+        let _t425 = (_t70 + _t327 * _t22) * self._h6;
+        let _t426 = _t46 * self._h8;
+        let _t427 = S::ratio(1.0, 46080.0) * (_t77 * self._h8);
+        let _t428 = self._h3
+            * (_t57 * _t298 - _t44 * _t296 - _t32 * _t316 + _t39 * _t305)
+            - self._h11 * (_t416 * _t297 - _t299 * _t417) + _t302 * self._h0
+            + self._h5 * (_t232 * _t307 + _t418 * _t312);
+        let _t429 = _t428 - self._h4 * (_t140 * _t311 + _t313 * _t172)
+            - self._h12 * (_t166 * _t310 - _t309 * _t419)
+            - self._h1 * (_t79 * _t349 - _t82 * _t354) + _t422 * self._h13;
+        let _t430 = _t429 + self._h7 * (_t82 * _t277 + _t291 * _t423) + _t294 * _t424
+            - _t301 * _t425
             + S::ratio(1.0, 2880.0)
-                * (y * self._h8 * (x * _t353 + z * _t324 + _t69 * _t347) + _t340 * _t429
-                    + _t344 * _t289);
-        let _t434 = _t373 - _t238;
-        let _t435 = _t70 * _t423
-            + S::ratio(4.0, 1.0) * (_t178 + y * (_t131 + _t100 * _t5) + _t12 * _t76)
-            + S::ratio(32.0, 1.0) * (_t60 * _t64 - _t73 * _t149)
-            + S::ratio(2.0, 1.0) * (_t118 * _t170 - _t126 * _t171);
-        let _t436 = (_t58 * _t368 - _t45 * _t365 - _t32 * _t382 + _t40 * _t374)
+                * (y * self._h8 * (x * _t352 + z * _t323 + _t68 * _t346) + _t339 * _t426
+                    + _t343 * _t288);
+        let _t431 = _t370 - _t237;
+        let _t432 = _t69 * _t420
+            + S::ratio(4.0, 1.0) * (_t177 + y * (_t130 + _t99 * _t5) + _t12 * _t75)
+            + S::ratio(32.0, 1.0) * (_t59 * _t63 - _t72 * _t148)
+            + S::ratio(2.0, 1.0) * (_t117 * _t169 - _t125 * _t170);
+        let _t433 = (_t57 * _t365 - _t44 * _t363 - _t32 * _t379 + _t39 * _t371)
             * self._h3
-            + (_t435 + _t74 * S::ratio(8.0, 1.0) * _t434 - _t419 * _t366 + _t369 * _t420)
+            + (_t432 + _t73 * S::ratio(8.0, 1.0) * _t431 - _t416 * _t364 + _t366 * _t417)
                 * self._h11;
-        let _t437 = _t436 + _t372 * self._h0 + (_t233 * _t375 + _t421 * _t379) * self._h5
-            - (_t141 * _t378 + _t380 * _t173) * self._h4
-            - (_t167 * _t377 - _t376 * _t422) * self._h12;
-        let _t438 = _t437 + self._h1 * (_t18 * _t415 - _t80 * _t410 + _t83 * _t412)
-            + (_t361 * _t278 + _t362 * _t426) * self._h7 + _t49 * _t427 - _t371 * _t428
-            + (y * (x * _t414 + self._h8 * (z * _t387 + _t69 * _t405)) + _t397 * _t429
-                + _t401 * _t289) * S::ratio(1.0, 2880.0);
-        let _t439 = _t438 + _t391 * _t430;
-        let _t440 = (_t394 + _t327 * _t150) * _t366 + _t371 * (_t389 + z * _t224)
-            + _t377 * _t173 - _t369 * (_t398 + y * _t399) - _t378 * _t154
-            + _t380 * _t188;
-        let _t441 = _t112 * (_t82 * _t407 + _t88 * _t407)
+        let _t434 = _t433 + _t369 * self._h0 + (_t232 * _t372 + _t418 * _t376) * self._h5
+            - (_t140 * _t375 + _t377 * _t172) * self._h4
+            - (_t166 * _t374 - _t373 * _t419) * self._h12;
+        let _t435 = _t434 + self._h1 * (_t18 * _t412 - _t79 * _t407 + _t82 * _t409)
+            + (_t360 * _t277 + _t361 * _t423) * self._h7 + _t48 * _t424 - _t368 * _t425
+            + (y * (x * _t411 + self._h8 * (z * _t384 + _t68 * _t402)) + _t394 * _t426
+                + _t398 * _t288) * S::ratio(1.0, 2880.0);
+        let _t436 = _t435 + _t388 * _t427;
+        let _t437 = (_t391 + _t326 * _t149) * _t364 + _t368 * (_t386 + z * _t223)
+            + _t374 * _t172 - _t366 * (_t395 + y * _t396) - _t375 * _t153
+            + _t377 * _t187;
+        let _t438 = _t111 * (_t81 * _t404 + _t87 * _t404)
             - _t20 * _t20 * _t20 * S::ratio(45.0, 1.0)
-                * (_t54
+                * (_t53
                     - z * (_t8 * (_t8 - S::ratio(5.0, 1.0)) + S::ratio(15.0, 1.0)) * _t27
-                        * _t27 * _t27 * _t55);
-        let _t442 = _t100 * _t183 - y * _t126 * _t186
+                        * _t27 * _t27 * _t54);
+        let _t439 = _t99 * _t182 - y * _t125 * _t185
             - S::ratio(12.0, 1.0)
-                * (_t112 * _t407 * _t191
-                    + _t74
-                        * (_t112 * (_t136 * _t407 - _t407 * _t187)
-                            + S::ratio(5.0, 1.0) * _t55 * _t189));
-        let _t443 = _t442 - S::ratio(3.0, 1.0) * (_t119 * _t55 + _t20 * _t441)
-            + S::ratio(4.0, 1.0) * (_t70 * _t434 + _t73 * _t383) + _t59 * _t55 * _t406
-            + _t413 * _t28 + _t49 * _t405;
-        let _t444 = self.h * _t28
+                * (_t111 * _t404 * _t190
+                    + _t73
+                        * (_t111 * (_t135 * _t404 - _t404 * _t186)
+                            + S::ratio(5.0, 1.0) * _t54 * _t188));
+        let _t440 = _t439 - S::ratio(3.0, 1.0) * (_t118 * _t54 + _t20 * _t438)
+            + S::ratio(4.0, 1.0) * (_t69 * _t431 + _t72 * _t380) + _t58 * _t54 * _t403
+            + _t410 * _t28 + _t48 * _t402;
+        let _t441 = self.h * _t28
             - self._h3
-                * (_t87 * _t368 - _t45 * _t363 - _t23 * _t382 + _t40 * _t372
-                    + _t379 * (_t114 + _t59 * _t272)) - self._h4 * _t440
-            + _t374 * self._h0;
-        let _t445 = _t444 + _t375 * _t236 + _t421 * _t376 * self._h5
-            + self._h1 * (_t443 - _t51 * _t412)
-            + self._h7 * (_t361 * _t279 + _t49 * _t426)
-            - _t362
-                * (z * _t190 - S::ratio(60.0, 1.0) * _t56 * _t189
-                    - S::ratio(8.0, 1.0) * _t408) * self._h15;
-        let _t446 = _t445
+                * (_t86 * _t365 - _t44 * _t362 - _t23 * _t379 + _t39 * _t369
+                    + _t376 * (_t113 + _t58 * _t271)) - self._h4 * _t437
+            + _t371 * self._h0;
+        let _t442 = _t441 + _t372 * _t235 + _t418 * _t373 * self._h5
+            + self._h1 * (_t440 - _t50 * _t409)
+            + self._h7 * (_t360 * _t278 + _t48 * _t423)
+            - _t361
+                * (z * _t189 - S::ratio(60.0, 1.0) * _t55 * _t188
+                    - S::ratio(8.0, 1.0) * _t405) * self._h15;
+        let _t443 = _t442
             + y
-                * (x * _t415 * self._h9 + self._h8 * (y * _t387 - _t53 * _t410)
-                    + _t401 * _t286) * S::ratio(1.0, 5760.0)
-            - self._h8 * (_t395 * _t54 + _t396 * _t54) * S::ratio(1.0, 1920.0) * _t274;
-        xi[0] = _t3 * self.h + _t45 * self._h0 - (_t158 - _t44 * _t156) * self._h1;
-        xi[1] = _t7 * self.h + _t87 * self._h0 + (_t177 + _t78 * _t175) * self._h2;
-        xi[2] = _t11 * self.h + _t58 * self._h0
-            + (_t194 + (_t19 * _t60 + _t12 * _t155) * _t48 + _t47 * _t156) * self._h1;
-        hessian[(0, 0)] = _t291 + _t222 * _t234 + _t231 * _t236 - self._h1 * _t277
-            + self._h7 * (_t195 * _t278 + _t26 * _t279)
-            + S::ratio(1.0, 5760.0) * (_t288 - _t255 * _t287) + _t248 * _t290;
-        hessian[(0, 1)] = _t360;
-        hessian[(0, 2)] = _t418;
-        hessian[(1, 0)] = _t360;
-        hessian[(1, 1)] = _t433 + _t18 * _t356 * S::ratio(1.0, 5760.0) + _t330 * _t430;
-        hessian[(1, 2)] = _t439;
-        hessian[(2, 0)] = _t418;
-        hessian[(2, 1)] = _t439;
-        hessian[(2, 2)] = _t446 + _t391 * S::ratio(1.0, 2880.0) * _t429;
+                * (x * _t412 * self._h9 + self._h8 * (y * _t384 - _t52 * _t407)
+                    + _t398 * _t285) * S::ratio(1.0, 5760.0)
+            - self._h8 * (_t392 * _t53 + _t393 * _t53) * S::ratio(1.0, 1920.0) * _t273;
+        xi[0] = _t3 * self.h + _t44 * self._h0 - (_t157 - _t43 * _t155) * self._h1;
+        xi[1] = _t7 * self.h + _t86 * self._h0 + (_t176 + _t77 * _t174) * self._h2;
+        xi[2] = _t11 * self.h + _t57 * self._h0
+            + (_t193 + (_t19 * _t59 + _t12 * _t154) * _t47 + _t46 * _t155) * self._h1;
+        hessian[(0, 0)] = _t290 + _t221 * _t233 + _t230 * _t235 - self._h1 * _t276
+            + self._h7 * (_t194 * _t277 + _t26 * _t278)
+            + S::ratio(1.0, 5760.0) * (_t287 - _t254 * _t286) + _t247 * _t289;
+        hessian[(0, 1)] = _t359;
+        hessian[(0, 2)] = _t415;
+        hessian[(1, 0)] = _t359;
+        hessian[(1, 1)] = _t430 + _t18 * _t355 * S::ratio(1.0, 5760.0) + _t329 * _t427;
+        hessian[(1, 2)] = _t436;
+        hessian[(2, 0)] = _t415;
+        hessian[(2, 1)] = _t436;
+        hessian[(2, 2)] = _t443 + _t388 * S::ratio(1.0, 2880.0) * _t426;
     }
 }
 
@@ -2403,7 +2399,7 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`
     ///
-    /// 83 additions, 122 multiplications, 1 division, 4 function calls.
+    /// 82 additions, 122 multiplications, 1 division, 4 function calls.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
@@ -2427,8 +2423,8 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t16 = _t15 + _t15;
         let _t17 = _u_x.sin();
         let _t18 = _u_z * S::ratio(2.0, 1.0);
-        let _t19 = _t13 * _t17 - _u_y * (_t7 * _u_y + _t14 * _t18);
-        let _t20 = -_t19 - _t19;
+        let _t19 = _u_y * (_t7 * _u_y + _t14 * _t18) - _t13 * _t17;
+        let _t20 = _t19 + _t19;
         let _t21 = _t0 * S::ratio(1.0, 4.0) + _t2;
         let _t22 = _t6 * _t1;
         let _t23 = _t12 * _t18;
@@ -2476,7 +2472,7 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 391 additions, 469 multiplications, 1 division, 4 function calls.
+    /// 388 additions, 469 multiplications, 1 division, 4 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -2550,8 +2546,8 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t58 = _t30 * _t57;
         let _t59 = _t33 * _u_y;
         let _t60 = _t25 * _t12;
-        let _t61 = _t58 - _u_y * (_t59 + _t60);
-        let _t62 = -_t61 - _t61;
+        let _t61 = _u_y * (_t59 + _t60) - _t58;
+        let _t62 = _t61 + _t61;
         let _t63 = _t26 - _t22;
         let _t64 = _t14 + _u_y * _t63;
         let _t65 = _t25 * _u_x;
@@ -2742,13 +2738,13 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t188 = _t38 * _t27
             + S::ratio(2.0, 1.0) * (_t65 + _u_y * (_t30 + _t186 * _u_x + _t187 * _u_z));
         let _t189 = _t188 + _t188;
-        let _t190 = _t71 - (_t186 * _t22 + _u_y * (_t187 * _u_y + _t38 * _t45));
-        let _t191 = -_t190 - _t190;
+        let _t190 = _t186 * _t22 + _u_y * (_t187 * _u_y + _t38 * _t45) - _t71;
+        let _t191 = _t190 + _t190;
         let _t192 = S::ratio(2.0, 1.0) * _t19 + _t41 * S::ratio(6.0, 1.0)
             + S::ratio(4.0, 1.0) * (_t111 + _t169 + _t22 * _t122);
-        let _t193 = _t187 * _t57
-            - _u_y * (_t186 * _u_y + S::ratio(2.0, 1.0) * (_t25 + _t38 * _u_z));
-        let _t194 = -_t193 - _t193;
+        let _t193 = _u_y * (_t186 * _u_y + S::ratio(2.0, 1.0) * (_t25 + _t38 * _u_z))
+            - _t187 * _t57;
+        let _t194 = _t193 + _t193;
         let _t195 = S::ratio(4.0, 1.0)
             * (_t165 + _t2 * _t108 + _t161 * _t128 + _t22 * _t121);
         let _t196 = _t14 * _t161;
@@ -2810,7 +2806,7 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
 
     /// `mu1 = mu + 2 ad*_y p`
     ///
-    /// 75 additions, 116 multiplications, 1 division, 4 function calls.
+    /// 74 additions, 116 multiplications, 1 division, 4 function calls.
     #[inline]
     fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
@@ -2834,8 +2830,8 @@ for NonpolynomialSpinCayleyGenerating4<'_, S> {
         let _t16 = _t15 + _t15;
         let _t17 = _u_x.sin();
         let _t18 = _u_z * S::ratio(2.0, 1.0);
-        let _t19 = _t13 * _t17 - _u_y * (_t7 * _u_y + _t14 * _t18);
-        let _t20 = -_t19 - _t19;
+        let _t19 = _u_y * (_t7 * _u_y + _t14 * _t18) - _t13 * _t17;
+        let _t20 = _t19 + _t19;
         let _t21 = _t0 * S::ratio(1.0, 4.0) + _t2;
         let _t22 = _t6 * _t1;
         let _t23 = _t12 * _t18;

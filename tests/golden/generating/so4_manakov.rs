@@ -4132,7 +4132,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
 
     /// `r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`
     ///
-    /// 715 additions, 811 multiplications.
+    /// 705 additions, 811 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -4303,7 +4303,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t133 = _u_m24 - _t128 * _u_m34;
         let _t134 = _t106 * _u_m14;
         let _t135 = _u_m12 - _t128 * _u_m13;
-        let _t136 = _t134 - _t135;
+        let _t136 = _t135 - _t134;
         let _t137 = S::ratio(3.0, 1.0) * _t68;
         let _t138 = _t98 + _t6;
         let _t139 = _t121 + _t1;
@@ -4322,7 +4322,7 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t147 = _u_m34 + _t128 * _u_m24;
         let _t148 = _t141 * _u_m14;
         let _t149 = _u_m13 + _t128 * _u_m12;
-        let _t150 = _t148 - _t149;
+        let _t150 = _t149 - _t148;
         let _t151 = _t143 + _t108;
         let _t152 = _t141 * _u_m23;
         let _t153 = _u_m24 + _t152;
@@ -4362,21 +4362,21 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t182 = _t112 + _t26;
         let _t183 = _t29 - S::ratio(2.0, 1.0) * _t182;
         let _t184 = _t0 * _t173;
-        let _t185 = _t184 - _t16 * _t175;
+        let _t185 = _t16 * _t175 - _t184;
         let _t186 = _t16 * _t177;
         let _t187 = _t0 * _t2 - _t186;
-        let _t188 = (self.system._k8 * (-(self.system._k55 * _t183) - _t185)
-            + _t167 * _t113 + self.system._k20 * (_t33 + _t161 * _u_m12)
-            - _t187 * self.system._k55) * self._h1;
+        let _t188 = (self.system._k8 * (_t185 - self.system._k55 * _t183) + _t167 * _t113
+            + self.system._k20 * (_t33 + _t161 * _u_m12) - _t187 * self.system._k55)
+            * self._h1;
         let _t189 = _t133 + _t62 * _u_m14;
         let _t190 = _t123 - S::ratio(2.0, 1.0) * _t139;
         let _t191 = _t16 * _t173;
-        let _t192 = _t191 - _t0 * _t175;
+        let _t192 = _t0 * _t175 - _t191;
         let _t193 = _t0 * _t177;
         let _t194 = _t16 * _t2 - _t193;
-        let _t195 = (self.system._k9 * (-(self.system._k55 * _t190) - _t192)
-            + _t161 * _t126 + self.system._k14 * (_t48 + _t167 * _u_m12)
-            - _t194 * self.system._k55) * self._h1;
+        let _t195 = (self.system._k9 * (_t192 - self.system._k55 * _t190) + _t161 * _t126
+            + self.system._k14 * (_t48 + _t167 * _u_m12) - _t194 * self.system._k55)
+            * self._h1;
         let _t196 = _u_m13 - _t62 * _u_m23 + _t118 * _u_m34;
         let _t197 = _t100 + S::ratio(2.0, 1.0) * _t138;
         let _t198 = _t12 * _t173;
@@ -4438,9 +4438,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t241 = _t240 + _t240;
         let _t242 = self.system._k10 * _t30;
         let _t243 = _t242 + _t242;
-        let _t244 = (self.system._k6 * (-(_t183 * self.system._k58) - _t185)
-            + _t241 * _t49 + self.system._k20 * (_t33 + _t243 * _u_m14)
-            - _t187 * self.system._k58) * self._h1;
+        let _t244 = (self.system._k6 * (_t185 - _t183 * self.system._k58) + _t241 * _t49
+            + self.system._k20 * (_t33 + _t243 * _u_m14) - _t187 * self.system._k58)
+            * self._h1;
         let _t245 = self.system._k6 * _t114;
         let _t246 = _t245 + _t245;
         let _t247 = self.system._k11 * _t77;
@@ -4471,9 +4471,9 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t263 = _t262 + _t262;
         let _t264 = self.system._k7 * _t45;
         let _t265 = _t264 + _t264;
-        let _t266 = (self.system._k6 * (-(_t190 * self.system._k60) - _t192)
-            + _t263 * _t34 + self.system._k14 * (_t48 + _t265 * _u_m23)
-            - _t194 * self.system._k60) * self._h1;
+        let _t266 = (self.system._k6 * (_t192 - _t190 * self.system._k60) + _t263 * _t34
+            + self.system._k14 * (_t48 + _t265 * _u_m23) - _t194 * self.system._k60)
+            * self._h1;
         let _t267 = self.system._k11 * _t125;
         let _t268 = _t267 + _t267;
         let _t269 = self.system._k6 * _t83;
@@ -4542,17 +4542,17 @@ for ManakovTopCayleyGenerating4<'_, S> {
             + self.system._k17 * (_t43 + _t301 * _u_m34) + _t308 * self.system._k64)
             * self._h1;
         let _t310 = _t139 - S::ratio(2.0, 1.0) * _t123;
-        let _t311 = _t193 - _t16 * _t306;
+        let _t311 = _t16 * _t306 - _t193;
         let _t312 = _t9 * _t0 - _t191;
-        let _t313 = (self.system._k8 * (-(_t310 * self.system._k64) - _t311)
-            + _t297 * _t30 + self.system._k15 * (_t48 + _t303 * _u_m34)
-            - _t312 * self.system._k64) * self._h1;
+        let _t313 = (self.system._k8 * (_t311 - _t310 * self.system._k64) + _t297 * _t30
+            + self.system._k15 * (_t48 + _t303 * _u_m34) - _t312 * self.system._k64)
+            * self._h1;
         let _t314 = _t182 - S::ratio(2.0, 1.0) * _t29;
-        let _t315 = _t186 - _t0 * _t306;
+        let _t315 = _t0 * _t306 - _t186;
         let _t316 = _t9 * _t16 - _t184;
-        let _t317 = (self.system._k9 * (-(_t314 * self.system._k64) - _t315)
-            + _t303 * _t45 + self.system._k21 * (_t33 + _t297 * _u_m34)
-            - _t316 * self.system._k64) * self._h1;
+        let _t317 = (self.system._k9 * (_t315 - _t314 * self.system._k64) + _t303 * _t45
+            + self.system._k21 * (_t33 + _t297 * _u_m34) - _t316 * self.system._k64)
+            * self._h1;
         let _t318 = _t171 + S::ratio(2.0, 1.0) * _t25;
         let _t319 = _t178 + _t5 * _t306;
         let _t320 = _t9 * _t12 + _t174;
@@ -4573,13 +4573,13 @@ for ManakovTopCayleyGenerating4<'_, S> {
             + self.system._k17 * (_t43 + _t206 * _u_m13) + _t308 * self.system._k56)
             * self._h1;
         let _t331 = _t94 * _t118;
-        let _t332 = (self.system._k11 * (-(_t310 * self.system._k58) - _t311)
-            + _t243 * _t31 + self.system._k15 * (_t48 + _t241 * _u_m14)
-            - _t312 * self.system._k58) * self._h1;
+        let _t332 = (self.system._k11 * (_t311 - _t310 * self.system._k58) + _t243 * _t31
+            + self.system._k15 * (_t48 + _t241 * _u_m14) - _t312 * self.system._k58)
+            * self._h1;
         let _t333 = _t94 * _t128;
-        let _t334 = (self.system._k11 * (-(_t314 * self.system._k60) - _t315)
-            + _t265 * _t46 + self.system._k21 * (_t33 + _t263 * _u_m23)
-            - _t316 * self.system._k60) * self._h1;
+        let _t334 = (self.system._k11 * (_t315 - _t314 * self.system._k60) + _t265 * _t46
+            + self.system._k21 * (_t33 + _t263 * _u_m23) - _t316 * self.system._k60)
+            * self._h1;
         let _t335 = (self.system._k11 * (_t319 + _t318 * self.system._k62) + _t283 * _t41
             + self.system._k19 * (_t38 + _t281 * _u_m24) + _t320 * self.system._k62)
             * self._h1;
@@ -4597,16 +4597,14 @@ for ManakovTopCayleyGenerating4<'_, S> {
         let _t344 = _t322 - _t336;
         let _t345 = _t118 * _t106;
         let _t346 = _t118 * _t141;
-        let _t347 = -_t150;
-        let _t348 = -_t136;
-        let _t349 = _t151 + S::ratio(2.0, 1.0) * _t129;
-        let _t350 = _t128 * _t106;
-        let _t351 = _t128 * _t141;
-        let _t352 = _t144 + S::ratio(2.0, 1.0) * _t107;
-        let _t353 = _t106 * _t141;
-        let _t354 = _t131 + S::ratio(2.0, 1.0) * _t142;
-        residual[0] = _t62 * (_t131 + _t63) - m12 + _t94 * _t132 + _t118 * _t133 - _t136;
-        residual[1] = _t94 * (_t144 + _t95) - m13 - _t62 * _t146 + _t118 * _t147 - _t150;
+        let _t347 = _t151 + S::ratio(2.0, 1.0) * _t129;
+        let _t348 = _t128 * _t106;
+        let _t349 = _t128 * _t141;
+        let _t350 = _t144 + S::ratio(2.0, 1.0) * _t107;
+        let _t351 = _t106 * _t141;
+        let _t352 = _t131 + S::ratio(2.0, 1.0) * _t142;
+        residual[0] = _t62 * (_t131 + _t63) - m12 + _t94 * _t132 + _t118 * _t133 + _t136;
+        residual[1] = _t94 * (_t144 + _t95) - m13 - _t62 * _t146 + _t118 * _t147 + _t150;
         residual[2] = _t158 - m14 + _t118 * (_t151 + _t119) - _t62 * _t153
             - _t94 * _t155;
         residual[3] = _t132 - m23 - _t145 + _t128 * (_t151 + _t129)
@@ -4651,42 +4649,42 @@ for ManakovTopCayleyGenerating4<'_, S> {
             + _t293 * _t328 + _t335 * _t196;
         matrix[(2, 5)] = _t346 - _t94 - _t304 * _t341 - _t309 * _t342 + _t313 * _t343
             + _t321 * _t328 + _t340 * _t196;
-        matrix[(3, 0)] = _t261 - _t94 + _t169 * _t347 - _t180 * _t348 + _t195 * _t349
+        matrix[(3, 0)] = _t261 - _t94 + _t169 * _t150 - _t180 * _t136 + _t195 * _t347
             + _t202 * _t327 - _t329 * _t189;
-        matrix[(3, 1)] = _t62 + _t333 + _t209 * _t347 - _t216 * _t348 + _t233 * _t349
+        matrix[(3, 1)] = _t62 + _t333 + _t209 * _t150 - _t216 * _t136 + _t233 * _t347
             + _t238 * _t327 - _t330 * _t189;
-        matrix[(3, 2)] = _t344 + _t244 * _t347 - _t249 * _t348 + _t256 * _t349
+        matrix[(3, 2)] = _t344 + _t244 * _t150 - _t249 * _t136 + _t256 * _t347
             + _t260 * _t327 - _t332 * _t189;
-        matrix[(3, 3)] = S::one() + _t128 * _t128 + _t266 * _t347 - _t271 * _t348
-            + _t274 * _t349 + _t278 * _t327 - _t334 * _t189;
-        matrix[(3, 4)] = _t350 - _t141 + _t284 * _t347 - _t289 * _t348 + _t291 * _t349
+        matrix[(3, 3)] = S::one() + _t128 * _t128 + _t266 * _t150 - _t271 * _t136
+            + _t274 * _t347 + _t278 * _t327 - _t334 * _t189;
+        matrix[(3, 4)] = _t348 - _t141 + _t284 * _t150 - _t289 * _t136 + _t291 * _t347
             + _t293 * _t327 - _t335 * _t189;
-        matrix[(3, 5)] = _t106 + _t351 + _t304 * _t347 - _t309 * _t348 + _t317 * _t349
+        matrix[(3, 5)] = _t106 + _t349 + _t304 * _t150 - _t309 * _t136 + _t317 * _t347
             + _t321 * _t327 - _t340 * _t189;
-        matrix[(4, 0)] = _t279 - _t118 + _t169 * _t158 - _t188 * _t348 - _t195 * _t342
-            + _t202 * _t352 + _t329 * _t181;
-        matrix[(4, 1)] = _t337 + _t209 * _t158 - _t225 * _t348 - _t233 * _t342
-            + _t238 * _t352 + _t330 * _t181;
-        matrix[(4, 2)] = _t62 + _t345 + _t244 * _t158 - _t252 * _t348 - _t256 * _t342
-            + _t260 * _t352 + _t332 * _t181;
-        matrix[(4, 3)] = _t141 + _t350 + _t266 * _t158 - _t272 * _t348 - _t274 * _t342
-            + _t278 * _t352 + _t334 * _t181;
-        matrix[(4, 4)] = S::one() + _t106 * _t106 + _t284 * _t158 - _t290 * _t348
-            - _t291 * _t342 + _t293 * _t352 + _t335 * _t181;
-        matrix[(4, 5)] = _t353 - _t128 + _t304 * _t158 - _t313 * _t348 - _t317 * _t342
-            + _t321 * _t352 + _t340 * _t181;
-        matrix[(5, 0)] = _t324 + _t180 * _t158 - _t188 * _t347 + _t195 * _t341
-            - _t202 * _t325 + _t329 * _t354;
-        matrix[(5, 1)] = _t338 - _t118 + _t216 * _t158 - _t225 * _t347 + _t233 * _t341
-            - _t238 * _t325 + _t330 * _t354;
-        matrix[(5, 2)] = _t94 + _t346 + _t249 * _t158 - _t252 * _t347 + _t256 * _t341
-            - _t260 * _t325 + _t332 * _t354;
-        matrix[(5, 3)] = _t351 - _t106 + _t271 * _t158 - _t272 * _t347 + _t274 * _t341
-            - _t278 * _t325 + _t334 * _t354;
-        matrix[(5, 4)] = _t128 + _t353 + _t289 * _t158 - _t290 * _t347 + _t291 * _t341
-            - _t293 * _t325 + _t335 * _t354;
-        matrix[(5, 5)] = S::one() + _t141 * _t141 + _t309 * _t158 - _t313 * _t347
-            + _t317 * _t341 - _t321 * _t325 + _t340 * _t354;
+        matrix[(4, 0)] = _t279 - _t118 + _t169 * _t158 - _t188 * _t136 - _t195 * _t342
+            + _t202 * _t350 + _t329 * _t181;
+        matrix[(4, 1)] = _t337 + _t209 * _t158 - _t225 * _t136 - _t233 * _t342
+            + _t238 * _t350 + _t330 * _t181;
+        matrix[(4, 2)] = _t62 + _t345 + _t244 * _t158 - _t252 * _t136 - _t256 * _t342
+            + _t260 * _t350 + _t332 * _t181;
+        matrix[(4, 3)] = _t141 + _t348 + _t266 * _t158 - _t272 * _t136 - _t274 * _t342
+            + _t278 * _t350 + _t334 * _t181;
+        matrix[(4, 4)] = S::one() + _t106 * _t106 + _t284 * _t158 - _t290 * _t136
+            - _t291 * _t342 + _t293 * _t350 + _t335 * _t181;
+        matrix[(4, 5)] = _t351 - _t128 + _t304 * _t158 - _t313 * _t136 - _t317 * _t342
+            + _t321 * _t350 + _t340 * _t181;
+        matrix[(5, 0)] = _t324 + _t180 * _t158 - _t188 * _t150 + _t195 * _t341
+            - _t202 * _t325 + _t329 * _t352;
+        matrix[(5, 1)] = _t338 - _t118 + _t216 * _t158 - _t225 * _t150 + _t233 * _t341
+            - _t238 * _t325 + _t330 * _t352;
+        matrix[(5, 2)] = _t94 + _t346 + _t249 * _t158 - _t252 * _t150 + _t256 * _t341
+            - _t260 * _t325 + _t332 * _t352;
+        matrix[(5, 3)] = _t349 - _t106 + _t271 * _t158 - _t272 * _t150 + _t274 * _t341
+            - _t278 * _t325 + _t334 * _t352;
+        matrix[(5, 4)] = _t128 + _t351 + _t289 * _t158 - _t290 * _t150 + _t291 * _t341
+            - _t293 * _t325 + _t335 * _t352;
+        matrix[(5, 5)] = S::one() + _t141 * _t141 + _t309 * _t158 - _t313 * _t150
+            + _t317 * _t341 - _t321 * _t325 + _t340 * _t352;
     }
 
     /// `mu1 = mu + 2 ad*_y p`

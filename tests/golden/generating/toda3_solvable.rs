@@ -1445,7 +1445,7 @@ for TodaLatticeSecondKind2Equation<'_, S> {
 
     /// `r_i = p_i - (m_(i-1))_i` and `dr/dp`, by `dm_i/dxi_i = ad*_(e_i) m_i`
     ///
-    /// 24 additions, 27 multiplications, 1 division, 3 function calls.
+    /// 22 additions, 27 multiplications, 1 division, 3 function calls.
     #[inline]
     fn linearize(
         &mut self,
@@ -1459,9 +1459,9 @@ for TodaLatticeSecondKind2Equation<'_, S> {
         let _t1 = _t0 * _u_a2;
         let _t2 = S::ratio(2.0, 1.0) * _u_a1;
         let _t3 = _t2 * _u_a1;
-        let _t4 = (-((_t3 - _t1) * self._h0 - _u_b2 * self._h1)).exp();
+        let _t4 = (_u_b2 * self._h1 - (_t3 - _t1) * self._h0).exp();
         let _t5 = _t4 * (a1 * (-_t3 * self._h0 - _u_b1 * self._h1).exp());
-        let _t6 = (-(_t1 * self._h0 - _u_b3 * self._h1)).exp() * (a2 / _t4);
+        let _t6 = (_u_b3 * self._h1 - _t1 * self._h0).exp() * (a2 / _t4);
         let _t7 = -_t5;
         let _t8 = _t2 + _t2;
         let _t9 = _t8 * self._h0;
