@@ -13,7 +13,7 @@ const MOST_SHARED: usize = 4;
 /// A form that has so many times the operations of the shortest before sharing is hopeless.
 const HOPELESS: usize = 2;
 /// A kernel of more operations is computed as it was derived.
-const LONGEST: usize = 5_000;
+pub const LONGEST: usize = 5_000;
 
 /// The choice of a program for one task.
 pub struct Choice<'a> {

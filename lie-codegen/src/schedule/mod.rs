@@ -29,7 +29,7 @@ mod signs;
 pub use program::{Counts, Operation, Program, Value};
 
 use crate::symbolic::{ExprId, Graph, Symbol};
-use choice::Choice;
+use choice::{Choice, LONGEST};
 use collect::Collector;
 
 /// Which symbols are known before the kernel runs, so that expressions in them are prepared.
@@ -86,6 +86,10 @@ pub fn schedule_beside(graph: &mut Graph, first: &Task, second: &Task) -> Progra
     both.outputs.extend(&second.outputs);
     let collector = &mut Collector::new(first.known);
     let together = program(graph, collector, &both);
+    // The other way would take as long again.
+    if together.operations.len() > LONGEST {
+        return together;
+    }
     let alone = program(graph, collector, first);
     let part = together.part(0..count);
     if part.counts.weight() <= alone.counts.weight() {
