@@ -254,6 +254,44 @@ pub fn did_you_mean<'a>(
     best.map(|(_, candidate)| candidate)
 }
 
+/// The declared name that a misspelt one is meant to be. A name that differs in its number alone, `e4` from
+/// `e1`, is another element of a series and no slip.
+pub fn misspelt<'a>(name: &str, declared: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let others = declared.into_iter();
+    did_you_mean(name, others.filter(|other| !differ_in_number(name, other)))
+}
+
+/// The declared names that differ from a name in its number alone, in order.
+pub fn series<'a>(name: &str, declared: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let declared = declared.into_iter();
+    declared
+        .filter(|other| differ_in_number(name, other))
+        .collect()
+}
+
+fn differ_in_number(name: &str, other: &str) -> bool {
+    let numbered = |text: &str| text.contains(|c: char| c.is_ascii_digit());
+    let letters = |text: &str| -> Vec<char> {
+        let stem = text
+            .chars()
+            .map(|c| if c.is_ascii_digit() { '0' } else { c });
+        let mut stem: Vec<char> = stem.collect();
+        stem.dedup_by(|a, b| *a == '0' && *b == '0');
+        stem
+    };
+    name != other && numbered(name) && numbered(other) && letters(name) == letters(other)
+}
+
+/// Names as text, the first dozen of them.
+pub fn listed(names: &[&str]) -> String {
+    let shown = names.iter().take(12).map(|name| format!("`{name}`"));
+    let mut text = shown.collect::<Vec<_>>().join(", ");
+    if names.len() > 12 {
+        text.push_str(", …");
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -287,6 +325,17 @@ mod tests {
         assert_eq!(did_you_mean("", known), None);
         assert_eq!(did_you_mean("dt", ["at"]), None);
         assert_eq!(did_you_mean(&"x".repeat(1 << 20), known), None);
+    }
+
+    #[test]
+    fn another_number_is_no_slip() {
+        assert_eq!(misspelt("e4", ["e1", "e2", "e3"]), None);
+        assert_eq!(misspelt("x10", ["x1", "x2"]), None);
+        assert_eq!(misspelt("I12", ["I11", "mass"]), None);
+        assert_eq!(misspelt("x1z", ["x2z", "x1y"]), Some("x1y"));
+        assert_eq!(misspelt("omga1", ["omega1", "omega2"]), Some("omega1"));
+        assert_eq!(misspelt("pi1", ["Pi1", "Pi2"]), Some("Pi1"));
+        assert_eq!(series("e4", ["e1", "f1", "e2", "e"]), ["e1", "e2"]);
     }
 
     #[test]

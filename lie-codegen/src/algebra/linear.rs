@@ -7,7 +7,7 @@ use super::scope::{Meaning, Scope};
 use crate::ast::{Expr, ExprKind};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
-use crate::suggest::did_you_mean;
+use crate::suggest::{did_you_mean, listed};
 use crate::symbolic::Function;
 
 /// The largest exponent of a coefficient.
@@ -297,7 +297,10 @@ impl Lowering<'_, '_> {
                 );
                 match scope.nearest_basis(name) {
                     Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-                    None => diagnostic.help("add it to the basis, or declare it as an exact parameter"),
+                    None => diagnostic.help(format!(
+                        "the basis is {}: add it, or declare it as an exact parameter",
+                        listed(scope.basis())
+                    )),
                 }
             }
         };

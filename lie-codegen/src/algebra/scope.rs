@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use crate::ast::Declaration;
 use crate::diagnostic::{Diagnostic, Kind};
 use crate::exact::Fraction;
-use crate::suggest::did_you_mean;
+use crate::suggest::{listed, misspelt};
 
 /// What a name stands for on the right side of a bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,7 +96,7 @@ impl<'a> Scope<'a> {
 
     /// The basis name most like a misspelt one.
     pub fn nearest_basis(&self, name: &str) -> Option<&'a str> {
-        did_you_mean(name, self.basis.iter().copied())
+        misspelt(name, self.basis.iter().copied())
     }
 
     /// The error for a name that is no basis name, at a place where one is expected.
@@ -108,7 +108,7 @@ impl<'a> Scope<'a> {
         );
         let help = match self.nearest_basis(&name.text) {
             Some(near) => format!("did you mean `{near}`?"),
-            None => format!("the basis is {}", shortened(&self.basis)),
+            None => format!("the basis is {}", listed(&self.basis)),
         };
         diagnostic.help(help)
     }
@@ -137,18 +137,4 @@ impl<'a> Scope<'a> {
         }
         if text.is_empty() { "0".into() } else { text }
     }
-}
-
-/// The first names of a list.
-fn shortened(names: &[&str]) -> String {
-    let mut text = names
-        .iter()
-        .take(12)
-        .map(|n| format!("`{n}`"))
-        .collect::<Vec<_>>()
-        .join(", ");
-    if names.len() > 12 {
-        text.push_str(", …");
-    }
-    text
 }

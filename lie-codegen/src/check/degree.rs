@@ -4,8 +4,10 @@
 //! largest unless the leading parts cancel. The leading part is therefore known at a few points
 //! modulo a prime, parameters and all, and nothing is expanded or brought to a common denominator.
 //! Where the values of the leading part are not zero, the degree is proven; where they are, or where
-//! roots and functions of the coordinates take part, the normal form decides.
+//! roots and functions of the coordinates take part, the normal form decides, unless values on a line
+//! show that there is no polynomial of a degree up to twelve.
 
+use super::confirmation::Confirmation;
 use super::normal::NormalForm;
 use super::residues;
 use crate::exact::{Budget, Rational, Residue};
@@ -33,6 +35,10 @@ pub fn degree(graph: &Graph, function: ExprId) -> Option<u32> {
 }
 
 fn normal(graph: &Graph, function: ExprId) -> Option<u32> {
+    // Most functions that get here are none, and values say so at once.
+    if Confirmation::new(graph, &[]).is_no_polynomial(function) {
+        return None;
+    }
     let budget = Budget::new(WORK);
     NormalForm::new(graph, &budget).degree(function)
 }

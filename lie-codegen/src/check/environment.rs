@@ -6,7 +6,7 @@ use crate::ast::{Declaration, Name, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin};
 use crate::front::habits;
 use crate::model::CANONICAL;
-use crate::suggest::did_you_mean;
+use crate::suggest::{listed, misspelt, series};
 use crate::symbolic::{ExprId, Function, Symbol};
 
 /// What a name stands for.
@@ -194,7 +194,8 @@ impl<'a> Environment<'a> {
             .collect();
         candidates.sort_unstable();
         candidates.push("pi");
-        let near = did_you_mean(name, candidates);
+        let near = misspelt(name, candidates.iter().copied());
+        let others = series(name, candidates);
         if near.is_none()
             && let Some((message, help)) = habits::constant(name)
         {
@@ -206,6 +207,11 @@ impl<'a> Environment<'a> {
             None if allowed == Allowed::Constants => {
                 diagnostic.help("only numbers and `pi` may stand here")
             }
+            None if !others.is_empty() => diagnostic.help(format!(
+                "declare `{name}` as a parameter or as an abbreviation; of these names there {} {}",
+                if others.len() == 1 { "is" } else { "are" },
+                listed(&others)
+            )),
             None => diagnostic.help(format!(
                 "declare `{name}` as a parameter or as an abbreviation"
             )),

@@ -12,7 +12,7 @@ use crate::ast::{Bracket, Declaration, Name, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Budget;
 use crate::model::CANONICAL;
-use crate::suggest::did_you_mean;
+use crate::suggest::{listed, misspelt};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the Jacobi identity of one system.
@@ -117,13 +117,10 @@ fn unknown(declaration: &Declaration, name: &Name) -> Diagnostic {
         name.origin,
         format!("`{}` is not a coordinate of the state", name.text),
     );
-    let state = || declaration.state.iter().map(|c| c.text.as_str());
-    diagnostic.help(match did_you_mean(&name.text, state()) {
+    let state: Vec<&str> = declaration.state.iter().map(|c| c.text.as_str()).collect();
+    diagnostic.help(match misspelt(&name.text, state.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!(
-            "the state is {}",
-            state().take(12).collect::<Vec<_>>().join(", ")
-        ),
+        None => format!("the state is {}", listed(&state)),
     })
 }
 

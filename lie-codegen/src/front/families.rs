@@ -55,6 +55,19 @@ pub fn not_built(origin: Origin) -> Diagnostic {
     .help("write the copies out, as in x1, x2, x3")
 }
 
+/// `x[0]` or `x[i]` where a name is declared: what stands behind the opening bracket.
+pub fn indexed_name(name: &Token, index: &[Token], origin: Origin) -> Diagnostic {
+    let (Some(name), [number, _]) = (name.identifier(), index) else {
+        return not_built(origin);
+    };
+    let TokenKind::Number(digits) = &number.kind else {
+        return not_built(origin);
+    };
+    let message =
+        format!("`{name}[{digits}]` is not a name: coordinates are no elements of a list");
+    Diagnostic::new(Kind::Syntax, origin, message).help(format!("write `{name}{digits}`"))
+}
+
 /// The rest of `sum(i in from..to: body)`, after the word `sum`.
 pub(super) fn indexed_sum<'a>(parser: &mut Parser<'a>, word: &'a Token) -> Option<Expr> {
     let open = parser.cursor.advance()?;

@@ -1,5 +1,6 @@
 //! The small forms that both front ends share: names, brackets, definitions, constants.
 
+use super::equations;
 use super::families;
 use super::mistakes;
 use super::names::Names;
@@ -45,11 +46,11 @@ pub fn name(tokens: &[Token], whole: Origin, report: &mut Report) -> Option<Name
         return None;
     }
     report.push(match tokens {
-        [first, second, ..]
+        [first, second, rest @ ..]
             if first.identifier().is_some()
                 && second.kind == TokenKind::Open(Delimiter::Bracket) =>
         {
-            families::not_built(place)
+            families::indexed_name(first, rest, place)
         }
         [] => Diagnostic::new(Kind::Syntax, place, "a name is missing")
             .help("names are like x, Pi1 or ω"),
@@ -90,8 +91,8 @@ pub fn definition<'a>(
     report: &mut Report,
 ) -> Option<(Name, &'a [Token])> {
     let mut cursor = Cursor::new(tokens);
-    let left = cursor.take_until(|c| c.peek().is_some_and(|t| t.is('=')));
-    let Some(equals) = cursor.eat('=') else {
+    let left = cursor.take_until(|c| c.peek().is_some_and(equations::begins_sign));
+    let Some(equals) = equations::sign(&mut cursor, report) else {
         let place = span(tokens).unwrap_or(whole);
         report.push(
             Diagnostic::new(
@@ -103,7 +104,7 @@ pub fn definition<'a>(
         );
         return None;
     };
-    Some((name(left, equals.origin, report)?, cursor.rest()))
+    Some((name(left, equals, report)?, cursor.rest()))
 }
 
 const CASIMIR: (&str, &str) = ("the Casimir", "x^2 + y^2");
@@ -115,18 +116,25 @@ pub fn casimir(
     names: &Names,
     report: &mut Report,
 ) -> Option<Casimir> {
-    let named = tokens.first().is_some_and(|t| t.identifier().is_some())
-        && tokens.get(1).is_some_and(|t| t.is('='));
-    if !named {
-        let value = formula(tokens, CASIMIR, whole, names, report)?;
-        return Some(Casimir { name: None, value });
+    let mut cursor = Cursor::new(tokens);
+    let named = tokens.first().filter(|t| t.identifier().is_some());
+    let equals = named.and_then(|_| {
+        cursor.advance();
+        equations::sign(&mut cursor, report)
+    });
+    let (name, value, place) = match equals {
+        Some(equals) => (
+            Some(name(&tokens[..1], whole, report)?),
+            cursor.rest(),
+            equals,
+        ),
+        None => (None, tokens, whole),
+    };
+    if !equations::one_side(value, report) {
+        return None;
     }
-    let name = name(&tokens[..1], whole, report);
-    let value = formula(&tokens[2..], CASIMIR, tokens[1].origin, names, report);
-    Some(Casimir {
-        name: Some(name?),
-        value: value?,
-    })
+    let value = formula(value, CASIMIR, place, names, report)?;
+    Some(Casimir { name, value })
 }
 
 /// `[a, b] = value`.
@@ -166,20 +174,23 @@ fn pair(
     let open = cursor.eat_kind(&TokenKind::Open(delimiter));
     let inside = cursor.take_until(|_| false);
     let close = cursor.eat_kind(&TokenKind::Close(delimiter));
-    let equals = cursor.eat('=');
+    let equals = close.and_then(|_| equations::sign(&mut cursor, report));
     let parts = token::split_commas(inside);
-    let (Some(_), Some(_), Some(equals), [left, right]) = (open, close, equals, parts.as_slice())
-    else {
+    let (Some(_), Some(equals), [left, right]) = (open, equals, parts.as_slice()) else {
         let message = format!("`{}` is not a bracket", render(tokens));
         report.push(Diagnostic::new(Kind::Syntax, origin, message).help(help));
         return None;
     };
     let left = name(left, origin, report);
     let right = name(right, origin, report);
+    if let Some(second) = equations::second_bracket(cursor.rest(), delimiter) {
+        report.push(second);
+        return None;
+    }
     let value = formula(
         cursor.rest(),
         ("the value of the bracket", example),
-        equals.origin,
+        equals,
         names,
         report,
     );

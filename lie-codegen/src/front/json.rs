@@ -111,6 +111,9 @@ pub fn document(file: &str) -> Result<Value<'_>, Diagnostic> {
         Err(error) => {
             let at = skipped + error_offset(json, &error);
             let end = file[at..].chars().next().map_or(at, |c| at + c.len_utf8());
+            if let Some(mistake) = foreign(file, at) {
+                return Err(mistake);
+            }
             let message = error.to_string();
             let message = message.split(" at line ").next().unwrap_or(&message);
             let remedy = REMEDIES
@@ -128,6 +131,53 @@ pub fn document(file: &str) -> Result<Value<'_>, Diagnostic> {
             }))
         }
     }
+}
+
+/// What other languages write, by how it begins: what it is and what to do.
+const FOREIGN: &[(&[&str], &str, &str)] = &[
+    (
+        &["//", "/*", "#"],
+        "a comment, which JSON does not have",
+        "remove it; a text for people stands under the key \"description\"",
+    ),
+    (
+        &["NaN", "nan", "NAN", "Infinity", "infinity", "Inf", "inf"],
+        "no number of JSON",
+        "write a finite number",
+    ),
+    (&["True"], "no word of JSON", "write `true`"),
+    (&["False"], "no word of JSON", "write `false`"),
+    (&["None"], "no word of JSON", "remove the key"),
+    (
+        &["'"],
+        "no quote of JSON",
+        "keys and text stand in double quotes",
+    ),
+    (&["."], "no number of JSON", "write the zero, as in 0.5"),
+];
+
+/// A habit of another language at or around the byte where the JSON ends to make sense.
+fn foreign(file: &str, at: usize) -> Option<Diagnostic> {
+    let begins_word = |c: char| !c.is_alphanumeric() && c != '-';
+    let start = match file[..at].rfind(begins_word) {
+        Some(before) if file[at..].starts_with(char::is_alphabetic) => {
+            before + file[before..].chars().next().map_or(1, char::len_utf8)
+        }
+        _ => at,
+    };
+    let text = &file[start..];
+    let body = text.strip_prefix('-').unwrap_or(text);
+    let sign = text.len() - body.len();
+    let (word, what, help) = FOREIGN.iter().find_map(|(words, what, help)| {
+        let word = words.iter().find(|word| body.starts_with(**word))?;
+        Some((word, what, help))
+    })?;
+    let place = Origin::Text {
+        start,
+        end: start + sign + word.len(),
+    };
+    let message = format!("malformed JSON: `{}` is {what}", &text[..sign + word.len()]);
+    Some(Diagnostic::new(Kind::Schema, place, message).help(*help))
 }
 
 /// Where `part`, a slice of `whole`, begins in it.

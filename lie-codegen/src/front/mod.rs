@@ -11,6 +11,7 @@ pub mod spec;
 
 pub(crate) mod place;
 
+mod equations;
 mod expression;
 mod families;
 pub(crate) mod habits;

@@ -174,9 +174,12 @@ impl Remainder<'_, '_> {
         let invariance = spec
             .get("invariance")
             .map_or(Some(Invariance::Left), |v| invariance(v, report));
-        let initial = spec
-            .get("initial")
-            .map(|v| (initial(v, &constants, report), v.origin()));
+        let initial = spec.get("initial").map(|v| {
+            (
+                initial(v, &self.parsed.state, &constants, report),
+                v.origin(),
+            )
+        });
         let description = spec
             .get("description")
             .and_then(|v| string(v, "`description`", report))
@@ -297,17 +300,11 @@ fn invariance(value: Value<'_>, report: &mut Report) -> Option<Invariance> {
     item::invariance(&source.text, source.whole(), Kind::Schema, report)
 }
 
-/// Numbers or exact expressions in parameters.
-fn initial(value: Value<'_>, names: &Names, report: &mut Report) -> Vec<Expr> {
+/// Numbers or exact expressions in parameters, one for each name of the state.
+fn initial(value: Value<'_>, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {
     if matches!(value.kind(), Type::Object | Type::String) {
-        report.push(
-            Diagnostic::new(
-                Kind::Schema,
-                value.head(),
-                "random initial states and those from files are not built yet",
-            )
-            .help("write a list with one number for each state name"),
-        );
+        let mistake = not_a_list(value, state, report);
+        report.push(mistake);
         return Vec::new();
     }
     let elements = list(value, "`initial`", report).unwrap_or_default();
@@ -315,6 +312,26 @@ fn initial(value: Value<'_>, names: &Names, report: &mut Report) -> Vec<Expr> {
         .into_iter()
         .filter_map(|v| quantity(v, "an initial value", Some(names), report))
         .collect()
+}
+
+/// An initial state as text, or by the names of the coordinates: the values as a list are the remedy.
+fn not_a_list(value: Value<'_>, state: &[Name], report: &mut Report) -> Diagnostic {
+    let members = value.members(report);
+    let value_of = |name: &Name| {
+        let member = members.iter().find(|member| member.key.text == name.text);
+        member.map(|member| member.value.raw())
+    };
+    let values: Option<Vec<&str>> = state.iter().map(value_of).collect();
+    let message = format!("`initial` is a list, not {}", value.kind());
+    let names: Vec<&str> = state.iter().map(|name| name.text.as_str()).collect();
+    let help = match values {
+        Some(values) => format!("write `[{}]`, in the order of the state", values.join(", ")),
+        None => format!(
+            "write a list with one value for each of {}",
+            names.join(", ")
+        ),
+    };
+    Diagnostic::new(Kind::Schema, value.head(), message).help(help)
 }
 
 /// A number, or an expression as text in the given names; a constant where there are none.

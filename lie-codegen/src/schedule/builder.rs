@@ -311,8 +311,13 @@ impl Builder<'_> {
             .iter()
             .cloned()
             .partition(|(base, exponent)| self.goes_before(*base, exponent));
-        let known = self.graph.power_product(&known);
-        let coefficient = self.graph.scale(known, coefficient);
+        let coefficient = match known.is_empty() {
+            true => self.graph.number(coefficient.clone()),
+            false => {
+                let known = self.graph.power_product(&known);
+                self.graph.scale(known, coefficient)
+            }
+        };
         let negative = self.leads_negative(coefficient);
         let canonical = if negative {
             self.graph.neg(coefficient)

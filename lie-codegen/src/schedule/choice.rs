@@ -5,7 +5,7 @@ use super::forms::{self, Roots};
 use super::formula::Formula;
 use super::judge::Judge;
 use super::program::Program;
-use super::{Known, linearise, points, reuse, share};
+use super::{Known, linearise, points, reuse, share, signs};
 use crate::symbolic::{Graph, Symbol};
 
 /// Forms whose repeated pairs are searched.
@@ -13,7 +13,7 @@ const MOST_SHARED: usize = 4;
 /// A form that has so many times the operations of the shortest before sharing is hopeless.
 const HOPELESS: usize = 2;
 /// A kernel of more operations is computed as it was derived.
-const LONGEST: usize = 5_000;
+pub const LONGEST: usize = 5_000;
 
 /// The choice of a program for one task.
 pub struct Choice<'a> {
@@ -85,7 +85,7 @@ impl<'a> Choice<'a> {
     /// The program of a trial with pairs shared.
     fn shared(&mut self, mut trial: Trial) -> Program {
         share::share(&mut trial.formula, &mut self.budget);
-        reuse::reuse(linearise::linearise(&trial.formula))
+        signs::signs(reuse::reuse(linearise::linearise(&trial.formula)))
     }
 
     /// All forms that may stand for the written one, with their variants; at least one.

@@ -1,8 +1,9 @@
 //! From expressions to straight-line programs with few operations.
 //!
 //! A kernel is rewritten in a few ways (`forms`: as derived, combined over common powers, collected by
-//! monomials, factored). Each form is lowered to n-ary sums and products, and pairs that occur twice are
-//! shared over all outputs of the kernel. A form has two costs: its operations, and the bound of its
+//! monomials, factored). Each form is lowered to n-ary sums and products, pairs that occur twice are
+//! shared over all outputs of the kernel, and differences are turned round where that saves a change of
+//! sign (`signs`). A form has two costs: its operations, and the bound of its
 //! rounding errors (`rounding`) at points where it matters (`points`). What errs more than the form that
 //! was written is out (`judge`), and of the rest the cheapest is kept (`choice`). Everything is
 //! deterministic.
@@ -23,11 +24,12 @@ mod program;
 mod reuse;
 mod rounding;
 mod share;
+mod signs;
 
 pub use program::{Counts, Operation, Program, Value};
 
 use crate::symbolic::{ExprId, Graph, Symbol};
-use choice::Choice;
+use choice::{Choice, LONGEST};
 use collect::Collector;
 
 /// Which symbols are known before the kernel runs, so that expressions in them are prepared.
@@ -84,6 +86,10 @@ pub fn schedule_beside(graph: &mut Graph, first: &Task, second: &Task) -> Progra
     both.outputs.extend(&second.outputs);
     let collector = &mut Collector::new(first.known);
     let together = program(graph, collector, &both);
+    // The other way would take as long again.
+    if together.operations.len() > LONGEST {
+        return together;
+    }
     let alone = program(graph, collector, first);
     let part = together.part(0..count);
     if part.counts.weight() <= alone.counts.weight() {

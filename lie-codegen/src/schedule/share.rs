@@ -1,7 +1,8 @@
 //! Sharing: pairs of factors, then pairs of terms, that occur more than once become quantities.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+use std::collections::hash_map::Entry;
 
 use rustc_hash::FxHashMap as HashMap;
 
@@ -21,10 +22,27 @@ pub fn share(formula: &mut Formula, budget: &mut usize) {
     share_pairs(formula, budget, sum_pairs, replace_sum_pair);
 }
 
-/// Two factors, or two terms with their relative sign.
-type Pair = (AtomId, AtomId, bool);
+/// Two factors, or two terms with their relative sign, as one number: millions of them are compared. The order
+/// is that of the first atoms, then of the second ones, then equal signs before opposite ones.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+struct Pair(u64);
 
-/// Where each pair occurs, and the pairs by how often they do.
+impl Pair {
+    /// Atoms are far fewer than 2^31: the arena is bounded.
+    fn new(first: AtomId, second: AtomId, opposite: bool) -> Self {
+        Self((first as u64) << 32 | (second as u64) << 1 | u64::from(opposite))
+    }
+
+    fn parts(self) -> (AtomId, AtomId, bool) {
+        let second = (self.0 >> 1) & 0x7fff_ffff;
+        ((self.0 >> 32) as AtomId, second as AtomId, self.0 & 1 == 1)
+    }
+}
+
+/// The pairs of an atom, in order, each with how often it occurs.
+type Pairs = Vec<(Pair, usize)>;
+
+/// Where each pair occurs, and those that occur more than once by how often they do.
 #[derive(Default)]
 struct Index {
     users: HashMap<Pair, Users>,
@@ -32,51 +50,117 @@ struct Index {
     budget: usize,
 }
 
-/// How often a pair occurs, in all and in each atom.
-#[derive(Default)]
-struct Users {
-    total: usize,
-    atoms: BTreeMap<AtomId, usize>,
+/// The atoms with a pair, and how often each has it; most pairs have one.
+enum Users {
+    One(AtomId, usize),
+    Many {
+        total: usize,
+        /// In order; an atom that no longer has the pair stays with none.
+        atoms: Vec<(AtomId, usize)>,
+    },
+}
+
+impl Users {
+    fn total(&self) -> usize {
+        match self {
+            Users::One(_, count) => *count,
+            Users::Many { total, .. } => *total,
+        }
+    }
+
+    fn atoms(&self) -> Vec<AtomId> {
+        match self {
+            Users::One(atom, _) => vec![*atom],
+            Users::Many { atoms, .. } => {
+                let users = atoms.iter().filter(|(_, count)| *count > 0);
+                users.map(|(atom, _)| *atom).collect()
+            }
+        }
+    }
+
+    /// Says how often an atom has the pair.
+    fn set(&mut self, atom: AtomId, count: usize) {
+        match self {
+            Users::One(only, known) if *only == atom => *known = count,
+            Users::One(other, known) => {
+                let mut atoms = vec![(*other, *known), (atom, count)];
+                atoms.sort_unstable();
+                *self = Users::Many {
+                    total: *known + count,
+                    atoms,
+                };
+            }
+            Users::Many { total, atoms } => {
+                match atoms.binary_search_by_key(&atom, |(atom, _)| *atom) {
+                    Ok(place) => {
+                        *total -= atoms[place].1;
+                        atoms[place].1 = count;
+                    }
+                    Err(place) => atoms.insert(place, (atom, count)),
+                }
+                *total += count;
+            }
+        }
+    }
 }
 
 impl Index {
     /// The most frequent pair that occurs more than once; of equals the first.
     fn best(&self) -> Option<Pair> {
-        self.frequency
-            .last()
-            .filter(|(count, _)| *count > 1)
-            .map(|(_, Reverse(pair))| *pair)
+        self.frequency.last().map(|(_, Reverse(pair))| *pair)
     }
 
     /// Replaces what is known of the pairs of an atom.
-    fn update(&mut self, atom: AtomId, old: &HashMap<Pair, usize>, new: &HashMap<Pair, usize>) {
+    fn update(&mut self, atom: AtomId, old: &[(Pair, usize)], new: &[(Pair, usize)]) {
         self.budget = self.budget.saturating_sub(old.len() + new.len());
-        for pair in old.keys().filter(|pair| !new.contains_key(pair)) {
-            self.set(*pair, atom, 0);
-        }
-        for (pair, count) in new
-            .iter()
-            .filter(|(pair, count)| old.get(pair) != Some(count))
-        {
-            self.set(*pair, atom, *count);
+        let (mut old, mut new) = (old.iter().peekable(), new.iter().peekable());
+        loop {
+            // Both are in order: the smaller pair is in one list only.
+            match (old.peek(), new.peek()) {
+                (Some((gone, _)), later) if later.is_none_or(|(pair, _)| gone < pair) => {
+                    self.set(*gone, atom, 0);
+                    old.next();
+                }
+                (Some((same, was)), Some((pair, count))) if same == pair => {
+                    if was != count {
+                        self.set(*pair, atom, *count);
+                    }
+                    old.next();
+                    new.next();
+                }
+                (_, Some((pair, count))) => {
+                    self.set(*pair, atom, *count);
+                    new.next();
+                }
+                (_, None) => return,
+            }
         }
     }
 
     fn set(&mut self, pair: Pair, atom: AtomId, count: usize) {
-        let users = self.users.entry(pair).or_default();
-        let before = users.total;
-        let was = if count == 0 {
-            users.atoms.remove(&atom)
-        } else {
-            users.atoms.insert(atom, count)
+        let mut entry = match self.users.entry(pair) {
+            Entry::Vacant(entry) => {
+                entry.insert(Users::One(atom, count));
+                if count > 1 {
+                    self.frequency.insert((count, Reverse(pair)));
+                }
+                return;
+            }
+            Entry::Occupied(entry) => entry,
         };
-        users.total = before + count - was.unwrap_or(0);
-        let after = users.total;
+        let before = entry.get().total();
+        entry.get_mut().set(atom, count);
+        let after = entry.get().total();
         if after == 0 {
-            self.users.remove(&pair);
+            entry.remove();
         }
-        self.frequency.remove(&(before, Reverse(pair)));
-        if after > 0 {
+        if before == after {
+            return;
+        }
+        if before > 1 {
+            self.frequency.remove(&(before, Reverse(pair)));
+        }
+        if after > 1 {
             self.frequency.insert((after, Reverse(pair)));
         }
     }
@@ -85,33 +169,33 @@ impl Index {
 fn share_pairs(
     formula: &mut Formula,
     budget: &mut usize,
-    pairs_of: fn(&Atom) -> HashMap<Pair, usize>,
+    pairs_of: fn(&Atom) -> Pairs,
     replace: fn(&mut Formula, AtomId, Pair, AtomId),
 ) {
-    let mut pairs: Vec<HashMap<Pair, usize>> = formula.atoms.iter().map(pairs_of).collect();
+    let mut pairs: Vec<Pairs> = formula.atoms.iter().map(pairs_of).collect();
     let mut index = Index {
         budget: *budget,
         ..Index::default()
     };
     for (atom, new) in pairs.iter().enumerate() {
-        index.update(atom, &HashMap::default(), new);
+        index.update(atom, &[], new);
     }
     while let Some(pair) = index.best().filter(|_| index.budget > 0) {
-        let users: Vec<AtomId> = index.users[&pair].atoms.keys().copied().collect();
-        let (left, right, opposite) = pair;
+        let users = index.users[&pair].atoms();
+        let (left, right, opposite) = pair.parts();
         let shared = match &formula.atoms[users[0]] {
             Atom::Product(_) => formula.intern(Atom::Product(vec![left, right])),
             _ => formula.intern(Atom::Sum(vec![(false, left), (opposite, right)])),
         };
-        pairs.resize(formula.atoms.len(), HashMap::default());
+        pairs.resize(formula.atoms.len(), Pairs::default());
         for user in users {
             // The pair itself stays as it is and takes part no more.
             let new = if user == shared {
-                HashMap::default()
+                Pairs::default()
             } else {
                 replace(formula, user, pair, shared);
                 let mut new = pairs_of(&formula.atoms[user]);
-                new.remove(&pair);
+                new.retain(|(known, _)| *known != pair);
                 new
             };
             index.update(user, &pairs[user], &new);
@@ -121,10 +205,11 @@ fn share_pairs(
     *budget = index.budget;
 }
 
-fn product_pairs(atom: &Atom) -> HashMap<Pair, usize> {
+fn product_pairs(atom: &Atom) -> Pairs {
     let Atom::Product(factors) = atom else {
-        return HashMap::default();
+        return Pairs::default();
     };
+    // Factors are in order, and so are the pairs.
     let mut powers: Vec<(AtomId, usize)> = Vec::new();
     for &factor in factors {
         match powers.last_mut() {
@@ -132,22 +217,23 @@ fn product_pairs(atom: &Atom) -> HashMap<Pair, usize> {
             _ => powers.push((factor, 1)),
         }
     }
-    let mut pairs = HashMap::default();
+    let mut pairs = Pairs::default();
     if powers.len() > LONGEST {
         return pairs;
     }
     for (position, &(a, n)) in powers.iter().enumerate() {
         if n >= 2 {
-            pairs.insert((a, a, false), n / 2);
+            pairs.push((Pair::new(a, a, false), n / 2));
         }
         for &(b, m) in &powers[position + 1..] {
-            pairs.insert((a, b, false), n.min(m));
+            pairs.push((Pair::new(a, b, false), n.min(m)));
         }
     }
     pairs
 }
 
-fn replace_product_pair(formula: &mut Formula, user: AtomId, (a, b, _): Pair, shared: AtomId) {
+fn replace_product_pair(formula: &mut Formula, user: AtomId, pair: Pair, shared: AtomId) {
+    let (a, b, _) = pair.parts();
     let Atom::Product(factors) = &mut formula.atoms[user] else {
         return;
     };
@@ -162,25 +248,28 @@ fn replace_product_pair(formula: &mut Formula, user: AtomId, (a, b, _): Pair, sh
     factors.sort_unstable();
 }
 
-fn sum_pairs(atom: &Atom) -> HashMap<Pair, usize> {
+fn sum_pairs(atom: &Atom) -> Pairs {
     let Atom::Sum(terms) = atom else {
-        return HashMap::default();
+        return Pairs::default();
     };
-    let mut pairs = HashMap::default();
+    let mut pairs = Pairs::default();
     if terms.len() > LONGEST {
         return pairs;
     }
     for (position, (sign, a)) in terms.iter().enumerate() {
         for (other, b) in &terms[position + 1..] {
             if a != b {
-                pairs.insert((*a.min(b), *a.max(b), sign != other), 1);
+                pairs.push((Pair::new(*a.min(b), *a.max(b), sign != other), 1));
             }
         }
     }
+    pairs.sort_unstable();
+    pairs.dedup();
     pairs
 }
 
-fn replace_sum_pair(formula: &mut Formula, user: AtomId, (a, b, opposite): Pair, shared: AtomId) {
+fn replace_sum_pair(formula: &mut Formula, user: AtomId, pair: Pair, shared: AtomId) {
+    let (a, b, opposite) = pair.parts();
     let Atom::Sum(terms) = &mut formula.atoms[user] else {
         return;
     };

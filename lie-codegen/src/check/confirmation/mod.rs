@@ -10,7 +10,7 @@ mod residues;
 use std::collections::{HashMap, HashSet};
 use std::sync::OnceLock;
 
-use super::sample::Samples;
+use super::sample::{Sample, Samples};
 use crate::exact::{Ball, Precision, Rational};
 use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
 use points::Points;
@@ -93,46 +93,53 @@ impl<'a> Confirmation<'a> {
         if self.residues.vanishes(id).is_some() || degree > HIGHEST {
             return Finding::Zero;
         }
-        let graph = self.graph;
-        let precision = precision();
         let mut finding = Finding::Unknown;
         for sample in Samples::new().take(LINES) {
-            let at = |step: i64| {
-                values(graph, &[id], &|symbol| {
-                    let (numerator, exponent) = sample.dyadic(graph, symbol);
-                    // short steps stay in the domain
-                    let shift = match symbol {
-                        Symbol::Coordinate(_) => {
-                            step * (1 + (sample.bits(symbol) >> 50) as i64 % 64)
-                        }
-                        _ => 0,
-                    };
-                    Some(Ball::dyadic(numerator + shift, exponent))
-                })
-            };
-            let (mut sum, mut weight) = (Ball::integer(0), Rational::ONE);
-            let order = i64::from(degree) + 1;
-            let mut complete = true;
-            for step in 0..=order {
-                let Some(value) = at(step).and_then(|mut values| values.pop()) else {
-                    complete = false;
-                    break;
-                };
-                sum = sum.add(
-                    &value.mul(&precision.rational(&weight), precision),
-                    precision,
-                );
-                let ratio = Rational::new(step - order, step + 1).unwrap_or(Rational::ZERO);
-                weight = &weight * &ratio;
-            }
-            if complete && sum.excludes_zero() {
-                return Finding::Nonzero;
-            }
-            if complete {
-                finding = Finding::Zero;
+            match self.difference(id, sample, degree) {
+                Some(value) if value.excludes_zero() => return Finding::Nonzero,
+                Some(_) => finding = Finding::Zero,
+                None => {}
             }
         }
         finding
+    }
+
+    /// Whether an expression that is no rational function is certainly no polynomial of any degree that is looked
+    /// at: its difference on the first line where it is defined is not zero.
+    pub fn is_no_polynomial(&mut self, id: ExprId) -> bool {
+        if self.residues.vanishes(id).is_some() {
+            return false;
+        }
+        let mut lines = Samples::new().take(LINES);
+        let difference = lines.find_map(|sample| self.difference(id, sample, HIGHEST));
+        difference.is_some_and(|value| value.excludes_zero())
+    }
+
+    /// The difference of order d + 1 on a line, where the expression is defined there.
+    fn difference(&self, id: ExprId, sample: Sample, degree: u32) -> Option<Ball> {
+        let graph = self.graph;
+        let precision = precision();
+        let (mut sum, mut weight) = (Ball::integer(0), Rational::ONE);
+        let order = i64::from(degree) + 1;
+        for step in 0..=order {
+            let value = values(graph, &[id], &|symbol| {
+                let (numerator, exponent) = sample.dyadic(graph, symbol);
+                // short steps stay in the domain
+                let shift = match symbol {
+                    Symbol::Coordinate(_) => step * (1 + (sample.bits(symbol) >> 50) as i64 % 64),
+                    _ => 0,
+                };
+                Some(Ball::dyadic(numerator + shift, exponent))
+            })?
+            .pop()?;
+            sum = sum.add(
+                &value.mul(&precision.rational(&weight), precision),
+                precision,
+            );
+            let ratio = Rational::new(step - order, step + 1).unwrap_or(Rational::ZERO);
+            weight = &weight * &ratio;
+        }
+        Some(sum)
     }
 
     /// Computes the balls at a point; whether all of them are defined.

@@ -131,6 +131,28 @@ fn symbols_in_the_wrong_place() {
 }
 
 #[test]
+fn another_number_is_no_slip() {
+    let parameters = ("parameters", r#"{"I1": 1, "I2": 2}"#);
+    for (key, value, says) in [
+        (
+            "hamiltonian",
+            r#""I4*x + I1/I2""#,
+            "of these names there are `I1`, `I2`",
+        ),
+        (
+            "initial",
+            r#"["I3", "I1", "I2"]"#,
+            "of these names there are `I1`, `I2`",
+        ),
+        ("hamiltonian", r#""I_1*x + I1/I2""#, "did you mean `I1`?"),
+    ] {
+        let found = run(&so3(&[parameters, (key, value)])).1;
+        let help = found[0].help.as_deref().unwrap_or_default();
+        assert!(help.ends_with(says), "{value}: {help}");
+    }
+}
+
+#[test]
 fn lengths() {
     expect(&so3(&[("state", r#"["x", "y"]"#)]), &["state-length"]);
     expect(

@@ -395,3 +395,15 @@ fn parameters_may_be_positive() {
     let found = changed("I1 = 2.0;", "I1 = , positive;");
     assert_eq!(found.len(), 1, "{found:?}");
 }
+
+#[test]
+fn signs_of_other_languages_and_second_brackets() {
+    assert_eq!(changed("[e1, e2] = e3", "[e1, e2] == e3").len(), 1);
+    assert_eq!(
+        changed("casimir C = x^2 + y^2 + z^2", "casimir C = x^2 + y^2 = 1"),
+        one(Kind::Syntax, "= 1")
+    );
+    let both = "[e1, e2] = e3, [e2, e3] = k*e1";
+    let (_, found) = read(&BODY.replacen("[e1, e2] = e3; [e2, e3] = k*e1", both, 1));
+    assert_eq!(found[0].help.as_deref(), Some("end each bracket with `;`"));
+}

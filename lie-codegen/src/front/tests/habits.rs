@@ -112,3 +112,110 @@ fn declared_names_are_no_habits() {
     let found = report.into_diagnostics();
     assert!(found[0].message.starts_with("`*` is missing"), "{found:?}");
 }
+
+/// A system on so(3), and the one mistake that a change of its text makes: the place, message and remedy.
+fn mistake(from: &str, to: &str) -> (String, String, String) {
+    const BODY: &str = r#"{
+  "name": "Body",
+  "algebra": { "basis": ["e1", "e2", "e3"], "brackets": ["[e1, e2] = e3", "[e2, e3] = e1", "[e3, e1] = e2"] },
+  "state": ["x", "y", "z"],
+  "let": ["w = x/2"],
+  "hamiltonian": "x^2 + w*y",
+  "casimirs": ["C = x^2 + y^2"],
+  "initial": [1, 0.5, -2]
+}"#;
+    let text = BODY.replacen(from, to, 1);
+    assert_ne!(text, BODY, "{from}");
+    let mut report = Report::new();
+    crate::front::spec::read(&text, &mut report);
+    let [found] = <[Diagnostic; 1]>::try_from(report.into_diagnostics()).expect("one mistake");
+    let [(_, place)] = places(&text, std::slice::from_ref(&found))[..] else {
+        panic!("no place");
+    };
+    let help = found.help.expect("a remedy");
+    (place.to_owned(), found.message, help)
+}
+
+#[test]
+fn a_value_is_given_by_one_sign() {
+    for (from, to, sign) in [
+        ("[e1, e2] = e3", "[e1, e2] == e3", "=="),
+        ("[e1, e2] = e3", "[e1, e2] := e3", ":="),
+        ("[e1, e2] = e3", "[e1, e2]: e3", ":"),
+        ("[e1, e2] = e3", "[e1, e2] -> e3", "->"),
+        ("C = x", "C: x", ":"),
+        ("C = x", "C == x", "=="),
+        ("w = x", "w := x", ":="),
+    ] {
+        let (place, message, help) = mistake(from, to);
+        assert_eq!((place.as_str(), help.as_str()), (sign, "write `=`"), "{to}");
+        assert!(message.contains(sign), "{message}");
+    }
+}
+
+#[test]
+fn a_casimir_is_no_equation() {
+    for (text, place, remedy) in [
+        ("C = x^2 + y^2 = 1", "= 1", "write `x^2+y^2`; its value"),
+        ("x^2 + y^2 == 1/2", "== 1/2", "write `x^2+y^2`; its value"),
+        ("x^2 = z - y", "= z - y", "write `x^2 - (z-y)`"),
+    ] {
+        let (found, message, help) = mistake("C = x^2 + y^2", text);
+        assert_eq!(found, place);
+        assert!(message.contains("not an equation"), "{message}");
+        assert!(help.starts_with(remedy), "{text}: {help}");
+    }
+}
+
+#[test]
+fn brackets_stand_alone() {
+    for between in [", ", "; ", " "] {
+        let both = format!("[e1, e2] = e3{between}[e2, e3] = e1");
+        let (place, message, help) = mistake("[e1, e2] = e3\", \"[e2, e3] = e1", &both);
+        assert_eq!(place, "[e2, e3]", "{both}");
+        assert!(message.starts_with("a second bracket"), "{message}");
+        assert_eq!(help, "write one string for each bracket");
+    }
+}
+
+#[test]
+fn an_initial_state_by_names_becomes_a_list() {
+    let by_name = r#"{ "z": -2, "x": 1, "y": "1/2" }"#;
+    let (place, message, help) = mistake("[1, 0.5, -2]", by_name);
+    assert_eq!(
+        (place.as_str(), message.as_str()),
+        ("{", "`initial` is a list, not an object")
+    );
+    assert_eq!(help, "write `[1, \"1/2\", -2]`, in the order of the state");
+    let (_, message, help) = mistake("[1, 0.5, -2]", "\"random\"");
+    assert_eq!(message, "`initial` is a list, not a string");
+    assert_eq!(help, "write a list with one value for each of x, y, z");
+}
+
+#[test]
+fn names_with_a_number_in_brackets() {
+    let (place, message, help) = mistake("[\"x\",", "[\"x[0]\",");
+    assert_eq!((place.as_str(), help.as_str()), ("x[0]", "write `x0`"));
+    assert!(message.contains("no elements of a list"), "{message}");
+}
+
+#[test]
+fn what_json_does_not_have() {
+    for (from, to, place, remedy) in [
+        ("\"name\"", "// a body\n\"name\"", "//", "remove it"),
+        ("\"Body\",", "\"Body\", # a body", "#", "remove it"),
+        ("{\n", "/* a body */ {\n", "/*", "remove it"),
+        ("-2]\n}", "-2]\n}\n// end", "//", "remove it"),
+        ("0.5", "NaN", "NaN", "a finite number"),
+        ("0.5", "nan", "nan", "a finite number"),
+        ("0.5", "-Infinity", "-Infinity", "a finite number"),
+        ("0.5", "inf", "inf", "a finite number"),
+        ("0.5", ".5", ".", "the zero"),
+        ("0.5", "True", "True", "`true`"),
+        ("\"Body\"", "'Body'", "'", "double quotes"),
+    ] {
+        let (found, message, help) = mistake(from, to);
+        assert_eq!(found, place, "{to}: {message}");
+        assert!(help.contains(remedy), "{to}: {help}");
+    }
+}

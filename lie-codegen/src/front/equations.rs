@@ -1,0 +1,71 @@
+//! The sign between a name and its value: what stands for it elsewhere, and equations where none belong.
+
+use super::token::{Cursor, Delimiter, Token, TokenKind, render, span};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+
+/// What other languages write for `=`, the longer ones first.
+const FOREIGN: [&str; 6] = ["===", "==", ":=", "->", "=>", ":"];
+
+/// Takes the `=` and returns its place. What other languages write for it is reported, and reading goes on
+/// behind it.
+pub fn sign(cursor: &mut Cursor<'_>, report: &mut Report) -> Option<Origin> {
+    let comes = |text: &str| {
+        let mut signs = text.chars().enumerate();
+        signs.all(|(ahead, c)| cursor.ahead(ahead).is_some_and(|t| t.is(c)))
+    };
+    let Some(foreign) = FOREIGN.into_iter().find(|text| comes(text)) else {
+        return cursor.eat('=').map(|equals| equals.origin);
+    };
+    let start = cursor.position();
+    for _ in foreign.chars() {
+        cursor.advance();
+    }
+    let place = span(cursor.since(start))?;
+    let message = format!("`{foreign}` where a value is given");
+    report.push(Diagnostic::new(Kind::Syntax, place, message).help("write `=`"));
+    Some(place)
+}
+
+/// Whether a token begins such a sign.
+pub fn begins_sign(token: &Token) -> bool {
+    token.is('=') || token.is(':')
+}
+
+/// `x^2 + y^2 = 1` for a Casimir; whether there is no second side.
+pub fn one_side(tokens: &[Token], report: &mut Report) -> bool {
+    let equals = tokens.iter().position(|token| token.is('='));
+    let Some(equals) = equals.filter(|at| *at > 0) else {
+        return true;
+    };
+    let (left, right) = tokens.split_at(equals);
+    let place = span(right).unwrap_or(right[0].origin);
+    let right = &right[right.iter().take_while(|t| t.is('=')).count()..];
+    let left = render(left);
+    let constant = !right.iter().any(|token| token.identifier().is_some());
+    let help = match constant {
+        true => format!("write `{left}`; its value follows from the initial state"),
+        false => format!("write `{left} - ({})`", render(right)),
+    };
+    let message = "a Casimir is a function, not an equation";
+    report.push(Diagnostic::new(Kind::Syntax, place, message).help(help));
+    false
+}
+
+/// `[e1, e2] = e3, [e2, e3] = e1` in one string or statement, behind the first `=`.
+pub fn second_bracket(value: &[Token], delimiter: Delimiter) -> Option<Diagnostic> {
+    let find = |kind: TokenKind, from: usize| {
+        let at = value[from..].iter().position(|token| token.kind == kind)?;
+        Some(from + at)
+    };
+    let open = find(TokenKind::Open(delimiter), 0)?;
+    let close = find(TokenKind::Close(delimiter), open)?;
+    value.get(close + 1).filter(|token| begins_sign(token))?;
+    let bracket = &value[open..=close];
+    let place = span(bracket)?;
+    let help = match place {
+        Origin::Text { .. } => "write one string for each bracket",
+        _ => "end each bracket with `;`",
+    };
+    let message = format!("a second bracket, `{}`, behind the first", render(bracket));
+    Some(Diagnostic::new(Kind::Syntax, place, message).help(help))
+}
