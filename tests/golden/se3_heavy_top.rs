@@ -1535,7 +1535,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`
     ///
-    /// 34 additions, 33 multiplications.
+    /// 30 additions, 33 multiplications.
     #[inline]
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
@@ -1546,28 +1546,26 @@ for HeavyTopCayleyMidpoint<'_, S> {
         let _t3 = _t2 * _u_m2;
         let _t4 = _u_m3 * self.h_over_2_I3;
         let _t5 = _t4 * _u_m3;
-        let _t6 = _t2 * _u_g1 - (_u_g3 + _t0 * _u_g2);
-        let _t7 = -_t6;
-        let _t8 = _u_g2 - _t0 * _u_g3 + _t4 * _u_g1;
-        let _t9 = _t4 * _u_g2 - (_u_g1 + _t2 * _u_g3);
-        let _t10 = -_t9;
+        let _t6 = _u_g3 + _t0 * _u_g2 - _t2 * _u_g1;
+        let _t7 = _u_g2 - _t0 * _u_g3 + _t4 * _u_g1;
+        let _t8 = _u_g1 + _t2 * _u_g3 - _t4 * _u_g2;
         residual[0] = _u_m1 - m1 + _t0 * _t1 + _t0 * _t3 + _t0 * _t5
-            + _t7 * self.mgl_c2_h_over_2 - _t8 * self.mgl_c3_h_over_2
+            + _t6 * self.mgl_c2_h_over_2 - _t7 * self.mgl_c3_h_over_2
             + _u_m2 * _u_m3 * self._h5;
         residual[1] = _u_m2 - m2 + _t2 * _t1 + _t2 * _t3 + _t2 * _t5
-            - _t7 * self.mgl_c1_h_over_2 + self.mgl_c3_h_over_2 * _t10
+            - _t6 * self.mgl_c1_h_over_2 + self.mgl_c3_h_over_2 * _t8
             - _u_m1 * _u_m3 * self._h7;
         residual[2] = _u_m3 - m3 + _t4 * _t1 + _t4 * _t3 + _t4 * _t5
-            + _t8 * self.mgl_c1_h_over_2 - self.mgl_c2_h_over_2 * _t10
+            + _t7 * self.mgl_c1_h_over_2 - self.mgl_c2_h_over_2 * _t8
             + _u_m1 * _u_m2 * self._h8;
-        residual[3] = -g1 - _t9;
-        residual[4] = _t8 - g2;
-        residual[5] = -g3 - _t6;
+        residual[3] = _t8 - g1;
+        residual[4] = _t7 - g2;
+        residual[5] = _t6 - g3;
     }
 
     /// `r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`
     ///
-    /// 75 additions, 77 multiplications.
+    /// 71 additions, 77 multiplications.
     #[inline]
     fn linearize(
         &mut self,
@@ -1583,51 +1581,49 @@ for HeavyTopCayleyMidpoint<'_, S> {
         let _t3 = _t2 * _u_m2;
         let _t4 = _u_m3 * self.h_over_2_I3;
         let _t5 = _t4 * _u_m3;
-        let _t6 = _t2 * _u_g1 - (_u_g3 + _t0 * _u_g2);
-        let _t7 = -_t6;
-        let _t8 = _u_g2 - _t0 * _u_g3 + _t4 * _u_g1;
-        let _t9 = _u_m2 * self._h5;
-        let _t10 = _t4 * _u_g2 - (_u_g1 + _t2 * _u_g3);
-        let _t11 = -_t10;
-        let _t12 = _u_m1 * self._h7;
-        let _t13 = _u_m1 * self._h8;
-        let _t14 = _t0 * S::from_f64(2.0);
-        let _t15 = _t2 * _t14;
-        let _t16 = _t4 * _t14;
-        let _t17 = _t4 * self.mgl_c3_h_over_2;
-        let _t18 = -(_t2 * self.mgl_c2_h_over_2);
-        let _t19 = _t2 * _t4 * S::from_f64(2.0);
-        let _t20 = _t0 * self.mgl_c1_h_over_2;
+        let _t6 = _u_g3 + _t0 * _u_g2 - _t2 * _u_g1;
+        let _t7 = _u_g2 - _t0 * _u_g3 + _t4 * _u_g1;
+        let _t8 = _u_m2 * self._h5;
+        let _t9 = _u_g1 + _t2 * _u_g3 - _t4 * _u_g2;
+        let _t10 = _u_m1 * self._h7;
+        let _t11 = _u_m1 * self._h8;
+        let _t12 = _t0 * S::from_f64(2.0);
+        let _t13 = _t2 * _t12;
+        let _t14 = _t4 * _t12;
+        let _t15 = _t4 * self.mgl_c3_h_over_2;
+        let _t16 = -(_t2 * self.mgl_c2_h_over_2);
+        let _t17 = _t2 * _t4 * S::from_f64(2.0);
+        let _t18 = _t0 * self.mgl_c1_h_over_2;
         residual[0] = _u_m1 - m1 + _t0 * _t1 + _t0 * _t3 + _t0 * _t5
-            + self.mgl_c2_h_over_2 * _t7 - self.mgl_c3_h_over_2 * _t8 + _u_m3 * _t9;
+            + self.mgl_c2_h_over_2 * _t6 - self.mgl_c3_h_over_2 * _t7 + _u_m3 * _t8;
         residual[1] = _u_m2 - m2 + _t2 * _t1 + _t2 * _t3 + _t2 * _t5
-            - self.mgl_c1_h_over_2 * _t7 + self.mgl_c3_h_over_2 * _t11 - _u_m3 * _t12;
+            - self.mgl_c1_h_over_2 * _t6 + self.mgl_c3_h_over_2 * _t9 - _u_m3 * _t10;
         residual[2] = _u_m3 - m3 + _t4 * _t1 + _t4 * _t3 + _t4 * _t5
-            + self.mgl_c1_h_over_2 * _t8 - self.mgl_c2_h_over_2 * _t11 + _u_m2 * _t13;
-        residual[3] = -g1 - _t10;
-        residual[4] = _t8 - g2;
-        residual[5] = -g3 - _t6;
+            + self.mgl_c1_h_over_2 * _t7 - self.mgl_c2_h_over_2 * _t9 + _u_m2 * _t11;
+        residual[3] = _t9 - g1;
+        residual[4] = _t7 - g2;
+        residual[5] = _t6 - g3;
         matrix[(0, 0)] = S::one() + _t0 * _t0 * S::from_f64(3.0)
             + self.h_over_2_I1 * (_t3 + _t5) + _u_g2 * self._h9 + _u_g3 * self._h10;
-        matrix[(0, 1)] = _t15 + _u_m3 * self._h5 - _u_g1 * self._h11;
-        matrix[(0, 2)] = _t16 + _t9 - _u_g1 * self._h12;
-        matrix[(0, 3)] = _t18 - _t17;
+        matrix[(0, 1)] = _t13 + _u_m3 * self._h5 - _u_g1 * self._h11;
+        matrix[(0, 2)] = _t14 + _t8 - _u_g1 * self._h12;
+        matrix[(0, 3)] = _t16 - _t15;
         matrix[(0, 4)] = _t0 * self.mgl_c2_h_over_2 + self.minus_mgl_c3_h_over_2;
         matrix[(0, 5)] = self.mgl_c2_h_over_2 + _t0 * self.mgl_c3_h_over_2;
-        matrix[(1, 0)] = _t15 - _u_m3 * self._h7 - _u_g2 * self._h14;
+        matrix[(1, 0)] = _t13 - _u_m3 * self._h7 - _u_g2 * self._h14;
         matrix[(1, 1)] = S::one() + _t2 * _t2 * S::from_f64(3.0)
             + self.h_over_2_I2 * (_t5 + _t1) + _u_g1 * self._h15 + _u_g3 * self._h16;
-        matrix[(1, 2)] = _t19 - _t12 - _u_g2 * self._h12;
+        matrix[(1, 2)] = _t17 - _t10 - _u_g2 * self._h12;
         matrix[(1, 3)] = self.mgl_c3_h_over_2 + _t2 * self.mgl_c1_h_over_2;
-        matrix[(1, 4)] = -_t17 - _t20;
+        matrix[(1, 4)] = -_t15 - _t18;
         matrix[(1, 5)] = _t2 * self.mgl_c3_h_over_2 + self.minus_mgl_c1_h_over_2;
-        matrix[(2, 0)] = _t16 + _u_m2 * self._h8 - _u_g3 * self._h14;
-        matrix[(2, 1)] = _t19 + _t13 - _u_g3 * self._h11;
+        matrix[(2, 0)] = _t14 + _u_m2 * self._h8 - _u_g3 * self._h14;
+        matrix[(2, 1)] = _t17 + _t11 - _u_g3 * self._h11;
         matrix[(2, 2)] = S::one() + _t4 * _t4 * S::from_f64(3.0)
             + self.h_over_2_I3 * (_t3 + _t1) + _u_g1 * self._h18 + _u_g2 * self._h19;
         matrix[(2, 3)] = _t4 * self.mgl_c1_h_over_2 + self.minus_mgl_c2_h_over_2;
         matrix[(2, 4)] = self.mgl_c1_h_over_2 + _t4 * self.mgl_c2_h_over_2;
-        matrix[(2, 5)] = _t18 - _t20;
+        matrix[(2, 5)] = _t16 - _t18;
         matrix[(3, 1)] = _u_g3 * self.h_over_2_I2;
         matrix[(3, 2)] = _u_g2 * self.minus_h_over_2_I3;
         matrix[(3, 3)] = S::one();

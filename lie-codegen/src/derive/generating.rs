@@ -10,7 +10,8 @@
 //! The term `H''(X, ad*_eta p)` of S5 is written `<p, [eta, w]> = -<Y, eta>`.
 
 use super::field::mu;
-use super::tape::Tape;
+use super::leaner::{Derived, leaner_jacobian};
+use super::tape::{Tangents, Tape};
 use super::{Argument, Block, Kernel, Source};
 use crate::exact::Rational;
 use crate::methods::Retraction;
@@ -220,7 +221,17 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
         &entries,
     )
     .within_step(tape.definitions().to_vec());
-    let hessian = symmetric(tape.jacobian(source, &entries));
+    let hessian = symmetric(leaner_jacobian(
+        source,
+        &mut tape,
+        &entries,
+        &p.symbols,
+        Tangents::Named,
+        &|_, derived| Derived {
+            rows: symmetric(derived.rows),
+            ..derived
+        },
+    ));
     if too_large(source, &tape) {
         return Some(Function {
             gradient,
@@ -246,6 +257,18 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
         linearize: Some(linearize),
         pattern,
     })
+}
+
+/// Values and derivatives with coordinates and unknown exchanged.
+fn exchange(source: &mut Source, mut derived: Derived) -> Derived {
+    for (_, value) in &mut derived.definitions {
+        *value = exchanged(source, &[*value])[0];
+    }
+    derived.values = exchanged(source, &derived.values);
+    for row in &mut derived.rows {
+        *row = exchanged(source, row);
+    }
+    derived
 }
 
 /// The lower half as the mirror of the upper, so that each entry is computed once.
@@ -294,7 +317,15 @@ pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kern
         })
         .collect();
     let values = tape.definitions().to_vec();
-    let rows = tape.jacobian(source, &residual);
+    let coordinates = mu(source).symbols;
+    let rows = leaner_jacobian(
+        source,
+        &mut tape,
+        &residual,
+        &coordinates,
+        Tangents::Named,
+        &exchange,
+    );
     let slopes = tape.definitions().to_vec();
     if too_large(source, &tape) {
         return None;
@@ -307,16 +338,20 @@ pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kern
             symbols: source.symbols(Block::Unknown),
         },
     ];
-    let mut exchange = |definitions: &[(Symbol, ExprId)]| -> Vec<(Symbol, ExprId)> {
-        definitions
-            .iter()
-            .map(|(symbol, value)| (*symbol, exchanged(source, &[*value])[0]))
-            .collect()
+    let of_values = Derived {
+        definitions: values,
+        values: result,
+        rows: Vec::new(),
     };
-    let (values, slopes) = (exchange(&values), exchange(&slopes));
-    let residual = exchanged(source, &residual);
-    let result = exchanged(source, &result);
-    let rows: Vec<Vec<ExprId>> = rows.iter().map(|row| exchanged(source, row)).collect();
+    let of_values = exchange(source, of_values);
+    let of_slopes = Derived {
+        definitions: slopes,
+        values: residual,
+        rows,
+    };
+    let of_slopes = exchange(source, of_slopes);
+    let (values, result) = (of_values.definitions, of_values.values);
+    let (slopes, residual, rows) = (of_slopes.definitions, of_slopes.values, of_slopes.rows);
     let graph = &source.graph;
     Some(vec![
         Kernel::vector(

@@ -8,6 +8,7 @@ mod field;
 mod generating;
 mod kernel;
 mod lagrangian;
+mod leaner;
 mod poisson;
 mod realization;
 mod second_kind;
@@ -18,6 +19,7 @@ mod tape;
 
 pub use generating::{Function, Generating};
 pub use kernel::{Argument, Kernel, Shape};
+pub(crate) use leaner::{Derived, leaner_jacobian};
 pub use realization::Realization;
 pub use source::Source;
 pub use splitting::{PieceKernel, Update};

@@ -32,6 +32,16 @@ pub enum Tangents {
     Inline,
 }
 
+impl Tangents {
+    /// The other way.
+    pub fn others(self) -> Self {
+        match self {
+            Self::Named => Self::Inline,
+            Self::Inline => Self::Named,
+        }
+    }
+}
+
 impl Tape {
     /// An empty list; `first` is the first symbol that no argument uses.
     pub fn new(source: &Source, first: usize) -> Self {
@@ -142,7 +152,7 @@ impl Tape {
             .collect()
     }
 
-    /// The derivatives of quantities in all coordinates: `out[i][j]` of value i in coordinate j.
+    /// The derivatives of quantities in all coordinates, by definitions of their own.
     pub fn jacobian(&mut self, source: &mut Source, values: &[ExprId]) -> Vec<Vec<ExprId>> {
         let coordinates: Vec<Symbol> = (0..source.dimension).map(Symbol::Coordinate).collect();
         self.jacobian_in(source, values, &coordinates, Tangents::Named)

@@ -43,6 +43,7 @@ impl Printer<'_> {
         quote! {
             #(#[doc = #docs])*
             #[derive(Clone, Debug)]
+            #[allow(non_snake_case)]
             #visibility struct #name<'a, S: ::lie_runtime::Scalar> {
                 system: &'a #system<S>,
                 base: ::lie_runtime::__private::SVector<S, #n>,

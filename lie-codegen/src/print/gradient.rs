@@ -110,7 +110,7 @@ impl Printer<'_> {
         quote! {
             #[doc = #doc]
             #[derive(Clone, Debug)]
-            #[allow(dead_code)]
+            #[allow(dead_code, non_snake_case)]
             #visibility struct #name<'a, S: ::lie_runtime::Scalar> {
                 system: &'a #system<S>,
                 h: S,

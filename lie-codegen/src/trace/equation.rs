@@ -6,7 +6,7 @@ use lie_core::Equation;
 
 use super::sym::{Session, Sym, with, within};
 use super::system::SymbolicSystem;
-use crate::derive::{Argument, Block, Kernel, Source, Tangents, Tape};
+use crate::derive::{Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian};
 use crate::symbolic::{ExprId, Symbol};
 
 /// Definitions in order, each may use the earlier ones.
@@ -99,7 +99,21 @@ pub fn kernels(
     ];
     let unknown = source.symbols(Block::Unknown);
     let values = tape.definitions().to_vec();
-    let rows = tape.jacobian_in(source, &residual, &unknown, Tangents::Inline);
+    let rows = leaner_jacobian(
+        source,
+        &mut tape,
+        &residual,
+        &unknown,
+        Tangents::Inline,
+        &|source, derived| {
+            let rows = derived.rows.iter().flatten();
+            let entries: Vec<ExprId> = derived.values.iter().chain(rows).copied().collect();
+            Derived {
+                definitions: needed(source, &derived.definitions, &entries),
+                ..derived
+            }
+        },
+    );
     let slopes = tape.definitions().to_vec();
     let graph = &source.graph;
     let entries: Vec<ExprId> = residual
