@@ -1,8 +1,8 @@
 //! A method of one's own on so(3) and on se(3): stated once in `trapezoid.rs`, it runs on every system; the build script
 //! has it fused with these two.
 //!
-//! `own-method` compares both forms; `own-method generic 100000` and `own-method fused 100000` take so many steps of
-//! the heavy top, for a profiler.
+//! `own-method` compares both forms; `own-method so3 generic 100000` takes so many steps with one of them (`so3` or `se3`,
+//! `generic` or `fused`), for a profiler.
 
 use lie_core::Equation;
 use lie_core::methods::{ImplicitStepper, Stepper};
@@ -14,10 +14,12 @@ use trapezoid::{Trapezoid, TrapezoidEquation};
 mod trapezoid;
 
 /// The free rigid body on so(3)*, with the method fused.
+#[allow(dead_code)]
 mod body {
     include!(concat!(env!("OUT_DIR"), "/so3_free_rigid_body.rs"));
 }
 /// The heavy top on se(3)*, with the method fused.
+#[allow(dead_code)]
 mod top {
     include!(concat!(env!("OUT_DIR"), "/se3_heavy_top.rs"));
 }
@@ -57,20 +59,35 @@ fn compare<P: Implicit<f64, Trapezoid>>(
     Ok(())
 }
 
+/// Steps with one of the forms.
+fn profile<P: Implicit<f64, Trapezoid>>(
+    system: &P,
+    start: &P::State,
+    form: &str,
+    steps: usize,
+) -> Result<(), Box<dyn Error>> {
+    let end = match form {
+        "generic" => run(TrapezoidEquation::new(system, STEP), start, steps)?,
+        "fused" => run(system.equation(&Trapezoid, STEP), start, steps)?,
+        other => return Err(format!("`{other}`: take `generic` or `fused`").into()),
+    };
+    println!("{:?}", end.as_slice());
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let (body, top) = (body::FreeRigidBody::new(), top::HeavyTop::new());
-    let (start, system) = (top.initial_state(), top.system()?);
+    let (body_start, top_start) = (body.initial_state(), top.initial_state());
+    let (body, top) = (body.system()?, top.system()?);
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if let [form, steps] = arguments.as_slice() {
-        let steps = steps.parse()?;
-        let end = match form.as_str() {
-            "generic" => run(TrapezoidEquation::new(&system, STEP), &start, steps)?,
-            "fused" => run(system.equation(&Trapezoid, STEP), &start, steps)?,
-            other => return Err(format!("`{other}`: take `generic` or `fused`").into()),
-        };
-        println!("{:?}", end.as_slice());
-        return Ok(());
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match arguments.as_slice() {
+        [] => {
+            compare(&body, &body_start)?;
+            compare(&top, &top_start)
+        }
+        ["so3", form, steps] => profile(&body, &body_start, form, steps.parse()?),
+        ["se3", form, steps] => profile(&top, &top_start, form, steps.parse()?),
+        _ => Err("usage: own-method [so3|se3 generic|fused STEPS]".into()),
     }
-    compare(&body.system()?, &body.initial_state())?;
-    compare(&system, &start)
 }
