@@ -411,6 +411,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for LotkaVolterraSystem<S>
 
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
+#[allow(non_snake_case)]
 pub struct LotkaVolterraMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a LotkaVolterraSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
@@ -867,88 +868,6 @@ for LotkaVolterraSystem<S> {
     }
 }
 
-/// Elimination of 9 rows in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct LotkaVolterraGauss6Elimination;
-impl LotkaVolterraGauss6Elimination {
-    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
-        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
-        below: &[
-            &[1, 2, 3, 4, 5, 6, 7, 8],
-            &[2, 3, 4, 5, 6, 7, 8],
-            &[3, 4, 5, 6, 7, 8],
-            &[4, 5, 6, 7, 8],
-            &[5, 6, 7, 8],
-            &[6, 7, 8],
-            &[7, 8],
-            &[8],
-            &[],
-        ],
-        right: &[
-            &[1, 2, 3, 4, 5, 6, 7, 8],
-            &[2, 3, 4, 5, 6, 7, 8],
-            &[3, 4, 5, 6, 7, 8],
-            &[4, 5, 6, 7, 8],
-            &[5, 6, 7, 8],
-            &[6, 7, 8],
-            &[7, 8],
-            &[8],
-            &[],
-        ],
-    };
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
-> for LotkaVolterraGauss6Elimination {
-    #[inline]
-    fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            3,
-        >,
-    ) -> S::Mask {
-        Self::LIST.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            3,
-        >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
-            3,
-        >,
-    ) {
-        Self::LIST.solve(factors, vector);
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
-for LotkaVolterraSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::Gauss<'a, S, LotkaVolterraSystem<S>, 3>,
-        LotkaVolterraGauss6Elimination,
-    >
-    where
-        Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Gauss6,
-        h: S,
-    ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::Gauss::new(self, h),
-        )
-    }
-}
-
 /// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
 pub struct LotkaVolterraGonzalezElimination;
@@ -1008,6 +927,69 @@ impl<
         vector[0] = _b0;
         vector[1] = _b1;
         vector[2] = _b2;
+    }
+}
+
+/// Elimination of 9 rows in a fixed order, 0 entries of fill-in: 321 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct LotkaVolterraCohenHairer6Elimination;
+impl LotkaVolterraCohenHairer6Elimination {
+    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+        order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
+        below: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8],
+            &[2, 3, 4, 5, 6, 7, 8],
+            &[3, 4, 5, 6, 7, 8],
+            &[4, 5, 6, 7, 8],
+            &[5, 6, 7, 8],
+            &[6, 7, 8],
+            &[7, 8],
+            &[8],
+            &[],
+        ],
+        right: &[
+            &[1, 2, 3, 4, 5, 6, 7, 8],
+            &[2, 3, 4, 5, 6, 7, 8],
+            &[3, 4, 5, 6, 7, 8],
+            &[4, 5, 6, 7, 8],
+            &[5, 6, 7, 8],
+            &[6, 7, 8],
+            &[7, 8],
+            &[8],
+            &[],
+        ],
+    };
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
+    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
+> for LotkaVolterraCohenHairer6Elimination {
+    #[inline]
+    fn factor(
+        matrix: &mut ::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+    ) -> S::Mask {
+        Self::LIST.factor(matrix)
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::StageMatrix<
+            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+            3,
+        >,
+        vector: &mut ::lie_runtime::__private::Stages<
+            ::lie_runtime::__private::SVector<S, 3>,
+            3,
+        >,
+    ) {
+        Self::LIST.solve(factors, vector);
     }
 }
 
@@ -1158,7 +1140,7 @@ impl<
 for LotkaVolterraSystem<S> {
     type Equation<'a> = ::lie_runtime::__private::Eliminated<
         ::lie_runtime::generic::CohenHairerStep<'a, S, LotkaVolterraSystem<S>, 3>,
-        LotkaVolterraGauss6Elimination,
+        LotkaVolterraCohenHairer6Elimination,
     >
     where
         Self: 'a;
@@ -1172,3 +1154,7 @@ for LotkaVolterraSystem<S> {
         )
     }
 }
+
+::lie_runtime::generic_equations!(
+    [S : ::lie_runtime::Scalar] LotkaVolterraSystem < S >, S : gauss6
+);

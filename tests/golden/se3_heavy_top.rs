@@ -695,6 +695,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSyste
 
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
+#[allow(non_snake_case)]
 pub struct HeavyTopMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeavyTopSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 6>,
@@ -1078,94 +1079,6 @@ for HeavyTopSystem<S> {
     }
 }
 
-/// Elimination of 12 rows in a fixed order, 24 entries of fill-in: 588 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct HeavyTopGauss4Elimination;
-impl HeavyTopGauss4Elimination {
-    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
-        order: &[0, 3, 6, 1, 2, 4, 5, 7, 8, 9, 10, 11],
-        below: &[
-            &[1, 2, 4, 5, 7, 8, 10, 11],
-            &[1, 2, 4, 5, 7, 8, 10, 11],
-            &[1, 2, 4, 5, 7, 8, 10, 11],
-            &[2, 4, 5, 7, 8, 9, 10, 11],
-            &[4, 5, 7, 8, 9, 10, 11],
-            &[5, 7, 8, 9, 10, 11],
-            &[7, 8, 9, 10, 11],
-            &[8, 9, 10, 11],
-            &[9, 10, 11],
-            &[10, 11],
-            &[11],
-            &[],
-        ],
-        right: &[
-            &[1, 2, 4, 5, 7, 8, 10, 11],
-            &[1, 2, 4, 5, 7, 8, 10, 11],
-            &[1, 2, 4, 5, 7, 8, 10, 11],
-            &[2, 4, 5, 7, 8, 9, 10, 11],
-            &[4, 5, 7, 8, 9, 10, 11],
-            &[5, 7, 8, 9, 10, 11],
-            &[7, 8, 9, 10, 11],
-            &[8, 9, 10, 11],
-            &[9, 10, 11],
-            &[10, 11],
-            &[11],
-            &[],
-        ],
-    };
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 6, 6>, 2>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 6>, 2>,
-> for HeavyTopGauss4Elimination {
-    #[inline]
-    fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 6, 6>,
-            2,
-        >,
-    ) -> S::Mask {
-        Self::LIST.factor(matrix)
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 6, 6>,
-            2,
-        >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 6>,
-            2,
-        >,
-    ) {
-        Self::LIST.solve(factors, vector);
-    }
-}
-
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
-for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::Gauss<'a, S, HeavyTopSystem<S>, 2>,
-        HeavyTopGauss4Elimination,
-    >
-    where
-        Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Gauss4,
-        h: S,
-    ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::Gauss::new(self, h),
-        )
-    }
-}
-
 /// Elimination of 18 rows in a fixed order, 60 entries of fill-in: 1802 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
 pub struct HeavyTopGauss6Elimination;
@@ -1266,121 +1179,10 @@ for HeavyTopSystem<S> {
     }
 }
 
-/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 29 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct HeavyTopExpMidpointElimination;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::SMatrix<S, 6, 6>,
-    ::lie_runtime::__private::SVector<S, 6>,
-> for HeavyTopExpMidpointElimination {
-    #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 6, 6>) -> S::Mask {
-        let _a3_3 = matrix[(3, 3)];
-        let _a3_3 = S::one() / _a3_3;
-        let _a4_4 = matrix[(4, 4)];
-        let _a4_4 = S::one() / _a4_4;
-        let _a5_5 = matrix[(5, 5)];
-        let _a5_5 = S::one() / _a5_5;
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        matrix[(3, 3)] = _a3_3;
-        matrix[(4, 4)] = _a4_4;
-        matrix[(5, 5)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a3_3
-                .abs()
-                .max(_a4_4.abs())
-                .max(_a5_5.abs())
-                .max(_a0_0.abs())
-                .max(_a1_1.abs())
-                .max(_a2_2.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 6, 6>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 6>,
-    ) {
-        let _b3 = vector[3];
-        let _b4 = vector[4];
-        let _b5 = vector[5];
-        let _b0 = vector[0];
-        let _b1 = vector[1] - factors[(1, 0)] * _b0;
-        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b2 = _b2 * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
-            * factors[(0, 0)];
-        let _b5 = (_b5 - factors[(5, 0)] * _b0 - factors[(5, 1)] * _b1
-            - factors[(5, 2)] * _b2) * factors[(5, 5)];
-        let _b4 = (_b4 - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
-            - factors[(4, 2)] * _b2) * factors[(4, 4)];
-        let _b3 = (_b3 - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
-            - factors[(3, 2)] * _b2) * factors[(3, 3)];
-        vector[0] = _b0;
-        vector[1] = _b1;
-        vector[2] = _b2;
-        vector[3] = _b3;
-        vector[4] = _b4;
-        vector[5] = _b5;
-    }
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<
-    S,
-    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
-> for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::ExpMidpoint<'a, S, HeavyTopSystem<S>>,
-        HeavyTopExpMidpointElimination,
-    >
-    where
-        Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
-        h: S,
-    ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::ExpMidpoint::new(self, h),
-        )
-    }
-}
-
 /// The retraction method with the Cayley map, unknown the momentum `m` at the midpoint:
 /// `m - ad*_x m/2 - Q_x m/4 - mu = 0` with `x = h grad H(m)`, then `mu1 = mu + ad*_x m`.
 #[derive(Clone, Debug)]
+#[allow(non_snake_case)]
 pub struct HeavyTopCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeavyTopSystem<S>,
     base: ::lie_runtime::__private::SVector<S, 6>,
@@ -1878,6 +1680,95 @@ impl<
     }
 }
 
+/// Elimination of 6 rows in a fixed order, 0 entries of fill-in: 29 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct HeavyTopOrbitMeanValueElimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 6, 6>,
+    ::lie_runtime::__private::SVector<S, 6>,
+> for HeavyTopOrbitMeanValueElimination {
+    #[inline]
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 6, 6>) -> S::Mask {
+        let _a3_3 = matrix[(3, 3)];
+        let _a3_3 = S::one() / _a3_3;
+        let _a4_4 = matrix[(4, 4)];
+        let _a4_4 = S::one() / _a4_4;
+        let _a5_5 = matrix[(5, 5)];
+        let _a5_5 = S::one() / _a5_5;
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix[(0, 2)];
+        let _a1_2 = matrix[(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a2_0 = matrix[(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix[(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix[(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_2 = S::one() / _a2_2;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        matrix[(1, 2)] = _a1_2;
+        matrix[(2, 0)] = _a2_0;
+        matrix[(2, 1)] = _a2_1;
+        matrix[(2, 2)] = _a2_2;
+        matrix[(3, 3)] = _a3_3;
+        matrix[(4, 4)] = _a4_4;
+        matrix[(5, 5)] = _a5_5;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a3_3
+                .abs()
+                .max(_a4_4.abs())
+                .max(_a5_5.abs())
+                .max(_a0_0.abs())
+                .max(_a1_1.abs())
+                .max(_a2_2.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 6, 6>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 6>,
+    ) {
+        let _b3 = vector[3];
+        let _b4 = vector[4];
+        let _b5 = vector[5];
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+        let _b2 = _b2 * factors[(2, 2)];
+        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
+            * factors[(0, 0)];
+        let _b5 = (_b5 - factors[(5, 0)] * _b0 - factors[(5, 1)] * _b1
+            - factors[(5, 2)] * _b2) * factors[(5, 5)];
+        let _b4 = (_b4 - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
+            - factors[(4, 2)] * _b2) * factors[(4, 4)];
+        let _b3 = (_b3 - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
+            - factors[(3, 2)] * _b2) * factors[(3, 3)];
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+        vector[3] = _b3;
+        vector[4] = _b4;
+        vector[5] = _b5;
+    }
+}
+
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez> for HeavyTopSystem<S> {
@@ -1904,7 +1795,7 @@ impl<
             HeavyTopSystem<S>,
             ::lie_runtime::generic::MeanValueGradient<S, HeavyTopSystem<S>>,
         >,
-        HeavyTopExpMidpointElimination,
+        HeavyTopOrbitMeanValueElimination,
     >
     where
         Self: 'a;
@@ -1945,7 +1836,7 @@ impl<
             HeavyTopSystem<S>,
             ::lie_runtime::generic::MeanValueGradient<S, HeavyTopSystem<S>>,
         >,
-        HeavyTopExpMidpointElimination,
+        HeavyTopOrbitMeanValueElimination,
     >
     where
         Self: 'a;
@@ -1986,7 +1877,7 @@ impl<
             HeavyTopSystem<S>,
             ::lie_runtime::generic::MeanValueGradient<S, HeavyTopSystem<S>>,
         >,
-        HeavyTopExpMidpointElimination,
+        HeavyTopOrbitMeanValueElimination,
     >
     where
         Self: 'a;
@@ -2019,10 +1910,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::Gauss<'a, S, HeavyTopSystem<S>, 2>,
-        HeavyTopGauss4Elimination,
-    >
+    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, HeavyTopSystem<S>, 2>
     where
         Self: 'a;
     fn equation<'a>(
@@ -2030,9 +1918,7 @@ for HeavyTopSystem<S> {
         _method: &::lie_runtime::methods::CohenHairer<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::Gauss::new(self, h),
-        )
+        ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
 
@@ -2482,8 +2368,9 @@ for HeavyTopSystem<S> {
     @ collective[S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S, 3
 );
 ::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley, isospectral2_cayley
+    [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : gauss4, exp, generating2,
+    generating4, generating6, second_kind, generating2_cayley, generating4_cayley,
+    isospectral2_cayley
 );
 /// The flows of the pieces of H in `m1`, `m2`, `m3`, `g1`, `g2`, `g3`.
 #[derive(Debug)]

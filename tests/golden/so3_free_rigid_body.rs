@@ -506,6 +506,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for FreeRigidBodySy
 
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
+#[allow(non_snake_case)]
 pub struct FreeRigidBodyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
@@ -1352,94 +1353,10 @@ for FreeRigidBodySystem<S> {
     }
 }
 
-/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct FreeRigidBodyExpMidpointElimination;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::SMatrix<S, 3, 3>,
-    ::lie_runtime::__private::SVector<S, 3>,
-> for FreeRigidBodyExpMidpointElimination {
-    #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
-        let _a0_0 = matrix[(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix[(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix[(0, 1)];
-        let _a1_1 = matrix[(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix[(0, 2)];
-        let _a1_2 = matrix[(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix[(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix[(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix[(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix[(0, 0)] = _a0_0;
-        matrix[(1, 0)] = _a1_0;
-        matrix[(1, 1)] = _a1_1;
-        matrix[(1, 2)] = _a1_2;
-        matrix[(2, 0)] = _a2_0;
-        matrix[(2, 1)] = _a2_1;
-        matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
-    ) {
-        let _b0 = vector[0];
-        let _b1 = vector[1] - factors[(1, 0)] * _b0;
-        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
-        let _b2 = _b2 * factors[(2, 2)];
-        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
-        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
-            * factors[(0, 0)];
-        vector[0] = _b0;
-        vector[1] = _b1;
-        vector[2] = _b2;
-    }
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<
-    S,
-    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
-> for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::ExpMidpoint<'a, S, FreeRigidBodySystem<S>>,
-        FreeRigidBodyExpMidpointElimination,
-    >
-    where
-        Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
-        h: S,
-    ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::ExpMidpoint::new(self, h),
-        )
-    }
-}
-
 /// The retraction method with the Cayley map, unknown the momentum `m` at the midpoint:
 /// `m - ad*_x m/2 - Q_x m/4 - mu = 0` with `x = h grad H(m)`, then `mu1 = mu + ad*_x m`.
 #[derive(Clone, Debug)]
+#[allow(non_snake_case)]
 pub struct FreeRigidBodyCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
@@ -1670,6 +1587,68 @@ impl<
     }
 }
 
+/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
+#[derive(Clone, Copy, Debug)]
+pub struct FreeRigidBodyOrbitMeanValueElimination;
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::__private::FixedElimination<
+    S,
+    ::lie_runtime::__private::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private::SVector<S, 3>,
+> for FreeRigidBodyOrbitMeanValueElimination {
+    #[inline]
+    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix[(0, 2)];
+        let _a1_2 = matrix[(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a2_0 = matrix[(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix[(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix[(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_2 = S::one() / _a2_2;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        matrix[(1, 2)] = _a1_2;
+        matrix[(2, 0)] = _a2_0;
+        matrix[(2, 1)] = _a2_1;
+        matrix[(2, 2)] = _a2_2;
+        ::lie_runtime::__private::inverse_pivots_are_safe(
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(
+        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+    ) {
+        let _b0 = vector[0];
+        let _b1 = vector[1] - factors[(1, 0)] * _b0;
+        let _b2 = vector[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+        let _b2 = _b2 * factors[(2, 2)];
+        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
+            * factors[(0, 0)];
+        vector[0] = _b0;
+        vector[1] = _b1;
+        vector[2] = _b2;
+    }
+}
+
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez>
@@ -1697,7 +1676,7 @@ impl<
             FreeRigidBodySystem<S>,
             ::lie_runtime::generic::MeanValueGradient<S, FreeRigidBodySystem<S>>,
         >,
-        FreeRigidBodyExpMidpointElimination,
+        FreeRigidBodyOrbitMeanValueElimination,
     >
     where
         Self: 'a;
@@ -1739,7 +1718,7 @@ impl<
             FreeRigidBodySystem<S>,
             ::lie_runtime::generic::MeanValueGradient<S, FreeRigidBodySystem<S>>,
         >,
-        FreeRigidBodyExpMidpointElimination,
+        FreeRigidBodyOrbitMeanValueElimination,
     >
     where
         Self: 'a;
@@ -1781,7 +1760,7 @@ impl<
             FreeRigidBodySystem<S>,
             ::lie_runtime::generic::MeanValueGradient<S, FreeRigidBodySystem<S>>,
         >,
-        FreeRigidBodyExpMidpointElimination,
+        FreeRigidBodyOrbitMeanValueElimination,
     >
     where
         Self: 'a;
@@ -2101,109 +2080,6 @@ for FreeRigidBodySystem<S> {
 ::lie_runtime::generic_equations!(
     @ collective[S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S, 2
 );
-/// Elimination of 3 rows in a fixed order, 0 entries of fill-in: 17 multiplications with the solution.
-#[derive(Clone, Copy, Debug)]
-pub struct FreeRigidBodyHopf2Elimination;
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
-    S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 1>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 1>,
-> for FreeRigidBodyHopf2Elimination {
-    #[inline]
-    fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            1,
-        >,
-    ) -> S::Mask {
-        let _a0_0 = matrix.0[0][0][(0, 0)];
-        let _a0_0 = S::one() / _a0_0;
-        let _a1_0 = matrix.0[0][0][(1, 0)];
-        let _a1_0 = _a1_0 * _a0_0;
-        let _a0_1 = matrix.0[0][0][(0, 1)];
-        let _a1_1 = matrix.0[0][0][(1, 1)];
-        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
-        let _a0_2 = matrix.0[0][0][(0, 2)];
-        let _a1_2 = matrix.0[0][0][(1, 2)];
-        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
-        let _a2_0 = matrix.0[0][0][(2, 0)];
-        let _a2_0 = _a2_0 * _a0_0;
-        let _a2_1 = matrix.0[0][0][(2, 1)];
-        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
-        let _a2_2 = matrix.0[0][0][(2, 2)];
-        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
-        let _a1_1 = S::one() / _a1_1;
-        let _a2_1 = _a2_1 * _a1_1;
-        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
-        let _a2_2 = S::one() / _a2_2;
-        matrix.0[0][0][(0, 0)] = _a0_0;
-        matrix.0[0][0][(1, 0)] = _a1_0;
-        matrix.0[0][0][(1, 1)] = _a1_1;
-        matrix.0[0][0][(1, 2)] = _a1_2;
-        matrix.0[0][0][(2, 0)] = _a2_0;
-        matrix.0[0][0][(2, 1)] = _a2_1;
-        matrix.0[0][0][(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
-        )
-    }
-
-    #[inline]
-    fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
-            1,
-        >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
-            1,
-        >,
-    ) {
-        let _b0 = vector.0[0][0];
-        let _b1 = vector.0[0][1] - factors.0[0][0][(1, 0)] * _b0;
-        let _b2 = vector.0[0][2] - factors.0[0][0][(2, 0)] * _b0
-            - factors.0[0][0][(2, 1)] * _b1;
-        let _b2 = _b2 * factors.0[0][0][(2, 2)];
-        let _b1 = (_b1 - factors.0[0][0][(1, 2)] * _b2) * factors.0[0][0][(1, 1)];
-        let _b0 = (_b0 - factors.0[0][0][(0, 1)] * _b1 - factors.0[0][0][(0, 2)] * _b2)
-            * factors.0[0][0][(0, 0)];
-        vector.0[0][0] = _b0;
-        vector.0[0][1] = _b1;
-        vector.0[0][2] = _b2;
-    }
-}
-
-impl<
-    S: ::lie_runtime::Scalar,
-> ::lie_runtime::Implicit<
-    S,
-    ::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 1>,
-> for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
-        ::lie_runtime::generic::StageMomenta<
-            'a,
-            S,
-            FreeRigidBodySystem<S>,
-            ::lie_runtime::generic::QuaternionStages<S, 1>,
-            1,
-        >,
-        FreeRigidBodyHopf2Elimination,
-    >
-    where
-        Self: 'a;
-    fn equation<'a>(
-        &'a self,
-        _method: &::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 1>,
-        h: S,
-    ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
-            ::lie_runtime::generic::StageMomenta::new(self, h),
-        )
-    }
-}
-
 impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<
@@ -2236,6 +2112,7 @@ impl<
 /// The spherical midpoint method, unknown `u = mu1`: `u - mu - h f(w) = 0`,
 /// `w = |mu| s/|s|` with `s = mu + u` for each spin.
 #[derive(Clone, Debug)]
+#[allow(non_snake_case)]
 pub struct FreeRigidBodySphericalMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
@@ -2447,6 +2324,7 @@ for FreeRigidBodySystem<S> {
 /// The discrete rigid body of Moser and Veselov; state and branch of the solution by the generic
 /// equation.
 #[derive(Clone, Debug)]
+#[allow(non_snake_case)]
 pub struct FreeRigidBodyMoserVeselov<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
     base: ::lie_runtime::__private::SVector<S, 3>,
@@ -2649,9 +2527,9 @@ for FreeRigidBodySystem<S> {
 }
 
 ::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : generating2, generating4,
-    generating6, second_kind, generating2_cayley, generating4_cayley,
-    isospectral2_cayley, isospectral6, hopf6
+    [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : exp, generating2,
+    generating4, generating6, second_kind, generating2_cayley, generating4_cayley,
+    isospectral2_cayley, isospectral6, hopf2, hopf6
 );
 /// The flows of the pieces of H in `x`, `y`, `z`.
 #[derive(Debug)]

@@ -34,6 +34,11 @@ pub struct Elimination {
 pub const UNROLLED: usize = 300;
 
 impl Elimination {
+    /// Multiplications of a full matrix, about.
+    pub fn multiplications_of_full(size: usize) -> usize {
+        size * size * size / 3 + size * size
+    }
+
     /// Whether it is written out.
     pub fn is_unrolled(&self) -> bool {
         self.multiplications() <= UNROLLED

@@ -149,6 +149,8 @@ pub enum Solver {
     Fused(&'static str),
     /// A generic one under an elimination of its own, by the end of that type's name.
     Eliminated(Partner, String),
+    /// A generic one as it is, which is not the method's own.
+    Generic(Partner),
 }
 
 /// What an equation is solved for.

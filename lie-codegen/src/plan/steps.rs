@@ -54,20 +54,22 @@ impl Planner<'_> {
             (Choice::Midpoint, "midpoint"),
             (Choice::Gauss(2), "gauss4"),
             (Choice::Gauss(3), "gauss6"),
-            (Choice::LieMidpoint(Retraction::Exp), "exp"),
             (Choice::LieMidpoint(Retraction::Cayley), "cayley"),
         ];
         for (choice, key) in methods {
-            let of_algebra = matches!(choice, Choice::LieMidpoint(_)) && !self.source.is_lie();
             let cayley = choice == Choice::LieMidpoint(Retraction::Cayley);
-            if of_algebra || (cayley && self.source.triple.is_none()) {
+            if cayley && self.source.triple.is_none() {
                 continue;
             }
-            let asked = self.asked(&choice) || self.asked_beside(&choice);
+            let asked = self.asked(&choice) || (cayley && self.asked_beside_cayley());
             match asked.then(|| self.solver(&choice)).flatten() {
                 Some(solver) => self.items.push(Item::Method(choice.into(), solver)),
                 None => generic.push(key.to_owned()),
             }
+        }
+        if self.source.is_lie() {
+            // an elimination of its own saves under 3% beside the series of the exponential
+            generic.push("exp".to_owned());
         }
         self.energy(&mut generic);
         if self.source.is_lie() {
@@ -78,34 +80,22 @@ impl Planner<'_> {
         generic
     }
 
-    /// Whether another method that is asked for runs on the equation: generating functions of order 2 on those of the
-    /// retraction methods, collective methods on that of the Cayley map.
-    fn asked_beside(&self, choice: &Choice) -> bool {
-        let Choice::LieMidpoint(retraction) = choice else {
-            return false;
-        };
-        let collective = [
+    /// Whether another method that is asked for runs on the equation of the Cayley map.
+    fn asked_beside_cayley(&self) -> bool {
+        let beside = [
+            Choice::Generating(2, Retraction::Cayley),
             Choice::Isospectral(2),
             Choice::Collective(2, Lift::Representation),
         ];
-        self.asked(&Choice::Generating(2, *retraction))
-            || *retraction == Retraction::Cayley && collective.iter().any(|c| self.asked(c))
+        beside.iter().any(|choice| self.asked(choice))
     }
 
     fn solver(&mut self, choice: &Choice) -> Option<Solver> {
         match choice {
             Choice::Midpoint => Some(self.midpoint()),
-            Choice::Gauss(stages) => Some(self.gauss(*stages)),
-            Choice::LieMidpoint(Retraction::Exp) => {
-                let hessian = self.hessian_pattern();
-                let pattern = self.exp_pattern(&hessian);
-                Some(self.eliminated(
-                    Partner::ExpMidpoint,
-                    "ExpMidpoint",
-                    "lie-midpoint exp",
-                    Unknown::State,
-                    pattern,
-                ))
+            Choice::Gauss(stages) => {
+                let solver = self.gauss(*stages);
+                (!matches!(solver, Solver::Generic(_))).then_some(solver)
             }
             Choice::LieMidpoint(Retraction::Cayley) => self.cayley(),
             _ => None,
@@ -139,10 +129,18 @@ impl Planner<'_> {
         })
     }
 
+    /// Gauss collocation, with an elimination of its own where that saves at least a twentieth of the step: a long one of
+    /// a nearly full pattern is cheaper without index lists (`docs/method_costs.md`).
     pub(super) fn gauss(&mut self, stages: usize) -> Solver {
         let order = 2 * stages;
         self.once(&format!("gauss{order}"), |planner| {
             let pattern = planner.field_pattern();
+            let n = planner.source.dimension;
+            let elimination = of_stages(stages, n, &pattern);
+            let full = Elimination::multiplications_of_full(stages * n);
+            if !elimination.is_unrolled() && 5 * elimination.multiplications() > 4 * full {
+                return Solver::Generic(Partner::Gauss(stages));
+            }
             let (suffix, label) = (format!("Gauss{order}"), format!("gauss{order}"));
             let unknown = Unknown::Stages(stages);
             planner.eliminated(Partner::Gauss(stages), &suffix, &label, unknown, pattern)

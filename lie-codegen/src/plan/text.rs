@@ -190,6 +190,7 @@ impl fmt::Display for Solver {
         match self {
             Self::Fused(suffix) => write!(f, "equation {suffix}"),
             Self::Eliminated(partner, elimination) => write!(f, "{partner} by {elimination}"),
+            Self::Generic(partner) => write!(f, "{partner}"),
         }
     }
 }

@@ -29,6 +29,10 @@ impl Printer<'_> {
                     quote! { ::lie_runtime::__private::Eliminated::new(#value) },
                 )
             }
+            Solver::Generic(partner) => (
+                self.partner_type(partner),
+                self.partner_value(partner, &quote! { self }, &quote! { h }),
+            ),
         };
         quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, #method> for #system<S> {
