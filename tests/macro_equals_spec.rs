@@ -171,7 +171,7 @@ fn without_docs(tokens: TokenStream) -> TokenStream {
 
 fn from_text(text: &str) -> TokenStream {
     let model = compile_spec(text).unwrap_or_else(|d| panic!("{text}\n{d:#?}"));
-    generate(&model, &declared_choices(&model)).tokens
+    generate(&model, &declared_choices(&model))
 }
 
 fn from_spec(spec: &Map<String, Value>) -> TokenStream {
@@ -214,9 +214,7 @@ fn a_spec_by_path_gives_the_items_of_the_spec() {
     let items = expand_macro(tokens, Path::new(env!("CARGO_MANIFEST_DIR"))).to_string();
     let text = std::fs::read_to_string("specs/se3_heavy_top.json").expect("the spec");
     let model = compile_spec(&text).expect("a sound spec");
-    let expected = generate(&model, &declared_choices(&model))
-        .tokens
-        .to_string();
+    let expected = generate(&model, &declared_choices(&model)).to_string();
     // Behind the items stands what makes cargo watch the file, without the machine's path to it.
     let rest = items.strip_prefix(&expected).expect("the items come first");
     assert!(

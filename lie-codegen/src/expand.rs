@@ -10,6 +10,7 @@ use crate::characters::visible;
 use crate::compile::{compile_declaration, compile_spec, declared_choices, generate};
 use crate::diagnostic::{Diagnostic, Kind, MOST_SHOWN, Origin, Report, not_shown};
 use crate::front::{Body, Parsed, declaration, file, line_column};
+use crate::print::of_this_version;
 
 /// What `lie_poisson! { input }` expands to; `manifest` is the folder that spec paths start from.
 pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
@@ -135,7 +136,7 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
         .collect();
     let n = proc_macro2::Literal::usize_unsuffixed(parsed.dimension);
     let vector = quote! { ::lie_runtime::__private::SVector<S, #n> };
-    quote! {
+    of_this_version(quote! {
         #[allow(non_snake_case)]
         #[derive(Clone, Debug, PartialEq)]
         #visibility struct #ident<S = f64> { #(pub #parameters: S,)* #[doc(hidden)] pub _scalar: ::core::marker::PhantomData<S> }
@@ -197,5 +198,5 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
             }
         }
         ::lie_runtime::generic_equations!([S: ::lie_runtime::Scalar] #system<S>, S: splitting);
-    }
+    })
 }

@@ -114,7 +114,7 @@ pub mod prelude {
 /// What generated code refers to. Not for other use: it follows the generator, not semantic
 /// versions.
 #[doc(hidden)]
-pub mod __private {
+pub mod __private_0_1 {
     pub use crate::elimination::{Eliminated, FixedElimination, StaticElimination};
     pub use crate::equation::{Equation, Implicit};
     pub use crate::generating::GeneratingFunction;

@@ -67,7 +67,7 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
         let _c11 = self.b;
         let _c12 = self.nu * S::from_f64(2.0);
         let _c13 = self.mu * S::from_f64(2.0);
-        ::lie_runtime::__private::all_finite(
+        ::lie_runtime::__private_0_1::all_finite(
             &[
                 (_c0, "a", "a*b"),
                 (_c1, "a", "a"),
@@ -106,8 +106,8 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
 
     /// The initial state of the declaration.
     #[must_use]
-    pub fn initial_state(&self) -> ::lie_runtime::__private::SVector<S, 3> {
-        ::lie_runtime::__private::SVector::from([
+    pub fn initial_state(&self) -> ::lie_runtime::__private_0_1::SVector<S, 3> {
+        ::lie_runtime::__private_0_1::SVector::from([
             S::one(),
             S::ratio(19.0, 10.0),
             S::from_f64(0.5),
@@ -174,8 +174,8 @@ impl<S: ::lie_runtime::Scalar> LotkaVolterra<S> {
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem<S> {
-    type State = ::lie_runtime::__private::SVector<S, 3>;
-    type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
+    type Jacobian = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
     fn dimension(&self) -> usize {
         3
     }
@@ -414,7 +414,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for LotkaVolterraSystem<S>
 #[allow(non_snake_case)]
 pub struct LotkaVolterraMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a LotkaVolterraSystem<S>,
-    base: ::lie_runtime::__private::SVector<S, 3>,
+    base: ::lie_runtime::__private_0_1::SVector<S, 3>,
     h: S,
     /// `h/4`
     h_over_4: S,
@@ -474,9 +474,9 @@ impl<'a, S: ::lie_runtime::Scalar> LotkaVolterraMidpoint<'a, S> {
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
 for LotkaVolterraMidpoint<'_, S> {
-    type State = ::lie_runtime::__private::SVector<S, 3>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
     type Unknown = Self::State;
-    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
     fn zero_unknown(&self) -> Self::Unknown {
         Self::State::repeat(S::zero())
     }
@@ -589,7 +589,7 @@ for LotkaVolterraMidpoint<'_, S> {
         matrix[(2, 0)] = _a2_0;
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
@@ -639,15 +639,18 @@ for LotkaVolterraSystem<S> {
 pub struct LotkaVolterraGauss4Elimination;
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+    ::lie_runtime::__private_0_1::StageMatrix<
+        ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+        2,
+    >,
+    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 3>, 2>,
 > for LotkaVolterraGauss4Elimination {
     #[inline]
     fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
             2,
         >,
     ) -> S::Mask {
@@ -794,7 +797,7 @@ impl<
         matrix.0[1][1][(2, 0)] = _a5_3;
         matrix.0[1][1][(2, 1)] = _a5_4;
         matrix.0[1][1][(2, 2)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0
                 .abs()
                 .max(_a1_1.abs())
@@ -807,12 +810,12 @@ impl<
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+        factors: &::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
             2,
         >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
+        vector: &mut ::lie_runtime::__private_0_1::Stages<
+            ::lie_runtime::__private_0_1::SVector<S, 3>,
             2,
         >,
     ) {
@@ -851,7 +854,7 @@ impl<
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for LotkaVolterraSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::Gauss<'a, S, LotkaVolterraSystem<S>, 2>,
         LotkaVolterraGauss4Elimination,
     >
@@ -862,9 +865,23 @@ for LotkaVolterraSystem<S> {
         _method: &::lie_runtime::methods::Gauss4,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::Gauss::new(self, h),
         )
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
+for LotkaVolterraSystem<S> {
+    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, LotkaVolterraSystem<S>, 3>
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss6,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::generic::Gauss::new(self, h)
     }
 }
 
@@ -873,13 +890,13 @@ for LotkaVolterraSystem<S> {
 pub struct LotkaVolterraGonzalezElimination;
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::SMatrix<S, 3, 3>,
-    ::lie_runtime::__private::SVector<S, 3>,
+    ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private_0_1::SVector<S, 3>,
 > for LotkaVolterraGonzalezElimination {
     #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -907,15 +924,15 @@ impl<
         matrix[(2, 0)] = _a2_0;
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+        factors: &::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private_0_1::SVector<S, 3>,
     ) {
         let _b0 = vector[0];
         let _b1 = vector[1] - factors[(1, 0)] * _b0;
@@ -934,7 +951,7 @@ impl<
 #[derive(Clone, Copy, Debug)]
 pub struct LotkaVolterraCohenHairer6Elimination;
 impl LotkaVolterraCohenHairer6Elimination {
-    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+    const LIST: ::lie_runtime::__private_0_1::StaticElimination = ::lie_runtime::__private_0_1::StaticElimination {
         order: &[0, 1, 2, 3, 4, 5, 6, 7, 8],
         below: &[
             &[1, 2, 3, 4, 5, 6, 7, 8],
@@ -963,15 +980,18 @@ impl LotkaVolterraCohenHairer6Elimination {
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
+    ::lie_runtime::__private_0_1::StageMatrix<
+        ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+        3,
+    >,
+    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 3>, 3>,
 > for LotkaVolterraCohenHairer6Elimination {
     #[inline]
     fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
             3,
         >,
     ) -> S::Mask {
@@ -980,12 +1000,12 @@ impl<
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+        factors: &::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
             3,
         >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
+        vector: &mut ::lie_runtime::__private_0_1::Stages<
+            ::lie_runtime::__private_0_1::SVector<S, 3>,
             3,
         >,
     ) {
@@ -997,7 +1017,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gonzalez>
 for LotkaVolterraSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
@@ -1013,7 +1033,7 @@ for LotkaVolterraSystem<S> {
         _method: &::lie_runtime::methods::Gonzalez,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::DiscreteGradientStep::<
                 S,
                 _,
@@ -1027,7 +1047,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::MeanValue>
 for LotkaVolterraSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
@@ -1043,7 +1063,7 @@ for LotkaVolterraSystem<S> {
         _method: &::lie_runtime::methods::MeanValue,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::DiscreteGradientStep::<
                 S,
                 _,
@@ -1057,7 +1077,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::ItohAbe>
 for LotkaVolterraSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
@@ -1073,7 +1093,7 @@ for LotkaVolterraSystem<S> {
         _method: &::lie_runtime::methods::ItohAbe,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::DiscreteGradientStep::<
                 S,
                 _,
@@ -1087,7 +1107,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<1>>
 for LotkaVolterraSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::DiscreteGradientStep<
             'a,
             S,
@@ -1103,7 +1123,7 @@ for LotkaVolterraSystem<S> {
         _method: &::lie_runtime::methods::CohenHairer<1>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::DiscreteGradientStep::<
                 S,
                 _,
@@ -1117,7 +1137,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for LotkaVolterraSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::CohenHairerStep<'a, S, LotkaVolterraSystem<S>, 2>,
         LotkaVolterraGauss4Elimination,
     >
@@ -1128,7 +1148,7 @@ for LotkaVolterraSystem<S> {
         _method: &::lie_runtime::methods::CohenHairer<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::CohenHairerStep::new(self, h),
         )
     }
@@ -1138,7 +1158,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for LotkaVolterraSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::CohenHairerStep<'a, S, LotkaVolterraSystem<S>, 3>,
         LotkaVolterraCohenHairer6Elimination,
     >
@@ -1149,12 +1169,8 @@ for LotkaVolterraSystem<S> {
         _method: &::lie_runtime::methods::CohenHairer<3>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::CohenHairerStep::new(self, h),
         )
     }
 }
-
-::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] LotkaVolterraSystem < S >, S : gauss6
-);

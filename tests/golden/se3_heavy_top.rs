@@ -84,7 +84,7 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _c15 = -_t1;
         let _c16 = -_t2;
         let _c17 = -_t0;
-        ::lie_runtime::__private::all_finite(
+        ::lie_runtime::__private_0_1::all_finite(
             &[
                 (_c0, "mgl", "mgl*c1"),
                 (_c1, "mgl", "mgl*c2"),
@@ -131,8 +131,8 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
 
     /// The initial state of the declaration.
     #[must_use]
-    pub fn initial_state(&self) -> ::lie_runtime::__private::SVector<S, 6> {
-        ::lie_runtime::__private::SVector::from([
+    pub fn initial_state(&self) -> ::lie_runtime::__private_0_1::SVector<S, 6> {
+        ::lie_runtime::__private_0_1::SVector::from([
             S::ratio(2.0, 5.0),
             S::ratio(3.0, 10.0),
             S::ratio(9.0, 10.0),
@@ -213,8 +213,8 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for HeavyTopSystem<S> {
-    type State = ::lie_runtime::__private::SVector<S, 6>;
-    type Jacobian = ::lie_runtime::__private::SMatrix<S, 6, 6>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 6>;
+    type Jacobian = ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>;
     fn dimension(&self) -> usize {
         6
     }
@@ -571,8 +571,8 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSyste
             + _eta_J3 * (_t7 + _t11)) * S::from_f64(-0.5);
     }
 
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
+    fn spectrum(&self) -> ::lie_runtime::__private_0_1::Spectrum<'_> {
+        ::lie_runtime::__private_0_1::Spectrum::Imaginary
     }
 }
 
@@ -613,25 +613,25 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeavyTopSystem<S> {
-    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
-        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+    fn group(&self) -> ::lie_runtime::__private_0_1::Group<'_> {
+        const GROUP: ::lie_runtime::__private_0_1::Group = ::lie_runtime::__private_0_1::Group {
             size: 4,
             matrices: &[
                 &[
-                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 1, 1.0),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 0, -1.0),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 0, 1.0),
                 ],
-                &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
-                &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
-                &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(0, 3, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(1, 3, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(2, 3, 1.0)],
             ],
             closed: true,
             orthogonal: false,
@@ -642,50 +642,50 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for HeavyTopSystem<
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSystem<S> {
-    type Matrix = ::lie_runtime::__private::SMatrix<S, 4, 4>;
-    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
-        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 4, 4>;
+    fn representation(&self) -> ::lie_runtime::__private_0_1::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private_0_1::Representation = ::lie_runtime::__private_0_1::Representation {
             matrices: &[
                 &[
-                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 1, 1.0),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 0, -1.0),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 0, 1.0),
                 ],
-                &[::lie_runtime::__private::Entry::new(0, 3, 1.0)],
-                &[::lie_runtime::__private::Entry::new(1, 3, 1.0)],
-                &[::lie_runtime::__private::Entry::new(2, 3, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(0, 3, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(1, 3, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(2, 3, 1.0)],
             ],
             dual: &[
                 &[
-                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 1, -0.5),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 2, -0.5),
-                    ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 2, -0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 0, 0.5),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 0, -0.5),
                 ],
-                &[::lie_runtime::__private::Entry::new(3, 0, 1.0)],
-                &[::lie_runtime::__private::Entry::new(3, 1, 1.0)],
-                &[::lie_runtime::__private::Entry::new(3, 2, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(3, 0, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(3, 1, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(3, 2, 1.0)],
             ],
             skew: false,
         };
         REPRESENTATION
     }
 
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
+    fn spectrum(&self) -> ::lie_runtime::__private_0_1::Spectrum<'_> {
+        ::lie_runtime::__private_0_1::Spectrum::Imaginary
     }
 
     fn zero_matrix(&self) -> Self::Matrix {
@@ -698,7 +698,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSyste
 #[allow(non_snake_case)]
 pub struct HeavyTopMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeavyTopSystem<S>,
-    base: ::lie_runtime::__private::SVector<S, 6>,
+    base: ::lie_runtime::__private_0_1::SVector<S, 6>,
     h: S,
     /// `(1/I2 - 1/I3)*h/4`
     _h0: S,
@@ -773,9 +773,9 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopMidpoint<'a, S> {
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopMidpoint<'_, S> {
-    type State = ::lie_runtime::__private::SVector<S, 6>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 6>;
     type Unknown = Self::State;
-    type Matrix = ::lie_runtime::__private::SMatrix<S, 6, 6>;
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>;
     fn zero_unknown(&self) -> Self::Unknown {
         Self::State::repeat(S::zero())
     }
@@ -1015,7 +1015,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopMidpoint<'
         matrix[(5, 3)] = _a5_3;
         matrix[(5, 4)] = _a5_4;
         matrix[(5, 5)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a1_1
                 .abs()
                 .max(_a2_2.abs())
@@ -1079,11 +1079,25 @@ for HeavyTopSystem<S> {
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
+for HeavyTopSystem<S> {
+    type Equation<'a> = ::lie_runtime::generic::Gauss<'a, S, HeavyTopSystem<S>, 2>
+    where
+        Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::Gauss4,
+        h: S,
+    ) -> Self::Equation<'a> {
+        ::lie_runtime::generic::Gauss::new(self, h)
+    }
+}
+
 /// Elimination of 18 rows in a fixed order, 60 entries of fill-in: 1802 multiplications with the solution.
 #[derive(Clone, Copy, Debug)]
 pub struct HeavyTopGauss6Elimination;
 impl HeavyTopGauss6Elimination {
-    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+    const LIST: ::lie_runtime::__private_0_1::StaticElimination = ::lie_runtime::__private_0_1::StaticElimination {
         order: &[0, 3, 6, 9, 12, 1, 2, 4, 5, 7, 8, 10, 11, 13, 14, 15, 16, 17],
         below: &[
             &[1, 2, 4, 5, 7, 8, 10, 11, 13, 14, 16, 17],
@@ -1130,15 +1144,18 @@ impl HeavyTopGauss6Elimination {
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 6, 6>, 3>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 6>, 3>,
+    ::lie_runtime::__private_0_1::StageMatrix<
+        ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
+        3,
+    >,
+    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 6>, 3>,
 > for HeavyTopGauss6Elimination {
     #[inline]
     fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 6, 6>,
+        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
             3,
         >,
     ) -> S::Mask {
@@ -1147,12 +1164,12 @@ impl<
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 6, 6>,
+        factors: &::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
             3,
         >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 6>,
+        vector: &mut ::lie_runtime::__private_0_1::Stages<
+            ::lie_runtime::__private_0_1::SVector<S, 6>,
             3,
         >,
     ) {
@@ -1162,7 +1179,7 @@ impl<
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::Gauss<'a, S, HeavyTopSystem<S>, 3>,
         HeavyTopGauss6Elimination,
     >
@@ -1173,7 +1190,7 @@ for HeavyTopSystem<S> {
         _method: &::lie_runtime::methods::Gauss6,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::Gauss::new(self, h),
         )
     }
@@ -1185,7 +1202,7 @@ for HeavyTopSystem<S> {
 #[allow(non_snake_case)]
 pub struct HeavyTopCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a HeavyTopSystem<S>,
-    base: ::lie_runtime::__private::SVector<S, 6>,
+    base: ::lie_runtime::__private_0_1::SVector<S, 6>,
     h: S,
     /// `h/(2*I1)`
     h_over_2_I1: S,
@@ -1319,9 +1336,9 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopCayleyMidpoint<'a, S> {
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
 for HeavyTopCayleyMidpoint<'_, S> {
-    type State = ::lie_runtime::__private::SVector<S, 6>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 6>;
     type Unknown = Self::State;
-    type Matrix = ::lie_runtime::__private::SMatrix<S, 6, 6>;
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>;
     fn zero_unknown(&self) -> Self::Unknown {
         Self::State::repeat(S::zero())
     }
@@ -1610,7 +1627,7 @@ for HeavyTopCayleyMidpoint<'_, S> {
         matrix[(5, 3)] = _a5_3;
         matrix[(5, 4)] = _a5_4;
         matrix[(5, 5)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0
                 .abs()
                 .max(_a1_1.abs())
@@ -1685,13 +1702,13 @@ impl<
 pub struct HeavyTopOrbitMeanValueElimination;
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::SMatrix<S, 6, 6>,
-    ::lie_runtime::__private::SVector<S, 6>,
+    ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
+    ::lie_runtime::__private_0_1::SVector<S, 6>,
 > for HeavyTopOrbitMeanValueElimination {
     #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 6, 6>) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>) -> S::Mask {
         let _a3_3 = matrix[(3, 3)];
         let _a3_3 = S::one() / _a3_3;
         let _a4_4 = matrix[(4, 4)];
@@ -1728,7 +1745,7 @@ impl<
         matrix[(3, 3)] = _a3_3;
         matrix[(4, 4)] = _a4_4;
         matrix[(5, 5)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a3_3
                 .abs()
                 .max(_a4_4.abs())
@@ -1741,8 +1758,8 @@ impl<
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 6, 6>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 6>,
+        factors: &::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
+        vector: &mut ::lie_runtime::__private_0_1::SVector<S, 6>,
     ) {
         let _b3 = vector[3];
         let _b4 = vector[4];
@@ -1788,7 +1805,7 @@ impl<
     S,
     ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
 > for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
@@ -1804,7 +1821,7 @@ impl<
         _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
         )
     }
@@ -1829,7 +1846,7 @@ impl<
     S,
     ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
 > for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
@@ -1845,7 +1862,7 @@ impl<
         _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
         )
     }
@@ -1870,7 +1887,7 @@ impl<
     S,
     ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
 > for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
@@ -1886,7 +1903,7 @@ impl<
         _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
         )
     }
@@ -1926,7 +1943,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::Gauss<'a, S, HeavyTopSystem<S>, 3>,
         HeavyTopGauss6Elimination,
     >
@@ -1937,7 +1954,7 @@ for HeavyTopSystem<S> {
         _method: &::lie_runtime::methods::CohenHairer<3>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::Gauss::new(self, h),
         )
     }
@@ -1948,15 +1965,18 @@ for HeavyTopSystem<S> {
 pub struct HeavyTopIsospectral4Elimination;
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 6, 6>, 2>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 6>, 2>,
+    ::lie_runtime::__private_0_1::StageMatrix<
+        ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
+        2,
+    >,
+    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 6>, 2>,
 > for HeavyTopIsospectral4Elimination {
     #[inline]
     fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 6, 6>,
+        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
             2,
         >,
     ) -> S::Mask {
@@ -2121,7 +2141,7 @@ impl<
         matrix.0[1][1][(3, 3)] = _a9_9;
         matrix.0[1][1][(4, 4)] = _a10_10;
         matrix.0[1][1][(5, 5)] = _a11_11;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a3_3
                 .abs()
                 .max(_a4_4.abs())
@@ -2140,12 +2160,12 @@ impl<
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 6, 6>,
+        factors: &::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
             2,
         >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 6>,
+        vector: &mut ::lie_runtime::__private_0_1::Stages<
+            ::lie_runtime::__private_0_1::SVector<S, 6>,
             2,
         >,
     ) {
@@ -2222,7 +2242,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<2>>
 for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::StageMomenta<
             'a,
             S,
@@ -2243,7 +2263,7 @@ for HeavyTopSystem<S> {
         _method: &::lie_runtime::methods::Isospectral<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::StageMomenta::new(self, h),
         )
     }
@@ -2256,7 +2276,7 @@ for HeavyTopSystem<S> {
 #[derive(Clone, Copy, Debug)]
 pub struct HeavyTopIsospectral6Elimination;
 impl HeavyTopIsospectral6Elimination {
-    const LIST: ::lie_runtime::__private::StaticElimination = ::lie_runtime::__private::StaticElimination {
+    const LIST: ::lie_runtime::__private_0_1::StaticElimination = ::lie_runtime::__private_0_1::StaticElimination {
         order: &[3, 4, 5, 9, 10, 11, 15, 16, 17, 0, 1, 2, 6, 7, 8, 12, 13, 14],
         below: &[
             &[],
@@ -2303,15 +2323,18 @@ impl HeavyTopIsospectral6Elimination {
 
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 6, 6>, 3>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 6>, 3>,
+    ::lie_runtime::__private_0_1::StageMatrix<
+        ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
+        3,
+    >,
+    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 6>, 3>,
 > for HeavyTopIsospectral6Elimination {
     #[inline]
     fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 6, 6>,
+        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
             3,
         >,
     ) -> S::Mask {
@@ -2320,12 +2343,12 @@ impl<
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 6, 6>,
+        factors: &::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>,
             3,
         >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 6>,
+        vector: &mut ::lie_runtime::__private_0_1::Stages<
+            ::lie_runtime::__private_0_1::SVector<S, 6>,
             3,
         >,
     ) {
@@ -2337,7 +2360,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<3>>
 for HeavyTopSystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::StageMomenta<
             'a,
             S,
@@ -2358,7 +2381,7 @@ for HeavyTopSystem<S> {
         _method: &::lie_runtime::methods::Isospectral<3>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::StageMomenta::new(self, h),
         )
     }
@@ -2368,9 +2391,8 @@ for HeavyTopSystem<S> {
     @ collective[S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S, 3
 );
 ::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : gauss4, exp, generating2,
-    generating4, generating6, second_kind, generating2_cayley, generating4_cayley,
-    isospectral2_cayley
+    [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : exp, generating2, generating4,
+    generating6, second_kind, generating2_cayley, generating4_cayley, isospectral2_cayley
 );
 /// The flows of the pieces of H in `m1`, `m2`, `m3`, `g1`, `g2`, `g3`.
 #[derive(Debug)]
@@ -2392,7 +2414,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     ///
     /// 9 additions, 13 multiplications, 1 division, 1 function call.
     #[inline]
-    fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
+    fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 6>) {
         let [[m1, m2, m3, _, g2, g3]] = mu.data.0;
         let _t0 = (m1 * t * self.system.inverse_2_I1).tan();
         let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
@@ -2409,7 +2431,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     ///
     /// 9 additions, 13 multiplications, 1 division, 1 function call.
     #[inline]
-    fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
+    fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 6>) {
         let [[m1, m2, m3, g1, _, g3]] = mu.data.0;
         let _t0 = (m2 * t * self.system.inverse_2_I2).tan();
         let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
@@ -2426,7 +2448,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     ///
     /// 9 additions, 13 multiplications, 1 division, 1 function call.
     #[inline]
-    fn _flow2(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
+    fn _flow2(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 6>) {
         let [[m1, m2, m3, g1, g2, _]] = mu.data.0;
         let _t0 = (m3 * t * self.system.inverse_2_I3).tan();
         let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
@@ -2443,7 +2465,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     ///
     /// 2 additions, 3 multiplications.
     #[inline]
-    fn _flow3(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
+    fn _flow3(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 6>) {
         let [[_, _, _, _, g2, g3]] = mu.data.0;
         let _t0 = t * self.system.mgl_c1;
         mu[1] += g3 * _t0;
@@ -2456,7 +2478,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     ///
     /// 2 additions, 3 multiplications.
     #[inline]
-    fn _flow4(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
+    fn _flow4(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 6>) {
         let [[_, _, _, g1, _, g3]] = mu.data.0;
         let _t0 = t * self.system.mgl_c2;
         mu[0] -= g3 * _t0;
@@ -2469,7 +2491,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
     ///
     /// 2 additions, 3 multiplications.
     #[inline]
-    fn _flow5(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 6>) {
+    fn _flow5(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 6>) {
         let [[_, _, _, g1, g2, _]] = mu.data.0;
         let _t0 = t * self.system.mgl_c3;
         mu[0] += g2 * _t0;
@@ -2479,7 +2501,7 @@ impl<'a, S: ::lie_runtime::Scalar> HeavyTopSplitting<'a, S> {
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::PieceFlows<S>
 for HeavyTopSplitting<'_, S> {
-    type State = ::lie_runtime::__private::SVector<S, 6>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 6>;
     #[inline]
     fn pieces(&self) -> usize {
         6

@@ -62,7 +62,7 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
         let _c6 = _t2 - _t1;
         let _c7 = _t0 - _t2;
         let _c8 = _t1 - _t0;
-        ::lie_runtime::__private::all_finite(
+        ::lie_runtime::__private_0_1::all_finite(
             &[
                 (_c0, "I1", "1/(2*I1)"),
                 (_c1, "I2", "1/(2*I2)"),
@@ -91,8 +91,8 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
 
     /// The initial state of the declaration.
     #[must_use]
-    pub fn initial_state(&self) -> ::lie_runtime::__private::SVector<S, 3> {
-        ::lie_runtime::__private::SVector::from([
+    pub fn initial_state(&self) -> ::lie_runtime::__private_0_1::SVector<S, 3> {
+        ::lie_runtime::__private_0_1::SVector::from([
             S::ratio(11.0, 10.0).cos(),
             S::zero(),
             S::ratio(11.0, 10.0).sin(),
@@ -148,8 +148,8 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for FreeRigidBodySystem<S> {
-    type State = ::lie_runtime::__private::SVector<S, 3>;
-    type Jacobian = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
+    type Jacobian = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
     fn dimension(&self) -> usize {
         3
     }
@@ -392,8 +392,8 @@ for FreeRigidBodySystem<S> {
             * S::from_f64(-0.5);
     }
 
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
+    fn spectrum(&self) -> ::lie_runtime::__private_0_1::Spectrum<'_> {
+        ::lie_runtime::__private_0_1::Spectrum::Imaginary
     }
 }
 
@@ -421,21 +421,21 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for FreeRigidBodySystem<S>
 }
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for FreeRigidBodySystem<S> {
-    fn group(&self) -> ::lie_runtime::__private::Group<'_> {
-        const GROUP: ::lie_runtime::__private::Group = ::lie_runtime::__private::Group {
+    fn group(&self) -> ::lie_runtime::__private_0_1::Group<'_> {
+        const GROUP: ::lie_runtime::__private_0_1::Group = ::lie_runtime::__private_0_1::Group {
             size: 3,
             matrices: &[
                 &[
-                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 1, 1.0),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 0, -1.0),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 0, 1.0),
                 ],
             ],
             closed: true,
@@ -448,35 +448,35 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for FreeRigidBodySy
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S>
 for FreeRigidBodySystem<S> {
-    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
-    fn representation(&self) -> ::lie_runtime::__private::Representation<'_> {
-        const REPRESENTATION: ::lie_runtime::__private::Representation = ::lie_runtime::__private::Representation {
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
+    fn representation(&self) -> ::lie_runtime::__private_0_1::Representation<'_> {
+        const REPRESENTATION: ::lie_runtime::__private_0_1::Representation = ::lie_runtime::__private_0_1::Representation {
             matrices: &[
                 &[
-                    ::lie_runtime::__private::Entry::new(1, 2, -1.0),
-                    ::lie_runtime::__private::Entry::new(2, 1, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 2, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 1, 1.0),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 2, 1.0),
-                    ::lie_runtime::__private::Entry::new(2, 0, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 2, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 0, -1.0),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 1, -1.0),
-                    ::lie_runtime::__private::Entry::new(1, 0, 1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 1, -1.0),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 0, 1.0),
                 ],
             ],
             dual: &[
                 &[
-                    ::lie_runtime::__private::Entry::new(1, 2, 0.5),
-                    ::lie_runtime::__private::Entry::new(2, 1, -0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 2, 0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 1, -0.5),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 2, -0.5),
-                    ::lie_runtime::__private::Entry::new(2, 0, 0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 2, -0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(2, 0, 0.5),
                 ],
                 &[
-                    ::lie_runtime::__private::Entry::new(0, 1, 0.5),
-                    ::lie_runtime::__private::Entry::new(1, 0, -0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 0, -0.5),
                 ],
             ],
             skew: true,
@@ -484,8 +484,8 @@ for FreeRigidBodySystem<S> {
         REPRESENTATION
     }
 
-    fn spectrum(&self) -> ::lie_runtime::__private::Spectrum<'_> {
-        ::lie_runtime::__private::Spectrum::Imaginary
+    fn spectrum(&self) -> ::lie_runtime::__private_0_1::Spectrum<'_> {
+        ::lie_runtime::__private_0_1::Spectrum::Imaginary
     }
 
     fn zero_matrix(&self) -> Self::Matrix {
@@ -509,7 +509,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for FreeRigidBodySy
 #[allow(non_snake_case)]
 pub struct FreeRigidBodyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
-    base: ::lie_runtime::__private::SVector<S, 3>,
+    base: ::lie_runtime::__private_0_1::SVector<S, 3>,
     h: S,
     /// `(1/I2 - 1/I3)*h/4`
     _h0: S,
@@ -545,9 +545,9 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMidpoint<'a, S> {
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
 for FreeRigidBodyMidpoint<'_, S> {
-    type State = ::lie_runtime::__private::SVector<S, 3>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
     type Unknown = Self::State;
-    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
     fn zero_unknown(&self) -> Self::Unknown {
         Self::State::repeat(S::zero())
     }
@@ -644,7 +644,9 @@ for FreeRigidBodyMidpoint<'_, S> {
         matrix[(1, 2)] = _a1_2;
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(_a1_1.abs().max(_a2_2.abs()))
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
+            _a1_1.abs().max(_a2_2.abs()),
+        )
     }
 
     #[inline]
@@ -691,15 +693,18 @@ for FreeRigidBodySystem<S> {
 pub struct FreeRigidBodyGauss4Elimination;
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+    ::lie_runtime::__private_0_1::StageMatrix<
+        ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+        2,
+    >,
+    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 3>, 2>,
 > for FreeRigidBodyGauss4Elimination {
     #[inline]
     fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
             2,
         >,
     ) -> S::Mask {
@@ -828,7 +833,7 @@ impl<
         matrix.0[1][1][(2, 0)] = _a5_3;
         matrix.0[1][1][(2, 1)] = _a5_4;
         matrix.0[1][1][(2, 2)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0
                 .abs()
                 .max(_a1_1.abs())
@@ -841,12 +846,12 @@ impl<
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+        factors: &::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
             2,
         >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
+        vector: &mut ::lie_runtime::__private_0_1::Stages<
+            ::lie_runtime::__private_0_1::SVector<S, 3>,
             2,
         >,
     ) {
@@ -885,7 +890,7 @@ impl<
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss4>
 for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 2>,
         FreeRigidBodyGauss4Elimination,
     >
@@ -896,7 +901,7 @@ for FreeRigidBodySystem<S> {
         _method: &::lie_runtime::methods::Gauss4,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::Gauss::new(self, h),
         )
     }
@@ -907,15 +912,18 @@ for FreeRigidBodySystem<S> {
 pub struct FreeRigidBodyGauss6Elimination;
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 3>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 3>,
+    ::lie_runtime::__private_0_1::StageMatrix<
+        ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+        3,
+    >,
+    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 3>, 3>,
 > for FreeRigidBodyGauss6Elimination {
     #[inline]
     fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
             3,
         >,
     ) -> S::Mask {
@@ -1249,7 +1257,7 @@ impl<
         matrix.0[2][2][(2, 0)] = _a8_6;
         matrix.0[2][2][(2, 1)] = _a8_7;
         matrix.0[2][2][(2, 2)] = _a8_8;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0
                 .abs()
                 .max(_a3_3.abs())
@@ -1265,12 +1273,12 @@ impl<
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+        factors: &::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
             3,
         >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
+        vector: &mut ::lie_runtime::__private_0_1::Stages<
+            ::lie_runtime::__private_0_1::SVector<S, 3>,
             3,
         >,
     ) {
@@ -1336,7 +1344,7 @@ impl<
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Implicit<S, ::lie_runtime::methods::Gauss6>
 for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 3>,
         FreeRigidBodyGauss6Elimination,
     >
@@ -1347,7 +1355,7 @@ for FreeRigidBodySystem<S> {
         _method: &::lie_runtime::methods::Gauss6,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::Gauss::new(self, h),
         )
     }
@@ -1359,7 +1367,7 @@ for FreeRigidBodySystem<S> {
 #[allow(non_snake_case)]
 pub struct FreeRigidBodyCayleyMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
-    base: ::lie_runtime::__private::SVector<S, 3>,
+    base: ::lie_runtime::__private_0_1::SVector<S, 3>,
     h: S,
     /// `h/(2*I1)`
     h_over_2_I1: S,
@@ -1412,9 +1420,9 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyCayleyMidpoint<'a, S> {
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
 for FreeRigidBodyCayleyMidpoint<'_, S> {
-    type State = ::lie_runtime::__private::SVector<S, 3>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
     type Unknown = Self::State;
-    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
     fn zero_unknown(&self) -> Self::Unknown {
         Self::State::repeat(S::zero())
     }
@@ -1538,7 +1546,7 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
         matrix[(2, 0)] = _a2_0;
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
@@ -1592,13 +1600,13 @@ impl<
 pub struct FreeRigidBodyOrbitMeanValueElimination;
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::SMatrix<S, 3, 3>,
-    ::lie_runtime::__private::SVector<S, 3>,
+    ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+    ::lie_runtime::__private_0_1::SVector<S, 3>,
 > for FreeRigidBodyOrbitMeanValueElimination {
     #[inline]
-    fn factor(matrix: &mut ::lie_runtime::__private::SMatrix<S, 3, 3>) -> S::Mask {
+    fn factor(matrix: &mut ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>) -> S::Mask {
         let _a0_0 = matrix[(0, 0)];
         let _a0_0 = S::one() / _a0_0;
         let _a1_0 = matrix[(1, 0)];
@@ -1626,15 +1634,15 @@ impl<
         matrix[(2, 0)] = _a2_0;
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::SMatrix<S, 3, 3>,
-        vector: &mut ::lie_runtime::__private::SVector<S, 3>,
+        factors: &::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+        vector: &mut ::lie_runtime::__private_0_1::SVector<S, 3>,
     ) {
         let _b0 = vector[0];
         let _b1 = vector[1] - factors[(1, 0)] * _b0;
@@ -1669,7 +1677,7 @@ impl<
     S,
     ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
 > for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
@@ -1685,7 +1693,7 @@ impl<
         _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::Gonzalez>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
         )
     }
@@ -1711,7 +1719,7 @@ impl<
     S,
     ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
 > for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
@@ -1727,7 +1735,7 @@ impl<
         _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::MeanValue>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
         )
     }
@@ -1753,7 +1761,7 @@ impl<
     S,
     ::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
 > for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::OrbitEnergyStep<
             'a,
             S,
@@ -1769,7 +1777,7 @@ impl<
         _method: &::lie_runtime::methods::OrbitEnergy<::lie_runtime::methods::ItohAbe>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::OrbitEnergyStep::new(self, h),
         )
     }
@@ -1793,7 +1801,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<2>>
 for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 2>,
         FreeRigidBodyGauss4Elimination,
     >
@@ -1804,7 +1812,7 @@ for FreeRigidBodySystem<S> {
         _method: &::lie_runtime::methods::CohenHairer<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::Gauss::new(self, h),
         )
     }
@@ -1814,7 +1822,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::CohenHairer<3>>
 for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::Gauss<'a, S, FreeRigidBodySystem<S>, 3>,
         FreeRigidBodyGauss6Elimination,
     >
@@ -1825,7 +1833,7 @@ for FreeRigidBodySystem<S> {
         _method: &::lie_runtime::methods::CohenHairer<3>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::Gauss::new(self, h),
         )
     }
@@ -1836,15 +1844,18 @@ for FreeRigidBodySystem<S> {
 pub struct FreeRigidBodyIsospectral4Elimination;
 impl<
     S: ::lie_runtime::Scalar,
-> ::lie_runtime::__private::FixedElimination<
+> ::lie_runtime::__private_0_1::FixedElimination<
     S,
-    ::lie_runtime::__private::StageMatrix<::lie_runtime::__private::SMatrix<S, 3, 3>, 2>,
-    ::lie_runtime::__private::Stages<::lie_runtime::__private::SVector<S, 3>, 2>,
+    ::lie_runtime::__private_0_1::StageMatrix<
+        ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
+        2,
+    >,
+    ::lie_runtime::__private_0_1::Stages<::lie_runtime::__private_0_1::SVector<S, 3>, 2>,
 > for FreeRigidBodyIsospectral4Elimination {
     #[inline]
     fn factor(
-        matrix: &mut ::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+        matrix: &mut ::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
             2,
         >,
     ) -> S::Mask {
@@ -1991,7 +2002,7 @@ impl<
         matrix.0[1][1][(2, 0)] = _a5_3;
         matrix.0[1][1][(2, 1)] = _a5_4;
         matrix.0[1][1][(2, 2)] = _a5_5;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0
                 .abs()
                 .max(_a1_1.abs())
@@ -2004,12 +2015,12 @@ impl<
 
     #[inline]
     fn solve(
-        factors: &::lie_runtime::__private::StageMatrix<
-            ::lie_runtime::__private::SMatrix<S, 3, 3>,
+        factors: &::lie_runtime::__private_0_1::StageMatrix<
+            ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>,
             2,
         >,
-        vector: &mut ::lie_runtime::__private::Stages<
-            ::lie_runtime::__private::SVector<S, 3>,
+        vector: &mut ::lie_runtime::__private_0_1::Stages<
+            ::lie_runtime::__private_0_1::SVector<S, 3>,
             2,
         >,
     ) {
@@ -2050,7 +2061,7 @@ impl<
     S: ::lie_runtime::Scalar,
 > ::lie_runtime::Implicit<S, ::lie_runtime::methods::Isospectral<2>>
 for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::StageMomenta<
             'a,
             S,
@@ -2071,7 +2082,7 @@ for FreeRigidBodySystem<S> {
         _method: &::lie_runtime::methods::Isospectral<2>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::StageMomenta::new(self, h),
         )
     }
@@ -2086,7 +2097,7 @@ impl<
     S,
     ::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 2>,
 > for FreeRigidBodySystem<S> {
-    type Equation<'a> = ::lie_runtime::__private::Eliminated<
+    type Equation<'a> = ::lie_runtime::__private_0_1::Eliminated<
         ::lie_runtime::generic::StageMomenta<
             'a,
             S,
@@ -2103,7 +2114,7 @@ impl<
         _method: &::lie_runtime::methods::Collective<::lie_runtime::methods::Hopf, 2>,
         h: S,
     ) -> Self::Equation<'a> {
-        ::lie_runtime::__private::Eliminated::new(
+        ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::StageMomenta::new(self, h),
         )
     }
@@ -2115,7 +2126,7 @@ impl<
 #[allow(non_snake_case)]
 pub struct FreeRigidBodySphericalMidpoint<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
-    base: ::lie_runtime::__private::SVector<S, 3>,
+    base: ::lie_runtime::__private_0_1::SVector<S, 3>,
     h: S,
     /// `(1/I2 - 1/I3)*h`
     _h0: S,
@@ -2146,9 +2157,9 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySphericalMidpoint<'a, S> {
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
 for FreeRigidBodySphericalMidpoint<'_, S> {
-    type State = ::lie_runtime::__private::SVector<S, 3>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
     type Unknown = Self::State;
-    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
     fn zero_unknown(&self) -> Self::Unknown {
         Self::State::repeat(S::zero())
     }
@@ -2277,7 +2288,7 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
         matrix[(2, 0)] = _a2_0;
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
@@ -2327,7 +2338,7 @@ for FreeRigidBodySystem<S> {
 #[allow(non_snake_case)]
 pub struct FreeRigidBodyMoserVeselov<'a, S: ::lie_runtime::Scalar> {
     system: &'a FreeRigidBodySystem<S>,
-    base: ::lie_runtime::__private::SVector<S, 3>,
+    base: ::lie_runtime::__private_0_1::SVector<S, 3>,
     h: S,
     /// `h/(2*I1)`
     h_over_2_I1: S,
@@ -2368,9 +2379,9 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyMoserVeselov<'a, S> {
 #[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
 for FreeRigidBodyMoserVeselov<'_, S> {
-    type State = ::lie_runtime::__private::SVector<S, 3>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
     type Unknown = Self::State;
-    type Matrix = ::lie_runtime::__private::SMatrix<S, 3, 3>;
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
     fn zero_unknown(&self) -> Self::Unknown {
         Self::State::repeat(S::zero())
     }
@@ -2482,7 +2493,7 @@ for FreeRigidBodyMoserVeselov<'_, S> {
         matrix[(2, 0)] = _a2_0;
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private::inverse_pivots_are_safe(
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
             _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
@@ -2551,7 +2562,7 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySplitting<'a, S> {
     ///
     /// 5 additions, 9 multiplications, 1 division, 1 function call.
     #[inline]
-    fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
+    fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
         let _t0 = (x * t * self.system.inverse_2_I1).tan();
         let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
@@ -2566,7 +2577,7 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySplitting<'a, S> {
     ///
     /// 5 additions, 9 multiplications, 1 division, 1 function call.
     #[inline]
-    fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
+    fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
         let _t0 = (y * t * self.system.inverse_2_I2).tan();
         let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
@@ -2581,7 +2592,7 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySplitting<'a, S> {
     ///
     /// 5 additions, 9 multiplications, 1 division, 1 function call.
     #[inline]
-    fn _flow2(&self, t: S, mu: &mut ::lie_runtime::__private::SVector<S, 3>) {
+    fn _flow2(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 3>) {
         let [[x, y, z]] = mu.data.0;
         let _t0 = (z * t * self.system.inverse_2_I3).tan();
         let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
@@ -2593,7 +2604,7 @@ impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodySplitting<'a, S> {
 
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::PieceFlows<S>
 for FreeRigidBodySplitting<'_, S> {
-    type State = ::lie_runtime::__private::SVector<S, 3>;
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
     #[inline]
     fn pieces(&self) -> usize {
         3

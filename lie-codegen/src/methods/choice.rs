@@ -11,7 +11,7 @@ use crate::suggest::did_you_mean;
 pub enum Choice {
     /// `midpoint`
     Midpoint,
-    /// `gauss4`, `gauss6`: Gauss collocation with that many stages.
+    /// `gauss4`, `gauss6` and so on, as the catalogue has them: Gauss collocation with that many stages.
     Gauss(usize),
     /// `lie-midpoint`
     LieMidpoint(Retraction),
@@ -156,8 +156,6 @@ impl Choice {
         };
         Some(match id {
             "midpoint" => Self::Midpoint,
-            "gauss4" => Self::Gauss(2),
-            "gauss6" => Self::Gauss(3),
             "lie-midpoint" => Self::LieMidpoint(Retraction::Exp),
             "lie-euler" => Self::LieEuler,
             "rkmk2" => Self::Rkmk(2),
@@ -197,7 +195,10 @@ impl Choice {
             "cohen-hairer6" => Self::CohenHairer(6),
             "rk4" => Self::Rk4,
             "dopri5" => Self::Dopri5,
-            _ => return None,
+            _ => {
+                let order: usize = find(id)?.id.strip_prefix("gauss")?.parse().ok()?;
+                Self::Gauss(order / 2)
+            }
         })
     }
 

@@ -10,7 +10,7 @@ use super::equation::{
 use super::pattern::Pattern;
 use super::planner::Planner;
 use crate::derive::{Kernel, Shape};
-use crate::methods::{Choice, Lift, Retraction};
+use crate::methods::{CATALOGUE, Choice, Lift, Retraction};
 use crate::schedule::{Program, Value};
 
 /// What distinguishes one fused equation from another.
@@ -50,21 +50,24 @@ impl Planner<'_> {
     /// Plans the equation of each method; the keys of those that stay generic.
     pub(super) fn equations(&mut self) -> Vec<String> {
         let mut generic = Vec::new();
-        let methods = [
-            (Choice::Midpoint, "midpoint"),
-            (Choice::Gauss(2), "gauss4"),
-            (Choice::Gauss(3), "gauss6"),
-            (Choice::LieMidpoint(Retraction::Cayley), "cayley"),
-        ];
+        let gauss = CATALOGUE.iter().filter(|row| row.id.starts_with("gauss"));
+        let gauss = gauss.filter_map(|row| Some((Choice::from_id(row.id).ok()?, row.id)));
+        let mut methods = vec![(Choice::Midpoint, "midpoint")];
+        methods.extend(gauss);
+        methods.push((Choice::LieMidpoint(Retraction::Cayley), "cayley"));
         for (choice, key) in methods {
             let cayley = choice == Choice::LieMidpoint(Retraction::Cayley);
             if cayley && self.source.triple.is_none() {
                 continue;
             }
             let asked = self.asked(&choice) || (cayley && self.asked_beside_cayley());
-            match asked.then(|| self.solver(&choice)).flatten() {
-                Some(solver) => self.items.push(Item::Method(choice.into(), solver)),
-                None => generic.push(key.to_owned()),
+            match (asked.then(|| self.solver(&choice)).flatten(), &choice) {
+                (Some(Solver::Generic(_)) | None, Choice::Gauss(stages)) => {
+                    let solver = Solver::Generic(Partner::Gauss(*stages));
+                    self.items.push(Item::Method(choice.into(), solver));
+                }
+                (Some(solver), _) => self.items.push(Item::Method(choice.into(), solver)),
+                (None, _) => generic.push(key.to_owned()),
             }
         }
         if self.source.is_lie() {
@@ -93,10 +96,7 @@ impl Planner<'_> {
     fn solver(&mut self, choice: &Choice) -> Option<Solver> {
         match choice {
             Choice::Midpoint => Some(self.midpoint()),
-            Choice::Gauss(stages) => {
-                let solver = self.gauss(*stages);
-                (!matches!(solver, Solver::Generic(_))).then_some(solver)
-            }
+            Choice::Gauss(stages) => Some(self.gauss(*stages)),
             Choice::LieMidpoint(Retraction::Cayley) => self.cayley(),
             _ => None,
         }

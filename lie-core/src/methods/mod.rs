@@ -76,7 +76,7 @@ pub use discrete_euler_poincare::DiscreteEulerPoincare;
 pub use dopri5::{Dopri5, Dopri5Stepper};
 pub use euler_arnold::{EulerArnold2, EulerArnoldStepper};
 pub use facts::{Facts, Preserves};
-pub use gauss::{Gauss4, Gauss6};
+pub use gauss::*;
 pub use generating::{Generating, Generating2, Generating4, Generating6};
 pub use generating_second_kind::GeneratingSecondKind2;
 pub use gonzalez::Gonzalez;
