@@ -63,8 +63,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 pub mod diagnostics;
 #[cfg(feature = "std")]
 pub mod driver;
-#[cfg(feature = "std")]
-pub mod program;
 #[cfg(feature = "sources")]
 pub mod sources;
 #[cfg(test)]
