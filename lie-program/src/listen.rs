@@ -7,6 +7,9 @@ use std::io::{self, BufRead, ErrorKind, Read as _};
 /// Numbers that are handed on at once, at most: whole rows, but at least one.
 const CHUNK: usize = 1 << 13;
 
+/// Takes a message, and what follows it on the output.
+pub type Take<'a, R> = dyn FnMut(Message<R>, &mut dyn BufRead) -> io::Result<()> + 'a;
+
 /// Hands on every message until the output of the program ends; a line that a killed program did not finish is dropped.
 /// What follows a message, `take` reads from the output.
 ///
@@ -14,7 +17,7 @@ const CHUNK: usize = 1 << 13;
 /// The output cannot be read, a line is no message, or `take` does not go on.
 pub fn listen<R: DeserializeOwned>(
     output: &mut dyn BufRead,
-    take: &mut dyn FnMut(Message<R>, &mut dyn BufRead) -> io::Result<()>,
+    take: &mut Take<'_, R>,
 ) -> io::Result<()> {
     let mut line = Vec::new();
     loop {

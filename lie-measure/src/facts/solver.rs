@@ -75,57 +75,66 @@ fn solved(equation: &mut Known, options: &NewtonOptions) -> Option<(NewtonReport
     report.ok().map(|report| (report, error))
 }
 
-/// What of the iteration does not do what it is for.
-pub(super) fn unsound() -> Vec<&'static str> {
-    let straight = || Known {
+/// A linear equation.
+fn straight() -> Known {
+    Known {
         matrix: near(1.0),
         bend: 0.0,
-    };
-    // the diagonal is zero: no order that is fixed beforehand has pivots there
-    let rows_exchanged = || {
-        let mut matrix = near(1.0);
-        for row in 0..4 {
-            matrix[(row, row)] = 0.0;
-        }
-        matrix[(0, 1)] = 1.0;
-        matrix[(1, 2)] = -1.2;
-        matrix[(2, 3)] = 0.9;
-        matrix[(3, 0)] = 1.1;
-        Known { matrix, bend: 0.0 }
-    };
-    let (newton, simplified) = (NewtonOptions::default(), NewtonOptions::simplified());
-    // of a linear equation the first update is the solution, the second is round-off
-    let in_two = |equation: &mut Known, options: &NewtonOptions, pivoted: bool| {
-        solved(equation, options).is_some_and(|(report, error)| {
-            let newton = options.iteration == Iteration::Newton;
-            let factored = if newton { 2 } else { 1 };
-            report.iterations == 2
-                && (report.pivoted != 0) == pivoted
-                && (pivoted || report.factorizations == factored)
-                && error <= EXACT * f64::EPSILON
-        })
-    };
-    let bent = |options: &NewtonOptions, most: u32| {
-        let mut equation = straight();
-        equation.bend = 0.2;
-        solved(&mut equation, options).is_some_and(|(report, error)| {
-            report.iterations <= most && error <= EXACT * f64::EPSILON
-        })
-    };
-    // updates that shrink slowly, and as fast as in a step
-    let by_fixed_point = [0.35, 0.9].into_iter().all(|diagonal| {
+    }
+}
+
+/// The diagonal is zero: no order that is fixed beforehand has pivots there.
+fn without_diagonal() -> Known {
+    let mut matrix = near(1.0);
+    for row in 0..4 {
+        matrix[(row, row)] = 0.0;
+    }
+    matrix[(0, 1)] = 1.0;
+    matrix[(1, 2)] = -1.2;
+    matrix[(2, 3)] = 0.9;
+    matrix[(3, 0)] = 1.1;
+    Known { matrix, bend: 0.0 }
+}
+
+/// Of a linear equation the first update is the solution, the second is round-off.
+fn in_two(mut equation: Known, options: &NewtonOptions, pivoted: bool) -> bool {
+    solved(&mut equation, options).is_some_and(|(report, error)| {
+        let newton = options.iteration == Iteration::Newton;
+        let factored = if newton { 2 } else { 1 };
+        report.iterations == 2
+            && (report.pivoted != 0) == pivoted
+            && (pivoted || report.factorizations == factored)
+            && error <= EXACT * f64::EPSILON
+    })
+}
+
+/// Of one that is not linear, after so many iterations at most.
+fn bent(options: &NewtonOptions, most: u32) -> bool {
+    let mut equation = straight();
+    equation.bend = 0.2;
+    solved(&mut equation, options)
+        .is_some_and(|(report, error)| report.iterations <= most && error <= EXACT * f64::EPSILON)
+}
+
+/// With updates that shrink slowly, and as fast as in a step.
+fn by_fixed_point() -> bool {
+    [0.35, 0.9].into_iter().all(|diagonal| {
         let mut equation = Known {
             matrix: near(diagonal),
             bend: 0.0,
         };
         solved(&mut equation, &NewtonOptions::fixed_point())
             .is_some_and(|(_, error)| error <= LINEAR * f64::EPSILON)
-    });
-    let limited = [0, 1].into_iter().all(|max_iterations| {
+    })
+}
+
+/// Whether the iteration ends where it is told to, and says so.
+fn limited() -> bool {
+    [0, 1].into_iter().all(|max_iterations| {
         let mut equation = straight();
         let options = NewtonOptions {
             max_iterations,
-            ..newton
+            ..NewtonOptions::default()
         };
         let mut unknown = Vector::zeros();
         let outcome = Newton::new(&equation, &options).solve(&mut equation, &mut unknown, 1.0);
@@ -134,23 +143,28 @@ pub(super) fn unsound() -> Vec<&'static str> {
                 && failure.lanes == 1
                 && failure.report.iterations == max_iterations
         })
-    });
+    })
+}
+
+/// What of the iteration does not do what it is for.
+pub(super) fn unsound() -> Vec<&'static str> {
+    let (newton, simplified) = (NewtonOptions::default(), NewtonOptions::simplified());
+    let exchanging = |options| in_two(without_diagonal(), options, true);
     let sound = [
         (
             "Newton's iteration",
-            in_two(&mut straight(), &newton, false) && bent(&newton, 6),
+            in_two(straight(), &newton, false) && bent(&newton, 6),
         ),
         (
             "simplified iteration",
-            in_two(&mut straight(), &simplified, false) && bent(&simplified, 60),
+            in_two(straight(), &simplified, false) && bent(&simplified, 60),
         ),
-        ("fixed-point iteration", by_fixed_point),
+        ("fixed-point iteration", by_fixed_point()),
         (
             "elimination with row exchanges",
-            in_two(&mut rows_exchanged(), &newton, true)
-                && in_two(&mut rows_exchanged(), &simplified, true),
+            exchanging(&newton) && exchanging(&simplified),
         ),
-        ("limit of iterations", limited),
+        ("limit of iterations", limited()),
     ];
     let unsound = sound.into_iter().filter(|(_, sound)| !sound);
     unsound.map(|(what, _)| what).collect()
