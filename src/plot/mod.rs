@@ -29,7 +29,7 @@ use std::path::Path;
 
 use bins::Bins;
 
-/// Points of all curves of a panel together, about; each takes ten bytes of the file.
+/// Points of all curves of a panel together, about; each takes twelve bytes of the file.
 const POINTS: usize = 20_000;
 /// Columns of a curve at most: about as many as the panel has pixels.
 const COLUMNS: usize = 640;
