@@ -391,20 +391,22 @@ fn the_lock_file_has_the_versions_of_the_workspace() {
         template.iter().any(|(name, _)| name == "nalgebra"),
         "it lists something"
     );
-    for package in template.iter().filter(|(name, _)| name != "lie-program") {
+    for package in template.iter().filter(|(name, _)| name != "generated") {
         assert!(
             workspace.contains(package),
             "{package:?}: run with LIE_UPDATE_LOCK=1"
         );
     }
-    // the programs of `lie bench` have the same, and what the controls need
-    let bench = packages("src/build/template/bench/Cargo.lock");
-    assert!(bench.iter().any(|(name, _)| name == "ode_solvers"));
-    for package in &template {
-        assert!(
-            bench.contains(package),
-            "{package:?}: run with LIE_UPDATE_LOCK=1"
-        );
+    // the programs that measure have the same, those of `lie bench` with what the controls need
+    for (folder, more) in [("measure", "lie-measure"), ("bench", "ode_solvers")] {
+        let measuring = packages(&format!("src/build/template/{folder}/Cargo.lock"));
+        assert!(measuring.iter().any(|(name, _)| name == more));
+        for package in &template {
+            assert!(
+                measuring.contains(package),
+                "{package:?}: run with LIE_UPDATE_LOCK=1"
+            );
+        }
     }
 }
 

@@ -38,6 +38,15 @@ fn every_mistake_of_the_command_line_is_an_option_error() {
         ("run BODY --rtol 1e-3", "--rtol"),
         ("run BODY --method dopri5 --rtol 0", "--rtol"),
         ("run BODY --method dopri5 --atol -1", "--atol"),
+        ("run BODY --iteration secant", "--iteration"),
+        ("run BODY --method rk4 --iteration newton", "--iteration"),
+        (
+            "run BODY --method compose4(splitting2) --max-iterations 9",
+            "--max-iterations",
+        ),
+        ("run BODY --newton-tolerance -1", "--newton-tolerance"),
+        ("run BODY --max-iterations 0", "--max-iterations"),
+        ("run BODY --max-iterations 5000000000", "--max-iterations"),
         ("run BODY --method gauss4 --retraction exp", "--retraction"),
         (
             "run BODY --method lie-midpoint --retraction polar",
@@ -133,6 +142,8 @@ fn options_of_the_spec_are_checked_at_their_place() {
             "cayley",
         ),
         (r#"{"method": "midpoint", "rtol": 1e-3}"#, "1e-3"),
+        (r#"{"method": "rk4", "max-iterations": 9}"#, "9"),
+        (r#"{"method": "midpoint", "iteration": "secant"}"#, "secant"),
         (r#"{"at": [1, 2], "until": 3}"#, "1"),
         (r#"{"method": "midpoint", "lift": "hopf"}"#, "hopf"),
     ] {

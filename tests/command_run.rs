@@ -4,7 +4,7 @@ mod common;
 
 use std::path::Path;
 
-use common::{csv, folder, lie, spec};
+use common::{Run, csv, folder, lie, spec};
 
 const BODY: &str = "run specs/so3_free_rigid_body.json --quiet";
 
@@ -301,4 +301,50 @@ fn the_first_row_of_every_spec_is_its_initial_state() {
         );
     }
     assert!(Path::new("specs").is_dir());
+}
+
+/// The iterations of each step, as the summary says.
+fn iterations(run: &Run) -> f64 {
+    let (before, _) = run
+        .stderr
+        .split_once(" Newton iterations")
+        .expect("a summary");
+    let number = before.rsplit(' ').next().unwrap_or_default();
+    number.parse().expect("a number")
+}
+
+#[test]
+fn the_solver_of_implicit_methods_is_chosen() {
+    let folder = folder();
+    let path = spec(folder.path(), |spec| {
+        spec["run"] = serde_json::json!({ "method": "midpoint", "step": 0.1, "until": 1 });
+    });
+    let call = |flags: &str| lie(&format!("run {} {flags}", path.display()));
+    let newton = call("").ok();
+    let same = call("--iteration newton --newton-tolerance 1/1024 --max-iterations 50").ok();
+    assert_eq!(newton.stdout, same.stdout);
+    let (rows, end) = (newton.csv().1, newton.csv().1.len() - 1);
+    for iteration in ["simplified", "fixed-point"] {
+        let other = call(&format!("--iteration {iteration}")).ok();
+        assert!(iterations(&other) > iterations(&newton), "{iteration}");
+        for (a, b) in rows[end].iter().zip(&other.csv().1[end]) {
+            assert!((a - b).abs() < 1e-14, "{iteration}: {a} {b}");
+        }
+    }
+    // a solution that is not one: the tolerance arrives
+    let coarse = call("--newton-tolerance 1e12").ok();
+    assert!(iterations(&coarse) < iterations(&newton));
+    assert_ne!(coarse.stdout, newton.stdout);
+    let stopped = call("--iteration fixed-point --max-iterations 2");
+    assert_eq!(stopped.code, Some(3), "{}", stopped.stderr);
+    // the same as keys of the spec; a flag chooses another method, to which they do not belong
+    let path = spec(folder.path(), |spec| {
+        spec["run"] = serde_json::json!({
+            "method": "midpoint", "step": 0.1, "until": 1, "iteration": "fixed-point",
+            "newton-tolerance": "1/2", "max-iterations": 2
+        });
+    });
+    let in_spec = lie(&format!("run {}", path.display()));
+    assert_eq!(in_spec.code, Some(3), "{}", in_spec.stderr);
+    lie(&format!("run {} --method rk4 --quiet", path.display())).ok();
 }

@@ -265,7 +265,21 @@ fn no_arrow_between_crates_points_back() {
         dependencies("lie-runtime/Cargo.toml"),
         ["lie-core", "lie-macros"]
     );
-    assert_eq!(dependencies("Cargo.toml"), ["lie-codegen", "lie-runtime"]);
+    assert_eq!(dependencies("lie-program/Cargo.toml"), ["lie-runtime"]);
+    assert_eq!(
+        dependencies("lie-measure/Cargo.toml"),
+        ["lie-program", "lie-runtime"]
+    );
+    assert_eq!(
+        dependencies("Cargo.toml"),
+        [
+            "lie-codegen",
+            "lie-core",
+            "lie-measure",
+            "lie-program",
+            "lie-runtime"
+        ]
+    );
 }
 
 #[test]

@@ -2,11 +2,15 @@
 
 use lie_codegen::compile::compile_spec;
 use lie_codegen::judge::{Judge, Sample};
+use lie_measure::verify::{Found, Options};
+use lie_measure::{Request, Verify};
+use lie_program::listen::listen;
+use lie_program::protocol::{Message, Start};
 use lie_runtime::methods::Rk4;
 use lie_runtime::prelude::*;
-use lie_runtime::program::measure::Verify;
 use lie_runtime::scalar::Dual;
 use lie_runtime::{LiePoisson, Lift, Poisson, SquareMatrix};
+use std::io::Write as _;
 
 lie_poisson! { pub spec = "specs/so3_nonpolynomial.json"; }
 
@@ -168,34 +172,42 @@ fn refused<const WHAT: usize>(judge: &Judge) -> Vec<String> {
     let program = Verify::new(&[], system)
         .with_orbits()
         .method("rk4", |_| Rk4);
-    let request = "initial 0.6 -0.5 0.7\nseed 3\nrun\n";
-    // the input must not end before the program does
-    let input = std::io::BufReader::new(std::io::Read::chain(
-        std::io::Cursor::new(request.as_bytes()),
-        std::io::Read::take(std::io::repeat(b' '), u64::MAX),
-    ));
-    let (mut lines, mut messages) = (Vec::new(), Vec::new());
-    let code = program.serve(input, &mut lines, &mut messages);
-    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&messages));
-    let text = String::from_utf8(lines).expect("text");
-    let numbers = |text: &str| -> Vec<f64> {
-        let words = text.split_whitespace();
-        words.map(|word| word.parse().expect("a number")).collect()
+    let request = Request {
+        methods: Vec::new(),
+        start: Start {
+            initial: vec![0.6, -0.5, 0.7],
+            ..Start::default()
+        },
+        options: Options {
+            seed: 3,
+            step: None,
+        },
     };
+    let line = serde_json::to_string(&request).expect("text");
+    // the input must not end before the program does
+    let (input, mut writer) = std::io::pipe().expect("a pipe");
+    writeln!(writer, "{line}").expect("a request");
+    let mut output = Vec::new();
+    let code = program.serve(std::io::BufReader::new(input), &mut output);
+    drop(writer);
+    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&output));
     let mut refused = Vec::new();
-    for line in text.lines().filter(|line| line.starts_with("kernel\t")) {
-        let fields: Vec<&str> = line.split('\t').collect();
-        let sample = Sample {
-            kernel: fields[1].to_owned(),
-            arguments: fields[2].split('|').map(numbers).collect(),
-            values: numbers(fields[3]),
-            velocity: numbers(fields[4]),
-        };
-        let verdict = judge.judge(&sample).expect("a known kernel");
-        if verdict.excess > 1.0 && !refused.contains(&sample.kernel) {
-            refused.push(sample.kernel);
+    listen(&mut output.as_slice(), &mut |message, _| {
+        if let Message::Found(Found::Kernel(kernel)) = message {
+            let sample = Sample {
+                kernel: kernel.name,
+                arguments: kernel.arguments,
+                values: kernel.values,
+                velocity: kernel.gradient,
+            };
+            let verdict = judge.judge(&sample).expect("a known kernel");
+            if verdict.excess > 1.0 && !refused.contains(&sample.kernel) {
+                refused.push(sample.kernel);
+            }
         }
-    }
+        Ok(())
+    })
+    .expect("messages");
     refused
 }
 

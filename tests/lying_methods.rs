@@ -1,8 +1,13 @@
 //! Methods that claim what they do not keep: the verification says so.
 
+use lie_measure::facts::Verdict;
+use lie_measure::verify::{Found, Options};
+use lie_measure::{Request, Verify};
+use lie_program::listen::listen;
+use lie_program::protocol::{Message, Start};
 use lie_runtime::methods::{Facts, ImplicitMidpoint, Method, Preserves, Rk4};
 use lie_runtime::prelude::*;
-use lie_runtime::program::measure::Verify;
+use std::io::Write as _;
 
 lie_poisson! { pub spec = "specs/so3_nonpolynomial.json"; }
 
@@ -101,35 +106,45 @@ fn failing() -> Vec<(String, String)> {
         .method("quadratic integrals", |_| Lying::<6>)
         .method("nothing", |_| Lying::<7>)
         .method("explicit", |_| Implicit);
-    examine(&program, &labels, "0.6 -0.5 0.7")
+    examine(&program, &labels, &[0.6, -0.5, 0.7])
 }
 
 /// What fails of these methods of a program.
 fn examine<P: Lift<f64> + Clone + 'static>(
     program: &Verify<P>,
     labels: &[&str],
-    initial: &str,
+    initial: &[f64],
 ) -> Vec<(String, String)> {
-    let mut request = String::new();
-    for label in labels {
-        request.push_str(&format!("method {label}\n"));
-    }
-    request.push_str(&format!("initial {initial}\nseed 3\nrun\n"));
-    let (mut lines, mut messages) = (Vec::new(), Vec::new());
+    let request = Request {
+        methods: labels.iter().map(|&label| label.to_owned()).collect(),
+        start: Start {
+            initial: initial.to_vec(),
+            ..Start::default()
+        },
+        options: Options {
+            seed: 3,
+            step: None,
+        },
+    };
+    let line = serde_json::to_string(&request).expect("text");
     // the input must not end before the program does
-    let input = std::io::BufReader::new(std::io::Read::chain(
-        std::io::Cursor::new(request.into_bytes()),
-        std::io::Read::take(std::io::repeat(b' '), u64::MAX),
-    ));
-    let code = program.serve(input, &mut lines, &mut messages);
-    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&messages));
-    let text = String::from_utf8(lines).expect("text");
-    let lines = text.lines().filter(|line| line.starts_with("finding\t"));
-    let fields = lines.map(|line| line.split('\t').collect::<Vec<_>>());
-    let failing = fields.filter(|fields| fields[6] == "fails");
+    let (input, mut writer) = std::io::pipe().expect("a pipe");
+    writeln!(writer, "{line}").expect("a request");
+    let mut output = Vec::new();
+    let code = program.serve(std::io::BufReader::new(input), &mut output);
+    drop(writer);
+    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&output));
+    let mut failing = Vec::new();
+    listen(&mut output.as_slice(), &mut |message, _| {
+        if let Message::Found(Found::Finding { method, finding }) = message
+            && finding.verdict == Verdict::Fails
+        {
+            failing.push((method, finding.fact.into_owned()));
+        }
+        Ok(())
+    })
+    .expect("messages");
     failing
-        .map(|fields| (fields[1].to_owned(), fields[2].to_owned()))
-        .collect()
 }
 
 #[test]
@@ -168,7 +183,7 @@ fn lies_about_brackets_of_coordinates() {
         .method("orbit", |_| Lying::<4>)
         .method("midpoint", |_| ImplicitMidpoint)
         .method("nothing", |_| Lying::<7>);
-    let failing = examine(&program, &labels, "0.6 -0.5");
+    let failing = examine(&program, &labels, &[0.6, -0.5]);
     assert_eq!(found(&failing, "constant"), ["Poisson"]);
     assert_eq!(found(&failing, "orbit"), ["orbit"]);
     assert_eq!(failing.len(), 2, "{failing:?}");
@@ -177,7 +192,7 @@ fn lies_about_brackets_of_coordinates() {
         .method("orbit", |_| Lying::<4>)
         .method("midpoint", |_| ImplicitMidpoint)
         .method("nothing", |_| Lying::<7>);
-    let failing = examine(&program, &labels, "1.6 0.5");
+    let failing = examine(&program, &labels, &[1.6, 0.5]);
     assert_eq!(found(&failing, "orbit"), ["orbit"]);
     assert_eq!(failing.len(), 1, "{failing:?}");
 }

@@ -52,25 +52,28 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
     let entries = choices.iter().map(|choice| entry(choice, purpose));
     let dimension = model.dimension();
     let count = model.parameters.len();
-    let defaults = model.parameters.iter().map(|p| p.default_value);
+    let defaults = model.parameters.iter().map(|parameter| {
+        let (name, value) = (&parameter.name, parameter.default_value);
+        quote! { (#name, #value) }
+    });
     let (kind, modules, end) = match purpose {
-        Purpose::Run | Purpose::OnGroup(_) => (quote! { Program }, None, None),
+        Purpose::Run | Purpose::OnGroup(_) => (quote! { lie_program::Program }, None, None),
         Purpose::Verify => {
             let plain = plain(model, choices);
             let (module, entries) = plain.map_or((None, None), |(m, e)| (Some(m), Some(e)));
             let (evidence, beside) = (evidence(model), beside(choices));
             (
-                quote! { measure::Verify },
+                quote! { lie_measure::Verify },
                 module,
                 Some(quote! { #entries #evidence #beside }),
             )
         }
         Purpose::Bench => (
-            quote! { measure::Bench },
+            quote! { lie_measure::Bench },
             Some(quote! { mod clock; mod controls; }),
             Some(quote! { .controls(controls::all::<_, #dimension>()).clock(clock::processor) }),
         ),
-        Purpose::Stress => (quote! { measure::Stress }, None, None),
+        Purpose::Stress => (quote! { lie_measure::Stress }, None, None),
     };
     let main = quote! {
         #[allow(dead_code)]
@@ -78,7 +81,7 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
         #modules
 
         fn main() -> ::std::process::ExitCode {
-            ::lie_runtime::program::#kind::new(&[#(#defaults),*], |values: &[f64]| {
+            ::#kind::new(&[#(#defaults),*], |values: &[f64]| {
                 let values: &[f64; #count] = values.try_into().unwrap_or(&[f64::NAN; #count]);
                 system::#name::from_values(values).system()
             })

@@ -110,6 +110,10 @@ const ELSEWHERE: &[(&str, &[&str])] = &[
     ),
     ("atol", &["abstol", "abs_tol", "absolute_tolerance"]),
     (
+        "max-iterations",
+        &["maxiter", "max_iter", "maxit", "max_iters", "iterations"],
+    ),
+    (
         "hamiltonian",
         &["h", "ham", "energy", "hamilton", "total_energy"],
     ),

@@ -63,8 +63,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 pub mod diagnostics;
 #[cfg(feature = "std")]
 pub mod driver;
-#[cfg(feature = "std")]
-pub mod program;
 #[cfg(feature = "sources")]
 pub mod sources;
 #[cfg(test)]
@@ -91,14 +89,16 @@ pub mod prelude {
         EveryStep, Observer, Options, Problem, Progress, Save, Solution, SolveError, Stats, Status,
         solve, solve_observed,
     };
+    #[doc(no_inline)]
+    pub use crate::methods::gauss::*;
     pub use crate::methods::{
         CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6,
         CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, DiscreteEulerPoincare,
-        Dopri5, EulerArnold2, Gauss4, Gauss6, Generating2, Generating4, Generating6,
-        GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4,
-        Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue, Method, MoserVeselov, OrbitEnergy,
-        Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint, Splitting1, Splitting2,
-        Splitting4, Splitting6, Splitting8, Stepper, Variational2, Variational4, Variational6,
+        Dopri5, EulerArnold2, Generating2, Generating4, Generating6, GeneratingSecondKind2,
+        Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler,
+        LieMidpoint, MeanValue, Method, MoserVeselov, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6,
+        Scheme, SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8,
+        Stepper, Variational2, Variational4, Variational6,
     };
     pub use crate::newton::{Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]

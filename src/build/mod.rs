@@ -1,7 +1,7 @@
 //! Builds the program of a system: source in, path of a compiled program out.
 //!
 //! ```text
-//! CACHE/runtime/VERSION-HASH/     the runtime's sources, unpacked once
+//! CACHE/runtime/VERSION-HASH/     the sources of the runtime and of what stands on it, unpacked once
 //! CACHE/programs/KEY/             manifest, lock file, main.rs, the finished program and its sum
 //! CACHE/target/                   cargo's folder, shared so that packages compile once
 //! CACHE/lock                      held while cargo runs
@@ -11,8 +11,8 @@ mod cache;
 mod cause;
 mod entry;
 mod key;
-pub mod protocol;
 mod runtime;
+pub mod talk;
 mod toolchain;
 
 use std::fs::{File, TryLockError};
@@ -41,6 +41,12 @@ const PLAIN: Template = Template {
     lock: include_str!("template/Cargo.lock"),
     modules: &[],
 };
+/// With the measurements.
+const MEASURE: Template = Template {
+    manifest: include_str!("template/measure/Cargo.toml"),
+    lock: include_str!("template/measure/Cargo.lock"),
+    modules: &[],
+};
 /// With the clock of `lie bench`, and the methods from elsewhere that it compares with: only its programs depend on
 /// them.
 const BENCH: Template = Template {
@@ -56,7 +62,8 @@ impl Template {
     fn of(purpose: Purpose) -> &'static Self {
         match purpose {
             Purpose::Bench => &BENCH,
-            Purpose::Run | Purpose::OnGroup(_) | Purpose::Verify | Purpose::Stress => &PLAIN,
+            Purpose::Verify | Purpose::Stress => &MEASURE,
+            Purpose::Run | Purpose::OnGroup(_) => &PLAIN,
         }
     }
 }
@@ -215,11 +222,11 @@ fn build(
 /// The manifest of a program.
 fn manifest(template: &Template, name: &str) -> String {
     // Relative, so that no character of the cache's path can break it.
-    let runtime = format!("../../runtime/{}/lie-runtime", runtime::identity());
+    let sources = format!("../../runtime/{}", runtime::identity());
     template
         .manifest
         .replace("PROGRAM", name)
-        .replace("RUNTIME", &runtime)
+        .replace("SOURCES", &sources)
 }
 
 fn no_cargo(error: &std::io::Error) -> Failure {
@@ -252,6 +259,7 @@ mod tests {
     #[test]
     fn the_lock_files_fit_the_manifests() {
         check_lock(&PLAIN, "src/build/template/Cargo.lock");
+        check_lock(&MEASURE, "src/build/template/measure/Cargo.lock");
         check_lock(&BENCH, "src/build/template/bench/Cargo.lock");
     }
 

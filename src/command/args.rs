@@ -157,6 +157,8 @@ pub struct Run {
     /// Absolute tolerance of dopri5 (default 1e-9)
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     pub atol: Option<String>,
+    #[command(flatten)]
+    pub solver: SolverOptions,
     /// Form of the output (default: what the extension of --out says, csv where there is none)
     #[arg(long, value_enum)]
     pub format: Option<Format>,
@@ -172,6 +174,23 @@ pub struct Run {
     /// Compiles for this machine's processor (same results, bit for bit)
     #[arg(long, value_enum)]
     pub cpu: Option<Cpu>,
+}
+
+/// The solver of implicit methods.
+#[derive(Args, Clone, Debug, Default)]
+pub struct SolverOptions {
+    /// How implicit methods solve a step: newton (default; a new Jacobian in every iteration),
+    /// simplified (that of the start) or fixed-point (none)
+    #[arg(long, value_name = "NAME")]
+    pub iteration: Option<String>,
+    /// Error at which that iteration ends, in units of round-off of the state (default 1/1024, so
+    /// that it does not add up; 0 goes on until nothing changes)
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
+    pub newton_tolerance: Option<String>,
+    /// Iterations after which a step has failed (default: newton 50, simplified 200,
+    /// fixed-point 500)
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub max_iterations: Option<String>,
 }
 
 /// The options by which a method is chosen, see `lie methods`.

@@ -145,47 +145,13 @@ impl Report {
     }
 
     fn write(&self, model: &Model, text: &mut String) -> std::fmt::Result {
-        let dimension = model.dimension();
-        write!(
-            text,
-            "  dimension {dimension}, generic rank {}",
-            model.generic_rank
-        )?;
-        match model.initial_rank {
-            Some(rank) => writeln!(text, ", rank {rank} at the initial state")?,
-            None => writeln!(text, ", no initial state")?,
-        }
-        if let Some(configuration) = &model.configuration {
-            writeln!(text, "  {}", configuration.description())?;
-        }
-        if let Some(lagrangian) = &model.lagrangian {
-            if let Some(discrete) = lagrangian.discrete {
-                writeln!(text, "  l_d = {}", model.display(discrete))?;
-            }
-            writeln!(text, "  l = {}", model.display(lagrangian.value))?;
-        }
-        if model.has_expression() {
-            writeln!(text, "  H = {}", model.display(model.energy))?;
-        } else {
-            writeln!(
-                text,
-                "  H = Legendre transform of l, solved by Newton's iteration"
-            )?;
-        }
-        let independent = model.casimirs_to_find();
-        writeln!(
-            text,
-            "  Casimirs: {} declared of {independent} independent",
-            model.casimirs.len()
-        )?;
-        for casimir in &model.casimirs {
-            writeln!(
-                text,
-                "    {} = {}",
-                casimir.name,
-                model.display(casimir.expr)
-            )?;
-        }
+        write_system(model, text)?;
+        self.write_operations(text)?;
+        self.write_methods(model, text)
+    }
+
+    /// The operations of each kernel.
+    fn write_operations(&self, text: &mut String) -> std::fmt::Result {
         let widest = self
             .operations
             .iter()
@@ -204,21 +170,14 @@ impl Report {
                 "    {kernel:widest$} {add:5} {mul:5} {div:5} {call:5}"
             )?;
         }
+        Ok(())
+    }
+
+    /// The methods that apply, and why the others do not.
+    fn write_methods(&self, model: &Model, text: &mut String) -> std::fmt::Result {
         let apply = self.methods.iter().filter(|(_, reason)| reason.is_none());
         let apply: Vec<&str> = apply.map(|(id, _)| *id).collect();
-        let mut options: Vec<(String, Option<String>)> = Vec::new();
-        for (id, default) in &self.methods {
-            let Ok(choice) = Choice::from_id(id) else {
-                continue;
-            };
-            for choice in choice.variants().into_iter().skip(1) {
-                let reason = refusal(model, &choice).map(|(why, _)| why);
-                // what is refused without options for the same reason is said already
-                if reason.is_none() || reason != *default {
-                    options.push((choice.label(), reason));
-                }
-            }
-        }
+        let options = self.with_options(model);
         list(text, "  methods that apply: ", &apply)?;
         let also = options.iter().filter(|(_, reason)| reason.is_none());
         let also: Vec<&str> = also.map(|(label, _)| label.as_str()).collect();
@@ -243,6 +202,70 @@ impl Report {
         }
         Ok(())
     }
+
+    /// The methods with options other than their defaults, and why they do not apply.
+    fn with_options(&self, model: &Model) -> Vec<(String, Option<String>)> {
+        let mut options = Vec::new();
+        for (id, default) in &self.methods {
+            let Ok(choice) = Choice::from_id(id) else {
+                continue;
+            };
+            for choice in choice.variants().into_iter().skip(1) {
+                let reason = refusal(model, &choice).map(|(why, _)| why);
+                // what is refused without options for the same reason is said already
+                if reason.is_none() || reason != *default {
+                    options.push((choice.label(), reason));
+                }
+            }
+        }
+        options
+    }
+}
+
+/// What the system is: its rank, its functions, its Casimirs.
+fn write_system(model: &Model, text: &mut String) -> std::fmt::Result {
+    let dimension = model.dimension();
+    write!(
+        text,
+        "  dimension {dimension}, generic rank {}",
+        model.generic_rank
+    )?;
+    match model.initial_rank {
+        Some(rank) => writeln!(text, ", rank {rank} at the initial state")?,
+        None => writeln!(text, ", no initial state")?,
+    }
+    if let Some(configuration) = &model.configuration {
+        writeln!(text, "  {}", configuration.description())?;
+    }
+    if let Some(lagrangian) = &model.lagrangian {
+        if let Some(discrete) = lagrangian.discrete {
+            writeln!(text, "  l_d = {}", model.display(discrete))?;
+        }
+        writeln!(text, "  l = {}", model.display(lagrangian.value))?;
+    }
+    if model.has_expression() {
+        writeln!(text, "  H = {}", model.display(model.energy))?;
+    } else {
+        writeln!(
+            text,
+            "  H = Legendre transform of l, solved by Newton's iteration"
+        )?;
+    }
+    let independent = model.casimirs_to_find();
+    writeln!(
+        text,
+        "  Casimirs: {} declared of {independent} independent",
+        model.casimirs.len()
+    )?;
+    for casimir in &model.casimirs {
+        writeln!(
+            text,
+            "    {} = {}",
+            casimir.name,
+            model.display(casimir.expr)
+        )?;
+    }
+    Ok(())
 }
 
 /// The reason of methods whose names are only kept.

@@ -85,30 +85,8 @@ fn message(error: &clap::Error, command: &str) -> Message {
                 possible.map(|possible| format!("possible values: {possible}")),
             )
         }
-        ErrorKind::UnknownArgument => {
-            let flags = flags(command);
-            let word = place.trim_start_matches('-');
-            let near = meant(word, flags.iter().map(String::as_str));
-            let help = near
-                .filter(|_| place.starts_with('-'))
-                .map(|near| format!("did you mean `--{near}`?"));
-            let what = if place.starts_with('-') {
-                format!("unknown option `{place}`")
-            } else {
-                format!("`{place}` is one argument too many")
-            };
-            (what, help)
-        }
-        ErrorKind::InvalidSubcommand => {
-            let command = text(error, ContextKind::InvalidSubcommand).unwrap_or_default();
-            let help = meant(&command, BUILT)
-                .map(|name| format!("did you mean `{name}`?"))
-                .unwrap_or_else(|| format!("the commands are {}", BUILT.join(", ")));
-            let what = format!("unknown command `{command}`");
-            return Message::new(Kind::Option, what)
-                .at_option(&command)
-                .help(help);
-        }
+        ErrorKind::UnknownArgument => unknown(&place, command),
+        ErrorKind::InvalidSubcommand => return unknown_command(error),
         ErrorKind::MissingSubcommand | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             let help = format!("the commands are {}; see `lie --help`", BUILT.join(", "));
             return Message::option("lie", "no command given").help(help);
@@ -138,6 +116,32 @@ fn message(error: &clap::Error, command: &str) -> Message {
         .or(usage.map(|usage| format!("usage: {usage}")))
         .unwrap_or_else(|| "see `lie --help`".to_owned());
     Message::option(&place, what).help(help)
+}
+
+/// An argument that the command does not have, and which of its flags may be meant.
+fn unknown(place: &str, command: &str) -> (String, Option<String>) {
+    if !place.starts_with('-') {
+        return (format!("`{place}` is one argument too many"), None);
+    }
+    let flags = flags(command);
+    let near = meant(
+        place.trim_start_matches('-'),
+        flags.iter().map(String::as_str),
+    );
+    let help = near.map(|near| format!("did you mean `--{near}`?"));
+    (format!("unknown option `{place}`"), help)
+}
+
+fn unknown_command(error: &clap::Error) -> Message {
+    let command = text(error, ContextKind::InvalidSubcommand).unwrap_or_default();
+    let help = match meant(&command, BUILT) {
+        Some(name) => format!("did you mean `{name}`?"),
+        None => format!("the commands are {}", BUILT.join(", ")),
+    };
+    let what = format!("unknown command `{command}`");
+    Message::new(Kind::Option, what)
+        .at_option(&command)
+        .help(help)
 }
 
 #[cfg(test)]

@@ -1,44 +1,32 @@
-//! Puts the picture together: two panels above one another, legends beside them.
+//! Puts the picture together: panels above one another, legends beside them.
 
-use plotters::coord::Shift;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-
+use super::svg::{FAINT, INK, Svg};
 use super::ticks::{Axis, power_of_ten};
 use super::{Curve, Plot, reference};
 
-/// The backend rounds to whole pixels: everything is drawn this much larger and scaled down.
-const ZOOM: i32 = 4;
-const WIDTH: i32 = 960;
-const HEIGHT: i32 = 740;
-const HEAD: i32 = 72;
-/// Height of the panels of the trajectory and of the group element.
-const UPPER: i32 = 350;
+const WIDTH: f64 = 960.0;
+const HEAD: f64 = 72.0;
+/// Height of a panel; the last one is lower.
+const PANEL: f64 = 350.0;
+const LAST: f64 = 318.0;
+/// Around the frame of a panel: titles, ticks and their labels.
+const LEFT: f64 = 78.0;
+const RIGHT: f64 = 14.0;
+const ABOVE: f64 = 26.0;
+const BELOW: f64 = 40.0;
+const SMALL: f64 = 15.0;
 
 /// Colours that stay apart for colour-blind readers on white (after Okabe and Ito, and Tol).
-const COLOURS: [RGBColor; 12] = [
-    RGBColor(0x00, 0x72, 0xb2),
-    RGBColor(0xd5, 0x5e, 0x00),
-    RGBColor(0x00, 0x9e, 0x73),
-    RGBColor(0xcc, 0x79, 0xa7),
-    RGBColor(0xe6, 0x9f, 0x00),
-    RGBColor(0x56, 0xb4, 0xe9),
-    RGBColor(0x33, 0x22, 0x88),
-    RGBColor(0x88, 0x22, 0x55),
-    RGBColor(0x99, 0x99, 0x33),
-    RGBColor(0x33, 0x33, 0x33),
-    RGBColor(0x44, 0xaa, 0x99),
-    RGBColor(0x99, 0x99, 0x99),
+const COLOURS: [&str; 12] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#332288", "#882255",
+    "#999933", "#333333", "#44aa99", "#999999",
 ];
-const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
-const FAINT: RGBColor = RGBColor(0x77, 0x77, 0x77);
-const GRID: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
+/// That of the energy: so no invariant looks like the first component.
+const ENERGY: usize = 9;
+const GRID: &str = "stroke=\"#e4e4e4\"";
 
 /// Half a unit in the last place of 1: where an error is nothing but round-off.
 const ROUND_OFF: f64 = f64::EPSILON / 2.0;
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// Points of a curve in pieces, ready to draw.
 struct Line {
@@ -55,55 +43,49 @@ struct Panel {
     logarithmic: bool,
     lines: Vec<Line>,
     /// The colour of each line.
-    colour: fn(usize) -> RGBAColor,
+    colour: fn(usize) -> Colour,
     markers: bool,
 }
 
-pub fn svg(plot: &Plot) -> Result<String, Box<dyn std::error::Error>> {
-    let mut text = String::new();
+/// A colour of the palette; beyond it the colours come again, paler.
+struct Colour {
+    name: &'static str,
+    opacity: f64,
+}
+
+/// Where the frame of a panel is.
+struct Frame {
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+}
+
+pub fn svg(plot: &Plot) -> String {
     let mut panels = vec![trajectory(plot)];
     if !plot.element.is_empty() {
         panels.push(element(plot));
     }
     panels.push(errors(plot));
-    let height = HEIGHT + UPPER * (panels.len() as i32 - 2);
-    {
-        let size = ((WIDTH * ZOOM) as u32, (height * ZOOM) as u32);
-        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        root.fill(&WHITE)?;
-        write(&root, &plot.title, (20, 14), 22, INK)?;
-        write(&root, &plot.subtitle, (20, 41), 15, FAINT)?;
-        let widest = panels
-            .iter()
-            .flat_map(|panel| &panel.lines)
-            .map(|l| l.label.chars().count());
-        let legend = (widest.max().unwrap_or(0) as i32 * 8 + 50).clamp(90, 260);
-        let (_, mut rest) = root.split_vertically(HEAD * ZOOM);
-        for (place, panel) in panels.iter().enumerate() {
-            let (area, below) = if place + 1 < panels.len() {
-                rest.split_vertically(UPPER * ZOOM)
-            } else {
-                (rest.clone(), rest)
-            };
-            rest = below;
-            let (chart, beside) = area.split_horizontally((WIDTH - legend) * ZOOM);
-            draw(&chart, panel)?;
-            draw_legend(&beside, panel)?;
-        }
-        root.present()?;
+    let labels = panels.iter().flat_map(|panel| &panel.lines);
+    let widest = labels.map(|line| line.label.chars().count()).max();
+    let legend = (widest.unwrap_or(0) as f64 * 8.0 + 50.0).clamp(90.0, 260.0);
+    let mut svg = Svg::default();
+    let mut top = HEAD;
+    for (place, panel) in panels.iter().enumerate() {
+        let last = place + 1 == panels.len();
+        let height = if last { LAST } else { PANEL };
+        let frame = Frame {
+            left: LEFT,
+            right: WIDTH - legend - RIGHT,
+            top: top + ABOVE,
+            bottom: top + height - BELOW,
+        };
+        draw(&mut svg, panel, &frame);
+        draw_legend(&mut svg, panel, (WIDTH - legend, top), height);
+        top += height;
     }
-    Ok(scaled_down(&text, &plot.title, height))
-}
-
-/// The size on paper, round joints, and a name for readers that do not see.
-fn scaled_down(svg: &str, title: &str, height: i32) -> String {
-    let body = svg.split_once('>').map_or("", |(_, body)| body);
-    let title = title.replace('&', "&amp;").replace('<', "&lt;");
-    let (wide, high) = (WIDTH * ZOOM, height * ZOOM);
-    format!(
-        "<svg width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {wide} {high}\" \
-         stroke-linejoin=\"round\" xmlns=\"http://www.w3.org/2000/svg\">\n<title>{title}</title>{body}"
-    )
+    svg.page((WIDTH, top), &plot.title, &plot.subtitle)
 }
 
 fn time_axis(plot: &Plot) -> Axis {
@@ -192,83 +174,97 @@ fn errors(plot: &Plot) -> Panel {
         },
         logarithmic: true,
         lines,
-        // The energy in ink, so that no invariant looks like the first component.
-        colour: |index| colour(if index == 0 { 9 } else { index }),
+        colour: |index| colour(if index == 0 { ENERGY } else { index }),
         markers: plot.rows <= 60,
     }
 }
 
-fn draw(area: &Area<'_>, panel: &Panel) -> Drawn {
-    let Panel { x, y, .. } = panel;
-    write(area, &panel.title, (78, 0), 16, INK)?;
-    let mut chart = ChartBuilder::on(area)
-        .margin_top(26 * ZOOM)
-        .margin_right(14 * ZOOM)
-        .margin_left(14 * ZOOM)
-        .x_label_area_size(40 * ZOOM)
-        .y_label_area_size(64 * ZOOM)
-        .build_cartesian_2d(x.clone(), y.clone())?;
-    let small = ("sans-serif", 15 * ZOOM, &INK).into_text_style(area);
-    chart
-        .configure_mesh()
-        .bold_line_style(GRID.stroke_width(ZOOM as u32))
-        .light_line_style(TRANSPARENT)
-        .axis_style(FAINT.stroke_width(ZOOM as u32))
-        .set_all_tick_mark_size(5 * ZOOM)
-        .x_labels(x.ticks.len() + 1)
-        .y_labels(y.ticks.len() + 1)
-        .x_label_style(small.clone())
-        .y_label_style(small.clone())
-        .x_label_formatter(&|tick| x.label(*tick))
-        .y_label_formatter(&|tick| {
-            if panel.logarithmic {
-                power_of_ten(*tick)
-            } else {
-                y.label(*tick)
-            }
-        })
-        .axis_desc_style(small)
-        .x_desc(panel.x_title)
-        .y_desc(panel.y_title)
-        .draw()?;
+impl Frame {
+    /// Where a point of the panel is drawn.
+    fn place(&self, panel: &Panel, (x, y): (f64, f64)) -> (f64, f64) {
+        (
+            self.left + panel.x.part(x) * (self.right - self.left),
+            self.bottom - panel.y.part(y) * (self.bottom - self.top),
+        )
+    }
+}
+
+fn draw(svg: &mut Svg, panel: &Panel, frame: &Frame) {
+    let ink = format!("fill=\"{INK}\"");
+    svg.text((LEFT, frame.top - 11.0), 16.0, &ink, &panel.title);
+    axes(svg, panel, frame);
     for (index, line) in panel.lines.iter().enumerate() {
-        let colour = (panel.colour)(index);
+        let Colour { name, opacity } = (panel.colour)(index);
+        let stroke = format!("stroke=\"{name}\" stroke-width=\"1.5\" opacity=\"{opacity}\"");
+        let fill = format!("fill=\"{name}\" opacity=\"{opacity}\"");
         for piece in &line.pieces {
-            let stroke = colour.stroke_width(6);
-            let dot = |&point: &(f64, f64)| Circle::new(point, 2 * ZOOM + 2, colour.filled());
+            let places = || piece.iter().map(|&point| frame.place(panel, point));
             if panel.markers || piece.len() == 1 {
-                chart.draw_series(piece.iter().map(dot))?;
+                places().for_each(|place| svg.disc(place, 2.5, &fill));
             }
-            chart.draw_series(LineSeries::new(piece.iter().copied(), stroke))?;
+            if piece.len() > 1 {
+                svg.polyline(places(), &stroke);
+            }
         }
     }
-    Ok(())
 }
 
-fn draw_legend(area: &Area<'_>, panel: &Panel) -> Drawn {
-    let room = area.dim_in_pixel().1 as i32 / ZOOM - 70;
-    let height = (room / panel.lines.len().max(1) as i32).clamp(9, 20);
-    for (index, line) in panel.lines.iter().enumerate() {
-        let y = 36 + height * index as i32;
-        let ends = vec![(0, y * ZOOM), (22 * ZOOM, y * ZOOM)];
-        area.draw(&PathElement::new(
-            ends,
-            (panel.colour)(index).stroke_width(10),
-        ))?;
-        let style = ("sans-serif", (height - 3).min(15) * ZOOM, &INK).into_text_style(area);
-        let style = style.pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(&line.label, &style, (29 * ZOOM, y * ZOOM))?;
+/// Grid, axes, ticks with their labels, and what the axes are.
+fn axes(svg: &mut Svg, panel: &Panel, frame: &Frame) {
+    let Frame {
+        left,
+        right,
+        top,
+        bottom,
+    } = *frame;
+    let faint = format!("stroke=\"{FAINT}\"");
+    let anchored = |anchor: &str| format!("text-anchor=\"{anchor}\" fill=\"{INK}\"");
+    for &tick in &panel.x.ticks {
+        let (x, _) = frame.place(panel, (tick, panel.y.low));
+        svg.line((x, top), (x, bottom), GRID);
+        svg.line((x, bottom), (x, bottom + 5.0), &faint);
+        let label = panel.x.label(tick);
+        svg.text((x, bottom + 19.0), SMALL, &anchored("middle"), &label);
     }
-    Ok(())
+    for &tick in &panel.y.ticks {
+        let (_, y) = frame.place(panel, (panel.x.low, tick));
+        svg.line((left, y), (right, y), GRID);
+        svg.line((left - 5.0, y), (left, y), &faint);
+        let label = match panel.logarithmic {
+            true => power_of_ten(tick),
+            false => panel.y.label(tick),
+        };
+        svg.text((left - 9.0, y + 5.0), SMALL, &anchored("end"), &label);
+    }
+    svg.line((left, bottom), (right, bottom), &faint);
+    svg.line((left, top), (left, bottom), &faint);
+    let (x, y) = (0.5 * (left + right), 0.5 * (top + bottom));
+    svg.text(
+        (x, bottom + 35.0),
+        SMALL,
+        &anchored("middle"),
+        panel.x_title,
+    );
+    svg.turned_text((20.0, y), -90.0, SMALL, &anchored("middle"), panel.y_title);
 }
 
-fn colour(index: usize) -> RGBAColor {
-    // Beyond the palette the colours come again, paler.
-    let paler = 0.75f64.powi((index / COLOURS.len()).min(4) as i32);
-    COLOURS[index % COLOURS.len()].mix(paler)
+fn draw_legend(svg: &mut Svg, panel: &Panel, (x, top): (f64, f64), height: f64) {
+    let room = (height - 70.0) / panel.lines.len().max(1) as f64;
+    let line_height = room.floor().clamp(9.0, 20.0);
+    let size = f64::min(line_height - 3.0, SMALL);
+    for (index, line) in panel.lines.iter().enumerate() {
+        let y = top + 36.0 + line_height * index as f64;
+        let Colour { name, opacity } = (panel.colour)(index);
+        let stroke = format!("stroke=\"{name}\" stroke-width=\"2.5\" opacity=\"{opacity}\"");
+        svg.line((x, y), (x + 22.0, y), &stroke);
+        let place = (x + 29.0, y + 0.35 * size);
+        svg.text(place, size, &format!("fill=\"{INK}\""), &line.label);
+    }
 }
 
-fn write(area: &Area<'_>, text: &str, at: (i32, i32), size: i32, colour: RGBColor) -> Drawn {
-    let style = ("sans-serif", size * ZOOM, &colour).into_text_style(area);
-    Ok(area.draw_text(text, &style, (at.0 * ZOOM, at.1 * ZOOM))?)
+fn colour(index: usize) -> Colour {
+    Colour {
+        name: COLOURS[index % COLOURS.len()],
+        opacity: 0.75_f64.powi((index / COLOURS.len()).min(4) as i32),
+    }
 }

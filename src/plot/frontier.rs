@@ -18,7 +18,7 @@
 //! assert!(picture.to_svg().contains("rk4"));
 //! ```
 
-use std::fmt::Write as _;
+use super::svg::{INK, Place, Svg};
 
 const WIDTH: f64 = 1160.0;
 const HEAD: f64 = 76.0;
@@ -89,14 +89,16 @@ impl Scale {
     }
 }
 
+impl Scale {
+    fn line(&self, points: &[(f64, f64)]) -> impl Iterator<Item = Place> {
+        points.iter().map(|&point| self.place(point))
+    }
+}
+
 /// The curves of one panel.
 struct Panel<'a> {
     title: String,
     curves: Vec<&'a Curve>,
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
 }
 
 impl Frontier {
@@ -108,7 +110,7 @@ impl Frontier {
         let (x, y) = bounds(&curves);
         // rows are as high as the longest legend in them
         let mut top = HEAD;
-        let mut body = String::new();
+        let mut body = Svg::default();
         for row in panels.chunks(ACROSS) {
             for (column, panel) in row.iter().enumerate() {
                 let corner = (LEFT + STRIDE * column as f64, top + TITLE);
@@ -121,33 +123,18 @@ impl Frontier {
                 .unwrap_or(0);
             top += TITLE + PANEL.1 + BELOW + LINE * longest.div_ceil(2) as f64 + 22.0;
         }
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{top}\" \
-             viewBox=\"0 0 {WIDTH} {top}\" font-family=\"sans-serif\" stroke-linejoin=\"round\">\n\
-             <title>{title}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
-             <text x=\"20\" y=\"32\" font-size=\"22\" fill=\"#222\">{title}</text>\n\
-             <text x=\"20\" y=\"55\" font-size=\"14\" fill=\"#666\">{}</text>\n{body}</svg>\n",
-            escaped(&self.subtitle),
-            title = escaped(&self.title),
-        )
+        body.page((WIDTH, top), &self.title, &self.subtitle)
     }
 
-    fn panel(&self, svg: &mut String, scale: &Scale, panel: &Panel<'_>, all: &[Curve]) {
+    fn panel(&self, svg: &mut Svg, scale: &Scale, panel: &Panel<'_>, all: &[Curve]) {
         let (x, y) = scale.corner;
-        let _ = writeln!(
-            svg,
-            "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"14\" font-weight=\"bold\" fill=\"#222\">{}</text>",
-            y - 9.0,
-            escaped(&panel.title)
-        );
+        let bold = format!("font-weight=\"bold\" fill=\"{INK}\"");
+        svg.text((x, y - 9.0), 14.0, &bold, &panel.title);
         self.axes(svg, scale);
         draw_front(svg, all, scale);
         for curve in all {
-            let line = line_of(curve, scale);
-            let _ = writeln!(
-                svg,
-                "<polyline points=\"{line}\" fill=\"none\" stroke=\"#d4d4d4\" stroke-width=\"0.8\"/>"
-            );
+            let grey = "stroke=\"#d4d4d4\" stroke-width=\"0.8\"";
+            svg.polyline(scale.line(&curve.points), grey);
         }
         let mut families: Vec<&str> = Vec::new();
         for curve in &panel.curves {
@@ -195,68 +182,55 @@ impl Frontier {
         }
     }
 
-    fn axes(&self, svg: &mut String, scale: &Scale) {
+    fn axes(&self, svg: &mut Svg, scale: &Scale) {
         let (left, top) = scale.corner;
         let (right, bottom) = (left + PANEL.0, top + PANEL.1);
-        let mut line = |x1: f64, y1: f64, x2: f64, y2: f64, colour: &str| {
-            let _ = writeln!(
-                svg,
-                "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"{colour}\"/>"
-            );
-        };
         let across = scale.x.0.ceil() as i32..=scale.x.1.floor() as i32;
         let up = (scale.y.0.ceil() as i32..=scale.y.1.floor() as i32).filter(|k| k % 3 == 0);
-        for k in across.clone() {
-            let (x, _) = scale.place((10_f64.powi(k), 1.0));
-            line(x, top, x, bottom, "#eeeeee");
+        let column = |k: i32| scale.place((10_f64.powi(k), 1.0)).0;
+        let row = |k: i32| scale.place((1.0, 10_f64.powi(k))).1;
+        let (grid, axis) = ("stroke=\"#eeeeee\"", "stroke=\"#777\"");
+        for x in across.clone().map(column) {
+            svg.line((x, top), (x, bottom), grid);
         }
-        for k in up.clone() {
-            let (_, y) = scale.place((1.0, 10_f64.powi(k)));
-            line(left, y, right, y, "#eeeeee");
+        for y in up.clone().map(row) {
+            svg.line((left, y), (right, y), grid);
         }
-        line(left, bottom, right, bottom, "#777");
-        line(left, top, left, bottom, "#777");
+        svg.line((left, bottom), (right, bottom), axis);
+        svg.line((left, top), (left, bottom), axis);
         if self.floor.log10() > scale.y.0 {
             let (_, y) = scale.place((1.0, self.floor));
-            let _ = writeln!(
-                svg,
-                "<rect x=\"{left}\" y=\"{y:.1}\" width=\"{}\" height=\"{:.1}\" fill=\"#f0f0f0\"/>\n\
-                 <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"10\" fill=\"#888\">below the error of the reference</text>",
-                PANEL.0,
-                bottom - y,
-                left + 5.0,
-                bottom - 4.0,
+            svg.rectangle((left, y), (PANEL.0, bottom - y), "fill=\"#f0f0f0\"", "");
+            let place = (left + 5.0, bottom - 4.0);
+            svg.text(
+                place,
+                10.0,
+                "fill=\"#888\"",
+                "below the error of the reference",
             );
         }
+        let anchored = |anchor: &str| format!("text-anchor=\"{anchor}\" fill=\"{INK}\"");
         for k in across {
-            let (x, _) = scale.place((10_f64.powi(k), 1.0));
-            let name = match k {
-                -9..=-7 => format!("{} ns", 10_i32.pow((k + 9) as u32)),
-                -6..=-4 => format!("{} µs", 10_i32.pow((k + 6) as u32)),
-                -3..=-1 => format!("{} ms", 10_i32.pow((k + 3) as u32)),
-                _ => format!("1e{k} s"),
-            };
-            let _ = writeln!(
-                svg,
-                "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"middle\" fill=\"#222\">{name}</text>",
-                bottom + 15.0
+            svg.text(
+                (column(k), bottom + 15.0),
+                11.0,
+                &anchored("middle"),
+                &duration(k),
             );
         }
         for k in up {
-            let (_, y) = scale.place((1.0, 10_f64.powi(k)));
-            let label = if k == 0 {
-                "1".to_owned()
-            } else {
-                let exponent = k.to_string().replace('-', "−");
-                format!("10<tspan dy=\"-5\" font-size=\"9\">{exponent}</tspan>")
-            };
-            let _ = writeln!(
-                svg,
-                "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"end\" fill=\"#222\">{label}</text>",
-                left - 6.0,
-                y + 4.0
-            );
+            svg.power_of_ten((left - 6.0, row(k) + 4.0), 12.0, &anchored("end"), k);
         }
+    }
+}
+
+/// Ten to so many seconds.
+fn duration(exponent: i32) -> String {
+    match exponent {
+        -9..=-7 => format!("{} ns", 10_i32.pow((exponent + 9) as u32)),
+        -6..=-4 => format!("{} µs", 10_i32.pow((exponent + 6) as u32)),
+        -3..=-1 => format!("{} ms", 10_i32.pow((exponent + 3) as u32)),
+        _ => format!("1e{exponent} s"),
     }
 }
 
@@ -318,12 +292,6 @@ fn bounds(curves: &[Curve]) -> ((f64, f64), (f64, f64)) {
     ((x.0 - 0.08, x.1 + 0.08), (low, y.1.max(low + 1.0) + 0.1))
 }
 
-fn line_of(curve: &Curve, scale: &Scale) -> String {
-    let places = curve.points.iter().map(|&point| scale.place(point));
-    let text: Vec<String> = places.map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
-    text.join(" ")
-}
-
 /// Which curves have a point that no other curve beats in both.
 fn front(curves: &[&Curve], floor: f64) -> Vec<bool> {
     let on_front = |curve: &Curve| {
@@ -344,7 +312,7 @@ fn front(curves: &[&Curve], floor: f64) -> Vec<bool> {
 }
 
 /// A pale band along the points that none beats.
-fn draw_front(svg: &mut String, curves: &[Curve], scale: &Scale) {
+fn draw_front(svg: &mut Svg, curves: &[Curve], scale: &Scale) {
     let all = curves.iter().filter(|curve| !curve.control);
     let mut points: Vec<(f64, f64)> = all.flat_map(|curve| curve.points.iter().copied()).collect();
     points.retain(|point| point.1 < SERIOUS);
@@ -355,16 +323,8 @@ fn draw_front(svg: &mut String, curves: &[Curve], scale: &Scale) {
         least = least.min(point.1);
         better
     });
-    let line: Vec<String> = points
-        .iter()
-        .map(|&point| scale.place(point))
-        .map(|(x, y)| format!("{x:.1},{y:.1}"))
-        .collect();
-    let _ = writeln!(
-        svg,
-        "<polyline points=\"{}\" fill=\"none\" stroke=\"#ffe08a\" stroke-width=\"9\" stroke-linecap=\"round\" opacity=\"0.6\"/>",
-        line.join(" ")
-    );
+    let band = "stroke=\"#ffe08a\" stroke-width=\"9\" stroke-linecap=\"round\" opacity=\"0.6\"";
+    svg.polyline(scale.line(&points), band);
 }
 
 fn segments(points: &[(f64, f64)]) -> impl Iterator<Item = ((f64, f64), (f64, f64))> {
@@ -400,80 +360,59 @@ fn dashes(order: u32) -> &'static str {
     }
 }
 
-fn marker(svg: &mut String, (x, y): (f64, f64), order: u32, size: f64, colour: &str) {
-    let shape = match order {
+fn marker(svg: &mut Svg, at: Place, order: u32, size: f64, colour: &str) {
+    let (x, y) = at;
+    let mut polygon = |part: f64, corners: u32, turned: f64| {
+        let corner = |k: u32| {
+            let angle = (turned + 360.0 * f64::from(k) / f64::from(corners)).to_radians();
+            let radius = part * size;
+            (x + radius * angle.cos(), y + radius * angle.sin())
+        };
+        svg.polygon((0..corners).map(corner), colour);
+    };
+    match order {
         0..=1 => {
-            let (a, b, c, d) = (x - size, x + size, y - size, y + size);
-            format!(
-                "<path d=\"M{a:.1} {c:.1}L{b:.1} {d:.1}M{a:.1} {d:.1}L{b:.1} {c:.1}\" stroke=\"{colour}\" fill=\"none\"/>"
-            )
+            let stroke = format!("stroke=\"{colour}\"");
+            svg.line((x - size, y - size), (x + size, y + size), &stroke);
+            svg.line((x - size, y + size), (x + size, y - size), &stroke);
         }
-        2 => format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{size:.1}\" fill=\"{colour}\"/>"),
-        3 => polygon(x, y, size * 1.3, 3, -90.0, colour),
-        4 => polygon(x, y, size * 1.3, 4, 45.0, colour),
-        5 => polygon(x, y, size * 1.3, 5, -90.0, colour),
-        6 => polygon(x, y, size * 1.3, 6, 0.0, colour),
-        _ => polygon(x, y, size * 1.5, 4, 0.0, colour),
-    };
-    svg.push_str(&shape);
-    svg.push('\n');
+        2 => svg.disc(at, size, &format!("fill=\"{colour}\"")),
+        3 => polygon(1.3, 3, -90.0),
+        4 => polygon(1.3, 4, 45.0),
+        5 => polygon(1.3, 5, -90.0),
+        6 => polygon(1.3, 6, 0.0),
+        _ => polygon(1.5, 4, 0.0),
+    }
 }
 
-fn polygon(x: f64, y: f64, radius: f64, corners: u32, turned: f64, colour: &str) -> String {
-    let corner = |k: u32| {
-        let angle = (turned + 360.0 * f64::from(k) / f64::from(corners)).to_radians();
-        format!(
-            "{:.1},{:.1}",
-            x + radius * angle.cos(),
-            y + radius * angle.sin()
-        )
-    };
-    let points: Vec<String> = (0..corners).map(corner).collect();
-    format!(
-        "<polygon points=\"{}\" fill=\"{colour}\"/>",
-        points.join(" ")
-    )
-}
-
-fn draw(svg: &mut String, curve: &Curve, colour: &str, on_front: bool, scale: &Scale) {
+fn draw(svg: &mut Svg, curve: &Curve, colour: &str, on_front: bool, scale: &Scale) {
     let (width, opacity, size) = if on_front {
         (2.0, 1.0, 3.0)
     } else {
         (1.1, 0.75, 2.2)
     };
-    let _ = writeln!(
-        svg,
-        "<g opacity=\"{opacity}\"><title>{}</title><polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" \
-         stroke-width=\"{width}\" stroke-dasharray=\"{}\"/>",
-        escaped(&curve.name),
-        line_of(curve, scale),
-        dashes(curve.order),
-    );
-    for &point in &curve.points {
-        marker(svg, scale.place(point), curve.order, size, colour);
-    }
-    svg.push_str("</g>\n");
+    let stroke = stroke(curve, colour, width);
+    svg.group(&format!("opacity=\"{opacity}\""), &curve.name, |svg| {
+        svg.polyline(scale.line(&curve.points), &stroke);
+        for place in scale.line(&curve.points) {
+            marker(svg, place, curve.order, size, colour);
+        }
+    });
 }
 
-fn legend(svg: &mut String, (x, y): (f64, f64), curve: &Curve, colour: &str, on_front: bool) {
-    let _ = writeln!(
-        svg,
-        "<line x1=\"{x:.1}\" y1=\"{y:.1}\" x2=\"{:.1}\" y2=\"{y:.1}\" stroke=\"{colour}\" stroke-width=\"{}\" stroke-dasharray=\"{}\"/>",
-        x + 26.0,
-        if on_front { 2.0 } else { 1.2 },
-        dashes(curve.order)
-    );
+fn stroke(curve: &Curve, colour: &str, width: f64) -> String {
+    let dashes = dashes(curve.order);
+    format!("stroke=\"{colour}\" stroke-width=\"{width}\" stroke-dasharray=\"{dashes}\"")
+}
+
+fn legend(svg: &mut Svg, (x, y): Place, curve: &Curve, colour: &str, on_front: bool) {
+    let (width, weight) = if on_front {
+        (2.0, "bold")
+    } else {
+        (1.2, "normal")
+    };
+    svg.line((x, y), (x + 26.0, y), &stroke(curve, colour, width));
     marker(svg, (x + 13.0, y), curve.order, 3.0, colour);
-    let _ = writeln!(
-        svg,
-        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" fill=\"#222\"{}>{}</text>",
-        x + 31.0,
-        y + 4.0,
-        if on_front {
-            " font-weight=\"bold\""
-        } else {
-            ""
-        },
-        escaped(&curve.name)
-    );
+    let style = format!("font-weight=\"{weight}\" fill=\"{INK}\"");
+    svg.text((x + 31.0, y + 4.0), 11.0, &style, &curve.name);
 }

@@ -11,7 +11,7 @@
 //! assert!(map.to_svg().contains("rk4"));
 //! ```
 
-use std::fmt::Write as _;
+use super::svg::{INK, Svg};
 
 const CELL: f64 = 17.0;
 const ROW: f64 = 17.0;
@@ -64,10 +64,6 @@ pub struct Map {
     pub rows: Vec<(String, Vec<Option<Cell>>)>,
 }
 
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
-}
-
 /// From round-off (dark) to drifts of the size of the energy (pale).
 fn shade(exponent: f64, from: [f64; 3], to: [f64; 3]) -> String {
     let part = ((exponent + 16.0) / 16.0).clamp(0.0, 1.0);
@@ -101,66 +97,36 @@ impl Map {
         }
         let width = f64::max(x + 60.0, 1010.0);
         let height = TOP + ROW * self.rows.len() as f64 + 64.0;
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
-             viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"sans-serif\">\n<title>{title}</title>\n\
-             <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
-             <text x=\"20\" y=\"32\" font-size=\"22\" fill=\"#222\">{title}</text>\n\
-             <text x=\"20\" y=\"54\" font-size=\"14\" fill=\"#666\">{}</text>\n",
-            escaped(&self.subtitle),
-            title = escaped(&self.title),
-        );
+        let mut svg = Svg::default();
         self.heads(&mut svg, &places);
+        let name_style = format!("text-anchor=\"end\" fill=\"{INK}\"");
         for (row, (name, cells)) in self.rows.iter().enumerate() {
             let y = TOP + ROW * row as f64;
-            let _ = writeln!(
-                svg,
-                "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12.5\" text-anchor=\"end\" fill=\"#222\">{}</text>",
-                left - 8.0,
-                y + 12.5,
-                escaped(name)
-            );
+            svg.text((left - 8.0, y + 12.5), 12.5, &name_style, name);
             for (cell, x) in cells.iter().zip(&places) {
                 let Some(cell) = cell else { continue };
-                let _ = writeln!(
-                    svg,
-                    "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{}\"><title>{}</title></rect>",
-                    CELL - 1.0,
-                    ROW - 1.0,
-                    colour(cell.outcome),
-                    escaped(&cell.text)
-                );
+                let fill = format!("fill=\"{}\"", colour(cell.outcome));
+                svg.rectangle((*x, y), (CELL - 1.0, ROW - 1.0), &fill, &cell.text);
             }
         }
         legend(&mut svg, TOP + ROW * self.rows.len() as f64 + 26.0);
-        svg.push_str("</svg>\n");
-        svg
+        svg.page((width, height), &self.title, &self.subtitle)
     }
 
-    fn heads(&self, svg: &mut String, places: &[f64]) {
+    fn heads(&self, svg: &mut Svg, places: &[f64]) {
+        let bold = format!("font-weight=\"bold\" fill=\"{INK}\"");
         for (index, (column, x)) in self.columns.iter().zip(places).enumerate() {
-            let _ = writeln!(
-                svg,
-                "<text transform=\"translate({:.1} {:.1}) rotate(-90)\" font-size=\"11\" fill=\"#444\">{}</text>",
-                x + 12.0,
-                TOP - 6.0,
-                escaped(&column.label)
-            );
+            let place = (x + 12.0, TOP - 6.0);
+            svg.turned_text(place, -90.0, 11.0, "fill=\"#444\"", &column.label);
             let first = index == 0 || self.columns[index - 1].group != column.group;
             if first {
-                let _ = writeln!(
-                    svg,
-                    "<text transform=\"translate({:.1} {:.1}) rotate(-30)\" font-size=\"12.5\" font-weight=\"bold\" fill=\"#222\">{}</text>",
-                    x + 6.0,
-                    TOP - 66.0,
-                    escaped(&column.group)
-                );
+                svg.turned_text((x + 6.0, TOP - 66.0), -30.0, 12.5, &bold, &column.group);
             }
         }
     }
 }
 
-fn legend(svg: &mut String, y: f64) {
+fn legend(svg: &mut Svg, y: f64) {
     let entries = [
         (Outcome::Drift(-16.0), "energy to round-off"),
         (Outcome::Drift(-8.0), "energy to 1e-8"),
@@ -172,14 +138,9 @@ fn legend(svg: &mut String, y: f64) {
     ];
     let mut x = 20.0;
     for (outcome, text) in entries {
-        let _ = writeln!(
-            svg,
-            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"14\" height=\"14\" fill=\"{}\" stroke=\"#ccc\"/>\n\
-             <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11.5\" fill=\"#222\">{text}</text>",
-            colour(outcome),
-            x + 18.0,
-            y + 11.5
-        );
+        let fill = format!("fill=\"{}\" stroke=\"#ccc\"", colour(outcome));
+        svg.rectangle((x, y), (14.0, 14.0), &fill, "");
+        svg.text((x + 18.0, y + 11.5), 11.5, &format!("fill=\"{INK}\""), text);
         x += 28.0 + 6.0 * text.chars().count() as f64;
     }
 }

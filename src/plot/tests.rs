@@ -30,7 +30,7 @@ fn titles_axes_legend() {
     for text in [
         title,
         "midpoint, h = 0.1",
-        "\nt\n",
+        ">t<",
         "components of μ",
         "|I − I₀| / |I₀|",
         "c1",
@@ -38,7 +38,7 @@ fn titles_axes_legend() {
     ] {
         assert!(svg.contains(text), "{text:?} is missing");
     }
-    assert!(svg.contains("10⁻¹⁶") && svg.contains("\n−0.5\n"));
+    assert!(svg.contains("10⁻¹⁶") && svg.contains(">−0.5<"));
 }
 
 #[test]

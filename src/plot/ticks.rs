@@ -1,9 +1,5 @@
 //! Ticks at round numbers, and how they are written.
 
-use std::ops::Range;
-
-use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
-
 /// An axis from `low` to `high` with its ticks.
 #[derive(Clone, Debug)]
 pub struct Axis {
@@ -71,6 +67,13 @@ impl Axis {
         }
     }
 
+    /// Where a value lies: 0 at the lower end, 1 at the upper one.
+    pub fn part(&self, value: f64) -> f64 {
+        // Halves, so that no difference overflows.
+        let part = (value / 2.0 - self.low / 2.0) / (self.high / 2.0 - self.low / 2.0);
+        part.clamp(-1.0, 2.0)
+    }
+
     /// The label of a tick of a linear axis.
     pub fn label(&self, value: f64) -> String {
         let largest = self.low.abs().max(self.high.abs());
@@ -87,26 +90,6 @@ impl Axis {
         }
         let decimals = (1.0 - self.step.log10().floor()).clamp(0.0, 15.0) as usize;
         shortened(&format!("{value:.decimals$}")).replace('-', "−")
-    }
-}
-
-/// The drawing library asks for nothing but the ticks that were chosen.
-impl Ranged for Axis {
-    type FormatOption = DefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
-        // Halves, so that no difference overflows.
-        let place = (value / 2.0 - self.low / 2.0) / (self.high / 2.0 - self.low / 2.0);
-        (f64::from(from) + place.clamp(-1.0, 2.0) * f64::from(to - from)).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _hint: Hint) -> Vec<f64> {
-        self.ticks.clone()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.low..self.high
     }
 }
 

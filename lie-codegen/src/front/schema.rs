@@ -154,6 +154,12 @@ objects! {
         "rtol" rtol: Option<Constant>,
         /// Absolute tolerance.
         "atol" atol: Option<Constant>,
+        /// Iteration of an implicit method: `newton`, `simplified` or `fixed-point`.
+        "iteration" iteration: Option<String>,
+        /// Error at which that iteration ends, in units of round-off.
+        "newton-tolerance" newton_tolerance: Option<Constant>,
+        /// Iterations after which a step has failed.
+        "max-iterations" max_iterations: Option<Constant>,
     }
 }
 

@@ -50,7 +50,7 @@ pub struct Motions<V>(pub Vec<Shown<V>>);
 
 impl<V> Motions<V> {
     /// Shows the same to another.
-    pub(crate) fn show(&self, sink: &mut impl FactorSink<V>) {
+    pub fn show(&self, sink: &mut impl FactorSink<V>) {
         for shown in &self.0 {
             match shown {
                 Shown::Factor(retraction, xi) => sink.push(*retraction, xi),
@@ -147,10 +147,10 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P> + 'static> AnyMethod<S, P> for M 
 }
 
 /// A method whose type is forgotten, as a method again: the driver runs it. Its constants say nothing.
-pub(crate) struct Forgotten<'m, P: Poisson<f64>>(pub(crate) &'m dyn AnyMethod<f64, P>);
+pub struct Forgotten<'m, P: Poisson<f64>>(pub &'m dyn AnyMethod<f64, P>);
 
 /// The stepper of a [`Forgotten`] method.
-pub(crate) struct ForgottenStepper<'a, V> {
+pub struct ForgottenStepper<'a, V> {
     stepper: Box<dyn AnyStepper<f64, V> + 'a>,
     motions: Motions<V>,
 }

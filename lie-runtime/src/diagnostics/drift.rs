@@ -22,7 +22,8 @@ pub struct InvariantDrift {
 }
 
 impl InvariantDrift {
-    pub(crate) fn new<S: Scalar>(name: &str, initial: Option<S>) -> Self {
+    /// One that has not moved yet, from its first value where there is one.
+    pub fn new<S: Scalar>(name: &str, initial: Option<S>) -> Self {
         let initial = initial.map_or(f64::NAN, |initial| initial.to_f64());
         Self {
             name: name.to_owned(),
@@ -33,10 +34,9 @@ impl InvariantDrift {
     }
 
     /// Takes a distance from the start at a step of a run of so many.
-    pub(crate) fn record(&mut self, distance: f64, step: u64, steps: u64) {
-        let window =
-            (step.saturating_sub(1) as f64 / steps.max(1) as f64 * WINDOWS as f64) as usize;
-        let window = &mut self.windows[window.min(WINDOWS - 1)];
+    pub fn record(&mut self, distance: f64, step: u64, steps: u64) {
+        let window = step.saturating_sub(1).saturating_mul(WINDOWS as u64) / steps.max(1);
+        let window = &mut self.windows[(window as usize).min(WINDOWS - 1)];
         *window = Scalar::max(*window, distance);
         self.max = Scalar::max(self.max, distance);
     }

@@ -98,93 +98,50 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
 ) -> Result<(Stats, Status), IntegrateError> {
     let grid = Grid::new(problem.span, options.step)?;
     let mut rows = grid.rows(&options.save)?.peekable();
-    let mut stats = Stats::default();
-    let fail = |stats: Stats, index: u64, failure: StepFailure| {
-        let mut stats = stats;
-        stats.add_failure(&failure.report);
-        Box::new(StepError {
-            step: index + 1,
-            time: grid.time(index),
-            failure,
-            stats,
-            works: None,
-        })
+    let mut course = Course {
+        grid: &grid,
+        method: &method,
+        options,
+        stats: Stats::default(),
+        index: 0,
     };
-    // a step that left its chart: with one that does not, from the state before it
-    let stopped = |system: &P, stats, index, failure: StepFailure, h: f64, mu: &P::State| {
-        let left = failure.reason == FailureReason::OutsideChart;
-        let works = left.then(|| smaller(system, &method, options, h, mu));
-        let error = StepError {
-            works: works.flatten(),
-            ..*fail(stats, index, failure)
-        };
-        IntegrateError::from(Box::new(error))
-    };
-
     let mut mu = problem.mu0.clone();
     let mut between = mu.clone();
-    let progress = |index: u64| Progress {
-        step: index,
-        steps: grid.steps(),
-        time: grid.time(index),
-    };
-    let mut index = 0;
     let mut followed = problem.system.following(&mu);
-    check_start(followed.as_ref().unwrap_or(&problem.system), &mu)
-        .map_err(|failure| fail(stats, 0, failure))?;
-    observer.start(
-        followed.as_ref().unwrap_or(&problem.system),
-        progress(0),
-        &mu,
-    );
+    let system = followed.as_ref().unwrap_or(&problem.system);
+    check_start(system, &mu).map_err(|failure| course.failed(failure))?;
+    observer.start(system, course.progress(), &mu);
     // once, and again with each branch of the system that has to be followed
     loop {
         let system = followed.as_ref().unwrap_or(&problem.system);
         let mut stepper = method.stepper(system, S::from_f64(options.step), &options.newton);
         let next = loop {
-            while let Some(row) = rows.next_if(|row| row.place.index() == index) {
-                let saved = match row.place {
-                    Place::On(_) => &mu,
+            while let Some(row) = rows.next_if(|row| row.place.index() == course.index) {
+                let looked = match row.place {
+                    Place::On(_) => observer.row(system, row.time, &mu),
                     Place::After(_, rest) => {
                         between.copy_from(&mu);
-                        let mut shorter =
-                            method.stepper(system, S::from_f64(rest), &options.newton);
-                        observer.leave_grid();
-                        let mut shown = Shown::to(observer, system);
-                        let report = match shorter.step(&mut between, &mut shown) {
-                            Ok(report) => report,
-                            Err(failure) => {
-                                return Err(stopped(system, stats, index, failure, rest, &mu));
-                            }
-                        };
-                        check_domain(system, &between, report)
-                            .map_err(|failure| fail(stats, index, failure))?;
-                        stats.add(&report);
-                        &between
+                        course.off_grid(system, rest, &mu, &mut between, observer)?;
+                        let looked = observer.row(system, row.time, &between);
+                        observer.return_to_grid();
+                        looked
                     }
                 };
-                let looked = observer.row(system, row.time, saved);
-                if matches!(row.place, Place::After(..)) {
-                    observer.return_to_grid();
-                }
                 if looked.is_break() {
-                    return Ok((stats, Status::Stopped));
+                    return Ok((course.stats, Status::Stopped));
                 }
             }
-            if index == grid.steps() {
-                return Ok((stats, Status::Finished));
+            if course.index == grid.steps() {
+                return Ok((course.stats, Status::Finished));
             }
-            let report = match stepper.step(&mut mu, &mut Shown::to(observer, system)) {
-                Ok(report) => report,
-                Err(failure) => {
-                    return Err(stopped(system, stats, index, failure, options.step, &mu));
-                }
-            };
-            check_domain(system, &mu, report).map_err(|failure| fail(stats, index, failure))?;
-            stats.add(&report);
-            index += 1;
-            if observer.step(system, progress(index), &mu).is_break() {
-                return Ok((stats, Status::Stopped));
+            match stepper.step(&mut mu, &mut Shown::to(observer, system)) {
+                Ok(report) => course.arrived(system, &mu, report)?,
+                Err(failure) => return Err(course.stopped(system, failure, options.step, &mu)),
+            }
+            course.index += 1;
+            let looked = observer.step(system, course.progress(), &mu);
+            if looked.is_break() {
+                return Ok((course.stats, Status::Stopped));
             }
             if let Some(next) = system.following(&mu) {
                 break next;
@@ -192,6 +149,92 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         };
         drop(stepper);
         followed = Some(next);
+    }
+}
+
+/// How far a run has come.
+struct Course<'r, M> {
+    grid: &'r Grid,
+    method: &'r M,
+    options: &'r Options,
+    stats: Stats,
+    /// Steps done.
+    index: u64,
+}
+
+impl<M> Course<'_, M> {
+    fn progress(&self) -> Progress {
+        Progress {
+            step: self.index,
+            steps: self.grid.steps(),
+            time: self.grid.time(self.index),
+        }
+    }
+
+    /// The error of the step that comes next.
+    fn failed(&self, failure: StepFailure) -> Box<StepError> {
+        let mut stats = self.stats;
+        stats.add_failure(&failure.report);
+        Box::new(StepError {
+            step: self.index + 1,
+            time: self.grid.time(self.index),
+            failure,
+            stats,
+            works: None,
+        })
+    }
+
+    /// The same of a step of h from a state: where it left its chart, with one that does not.
+    fn stopped<S: Scalar, P: Poisson<S>>(
+        &self,
+        system: &P,
+        failure: StepFailure,
+        h: f64,
+        mu: &P::State,
+    ) -> IntegrateError
+    where
+        M: Method<S, P>,
+    {
+        let left = failure.reason == FailureReason::OutsideChart;
+        let works = left.then(|| smaller(system, self.method, self.options, h, mu));
+        let error = StepError {
+            works: works.flatten(),
+            ..*self.failed(failure)
+        };
+        IntegrateError::from(Box::new(error))
+    }
+
+    /// Counts a step that ended at a state.
+    fn arrived<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        mu: &P::State,
+        report: StepReport,
+    ) -> Result<(), Box<StepError>> {
+        check_domain(system, mu, report).map_err(|failure| self.failed(failure))?;
+        self.stats.add(&report);
+        Ok(())
+    }
+
+    /// A shorter step, from a state of the grid to a row between two of them.
+    fn off_grid<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        rest: f64,
+        mu: &P::State,
+        between: &mut P::State,
+        observer: &mut impl Observer<S, P>,
+    ) -> Result<(), IntegrateError>
+    where
+        M: Method<S, P>,
+    {
+        let newton = &self.options.newton;
+        let mut shorter = self.method.stepper(system, S::from_f64(rest), newton);
+        observer.leave_grid();
+        match shorter.step(between, &mut Shown::to(observer, system)) {
+            Ok(report) => Ok(self.arrived(system, between, report)?),
+            Err(failure) => Err(self.stopped(system, failure, rest, mu)),
+        }
     }
 }
 

@@ -3,7 +3,9 @@
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::Purpose;
+use lie_measure::bench::{ClockKind, Found, Options, Point, Reference};
 use lie_poisson::plot::frontier::{Curve, Frontier};
+use lie_program::protocol::Obstacle;
 
 use super::quiet::{Quiet, percent, spread};
 use super::table::{self, short};
@@ -18,37 +20,33 @@ const TARGETS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 /// The longest default span.
 const SPAN: f64 = 20.0;
 
-/// One measured run.
-#[derive(Clone, Debug)]
-pub struct Point {
-    method: String,
-    kind: String,
-    value: f64,
-    error: f64,
-    /// The least time per unit of time, the median of the rounds, and what passed meanwhile.
-    pub seconds: f64,
-    /// See `seconds`.
-    pub median: f64,
-    /// See `seconds`.
-    pub wall: f64,
-    counts: [u64; 3],
+/// What the program has found.
+#[derive(Default)]
+struct Results {
+    points: Vec<Point>,
+    /// Runs that did not come to their end, in words.
+    stopped: Vec<String>,
+    reference: Option<Reference>,
+    clock: ClockKind,
 }
 
-impl Point {
-    /// Reads the fields of a line.
-    pub fn read(fields: &[&str]) -> Option<Self> {
-        let number = |index: usize| fields.get(index)?.parse::<f64>().ok();
-        let count = |index: usize| fields.get(index)?.parse::<u64>().ok();
-        Some(Self {
-            method: (*fields.get(1)?).to_owned(),
-            kind: (*fields.get(2)?).to_owned(),
-            value: number(3)?,
-            error: number(4)?,
-            seconds: number(5)?,
-            median: number(6)?,
-            wall: number(7)?,
-            counts: [count(8)?, count(9)?, count(10)?],
-        })
+impl Results {
+    fn take(&mut self, found: Found) {
+        match found {
+            Found::Reference(reference) => self.reference = Some(reference),
+            Found::Clock(clock) => self.clock = clock,
+            Found::Point(point) => self.points.push(point),
+            Found::Stopped {
+                method,
+                control,
+                value,
+                why,
+            } => {
+                let control = control.word();
+                self.stopped
+                    .push(format!("{method}, {control} {value:?}: {why}"));
+            }
+        }
     }
 }
 
@@ -65,49 +63,23 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Bench, &interrupt)?;
-    let (mut points, mut stopped, mut reference) = (Vec::new(), Vec::new(), [f64::NAN; 2]);
-    let mut clock = String::new();
-    let numbers = [("until", until), ("budget", budget)];
-    let ended = bed.measure(
-        flags,
-        program,
-        &numbers,
-        &interrupt,
-        &mut |fields| match fields {
-            ["point", ..] => points.extend(Point::read(fields)),
-            ["clock", name] => clock = (*name).to_owned(),
-            ["stopped", label, kind, value, why] => {
-                stopped.push(format!("{label}, {kind} {value}: {why}"));
-            }
-            ["reference", error, difference, ..] => {
-                reference = [error, difference].map(|text| text.parse().unwrap_or(f64::NAN));
-            }
-            _ => {}
-        },
-    )?;
-    if let Ended::Said(word, text) = &ended {
+    let mut results = Results::default();
+    let options = Options { until, budget };
+    let ended = bed.measure(flags, program, options, &interrupt, &mut |found| {
+        results.take(found);
+    })?;
+    if let Ended::Refused(what, why) = &ended {
         files::write(out, None, None)?;
         files::write(plot, None, None)?;
-        if word == "still" {
-            let text = format!("nothing can be compared on {}: {text}", bed.spec.model.name);
-            let message = Message::new(Kind::Domain, text).at_option("--initial");
-            return Err(message
-                .help("give an initial state that is no equilibrium with `--initial`")
-                .into());
-        }
-        let text = format!("the reference solution is not confirmed: {text}");
-        let message = Message::new(Kind::Domain, text).at_option("--until");
-        return Err(Failure {
-            messages: vec![message.help("take a shorter span with `--until`")],
-            code: SURROUNDINGS,
-        });
+        return Err(refused(&bed.spec.model.name, *what, why));
     }
-    let picture = || picture(&bed, until, &points, reference);
+    let points = &results.points;
+    let picture = || picture(&bed, until, points, results.reference);
     let wanted = !points.is_empty();
-    files::write(out, arguments.out.as_deref(), wanted.then(|| csv(&points)))?;
+    files::write(out, arguments.out.as_deref(), wanted.then(|| csv(points)))?;
     files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
-    let quiet = Quiet::of(&points, &clock);
-    print(&report(&bed, until, &points, &stopped, reference, &quiet))?;
+    let quiet = Quiet::of(points, results.clock);
+    print(&report(&bed, until, &results, &quiet))?;
     if let (Some(warning), false) = (quiet.warning(), flags.quiet) {
         eprintln!("warning: {warning}");
     }
@@ -115,6 +87,22 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
         return Ok(interrupted(flags, code));
     }
     Ok(0)
+}
+
+/// Why nothing is compared.
+fn refused(system: &str, what: Obstacle, why: &str) -> Failure {
+    if what == Obstacle::Still {
+        let text = format!("nothing can be compared on {system}: {why}");
+        let message = Message::new(Kind::Domain, text).at_option("--initial");
+        let help = "give an initial state that is no equilibrium with `--initial`";
+        return message.help(help).into();
+    }
+    let text = format!("the reference solution is not confirmed: {why}");
+    let message = Message::new(Kind::Domain, text).at_option("--until");
+    Failure {
+        messages: vec![message.help("take a shorter span with `--until`")],
+        code: SURROUNDINGS,
+    }
 }
 
 fn positive(flag: &'static str, text: Option<&String>) -> Result<Option<f64>, Failure> {
@@ -152,16 +140,18 @@ fn csv(points: &[Point]) -> String {
         "method,control,value,error,seconds_per_unit_time,median_seconds_per_unit_time,wall_seconds_per_unit_time,steps,evaluations,newton\n"
             .to_owned();
     for point in points {
-        let [steps, evaluations, newton] = point.counts;
         text.push_str(&format!(
-            "{},{},{:?},{:?},{:?},{:?},{:?},{steps},{evaluations},{newton}\n",
+            "{},{},{:?},{:?},{:?},{:?},{:?},{},{},{}\n",
             point.method,
-            point.kind,
+            point.control.word(),
             point.value,
             point.error,
             point.seconds,
             point.median,
-            point.wall
+            point.wall,
+            point.steps,
+            point.evaluations,
+            point.newton
         ));
     }
     text
@@ -194,71 +184,78 @@ fn time_to(points: &[&Point], target: f64) -> Option<f64> {
     Some(pairs.fold(reached, f64::min))
 }
 
-fn report(
-    bed: &Bed,
-    until: f64,
-    points: &[Point],
-    stopped: &[String],
-    reference: [f64; 2],
-    quiet: &Quiet,
-) -> String {
-    let spreads: Vec<(&str, f64)> = by_method(points)
-        .into_iter()
-        .map(|(method, points)| (method, spread(&points)))
-        .collect();
-    let mut rows: Vec<(Vec<Option<f64>>, f64, &str, String)> = by_method(points)
-        .into_iter()
-        .map(|(method, points)| {
-            let times = TARGETS.iter().map(|&target| time_to(&points, target));
-            let least = points.iter().map(|p| p.error).fold(f64::INFINITY, f64::min);
-            let order = order_of(bed, method).map_or("–".to_owned(), |order| order.to_string());
-            (times.collect(), least, method, order)
-        })
-        .collect();
-    // by the time to 1e-6; methods that do not come there behind, by how far they come
-    rows.sort_by(|a, b| {
-        let key = |row: &(Vec<Option<f64>>, f64, &str, String)| row.0[1].unwrap_or(f64::INFINITY);
-        key(a).total_cmp(&key(b)).then(a.1.total_cmp(&b.1))
+/// How a method does: the times to the targets, its least error, its name and order.
+struct Line<'a> {
+    times: Vec<Option<f64>>,
+    least: f64,
+    method: &'a str,
+    order: String,
+    spread: f64,
+}
+
+/// The methods by the time to 1e-6; those that do not come there behind, by how far they come.
+fn lines<'a>(bed: &Bed, points: &'a [Point]) -> Vec<Line<'a>> {
+    let line = |(method, points): (&'a str, Vec<&Point>)| {
+        let times = TARGETS.iter().map(|&target| time_to(&points, target));
+        let order = order_of(bed, method).map_or("–".to_owned(), |order| order.to_string());
+        Line {
+            times: times.collect(),
+            least: points.iter().map(|p| p.error).fold(f64::INFINITY, f64::min),
+            method,
+            order,
+            spread: spread(&points),
+        }
+    };
+    let mut lines: Vec<Line<'_>> = by_method(points).into_iter().map(line).collect();
+    let key = |line: &Line<'_>| line.times[1].unwrap_or(f64::INFINITY);
+    lines.sort_by(|a, b| {
+        let by_time = key(a).total_cmp(&key(b));
+        by_time.then(a.least.total_cmp(&b.least))
     });
+    lines
+}
+
+/// The table of these.
+fn cells(lines: &[Line<'_>]) -> Vec<Vec<String>> {
     let fastest: Vec<f64> = (0..TARGETS.len())
         .map(|k| {
-            rows.iter()
-                .filter_map(|row| row.0[k])
-                .fold(f64::INFINITY, f64::min)
+            let times = lines.iter().filter_map(|line| line.times[k]);
+            times.fold(f64::INFINITY, f64::min)
         })
         .collect();
     let mut cells = vec![vec!["method".to_owned(), "order".to_owned()]];
     cells[0].extend(TARGETS.iter().map(|target| format!("to {target:.0e}")));
     cells[0].extend(["least error", "spread"].map(str::to_owned));
-    for (times, least, method, order) in &rows {
-        let mut row = vec![(*method).to_owned(), order.clone()];
-        for (time, fastest) in times.iter().zip(&fastest) {
+    for line in lines {
+        let mut row = vec![line.method.to_owned(), line.order.clone()];
+        for (time, fastest) in line.times.iter().zip(&fastest) {
             row.push(match time {
                 Some(time) if time <= fastest => format!("{} *", micro(*time)),
                 Some(time) => micro(*time),
                 None => "–".to_owned(),
             });
         }
-        row.push(short(*least));
-        let found = spreads.iter().find(|(known, _)| known == method);
-        row.push(percent(found.map_or(f64::NAN, |(_, spread)| *spread)));
+        row.extend([short(line.least), percent(line.spread)]);
         cells.push(row);
     }
+    cells
+}
+
+fn report(bed: &Bed, until: f64, results: &Results, quiet: &Quiet) -> String {
+    let reference = results.reference;
     let mut text = format!(
         "{}, to t = {until}: microseconds per unit of time to a relative error at the end\n\
          reference: extrapolation, error about {}; differs from gauss6 by {}\n\n{}",
         bed.spec.model.name,
-        short(reference[0]),
-        short(reference[1]),
-        table::text(&cells),
+        short(reference.map_or(f64::NAN, |reference| reference.error)),
+        short(reference.map_or(f64::NAN, |reference| reference.difference)),
+        table::text(&cells(&lines(bed, &results.points))),
     );
     text.push_str(&format!("\n* the fastest\n{}\n", quiet.text()));
-    if !stopped.is_empty() {
-        text.push_str(&format!(
-            "\n{} runs did not come to their end:\n",
-            stopped.len()
-        ));
-        for line in stopped {
+    if !results.stopped.is_empty() {
+        let count = results.stopped.len();
+        text.push_str(&format!("\n{count} runs did not come to their end:\n"));
+        for line in &results.stopped {
             text.push_str(&format!("  {line}\n"));
         }
     }
@@ -301,7 +298,7 @@ fn class(choice: Option<&Choice>) -> String {
     words.to_owned()
 }
 
-fn picture(bed: &Bed, until: f64, points: &[Point], reference: [f64; 2]) -> String {
+fn picture(bed: &Bed, until: f64, points: &[Point], reference: Option<Reference>) -> String {
     let curves = by_method(points).into_iter().map(|(method, points)| {
         let choice = bed.choices.iter().find(|choice| choice.label() == method);
         let control = class(choice) == "controls";
@@ -322,7 +319,7 @@ fn picture(bed: &Bed, until: f64, points: &[Point], reference: [f64; 2]) -> Stri
             "relative error at t = {until} against run time per unit of time; bold: fastest in the panel at some error; band: \
              fastest of the catalogue"
         ),
-        floor: reference[0].max(reference[1]),
+        floor: reference.map_or(f64::NAN, |reference| reference.error.max(reference.difference)),
         curves: curves.collect(),
     }
     .to_svg()

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use lie_codegen::judge::{Judge, Sample, Verdict};
+use lie_measure::verify::{Kernel, Reference};
 use serde_json::{Value, json};
 
 use super::table::short;
@@ -47,11 +48,6 @@ const KERNELS: [&str; 13] = [
     "ad_star_matrix",
 ];
 
-fn numbers(text: &str) -> Vec<f64> {
-    let words = text.split_whitespace();
-    words.map(|word| word.parse().unwrap_or(f64::NAN)).collect()
-}
-
 impl Evidence {
     /// Nothing yet, of a system with an algebra or without.
     pub fn before(judge: Option<Judge>, has_algebra: bool) -> Self {
@@ -72,33 +68,37 @@ impl Evidence {
         }
     }
 
-    /// Takes a line of the program.
-    pub fn take(&mut self, fields: &[&str]) {
-        match fields {
-            ["kernel", name, arguments, values, velocity] => self.kernel(&Sample {
-                kernel: (*name).to_owned(),
-                arguments: arguments.split('|').map(numbers).collect(),
-                values: numbers(values),
-                velocity: numbers(velocity),
-            }),
-            ["reference", span, start, end] => {
-                let (Some(judge), Ok(span)) = (&self.judge, span.parse()) else {
-                    return;
-                };
-                if let Some(excess) = judge.solution(&numbers(start), span, &numbers(end)) {
-                    self.reference =
-                        Some(self.reference.map_or(excess, |worst| larger(worst, excess)));
-                }
-            }
-            ["broken", fact] => {
-                self.broken.insert((*fact).to_owned());
-            }
-            ["unsound", what] => self.unsound.push((*what).to_owned()),
-            _ => {}
+    /// Takes what a kernel gives.
+    pub fn kernel(&mut self, kernel: Kernel) {
+        self.judge(&Sample {
+            kernel: kernel.name,
+            arguments: kernel.arguments,
+            values: kernel.values,
+            velocity: kernel.gradient,
+        });
+    }
+
+    /// Takes the end of a reference solution.
+    pub fn reference(&mut self, solution: &Reference) {
+        let Reference { span, start, end } = solution;
+        let judge = self.judge.as_ref();
+        if let Some(excess) = judge.and_then(|judge| judge.solution(start, *span, end)) {
+            let worst = self.reference.map_or(excess, |worst| larger(worst, excess));
+            self.reference = Some(worst);
         }
     }
 
-    fn kernel(&mut self, sample: &Sample) {
+    /// Takes a measurement that lets a spoiled map pass.
+    pub fn broken(&mut self, fact: String) {
+        self.broken.insert(fact);
+    }
+
+    /// Takes a part of the iteration that does not solve an equation with a known solution.
+    pub fn unsound(&mut self, what: String) {
+        self.unsound.push(what);
+    }
+
+    fn judge(&mut self, sample: &Sample) {
         let Some(judge) = &self.judge else { return };
         let Some(verdict) = judge.judge(sample) else {
             if !judge.exempts(&sample.kernel) {

@@ -13,18 +13,21 @@ pub mod verify;
 use std::path::PathBuf;
 use std::process::Command;
 
-use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
+use lie_program::protocol::Obstacle;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use super::args::{self, Cpu, Measured};
 use super::run::bar::Bar;
-use super::run::plan;
-use crate::build::protocol::{self, Progress, Words};
+use super::run::impossible;
+use super::run::plan::{self, Point};
+use crate::build::talk::{Outcome, talk};
 use crate::build::{self, Request};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
-use crate::message::{Failure, INTERRUPTED, Message};
+use crate::message::{Failure, Message};
 use crate::render;
 
 /// A system at an initial state with the methods to measure, checked.
@@ -33,10 +36,8 @@ pub struct Bed {
     pub spec: Spec,
     /// The methods.
     pub choices: Vec<Choice>,
-    /// Values of the parameters, in order.
-    pub parameters: Vec<f64>,
-    /// The initial state.
-    pub initial: Vec<f64>,
+    /// Where it starts.
+    pub point: Point,
 }
 
 /// How a session with a measuring program ended.
@@ -45,8 +46,8 @@ pub enum Ended {
     Done,
     /// By a signal, with the exit code that it asks for.
     Interrupted(u8),
-    /// With a message of the program: its first word and the rest.
-    Said(String, String),
+    /// With a refusal: what stands against it, and why.
+    Refused(Obstacle, String),
 }
 
 /// Reads and checks what the commands share.
@@ -67,7 +68,7 @@ pub fn bed(flags: &Measured, defaults: impl Fn(&Spec) -> Vec<Choice>) -> Result<
         Some(text) => list::parse(text, &spec.model).map_err(&mut keep).ok(),
         None => Some(defaults(&spec)),
     };
-    let (Some((parameters, initial)), Some(choices)) = (start, choices) else {
+    let (Some(point), Some(choices)) = (start, choices) else {
         return Err(Failure::invalid(mistakes));
     };
     if !flags.quiet {
@@ -76,8 +77,7 @@ pub fn bed(flags: &Measured, defaults: impl Fn(&Spec) -> Vec<Choice>) -> Result<
     Ok(Bed {
         spec,
         choices,
-        parameters,
-        initial,
+        point,
     })
 }
 
@@ -102,70 +102,46 @@ impl Bed {
         build::program(&request, interrupt)
     }
 
-    /// Has a program measure everything; `line` takes the fields of each line of results.
+    /// Has a program measure everything; `found` takes what it finds.
     ///
     /// # Errors
     /// The program cannot be started, or dies.
-    pub fn measure(
+    pub fn measure<O: Serialize, R: DeserializeOwned>(
         &self,
         flags: &Measured,
         program: PathBuf,
-        numbers: &[(&str, f64)],
+        options: O,
         interrupt: &Interrupt,
-        line: &mut dyn FnMut(&[&str]),
+        found: &mut dyn FnMut(R),
     ) -> Result<Ended, Failure> {
-        let mut lines = String::new();
-        for choice in &self.choices {
-            lines.push_str(&format!("method {}\n", choice.label()));
-        }
-        for (index, value) in self.parameters.iter().enumerate() {
-            lines.push_str(&format!("parameter {index} {value:?}\n"));
-        }
-        lines.push_str("initial");
-        for value in &self.initial {
-            lines.push_str(&format!(" {value:?}"));
-        }
-        for (key, value) in numbers {
-            lines.push_str(&format!("\n{key} {value:?}"));
-        }
-        lines.push_str("\nrun\n");
+        let request = lie_measure::Request {
+            methods: self.choices.iter().map(Choice::label).collect(),
+            start: self.point.clone().named(&self.spec),
+            options,
+        };
         let bar = Bar::of_stages(!flags.quiet);
-        let words = protocol::measure(
+        let outcome = talk(
             Command::new(&program),
-            &lines,
+            &request,
             interrupt,
-            &mut |text| line(&text.split('\t').collect::<Vec<_>>()),
-            &mut |progress| match progress {
-                Progress::Done(done, all) => bar.show(done, all),
-                Progress::Stage(done, all, what) => bar.stage(done, all, what),
+            &mut |what, _| {
+                found(what);
+                Ok(())
+            },
+            &mut |progress| match &progress.stage {
+                None => bar.show(progress.done, progress.all),
+                Some(what) => bar.stage(progress.done, progress.all, what),
             },
         );
         bar.clear();
-        match words {
-            Ok(Words { code: Some(0), .. }) => Ok(Ended::Done),
-            Ok(Words {
-                code: Some(130), ..
-            }) if interrupt.seen().is_some() => {
-                Ok(Ended::Interrupted(interrupt.seen().unwrap_or(INTERRUPTED)))
-            }
-            Ok(Words {
-                code: Some(2),
-                last,
-                ..
-            }) => {
-                let (word, rest) = last.split_once(' ').unwrap_or((&last, ""));
-                if word == "parameter" {
-                    let message = Message::new(Kind::Domain, format!("parameter {rest}"));
-                    let help = "give it another value with `--param NAME=VALUE`";
-                    return Err(message.at_option("--param").help(help).into());
-                }
-                Ok(Ended::Said(word.to_owned(), rest.to_owned()))
-            }
-            Ok(words) => {
-                let how = format!("{}: {}", words.status, words.last);
-                Err(build::broken(&program, &how))
-            }
-            Err(error) => Err(build::not_started(&program, &error)),
+        match outcome.map_err(|error| build::not_started(&program, &error))? {
+            Outcome::Done => Ok(Ended::Done),
+            Outcome::Interrupted(code) => Ok(Ended::Interrupted(code)),
+            Outcome::Parameter(name, why) => Err(impossible(&name, &why)),
+            Outcome::Refused(what, why) => Ok(Ended::Refused(what, why)),
+            Outcome::Broken(how) => Err(build::broken(&program, &how)),
+            Outcome::Stopped(stop) => Err(build::broken(&program, &stop.reason)),
+            Outcome::NotTaken(error) => Err(build::broken(&program, &error.to_string())),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Whether the machine was quiet while methods were timed: how far the rounds lie apart, and how much of the time the
 //! processor was someone else's.
 
-use super::bench::Point;
+use lie_measure::bench::{ClockKind, Point};
 
 /// Where more than this part of the time went to others, or the rounds lie further apart, times say little.
 const BUSY: f64 = 0.1;
@@ -42,11 +42,11 @@ pub fn percent(part: f64) -> String {
 }
 
 impl Quiet {
-    /// From all points; `clock` is the word of the program.
-    pub fn of(points: &[Point], clock: &str) -> Self {
+    /// From all points, by the clock of the program.
+    pub fn of(points: &[Point], clock: ClockKind) -> Self {
         let elsewhere = points.iter().map(|p| (1.0 - p.median / p.wall).max(0.0));
         Self {
-            processor: clock == "processor",
+            processor: clock == ClockKind::Processor,
             elsewhere: median(elsewhere),
             spread: spread(&points.iter().collect::<Vec<_>>()),
         }
@@ -94,15 +94,26 @@ impl Quiet {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lie_measure::bench::Accuracy;
 
     fn point(seconds: f64, median: f64, wall: f64) -> Point {
-        let fields = format!("point\tm\tstep\t1\t1\t{seconds}\t{median}\t{wall}\t1\t1\t1");
-        Point::read(&fields.split('\t').collect::<Vec<_>>()).expect("a point")
+        Point {
+            method: "m".to_owned(),
+            control: Accuracy::Step,
+            value: 1.0,
+            error: 1.0,
+            seconds,
+            median,
+            wall,
+            steps: 1,
+            evaluations: 1,
+            newton: 1,
+        }
     }
 
     #[test]
     fn what_is_said_of_a_quiet_and_of_a_busy_machine() {
-        let of = |points: &[Point]| Quiet::of(points, "processor");
+        let of = |points: &[Point]| Quiet::of(points, ClockKind::Processor);
         let calm = [point(1.0, 1.02, 1.03), point(2.0, 2.1, 2.1)];
         assert_eq!(of(&calm).warning(), None);
         assert!(of(&calm).text().contains("of the processor"));
@@ -114,7 +125,7 @@ mod tests {
         let warning = of(&unsteady).warning().expect("a warning");
         assert!(warning.contains("40 % above the least") && !warning.contains("had the processor"));
         // without a clock of the processor, wall time alone
-        let wall = Quiet::of(&unsteady, "wall");
+        let wall = Quiet::of(&unsteady, ClockKind::Wall);
         assert!(wall.text().contains("wall time") && wall.warning().is_some());
     }
 }

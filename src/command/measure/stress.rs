@@ -2,9 +2,10 @@
 
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::Purpose;
-use lie_poisson::plot::map::{Cell as Square, Column, Map, Outcome};
+use lie_measure::stress::{Cell, Experiment, Found, Growth, Moved, Options, Outcome};
+use lie_poisson::plot::map::{self, Cell as Square, Column, Map};
 
-use super::growth::{self, Growth};
+use super::growth;
 use super::table::{self, short};
 use super::{Bed, Ended, bed, files, interrupted, list};
 use crate::command::run::values::Given;
@@ -13,108 +14,96 @@ use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
 
 /// What is said of an experiment.
-const EXPERIMENTS: [(&str, &str); 6] = [
-    ("step", "step over h0"),
-    ("parameter", "parameter times"),
-    ("scale", "state times"),
-    ("component", "component times"),
-    ("casimir", "Casimir times"),
-    ("long", "long run"),
-];
-
-/// One experiment with one method.
-#[derive(Clone, Debug)]
-struct Cell {
-    method: String,
-    experiment: String,
-    name: String,
-    value: f64,
-    step: f64,
-    word: String,
-    steps: u64,
-    newton: f64,
-    energy: [f64; 2],
-    casimirs: [f64; 2],
-    claimed: f64,
-    what: String,
+fn title(experiment: Experiment) -> &'static str {
+    match experiment {
+        Experiment::Step => "step over h0",
+        Experiment::Parameter => "parameter times",
+        Experiment::Scale => "state times",
+        Experiment::Component => "component times",
+        Experiment::Casimir => "Casimir times",
+        Experiment::Long => "long run",
+    }
 }
 
-impl Cell {
-    fn read(fields: &[&str], parameters: &[String]) -> Option<Self> {
-        let text = |index: usize| fields.get(index).map(|text| (*text).to_owned());
-        let number = |index: usize| fields.get(index)?.parse::<f64>().ok();
-        let mut name = text(3)?;
-        if *fields.get(2)? == "parameter" {
-            name = parameters.get(name.parse::<usize>().ok()?)?.clone();
+/// The colour of a cell.
+fn outcome(cell: &Cell) -> map::Outcome {
+    let Moved { drift, growth } = cell.energy;
+    // in a run that is short beside the system's own times, growth says nothing
+    let long = cell.experiment != Experiment::Step || cell.value >= 0.5;
+    match cell.outcome {
+        Outcome::Lost => map::Outcome::Lost,
+        Outcome::Stopped => map::Outcome::Stopped,
+        Outcome::Domain => map::Outcome::Domain,
+        Outcome::Kept if long && growth > 3.0 && drift > 1e-13 => {
+            map::Outcome::Growing(drift.log10())
         }
-        Some(Self {
-            method: text(1)?,
-            experiment: text(2)?,
-            name,
-            value: number(4)?,
-            step: number(5)?,
-            word: text(6)?,
-            steps: fields.get(7)?.parse().ok()?,
-            newton: number(8)?,
-            energy: [number(9)?, number(10)?],
-            casimirs: [number(11)?, number(12)?],
-            claimed: number(13)?,
-            what: text(14)?,
-        })
+        Outcome::Kept => map::Outcome::Drift(drift.log10()),
+    }
+}
+
+/// What happened, in one line.
+fn text(cell: &Cell) -> String {
+    let experiment = cell.experiment.word();
+    let (value, step) = (short(cell.value), short(cell.step));
+    let place = format!("{}, {experiment} {} {value}", cell.method, cell.name);
+    match cell.outcome {
+        Outcome::Lost if cell.claimed <= 1.0 => {
+            format!(
+                "{place}, step {step}: {} after {} steps",
+                cell.what, cell.steps
+            )
+        }
+        Outcome::Lost => format!(
+            "{place}, step {step}: {} beyond {} times its round-off bound after {} steps",
+            cell.what,
+            short(cell.claimed),
+            cell.steps
+        ),
+        Outcome::Kept => format!(
+            "{place}: energy {} (grows {}), Casimirs {} (grows {}), {} Newton iterations",
+            short(cell.energy.drift),
+            short(cell.energy.growth),
+            short(cell.casimirs.drift),
+            short(cell.casimirs.growth),
+            short(cell.newton)
+        ),
+        Outcome::Stopped | Outcome::Domain => format!("{place}, step {step}: {}", cell.what),
+    }
+}
+
+/// What the program has found.
+struct Results {
+    cells: Vec<Cell>,
+    growths: Vec<Growth>,
+    step: f64,
+}
+
+impl Results {
+    fn take(&mut self, found: Found) {
+        match found {
+            Found::Ground { step } => self.step = step,
+            Found::Growth(growth) => self.growths.push(growth),
+            Found::Cell(cell) => self.cells.push(cell),
+        }
     }
 
-    fn outcome(&self) -> Outcome {
-        match self.word.as_str() {
-            "lost" => Outcome::Lost,
-            "stopped" => Outcome::Stopped,
-            "domain" => Outcome::Domain,
-            // in a run that is short beside the system's own times, growth says nothing
-            _ if self.long() && self.energy[1] > 3.0 && self.energy[0] > 1e-13 => {
-                Outcome::Growing(self.energy[0].log10())
-            }
-            _ => Outcome::Drift(self.energy[0].log10()),
-        }
+    fn of(&self, outcome: Outcome) -> Vec<&Cell> {
+        let of_outcome = self.cells.iter().filter(|cell| cell.outcome == outcome);
+        of_outcome.collect()
     }
 
-    fn long(&self) -> bool {
-        self.experiment != "step" || self.value >= 0.5
-    }
-
-    /// What happened, in one line.
-    fn text(&self) -> String {
-        let place = format!("{} {} {}", self.experiment, self.name, short(self.value));
-        match self.word.as_str() {
-            "lost" if self.claimed <= 1.0 => format!(
-                "{}, {place}, step {}: {} after {} steps",
-                self.method,
-                short(self.step),
-                self.what,
-                self.steps
-            ),
-            "lost" => format!(
-                "{}, {place}, step {}: {} beyond {} times its round-off bound after {} steps",
-                self.method,
-                short(self.step),
-                self.what,
-                short(self.claimed),
-                self.steps
-            ),
-            "kept" => format!(
-                "{}, {place}: energy {} (grows {}), Casimirs {} (grows {}), {} Newton iterations",
-                self.method,
-                short(self.energy[0]),
-                short(self.energy[1]),
-                short(self.casimirs[0]),
-                short(self.casimirs[1]),
-                short(self.newton)
-            ),
-            _ => format!(
-                "{}, {place}, step {}: {}",
-                self.method,
-                short(self.step),
-                self.what
-            ),
+    /// Says what is lost; whether anything is.
+    fn loses(&self) -> bool {
+        let lost = self.of(Outcome::Lost);
+        for cell in &lost {
+            eprintln!("lost: {}", text(cell));
         }
+        let growths = self.growths.iter();
+        let growing: Vec<&Growth> = growths.filter(|growth| growth::is_lost(growth)).collect();
+        for growth in &growing {
+            eprintln!("lost: {}", growth::text(growth));
+        }
+        !lost.is_empty() || !growing.is_empty()
     }
 }
 
@@ -124,79 +113,49 @@ impl Cell {
 /// Invalid input, or surroundings that fail.
 pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let flags = &arguments.measured;
-    let steps = Given::flag("--steps", &arguments.steps)
-        .count()
-        .map_err(|message| {
-            message.help("give the number of steps of the long run, such as 1000000")
-        })?;
+    let help = "give the number of steps of the long run, such as 1000000";
+    let steps = Given::flag("--steps", &arguments.steps).count();
+    let steps = steps.map_err(|message| message.help(help))?;
     let bed = bed(flags, |spec| list::fewer(&spec.model))?;
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Stress, &interrupt)?;
-    let parameters: Vec<String> = bed
-        .spec
-        .model
-        .parameters
-        .iter()
-        .map(|p| p.name.clone())
-        .collect();
-    let (mut cells, mut growths) = (Vec::new(), Vec::new());
-    let mut step = f64::NAN;
-    let ended = bed.measure(
-        flags,
-        program,
-        &[("steps", steps as f64)],
-        &interrupt,
-        &mut |fields| match fields {
-            ["cell", ..] => cells.extend(Cell::read(fields, &parameters)),
-            ["growth", ..] => growths.extend(Growth::read(fields)),
-            ["ground", text, ..] => step = text.parse().unwrap_or(f64::NAN),
-            _ => {}
-        },
-    )?;
-    if let Ended::Said(_, text) = &ended {
+    let mut results = Results {
+        cells: Vec::new(),
+        growths: Vec::new(),
+        step: f64::NAN,
+    };
+    let options = Options { steps };
+    let ended = bed.measure(flags, program, options, &interrupt, &mut |found| {
+        results.take(found);
+    })?;
+    if let Ended::Refused(_, why) = &ended {
         files::write(out, None, None)?;
         files::write(plot, None, None)?;
-        let text = format!("nothing can be stressed on {}: {text}", bed.spec.model.name);
+        let text = format!("nothing can be stressed on {}: {why}", bed.spec.model.name);
         let message = Message::new(Kind::Domain, text).at_option("--initial");
         return Err(message
             .help("give another initial state with `--initial`")
             .into());
     }
-    sort(&mut cells, &bed);
-    let wanted = !cells.is_empty();
-    files::write(
-        out,
-        arguments.out.as_deref(),
-        wanted.then(|| csv(&cells, &growths)),
-    )?;
-    let picture = || picture(&bed, &cells, step);
+    sort(&mut results.cells, &bed);
+    let wanted = !results.cells.is_empty();
+    let table = || csv(&results);
+    files::write(out, arguments.out.as_deref(), wanted.then(table))?;
+    let picture = || picture(&bed, &results.cells, results.step);
     files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
-    print(&report(&bed, &cells, &growths, step, steps))?;
+    print(&report(&bed, &results, steps))?;
     if let Ended::Interrupted(code) = ended {
         return Ok(interrupted(flags, code));
     }
-    let lost: Vec<&Cell> = cells.iter().filter(|cell| cell.word == "lost").collect();
-    for cell in &lost {
-        eprintln!("lost: {}", cell.text());
-    }
-    let growing: Vec<&Growth> = growths.iter().filter(|growth| growth.is_lost()).collect();
-    for growth in &growing {
-        eprintln!("lost: {}", growth.text());
-    }
-    Ok(u8::from(!lost.is_empty() || !growing.is_empty()))
+    Ok(u8::from(results.loses()))
 }
 
 /// In the order of methods and experiments, whatever ended first.
 fn sort(cells: &mut [Cell], bed: &Bed) {
     let labels: Vec<String> = bed.choices.iter().map(|choice| choice.label()).collect();
     let method = |cell: &Cell| labels.iter().position(|label| *label == cell.method);
-    let experiment = |cell: &Cell| {
-        EXPERIMENTS
-            .iter()
-            .position(|(name, _)| *name == cell.experiment)
-    };
     // names of parameters, components and Casimirs keep the order in which they were declared
     let model = &bed.spec.model;
     let names: Vec<&str> = model
@@ -208,38 +167,37 @@ fn sort(cells: &mut [Cell], bed: &Bed) {
         .collect();
     let name = |cell: &Cell| names.iter().position(|name| *name == cell.name);
     cells.sort_by(|a, b| {
-        (method(a), experiment(a), name(a))
-            .cmp(&(method(b), experiment(b), name(b)))
+        (method(a), a.experiment, name(a))
+            .cmp(&(method(b), b.experiment, name(b)))
             .then(a.value.total_cmp(&b.value))
     });
 }
 
-fn csv(cells: &[Cell], growths: &[Growth]) -> String {
+fn csv(results: &Results) -> String {
     let mut text = "method,experiment,name,value,step,outcome,steps,newton_per_step,energy_drift,energy_growth,\
                     casimir_drift,casimir_growth,claimed_over_bound,what\n"
         .to_owned();
-    for cell in cells {
+    for cell in &results.cells {
         text.push_str(&format!(
             "{},{},{},{:?},{:?},{},{},{:?},{:?},{:?},{:?},{:?},{:?},{}\n",
             cell.method,
-            cell.experiment,
+            cell.experiment.word(),
             cell.name,
             cell.value,
             cell.step,
-            cell.word,
+            cell.outcome.word(),
             cell.steps,
             cell.newton,
-            cell.energy[0],
-            cell.energy[1],
-            cell.casimirs[0],
-            cell.casimirs[1],
+            cell.energy.drift,
+            cell.energy.growth,
+            cell.casimirs.drift,
+            cell.casimirs.growth,
             cell.claimed,
             cell.what.replace(',', ";")
         ));
     }
-    growths
-        .iter()
-        .for_each(|growth| text.push_str(&growth.csv()));
+    let growths = results.growths.iter().map(growth::csv);
+    growths.for_each(|line| text.push_str(&line));
     text
 }
 
@@ -249,84 +207,91 @@ fn methods(cells: &[Cell]) -> Vec<&str> {
     methods
 }
 
-fn report(bed: &Bed, cells: &[Cell], growths: &[Growth], step: f64, steps: u64) -> String {
-    let mut rows = vec![
-        [
-            "method",
-            "largest step",
-            "parameters",
-            "scales",
-            "near singular",
-            "long run: energy",
-            "grows",
-            "Casimirs",
-            "grows",
-            "Newton",
-            "round-off",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
+const COLUMNS: [&str; 11] = [
+    "method",
+    "largest step",
+    "parameters",
+    "scales",
+    "near singular",
+    "long run: energy",
+    "grows",
+    "Casimirs",
+    "grows",
+    "Newton",
+    "round-off",
+];
+
+/// The line of a method.
+fn line(results: &Results, method: &str) -> Vec<String> {
+    let of = |experiments: &[Experiment]| {
+        let of_method = results.cells.iter().filter(|cell| cell.method == method);
+        of_method
+            .filter(|cell| experiments.contains(&cell.experiment))
+            .collect::<Vec<_>>()
+    };
+    // the last before the first that was not kept
+    let ladder = of(&[Experiment::Step]);
+    let kept = ladder
+        .iter()
+        .take_while(|cell| cell.outcome == Outcome::Kept);
+    let largest = kept.last().map_or("none".to_owned(), |cell| {
+        format!("{} h0", short(cell.value))
+    });
+    let mut row = vec![
+        method.to_owned(),
+        largest,
+        tally(&of(&[Experiment::Parameter])),
+        tally(&of(&[Experiment::Scale])),
+        tally(&of(&[Experiment::Component, Experiment::Casimir])),
     ];
-    for method in methods(cells) {
-        let of = |experiments: &[&str]| {
-            let of_method = cells.iter().filter(|cell| cell.method == method);
-            of_method
-                .filter(|cell| experiments.contains(&cell.experiment.as_str()))
-                .collect::<Vec<_>>()
-        };
-        // the last before the first that was not kept
-        let ladder = of(&["step"]);
-        let largest = ladder
-            .iter()
-            .take_while(|cell| cell.word == "kept")
-            .last()
-            .map_or("none".to_owned(), |cell| {
-                format!("{} h0", short(cell.value))
-            });
-        let tally = |cells: &[&Cell]| {
-            let within: Vec<_> = cells.iter().filter(|cell| cell.word != "domain").collect();
-            let kept = within.iter().filter(|cell| cell.word == "kept").count();
-            let lost = within.iter().filter(|cell| cell.word == "lost").count();
-            let mut text = format!("{kept} of {}", within.len());
-            if lost > 0 {
-                text.push_str(&format!(", {lost} lost"));
-            }
-            text
-        };
-        let mut row = vec![
-            method.to_owned(),
-            largest,
-            tally(&of(&["parameter"])),
-            tally(&of(&["scale"])),
-            tally(&of(&["component", "casimir"])),
-        ];
-        match of(&["long"]).first() {
-            Some(cell) if cell.word == "kept" || cell.word == "lost" => row.extend([
-                short(cell.energy[0]),
-                short(cell.energy[1]),
-                short(cell.casimirs[0]),
-                short(cell.casimirs[1]),
-                short(cell.newton),
-            ]),
-            Some(cell) => {
-                row.push(cell.what.clone());
-                row.extend(std::iter::repeat_n(String::new(), 4));
-            }
-            None => row.extend(std::iter::repeat_n(String::new(), 5)),
-        }
-        let growth = growths.iter().find(|growth| growth.method == method);
-        row.push(growth.map_or_else(|| "–".to_owned(), Growth::cell));
-        rows.push(row);
+    row.extend(long_run(of(&[Experiment::Long]).first().copied()));
+    let growth = results
+        .growths
+        .iter()
+        .find(|growth| growth.method == method);
+    row.push(growth.map_or_else(|| "–".to_owned(), growth::cell));
+    row
+}
+
+/// How many were kept of those that could be tried.
+fn tally(cells: &[&Cell]) -> String {
+    let count = |outcome| cells.iter().filter(|cell| cell.outcome == outcome).count();
+    let (kept, lost) = (count(Outcome::Kept), count(Outcome::Lost));
+    let mut text = format!("{kept} of {}", cells.len() - count(Outcome::Domain));
+    if lost > 0 {
+        text.push_str(&format!(", {lost} lost"));
     }
+    text
+}
+
+fn long_run(cell: Option<&Cell>) -> [String; 5] {
+    match cell {
+        Some(cell) if matches!(cell.outcome, Outcome::Kept | Outcome::Lost) => [
+            cell.energy.drift,
+            cell.energy.growth,
+            cell.casimirs.drift,
+            cell.casimirs.growth,
+            cell.newton,
+        ]
+        .map(short),
+        Some(cell) => [&cell.what, "", "", "", ""].map(str::to_owned),
+        None => Default::default(),
+    }
+}
+
+fn report(bed: &Bed, results: &Results, steps: u64) -> String {
+    let mut rows = vec![COLUMNS.map(str::to_owned).to_vec()];
+    let methods = methods(&results.cells).into_iter();
+    rows.extend(methods.map(|method| line(results, method)));
     let mut text = format!(
         "{}: {} experiments, h0 = {}, {steps} steps of the long run at h0\n\n{}\n\
          kept of tried: no claimed invariant beyond its round-off bound, no step refused; drifts relative to the size of the terms;\n\
          grows: the last tenth of the run over the first\n{}",
         bed.spec.model.name,
-        cells.len(),
-        short(step),
+        results.cells.len(),
+        short(results.step),
         table::text(&rows),
-        growth::legend(growths),
+        growth::legend(&results.growths),
     );
     let model = &bed.spec.model;
     let independent = model.casimirs_to_find();
@@ -336,56 +301,35 @@ fn report(bed: &Bed, cells: &[Cell], growths: &[Growth], step: f64, steps: u64) 
             model.casimirs.len()
         ));
     }
-    let stopped: Vec<&Cell> = cells.iter().filter(|cell| cell.word == "stopped").collect();
+    let stopped = results.of(Outcome::Stopped);
     if !stopped.is_empty() {
         text.push_str(&format!("\n{} stopped with a message:\n", stopped.len()));
         for cell in stopped {
-            text.push_str(&format!("  {}\n", cell.text()));
+            text.push_str(&format!("  {}\n", self::text(cell)));
         }
     }
     text
 }
 
 fn picture(bed: &Bed, cells: &[Cell], step: f64) -> String {
-    let mut keys: Vec<(&str, &str, f64)> = Vec::new();
+    let mut keys: Vec<(Experiment, &str, f64)> = Vec::new();
     for cell in cells {
-        let key = (cell.experiment.as_str(), cell.name.as_str(), cell.value);
-        if !keys.contains(&key) {
-            keys.push(key);
+        if !keys.contains(&key(cell)) {
+            keys.push(key(cell));
         }
     }
-    let columns = keys.iter().map(|(experiment, name, value)| {
-        let title = EXPERIMENTS.iter().find(|(known, _)| known == experiment);
-        let title = title.map_or(*experiment, |(_, title)| *title);
-        let group = match *experiment {
-            "step" | "scale" | "long" => title.to_owned(),
-            _ => format!("{name} times"),
-        };
-        Column {
-            group,
-            label: if *value == 0.0 || (1.0..1e4).contains(value) {
-                value.to_string()
-            } else {
-                format!("{value:.0e}")
-            },
-        }
-    });
     let rows = methods(cells).into_iter().map(|method| {
-        let squares = keys.iter().map(|key| {
-            let cell = cells.iter().find(|cell| {
-                cell.method == method
-                    && (cell.experiment.as_str(), cell.name.as_str(), cell.value) == *key
-            })?;
+        let squares = keys.iter().map(|wanted| {
+            let mut of_method = cells.iter().filter(|cell| cell.method == method);
+            let cell = of_method.find(|cell| key(cell) == *wanted)?;
             Some(Square {
-                outcome: cell.outcome(),
-                text: cell.text(),
+                outcome: outcome(cell),
+                text: text(cell),
             })
         });
-        let title = bed.choices.iter().find(|choice| choice.label() == method);
-        (
-            title.map_or(method.to_owned(), |choice| choice.title()),
-            squares.collect(),
-        )
+        let choice = bed.choices.iter().find(|choice| choice.label() == method);
+        let title = choice.map_or(method.to_owned(), |choice| choice.title());
+        (title, squares.collect())
     });
     Map {
         title: format!("{}: what methods do at their limits", bed.spec.model.name),
@@ -393,8 +337,31 @@ fn picture(bed: &Bed, cells: &[Cell], step: f64) -> String {
             "h0 = {}; 400 steps each; parameters multiplied, components and Casimirs made small, each by itself",
             short(step)
         ),
-        columns: columns.collect(),
+        columns: keys.iter().map(column).collect(),
         rows: rows.collect(),
     }
     .to_svg()
+}
+
+/// What tells the experiments of a method apart.
+fn key(cell: &Cell) -> (Experiment, &str, f64) {
+    (cell.experiment, &cell.name, cell.value)
+}
+
+fn column((experiment, name, value): &(Experiment, &str, f64)) -> Column {
+    Column {
+        group: match experiment {
+            Experiment::Step | Experiment::Scale | Experiment::Long => {
+                title(*experiment).to_owned()
+            }
+            Experiment::Parameter | Experiment::Component | Experiment::Casimir => {
+                format!("{name} times")
+            }
+        },
+        label: if *value == 0.0 || (1.0..1e4).contains(value) {
+            value.to_string()
+        } else {
+            format!("{value:.0e}")
+        },
+    }
 }

@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::judge::Judge;
 use lie_codegen::program::Purpose;
+use lie_measure::facts::{Finding, Verdict};
+use lie_measure::verify::{Found, GroundFound as Ground, Options};
+use lie_program::protocol::Obstacle;
 use serde_json::{Map, Value, json};
 
 use super::evidence::Evidence;
@@ -26,83 +29,108 @@ const SINGLE: [&str; 7] = [
     "Poisson",
 ];
 
-/// One line of results.
-struct Finding {
+/// One fact of one method.
+struct Row {
     method: String,
-    fact: String,
-    claim: f64,
-    measured: f64,
-    bound: f64,
-    verdict: String,
-    note: String,
-    /// Not a number where nothing was measured.
-    step: f64,
+    finding: Finding,
 }
 
-impl Finding {
-    fn read(fields: &[&str]) -> Option<Self> {
-        let number = |index: usize| fields.get(index)?.parse::<f64>().ok();
-        Some(Self {
-            method: (*fields.get(1)?).to_owned(),
-            fact: (*fields.get(2)?).to_owned(),
-            claim: number(3)?,
-            measured: number(4)?,
-            bound: number(5)?,
-            verdict: (*fields.get(6)?).to_owned(),
-            note: (*fields.get(7)?).to_owned(),
-            step: number(8).unwrap_or(f64::NAN),
-        })
+impl Row {
+    fn fails(&self) -> bool {
+        self.finding.verdict == Verdict::Fails
     }
 
-    fn fails(&self) -> bool {
-        self.verdict == "fails"
+    fn is_claimed(&self) -> bool {
+        matches!(self.finding.verdict, Verdict::Holds | Verdict::Fails)
     }
 
     /// `fact: measured where at most bound is allowed`.
     fn failure(&self) -> String {
-        let allowed = if self.claim == 0.0 {
-            format!("at most {}", short(self.bound))
-        } else {
-            format!("at least {}", short(self.bound))
+        let finding = &self.finding;
+        let bound = short(finding.bound);
+        let allowed = match finding.claim == 0.0 {
+            true => format!("at most {bound}"),
+            false => format!("at least {bound}"),
         };
+        let (fact, measured) = (&finding.fact, short(finding.measured));
         let mut text = format!(
-            "{}: {} is claimed, {} was measured, where {allowed} holds",
-            self.method,
-            self.fact,
-            short(self.measured)
+            "{}: {fact} is claimed, {measured} was measured, where {allowed} holds",
+            self.method
         );
-        if self.step.is_finite() {
-            text.push_str(&format!(" with a step of {}", short(self.step)));
+        if finding.step.is_finite() {
+            text.push_str(&format!(" with a step of {}", short(finding.step)));
         }
-        if !self.note.is_empty() {
-            text.push_str(&format!(" ({})", self.note));
+        if !finding.note.is_empty() {
+            text.push_str(&format!(" ({})", finding.note));
         }
         text
     }
 
     /// What the table shows.
     fn cell(&self) -> String {
-        match self.verdict.as_str() {
-            "absent" => "–".to_owned(),
-            "holds" => format!("{} ✓", short(self.measured)),
-            "fails" => format!("{} ✗", short(self.measured)),
-            _ => short(self.measured),
+        let measured = short(self.finding.measured);
+        match self.finding.verdict {
+            Verdict::Absent => "–".to_owned(),
+            Verdict::Holds => format!("{measured} ✓"),
+            Verdict::Fails => format!("{measured} ✗"),
+            Verdict::NotClaimed => measured,
         }
     }
 
     fn as_json(&self) -> Value {
-        let number = |value: f64| {
-            if value.is_finite() {
-                json!(value)
-            } else {
-                Value::Null
-            }
-        };
+        let Finding {
+            claim,
+            measured,
+            bound,
+            step,
+            ..
+        } = self.finding;
         json!({
-            "claim": number(self.claim), "measured": number(self.measured),
-            "bound": number(self.bound), "verdict": self.verdict, "note": self.note,
-            "step": number(self.step),
+            "claim": number(claim), "measured": number(measured), "bound": number(bound),
+            "verdict": self.finding.verdict, "note": self.finding.note, "step": number(step),
         })
+    }
+}
+
+/// A number, or null for what is none.
+fn number(value: f64) -> Value {
+    if value.is_finite() {
+        json!(value)
+    } else {
+        Value::Null
+    }
+}
+
+/// What the program has found.
+struct Results {
+    system: String,
+    ground: Option<Ground>,
+    rows: Vec<Row>,
+    evidence: Evidence,
+}
+
+impl Results {
+    fn take(&mut self, found: Found) {
+        match found {
+            Found::Ground(ground) => self.ground = Some(ground),
+            Found::Kernel(kernel) => self.evidence.kernel(kernel),
+            Found::Reference(solution) => self.evidence.reference(&solution),
+            Found::Broken { fact } => self.evidence.broken(fact),
+            Found::Unsound { what } => self.evidence.unsound(what),
+            Found::Finding { method, finding } => self.rows.push(Row { method, finding }),
+        }
+    }
+
+    /// Says what fails; whether nothing does.
+    fn holds(&self) -> bool {
+        let failed: Vec<&Row> = self.rows.iter().filter(|row| row.fails()).collect();
+        for row in &failed {
+            eprintln!("failed: {}", row.failure());
+        }
+        for failure in self.evidence.failures() {
+            eprintln!("failed: {failure}");
+        }
+        failed.is_empty() && self.evidence.holds()
     }
 }
 
@@ -112,45 +140,29 @@ impl Finding {
 /// Invalid input, or surroundings that fail.
 pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     let flags = &arguments.measured;
-    let step = match &arguments.step {
-        None => None,
-        Some(text) => {
-            let given = Given::flag("--step", text);
-            let value = given.number()?;
-            if value == 0.0 {
-                let message = given.wrong("a step of zero measures nothing");
-                return Err(message
-                    .help("leave it out, or give a step such as 0.1")
-                    .into());
-            }
-            Some(value)
-        }
-    };
+    let step = step(arguments)?;
     let bed = bed(flags, |spec| list::all(&spec.model))?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Verify, &interrupt)?;
-    let mut numbers = vec![("seed", f64::from(arguments.seed))];
-    numbers.extend(step.map(|step| ("step", step)));
-    let mut findings = Vec::new();
-    let mut ground = Vec::new();
-    let judge = Judge::of_spec(&bed.spec.source.text, &bed.spec.model, &bed.parameters);
-    let mut evidence = Evidence::before(judge, bed.spec.model.is_lie_poisson());
-    let ended = bed.measure(
-        flags,
-        program,
-        &numbers,
-        &interrupt,
-        &mut |fields| match fields.first() {
-            Some(&"finding") => findings.extend(Finding::read(fields)),
-            Some(&"ground") => ground = fields[1..].iter().map(|f| (*f).to_owned()).collect(),
-            _ => evidence.take(fields),
-        },
-    )?;
-    if let Ended::Said(word, text) = &ended {
-        let what = if word == "ground" {
-            format!("nothing can be measured on {}: {text}", bed.spec.model.name)
-        } else {
-            format!("{word} {text}")
+    let options = Options {
+        seed: arguments.seed.into(),
+        step,
+    };
+    let model = &bed.spec.model;
+    let judge = Judge::of_spec(&bed.spec.source.text, model, &bed.point.parameters);
+    let mut results = Results {
+        system: model.name.clone(),
+        ground: None,
+        rows: Vec::new(),
+        evidence: Evidence::before(judge, model.is_lie_poisson()),
+    };
+    let ended = bed.measure(flags, program, options, &interrupt, &mut |found| {
+        results.take(found);
+    })?;
+    if let Ended::Refused(what, why) = &ended {
+        let what = match what {
+            Obstacle::Ground => format!("nothing can be measured on {}: {why}", model.name),
+            _ => why.clone(),
         };
         let message = Message::new(Kind::Domain, what).at_option("--initial");
         return Err(message
@@ -158,48 +170,53 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
             .into());
     }
     if arguments.json {
-        print(&format!(
-            "{:#}\n",
-            as_json(&bed.spec.model.name, &ground, &findings, &evidence)
-        ))?;
+        print(&format!("{:#}\n", as_json(&results)))?;
     } else {
-        print(&report(&bed.spec.model.name, &ground, &findings, &evidence))?;
+        print(&report(&results))?;
     }
     if let Ended::Interrupted(code) = ended {
         return Ok(interrupted(flags, code));
     }
-    let failed: Vec<&Finding> = findings.iter().filter(|finding| finding.fails()).collect();
-    for finding in &failed {
-        eprintln!("failed: {}", finding.failure());
-    }
-    for failure in evidence.failures() {
-        eprintln!("failed: {failure}");
-    }
-    Ok(u8::from(!failed.is_empty() || !evidence.holds()))
+    Ok(u8::from(!results.holds()))
 }
 
-fn facts(findings: &[Finding]) -> Vec<&str> {
+fn step(arguments: &args::Verify) -> Result<Option<f64>, Failure> {
+    let Some(text) = &arguments.step else {
+        return Ok(None);
+    };
+    let given = Given::flag("--step", text);
+    let value = given.number()?;
+    if value == 0.0 {
+        let message = given.wrong("a step of zero measures nothing");
+        return Err(message
+            .help("leave it out, or give a step such as 0.1")
+            .into());
+    }
+    Ok(Some(value))
+}
+
+fn facts(rows: &[Row]) -> Vec<&str> {
     let mut facts: Vec<&str> = Vec::new();
-    for finding in findings {
-        if !facts.contains(&finding.fact.as_str()) {
-            facts.push(&finding.fact);
+    for row in rows {
+        if !facts.contains(&&*row.finding.fact) {
+            facts.push(&row.finding.fact);
         }
     }
     facts
 }
 
-fn methods(findings: &[Finding]) -> Vec<&str> {
-    let mut methods: Vec<&str> = findings.iter().map(|f| f.method.as_str()).collect();
+fn methods(rows: &[Row]) -> Vec<&str> {
+    let mut methods: Vec<&str> = rows.iter().map(|row| row.method.as_str()).collect();
     methods.dedup();
     methods
 }
 
 /// The steps at which a method's invariants were measured: where the one asked for failed, smaller ones.
-fn steps(findings: &[Finding], method: &str) -> String {
-    let own = findings
+fn steps(rows: &[Row], method: &str) -> String {
+    let own = rows
         .iter()
-        .filter(|finding| finding.method == method && SINGLE.contains(&finding.fact.as_str()))
-        .map(|finding| finding.step.abs());
+        .filter(|row| row.method == method && SINGLE.contains(&&*row.finding.fact))
+        .map(|row| row.finding.step.abs());
     let (least, most) = own
         .filter(|step| step.is_finite())
         .fold((f64::INFINITY, 0.0_f64), |(least, most), step| {
@@ -214,60 +231,52 @@ fn steps(findings: &[Finding], method: &str) -> String {
     }
 }
 
-fn report(system: &str, ground: &[String], findings: &[Finding], evidence: &Evidence) -> String {
+fn report(results: &Results) -> String {
+    let rows = &results.rows;
     // what holds of the form and not of the method is summed up below the table
-    let (folded, facts): (Vec<&str>, Vec<&str>) = facts(findings)
+    let (folded, facts): (Vec<&str>, Vec<&str>) = facts(rows)
         .into_iter()
-        .partition(|fact| OF_THE_FORM.contains(fact) && all_hold(findings, fact));
-    let by_place: BTreeMap<(&str, &str), &Finding> = findings
+        .partition(|fact| OF_THE_FORM.contains(fact) && all_hold(rows, fact));
+    let ground = results.ground.as_ref();
+    let number = |of: fn(&Ground) -> f64| short(ground.map_or(f64::NAN, of));
+    let count = |of: fn(&Ground) -> usize| ground.map_or(String::new(), |g| of(g).to_string());
+    format!(
+        "{}: {} methods, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}\n\n{}\n\
+         ✓ claimed and measured, ✗ claimed and not measured, no sign: not claimed; relative to the size of the terms\n\
+         {}{}{} claims, {} fail\n",
+        results.system,
+        methods(rows).len(),
+        number(|ground| ground.step),
+        count(|ground| ground.states),
+        count(|ground| ground.linear),
+        count(|ground| ground.quadratic),
+        number(|ground| ground.error),
+        table::text(&lines(rows, &facts)),
+        summary(rows, &folded),
+        results.evidence.summary(),
+        rows.iter().filter(|row| row.is_claimed()).count(),
+        rows.iter().filter(|row| row.fails()).count(),
+    )
+}
+
+/// The table: a line for each method, a column for each fact.
+fn lines(rows: &[Row], facts: &[&str]) -> Vec<Vec<String>> {
+    let by_place: BTreeMap<(&str, &str), &Row> = rows
         .iter()
-        .map(|finding| ((finding.method.as_str(), finding.fact.as_str()), finding))
+        .map(|row| ((row.method.as_str(), &*row.finding.fact), row))
         .collect();
-    let mut rows = vec![
-        ["method", "step"]
-            .into_iter()
-            .chain(facts.iter().copied())
-            .map(str::to_owned)
-            .collect::<Vec<_>>(),
-    ];
-    for method in methods(findings) {
+    let header = ["method", "step"].into_iter().chain(facts.iter().copied());
+    let mut lines = vec![header.map(str::to_owned).collect::<Vec<_>>()];
+    for method in methods(rows) {
         let cell = |fact: &&str| match by_place.get(&(method, *fact)) {
-            Some(finding) => match (finding.fact.as_str(), finding.claim) {
-                ("order", claim) => format!("{claim}: {}", finding.cell()),
-                _ => finding.cell(),
-            },
+            Some(row) if *fact == "order" => format!("{}: {}", row.finding.claim, row.cell()),
+            Some(row) => row.cell(),
             None => "–".to_owned(),
         };
-        rows.push(
-            [method.to_owned(), steps(findings, method)]
-                .into_iter()
-                .chain(facts.iter().map(cell))
-                .collect(),
-        );
+        let start = [method.to_owned(), steps(rows, method)];
+        lines.push(start.into_iter().chain(facts.iter().map(cell)).collect());
     }
-    let claimed = findings
-        .iter()
-        .filter(|f| matches!(f.verdict.as_str(), "holds" | "fails"));
-    let failed = findings.iter().filter(|finding| finding.fails()).count();
-    let number = |index: usize| {
-        let value = ground.get(index).and_then(|text| text.parse().ok());
-        short(value.unwrap_or(f64::NAN))
-    };
-    format!(
-        "{system}: {} methods, step {}, {} states, {} linear and {} quadratic first integrals, reference to {}\n\n{}\n\
-         ✓ claimed and measured, ✗ claimed and not measured, no sign: not claimed; relative to the size of the terms\n\
-         {}{}{} claims, {failed} fail\n",
-        methods(findings).len(),
-        number(0),
-        ground.get(3).map_or("", String::as_str),
-        ground.get(4).map_or("", String::as_str),
-        ground.get(5).map_or("", String::as_str),
-        number(2),
-        table::text(&rows),
-        summary(findings, &folded),
-        evidence.summary(),
-        claimed.count(),
-    )
+    lines
 }
 
 /// Facts that no method claims of itself: two forms of its code agree, the driver shows its steps.
@@ -279,18 +288,19 @@ const OF_THE_FORM: [&str; 5] = [
     "group",
 ];
 
-fn all_hold(findings: &[Finding], fact: &str) -> bool {
-    let of_fact = findings.iter().filter(|finding| finding.fact == fact);
-    of_fact.into_iter().all(|finding| !finding.fails())
+fn all_hold(rows: &[Row], fact: &str) -> bool {
+    rows.iter()
+        .all(|row| row.finding.fact != fact || !row.fails())
 }
 
 /// One line on the facts that hold everywhere.
-fn summary(findings: &[Finding], folded: &[&str]) -> String {
+fn summary(rows: &[Row], folded: &[&str]) -> String {
     let parts: Vec<String> = folded
         .iter()
         .map(|fact| {
-            let holds = |f: &&Finding| f.fact == *fact && f.verdict == "holds";
-            let count = findings.iter().filter(holds).count();
+            let of_fact = rows.iter().map(|row| &row.finding);
+            let holds = |f: &&Finding| f.fact == *fact && f.verdict == Verdict::Holds;
+            let count = of_fact.filter(holds).count();
             let what = match *fact {
                 "generic form" => "the generic form makes the same steps",
                 "row exchanges" => "elimination in fixed order",
@@ -307,24 +317,26 @@ fn summary(findings: &[Finding], folded: &[&str]) -> String {
     }
 }
 
-fn as_json(system: &str, ground: &[String], findings: &[Finding], evidence: &Evidence) -> Value {
+fn as_json(results: &Results) -> Value {
     let mut all = Map::new();
-    for finding in findings {
+    for row in &results.rows {
         let method = all
-            .entry(finding.method.clone())
+            .entry(row.method.clone())
             .or_insert_with(|| Value::Object(Map::new()));
-        method[finding.fact.as_str()] = finding.as_json();
+        method[&*row.finding.fact] = row.as_json();
     }
-    let number = |index: usize| {
-        let value: Option<f64> = ground.get(index).and_then(|text| text.parse().ok());
-        json!(value)
-    };
+    let ground = results.ground.as_ref();
+    let of = |value: fn(&Ground) -> f64| ground.map_or(Value::Null, |ground| number(value(ground)));
     json!({
-        "system": system,
-        "step": number(0), "span": number(1), "reference_error": number(2),
-        "states": number(3), "linear_integrals": number(4), "quadratic_integrals": number(5),
+        "system": results.system,
+        "step": of(|ground| ground.step),
+        "span": of(|ground| ground.span),
+        "reference_error": of(|ground| ground.error),
+        "states": of(|ground| ground.states as f64),
+        "linear_integrals": of(|ground| ground.linear as f64),
+        "quadratic_integrals": of(|ground| ground.quadratic as f64),
         "methods": all,
-        "judge": evidence.as_json(),
-        "failed": findings.iter().filter(|finding| finding.fails()).count(),
+        "judge": results.evidence.as_json(),
+        "failed": results.rows.iter().filter(|row| row.fails()).count(),
     })
 }

@@ -1,78 +1,117 @@
-//! The columns of a run: what the program writes, and what of it is shown.
+//! The columns of a run: what of the program's rows is shown.
 
 use std::ops::Range;
 
 use lie_codegen::model::Model;
 use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
+use lie_program::protocol::Columns;
 
-/// Where the numbers of a row stand.
+/// The columns that are shown.
 pub struct Layout {
-    /// Numbers of a row as the program writes it: time, all coordinates, energy, Casimirs, group element.
-    pub width: usize,
-    /// The coordinates that are shown: those that carry the time are not.
-    pub states: Vec<usize>,
+    /// Their names: the time, the coordinates, the energy, the Casimirs, the entries of the group element.
+    pub columns: Vec<String>,
+    /// How many coordinates are shown: those that carry the time are not.
+    pub states: usize,
     /// The columns, of those that are shown, that ought to be constant. The energy of a system that depends on
     /// the time is none of them.
     pub invariants: Range<usize>,
-    /// The numbers of a row that are shown.
-    picked: Vec<usize>,
-    /// The names of the entries of the group element.
-    group: Vec<String>,
 }
 
 impl Layout {
     /// The columns of a system, with those of a group element.
     pub fn new(model: &Model, chart: Option<Chart>) -> Self {
         let states = model.shown_coordinates();
-        let group = chart
-            .zip(group::group(model))
-            .map_or_else(Vec::new, |(chart, group)| {
-                let taken = |name: &String| {
-                    model.coordinates.iter().any(|c| c.text == *name)
-                        || model.casimirs.iter().any(|c| c.name == *name)
-                };
-                let names = chart.columns(group.size);
-                if names.iter().any(taken) {
-                    names.iter().map(|name| format!("group_{name}")).collect()
-                } else {
-                    names
-                }
-            });
-        let all = model.dimension();
-        let width = all + 2 + model.casimirs.len() + group.len();
-        let coordinates = states.iter().map(|coordinate| coordinate + 1);
-        let picked = std::iter::once(0).chain(coordinates).chain(all + 1..width);
+        let coordinates = states.iter().map(|&i| model.coordinates[i].text.clone());
+        let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
         let varies = model.configuration.as_ref().is_some_and(|c| c.time);
         let energy = states.len() + 1;
         Self {
-            width,
-            picked: picked.collect(),
+            columns: std::iter::once("t".to_owned())
+                .chain(coordinates)
+                .chain(["energy".to_owned()])
+                .chain(casimirs)
+                .chain(entries(model, chart))
+                .collect(),
             invariants: energy + usize::from(varies)..energy + 1 + model.casimirs.len(),
-            states,
-            group,
+            states: states.len(),
         }
     }
 
-    /// The names of the columns that are shown.
-    pub fn columns(&self, model: &Model) -> Vec<String> {
-        let states = self
-            .states
-            .iter()
-            .map(|&i| model.coordinates[i].text.clone());
-        let casimirs = model.casimirs.iter().map(|casimir| casimir.name.clone());
-        std::iter::once("t".to_owned())
-            .chain(states)
-            .chain(["energy".to_owned()])
-            .chain(casimirs)
-            .chain(self.group.iter().cloned())
-            .collect()
+    /// Where the columns that are shown stand in the rows of a program; none where it does not have them.
+    pub fn places(&self, columns: &Columns) -> Option<Vec<usize>> {
+        let (states, rest) = self.columns[1..].split_at(self.states);
+        let (casimirs, element) = rest[1..].split_at(self.invariants.end - self.states - 2);
+        if element.len() != columns.element {
+            return None;
+        }
+        let place = |names: &[String], name: &String| names.iter().position(|known| known == name);
+        let mut places = vec![0];
+        for name in states {
+            places.push(columns.coordinates() + place(&columns.coordinates, name)?);
+        }
+        places.push(columns.energy());
+        for name in casimirs {
+            places.push(columns.casimirs() + place(&columns.casimirs, name)?);
+        }
+        places.extend(columns.element()..columns.width());
+        Some(places)
+    }
+}
+
+/// The names of the entries of the group element, if it is followed.
+fn entries(model: &Model, chart: Option<Chart>) -> Vec<String> {
+    let Some((chart, group)) = chart.zip(group::group(model)) else {
+        return Vec::new();
+    };
+    let taken = |name: &String| {
+        model.coordinates.iter().any(|c| c.text == *name)
+            || model.casimirs.iter().any(|c| c.name == *name)
+    };
+    let names = chart.columns(group.size);
+    if names.iter().any(taken) {
+        names.iter().map(|name| format!("group_{name}")).collect()
+    } else {
+        names
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(text: &str) -> Vec<String> {
+        text.split_whitespace().map(str::to_owned).collect()
     }
 
-    /// What is shown of whole rows.
-    pub fn shown(&self, numbers: &[f64]) -> Vec<f64> {
-        let rows = numbers.chunks_exact(self.width);
-        rows.flat_map(|row| self.picked.iter().map(|&column| row[column]))
-            .collect()
+    #[test]
+    fn columns_are_found_by_their_names() {
+        let layout = Layout {
+            columns: names("t x y energy C D q0 q1"),
+            states: 2,
+            invariants: 3..6,
+        };
+        let columns = Columns {
+            coordinates: names("y clock x"),
+            casimirs: names("D C"),
+            element: 2,
+        };
+        assert_eq!(layout.places(&columns), Some(vec![0, 3, 1, 4, 6, 5, 7, 8]));
+        for wrong in [
+            Columns {
+                element: 1,
+                ..columns.clone()
+            },
+            Columns {
+                casimirs: names("C"),
+                ..columns.clone()
+            },
+            Columns {
+                coordinates: names("x clock"),
+                ..columns
+            },
+        ] {
+            assert_eq!(layout.places(&wrong), None);
+        }
     }
 }

@@ -4,6 +4,7 @@ pub mod bar;
 mod layout;
 pub mod outputs;
 pub mod plan;
+mod reception;
 mod summary;
 pub mod values;
 
@@ -14,20 +15,19 @@ use std::time::Instant;
 
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::{Purpose, program};
-use lie_poisson::plot::Plot;
+use lie_program::protocol::Stop;
 
 use super::args::{self, Cpu, Format};
-use crate::build::protocol::{self, End, Job, Stop, Times};
+use crate::build::talk::{Outcome, talk};
 use crate::build::{self, Request};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message, STOPPED};
-use crate::output::{Header, Rows};
 use crate::render;
 use bar::Bar;
-use layout::Layout;
 use outputs::Outputs;
 use plan::Plan;
+use reception::Reception;
 use summary::Drift;
 
 /// Runs a spec.
@@ -69,160 +69,106 @@ fn integrate(
     program: &Path,
     interrupt: &Interrupt,
 ) -> Result<u8, Failure> {
-    let model = &spec.model;
-    let layout = Layout::new(model, plan.chart);
-    let columns = layout.columns(model);
-    let header = Header {
-        system: model.name.clone(),
-        method: plan.method.id().to_owned(),
-        step: plan.step.0,
-        columns: columns.clone(),
-    };
-    // Errors are taken against the initial state, also where it is not asked for.
-    let mut times = plan.times.clone();
-    let mut hidden = 0;
-    if let Times::At(times) = &mut times
-        && times.first() != Some(&0.0)
-    {
-        times.insert(0, 0.0);
-        hidden = columns.len();
-    }
-    let job = Job {
-        method: plan.method.label(),
-        step: plan.step.0,
-        times,
-        parameters: plan.parameters.clone(),
-        initial: plan.initial.clone(),
-        tolerances: plan.tolerances.clone(),
-    };
-
     let lost = |error: io::Error| match (error.kind(), &flags.out) {
         (io::ErrorKind::BrokenPipe, None) => Failure::quiet(),
         (_, out) => outputs::writing_failed(out.as_deref(), &error),
     };
-    let mut rows = Rows::start(outputs.rows, format, &header).map_err(lost)?;
-    let mut plot = outputs.plot.as_ref().map(|_| {
-        let subtitle = format!("{}, h = {}", plan.method.title(), plan.step.1.trim());
-        let (own, element) = columns.split_at(layout.invariants.end);
-        let span = (0.0, plan.end());
-        Plot::new(&*model.name, own, layout.states.len(), span)
-            .subtitle(subtitle)
-            .element(element)
-    });
-    let mut drift = Drift::new(&columns[layout.invariants.clone()]);
-    for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
-        drift.leave_out(&casimir.name);
-    }
+    let draws = outputs.plot.is_some();
+    let mut reception = Reception::start(spec, plan, format, outputs.rows, draws).map_err(lost)?;
+    let request = lie_program::protocol::Run {
+        method: plan.method.label(),
+        start: plan.start.clone(),
+        step: plan.step.0,
+        times: reception.times(plan),
+        tolerances: plan.tolerances,
+        newton: plan.newton,
+    };
     // Rows that scroll by on the same terminal say enough.
     let scrolls = flags.out.is_none() && io::stdout().is_terminal();
     let bar = Bar::new(!flags.quiet && !scrolls);
-    let start = Instant::now();
-    let mut refused = None;
-    let end = protocol::run(
+    let clock = Instant::now();
+    let outcome = talk(
         Command::new(program),
-        &job,
-        layout.width,
+        &request,
         interrupt,
-        &mut |numbers| {
-            let numbers = layout.shown(numbers);
-            for row in numbers.chunks_exact(columns.len()) {
-                drift.push(&row[..layout.invariants.end], layout.invariants.start);
-                if let Some(plot) = &mut plot {
-                    plot.push(row);
-                }
-            }
-            let shown = &numbers[hidden.min(numbers.len())..];
-            hidden = hidden.saturating_sub(numbers.len());
-            rows.push(shown).map_err(|error| {
-                let kind = error.kind();
-                refused = Some(error);
-                kind.into()
-            })
-        },
-        &mut |done, all| bar.show(done, all),
+        &mut |found, rest| reception.take(found, rest),
+        &mut |progress| bar.show(progress.done, progress.all),
     );
     bar.clear();
-    if let Some(error) = refused {
-        return Err(lost(error));
-    }
-    let end = match end {
-        Ok(end) => end,
+    let outcome = match outcome {
+        Ok(Outcome::NotTaken(error)) if error.kind() == io::ErrorKind::InvalidData => {
+            Outcome::Broken(error.to_string())
+        }
+        Ok(Outcome::NotTaken(error)) => return Err(lost(error)),
+        Ok(outcome) => outcome,
         Err(error) => {
-            rows.finish("failed").map_err(lost)?;
+            reception.finish("failed").map_err(lost)?;
             return Err(build::not_started(program, &error));
         }
     };
-    rows.finish(word(&end)).map_err(lost)?;
-    if let (Some(plot), Some(destination), Some(path)) = (plot, outputs.plot, &flags.plot) {
+    let received = reception.finish(word(&outcome)).map_err(lost)?;
+    let plot = received.plot.zip(outputs.plot);
+    if let Some(((plot, destination), path)) = plot.zip(flags.plot.as_ref()) {
         destination
             .replace(plot.to_svg().as_bytes())
             .map_err(|error| outputs::unwritable(path, &error))?;
     }
-    if !flags.quiet
-        && let End::Done(counts) = &end
-    {
-        let title = format!(
-            "{}, {}, step {}",
-            model.name,
-            plan.method.title(),
-            plan.step.1.trim()
-        );
-        eprint!(
-            "{}",
-            summary::text(
-                &title,
-                counts,
-                plan.method.is_adaptive(),
-                &drift,
-                start.elapsed()
-            )
-        );
+    if !flags.quiet && matches!(outcome, Outcome::Done) {
+        let method = plan.method.title();
+        let title = format!("{}, {method}, step {}", spec.model.name, plan.step.1.trim());
+        let (work, drift) = (&received.work, &received.drift);
+        let adaptive = plan.method.is_adaptive();
+        let text = summary::text(&title, work, adaptive, drift, clock.elapsed());
+        eprint!("{text}");
     }
-    Ok(match end {
-        End::Done(_) => 0,
-        End::Interrupted(code) => {
-            if !flags.quiet {
-                eprintln!(
-                    "Interrupted at t = {:?}; the rows so far are written.",
-                    drift.time()
-                );
+    ended(outcome, &received.drift, flags.quiet, program)
+}
+
+/// Says how the run ended; answers the exit code.
+fn ended(outcome: Outcome, drift: &Drift, quiet: bool, program: &Path) -> Result<u8, Failure> {
+    match outcome {
+        Outcome::Done => Ok(0),
+        Outcome::Interrupted(code) => {
+            if !quiet {
+                let time = drift.time();
+                eprintln!("Interrupted at t = {time:?}; the rows so far are written.");
             }
-            code
+            Ok(code)
         }
-        End::Stopped(stop) => {
+        Outcome::Stopped(stop) => {
             render::stopped(&stopped_text(&stop), &stop.remedy);
-            STOPPED
+            Ok(STOPPED)
         }
-        End::Parameter(name, why) => {
-            let message = Message::new(Kind::Domain, format!("parameter {name}: {why}"));
-            let help = format!("give {name} another value with `--param {name}=VALUE`");
-            return Err(message.at_option("--param").help(help).into());
-        }
-        End::Broken(how) => return Err(build::broken(program, &how)),
-    })
+        Outcome::Parameter(name, why) => Err(impossible(&name, &why)),
+        Outcome::Refused(what, why) => Err(build::broken(program, &format!("{what:?}: {why}"))),
+        Outcome::Broken(how) => Err(build::broken(program, &how)),
+        Outcome::NotTaken(error) => Err(build::broken(program, &error.to_string())),
+    }
+}
+
+/// A parameter with a value of which no system can be made.
+pub fn impossible(name: &str, why: &str) -> Failure {
+    let message = Message::new(Kind::Domain, format!("parameter {name}: {why}"));
+    let help = format!("give {name} another value with `--param {name}=VALUE`");
+    message.at_option("--param").help(help).into()
 }
 
 /// How the run ended, for the output.
-fn word(end: &End) -> &'static str {
-    match end {
-        End::Done(_) => "done",
-        End::Interrupted(_) => "interrupted",
-        End::Stopped(_) => "stopped",
-        End::Parameter(..) | End::Broken(_) => "failed",
+fn word(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::Done => "done",
+        Outcome::Interrupted(_) => "interrupted",
+        Outcome::Stopped(_) => "stopped",
+        Outcome::Parameter(..)
+        | Outcome::Refused(..)
+        | Outcome::Broken(_)
+        | Outcome::NotTaken(_) => "failed",
     }
 }
 
 fn stopped_text(stop: &Stop) -> String {
-    let mut text = format!(
-        "the integration stopped in step {} at t = {}: {}",
-        stop.step, stop.time, stop.reason
-    );
-    if !stop.iterations.is_empty() {
-        text.push_str(&format!(
-            " ({} iterations, residual {})",
-            stop.iterations, stop.residual
-        ));
-    }
-    text.push_str("\nthe rows so far are written");
-    text
+    format!(
+        "the integration stopped in step {} at t = {:?}: {} ({} iterations, residual {:?})\nthe rows so far are written",
+        stop.step, stop.time, stop.reason, stop.iterations, stop.residual
+    )
 }

@@ -1,14 +1,16 @@
 //! What to run: flags over the spec's `run` over defaults, everything validated.
 
+mod solver;
 mod state;
 mod times;
 
 use lie_codegen::methods::{Choice, OptionError};
 use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
+use lie_program::protocol::{Start, Times, Tolerances};
+use lie_runtime::newton::NewtonOptions;
 
 use super::values::Given;
-use crate::build::protocol::Times;
 use crate::command::args;
 use crate::command::method;
 use crate::compiler::Spec;
@@ -28,14 +30,14 @@ pub struct Plan {
     pub step: (f64, String),
     /// When rows are wanted.
     pub times: Times,
-    /// Values of the parameters, in order.
-    pub parameters: Vec<f64>,
-    /// The initial state.
-    pub initial: Vec<f64>,
+    /// Where it starts.
+    pub start: Start,
     /// How the group element is written, if it is.
     pub chart: Option<Chart>,
-    /// Tolerances that were given.
-    pub tolerances: Vec<(&'static str, f64)>,
+    /// Tolerances of an adaptive method.
+    pub tolerances: Tolerances,
+    /// The solver of an implicit method.
+    pub newton: NewtonOptions,
 }
 
 impl Plan {
@@ -61,52 +63,61 @@ pub fn plan(spec: &Spec, flags: &args::Run) -> Result<Plan, Vec<Message>> {
     let method = planner.method();
     let step = planner.step();
     let times = planner.times(step.as_ref());
-    let tolerances = method
-        .as_ref()
-        .map(|method| planner.tolerances(method))
-        .unwrap_or_default();
+    let solved = method.as_ref();
+    let tolerances = solved.map(|method| planner.tolerances(method));
+    let newton = solved.map(|method| planner.newton(method));
     let chart = planner.chart();
-    let parameters = planner.parameters();
-    let initial = parameters
-        .as_ref()
-        .and_then(|values| planner.initial(values));
-    match (method, step, times, parameters, initial) {
-        (Some(method), Some((step, given)), Some(times), Some(parameters), Some(initial))
+    let start = planner.start();
+    match (method, step, times, start) {
+        (Some(method), Some((step, given)), Some(times), Some(start))
             if planner.mistakes.is_empty() =>
         {
-            let step = (step, given.text);
             Ok(Plan {
                 method,
-                step,
+                step: (step, given.text),
                 times,
-                parameters,
-                initial,
+                start: start.named(spec),
                 chart,
-                tolerances,
+                tolerances: tolerances.unwrap_or_default(),
+                newton: newton.unwrap_or_default(),
             })
         }
         _ => Err(planner.mistakes),
     }
 }
 
-/// The values of the parameters and the initial state alone.
+/// The values of the parameters and the initial state, in order.
+#[derive(Clone)]
+pub struct Point {
+    /// Values of the parameters.
+    pub parameters: Vec<f64>,
+    /// The initial state.
+    pub initial: Vec<f64>,
+}
+
+impl Point {
+    /// The same as programs take it.
+    pub fn named(self, spec: &Spec) -> Start {
+        let names = spec.model.parameters.iter().map(|p| p.name.clone());
+        Start {
+            parameters: names.zip(self.parameters).collect(),
+            initial: self.initial,
+        }
+    }
+}
+
+/// Where a system starts, alone.
 ///
 /// # Errors
 /// Every mistake.
-pub fn start(spec: &Spec, flags: &args::Run) -> Result<(Vec<f64>, Vec<f64>), Vec<Message>> {
+pub fn start(spec: &Spec, flags: &args::Run) -> Result<Point, Vec<Message>> {
     let mut planner = Planner {
         spec,
         flags,
         mistakes: Vec::new(),
     };
-    let parameters = planner.parameters();
-    let initial = parameters
-        .as_ref()
-        .and_then(|values| planner.initial(values));
-    match (parameters, initial) {
-        (Some(parameters), Some(initial)) if planner.mistakes.is_empty() => {
-            Ok((parameters, initial))
-        }
+    match planner.start() {
+        Some(start) if planner.mistakes.is_empty() => Ok(start),
         _ => Err(planner.mistakes),
     }
 }
@@ -214,38 +225,5 @@ impl Planner<'_> {
         let text = format!("`{name}` is not an option of {}", choice.id());
         self.mistakes
             .push(given.wrong(text).help(method::help_on_options(choice)));
-    }
-
-    fn tolerances(&mut self, choice: &Choice) -> Vec<(&'static str, f64)> {
-        let mut tolerances = Vec::new();
-        for (name, flag, value) in [
-            ("rtol", "--rtol", &self.flags.rtol),
-            ("atol", "--atol", &self.flags.atol),
-        ] {
-            let Some(given) = self.given(flag, value.as_ref()) else {
-                continue;
-            };
-            if !method::takes(choice, name) {
-                if value.is_some() || self.flags.method.is_none() {
-                    let text = format!("`{name}` is an option of dopri5 alone");
-                    self.mistakes.push(
-                        given
-                            .wrong(text)
-                            .help("add `--method dopri5`, or leave it out"),
-                    );
-                }
-                continue;
-            }
-            match given.number() {
-                Ok(value) if value > 0.0 => tolerances.push((name, value)),
-                Ok(_) => {
-                    let message = given.wrong(format!("`{name}` is not positive"));
-                    self.mistakes
-                        .push(message.help("give a tolerance such as 1e-9"));
-                }
-                Err(message) => self.mistakes.push(message),
-            }
-        }
-        tolerances
     }
 }

@@ -3,15 +3,15 @@
 use std::time::Duration;
 
 use lie_poisson::plot::reference;
-
-use crate::build::protocol::Counts;
+use lie_program::protocol::Work;
+use lie_runtime::diagnostics::InvariantDrift;
 
 /// The largest errors of the invariants over the rows, against the first row.
 pub struct Drift {
     names: Vec<String>,
     left_out: Vec<String>,
-    first: Vec<f64>,
-    largest: Vec<f64>,
+    /// Empty before the first row.
+    invariants: Vec<InvariantDrift>,
     /// Largest absolute value of a component of the state.
     scale: f64,
     time: f64,
@@ -20,12 +20,10 @@ pub struct Drift {
 impl Drift {
     /// Invariants by name.
     pub fn new(names: &[String]) -> Self {
-        let largest = vec![0.0; names.len()];
         Self {
             names: names.to_vec(),
             left_out: Vec::new(),
-            first: Vec::new(),
-            largest,
+            invariants: Vec::new(),
             scale: 0.0,
             time: 0.0,
         }
@@ -34,19 +32,17 @@ impl Drift {
     /// Takes a row: time, state, and the invariants from a column on.
     pub fn push(&mut self, row: &[f64], invariants: usize) {
         let (state, invariants) = row.split_at(invariants);
-        if self.first.is_empty() {
-            self.first = invariants.to_vec();
+        if self.invariants.is_empty() {
+            let pairs = self.names.iter().zip(invariants);
+            let first = pairs.map(|(name, &first)| InvariantDrift::new(name, Some(first)));
+            self.invariants = first.collect();
         }
         self.time = state[0];
         self.scale = state[1..]
             .iter()
             .fold(self.scale, |scale, x| scale.max(x.abs()));
-        for ((largest, value), first) in self.largest.iter_mut().zip(invariants).zip(&self.first) {
-            let error = (value - first).abs();
-            // What is not a number is the largest error of all.
-            if error > *largest || error.is_nan() {
-                *largest = error;
-            }
+        for (drift, value) in self.invariants.iter_mut().zip(invariants) {
+            drift.record((value - drift.initial).abs(), 0, 0);
         }
     }
 
@@ -62,20 +58,15 @@ impl Drift {
 
     /// `energy 1.2e-6, C 3e-16 (absolute)`: relative wherever the invariant is not zero.
     fn text(&self) -> String {
-        let one =
-            |((name, first), largest): ((&String, &f64), &f64)| match reference(*first, self.scale)
-            {
-                Some(first) => format!("{name} {}", short(largest / first)),
-                None => format!("{name} {} (absolute)", short(*largest)),
-            };
-        let all = self
-            .names
+        let shown = self
+            .invariants
             .iter()
-            .zip(&self.first)
-            .zip(&self.largest)
-            .filter(|((name, _), _)| !self.left_out.contains(name))
-            .map(one);
-        all.collect::<Vec<_>>().join(", ")
+            .filter(|drift| !self.left_out.contains(&drift.name));
+        let one = |drift: &InvariantDrift| match reference(drift.initial, self.scale) {
+            Some(first) => format!("{} {}", drift.name, short(drift.max / first)),
+            None => format!("{} {} (absolute)", drift.name, short(drift.max)),
+        };
+        shown.map(one).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -89,32 +80,32 @@ fn short(error: f64) -> String {
 
 /// What was done, and how well the invariants were kept; for a method that chooses its own steps, how many those
 /// were, and whether it had a choice.
-pub fn text(title: &str, counts: &Counts, adaptive: bool, drift: &Drift, time: Duration) -> String {
-    let steps = counts.steps;
+pub fn text(title: &str, work: &Work, adaptive: bool, drift: &Drift, time: Duration) -> String {
+    let steps = work.steps;
     let mut text = format!(
         "{title}: {steps} steps to t = {:?} in {:.3} s",
         drift.time,
         time.as_secs_f64()
     );
-    if counts.newton > 0 && steps > 0 {
+    if work.newton > 0 && steps > 0 {
         text.push_str(&format!(
             ", {:.2} Newton iterations per step",
-            counts.newton as f64 / steps as f64
+            work.newton as f64 / steps as f64
         ));
     }
     if adaptive {
-        let (own, refused) = (counts.accepted, counts.rejected);
+        let (own, refused) = (work.accepted, work.rejected);
         text.push_str(&format!(
             ", {own} of its own within these, {refused} refused"
         ));
     }
-    if adaptive && counts.accepted == steps && counts.rejected == 0 {
+    if adaptive && work.accepted == steps && work.rejected == 0 {
         text.push_str(
             "\nno step was longer than --step: it decided every step, and the tolerances none; give a larger --step to \
              let them decide",
         );
     }
-    if !drift.first.is_empty() {
+    if !drift.invariants.is_empty() {
         text.push_str(&format!(
             "\nlargest relative error in the rows: {}",
             drift.text()
@@ -134,12 +125,12 @@ mod tests {
         drift.push(&[0.0, 1.0, -3.0, 2.0, 0.0], 3);
         drift.push(&[0.5, 1.0, -3.0, 2.5, 1e-9], 3);
         drift.push(&[1.0, 1.0, -3.0, 2.1, -2e-9], 3);
-        let counts = Counts {
+        let work = Work {
             steps: 2,
             newton: 5,
-            ..Counts::default()
+            ..Work::default()
         };
-        let text = text("T", &counts, false, &drift, Duration::from_millis(1500));
+        let text = text("T", &work, false, &drift, Duration::from_millis(1500));
         assert_eq!(
             text,
             "T: 2 steps to t = 1.0 in 1.500 s, 2.50 Newton iterations per step\n\
@@ -155,13 +146,13 @@ mod tests {
     fn adaptive_methods_say_how_many_steps_were_their_own() {
         let drift = Drift::new(&[]);
         let of = |accepted, rejected| {
-            let counts = Counts {
+            let work = Work {
                 steps: 10,
                 accepted,
                 rejected,
-                ..Counts::default()
+                ..Work::default()
             };
-            text("T", &counts, true, &drift, Duration::ZERO)
+            text("T", &work, true, &drift, Duration::ZERO)
         };
         assert!(of(25, 2).contains(", 25 of its own within these, 2 refused\n"));
         assert!(!of(25, 2).contains("larger --step") && !of(10, 1).contains("larger --step"));

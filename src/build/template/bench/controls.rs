@@ -1,7 +1,7 @@
 //! The crate `ode_solvers` as a control: Dormand and Prince's methods of orders 5 and 8, their tolerances
 //! alike, no dense output.
 
-use lie_runtime::program::measure::{Control, ControlRun};
+use lie_measure::bench::{Control, ControlRun};
 use lie_runtime::{Poisson, State};
 use ode_solvers::{Dop853, Dopri5, OutputType, SVector, System};
 

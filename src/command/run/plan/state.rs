@@ -6,11 +6,20 @@ use lie_codegen::front::names::normalised;
 use lie_codegen::suggest::did_you_mean;
 
 use super::super::values::Given;
-use super::Planner;
+use super::{Planner, Point};
 use crate::message::Message;
 
 impl Planner<'_> {
-    pub(super) fn parameters(&mut self) -> Option<Vec<f64>> {
+    pub(super) fn start(&mut self) -> Option<Point> {
+        let parameters = self.parameters()?;
+        let initial = self.initial(&parameters)?;
+        Some(Point {
+            parameters,
+            initial,
+        })
+    }
+
+    fn parameters(&mut self) -> Option<Vec<f64>> {
         let declared = &self.spec.model.parameters;
         let names: Vec<&str> = declared
             .iter()
@@ -59,7 +68,7 @@ impl Planner<'_> {
         (self.mistakes.len() == before).then_some(values)
     }
 
-    pub(super) fn initial(&mut self, parameters: &[f64]) -> Option<Vec<f64>> {
+    fn initial(&mut self, parameters: &[f64]) -> Option<Vec<f64>> {
         let model = &self.spec.model;
         let dimension = model.shown_coordinates().len();
         let values = if let Some(text) = &self.flags.initial {

@@ -2,8 +2,8 @@
 
 use super::super::values::Given;
 use super::Planner;
-use crate::build::protocol::Times;
 use crate::message::Message;
+use lie_program::protocol::Times;
 
 const STEP: &str = "0.01";
 const UNTIL: &str = "10";

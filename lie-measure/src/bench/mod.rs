@@ -1,0 +1,228 @@
+//! The program behind `lie bench`: the error at the end of a run against the time that it takes.
+
+mod found;
+mod ladder;
+mod timing;
+
+pub use found::{Accuracy, ClockKind, Found, Point, Reference};
+
+use crate::GRACE;
+use crate::facts::{rate, relative_error};
+use ladder::Ladder;
+use lie_program::Tolerances;
+use lie_program::blueprint::{Blueprint, Built};
+use lie_program::protocol::{End, Obstacle, number};
+use lie_program::session::{self, Session};
+use lie_runtime::diagnostics::{AnyMethod, reference};
+use lie_runtime::equation::Implicit;
+use lie_runtime::methods::{Gauss6, Method};
+use lie_runtime::newton::NewtonOptions;
+use lie_runtime::{ParameterError, Poisson, State, Unknown};
+use serde::{Deserialize, Serialize};
+use std::process::ExitCode;
+use timing::Clock;
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Options {
+    /// The end of the runs.
+    #[serde(with = "number")]
+    pub until: f64,
+    /// Seconds that one run may take.
+    #[serde(with = "number")]
+    pub budget: f64,
+}
+
+talk!(Options, Found);
+
+/// The outcome of a run of a method from outside the catalogue.
+#[derive(Clone, Debug)]
+pub struct ControlRun {
+    /// The state at the end.
+    pub end: Vec<f64>,
+    /// Evaluations of the vector field.
+    pub evaluations: u64,
+    /// Steps.
+    pub steps: u64,
+}
+
+type RunControl<P> = Box<dyn Fn(&P, &[f64], f64, f64) -> Option<ControlRun>>;
+
+/// An adaptive method from outside the catalogue, to compare with.
+pub struct Control<P> {
+    /// Its name.
+    pub label: &'static str,
+    /// A run from a state at time 0 to a time with both tolerances alike; none if it fails.
+    pub run: RunControl<P>,
+}
+
+type Made<P> = Box<dyn AnyMethod<f64, P>>;
+
+enum Entry<P> {
+    Method(Box<dyn Fn() -> Made<P>>),
+    Adaptive(Box<dyn Fn(f64) -> Made<P>>),
+    Control(RunControl<P>),
+}
+
+/// A program that compares methods on one system.
+pub struct Bench<P: Poisson<f64>> {
+    blueprint: Blueprint<P>,
+    entries: Vec<(&'static str, Entry<P>)>,
+    clock: Clock,
+}
+
+impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
+    /// A program from the parameters with their defaults and the function that makes a system of their values.
+    pub fn new(
+        parameters: &[(&'static str, f64)],
+        build: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            blueprint: Blueprint::new(parameters, build),
+            entries: Vec::new(),
+            clock: Clock::wall(),
+        }
+    }
+
+    /// Takes a clock of the processor, which answers none where there is none.
+    #[must_use]
+    pub fn clock(self, processor: fn() -> Option<f64>) -> Self {
+        let clock = Clock::new(processor);
+        Self { clock, ..self }
+    }
+
+    /// Adds a method under the name by which requests ask for it.
+    #[must_use]
+    pub fn method<M: Method<f64, P> + 'static>(
+        mut self,
+        label: &'static str,
+        make: impl Fn(&Tolerances) -> M + 'static,
+    ) -> Self {
+        let make = move || -> Made<P> { Box::new(make(&Tolerances::default())) };
+        self.entries.push((label, Entry::Method(Box::new(make))));
+        self
+    }
+
+    /// Adds a method that chooses its own steps.
+    #[must_use]
+    pub fn adaptive<M: Method<f64, P> + 'static>(
+        mut self,
+        label: &'static str,
+        make: impl Fn(&Tolerances) -> M + 'static,
+    ) -> Self {
+        let make = move |tolerance| -> Made<P> { Box::new(make(&Tolerances::both(tolerance))) };
+        self.entries.push((label, Entry::Adaptive(Box::new(make))));
+        self
+    }
+
+    /// Adds methods from outside.
+    #[must_use]
+    pub fn controls(mut self, controls: Vec<Control<P>>) -> Self {
+        for control in controls {
+            self.entries
+                .push((control.label, Entry::Control(control.run)));
+        }
+        self
+    }
+
+    /// Serves the request on standard input.
+    pub fn main(&self) -> ExitCode {
+        session::main(GRACE, &|line, session| self.work(line, session))
+    }
+
+    fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+        let request = request(line)?;
+        let Built { system, mu } = self.blueprint.build(&request.start)?;
+        let Options { until, budget } = request.options;
+        session.stage(0, 1, "the reference solution")?;
+        let (exact, reliable) = confirmed(&system, &mu, until, session)?;
+        tell(session, Found::Clock(self.clock.kind()));
+        let asked_for = |(label, entry): &&(&str, Entry<P>)| {
+            matches!(entry, Entry::Control(_)) || request.methods.iter().any(|m| m == label)
+        };
+        let wanted: Vec<_> = self.entries.iter().filter(asked_for).collect();
+        let mut rungs = Vec::new();
+        let mut climb = || {
+            for (index, (label, entry)) in wanted.iter().enumerate() {
+                session.stage(index as u64, (wanted.len() * 4) as u64, label)?;
+                let ladder = Ladder {
+                    system: &system,
+                    mu: &mu,
+                    exact: &exact,
+                    until,
+                    floor: reliable
+                        .error
+                        .max(reliable.difference)
+                        .max(4.0 * f64::EPSILON),
+                    budget,
+                    label,
+                    clock: &self.clock,
+                };
+                ladder.climb(entry, session, &mut rungs);
+            }
+            ladder::time(&mut rungs, &self.clock, session)
+        };
+        // what there is so far is shown, whatever ended it
+        let ended = climb();
+        for rung in &rungs {
+            tell(session, Found::Point(rung.timed(until)));
+        }
+        ended
+    }
+}
+
+/// The reference solution, which is told of.
+fn confirmed<P: Implicit<f64, Gauss6>>(
+    system: &P,
+    mu: &P::State,
+    until: f64,
+    session: &mut Session<'_>,
+) -> Result<(P::State, Reference), End> {
+    let exact = reference(system, mu, until).ok_or_else(|| {
+        let why = "a number becomes infinite, or the steps too small";
+        End::refused(Obstacle::Reference, why)
+    })?;
+    let error = exact.error / exact.mu.max_norm();
+    let moved = exact.mu.as_slice().iter().zip(mu.as_slice());
+    let moved = moved.fold(0.0, |largest, (a, b)| f64::max(largest, (a - b).abs()));
+    if error.is_nan() || moved <= 4.0 * f64::EPSILON * mu.max_norm() {
+        let why = format!("the state does not move until t = {until:?}");
+        return Err(End::refused(Obstacle::Still, why));
+    }
+    let difference = confirm(system, mu, until, &exact.mu);
+    let reliable = Reference { error, difference };
+    tell(session, Found::Reference(reliable));
+    if difference > 1e-8 {
+        let why = format!("extrapolation and gauss6 differ by {difference:.1e} at t = {until:?}");
+        return Err(End::refused(Obstacle::Reference, why));
+    }
+    Ok((exact.mu, reliable))
+}
+
+/// The relative difference of the three-stage Gauss method, at steps that are halved until it no longer
+/// falls.
+fn confirm<P: Implicit<f64, Gauss6>>(
+    system: &P,
+    mu: &P::State,
+    until: f64,
+    exact: &P::State,
+) -> f64 {
+    let mut steps = (until.abs() * rate(system, mu)).ceil().max(8.0) as u64;
+    let mut best = f64::INFINITY;
+    for _ in 0..14 {
+        let h = until / steps as f64;
+        let mut state = mu.clone();
+        let newton = NewtonOptions::default();
+        let mut stepper = Gauss6.any_stepper(system, h, &newton);
+        if stepper.advance(&mut state, steps).is_ok() {
+            let difference = relative_error(&state, exact);
+            if difference > 0.5 * best && best < 1e-9 {
+                break;
+            }
+            best = best.min(difference);
+        }
+        steps *= 2;
+    }
+    best
+}

@@ -1,0 +1,254 @@
+//! The order, as the slope of the error over the step.
+
+use super::findings::Finding;
+use super::ground::{Exact, Ground};
+use super::{Made, Subject};
+use lie_runtime::diagnostics::AnyMethod;
+use lie_runtime::driver::Stats;
+use lie_runtime::newton::NewtonOptions;
+use lie_runtime::poisson::Lift;
+use lie_runtime::state::State;
+
+/// Numbers of steps over the span, by factors of about the fourth root of 2.
+const STEPS: [u64; 31] = [
+    3, 4, 5, 6, 7, 8, 10, 11, 13, 16, 19, 23, 27, 32, 38, 45, 54, 64, 76, 91, 108, 128, 152, 181,
+    215, 256, 304, 362, 431, 512, 609,
+];
+/// Points of the slope: a factor of 4 in the step.
+const POINTS: usize = 9;
+/// As few may do, where the next step is at round-off already.
+const LEAST: usize = 4;
+/// An error that is below this at the largest steps is at round-off before an order shows.
+const NEGLIGIBLE: f64 = 1e-9;
+/// An error within this multiple of what round-off at the start changes is round-off.
+const NOISE: f64 = 20.0;
+/// How much smaller than the order a slope may be at the end of the ladder.
+const SLACK: f64 = 0.3;
+/// The same as a part of the order: methods of high order have few steps between failure and round-off.
+const RELATIVE_SLACK: f64 = 0.05;
+
+pub(super) fn finding<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    subject: &Subject<P>,
+) -> Finding {
+    let adaptive = subject.with_tolerance.as_deref();
+    measured(system, ground, &*subject.method, adaptive)
+}
+
+/// Of a method with steps of a fixed size.
+pub(super) fn finding_of<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+) -> Finding {
+    measured(system, ground, method, None)
+}
+
+fn measured<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    method: &dyn AnyMethod<f64, P>,
+    adaptive: Option<&dyn Fn(f64) -> Made<f64, P>>,
+) -> Finding {
+    let order = method.claims().order;
+    let claim = f64::from(order);
+    let bound = claim - f64::max(SLACK, RELATIVE_SLACK * claim);
+    let mut exact_everywhere = true;
+    let mut largest = f64::NAN;
+    let mut best: Vec<(f64, f64)> = Vec::new();
+    for exact in &ground.exact {
+        let floor = (20.0 * exact.error).max(100.0 * f64::EPSILON);
+        let measured = match adaptive {
+            Some(make) => by_tolerance(system, ground, exact, make, floor),
+            None => by_step(system, ground, exact, method, floor),
+        };
+        let mut above: Vec<(f64, f64)> = measured.iter().filter(|p| p.1 > floor).copied().collect();
+        if adaptive.is_none() && slope(tail(&above)) < bound {
+            // a method may amplify round-off, as differences divided by small increments do
+            above.retain(|&(h, error)| error > NOISE * noise(system, ground, exact, method, h));
+        }
+        exact_everywhere &= measured.len() >= 3 && above.is_empty();
+        for (_, error) in &measured {
+            largest = largest.max(*error);
+        }
+        if above.len() > best.len() {
+            best = above;
+        }
+        if best.len() >= LEAST {
+            break;
+        }
+    }
+    if exact_everywhere {
+        return Finding::at_least("order", true, f64::INFINITY, claim, bound)
+            .note("exact to round-off".to_owned());
+    }
+    if best.len() < LEAST && largest < NEGLIGIBLE {
+        return Finding::at_least("order", true, f64::INFINITY, claim, bound).note(format!(
+            "at round-off from the largest step on, {largest:.1e}"
+        ));
+    }
+    if best.len() < LEAST {
+        return Finding::at_least("order", true, f64::NAN, claim, bound)
+            .note("too few steps between failure and round-off".to_owned());
+    }
+    let last = tail(&best);
+    let note = format!("errors {:.1e} to {:.1e}", last[0].1, last[last.len() - 1].1);
+    Finding::at_least("order", true, slope(last), claim, bound)
+        .at(last[0].0)
+        .note(note)
+}
+
+/// The points of the slope: those of the smallest steps.
+fn tail(points: &[(f64, f64)]) -> &[(f64, f64)] {
+    &points[points.len().saturating_sub(POINTS)..]
+}
+
+/// How much the end of a run moves when its start moves by a few units of round-off, relative to the state.
+fn noise<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    exact: &Exact<P::State>,
+    method: &dyn AnyMethod<f64, P>,
+    h: f64,
+) -> f64 {
+    let steps = (exact.span / h).abs().round() as u64;
+    let step = exact.span / steps as f64;
+    let newton = NewtonOptions::default();
+    let mut largest = 0.0_f64;
+    for mu in &ground.states {
+        let end = |nudge: f64| {
+            let mut state = mu.clone();
+            for entry in state.as_mut_slice() {
+                *entry *= 1.0 + nudge * f64::EPSILON;
+            }
+            let mut stepper = method.any_stepper(system, step, &newton);
+            stepper.advance(&mut state, steps).ok().map(|_| state)
+        };
+        if let [Some(here), Some(there)] = [end(0.0), end(4.0)] {
+            largest = largest.max(relative_error(&there, &here));
+        }
+    }
+    largest
+}
+
+/// Errors over steps of a fixed size, the largest over the states, and the size of round-off in them.
+fn by_step<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    exact: &Exact<P::State>,
+    method: &dyn AnyMethod<f64, P>,
+    floor: f64,
+) -> Vec<(f64, f64)> {
+    let mut points = Vec::new();
+    let mut below = 0;
+    for steps in STEPS {
+        let h = exact.span / steps as f64;
+        if let Some((error, _)) = error(system, ground, exact, method, h, steps) {
+            points.push((h.abs(), error));
+            below += u32::from(error <= floor);
+        }
+        if below == 2 {
+            break;
+        }
+    }
+    points
+}
+
+/// Errors of an adaptive method over the mean of its own steps.
+fn by_tolerance<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    exact: &Exact<P::State>,
+    make: &dyn Fn(f64) -> Made<f64, P>,
+    floor: f64,
+) -> Vec<(f64, f64)> {
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for k in 0..24 {
+        let tolerance = 10_f64.powf(-3.0 - 0.5 * f64::from(k));
+        // one step of the grid: the span
+        let Some((error, stats)) = error(system, ground, exact, &*make(tolerance), exact.span, 1)
+        else {
+            continue;
+        };
+        let mean = exact.span.abs() * ground.states.len() as f64 / stats.accepted as f64;
+        if points.last().is_none_or(|last| mean < 0.9 * last.0) {
+            points.push((mean, error));
+        }
+        if error <= floor {
+            break;
+        }
+    }
+    points
+}
+
+/// The largest error at the end of the span relative to the state, and the work of all runs.
+fn error<P: Lift<f64>>(
+    system: &P,
+    ground: &Ground<P>,
+    exact: &Exact<P::State>,
+    method: &dyn AnyMethod<f64, P>,
+    h: f64,
+    steps: u64,
+) -> Option<(f64, Stats)> {
+    let newton = NewtonOptions::default();
+    let mut largest = 0.0_f64;
+    let mut sum = Stats::default();
+    for (mu, end) in ground.states.iter().zip(&exact.ends) {
+        let mut state = mu.clone();
+        let stats = method
+            .any_stepper(system, h, &newton)
+            .advance(&mut state, steps)
+            .ok()?;
+        sum.accepted += stats.accepted;
+        let error = relative_error(&state, end);
+        if !error.is_finite() {
+            return None;
+        }
+        largest = largest.max(error);
+    }
+    Some((largest, sum))
+}
+
+/// The largest difference of a component over the largest component.
+pub(crate) fn relative_error<V: State<f64>>(state: &V, exact: &V) -> f64 {
+    let pairs = state.as_slice().iter().zip(exact.as_slice());
+    let largest = pairs.fold(0.0, |m, (a, b)| {
+        let d = (a - b).abs();
+        if d.is_nan() { d } else { f64::max(m, d) }
+    });
+    if largest == 0.0 {
+        return 0.0;
+    }
+    largest / exact.max_norm()
+}
+
+/// The slope of the logarithms: by least squares, or the median of the slopes of all pairs, which a few points
+/// where errors cancel or round-off begins do not pull down (Sen 1968, doi:10.1080/01621459.1968.10480934).
+fn slope(points: &[(f64, f64)]) -> f64 {
+    f64::max(least_squares(points), median_slope(points))
+}
+
+fn median_slope(points: &[(f64, f64)]) -> f64 {
+    let pairs = points.iter().enumerate();
+    let mut slopes: Vec<f64> = pairs
+        .flat_map(|(k, a)| {
+            points[k + 1..]
+                .iter()
+                .map(move |b| (a.1 / b.1).ln() / (a.0 / b.0).ln())
+        })
+        .collect();
+    slopes.sort_by(f64::total_cmp);
+    slopes.get(slopes.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+fn least_squares(points: &[(f64, f64)]) -> f64 {
+    let count = points.len() as f64;
+    let x = points.iter().map(|p| p.0.ln()).sum::<f64>() / count;
+    let y = points.iter().map(|p| p.1.ln()).sum::<f64>() / count;
+    let (xy, xx) = points.iter().fold((0.0, 0.0), |(xy, xx), p| {
+        let dx = p.0.ln() - x;
+        (xy + dx * (p.1.ln() - y), xx + dx * dx)
+    });
+    xy / xx
+}

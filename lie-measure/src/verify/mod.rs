@@ -1,0 +1,350 @@
+//! The program behind `lie verify`: the kernels of the system for a judge, and every fact of each method.
+
+mod driven;
+mod found;
+mod kernels;
+mod outside;
+
+pub use found::{Found, Ground as GroundFound, Kernel, Reference};
+
+use crate::GRACE;
+use crate::facts::{
+    Ground, PlainSteps, Subject, broken_comparison, broken_measurements, unsound_iterations, verify,
+};
+use crate::random::Random;
+use kernels::Kernels;
+use lie_program::Tolerances;
+use lie_program::blueprint::{Blueprint, Built};
+use lie_program::protocol::{End, Obstacle};
+use lie_program::session::{self, Session};
+use lie_runtime::diagnostics::AnyMethod;
+use lie_runtime::methods::Method;
+use lie_runtime::newton::NewtonOptions;
+use lie_runtime::{
+    CayleyPoisson, DiscreteLagrangianPoisson, Dual, LagrangianPoisson, LiePoisson, Lift,
+    MatrixGroup, ParameterError, Poisson, RealizedPoisson, State,
+};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::io::{BufRead, Write};
+use std::process::ExitCode;
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Options {
+    /// Of the states near the initial one.
+    pub seed: u64,
+    /// The step, where it is not found.
+    pub step: Option<f64>,
+}
+
+talk!(Options, Found);
+
+type MakeSubject<P> = Box<dyn Fn() -> Subject<P>>;
+type MakePlain = Box<dyn Fn(&[f64]) -> Option<Box<PlainSteps>>>;
+
+/// A program that verifies methods on one system.
+pub struct Verify<P: Lift<f64>> {
+    blueprint: Blueprint<P>,
+    grounds: Vec<fn(Ground<P>) -> Ground<P>>,
+    kernels: Vec<Kernels<P>>,
+    subjects: Vec<(&'static str, MakeSubject<P>)>,
+    plain: Vec<(&'static str, MakePlain)>,
+    beside: Vec<&'static str>,
+}
+
+impl<P: Lift<f64> + Clone + 'static> Verify<P> {
+    /// A program from the parameters with their defaults and the function that makes a system of their values.
+    pub fn new(
+        parameters: &[(&'static str, f64)],
+        build: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            blueprint: Blueprint::new(parameters, build),
+            grounds: Vec::new(),
+            kernels: vec![kernels::poisson],
+            subjects: Vec::new(),
+            plain: Vec::new(),
+            beside: Vec::new(),
+        }
+    }
+
+    /// Measures the distance from coadjoint orbits too, and writes the kernels of the algebra.
+    #[must_use]
+    pub fn with_orbits(mut self) -> Self
+    where
+        P: LiePoisson<f64>,
+    {
+        self.grounds.push(Ground::with_orbits);
+        self.kernels.push(kernels::algebra);
+        self
+    }
+
+    /// Follows the group element too.
+    #[must_use]
+    pub fn with_group(mut self) -> Self
+    where
+        P: MatrixGroup<f64>,
+    {
+        self.grounds.push(Ground::with_group);
+        self
+    }
+
+    /// Writes the kernel of the Cayley map.
+    #[must_use]
+    pub fn with_cayley(mut self) -> Self
+    where
+        P: CayleyPoisson<f64>,
+    {
+        self.kernels.push(kernels::cayley);
+        self
+    }
+
+    /// Writes the kernels of the Lagrangian.
+    #[must_use]
+    pub fn with_lagrangian(mut self) -> Self
+    where
+        P: LagrangianPoisson<f64>,
+    {
+        self.kernels.push(kernels::lagrangian);
+        self
+    }
+
+    /// Writes the kernels of the discrete Lagrangian.
+    #[must_use]
+    pub fn with_discrete(mut self) -> Self
+    where
+        P: DiscreteLagrangianPoisson<f64>,
+    {
+        self.kernels.push(kernels::discrete);
+        self
+    }
+
+    /// Writes the kernels of the realization.
+    #[must_use]
+    pub fn with_realization(mut self) -> Self
+    where
+        P: RealizedPoisson<f64>,
+    {
+        self.kernels.push(kernels::realization);
+        self
+    }
+
+    /// Compares the steps of a method with those on another system, the same one without fused equations.
+    #[must_use]
+    pub fn plain<Q, M>(
+        mut self,
+        label: &'static str,
+        build: impl Fn(&[f64]) -> Result<Q, ParameterError> + 'static,
+        make: impl Fn(&Tolerances) -> M + Copy + 'static,
+    ) -> Self
+    where
+        Q: Poisson<f64> + 'static,
+        M: Method<f64, Q> + 'static,
+    {
+        let steps = move |parameters: &[f64]| -> Option<Box<PlainSteps>> {
+            let system = build(parameters).ok()?;
+            let method: Box<dyn AnyMethod<f64, Q>> = Box::new(make(&Tolerances::default()));
+            Some(Box::new(move |start, h, steps| {
+                let mut mu = system.zero_state();
+                mu.as_mut_slice().copy_from_slice(start);
+                let mut stepper = method.any_stepper(&system, h, &NewtonOptions::default());
+                let mut iterations = 0;
+                for _ in 0..steps {
+                    iterations += stepper.step(&mut mu)?.iterations;
+                }
+                Ok((mu.as_slice().to_vec(), iterations))
+            }))
+        };
+        self.plain.push((label, Box::new(steps)));
+        self
+    }
+
+    /// Adds a method under the name by which requests ask for it.
+    #[must_use]
+    pub fn method<M>(self, label: &'static str, make: impl Fn(&Tolerances) -> M + 'static) -> Self
+    where
+        M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
+    {
+        self.add(label, move || subject(&make, false))
+    }
+
+    /// Adds a method whose step consists of steps of another.
+    #[must_use]
+    pub fn composed<M>(self, label: &'static str, make: impl Fn(&Tolerances) -> M + 'static) -> Self
+    where
+        M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
+    {
+        self.add(label, move || subject(&make, true))
+    }
+
+    /// Adds a method that chooses its own steps.
+    #[must_use]
+    pub fn adaptive<M>(
+        self,
+        label: &'static str,
+        make: impl Fn(&Tolerances) -> M + Copy + 'static,
+    ) -> Self
+    where
+        M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
+    {
+        self.add(label, move || {
+            let with_tolerance = move |tolerance| -> Box<dyn AnyMethod<f64, P>> {
+                Box::new(make(&Tolerances::both(tolerance)))
+            };
+            Subject {
+                with_tolerance: Some(Box::new(with_tolerance)),
+                ..subject(&make, false)
+            }
+        })
+    }
+
+    /// Says of a method that the group element goes along with its steps to their order, not exactly.
+    #[must_use]
+    pub fn beside(mut self, label: &'static str) -> Self {
+        self.beside.push(label);
+        self
+    }
+
+    fn add(mut self, label: &'static str, make: impl Fn() -> Subject<P> + 'static) -> Self {
+        self.subjects.push((label, Box::new(make)));
+        self
+    }
+
+    /// Serves the request on standard input.
+    pub fn main(&self) -> ExitCode {
+        session::main(GRACE, &|line, session| self.work(line, session))
+    }
+
+    /// Serves one request; returns the exit code.
+    pub fn serve(&self, input: impl BufRead + Send + 'static, output: &mut dyn Write) -> u8 {
+        let work = |line: &str, session: &mut Session<'_>| self.work(line, session);
+        session::serve(None, Box::new(input), output, &work)
+    }
+
+    fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+        let request = request(line)?;
+        let Built { system, mu } = self.blueprint.build(&request.start)?;
+        let Options { seed, step } = request.options;
+        let all = request.methods.len() as u64;
+        session.stage(0, all, "the reference solution")?;
+        let ground = Ground::new(&system, &mu, seed, step)
+            .map_err(|why| End::refused(Obstacle::Ground, why))?;
+        let more = self.grounds.iter();
+        let ground = more.fold(ground, |ground, more| more(ground));
+        tell(
+            session,
+            Found::Ground(GroundFound {
+                step: ground.step,
+                span: ground.exact[0].span,
+                error: ground.exact[0].error,
+                states: ground.states.len(),
+                linear: ground.linear.len(),
+                quadratic: ground.quadratic.len(),
+            }),
+        );
+        session.stage(0, all, "the kernels")?;
+        self.evidence(&system, &ground, seed, session);
+        let lifted = system.lift();
+        let values = self.blueprint.values(&request.start)?;
+        for (done, label) in request.methods.iter().enumerate() {
+            let done = done as u64;
+            session.stage(done, all, label)?;
+            let subject = self.subject(label, &values)?;
+            if done == 0 {
+                session.stage(0, all, "the measurements on a spoiled map")?;
+                controls(&system, &lifted, &ground, &subject, session);
+            }
+            let mut ended = Ok(());
+            let mut next = |fact: &str| {
+                if ended.is_ok() {
+                    ended = session.stage(done, all, &format!("{label}, {fact}"));
+                }
+            };
+            let findings = verify(&system, &lifted, &ground, &subject, &mut next);
+            ended?;
+            if broken_comparison(&system, &ground, &subject) {
+                let fact = "generic form".to_owned();
+                tell(session, Found::Broken { fact });
+            }
+            let rows = driven::finding(&system, &ground, &subject);
+            for finding in findings.into_iter().chain([rows]) {
+                let method = label.clone();
+                tell(session, Found::Finding { method, finding });
+            }
+        }
+        Ok(())
+    }
+
+    /// A method by its label, for these parameters.
+    fn subject(&self, label: &str, values: &[f64]) -> Result<Subject<P>, End> {
+        let known = self.subjects.iter().find(|(known, _)| *known == label);
+        let (_, make) = known.ok_or_else(|| session::no_method(label))?;
+        let plain = self.plain.iter().find(|(known, _)| *known == label);
+        Ok(Subject {
+            plain: plain.and_then(|(_, make)| make(values)),
+            beside: self.beside.contains(&label),
+            ..make()
+        })
+    }
+
+    /// What a judge may look at: kernels at the states, and the ends of the reference solution.
+    fn evidence(&self, system: &P, ground: &Ground<P>, seed: u64, session: &mut Session<'_>) {
+        let mut random = Random::new(seed.wrapping_add(1));
+        for mu in &ground.states {
+            for kernels in &self.kernels {
+                let mut show = |kernel| tell(session, Found::Kernel(kernel));
+                let mut writer = kernels::Writer::new(system, mu, &mut random, &mut show);
+                kernels(system, &mut writer);
+            }
+        }
+        let exact = &ground.exact[0];
+        for (mu, end) in ground.states.iter().zip(&exact.ends) {
+            tell(
+                session,
+                Found::Reference(Reference {
+                    span: exact.span,
+                    start: mu.as_slice().to_vec(),
+                    end: end.as_slice().to_vec(),
+                }),
+            );
+        }
+    }
+}
+
+/// What must fail, and equations with a known solution.
+fn controls<P: Lift<f64> + Clone>(
+    system: &P,
+    lifted: &P::Lifted,
+    ground: &Ground<P>,
+    subject: &Subject<P>,
+    session: &mut Session<'_>,
+) {
+    let mut broken = broken_measurements(system, lifted, ground, subject);
+    if driven::is_blind(system, ground, subject) {
+        broken.push("rows".into());
+    }
+    for fact in broken.into_iter().map(Cow::into_owned) {
+        tell(session, Found::Broken { fact });
+    }
+    for what in unsound_iterations().into_iter().map(str::to_owned) {
+        tell(session, Found::Unsound { what });
+    }
+}
+
+fn subject<P, M>(make: &impl Fn(&Tolerances) -> M, composed: bool) -> Subject<P>
+where
+    P: Lift<f64>,
+    M: Method<f64, P> + Method<Dual<f64>, P::Lifted> + 'static,
+{
+    let tolerances = Tolerances::default();
+    Subject {
+        method: Box::new(make(&tolerances)),
+        lifted: Box::new(make(&tolerances)),
+        composed,
+        with_tolerance: None,
+        plain: None,
+        beside: false,
+    }
+}

@@ -1,0 +1,155 @@
+//! Programs that the command builds for one system: that of `lie run`, and what it shares with others.
+//!
+//! [`protocol`] is what command and programs say to each other, as types of both sides; [`listen`](mod@listen) is the
+//! side of the command, [`session`] that of the programs. Nobody who integrates with `lie-runtime` depends on this crate.
+//!
+//! | the program ends with | exit code |
+//! |---|---|
+//! | all rows | 0 |
+//! | rows that could not be written | 1 |
+//! | a request that cannot be served | 2 |
+//! | a step that failed: the rows so far are written | 3 |
+//! | its input, before the run was over | 130 |
+
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod blueprint;
+pub mod listen;
+pub mod protocol;
+mod rows;
+pub mod session;
+#[cfg(feature = "sources")]
+pub mod sources;
+
+use blueprint::{Blueprint, Built};
+use lie_runtime::driver::{
+    Chart, IntegrateError, Options, Problem, Reconstruction, Stats, Status, integrate,
+};
+use lie_runtime::methods::Method;
+use lie_runtime::{MatrixGroup, ParameterError, Poisson};
+pub use protocol::Tolerances;
+use protocol::{End, Found, Obstacle, Run, Stop, Work};
+use rows::OnGroup;
+pub use rows::RowWriter;
+use session::Session;
+use std::io::{BufRead, Write};
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// How long a step may take after the input has ended.
+const GRACE: Duration = Duration::from_secs(10);
+
+type Integrate<P> = dyn Fn(
+    &Tolerances,
+    &Problem<f64, P>,
+    &Options,
+    &mut RowWriter<'_, '_>,
+) -> Result<(Stats, Status), IntegrateError>;
+
+/// A program for one system and some methods.
+pub struct Program<P: Poisson<f64>> {
+    blueprint: Blueprint<P>,
+    methods: Vec<(&'static str, Box<Integrate<P>>)>,
+}
+
+impl<P: Poisson<f64>> Program<P> {
+    /// A program from the parameters with their defaults and the function that makes a system of their values.
+    pub fn new(
+        parameters: &[(&'static str, f64)],
+        build: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            blueprint: Blueprint::new(parameters, build),
+            methods: Vec::new(),
+        }
+    }
+
+    /// Adds a method under the name by which requests ask for it.
+    #[must_use]
+    pub fn method<M: Method<f64, P>>(
+        mut self,
+        id: &'static str,
+        make: impl Fn(&Tolerances) -> M + 'static,
+    ) -> Self {
+        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, rows| {
+            integrate(problem, make(tolerances), options, rows)
+        });
+        self.methods.push((id, run));
+        self
+    }
+
+    /// Adds a method that also moves the group element, whose entries follow in each row.
+    #[must_use]
+    pub fn on_group<M: Method<f64, P>>(
+        mut self,
+        id: &'static str,
+        chart: Chart,
+        make: impl Fn(&Tolerances) -> M + 'static,
+    ) -> Self
+    where
+        P: MatrixGroup<f64>,
+    {
+        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, rows| {
+            let reconstruction = Reconstruction::new(&problem.system, chart);
+            let mut rows = OnGroup {
+                reconstruction,
+                rows,
+            };
+            integrate(problem, make(tolerances), options, &mut rows)
+        });
+        self.methods.push((id, run));
+        self
+    }
+
+    /// Serves the request on standard input.
+    pub fn main(&self) -> ExitCode {
+        session::main(GRACE, &|line, session| self.run(line, session))
+    }
+
+    /// Serves one request; returns the exit code.
+    pub fn serve(&self, input: impl BufRead + Send + 'static, output: &mut dyn Write) -> u8 {
+        let run = |line: &str, session: &mut Session<'_>| self.run(line, session);
+        session::serve(None, Box::new(input), output, &run)
+    }
+
+    fn run(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+        let request = Run::read(line)?;
+        let known = self.methods.iter().find(|(id, _)| *id == request.method);
+        let (_, run) = known.ok_or_else(|| session::no_method(&request.method))?;
+        let Built { system, mu } = self.blueprint.build(&request.start)?;
+        let problem = Problem {
+            system,
+            mu0: mu,
+            span: (0.0, request.end()),
+        };
+        let mut rows = RowWriter::new(&problem.system, session);
+        let outcome = run(&request.tolerances, &problem, &request.options(), &mut rows);
+        rows.finish();
+        session.intact()?;
+        let (stats, status) = outcome.map_err(refusal)?;
+        session.of_run(Found::Work(Work::from(&stats)), &[]);
+        match status {
+            Status::Finished => Ok(()),
+            Status::Stopped | Status::Failed => Err(End::Interrupted),
+        }
+    }
+}
+
+/// Why a run did not come to its end.
+fn refusal(error: IntegrateError) -> End {
+    match error {
+        IntegrateError::Option(error) => End::refused(Obstacle::Option, error.to_string()),
+        IntegrateError::Step(error) => End::Stopped(Stop {
+            step: error.step,
+            time: error.time,
+            iterations: error.failure.report.iterations,
+            residual: error.failure.report.residual,
+            reason: error.failure.reason.to_string(),
+            remedy: error.remedy().to_string(),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests;

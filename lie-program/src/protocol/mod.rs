@@ -1,0 +1,341 @@
+//! What the command and the programs that it builds say to each other.
+//!
+//! A request is one line on the standard input of the program, a value of [`Run`] or of a type of the program's own, as
+//! JSON. The program answers on its standard output with one [`Message`] a line. After [`Found::Rows`] the rows
+//! follow as bytes: a trajectory is too long for text. What stands on its standard error is for people.
+//!
+//! When the input ends, a program stops at the next step and keeps what it has; one that does not come to that
+//! ends soon after. So no program outlives the command that started it, however that one was ended.
+
+pub mod number;
+
+use crate::session;
+use lie_runtime::driver::{Options, Save, Stats};
+use lie_runtime::newton::{Iteration, NewtonOptions};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Tolerances of adaptive methods; others ignore them.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tolerances {
+    /// Relative tolerance.
+    #[serde(with = "number")]
+    pub rtol: f64,
+    /// Absolute tolerance.
+    #[serde(with = "number")]
+    pub atol: f64,
+}
+
+impl Default for Tolerances {
+    fn default() -> Self {
+        Self {
+            rtol: 1e-6,
+            atol: 1e-9,
+        }
+    }
+}
+
+impl Tolerances {
+    /// Both alike.
+    pub fn both(tolerance: f64) -> Self {
+        Self {
+            rtol: tolerance,
+            atol: tolerance,
+        }
+    }
+}
+
+/// [`Iteration`] in words.
+#[derive(Deserialize, Serialize)]
+#[serde(remote = "Iteration", rename_all = "kebab-case")]
+enum IterationInWords {
+    Newton,
+    Simplified,
+    FixedPoint,
+}
+
+/// The fields of [`NewtonOptions`].
+#[derive(Deserialize, Serialize)]
+#[serde(remote = "NewtonOptions", deny_unknown_fields)]
+struct NewtonFields {
+    #[serde(with = "IterationInWords")]
+    iteration: Iteration,
+    #[serde(with = "number")]
+    tolerance: f64,
+    max_iterations: u32,
+}
+
+/// Where a system starts.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Start {
+    /// Parameters that differ from their defaults, or all of them.
+    pub parameters: BTreeMap<String, f64>,
+    /// The initial state.
+    #[serde(with = "number::list")]
+    pub initial: Vec<f64>,
+}
+
+/// At which times rows are wanted.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Times {
+    /// Every so many steps until a final time.
+    Until {
+        /// The final time.
+        #[serde(with = "number")]
+        end: f64,
+        /// Steps between rows.
+        every: u64,
+    },
+    /// At given times.
+    At(#[serde(with = "number::list")] Vec<f64>),
+}
+
+/// One trajectory.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    /// The label of the method.
+    pub method: String,
+    /// Where it starts.
+    pub start: Start,
+    /// The step size.
+    #[serde(with = "number")]
+    pub step: f64,
+    /// When rows are wanted.
+    pub times: Times,
+    /// The tolerances of an adaptive method.
+    pub tolerances: Tolerances,
+    /// The solver of an implicit method.
+    #[serde(with = "NewtonFields")]
+    pub newton: NewtonOptions,
+}
+
+impl Run {
+    /// The request of a line.
+    ///
+    /// # Errors
+    /// It is none.
+    pub fn read(line: &str) -> Result<Self, End> {
+        session::read(line)
+    }
+
+    /// The end of the run: as asked, or the saved time farthest from 0.
+    pub fn end(&self) -> f64 {
+        let farther = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
+        match &self.times {
+            Times::Until { end, .. } => *end,
+            Times::At(times) => times.iter().copied().fold(0.0, farther),
+        }
+    }
+
+    /// The same as the driver takes it.
+    pub fn options(&self) -> Options {
+        let save = match &self.times {
+            Times::Until { every, .. } => Save::Every(*every),
+            Times::At(times) => Save::At(times.clone()),
+        };
+        Options::new(self.step).save(save).newton(self.newton)
+    }
+}
+
+/// What a program says, `R` being what it has found.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Message<R> {
+    /// How far it is, at most ten times a second.
+    Progress(Progress),
+    /// Something that was asked for.
+    Found(R),
+    /// The last message.
+    End(End),
+}
+
+/// How far a program is.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Progress {
+    /// So much is done,
+    pub done: u64,
+    /// of so much.
+    pub all: u64,
+    /// What comes next, where that is something else than before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stage: Option<String>,
+}
+
+/// What a program finds that was asked for a [`Run`].
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Found {
+    /// What the numbers of the rows to come are.
+    Columns(Columns),
+    /// So many rows follow this line: little-endian float64, row by row. They come at least every 0.2 s while steps are
+    /// being done.
+    Rows {
+        /// Their number.
+        count: u64,
+    },
+    /// The work so far, at the end.
+    Work(Work),
+}
+
+/// The numbers of a row: the time, the coordinates, the energy, the Casimirs, the group element.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Columns {
+    /// The names of the coordinates.
+    pub coordinates: Vec<String>,
+    /// The names of the Casimirs.
+    pub casimirs: Vec<String>,
+    /// The number of entries of the group element, where a method reconstructs it.
+    pub element: usize,
+}
+
+impl Columns {
+    /// How many numbers a row has.
+    pub fn width(&self) -> usize {
+        self.casimirs() + self.casimirs.len() + self.element
+    }
+
+    /// The place of the first coordinate; the time stands before it.
+    pub fn coordinates(&self) -> usize {
+        1
+    }
+
+    /// The place of the energy.
+    pub fn energy(&self) -> usize {
+        self.coordinates() + self.coordinates.len()
+    }
+
+    /// The place of the first Casimir.
+    pub fn casimirs(&self) -> usize {
+        self.energy() + 1
+    }
+
+    /// The place of the first entry of the group element.
+    pub fn element(&self) -> usize {
+        self.casimirs() + self.casimirs.len()
+    }
+}
+
+/// What was counted during a run; a program counts what its method has.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Work {
+    /// Steps taken.
+    pub steps: u64,
+    /// Evaluations of the vector field or the residual.
+    pub evaluations: u64,
+    /// Newton iterations.
+    pub newton: u64,
+    /// Steps that an adaptive method took within those; every other method takes one.
+    pub accepted: u64,
+    /// Steps tried and refused by an adaptive method.
+    pub rejected: u64,
+}
+
+impl From<&Stats> for Work {
+    fn from(stats: &Stats) -> Self {
+        Self {
+            steps: stats.steps,
+            evaluations: stats.evaluations,
+            newton: stats.newton,
+            accepted: stats.accepted,
+            rejected: stats.rejected,
+        }
+    }
+}
+
+/// How a program ended.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum End {
+    /// With everything that was asked for.
+    Done,
+    /// Because its input ended.
+    Interrupted,
+    /// The integration stopped early.
+    Stopped(Stop),
+    /// A parameter's value is impossible.
+    Parameter {
+        /// Its name.
+        name: String,
+        /// Why.
+        why: String,
+    },
+    /// Nothing was done.
+    Refused {
+        /// What stands against it.
+        what: Obstacle,
+        /// Why.
+        why: String,
+    },
+    /// Nobody takes the results.
+    Unwritten {
+        /// Why.
+        why: String,
+    },
+}
+
+/// What a program can refuse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Obstacle {
+    /// The request, or a part of it.
+    Request,
+    /// Step, times, or what else the driver does not take.
+    Option,
+    /// The initial state.
+    Initial,
+    /// Nothing can be measured there.
+    Ground,
+    /// The solution that others are compared with.
+    Reference,
+    /// Nothing moves.
+    Still,
+}
+
+/// Why an integration stopped early.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stop {
+    /// The step that failed, counted from 1.
+    pub step: u64,
+    /// Time at its beginning.
+    #[serde(with = "number")]
+    pub time: f64,
+    /// Iterations spent on it.
+    pub iterations: u32,
+    /// What was left of the residual.
+    #[serde(with = "number")]
+    pub residual: f64,
+    /// Why.
+    pub reason: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+impl End {
+    /// A refusal.
+    pub fn refused(what: Obstacle, why: impl Into<String>) -> Self {
+        let why = why.into();
+        Self::Refused { what, why }
+    }
+
+    /// The exit code that goes with it.
+    pub fn code(&self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::Unwritten { .. } => 1,
+            Self::Parameter { .. } | Self::Refused { .. } => 2,
+            Self::Stopped(_) => 3,
+            Self::Interrupted => 130,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,61 @@
+use super::*;
+
+fn run(times: Times) -> Run {
+    Run {
+        method: "dopri5".to_owned(),
+        start: Start {
+            parameters: [("k".to_owned(), 1e-300)].into(),
+            initial: vec![-0.5, 0.1 + 0.2],
+        },
+        step: 0.1,
+        times,
+        tolerances: Tolerances::both(1e-8),
+        newton: NewtonOptions::fixed_point(),
+    }
+}
+
+#[test]
+fn a_request_comes_back_and_has_an_end() {
+    let until = Times::Until {
+        end: -2.0,
+        every: 5,
+    };
+    for (times, end, save) in [
+        (until, -2.0, Save::Every(5)),
+        (Times::At(vec![1.5, 0.25]), 1.5, Save::At(vec![1.5, 0.25])),
+    ] {
+        let run = run(times);
+        let line = serde_json::to_string(&run).expect("text");
+        assert_eq!(serde_json::from_str::<Run>(&line).expect("a run"), run);
+        assert!(!line.contains('\n'), "one line");
+        assert_eq!((run.end(), run.options().save), (end, save));
+        assert_eq!(run.options().newton, NewtonOptions::fixed_point());
+    }
+}
+
+#[test]
+fn what_is_not_known_is_refused() {
+    let line = serde_json::to_string(&run(Times::At(vec![]))).expect("text");
+    for (known, wrong) in [
+        ("\"step\":0.1", "\"step\":\"x\""),
+        ("\"step\":0.1,", ""),
+        ("\"step\":0.1", "\"step\":0.1,\"speed\":3"),
+        ("fixed-point", "secant"),
+    ] {
+        let spoiled = line.replace(known, wrong);
+        assert_ne!(line, spoiled, "{known}");
+        assert!(serde_json::from_str::<Run>(&spoiled).is_err(), "{spoiled}");
+    }
+}
+
+#[test]
+fn columns_have_their_places() {
+    let names = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
+    let columns = Columns {
+        coordinates: names("x y z"),
+        casimirs: names("C D"),
+        element: 9,
+    };
+    assert_eq!((columns.energy(), columns.casimirs()), (4, 5));
+    assert_eq!((columns.element(), columns.width()), (7, 16));
+}

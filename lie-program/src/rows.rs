@@ -1,0 +1,174 @@
+//! The rows of a run as they come, with progress, and the wish to stop.
+
+use crate::protocol::{Columns, End, Found};
+use crate::session::Session;
+use core::ops::ControlFlow;
+use lie_runtime::driver::{Motion, Observer, Progress, Reconstruction};
+use lie_runtime::{MatrixGroup, Poisson, State};
+use std::time::{Duration, Instant};
+
+const FLUSH: Duration = Duration::from_millis(150);
+/// The clock is looked at about this often, whatever a step costs.
+const LOOK: Duration = Duration::from_millis(10);
+/// Bytes of rows that are announced together, about.
+const BLOCK: usize = 1 << 15;
+
+/// Writes rows and progress.
+pub struct RowWriter<'s, 'o> {
+    session: &'s mut Session<'o>,
+    announced: bool,
+    casimirs: Vec<f64>,
+    /// Rows that are not yet written, and their number.
+    block: Vec<u8>,
+    count: u64,
+    /// Steps between two looks at the clock, and left until the next.
+    stride: u32,
+    left: u32,
+    looked: Instant,
+    flushed: Instant,
+}
+
+impl<'s, 'o> RowWriter<'s, 'o> {
+    /// A writer of the rows of a system.
+    pub fn new<P: Poisson<f64>>(system: &P, session: &'s mut Session<'o>) -> Self {
+        let now = Instant::now();
+        Self {
+            session,
+            announced: false,
+            casimirs: vec![0.0; system.casimir_count()],
+            block: Vec::with_capacity(2 * BLOCK),
+            count: 0,
+            stride: 1,
+            left: 1,
+            looked: now,
+            flushed: now,
+        }
+    }
+
+    /// Writes what is left.
+    pub fn finish(mut self) {
+        self.write_block();
+        self.session.flush();
+    }
+
+    fn write_block(&mut self) {
+        if self.count > 0 {
+            let found = Found::Rows { count: self.count };
+            self.session.of_run(found, &self.block);
+            self.block.clear();
+            self.count = 0;
+        }
+    }
+
+    /// Looks at the clock: flushes and reports if it is time to, and sets the next look.
+    fn look(&mut self, progress: Progress) -> ControlFlow<()> {
+        let now = Instant::now();
+        let since = now - self.looked;
+        if since < LOOK / 2 {
+            self.stride = self.stride.saturating_mul(2).min(1 << 20);
+        } else if since > LOOK * 2 {
+            self.stride = (self.stride / 4).max(1);
+        }
+        self.left = self.stride;
+        self.looked = now;
+        if now - self.flushed >= FLUSH {
+            self.flushed = now;
+            self.write_block();
+            self.session.flush();
+        }
+        on(self.session.progress(progress.step, progress.steps))
+    }
+
+    /// One row, with the group element at its end if there is one.
+    fn row<P: Poisson<f64>>(
+        &mut self,
+        system: &P,
+        time: f64,
+        mu: &P::State,
+        element: &[f64],
+    ) -> ControlFlow<()> {
+        if !self.announced {
+            self.announced = true;
+            self.announce(system, element.len());
+        }
+        system.casimirs(mu, &mut self.casimirs);
+        let energy = system.energy(mu);
+        for numbers in [&[time], mu.as_slice(), &[energy], &self.casimirs, element] {
+            let bytes = numbers.iter().flat_map(|number| number.to_le_bytes());
+            self.block.extend(bytes);
+        }
+        self.count += 1;
+        if self.block.len() >= BLOCK {
+            self.write_block();
+        }
+        on(self.session.intact())
+    }
+
+    fn announce<P: Poisson<f64>>(&mut self, system: &P, element: usize) {
+        let coordinates = (0..system.dimension()).map(|k| system.coordinate(k).to_owned());
+        let casimirs = (0..system.casimir_count()).map(|k| system.casimir_name(k).to_owned());
+        let columns = Columns {
+            coordinates: coordinates.collect(),
+            casimirs: casimirs.collect(),
+            element,
+        };
+        self.session.of_run(Found::Columns(columns), &[]);
+    }
+}
+
+/// Whether to go on; why not, the session knows.
+fn on(state: Result<(), End>) -> ControlFlow<()> {
+    match state {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
+    }
+}
+
+impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
+    fn step(&mut self, _system: &P, progress: Progress, _mu: &P::State) -> ControlFlow<()> {
+        if self.session.is_interrupted() {
+            return ControlFlow::Break(());
+        }
+        self.left -= 1;
+        if self.left == 0 {
+            self.look(progress)
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
+        RowWriter::row(self, system, time, mu, &[])
+    }
+}
+
+/// Writes rows that end with the group element.
+pub(crate) struct OnGroup<'r, 's, 'o, V> {
+    pub(crate) reconstruction: Reconstruction<f64, V>,
+    pub(crate) rows: &'r mut RowWriter<'s, 'o>,
+}
+
+impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
+    const MOTION: bool = true;
+
+    fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
+        self.rows.step(system, progress, mu)
+    }
+
+    fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
+        let element = self.reconstruction.element();
+        self.rows.row(system, time, mu, element)
+    }
+
+    fn motion(&mut self, system: &P, motion: &Motion<'_, P::State>) {
+        self.reconstruction.motion(system, motion);
+    }
+
+    fn leave_grid(&mut self) {
+        Observer::<f64, P>::leave_grid(&mut self.reconstruction);
+    }
+
+    fn return_to_grid(&mut self) {
+        Observer::<f64, P>::return_to_grid(&mut self.reconstruction);
+    }
+}

@@ -1,0 +1,155 @@
+//! Talks with a built program, by the protocol of [`lie_program`]: a request goes in, messages come out.
+
+use std::io::{self, BufRead, BufReader, Read as _, Write as _};
+use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
+
+use lie_program::listen::listen;
+use lie_program::protocol::{End, Message, Obstacle, Progress, Stop};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::interrupt::{Interrupt, own_group};
+use crate::message::INTERRUPTED;
+
+/// So much of the last words of a program is kept.
+const WORDS: usize = 1000;
+
+/// How a program ended.
+#[derive(Debug)]
+pub enum Outcome {
+    /// With everything that was asked for.
+    Done,
+    /// Asked to stop by a signal, which asks for this exit code.
+    Interrupted(u8),
+    /// The integration stopped early.
+    Stopped(Stop),
+    /// A parameter's value is impossible: its name and why.
+    Parameter(String, String),
+    /// Something else stands against it, and why.
+    Refused(Obstacle, String),
+    /// Something that the protocol does not know; a bug of ours, or the system killed it.
+    Broken(String),
+    /// It was ended because what it found was not taken.
+    NotTaken(io::Error),
+}
+
+/// Takes what a program finds, and what follows it on the output.
+pub type Take<'a, R> = dyn FnMut(R, &mut dyn BufRead) -> io::Result<()> + 'a;
+
+/// Runs a program to its end.
+///
+/// # Errors
+/// It cannot be started.
+pub fn talk<R: DeserializeOwned>(
+    mut command: Command,
+    request: &impl Serialize,
+    interrupt: &Interrupt,
+    found: &mut Take<'_, R>,
+    progress: &mut dyn FnMut(&Progress),
+) -> io::Result<Outcome> {
+    let mut line = serde_json::to_vec(request)?;
+    line.push(b'\n');
+    command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    own_group(&mut command);
+    let mut child = command.spawn()?;
+    if let Some(mut stdin) = child.stdin.take() {
+        // A program that has died already says why on its stderr.
+        let _ = stdin.write_all(&line).and_then(|()| stdin.flush());
+        interrupt.watch(stdin);
+    }
+    let stderr = child.stderr.take();
+    let (heard, words) = std::thread::scope(|scope| {
+        let words = scope.spawn(|| stderr.map(last_words));
+        let heard = hear(&mut child, found, progress);
+        if heard.is_err() {
+            interrupt.stop();
+            // The program may be waiting for us to read.
+            let _ = child.kill();
+        }
+        (heard, words.join().ok().flatten().unwrap_or_default())
+    });
+    let status = child.wait()?;
+    interrupt.stop();
+    Ok(match heard {
+        Ok(end) => outcome(status, end, &words, interrupt),
+        Err(Deaf::NotUnderstood(error)) => Outcome::Broken(error.to_string()),
+        Err(Deaf::NotTaken(error)) => Outcome::NotTaken(error),
+    })
+}
+
+/// Why nothing more is heard.
+enum Deaf {
+    NotUnderstood(io::Error),
+    NotTaken(io::Error),
+}
+
+/// Hands on what a program says; answers its last message, if there was one.
+fn hear<R: DeserializeOwned>(
+    child: &mut Child,
+    found: &mut Take<'_, R>,
+    progress: &mut dyn FnMut(&Progress),
+) -> Result<Option<End>, Deaf> {
+    let Some(stdout) = child.stdout.take() else {
+        return Ok(None);
+    };
+    let mut stdout = BufReader::with_capacity(1 << 16, stdout);
+    let (mut last, mut refused) = (None, false);
+    let heard = listen(&mut stdout, &mut |message, rest| {
+        match message {
+            Message::Found(what) => {
+                let taken = found(what, rest);
+                refused = taken.is_err();
+                return taken;
+            }
+            Message::Progress(so_far) => progress(&so_far),
+            Message::End(end) => last = Some(end),
+        }
+        Ok(())
+    });
+    match heard {
+        Ok(()) => Ok(last),
+        Err(error) if refused => Err(Deaf::NotTaken(error)),
+        Err(error) => Err(Deaf::NotUnderstood(error)),
+    }
+}
+
+/// What a program says to people, its end: for the report of a bug.
+fn last_words(mut pipe: ChildStderr) -> String {
+    let mut words = Vec::new();
+    let mut piece = [0; 4096];
+    while let Ok(read @ 1..) = pipe.read(&mut piece) {
+        words.extend_from_slice(&piece[..read]);
+        words.drain(..words.len().saturating_sub(WORDS));
+    }
+    String::from_utf8_lossy(&words).trim().to_owned()
+}
+
+/// What exit code and last message amount to. They have to agree.
+fn outcome(status: ExitStatus, end: Option<End>, words: &str, interrupt: &Interrupt) -> Outcome {
+    let code = status.code();
+    match interrupt.seen() {
+        Some(signal) if code == Some(i32::from(INTERRUPTED)) => {
+            return Outcome::Interrupted(signal);
+        }
+        _ => {}
+    }
+    match end {
+        Some(end) if code != Some(i32::from(end.code())) => {}
+        Some(End::Done) => return Outcome::Done,
+        Some(End::Stopped(stop)) => return Outcome::Stopped(stop),
+        Some(End::Parameter { name, why }) => return Outcome::Parameter(name, why),
+        Some(End::Refused { what, why }) => return Outcome::Refused(what, why),
+        Some(End::Interrupted | End::Unwritten { .. }) | None => {}
+    }
+    Outcome::Broken(match words {
+        "" => status.to_string(),
+        words => format!("{status}: {words}"),
+    })
+}
+
+#[cfg(all(test, unix))]
+#[path = "talk_tests.rs"]
+mod tests;

@@ -1,0 +1,153 @@
+//! What becomes of the rows of a run: they are written, drawn, and their errors noted.
+
+use std::io::{self, BufRead};
+
+use lie_poisson::plot::Plot;
+use lie_program::listen;
+use lie_program::protocol::{Found, Times, Work};
+
+use super::layout::Layout;
+use super::plan::Plan;
+use super::summary::Drift;
+use crate::command::args::Format;
+use crate::compiler::Spec;
+use crate::output::{Destination, Header, Rows};
+
+/// Takes what the program of a run finds.
+pub struct Reception {
+    rows: Rows,
+    received: Received,
+    layout: Layout,
+    /// Where the columns that are shown stand in a row of the program, and how wide that is.
+    places: Vec<usize>,
+    width: usize,
+    /// Whether the first row is only there for the others to be compared with.
+    hidden: bool,
+}
+
+/// What is left of the rows.
+pub struct Received {
+    /// The picture, if one is wanted.
+    pub plot: Option<Plot>,
+    /// The errors of the invariants.
+    pub drift: Drift,
+    /// What was counted.
+    pub work: Work,
+}
+
+impl Reception {
+    /// Writes what stands before the rows.
+    ///
+    /// # Errors
+    /// The destination cannot be written.
+    pub fn start(
+        spec: &Spec,
+        plan: &Plan,
+        format: Format,
+        destination: Destination,
+        draws: bool,
+    ) -> io::Result<Self> {
+        let model = &spec.model;
+        let layout = Layout::new(model, plan.chart);
+        let header = Header {
+            system: model.name.clone(),
+            method: plan.method.id().to_owned(),
+            step: plan.step.0,
+            columns: layout.columns.clone(),
+        };
+        let plot = draws.then(|| {
+            let subtitle = format!("{}, h = {}", plan.method.title(), plan.step.1.trim());
+            let (own, element) = layout.columns.split_at(layout.invariants.end);
+            Plot::new(&*model.name, own, layout.states, (0.0, plan.end()))
+                .subtitle(subtitle)
+                .element(element)
+        });
+        let mut drift = Drift::new(&layout.columns[layout.invariants.clone()]);
+        for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
+            drift.leave_out(&casimir.name);
+        }
+        Ok(Self {
+            rows: Rows::start(destination, format, &header)?,
+            received: Received {
+                plot,
+                drift,
+                work: Work::default(),
+            },
+            layout,
+            places: Vec::new(),
+            width: 0,
+            hidden: !starts_at_zero(&plan.times),
+        })
+    }
+
+    /// The times at which rows are asked for: errors are taken against the initial state, also where it is not shown.
+    pub fn times(&self, plan: &Plan) -> Times {
+        match &plan.times {
+            Times::At(times) if self.hidden => {
+                Times::At(std::iter::once(0.0).chain(times.iter().copied()).collect())
+            }
+            times => times.clone(),
+        }
+    }
+
+    /// Takes what the program has found.
+    ///
+    /// # Errors
+    /// `InvalidData` for rows that are not those of the system; what the destination says.
+    pub fn take(&mut self, found: Found, rest: &mut dyn BufRead) -> io::Result<()> {
+        match found {
+            Found::Columns(columns) => {
+                let places = self.layout.places(&columns).ok_or_else(|| {
+                    let text = format!("these are not the columns of the system: {columns:?}");
+                    io::Error::new(io::ErrorKind::InvalidData, text)
+                })?;
+                (self.places, self.width) = (places, columns.width());
+            }
+            Found::Rows { .. } if self.width == 0 => {
+                let text = "rows come before their columns";
+                return Err(io::Error::new(io::ErrorKind::InvalidData, text));
+            }
+            Found::Rows { count } => {
+                listen::rows(rest, self.width, count, &mut |numbers| self.push(numbers))?;
+            }
+            Found::Work(work) => self.received.work = work,
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, numbers: &[f64]) -> io::Result<()> {
+        let rows = numbers.chunks_exact(self.width);
+        let shown: Vec<f64> = rows
+            .flat_map(|row| self.places.iter().map(|&place| row[place]))
+            .collect();
+        let columns = self.places.len();
+        for row in shown.chunks_exact(columns) {
+            let invariants = &self.layout.invariants;
+            self.received
+                .drift
+                .push(&row[..invariants.end], invariants.start);
+            if let Some(plot) = &mut self.received.plot {
+                plot.push(row);
+            }
+        }
+        let from = if self.hidden { columns } else { 0 };
+        self.hidden = false;
+        self.rows.push(&shown[from..])
+    }
+
+    /// Writes what stands behind the rows: how the run ended.
+    ///
+    /// # Errors
+    /// The destination cannot be written.
+    pub fn finish(self, word: &'static str) -> io::Result<Received> {
+        self.rows.finish(word)?;
+        Ok(self.received)
+    }
+}
+
+fn starts_at_zero(times: &Times) -> bool {
+    match times {
+        Times::Until { .. } => true,
+        Times::At(times) => times.first() == Some(&0.0),
+    }
+}

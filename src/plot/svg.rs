@@ -1,0 +1,136 @@
+//! The elements of an SVG picture, coordinates in pixels to a tenth.
+
+use std::fmt::Write as _;
+
+/// What every picture is written in.
+pub const INK: &str = "#222";
+/// What is beside the point.
+pub const FAINT: &str = "#666";
+
+/// A place in pixels, from the upper left corner.
+pub type Place = (f64, f64);
+
+/// A picture or a part of it. Attributes are given as they stand in the file.
+#[derive(Debug, Default)]
+pub struct Svg(String);
+
+impl Svg {
+    /// The file of a picture with these parts, under a title and a second line.
+    pub fn page(&self, (width, height): Place, title: &str, subtitle: &str) -> String {
+        let mut head = Self::default();
+        let white = "width=\"100%\" height=\"100%\" fill=\"white\"";
+        let _ = writeln!(head.0, "<title>{}</title>\n<rect {white}/>", escaped(title));
+        head.text((20.0, 32.0), 22.0, &format!("fill=\"{INK}\""), title);
+        head.text((20.0, 55.0), 14.0, &format!("fill=\"{FAINT}\""), subtitle);
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
+             viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"sans-serif\" stroke-linejoin=\"round\">\n{}{}</svg>\n",
+            head.0, self.0
+        )
+    }
+
+    /// Text whose line begins at a place, or as `text-anchor` says.
+    pub fn text(&mut self, (x, y): Place, size: f64, attributes: &str, text: &str) {
+        let text = escaped(text);
+        let _ = writeln!(
+            self.0,
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" {attributes}>{text}</text>"
+        );
+    }
+
+    /// Text that is turned by so many degrees about the place where it begins.
+    pub fn turned_text(
+        &mut self,
+        at: Place,
+        degrees: f64,
+        size: f64,
+        attributes: &str,
+        text: &str,
+    ) {
+        let (x, y) = at;
+        let turned = format!("transform=\"rotate({degrees} {x:.1} {y:.1})\" {attributes}");
+        self.text(at, size, &turned, text);
+    }
+
+    /// A power of ten, the exponent raised.
+    pub fn power_of_ten(&mut self, (x, y): Place, size: f64, attributes: &str, exponent: i32) {
+        let power = match exponent {
+            0 => "1".to_owned(),
+            exponent => {
+                let exponent = exponent.to_string().replace('-', "−");
+                let small = 0.75 * size;
+                format!("10<tspan dy=\"-5\" font-size=\"{small}\">{exponent}</tspan>")
+            }
+        };
+        let _ = writeln!(
+            self.0,
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" {attributes}>{power}</text>"
+        );
+    }
+
+    /// A straight line.
+    pub fn line(&mut self, (x1, y1): Place, (x2, y2): Place, attributes: &str) {
+        let _ = writeln!(
+            self.0,
+            "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" {attributes}/>"
+        );
+    }
+
+    /// A line through places.
+    pub fn polyline(&mut self, places: impl IntoIterator<Item = Place>, attributes: &str) {
+        self.through("polyline", places, &format!("fill=\"none\" {attributes}"));
+    }
+
+    /// A filled polygon.
+    pub fn polygon(&mut self, places: impl IntoIterator<Item = Place>, fill: &str) {
+        self.through("polygon", places, &format!("fill=\"{fill}\""));
+    }
+
+    fn through(&mut self, shape: &str, places: impl IntoIterator<Item = Place>, attributes: &str) {
+        let _ = write!(self.0, "<{shape} {attributes} points=\"");
+        for (index, (x, y)) in places.into_iter().enumerate() {
+            let space = if index == 0 { "" } else { " " };
+            let _ = write!(self.0, "{space}{x:.1},{y:.1}");
+        }
+        self.0.push_str("\"/>\n");
+    }
+
+    /// A disc.
+    pub fn disc(&mut self, (x, y): Place, radius: f64, attributes: &str) {
+        let _ = writeln!(
+            self.0,
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\" {attributes}/>"
+        );
+    }
+
+    /// A rectangle, with words for readers that point at it.
+    pub fn rectangle(
+        &mut self,
+        (x, y): Place,
+        (width, height): Place,
+        attributes: &str,
+        words: &str,
+    ) {
+        let words = match words {
+            "" => String::new(),
+            words => format!("<title>{}</title>", escaped(words)),
+        };
+        let _ = writeln!(
+            self.0,
+            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" {attributes}>{words}</rect>"
+        );
+    }
+
+    /// Elements that belong together, with words for readers that point at them.
+    pub fn group(&mut self, attributes: &str, words: &str, draw: impl FnOnce(&mut Self)) {
+        let _ = write!(self.0, "<g {attributes}><title>{}</title>", escaped(words));
+        draw(self);
+        self.0.push_str("</g>\n");
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+}
