@@ -209,6 +209,19 @@ fn help_and_version_go_to_stdout() {
     );
 }
 
+/// The plan of the code that is printed otherwise: for the methods of the spec, or those that are named.
+#[test]
+fn plans_are_shown() {
+    let spec = "specs/so3_free_rigid_body.json";
+    let plan = lie(&format!("expand {spec} --plan --method midpoint")).ok().stdout;
+    for part in ["plan of FreeRigidBody", "inverse_I1 = 1/I1", "equation Midpoint", "x' = -y*z/I2 + y*z/I3"] {
+        assert!(plan.contains(part), "{part} in\n{plan}");
+    }
+    assert!(!plan.contains("CayleyMidpoint") && !plan.contains("impl<"), "{plan}");
+    let code = lie(&format!("expand {spec} --method midpoint")).ok().stdout;
+    assert!(code.contains("struct FreeRigidBodyMidpoint") && !code.contains("plan of"));
+}
+
 #[test]
 fn methods_and_schema() {
     let methods = lie("methods").ok().stdout;

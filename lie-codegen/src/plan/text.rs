@@ -12,7 +12,7 @@ const LABEL: usize = 34;
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names = &self.names;
-        writeln!(f, "plan of {}", names.system)?;
+        writeln!(f, "plan of {} (# is a digest of the operations)", names.system)?;
         for line in self.docs.iter().filter(|line| !line.is_empty()) {
             writeln!(f, "  {line}")?;
         }
@@ -22,6 +22,7 @@ impl fmt::Display for Plan {
         let sign = |positive| if positive { " > 0" } else { "" };
         let parameters = parameters.map(|(name, p)| format!("{name}{}", sign(p.positive)));
         list(f, "parameters", &parameters.collect::<Vec<_>>())?;
+        writeln!(f)?;
         constants(f, "constants of the system", &self.constants)?;
         section(f, "system")?;
         for function in self.system.functions() {
