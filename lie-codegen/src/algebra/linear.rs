@@ -93,11 +93,11 @@ fn constant_term(value: &Expr, scope: &Scope<'_>, budget: &Budget) -> Option<Ori
     let ExprKind::Sum(terms) = &value.kind else {
         return None;
     };
-    let report = &mut Report::new();
+    let mut report = Report::new();
     let mut lower = |term| {
         Lowering {
             scope: Some(scope),
-            report,
+            report: &mut report,
             budget,
             depth: 0,
         }
@@ -106,6 +106,7 @@ fn constant_term(value: &Expr, scope: &Scope<'_>, budget: &Budget) -> Option<Ori
     let found = terms
         .iter()
         .find(|(_, term)| lower(term).is_some_and(|form| !form.constant.is_zero()));
+    report.ignore("the terms were lowered before, as parts of the value");
     found.map(|(_, term)| term.origin)
 }
 

@@ -66,7 +66,10 @@ pub struct Judge {
 impl Judge {
     /// The judge of a spec that passed its checks, for values of the parameters.
     pub fn of_spec(text: &str, model: &Model, parameters: &[f64]) -> Option<Self> {
-        let Some(Body::Declaration(declaration)) = spec::read(text, &mut Report::new()).body else {
+        let mut report = Report::new();
+        let read = spec::read(text, &mut report);
+        report.gate().ok()?;
+        let Some(Body::Declaration(declaration)) = read.body else {
             return None;
         };
         Some(Self::new(&declaration, model, parameters))
