@@ -2,6 +2,7 @@
 
 use super::entry::{Entry, docs, inside, split};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::reader::Line;
 use crate::front::token::{Cursor, Delimiter, Token, TokenKind, render};
 use crate::suggest::meant;
 
@@ -86,9 +87,18 @@ impl<'a> Statement<'a> {
         Some(split(inside, report))
     }
 
-    /// The doc comment, line by line.
-    pub fn description(&self) -> Vec<String> {
-        self.docs.clone()
+    /// What it gives: behind `=` where one belongs there.
+    pub fn line(&self, report: &mut Report) -> Option<Line<'a>> {
+        let keyword = self.keyword;
+        let tokens = if KEYWORDS.contains(&(keyword, Follows::Equals)) {
+            self.value(report)?
+        } else {
+            self.rest
+        };
+        Some(Line {
+            tokens: tokens.into(),
+            place: self.origin,
+        })
     }
 }
 
