@@ -27,15 +27,9 @@ pub fn check(
     let mut known: BTreeMap<(usize, usize), (Form, &Bracket)> = BTreeMap::new();
     let mut complete = true;
     for bracket in brackets {
-        let ends = [&bracket.left, &bracket.right].map(|name| {
-            let index = scope.basis_index(&name.text);
-            if index.is_none() {
-                report.push(scope.unknown_basis(Kind::UnknownSymbol, name));
-            }
-            index
-        });
+        let ends = ends(bracket, scope, report);
         let value = bracket_value(&bracket.value, scope, budget, report);
-        let ([Some(a), Some(b)], Some(value)) = (ends, value) else {
+        let (Some((a, b)), Some(value)) = (ends, value) else {
             complete = false;
             continue;
         };
@@ -79,6 +73,18 @@ pub fn check(
         .into_iter()
         .flat_map(|((i, j), (form, _))| form.into_iter().map(move |(k, v)| (i, j, k, v)));
     complete.then(|| StructureConstants::new(scope.basis().len(), entries.collect()))
+}
+
+/// The two basis elements.
+fn ends(bracket: &Bracket, scope: &Scope<'_>, report: &mut Report) -> Option<(usize, usize)> {
+    let [a, b] = [&bracket.left, &bracket.right].map(|name| {
+        let index = scope.basis_index(&name.text);
+        if index.is_none() {
+            report.push(scope.unknown_basis(Kind::UnknownSymbol, name));
+        }
+        index
+    });
+    a.zip(b)
 }
 
 /// `[a, a]` that is not zero.

@@ -3,7 +3,7 @@
 use super::linear::rational;
 use super::sparse::SparseMatrix;
 use super::{Scope, StructureConstants, envelope, triple};
-use crate::ast::{Algebra, Matrix};
+use crate::ast::{Algebra, Expr, Matrix};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::span::{NoSpan, Span};
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
@@ -48,6 +48,47 @@ pub fn read<'a>(
     budget: &Budget,
     report: &mut Report,
 ) -> Option<Matrices<'a>> {
+    let (slots, mut complete) = slots(algebra, scope, report);
+    let dimension = algebra.matrices.first()?.rows.len();
+    if dimension * dimension * algebra.matrices.len() > MAX_ENTRIES {
+        report.push(
+            Diagnostic::new(
+                Kind::Limit,
+                algebra.matrices[0].origin,
+                "the matrices have too many entries",
+            )
+            .help("choose a smaller representation"),
+        );
+        return None;
+    }
+    let mut entries = Vec::new();
+    for matrix in &algebra.matrices {
+        let rows = rows(matrix, dimension, budget, report);
+        complete &= rows.is_some();
+        entries.push((scope.basis_index(&matrix.name.text), rows));
+    }
+    if !complete {
+        return None;
+    }
+    entries.sort_by_key(|(index, _)| *index);
+    let sparse = entries
+        .into_iter()
+        .filter_map(|(_, rows)| rows)
+        .map(|rows| SparseMatrix::from_rows(&rows))
+        .collect();
+    Some(Matrices {
+        declared: slots.into_iter().flatten().collect(),
+        sparse,
+        dimension,
+    })
+}
+
+/// The matrix of each basis element, and whether every one has one.
+fn slots<'a>(
+    algebra: &'a Algebra,
+    scope: &Scope<'_>,
+    report: &mut Report,
+) -> (Vec<Option<&'a Matrix>>, bool) {
     let mut slots: Vec<Option<&Matrix>> = vec![None; scope.basis().len()];
     let mut complete = true;
     for matrix in &algebra.matrices {
@@ -88,67 +129,37 @@ pub fn read<'a>(
         );
         complete = false;
     }
-    let dimension = algebra.matrices.first()?.rows.len();
-    if dimension * dimension * algebra.matrices.len() > MAX_ENTRIES {
-        report.push(
-            Diagnostic::new(
-                Kind::Limit,
-                algebra.matrices[0].origin,
-                "the matrices have too many entries",
-            )
-            .help("choose a smaller representation"),
+    (slots, complete)
+}
+
+/// The entries of a square matrix; all mistakes in them are reported.
+fn rows(
+    matrix: &Matrix,
+    dimension: usize,
+    budget: &Budget,
+    report: &mut Report,
+) -> Option<Vec<Vec<Rational>>> {
+    let square = matrix.rows.len() == dimension
+        && matrix.rows.iter().all(|row| row.len() == dimension)
+        && dimension > 0;
+    if !square {
+        let message = format!(
+            "the matrix of `{}` is not square, or not of the size of the others",
+            matrix.name.text
         );
-        return None;
-    }
-    let mut entries = Vec::new();
-    for matrix in &algebra.matrices {
-        if matrix.rows.len() != dimension
-            || matrix.rows.iter().any(|row| row.len() != dimension)
-            || dimension == 0
-        {
-            report.push(
-                Diagnostic::new(
-                    Kind::Representation,
-                    matrix.origin,
-                    format!(
-                        "the matrix of `{}` is not square, or not of the size of the others",
-                        matrix.name.text
-                    ),
-                )
+        report.push(
+            Diagnostic::new(Kind::Representation, matrix.origin, message)
                 .help("all matrices of a representation are square and of one size"),
-            );
-            complete = false;
-        }
-        let rows: Vec<Vec<Option<Rational>>> = matrix
-            .rows
-            .iter()
-            .map(|row| {
-                row.iter()
-                    .map(|entry| rational(entry, budget, report))
-                    .collect()
-            })
-            .collect();
-        let rows: Option<Vec<Vec<Rational>>> = rows
-            .into_iter()
-            .map(|row| row.into_iter().collect())
-            .collect();
-        complete &= rows.is_some();
-        entries.push((scope.basis_index(&matrix.name.text), rows));
+        );
     }
-    if !complete {
-        return None;
-    }
-    entries.sort_by_key(|(index, _)| *index);
-    let sparse = entries
-        .into_iter()
-        .filter_map(|(_, rows)| rows)
-        .map(|rows| SparseMatrix::from_rows(&rows))
-        .collect();
-    Some(Matrices {
-        declared: slots.into_iter().flatten().collect(),
-        sparse,
-        dimension,
-    })
+    let row = |row: &Vec<Expr>| {
+        let entries = row.iter().map(|entry| rational(entry, budget, report));
+        entries.collect::<Vec<_>>()
+    };
+    let rows: Vec<Vec<Option<Rational>>> = matrix.rows.iter().map(row).collect();
+    let rows = rows.into_iter().map(|row| row.into_iter().collect());
+    let rows: Option<Vec<Vec<Rational>>> = rows.collect();
+    rows.filter(|_| square)
 }
 
 impl Matrices<'_> {

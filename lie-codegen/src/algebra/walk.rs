@@ -140,11 +140,6 @@ fn descend<L: Lower>(lower: &mut L, expr: &Expr, depth: usize) -> Option<L::Valu
     if lower.gives_up() {
         return None;
     }
-    let operand = |lower: &mut L, turned: bool, part: &Expr| Operand {
-        turned,
-        value: descend(lower, part, depth + 1),
-        origin: part.origin,
-    };
     let value = match &expr.kind {
         ExprKind::Number(value) => Some(lower.number(value)),
         ExprKind::Name { name, index: None } => lower.name(name, origin),
@@ -159,35 +154,54 @@ fn descend<L: Lower>(lower: &mut L, expr: &Expr, depth: usize) -> Option<L::Valu
             lower.negative(inner, origin)
         }
         ExprKind::Sum(terms) => {
-            let terms = terms
-                .iter()
-                .map(|(minus, term)| operand(lower, *minus, term));
-            let terms = terms.collect();
+            let terms = operands(
+                lower,
+                terms.iter().map(|(minus, term)| (*minus, term)),
+                depth,
+            );
             lower.sum(terms, origin)
         }
         ExprKind::Product(factors) => {
-            let factors = factors
-                .iter()
-                .map(|(divides, factor)| operand(lower, *divides, factor));
-            let factors = factors.collect();
+            let factors = factors.iter().map(|(divides, factor)| (*divides, factor));
+            let factors = operands(lower, factors, depth);
             lower.product(factors, origin)
         }
         ExprKind::Power(base, exponent) => {
-            let [base, exponent] = [base, exponent].map(|part| operand(lower, false, part));
+            let [base, exponent] = [base, exponent].map(|part| operand(lower, false, part, depth));
             lower.power(base.whole()?, exponent.whole()?, origin)
         }
         ExprKind::Call {
             function,
             arguments,
         } => {
-            let arguments = arguments
-                .iter()
-                .map(|argument| operand(lower, false, argument));
-            let arguments = arguments.collect();
+            let arguments = operands(lower, arguments.iter().map(|part| (false, part)), depth);
             lower.call(function, arguments, origin)
         }
     };
     lower.bounded(value?, origin)
+}
+
+fn operand<L: Lower>(
+    lower: &mut L,
+    turned: bool,
+    part: &Expr,
+    depth: usize,
+) -> Operand<Option<L::Value>> {
+    Operand {
+        turned,
+        value: descend(lower, part, depth + 1),
+        origin: part.origin,
+    }
+}
+
+fn operands<'a, L: Lower>(
+    lower: &mut L,
+    parts: impl Iterator<Item = (bool, &'a Expr)>,
+    depth: usize,
+) -> Operands<L::Value> {
+    parts
+        .map(|(turned, part)| operand(lower, turned, part, depth))
+        .collect()
 }
 
 impl<T> Operand<Option<T>> {

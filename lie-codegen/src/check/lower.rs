@@ -1,8 +1,9 @@
 //! Lowering of the syntax tree to the symbolic arena.
 
+mod real;
+
 use std::collections::HashMap;
 
-use super::constant;
 use super::environment::{Allowed, Binding, Environment};
 use crate::algebra::walk::{Lower, MAX_EXPONENT, Operand, Operands};
 use crate::ast::{Expr, Name};
@@ -32,6 +33,13 @@ impl Lowered {
         Self {
             normal: id,
             written: id,
+        }
+    }
+
+    fn map(self, mut operation: impl FnMut(ExprId) -> ExprId) -> Self {
+        Self {
+            normal: operation(self.normal),
+            written: operation(self.written),
         }
     }
 }
@@ -118,28 +126,6 @@ impl<'a, 'b> Lowering<'a, 'b> {
         })
     }
 
-    /// Refuses the powers of constants that are not real or not finite.
-    fn real_power(&mut self, base: ExprId, exponent: &Rational, place: Origin) -> Option<()> {
-        let (negative, fractional) = (exponent.is_negative(), !exponent.is_integer());
-        if !negative && !fractional {
-            return Some(());
-        }
-        let rational = self.graph.as_number(base).is_some();
-        let (message, help) = match self.constant_sign(base, place)? {
-            Some(0) if negative && rational => return self.power_of_zero(place),
-            Some(-1) if fractional && rational => (
-                "a fractional power of a negative number is not real",
-                "correct the base, or use an integer exponent",
-            ),
-            Some(sign) if sign == 0 && negative || sign < 0 && fractional => (
-                "this power of a constant is not finite or not real",
-                "correct the base, or use another exponent",
-            ),
-            _ => return Some(()),
-        };
-        self.fail(Kind::Number, place, message, help)
-    }
-
     fn square_root(&mut self, argument: Lowered, place: Origin, origin: Origin) -> Option<Lowered> {
         if self.constant_sign(argument.normal, place)? == Some(-1) {
             return self.fail(
@@ -150,10 +136,7 @@ impl<'a, 'b> Lowering<'a, 'b> {
             );
         }
         let half = &Rational::ONE / &Rational::from(2);
-        Some(Lowered {
-            normal: self.graph.pow(argument.normal, &half),
-            written: self.graph.pow(argument.written, &half),
-        })
+        Some(argument.map(|id| self.graph.pow(id, &half)))
     }
 
     /// A quotient that is raised to a power stays one quantity.
@@ -169,50 +152,6 @@ impl<'a, 'b> Lowering<'a, 'b> {
             self.graph.written_product(id)
         } else {
             id
-        }
-    }
-
-    /// The sign of a constant, exactly: of rational numbers, of irrational ones by rigorous bounds where these
-    /// exclude zero, and by a proof where it is zero. `Some(None)` for what is no constant; a constant of which it
-    /// cannot be decided is reported.
-    fn constant_sign(&mut self, id: ExprId, origin: Origin) -> Option<Option<i32>> {
-        if let Some(number) = self.graph.as_number(id) {
-            let sign = i32::from(!number.is_zero());
-            return Some(Some(if number.is_negative() { -sign } else { sign }));
-        }
-        if !self.constants.contains_key(&id) {
-            let constant = self.graph.symbols(id).is_empty();
-            let sign = constant.then(|| constant::sign(self.graph, id));
-            self.constants.insert(id, sign);
-        }
-        match self.constants[&id] {
-            None => Some(None),
-            Some(Some(sign)) => Some(Some(sign)),
-            Some(None) => self.fail(
-                Kind::Number,
-                origin,
-                "it cannot be decided whether this constant is zero, positive or negative",
-                "write it in a simpler form, or as a number",
-            ),
-        }
-    }
-
-    /// Whether a function of constants is not real or not finite; `None` where that was reported as undecided.
-    fn is_undefined(&mut self, function: Function, id: ExprId, place: Origin) -> Option<bool> {
-        match function {
-            Function::Log => Some(self.constant_sign(id, place)?.is_some_and(|sign| sign <= 0)),
-            Function::Asin | Function::Acos => {
-                // 1 - x^2
-                let square = self.graph.pow(id, &Rational::from(2));
-                let one = self.graph.integer(1);
-                let rest = self.graph.sub(one, square);
-                Some(self.constant_sign(rest, place)? == Some(-1))
-            }
-            Function::Tan => {
-                let cosine = self.graph.call(Function::Cos, &[id]);
-                Some(self.constant_sign(cosine, place)? == Some(0))
-            }
-            _ => Some(false),
         }
     }
 }
@@ -251,10 +190,7 @@ impl Lower for Lowering<'_, '_> {
     }
 
     fn negative(&mut self, value: Lowered, _: Origin) -> Option<Lowered> {
-        Some(Lowered {
-            normal: self.graph.neg(value.normal),
-            written: self.graph.neg(value.written),
-        })
+        Some(value.map(|id| self.graph.neg(id)))
     }
 
     fn sum(&mut self, terms: Operands<Lowered>, origin: Origin) -> Option<Lowered> {

@@ -225,25 +225,29 @@ impl Judge {
                 exact(self.realization(name, z, along)?)
             }
             (_, [mu, ..]) => {
-                let at = kernels.at(mu, &sample.velocity);
-                let values = match name {
-                    "hamiltonian" => at.hamiltonian(),
-                    "energy" => at.energy(),
-                    "gradient" => at.gradient(),
-                    "hessian" => at.hessian(),
-                    "poisson_matrix" => return Some((at.poisson(), false)),
-                    "poisson_slope" => {
-                        return Some((at.poisson_slope(sample.arguments.get(1)?), false));
-                    }
-                    "vector_field" => at.field(),
-                    "jacobian" => at.jacobian(),
-                    "linearize" => [at.field(), at.jacobian()].concat(),
-                    _ => return None,
-                };
-                Some((values, discrete))
+                let values = self.at_state(name, mu, sample)?;
+                let exact = matches!(name, "poisson_matrix" | "poisson_slope");
+                Some((values, discrete && !exact))
             }
             _ => None,
         }
+    }
+
+    /// The same for a kernel of the state.
+    fn at_state(&self, name: &str, mu: &[f64], sample: &Sample) -> Option<Expected> {
+        let at = self.kernels.at(mu, &sample.velocity);
+        Some(match name {
+            "hamiltonian" => at.hamiltonian(),
+            "energy" => at.energy(),
+            "gradient" => at.gradient(),
+            "hessian" => at.hessian(),
+            "poisson_matrix" => at.poisson(),
+            "poisson_slope" => at.poisson_slope(sample.arguments.get(1)?),
+            "vector_field" => at.field(),
+            "jacobian" => at.jacobian(),
+            "linearize" => [at.field(), at.jacobian()].concat(),
+            _ => return None,
+        })
     }
 
     fn casimirs(&self, mu: &[f64]) -> Vec<Rounded> {
