@@ -297,3 +297,23 @@ fn visibility<'a>(cursor: &mut Cursor<'a>) -> &'a [Token] {
     }
     cursor.since(start)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::front::declaration::keyword;
+    use crate::front::schema::Spec;
+
+    #[test]
+    fn statements_are_keys_of_the_spec() {
+        let words = || KEYWORDS.iter().map(|(word, _)| *word);
+        let keys = || Spec::KEYS.iter().map(|key| keyword(key));
+        let no_keys: Vec<&str> = words().filter(|w| keys().all(|key| key != *w)).collect();
+        assert_eq!(no_keys, ["spec"]);
+        let no_statements: Vec<&str> = keys().filter(|k| words().all(|word| word != *k)).collect();
+        assert_eq!(
+            no_statements,
+            ["$schema", "format", "description", "references", "run"]
+        );
+    }
+}
