@@ -213,11 +213,21 @@ fn help_and_version_go_to_stdout() {
 #[test]
 fn plans_are_shown() {
     let spec = "specs/so3_free_rigid_body.json";
-    let plan = lie(&format!("expand {spec} --plan --method midpoint")).ok().stdout;
-    for part in ["plan of FreeRigidBody", "inverse_I1 = 1/I1", "equation Midpoint", "x' = -y*z/I2 + y*z/I3"] {
+    let plan = lie(&format!("expand {spec} --plan --method midpoint"))
+        .ok()
+        .stdout;
+    for part in [
+        "plan of FreeRigidBody",
+        "inverse_I1 = 1/I1",
+        "equation Midpoint",
+        "x' = -y*z/I2 + y*z/I3",
+    ] {
         assert!(plan.contains(part), "{part} in\n{plan}");
     }
-    assert!(!plan.contains("CayleyMidpoint") && !plan.contains("impl<"), "{plan}");
+    assert!(
+        !plan.contains("CayleyMidpoint") && !plan.contains("impl<"),
+        "{plan}"
+    );
     let code = lie(&format!("expand {spec} --method midpoint")).ok().stdout;
     assert!(code.contains("struct FreeRigidBodyMidpoint") && !code.contains("plan of"));
 }

@@ -161,11 +161,26 @@ impl Diagnostic {
 
 /// Collects the diagnostics of the stages; a stage runs on what the earlier ones left standing.
 ///
-/// It keeps the first thousand mistakes: a file of garbage has one for every few bytes.
+/// It keeps the first thousand mistakes: a file of garbage has one for every few bytes. Whoever makes a
+/// report asks it in the end, by [`gate`](Self::gate), [`into_diagnostics`](Self::into_diagnostics) or
+/// [`ignore`](Self::ignore). One that is dropped before panics, even where it is empty: so any test on that
+/// path finds where mistakes get lost.
 #[derive(Debug, Default)]
+#[must_use = "mistakes get lost in a report that nobody asks"]
 pub struct Report {
     diagnostics: Vec<Diagnostic>,
     errors: usize,
+    /// Whether it was asked since the last mistake.
+    asked: bool,
+}
+
+impl Drop for Report {
+    fn drop(&mut self) {
+        if !self.asked && !std::thread::panicking() {
+            let found = &self.diagnostics;
+            panic!("a report was dropped before anybody asked it; it holds {found:?}");
+        }
+    }
 }
 
 impl Report {
@@ -176,6 +191,7 @@ impl Report {
 
     /// Adds a diagnostic.
     pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.asked = false;
         let warnings = self.diagnostics.len() - self.errors;
         let kept = if diagnostic.warning {
             warnings
@@ -204,16 +220,23 @@ impl Report {
     /// # Errors
     /// All diagnostics, in the order in which they were found.
     pub fn gate(&mut self) -> Result<(), Vec<Diagnostic>> {
-        if self.has_errors() {
-            Err(std::mem::take(self).diagnostics)
-        } else {
-            Ok(())
+        self.asked = true;
+        if !self.has_errors() {
+            return Ok(());
         }
+        self.errors = 0;
+        Err(std::mem::take(&mut self.diagnostics))
     }
 
     /// All diagnostics.
-    pub fn into_diagnostics(self) -> Vec<Diagnostic> {
-        self.diagnostics
+    pub fn into_diagnostics(mut self) -> Vec<Diagnostic> {
+        self.asked = true;
+        std::mem::take(&mut self.diagnostics)
+    }
+
+    /// Drops what was reported; the reason says to the reader of the call why nobody has to hear it.
+    pub fn ignore(mut self, _reason: &'static str) {
+        self.asked = true;
     }
 }
 
@@ -238,11 +261,39 @@ mod tests {
         let kept = report.gate().unwrap_err();
         assert_eq!(kept.len(), MOST_KEPT + 1);
         assert!(!report.has_errors(), "what was taken is gone");
+        assert!(report.into_diagnostics().is_empty());
         assert_eq!(not_shown(MOST_SHOWN), None);
         assert_eq!(
             not_shown(MOST_SHOWN + 1).as_deref(),
             Some("1 more message is not shown; mend these first")
         );
         assert!(not_shown(MOST_KEPT).is_some_and(|text| text.starts_with("at least 950 more")));
+    }
+
+    /// Whether a report panics when it is dropped after this was done to it.
+    fn forgotten(last: impl FnOnce(Report) + std::panic::UnwindSafe) -> bool {
+        std::panic::catch_unwind(|| last(Report::new())).is_err()
+    }
+
+    #[test]
+    fn a_report_that_nobody_asks_panics() {
+        let wrong = || Diagnostic::placeless(Kind::Syntax, "wrong");
+        assert!(forgotten(drop));
+        assert!(forgotten(|mut report| report.push(wrong())));
+        assert!(forgotten(|report| assert!(!report.has_errors())));
+        assert!(!forgotten(|mut report| assert!(report.gate().is_ok())));
+        assert!(!forgotten(|report| report.ignore("nothing is in it")));
+        assert!(!forgotten(|report| drop(report.into_diagnostics())));
+        assert!(!forgotten(|mut report| {
+            report.push(wrong());
+            assert!(report.gate().is_err());
+        }));
+        assert!(
+            forgotten(|mut report| {
+                assert!(report.gate().is_ok());
+                report.push(wrong());
+            }),
+            "what is reported behind the gate is asked for again"
+        );
     }
 }

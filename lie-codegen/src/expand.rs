@@ -7,9 +7,10 @@ use quote::{format_ident, quote};
 
 use crate::ast::Name;
 use crate::characters::visible;
-use crate::compile::{compile_declaration, compile_spec, declared_choices, generate};
+use crate::compile::{compile_declaration, declared_choices, generate};
 use crate::diagnostic::{Diagnostic, Kind, MOST_SHOWN, Origin, Report, not_shown};
-use crate::front::{Body, Parsed, declaration, file, line_column};
+use crate::front::{Body, Parsed, declaration, file, line_column, spec};
+use crate::model::Model;
 use crate::print::of_this_version;
 
 /// What `lie_poisson! { input }` expands to; `manifest` is the folder that spec paths start from.
@@ -54,43 +55,47 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
         const _: &::core::primitive::str =
             ::core::include_str!(::core::concat!(::core::env!("CARGO_MANIFEST_DIR"), "/", #written));
     };
-    match compile_spec(&text) {
+    let mut report = Report::new();
+    let mut read = spec::read(&text, &mut report);
+    read.visibility = parsed.visibility.clone();
+    match compile_read(&read, report) {
         Ok(mut model) => {
-            model.visibility = parsed.visibility.clone();
+            model.visibility = read.visibility;
             let items = generate(&model, &declared_choices(&model));
             quote! { #items #track }
         }
         Err(diagnostics) => {
-            let placed: Vec<Diagnostic> = diagnostics
+            let placed = diagnostics
                 .into_iter()
-                .map(|mut diagnostic| {
-                    if let Some(Origin::Text { start, .. }) = diagnostic.origin {
-                        let (line, column) = line_column(&text, start);
-                        diagnostic.message =
-                            format!("{written}:{line}:{column}: {}", diagnostic.message);
-                    }
-                    diagnostic.origin = Some(path.origin);
-                    diagnostic
-                })
-                .collect();
-            // What the file names is read once more, so that its users hear of nothing else.
-            let read = crate::front::spec::read(&text, &mut Report::new());
-            let name = read.name.clone().map(|name| Name {
-                origin: path.origin,
-                ..name
-            });
-            let visibility = parsed.visibility.clone();
-            let errors = failure(
-                &Parsed {
-                    name,
-                    visibility,
-                    ..read
-                },
-                &placed,
-            );
+                .map(|diagnostic| at_path(diagnostic, path, &text));
+            // What was read stands in, so that those who use it hear of nothing else.
+            if let Some(name) = &mut read.name {
+                name.origin = path.origin;
+            }
+            let errors = failure(&read, &placed.collect::<Vec<_>>());
             quote! { #errors #track }
         }
     }
+}
+
+/// Checks what was read, if nothing was wrong with it.
+fn compile_read(read: &Parsed, mut report: Report) -> Result<Model, Vec<Diagnostic>> {
+    report.gate()?;
+    match &read.body {
+        Some(Body::Declaration(declaration)) => compile_declaration(declaration),
+        _ => Err(report.into_diagnostics()),
+    }
+}
+
+/// A mistake of a spec file, shown at its path in the macro.
+fn at_path(mut diagnostic: Diagnostic, path: &Name, text: &str) -> Diagnostic {
+    if let Some(Origin::Text { start, .. }) = diagnostic.origin {
+        let (line, column) = line_column(text, start);
+        let written = &path.text;
+        diagnostic.message = format!("{written}:{line}:{column}: {}", diagnostic.message);
+    }
+    diagnostic.origin = Some(path.origin);
+    diagnostic
 }
 
 /// The errors, each at its token, and a stub of the type so that nothing that uses it cascades.

@@ -10,6 +10,10 @@ use crate::exact::{Budget, Exhausted, Fraction};
 
 type Form = Vec<(usize, Fraction)>;
 
+fn negative(form: &Form) -> Form {
+    form.iter().map(|(k, v)| (*k, v.neg())).collect()
+}
+
 /// Lowers the declared brackets.
 ///
 /// Antisymmetry is implied, so `[b, a]` may be left out; where it is given it must be `-[a, b]`,
@@ -23,32 +27,15 @@ pub fn check(
     let mut known: BTreeMap<(usize, usize), (Form, &Bracket)> = BTreeMap::new();
     let mut complete = true;
     for bracket in brackets {
-        let ends = [&bracket.left, &bracket.right].map(|name| {
-            let index = scope.basis_index(&name.text);
-            if index.is_none() {
-                report.push(scope.unknown_basis(Kind::UnknownSymbol, name));
-            }
-            index
-        });
+        let ends = ends(bracket, scope, report);
         let value = bracket_value(&bracket.value, scope, budget, report);
-        let ([Some(a), Some(b)], Some(value)) = (ends, value) else {
+        let (Some((a, b)), Some(value)) = (ends, value) else {
             complete = false;
             continue;
         };
-        let (left, right) = (&bracket.left.text, &bracket.right.text);
         if a == b {
             if !value.is_empty() {
-                report.push(
-                    Diagnostic::new(
-                        Kind::Antisymmetry,
-                        bracket.origin,
-                        format!(
-                            "[{left}, {left}] = {}, but an antisymmetric bracket makes it zero",
-                            scope.display(&value)
-                        ),
-                    )
-                    .help("remove this bracket"),
-                );
+                report.push(with_itself(bracket, &value, scope));
                 complete = false;
             }
             continue;
@@ -56,63 +43,28 @@ pub fn check(
         let (pair, form) = if a < b {
             ((a, b), value)
         } else {
-            (
-                (b, a),
-                value.into_iter().map(|(k, v)| (k, v.neg())).collect(),
-            )
+            ((b, a), negative(&value))
         };
-        let Some((first, origin)) = known.get(&pair) else {
+        let Some((first, earlier)) = known.get(&pair) else {
             known.insert(pair, (form, bracket));
             continue;
         };
         match same(first, &form, budget) {
             Ok(true) => {}
             Ok(false) => {
-                let flipped = origin.left.text != *left;
-                let shown: Form = if (a < b) != flipped {
+                let upper = scope.basis_index(&earlier.left.text) == Some(pair.0);
+                let said = if upper {
                     first.clone()
                 } else {
-                    first.iter().map(|(k, v)| (*k, v.neg())).collect()
+                    negative(first)
                 };
-                let earlier = format!(
-                    "[{}, {}] = {}",
-                    origin.left.text,
-                    origin.right.text,
-                    scope.display(&shown)
-                );
-                let diagnostic = if flipped {
-                    let negative: Form = shown.iter().map(|(k, v)| (*k, v.neg())).collect();
-                    Diagnostic::new(
-                        Kind::Antisymmetry,
-                        bracket.origin,
-                        format!(
-                            "[{left}, {right}] disagrees with {earlier}: a bracket is antisymmetric"
-                        ),
-                    )
-                    .help(format!(
-                        "write [{left}, {right}] = {}, or leave it out",
-                        scope.display(&negative)
-                    ))
-                } else {
-                    Diagnostic::new(
-                        Kind::DuplicateBracket,
-                        bracket.origin,
-                        format!("[{left}, {right}] was already given another value: {earlier}"),
-                    )
-                    .help("keep one of the two")
-                };
-                report.push(diagnostic);
+                report.push(contradiction(bracket, (earlier, &said), scope));
                 complete = false;
             }
             Err(Exhausted) => {
-                report.push(
-                    Diagnostic::new(
-                        Kind::Limit,
-                        bracket.origin,
-                        "the brackets are too large to be compared exactly",
-                    )
-                    .help("simplify their coefficients"),
-                );
+                let message = "the brackets are too large to be compared exactly";
+                let limit = Diagnostic::new(Kind::Limit, bracket.origin, message);
+                report.push(limit.help("simplify their coefficients"));
                 return None;
             }
         }
@@ -121,6 +73,48 @@ pub fn check(
         .into_iter()
         .flat_map(|((i, j), (form, _))| form.into_iter().map(move |(k, v)| (i, j, k, v)));
     complete.then(|| StructureConstants::new(scope.basis().len(), entries.collect()))
+}
+
+/// The two basis elements.
+fn ends(bracket: &Bracket, scope: &Scope<'_>, report: &mut Report) -> Option<(usize, usize)> {
+    let [a, b] = [&bracket.left, &bracket.right].map(|name| {
+        let index = scope.basis_index(&name.text);
+        if index.is_none() {
+            report.push(scope.unknown_basis(Kind::UnknownSymbol, name));
+        }
+        index
+    });
+    a.zip(b)
+}
+
+/// `[a, a]` that is not zero.
+fn with_itself(bracket: &Bracket, value: &Form, scope: &Scope<'_>) -> Diagnostic {
+    let message = format!(
+        "[{0}, {0}] = {1}, but an antisymmetric bracket makes it zero",
+        bracket.left.text,
+        scope.display(value)
+    );
+    Diagnostic::new(Kind::Antisymmetry, bracket.origin, message).help("remove this bracket")
+}
+
+/// A bracket that an earlier one, with its value, contradicts.
+fn contradiction(
+    bracket: &Bracket,
+    (earlier, said): (&Bracket, &Form),
+    scope: &Scope<'_>,
+) -> Diagnostic {
+    let shown = |bracket: &Bracket| format!("[{}, {}]", bracket.left.text, bracket.right.text);
+    let (here, before) = (shown(bracket), shown(earlier));
+    let value = scope.display(said);
+    if earlier.left.text == bracket.left.text {
+        let message = format!("{here} was already given another value: {before} = {value}");
+        return Diagnostic::new(Kind::DuplicateBracket, bracket.origin, message)
+            .help("keep one of the two");
+    }
+    let message = format!("{here} disagrees with {before} = {value}: a bracket is antisymmetric");
+    let right = scope.display(&negative(said));
+    Diagnostic::new(Kind::Antisymmetry, bracket.origin, message)
+        .help(format!("write {here} = {right}, or leave it out"))
 }
 
 fn same(a: &Form, b: &Form, budget: &Budget) -> Result<bool, Exhausted> {

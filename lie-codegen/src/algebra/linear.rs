@@ -4,22 +4,24 @@
 use std::collections::BTreeMap;
 
 use super::scope::{Meaning, Scope};
-use crate::ast::{Expr, ExprKind};
+use super::walk::{Lower, MAX_EXPONENT, Operand, Operands};
+use crate::ast::{Expr, ExprKind, Name};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
-use crate::suggest::{did_you_mean, listed};
+use crate::suggest::listed;
 use crate::symbolic::Function;
-
-/// The largest exponent of a coefficient.
-const MAX_EXPONENT: i64 = 1000;
-/// Deeper nesting than any person writes; the traversal is recursive.
-pub(crate) const MAX_DEPTH: usize = 400;
 
 /// `constant + sum of coefficient * e_k`.
 #[derive(Clone, Debug, Default)]
 struct Form {
     constant: Fraction,
     linear: BTreeMap<usize, Fraction>,
+}
+
+impl Form {
+    fn is_scalar(&self) -> bool {
+        self.linear.values().all(Fraction::is_zero)
+    }
 }
 
 impl From<Fraction> for Form {
@@ -37,7 +39,6 @@ struct Lowering<'a, 'b> {
     scope: Option<&'b Scope<'a>>,
     report: &'b mut Report,
     budget: &'b Budget,
-    depth: usize,
 }
 
 /// The right side of a bracket: the nonzero coefficients by basis index.
@@ -51,9 +52,8 @@ pub(super) fn bracket_value(
         scope: Some(scope),
         report,
         budget,
-        depth: 0,
     }
-    .lower(value)?;
+    .walk(value)?;
     if !form.constant.is_zero() {
         let constant = form.constant.display(&|p| scope.parameter(p));
         report.push(
@@ -93,19 +93,19 @@ fn constant_term(value: &Expr, scope: &Scope<'_>, budget: &Budget) -> Option<Ori
     let ExprKind::Sum(terms) = &value.kind else {
         return None;
     };
-    let report = &mut Report::new();
+    let mut report = Report::new();
     let mut lower = |term| {
         Lowering {
             scope: Some(scope),
-            report,
+            report: &mut report,
             budget,
-            depth: 0,
         }
-        .lower(term)
+        .walk(term)
     };
     let found = terms
         .iter()
         .find(|(_, term)| lower(term).is_some_and(|form| !form.constant.is_zero()));
+    report.ignore("the terms were lowered before, as parts of the value");
     found.map(|(_, term)| term.origin)
 }
 
@@ -115,26 +115,13 @@ pub fn rational(value: &Expr, budget: &Budget, report: &mut Report) -> Option<Ra
         scope: None,
         report,
         budget,
-        depth: 0,
     }
-    .lower(value)?
+    .walk(value)?
     .constant
     .as_constant()
 }
 
 impl Lowering<'_, '_> {
-    fn fail<T>(
-        &mut self,
-        kind: Kind,
-        origin: Origin,
-        message: impl Into<String>,
-        help: &str,
-    ) -> Option<T> {
-        self.report
-            .push(Diagnostic::new(kind, origin, message).help(help));
-        None
-    }
-
     fn limited<T>(&mut self, result: Result<T, Exhausted>, origin: Origin) -> Option<T> {
         result
             .or_else(|Exhausted| {
@@ -167,91 +154,112 @@ impl Lowering<'_, '_> {
         None
     }
 
-    fn lower(&mut self, expr: &Expr) -> Option<Form> {
-        if self.depth > MAX_DEPTH {
-            return self.fail(
-                Kind::Limit,
-                expr.origin,
-                "the expression is nested too deeply",
-                "give parts of it names with `let`",
-            );
+    fn scale(&mut self, form: &Form, factor: &Fraction, origin: Origin) -> Option<Form> {
+        let budget = self.budget;
+        let constant = self.limited(form.constant.mul(factor, budget), origin)?;
+        let mut linear = BTreeMap::new();
+        for (k, value) in &form.linear {
+            linear.insert(*k, self.limited(value.mul(factor, budget), origin)?);
         }
-        self.depth += 1;
-        let form = self.lower_kind(expr);
-        self.depth -= 1;
-        form
+        Some(Form { constant, linear })
+    }
+}
+
+impl Lower for Lowering<'_, '_> {
+    type Value = Form;
+
+    fn report(&mut self) -> &mut Report {
+        self.report
     }
 
-    fn lower_kind(&mut self, expr: &Expr) -> Option<Form> {
-        match &expr.kind {
-            ExprKind::Number(value) => Some(Fraction::from(value.clone()).into()),
-            ExprKind::Name { index: Some(_), .. } | ExprKind::IndexedSum { .. } => self.fail(
-                Kind::Syntax,
-                expr.origin,
-                "indexed names belong to families of systems, which are not available here",
-                "write the copies out, as in x1, x2, x3",
-            ),
-            ExprKind::Name { name, index: None } => self.name(name, expr.origin),
-            ExprKind::Negative(inner) => {
-                let form = self.lower(inner)?;
-                self.scale(&form, &Fraction::from(Rational::MINUS_ONE), expr.origin)
-            }
-            ExprKind::Sum(terms) => {
-                // Every term is visited, so that all their mistakes are reported together.
-                let forms: Vec<_> = terms
-                    .iter()
-                    .map(|(minus, term)| (*minus, self.lower(term)))
-                    .collect();
-                let mut sum = Form::default();
-                for (minus, form) in forms {
-                    let form = form?;
-                    let sign = if minus {
-                        Rational::MINUS_ONE
-                    } else {
-                        Rational::ONE
-                    };
-                    let budget = self.budget;
-                    let added = sum.constant.add(&form.constant.scale(&sign), budget);
-                    sum.constant = self.limited(added, expr.origin)?;
-                    for (k, value) in form.linear {
-                        let entry = sum.linear.entry(k).or_default();
-                        let added = entry.add(&value.scale(&sign), budget);
-                        *entry = self.limited(added, expr.origin)?;
-                    }
-                }
-                Some(sum)
-            }
-            ExprKind::Product(factors) => self.product(factors, expr.origin),
-            ExprKind::Power(base, exponent) => self.power(base, exponent, expr.origin),
-            ExprKind::Call {
-                function,
-                arguments,
-            } => {
-                for argument in arguments {
-                    self.lower(argument);
-                }
-                let known =
-                    Function::from_name(&function.text).is_some() || function.text == "sqrt";
-                if known {
-                    return self
-                        .irrational(expr.origin, &format!("`{}` is not rational", function.text));
-                }
-                let mut diagnostic = Diagnostic::new(
-                    Kind::UnknownFunction,
-                    function.origin,
-                    format!("unknown function `{}`", function.text),
-                );
-                diagnostic =
-                    match did_you_mean(&function.text, Function::ALL.iter().map(|f| f.name())) {
-                        Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-                        None => {
-                            diagnostic.help("coefficients are rational: they have no functions")
-                        }
-                    };
-                self.report.push(diagnostic);
-                None
+    fn number(&mut self, value: &Rational) -> Form {
+        Fraction::from(value.clone()).into()
+    }
+
+    fn negative(&mut self, value: Form, origin: Origin) -> Option<Form> {
+        self.scale(&value, &Fraction::from(Rational::MINUS_ONE), origin)
+    }
+
+    fn sum(&mut self, terms: Operands<Form>, origin: Origin) -> Option<Form> {
+        let budget = self.budget;
+        let mut sum = Form::default();
+        for term in terms {
+            let sign = term.sign();
+            let form = term.value?;
+            let added = sum.constant.add(&form.constant.scale(&sign), budget);
+            sum.constant = self.limited(added, origin)?;
+            for (k, value) in form.linear {
+                let entry = sum.linear.entry(k).or_default();
+                let added = entry.add(&value.scale(&sign), budget);
+                *entry = self.limited(added, origin)?;
             }
         }
+        Some(sum)
+    }
+
+    fn product(&mut self, factors: Operands<Form>, origin: Origin) -> Option<Form> {
+        let mut product = Form::from(Fraction::from(Rational::ONE));
+        for factor in factors {
+            let form = factor.value?;
+            if factor.turned {
+                if !form.is_scalar() {
+                    return self.irrational(origin, "a basis name stands in a denominator");
+                }
+                let inverse = form.constant.recip(self.budget);
+                let Some(inverse) = self.limited(inverse, factor.origin)? else {
+                    return self.division_by_zero(factor.origin);
+                };
+                product = self.scale(&product, &inverse, origin)?;
+            } else if form.is_scalar() {
+                product = self.scale(&product, &form.constant, origin)?;
+            } else if product.is_scalar() {
+                product = self.scale(&form, &product.constant, origin)?;
+            } else {
+                return self.irrational(origin, "a product of basis names");
+            }
+        }
+        Some(product)
+    }
+
+    fn power(
+        &mut self,
+        base: Operand<Form>,
+        exponent: Operand<Form>,
+        origin: Origin,
+    ) -> Option<Form> {
+        let constant = exponent.value.constant.as_constant();
+        let integer = constant
+            .filter(|_| exponent.value.linear.is_empty())
+            .filter(Rational::is_integer);
+        let Some(integer) = integer else {
+            return self.irrational(exponent.origin, "an exponent that is not an integer");
+        };
+        let small = |e: &i64| (-MAX_EXPONENT..=MAX_EXPONENT).contains(e);
+        let Some(integer) = integer.to_integer().filter(small) else {
+            return self.large_exponent(exponent.origin);
+        };
+        if integer == 1 {
+            return Some(base.value);
+        }
+        if !base.value.is_scalar() {
+            return self.irrational(origin, "a power of a basis name");
+        }
+        let power = base.value.constant.pow(integer as i32, self.budget);
+        match self.limited(power, origin)? {
+            Some(power) => Some(power.into()),
+            None => self.power_of_zero(base.origin),
+        }
+    }
+
+    fn call(&mut self, function: &Name, _: Operands<Form>, origin: Origin) -> Option<Form> {
+        let name = &function.text;
+        if Function::from_name(name).is_some() || name == "sqrt" {
+            return self.irrational(origin, &format!("`{name}` is not rational"));
+        }
+        self.unknown_function(
+            function,
+            "coefficients are rational: they have no functions",
+        )
     }
 
     fn name(&mut self, name: &str, origin: Origin) -> Option<Form> {
@@ -268,126 +276,62 @@ impl Lowering<'_, '_> {
         let wrong = match scope.meaning(name) {
             Some(Meaning::Basis(k)) => {
                 let linear = BTreeMap::from([(k, Fraction::from(Rational::ONE))]);
-                return Some(Form { constant: Fraction::default(), linear });
+                return Some(Form {
+                    constant: Fraction::default(),
+                    linear,
+                });
             }
             Some(Meaning::Exact(parameter)) => return Some(Fraction::variable(parameter).into()),
-            Some(Meaning::Inexact) => Diagnostic::new(
-                Kind::UnknownSymbol,
-                origin,
-                format!("the parameter `{name}` is not exact, so a bracket cannot use it"),
-            )
-            .help(format!("declare it exact: `exact {name} = …;` in the macro, `\"exact\": true` in a spec")),
-            Some(Meaning::Let) => Diagnostic::new(
-                Kind::UnknownSymbol,
-                origin,
-                format!("`{name}` is an abbreviation; a bracket knows basis names and exact parameters only"),
-            )
-            .help("write it out"),
-            Some(Meaning::Coordinate) => Diagnostic::new(
-                Kind::UnknownSymbol,
-                origin,
-                format!("`{name}` is a coordinate; a bracket is written in basis names"),
-            )
-            .help(format!("the basis is {}", scope.basis().join(", "))),
-            None => {
-                let diagnostic = Diagnostic::new(
-                    Kind::UnknownSymbol,
-                    origin,
-                    format!("`{name}` is neither a basis name nor an exact parameter"),
-                );
-                match scope.nearest_basis(name) {
-                    Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-                    None => diagnostic.help(format!(
-                        "the basis is {}: add it, or declare it as an exact parameter",
-                        listed(scope.basis())
-                    )),
-                }
-            }
+            other => not_in_brackets(name, origin, other, scope),
         };
         self.report.push(wrong);
         None
     }
+}
 
-    fn scale(&mut self, form: &Form, factor: &Fraction, origin: Origin) -> Option<Form> {
-        let budget = self.budget;
-        let constant = self.limited(form.constant.mul(factor, budget), origin)?;
-        let mut linear = BTreeMap::new();
-        for (k, value) in &form.linear {
-            linear.insert(*k, self.limited(value.mul(factor, budget), origin)?);
-        }
-        Some(Form { constant, linear })
-    }
-
-    fn product(&mut self, factors: &[(bool, Expr)], origin: Origin) -> Option<Form> {
-        let forms: Vec<_> = factors
-            .iter()
-            .map(|(divides, factor)| (*divides, self.lower(factor), factor.origin))
-            .collect();
-        let mut product = Form::from(Fraction::from(Rational::ONE));
-        for (divides, form, place) in forms {
-            let form = form?;
-            let scalar = form.linear.values().all(Fraction::is_zero);
-            if divides {
-                if !scalar {
-                    return self.irrational(origin, "a basis name stands in a denominator");
-                }
-                let inverse = form.constant.recip(self.budget);
-                let Some(inverse) = self.limited(inverse, place)? else {
-                    return self.fail(
-                        Kind::Number,
-                        place,
-                        "division by zero",
-                        "the divisor is exactly zero; correct it",
-                    );
-                };
-                product = self.scale(&product, &inverse, origin)?;
-            } else if scalar {
-                product = self.scale(&product, &form.constant, origin)?;
-            } else if product.linear.values().all(Fraction::is_zero) {
-                let factor = product.constant;
-                product = self.scale(&form, &factor, origin)?;
-            } else {
-                return self.irrational(origin, "a product of basis names");
-            }
-        }
-        Some(product)
-    }
-
-    fn power(&mut self, base: &Expr, exponent: &Expr, origin: Origin) -> Option<Form> {
-        let (form, power) = (self.lower(base), self.lower(exponent));
-        let (form, power) = (form?, power?);
-        let integer = power
-            .constant
-            .as_constant()
-            .filter(|_| power.linear.is_empty())
-            .filter(Rational::is_integer);
-        let Some(integer) = integer else {
-            return self.irrational(exponent.origin, "an exponent that is not an integer");
-        };
-        let small = |e: &i64| (-MAX_EXPONENT..=MAX_EXPONENT).contains(e);
-        let Some(integer) = integer.to_integer().filter(small) else {
-            return self.fail(
-                Kind::Limit,
-                exponent.origin,
-                format!("an exponent above {MAX_EXPONENT}"),
-                "rescale the variables, or use `exp` and `log`",
-            );
-        };
-        if integer == 1 {
-            return Some(form);
-        }
-        if !form.linear.values().all(Fraction::is_zero) {
-            return self.irrational(origin, "a power of a basis name");
-        }
-        let power = form.constant.pow(integer as i32, self.budget);
-        match self.limited(power, origin)? {
-            Some(power) => Some(power.into()),
-            None => self.fail(
-                Kind::Number,
-                base.origin,
-                "a negative power of zero",
-                "the base is exactly zero; correct it",
+/// A name that is declared for something else, or not at all.
+fn not_in_brackets(
+    name: &str,
+    origin: Origin,
+    meaning: Option<Meaning>,
+    scope: &Scope<'_>,
+) -> Diagnostic {
+    match meaning {
+        Some(Meaning::Inexact) => Diagnostic::new(
+            Kind::UnknownSymbol,
+            origin,
+            format!("the parameter `{name}` is not exact, so a bracket cannot use it"),
+        )
+        .help(format!(
+            "declare it exact: `exact {name} = …;` in the macro, `\"exact\": true` in a spec"
+        )),
+        Some(Meaning::Let) => Diagnostic::new(
+            Kind::UnknownSymbol,
+            origin,
+            format!(
+                "`{name}` is an abbreviation; a bracket knows basis names and exact parameters only"
             ),
+        )
+        .help("write it out"),
+        Some(Meaning::Coordinate) => Diagnostic::new(
+            Kind::UnknownSymbol,
+            origin,
+            format!("`{name}` is a coordinate; a bracket is written in basis names"),
+        )
+        .help(format!("the basis is {}", scope.basis().join(", "))),
+        _ => {
+            let diagnostic = Diagnostic::new(
+                Kind::UnknownSymbol,
+                origin,
+                format!("`{name}` is neither a basis name nor an exact parameter"),
+            );
+            match scope.nearest_basis(name) {
+                Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+                None => diagnostic.help(format!(
+                    "the basis is {}: add it, or declare it as an exact parameter",
+                    listed(scope.basis())
+                )),
+            }
         }
     }
 }

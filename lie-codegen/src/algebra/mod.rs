@@ -13,6 +13,7 @@ mod ring;
 mod scope;
 mod sparse;
 mod triple;
+pub(crate) mod walk;
 
 #[cfg(test)]
 pub(crate) mod known;
@@ -20,7 +21,6 @@ pub(crate) mod known;
 mod tests;
 
 pub use constants::StructureConstants;
-pub(crate) use linear::MAX_DEPTH;
 pub use linear::rational;
 pub use representation::{Representation, TripleEntry};
 pub use scope::Scope;

@@ -3,7 +3,7 @@
 use super::linear::rational;
 use super::sparse::SparseMatrix;
 use super::{Scope, StructureConstants, envelope, triple};
-use crate::ast::{Algebra, Matrix};
+use crate::ast::{Algebra, Expr, Matrix};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::span::{NoSpan, Span};
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
@@ -48,6 +48,47 @@ pub fn read<'a>(
     budget: &Budget,
     report: &mut Report,
 ) -> Option<Matrices<'a>> {
+    let (slots, mut complete) = slots(algebra, scope, report);
+    let dimension = algebra.matrices.first()?.rows.len();
+    if dimension * dimension * algebra.matrices.len() > MAX_ENTRIES {
+        report.push(
+            Diagnostic::new(
+                Kind::Limit,
+                algebra.matrices[0].origin,
+                "the matrices have too many entries",
+            )
+            .help("choose a smaller representation"),
+        );
+        return None;
+    }
+    let mut entries = Vec::new();
+    for matrix in &algebra.matrices {
+        let rows = rows(matrix, dimension, budget, report);
+        complete &= rows.is_some();
+        entries.push((scope.basis_index(&matrix.name.text), rows));
+    }
+    if !complete {
+        return None;
+    }
+    entries.sort_by_key(|(index, _)| *index);
+    let sparse = entries
+        .into_iter()
+        .filter_map(|(_, rows)| rows)
+        .map(|rows| SparseMatrix::from_rows(&rows))
+        .collect();
+    Some(Matrices {
+        declared: slots.into_iter().flatten().collect(),
+        sparse,
+        dimension,
+    })
+}
+
+/// The matrix of each basis element, and whether every one has one.
+fn slots<'a>(
+    algebra: &'a Algebra,
+    scope: &Scope<'_>,
+    report: &mut Report,
+) -> (Vec<Option<&'a Matrix>>, bool) {
     let mut slots: Vec<Option<&Matrix>> = vec![None; scope.basis().len()];
     let mut complete = true;
     for matrix in &algebra.matrices {
@@ -88,67 +129,37 @@ pub fn read<'a>(
         );
         complete = false;
     }
-    let dimension = algebra.matrices.first()?.rows.len();
-    if dimension * dimension * algebra.matrices.len() > MAX_ENTRIES {
-        report.push(
-            Diagnostic::new(
-                Kind::Limit,
-                algebra.matrices[0].origin,
-                "the matrices have too many entries",
-            )
-            .help("choose a smaller representation"),
+    (slots, complete)
+}
+
+/// The entries of a square matrix; all mistakes in them are reported.
+fn rows(
+    matrix: &Matrix,
+    dimension: usize,
+    budget: &Budget,
+    report: &mut Report,
+) -> Option<Vec<Vec<Rational>>> {
+    let square = matrix.rows.len() == dimension
+        && matrix.rows.iter().all(|row| row.len() == dimension)
+        && dimension > 0;
+    if !square {
+        let message = format!(
+            "the matrix of `{}` is not square, or not of the size of the others",
+            matrix.name.text
         );
-        return None;
-    }
-    let mut entries = Vec::new();
-    for matrix in &algebra.matrices {
-        if matrix.rows.len() != dimension
-            || matrix.rows.iter().any(|row| row.len() != dimension)
-            || dimension == 0
-        {
-            report.push(
-                Diagnostic::new(
-                    Kind::Representation,
-                    matrix.origin,
-                    format!(
-                        "the matrix of `{}` is not square, or not of the size of the others",
-                        matrix.name.text
-                    ),
-                )
+        report.push(
+            Diagnostic::new(Kind::Representation, matrix.origin, message)
                 .help("all matrices of a representation are square and of one size"),
-            );
-            complete = false;
-        }
-        let rows: Vec<Vec<Option<Rational>>> = matrix
-            .rows
-            .iter()
-            .map(|row| {
-                row.iter()
-                    .map(|entry| rational(entry, budget, report))
-                    .collect()
-            })
-            .collect();
-        let rows: Option<Vec<Vec<Rational>>> = rows
-            .into_iter()
-            .map(|row| row.into_iter().collect())
-            .collect();
-        complete &= rows.is_some();
-        entries.push((scope.basis_index(&matrix.name.text), rows));
+        );
     }
-    if !complete {
-        return None;
-    }
-    entries.sort_by_key(|(index, _)| *index);
-    let sparse = entries
-        .into_iter()
-        .filter_map(|(_, rows)| rows)
-        .map(|rows| SparseMatrix::from_rows(&rows))
-        .collect();
-    Some(Matrices {
-        declared: slots.into_iter().flatten().collect(),
-        sparse,
-        dimension,
-    })
+    let row = |row: &Vec<Expr>| {
+        let entries = row.iter().map(|entry| rational(entry, budget, report));
+        entries.collect::<Vec<_>>()
+    };
+    let rows: Vec<Vec<Option<Rational>>> = matrix.rows.iter().map(row).collect();
+    let rows = rows.into_iter().map(|row| row.into_iter().collect());
+    let rows: Option<Vec<Vec<Rational>>> = rows.collect();
+    rows.filter(|_| square)
 }
 
 impl Matrices<'_> {
@@ -179,24 +190,7 @@ impl Matrices<'_> {
                 return None;
             }
             Err(NoSpan::Dependent(relation)) => {
-                let form: Vec<_> = relation
-                    .into_iter()
-                    .enumerate()
-                    .filter(|(_, c)| !c.is_zero())
-                    .collect();
-                let last = form.last().map_or(0, |(index, _)| *index);
-                let form: Vec<_> = form
-                    .into_iter()
-                    .map(|(k, c)| (k, Fraction::from(c)))
-                    .collect();
-                report.push(
-                    Diagnostic::new(
-                        Kind::Representation,
-                        self.declared[last].origin,
-                        format!("the matrices are linearly dependent: {} = 0", scope.display(&form)),
-                    )
-                    .help("brackets can only be computed from independent matrices; otherwise declare `brackets`"),
-                );
+                report.push(self.dependent(relation, scope));
                 return None;
             }
         };
@@ -210,25 +204,38 @@ impl Matrices<'_> {
                     return None;
                 };
                 let Some(coordinates) = coordinates else {
-                    let (a, b) = (scope.basis()[i], scope.basis()[j]);
-                    report.push(
-                        Diagnostic::new(
-                            Kind::Representation,
-                            self.declared[j].origin,
-                            format!("the commutator of the matrices of `{a}` and `{b}` is outside the span of the matrices"),
-                        )
-                        .help("the matrices must span a Lie algebra; add the missing basis elements"),
-                    );
+                    report.push(self.outside(i, j, scope));
                     return None;
                 };
-                let nonzero = coordinates
-                    .into_iter()
-                    .enumerate()
-                    .filter(|(_, c)| !c.is_zero());
-                entries.extend(nonzero.map(|(k, c)| (i, j, k, Fraction::from(c))));
+                let entry = |(k, value)| (i, j, k, Fraction::from(value));
+                entries.extend(nonzero(coordinates).map(entry));
             }
         }
         Some(StructureConstants::new(self.sparse.len(), entries))
+    }
+
+    /// A linear relation between the matrices.
+    fn dependent(&self, relation: Vec<Rational>, scope: &Scope<'_>) -> Diagnostic {
+        let form = nonzero(relation).map(|(k, c)| (k, Fraction::from(c)));
+        let form: Vec<_> = form.collect();
+        let last = form.last().map_or(0, |(index, _)| *index);
+        let message = format!(
+            "the matrices are linearly dependent: {} = 0",
+            scope.display(&form)
+        );
+        Diagnostic::new(Kind::Representation, self.declared[last].origin, message).help(
+            "brackets can only be computed from independent matrices; otherwise declare `brackets`",
+        )
+    }
+
+    /// Two matrices whose commutator is no combination of the others.
+    fn outside(&self, i: usize, j: usize, scope: &Scope<'_>) -> Diagnostic {
+        let [a, b] = [i, j].map(|index| scope.basis()[index]);
+        let message = format!(
+            "the commutator of the matrices of `{a}` and `{b}` is outside the span of the matrices"
+        );
+        Diagnostic::new(Kind::Representation, self.declared[j].origin, message)
+            .help("the matrices must span a Lie algebra; add the missing basis elements")
     }
 
     /// Checks the matrices against the brackets, and finds their triple product.
@@ -245,29 +252,8 @@ impl Matrices<'_> {
             for j in i + 1..self.sparse.len() {
                 match self.first_wrong_entry(i, j, constants, budget) {
                     Ok(None) => {}
-                    Ok(Some((row, column, rest))) => {
-                        let [a, b] = [i, j].map(|index| scope.basis()[index]);
-                        let form: Vec<_> = constants
-                            .upper(i, j)
-                            .iter()
-                            .map(|(_, _, k, v)| (*k, v.clone()))
-                            .collect();
-                        // The matrix on the right side is the likeliest to be wrong.
-                        let place = form.last().map_or(j, |(k, _)| *k);
-                        report.push(
-                            Diagnostic::new(
-                                Kind::Representation,
-                                self.declared[place].origin,
-                                format!(
-                                    "the matrices do not represent [{a}, {b}] = {}: entry ({}, {}) of the commutator minus the right side is {}",
-                                    scope.display(&form),
-                                    row + 1,
-                                    column + 1,
-                                    rest.display(&|p| scope.parameter(p)),
-                                ),
-                            )
-                            .help("correct the bracket or the matrices; without `brackets` they are computed from the matrices"),
-                        );
+                    Ok(Some(wrong)) => {
+                        report.push(self.not_represented((i, j), wrong, constants, scope));
                         return None;
                     }
                     Err(Exhausted) => {
@@ -290,6 +276,30 @@ impl Matrices<'_> {
             triple,
             dual,
         })
+    }
+
+    /// A bracket that the matrices do not represent, by a wrong entry.
+    fn not_represented(
+        &self,
+        (i, j): (usize, usize),
+        (row, column, rest): (usize, usize, Fraction),
+        constants: &StructureConstants<Fraction>,
+        scope: &Scope<'_>,
+    ) -> Diagnostic {
+        let [a, b] = [i, j].map(|index| scope.basis()[index]);
+        let form = constants.upper(i, j).iter();
+        let form: Vec<_> = form.map(|(_, _, k, v)| (*k, v.clone())).collect();
+        // The matrix on the right side is the likeliest to be wrong.
+        let place = form.last().map_or(j, |(k, _)| *k);
+        let message = format!(
+            "the matrices do not represent [{a}, {b}] = {}: entry ({}, {}) of the commutator minus the right side is {}",
+            scope.display(&form),
+            row + 1,
+            column + 1,
+            rest.display(&|p| scope.parameter(p)),
+        );
+        Diagnostic::new(Kind::Representation, self.declared[place].origin, message)
+            .help("correct the bracket or the matrices; without `brackets` they are computed from the matrices")
     }
 
     /// The triple product and the dual matrices, for independent matrices.
@@ -335,4 +345,9 @@ impl Matrices<'_> {
         Ok(wrong
             .map(|(position, value)| (position / self.dimension, position % self.dimension, value)))
     }
+}
+
+fn nonzero(values: Vec<Rational>) -> impl Iterator<Item = (usize, Rational)> {
+    let values = values.into_iter().enumerate();
+    values.filter(|(_, value)| !value.is_zero())
 }

@@ -23,6 +23,23 @@ impl Algebra {
             representation: None,
         }
     }
+
+    /// The opposite algebra: the right-invariant system is the left-invariant one on it.
+    pub fn opposite(self) -> Self {
+        let mut representation = self.representation;
+        if let Some(representation) = &mut representation {
+            // The triple product of three matrices changes its sign with them.
+            let dual = representation.dual.iter_mut().flatten();
+            let matrices = representation.matrices.iter_mut().chain(dual);
+            for entry in matrices.flatten().flatten() {
+                *entry = -&*entry;
+            }
+        }
+        Self {
+            constants: self.constants.map(Fraction::neg),
+            representation,
+        }
+    }
 }
 
 /// Checks everything that does not depend on the functions, so that a slip in the Hamiltonian

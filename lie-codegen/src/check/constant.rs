@@ -37,6 +37,7 @@ pub fn constant(text: &str) -> Result<f64, Vec<Diagnostic>> {
         let mut lowering = Lowering::new(&mut graph, &environment, &mut report, Allowed::Constants);
         lowering.lower(&expr)
     });
+    report.gate()?;
     match value {
         Some(value) => Ok(graph.evaluate(value, &|_| f64::NAN)),
         None => Err(report.into_diagnostics()),

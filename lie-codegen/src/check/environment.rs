@@ -123,98 +123,105 @@ impl<'a> Environment<'a> {
 
     /// The error for a name that may not stand here.
     pub fn unknown(&self, name: &str, origin: Origin, allowed: Allowed) -> Diagnostic {
-        let function = !matches!(allowed, Allowed::Constants | Allowed::Parameters);
-        if name == "t" {
-            return Diagnostic::new(
-                Kind::ReservedName,
-                origin,
-                "`t` is the time, on which only the Hamiltonian or the Lagrangian may depend",
-            )
-            .help("remove it; a parameter takes the place of a frozen time");
+        let (kind, (message, help)) = if name == "t" {
+            (Kind::ReservedName, on_time())
+        } else {
+            let declared = self.get(name).and_then(|b| misplaced(name, b, allowed));
+            let mistake = declared.unwrap_or_else(|| self.undeclared(name, allowed));
+            (Kind::UnknownSymbol, mistake)
+        };
+        Diagnostic::new(kind, origin, message).help(help)
+    }
+
+    /// Message and remedy for a name that is not declared.
+    fn undeclared(&self, name: &str, allowed: Allowed) -> (String, String) {
+        if Function::from_name(name).is_some() || name == "sqrt" {
+            let help = format!("write its argument: `{name}(…)`");
+            return (format!("`{name}` is a function"), help);
         }
-        let diagnostic = |message: String| Diagnostic::new(Kind::UnknownSymbol, origin, message);
         let usable = |binding: &Binding| match binding {
             Binding::Symbol(symbol) => allowed.permits(*symbol),
             Binding::Let(_) => allowed != Allowed::Constants,
             Binding::Later | Binding::Basis => false,
         };
-        match self.get(name) {
-            Some(Binding::Later) => {
-                return diagnostic(format!(
-                    "`{name}` is not known yet: an abbreviation may use only earlier ones"
-                ))
-                .help("change the order of the abbreviations; none may use itself");
-            }
-            Some(Binding::Basis) if matches!(allowed, Allowed::Velocity(_)) => {
-                return diagnostic(format!("`{name}` is a basis element; a Lagrangian is written in the components of the velocity"))
-                    .help("use the velocity name of the same position");
-            }
-            Some(Binding::Basis) if function => {
-                return diagnostic(format!("`{name}` is a basis element; functions are written in the coordinates of the state"))
-                    .help("use the state name of the same position");
-            }
-            Some(Binding::Symbol(_) | Binding::Let(_)) => {
-                let (rule, help) = match allowed {
-                    Allowed::Constants => ("only constants may", "write its value"),
-                    Allowed::Velocity(_) => (
-                        "a reduced Lagrangian depends on the velocity, not on mu",
-                        "use the velocity names; mu is the derivative of the Lagrangian",
-                    ),
-                    Allowed::Canonical => (
-                        "the map of a realization depends on positions and momenta alone",
-                        "use their names",
-                    ),
-                    Allowed::State => (
-                        "it depends on the velocity, and this is a function of mu",
-                        "use the state names",
-                    ),
-                    _ => ("only constants and parameters may", "write its value"),
-                };
-                return diagnostic(format!("`{name}` cannot stand here: {rule}")).help(help);
-            }
-            _ => {}
-        }
-        if Function::from_name(name).is_some() || name == "sqrt" {
-            return diagnostic(format!("`{name}` is a function"))
-                .help(format!("write its argument: `{name}(…)`"));
-        }
         if let Some(latin) = habits::in_latin(name)
             && self.get(&latin).is_some_and(|binding| usable(&binding))
         {
-            return diagnostic(format!(
+            let message = format!(
                 "unknown symbol `{name}`: it looks like `{latin}`, but its letters are others"
-            ))
-            .help(format!("write `{latin}`"));
+            );
+            return (message, format!("write `{latin}`"));
         }
-        let mut candidates: Vec<&str> = self
-            .bindings
-            .iter()
-            .filter(|(_, b)| usable(b))
-            .map(|(n, _)| *n)
-            .collect();
+        let bindings = self.bindings.iter();
+        let candidates = bindings.filter(|(_, b)| usable(b)).map(|(n, _)| *n);
+        let mut candidates: Vec<&str> = candidates.collect();
         candidates.sort_unstable();
         candidates.push("pi");
         let near = misspelt(name, candidates.iter().copied());
-        let others = series(name, candidates);
         if near.is_none()
             && let Some((message, help)) = habits::constant(name)
         {
-            return diagnostic(message).help(help);
+            return (message, help.to_owned());
         }
-        let diagnostic = diagnostic(format!("unknown symbol `{name}`"));
-        match near {
-            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+        let declare = format!("declare `{name}` as a parameter or as an abbreviation");
+        let others = series(name, candidates);
+        let help = match near {
+            Some(near) => format!("did you mean `{near}`?"),
             None if allowed == Allowed::Constants => {
-                diagnostic.help("only numbers and `pi` may stand here")
+                "only numbers and `pi` may stand here".to_owned()
             }
-            None if !others.is_empty() => diagnostic.help(format!(
-                "declare `{name}` as a parameter or as an abbreviation; of these names there {} {}",
+            None if others.is_empty() => declare,
+            None => format!(
+                "{declare}; of these names there {} {}",
                 if others.len() == 1 { "is" } else { "are" },
                 listed(&others)
-            )),
-            None => diagnostic.help(format!(
-                "declare `{name}` as a parameter or as an abbreviation"
-            )),
-        }
+            ),
+        };
+        (format!("unknown symbol `{name}`"), help)
     }
+}
+
+fn on_time() -> (String, String) {
+    (
+        "`t` is the time, on which only the Hamiltonian or the Lagrangian may depend".to_owned(),
+        "remove it; a parameter takes the place of a frozen time".to_owned(),
+    )
+}
+
+/// Message and remedy for a name that is declared, but for something else; `None` for a basis name among constants,
+/// which is taken for one that is not declared.
+fn misplaced(name: &str, binding: Binding, allowed: Allowed) -> Option<(String, String)> {
+    let (rule, help) = match (binding, allowed) {
+        (Binding::Later, _) => (
+            "is not known yet: an abbreviation may use only earlier ones",
+            "change the order of the abbreviations; none may use itself",
+        ),
+        (Binding::Basis, Allowed::Constants | Allowed::Parameters) => return None,
+        (Binding::Basis, Allowed::Velocity(_)) => (
+            "is a basis element; a Lagrangian is written in the components of the velocity",
+            "use the velocity name of the same position",
+        ),
+        (Binding::Basis, _) => (
+            "is a basis element; functions are written in the coordinates of the state",
+            "use the state name of the same position",
+        ),
+        (_, Allowed::Constants) => ("cannot stand here: only constants may", "write its value"),
+        (_, Allowed::Velocity(_)) => (
+            "cannot stand here: a reduced Lagrangian depends on the velocity, not on mu",
+            "use the velocity names; mu is the derivative of the Lagrangian",
+        ),
+        (_, Allowed::Canonical) => (
+            "cannot stand here: the map of a realization depends on positions and momenta alone",
+            "use their names",
+        ),
+        (_, Allowed::State) => (
+            "cannot stand here: it depends on the velocity, and this is a function of mu",
+            "use the state names",
+        ),
+        (_, Allowed::Parameters | Allowed::Everything) => (
+            "cannot stand here: only constants and parameters may",
+            "write its value",
+        ),
+    };
+    Some((format!("`{name}` {rule}"), help.to_owned()))
 }

@@ -120,6 +120,26 @@ enum Pivot {
     Two(usize, usize),
 }
 
+/// The second derivatives, from the first.
+fn hessian(graph: &mut Graph, slopes: &[ExprId]) -> Vec<Vec<ExprId>> {
+    let row = |&slope: &ExprId| {
+        let entries = (0..slopes.len()).map(|j| graph.derivative(slope, Symbol::Input(j)));
+        entries.collect()
+    };
+    slopes.iter().map(row).collect()
+}
+
+/// Whether the third derivatives vanish; by symmetry those of ordered indices are enough.
+fn is_constant(graph: &mut Graph, hessian: &[Vec<ExprId>]) -> bool {
+    let count = hessian.len();
+    let upper = (0..count).flat_map(|i| (i..count).map(move |j| (i, j)));
+    let mut all = upper.flat_map(|(i, j)| (j..count).map(move |k| (i, j, k)));
+    all.all(|(i, j, k)| {
+        let third = graph.derivative(hessian[i][j], Symbol::Input(k));
+        graph.is_zero(third) || vanishes(graph, third)
+    })
+}
+
 impl Quadratic {
     /// The terms up to second order at rest, and whether there are no others.
     fn of(graph: &mut Graph, lagrangian: &Lagrangian<'_>) -> Result<(Self, bool), Box<Diagnostic>> {
@@ -129,22 +149,10 @@ impl Quadratic {
         let slopes: Vec<ExprId> = (0..count)
             .map(|i| graph.derivative(lagrangian.value, Symbol::Input(i)))
             .collect();
-        let mut matrix = Vec::new();
-        let mut quadratic = true;
-        for (i, &slope) in slopes.iter().enumerate() {
-            let row: Vec<ExprId> = (0..count)
-                .map(|j| graph.derivative(slope, Symbol::Input(j)))
-                .collect();
-            for (j, &entry) in row.iter().enumerate().skip(i) {
-                for k in j..count {
-                    if quadratic {
-                        let third = graph.derivative(entry, Symbol::Input(k));
-                        quadratic = graph.is_zero(third) || vanishes(graph, third);
-                    }
-                }
-            }
-            matrix.push(graph.substitute(&row, &at_rest));
-        }
+        let hessian = hessian(graph, &slopes);
+        let quadratic = is_constant(graph, &hessian);
+        let rows = hessian.iter();
+        let matrix = rows.map(|row| graph.substitute(row, &at_rest)).collect();
         let mut roots = slopes;
         roots.push(lagrangian.value);
         let mut values = graph.substitute(&roots, &at_rest);

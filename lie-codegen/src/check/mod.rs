@@ -30,6 +30,7 @@ mod lower;
 mod matrix;
 mod methods;
 mod names;
+mod naming;
 pub(crate) mod normal;
 mod parameters;
 mod poisson;
@@ -46,20 +47,17 @@ mod velocity;
 #[cfg(test)]
 mod tests;
 
-use std::collections::HashSet;
-
 use crate::algebra::{StructureConstants, rank};
 use crate::ast::{self, Declaration, Energy, Invariance};
-use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::diagnostic::{Diagnostic, Report};
 use crate::exact::{Fraction, Rational};
-use crate::model::{Casimir, Model, Structure, Transform};
+use crate::model::{Model, Parameter, PoissonMatrix, Realization, Structure, Transform};
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph, Symbol};
 use algebra::Algebra;
 use casimirs::Candidate;
 use configuration::Configuration;
 use environment::{Allowed, Environment};
-use independence::Standing;
 use lower::Lowering;
 
 pub use constant::constant;
@@ -106,12 +104,24 @@ fn stages(declaration: &Declaration, report: &mut Report) -> Option<Model> {
     }
 }
 
-/// Everything behind names and sizes; of a system on `T*G` the declaration is the one with all coordinates.
-fn system(
+/// All expressions of a declaration in one arena.
+struct Lowered {
+    graph: Graph,
+    algebra: Algebra,
+    parameters: Vec<Parameter>,
+    brackets: Vec<poisson::Entry>,
+    energy: ExprId,
+    casimirs: Vec<ExprId>,
+    realization: Option<Realization>,
+    initial: Option<Vec<ExprId>>,
+}
+
+/// Lowers everything, so that the mistakes of all expressions are reported together.
+fn lowered(
     declaration: &Declaration,
     configuration: Option<&Configuration>,
     report: &mut Report,
-) -> Option<Model> {
+) -> Option<Lowered> {
     let algebra = match declaration.algebra() {
         Some(algebra) => algebra::check(declaration, algebra, report),
         None => Some(Algebra::none(declaration.dimension())),
@@ -133,37 +143,49 @@ fn system(
             }
         },
     );
-    let lowered: Vec<Option<ExprId>> = declaration
-        .casimirs
-        .iter()
-        .map(|c| lower(&c.value, Allowed::State))
-        .collect();
+    let casimirs = declaration.casimirs.iter();
+    let casimirs: Vec<_> = casimirs.map(|c| lower(&c.value, Allowed::State)).collect();
     let realization =
         realization::lower(declaration, configuration, &mut graph, &environment, report);
     let initial = initial::check(declaration, &mut graph, &environment, report);
     if report.has_errors() {
         return None;
     }
-    let (algebra, parameters, initial) = (algebra?, parameters?, initial?);
-    let (brackets, mut realization) = (brackets?, realization?);
-    let constants = algebra.constants;
-    let defaults = defaults::check(declaration, &constants, &parameters, report)?;
-    // The right-invariant system is the left-invariant one of the opposite algebra.
-    let (exact_constants, representation) = match declaration.invariance {
-        Invariance::Left => (constants, algebra.representation),
-        Invariance::Right => (
-            constants.map(Fraction::neg),
-            algebra.representation.map(|mut representation| {
-                // The triple product of three matrices changes its sign with them.
-                let dual = representation.dual.iter_mut().flatten();
-                for matrix in representation.matrices.iter_mut().chain(dual) {
-                    for entry in matrix.iter_mut().flatten() {
-                        *entry = -&*entry;
-                    }
-                }
-                representation
-            }),
-        ),
+    Some(Lowered {
+        graph,
+        algebra: algebra?,
+        parameters: parameters?,
+        brackets: brackets?,
+        energy: energy?,
+        casimirs: casimirs.into_iter().collect::<Option<_>>()?,
+        realization: realization?,
+        initial: initial?,
+    })
+}
+
+/// Everything behind names and sizes; of a system on `T*G` the declaration is the one with all coordinates.
+fn system(
+    declaration: &Declaration,
+    configuration: Option<&Configuration>,
+    report: &mut Report,
+) -> Option<Model> {
+    let Lowered {
+        mut graph,
+        algebra,
+        parameters,
+        brackets,
+        energy,
+        casimirs,
+        mut realization,
+        initial,
+    } = lowered(declaration, configuration, report)?;
+    let defaults = defaults::check(declaration, &algebra.constants, &parameters, report)?;
+    let Algebra {
+        constants: exact_constants,
+        representation,
+    } = match declaration.invariance {
+        Invariance::Left => algebra,
+        Invariance::Right => algebra.opposite(),
     };
     let constants = exact_constants.map(|value| expression(&mut graph, value));
     if declaration.algebra().is_some() {
@@ -175,10 +197,7 @@ fn system(
         ast::Structure::Lie { .. } => Structure::Extended,
     };
     let symbol_name = |symbol| poisson::symbol_name(declaration, symbol);
-    let candidates: Vec<Candidate> = named(
-        declaration,
-        &lowered.into_iter().collect::<Option<Vec<_>>>()?,
-    );
+    let candidates = naming::named(declaration, &casimirs);
     let on_algebra = configuration.is_none() && structure == Structure::Lie;
     let motion = energy::Motion {
         declaration,
@@ -186,7 +205,7 @@ fn system(
         configuration,
         on_algebra,
     };
-    let (hamiltonian, lagrangian) = motion.hamiltonian(&mut graph, energy?, report)?;
+    let (hamiltonian, lagrangian) = motion.hamiltonian(&mut graph, energy, report)?;
     let exact = lagrangian
         .as_ref()
         .is_none_or(|lagrangian| lagrangian.transform == Transform::Exact);
@@ -231,34 +250,18 @@ fn system(
             poisson.degree = degrees.try_fold(0, |most, degree| Some(most.max(degree?)));
         }
     }
-    let mut degrees = Vec::new();
-    let mut found = Report::new();
-    for candidate in &candidates {
-        degrees.push(casimirs::check(
-            candidate,
-            &mut scratch,
-            &poisson,
-            &symbol_name,
-            &mut found,
-        ));
-    }
-    let failed = found.has_errors();
-    let mut found = found.into_diagnostics();
-    if failed && on_algebra {
-        sign::explain(
-            declaration,
-            &exact_constants,
-            &candidates,
-            &mut scratch,
-            &mut found,
-        );
-    }
-    found.into_iter().for_each(|d| report.push(d));
+    let turned = on_algebra.then_some(&exact_constants);
+    let degrees = verified(
+        declaration,
+        &candidates,
+        (&poisson, turned),
+        &mut scratch,
+        report,
+    );
     if let Some(realization) = &mut realization {
         realization::check(realization, &poisson, &mut scratch, &symbol_name, report);
     }
-    let degrees: Vec<Option<u32>> = degrees.into_iter().collect::<Option<_>>()?;
-    let casimirs = independent(declaration, &graph, candidates, &degrees, report);
+    let casimirs = naming::independent(declaration, &graph, candidates, &degrees?, report);
     let dimension = declaration.dimension();
     let bound = (dimension - casimirs.len().min(dimension)) & !1;
     let generic_rank = match structure {
@@ -330,105 +333,27 @@ fn system(
     Some(model)
 }
 
-/// The Casimirs with names: unnamed ones are C1, C2, …, skipping what is taken.
-fn named(declaration: &Declaration, lowered: &[ExprId]) -> Vec<Candidate> {
-    let mut free = free_names(declaration);
-    let casimirs = declaration.casimirs.iter().zip(lowered);
-    casimirs
-        .map(|(casimir, expr)| {
-            let name = casimir
-                .name
-                .as_ref()
-                .map(|n| n.text.clone())
-                .or_else(|| free.next())
-                .unwrap_or_default();
-            Candidate {
-                name,
-                origin: casimir.value.origin,
-                expr: *expr,
-            }
-        })
-        .collect()
-}
-
-/// C1, C2, … without the names that are taken.
-fn free_names(declaration: &Declaration) -> impl Iterator<Item = String> + use<> {
-    let names = declaration
-        .state
-        .iter()
-        .chain(declaration.basis())
-        .chain(declaration.lets.iter().map(|(n, _)| n));
-    let names = names.chain(declaration.parameters.iter().map(|p| &p.name));
-    let names = names.chain(declaration.casimirs.iter().filter_map(|c| c.name.as_ref()));
-    let taken: HashSet<String> = names.map(|n| n.text.clone()).collect();
-    (1..)
-        .map(|i| format!("C{i}"))
-        .filter(move |name| !taken.contains(name))
-}
-
-/// Leaves out, with a warning, what depends on earlier Casimirs; the unnamed rest is numbered anew.
-fn independent(
+/// The degrees of the Casimirs, `None` if one is none. With the constants of an algebra it is said which bracket
+/// seems to have the wrong sign.
+fn verified(
     declaration: &Declaration,
-    graph: &Graph,
-    candidates: Vec<Candidate>,
-    degrees: &[Option<u32>],
+    candidates: &[Candidate],
+    (poisson, constants): (&PoissonMatrix, Option<&StructureConstants<Fraction>>),
+    scratch: &mut Graph,
     report: &mut Report,
-) -> Vec<Casimir> {
-    let functions: Vec<ExprId> = candidates.iter().map(|c| c.expr).collect();
-    let standings = independence::check(graph, &functions, declaration.dimension());
-    let mut free = free_names(declaration);
-    let mut kept = Vec::new();
-    for (((candidate, standing), degree), declared) in candidates
-        .into_iter()
-        .zip(standings)
-        .zip(degrees)
-        .zip(&declaration.casimirs)
-    {
-        let why = match standing {
-            Standing::Independent => {
-                let name = declared
-                    .name
-                    .as_ref()
-                    .map(|n| n.text.clone())
-                    .or_else(|| free.next())
-                    .unwrap_or(candidate.name);
-                let multivalued = branches::jumps(graph, candidate.expr);
-                if multivalued {
-                    report.push(multivalued_casimir(&name, candidate.origin));
-                }
-                kept.push(Casimir {
-                    name,
-                    origin: candidate.origin,
-                    expr: candidate.expr,
-                    degree: *degree,
-                    multivalued,
-                });
-                continue;
-            }
-            Standing::Dependent => "depends on the Casimirs before it",
-            Standing::Constant => "does not depend on the state",
-        };
-        report.push(
-            Diagnostic::new(
-                Kind::Casimir,
-                candidate.origin,
-                format!("the Casimir `{}` {why} and is left out", candidate.name),
-            )
-            .help("remove it")
-            .warning(),
-        );
+) -> Option<Vec<Option<u32>>> {
+    let name = |symbol| poisson::symbol_name(declaration, symbol);
+    let mut found = Report::new();
+    let degrees = candidates.iter();
+    let degrees = degrees.map(|c| casimirs::check(c, scratch, poisson, &name, &mut found));
+    let degrees: Vec<Option<Option<u32>>> = degrees.collect();
+    let failed = found.has_errors();
+    let mut found = found.into_diagnostics();
+    if let Some(constants) = constants.filter(|_| failed) {
+        sign::explain(declaration, constants, candidates, scratch, &mut found);
     }
-    kept
-}
-
-fn multivalued_casimir(name: &str, origin: crate::diagnostic::Origin) -> Diagnostic {
-    let message = format!(
-        "the Casimir `{name}` is multi-valued: an angle in it jumps, and `{name}` with it, although it is constant between \
-         the jumps"
-    );
-    Diagnostic::new(Kind::Casimir, origin, message)
-        .help("its column is written, but no drift is measured; a function of it without jumps, such as its sine, would be followed")
-        .warning()
+    found.into_iter().for_each(|d| report.push(d));
+    degrees.into_iter().collect()
 }
 
 /// A rational function of the parameters in the arena.

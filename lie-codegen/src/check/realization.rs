@@ -7,7 +7,7 @@ use super::lower::Lowering;
 use super::normal::{NormalForm, Verdict};
 use super::proof::{Proof, examine};
 use super::size::plural;
-use crate::ast::{Declaration, Expr};
+use crate::ast::{self, Declaration, Expr};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::{Budget, Rational};
 use crate::model::{CANONICAL, Descent, PoissonMatrix, Realization};
@@ -27,29 +27,86 @@ pub fn lower(
     let Some(declared) = &declaration.realization else {
         return Some(None);
     };
-    let fails = |place: Origin, message: String, help: &str| {
-        Diagnostic::new(Kind::Representation, place, message).help(help)
+    let points = canonical_coordinates(declared, configuration, report)?;
+    let map = components(declaration, declared, report);
+    if let Some(start) = &declared.start
+        && start.len() != points
+    {
+        let place = start.last().map_or(declared.origin, |value| value.origin);
+        let message = format!(
+            "the start has {} {}, but there are {points} canonical coordinates",
+            start.len(),
+            plural(start.len(), "value")
+        );
+        report.push(
+            Diagnostic::new(Kind::StateLength, place, message)
+                .help("write the positions, then the momenta"),
+        );
+        return None;
+    }
+    let mut value = |expr, allowed| Lowering::new(graph, environment, report, allowed).lower(expr);
+    let origins = map.iter().flatten().map(|expr| expr.origin).collect();
+    let map: Vec<Option<ExprId>> = map
+        .into_iter()
+        .map(|expr| value(expr?, Allowed::Canonical))
+        .collect();
+    let start: Option<Vec<Option<ExprId>>> = declared.start.as_ref().map(|start| {
+        let entries = start.iter();
+        entries
+            .map(|expr| value(expr, Allowed::Parameters))
+            .collect()
+    });
+    let start = match start {
+        Some(start) => start.into_iter().collect::<Option<Vec<_>>>()?,
+        None => generic_point(points, graph),
     };
+    Some(Some(Realization {
+        names: declared.names().cloned().collect(),
+        map: map.into_iter().collect::<Option<Vec<_>>>()?,
+        origins,
+        start,
+        given: declared.start.is_some(),
+        descent: Descent::Degree,
+    }))
+}
+
+fn mistake(place: Origin, message: impl Into<String>, help: &str) -> Diagnostic {
+    Diagnostic::new(Kind::Representation, place, message).help(help)
+}
+
+/// The number of canonical coordinates.
+fn canonical_coordinates(
+    declared: &ast::Realization,
+    configuration: Option<&Configuration>,
+    report: &mut Report,
+) -> Option<usize> {
     if configuration.is_some() {
-        report.push(fails(
+        report.push(mistake(
             declared.origin,
-            "a realization is for systems without a group element and without the time".into(),
+            "a realization is for systems without a group element and without the time",
             "remove it, or the group element and the time",
         ));
         return None;
     }
     let (positions, momenta) = (declared.positions.len(), declared.momenta.len());
     if positions != momenta || positions == 0 {
-        report.push(fails(
+        let plural = plural(positions, "position");
+        report.push(mistake(
             declared.origin,
-            format!(
-                "there are {positions} {} and {momenta} momenta",
-                plural(positions, "position")
-            ),
+            format!("there are {positions} {plural} and {momenta} momenta"),
             "name one momentum for each position",
         ));
         return None;
     }
+    Some(positions + momenta)
+}
+
+/// The component of each coordinate of the state, `None` where there is none, which is reported.
+fn components<'a>(
+    declaration: &Declaration,
+    declared: &'a ast::Realization,
+    report: &mut Report,
+) -> Vec<Option<&'a Expr>> {
     let mut map: Vec<Option<&Expr>> = vec![None; declaration.state.len()];
     let mut complete = true;
     for (name, value) in &declared.map {
@@ -84,7 +141,7 @@ pub fn lower(
         .map(|(name, _)| name.text.as_str())
         .collect();
     if complete && !missing.is_empty() {
-        report.push(fails(
+        report.push(mistake(
             declared.origin,
             format!(
                 "the realization has no component for {}",
@@ -93,57 +150,16 @@ pub fn lower(
             "write `STATE = expression` for each name of the state",
         ));
     }
-    let points = positions + momenta;
-    if let Some(start) = declared
-        .start
-        .as_ref()
-        .filter(|start| start.len() != points)
-    {
-        let place = start.last().map_or(declared.origin, |value| value.origin);
-        report.push(
-            Diagnostic::new(
-                Kind::StateLength,
-                place,
-                format!(
-                    "the start has {} {}, but there are {points} canonical coordinates",
-                    start.len(),
-                    plural(start.len(), "value")
-                ),
-            )
-            .help("write the positions, then the momenta"),
-        );
-        return None;
-    }
-    let mut value = |expr, allowed| Lowering::new(graph, environment, report, allowed).lower(expr);
-    let origins = map.iter().flatten().map(|expr| expr.origin).collect();
-    let map: Vec<Option<ExprId>> = map
-        .into_iter()
-        .map(|expr| value(expr?, Allowed::Canonical))
-        .collect();
-    let start: Option<Vec<Option<ExprId>>> = declared.start.as_ref().map(|start| {
-        let entries = start.iter();
-        entries
-            .map(|expr| value(expr, Allowed::Parameters))
-            .collect()
-    });
-    let start = match start {
-        Some(start) => start.into_iter().collect::<Option<Vec<_>>>()?,
-        // a generic point: no two entries are alike, and they point in many directions
-        None => (0..points as i64)
-            .map(|k| {
-                let whole = Rational::from((3 * k * k + 5 * k + 2) % 7 - 3);
-                graph.number(&whole + &(&Rational::ONE / &Rational::from(k + 2)))
-            })
-            .collect(),
+    map
+}
+
+/// A point to start from: no two entries are alike, and they point in many directions.
+fn generic_point(points: usize, graph: &mut Graph) -> Vec<ExprId> {
+    let entry = |k: i64| {
+        let whole = Rational::from((3 * k * k + 5 * k + 2) % 7 - 3);
+        graph.number(&whole + &(&Rational::ONE / &Rational::from(k + 2)))
     };
-    Some(Some(Realization {
-        names: declared.names().cloned().collect(),
-        map: map.into_iter().collect::<Option<Vec<_>>>()?,
-        origins,
-        start,
-        given: declared.start.is_some(),
-        descent: Descent::Degree,
-    }))
+    (0..points as i64).map(entry).collect()
 }
 
 /// Verifies the brackets, and says whether Gauss methods over the realization descend.

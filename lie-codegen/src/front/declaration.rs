@@ -6,12 +6,13 @@ mod statement;
 
 use proc_macro2::{Span, TokenStream};
 
-use self::block::{algebra, names, parameters, poisson, realization};
-use self::entry::{compact, inside};
+use self::block::{algebra, names, parameters, realization};
+use self::entry::{Entry, compact, inside};
 use self::statement::{Statement, statements};
+use super::reader::{self, Entries, Line};
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
-use super::{Body, Names, Parsed, expression, item, rust};
-use crate::ast::{Declaration, Expr, Invariance, Name, Parameter};
+use super::{Body, Names, Parsed, item, rust};
+use crate::ast::{Algebra, Expr, Name, Realization, RunOption};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// Parses the input of the macro. Every mistake is reported at its token; one in a statement does
@@ -38,6 +39,18 @@ pub fn parse(input: TokenStream, report: &mut Report) -> Parsed {
     parsed
 }
 
+/// The statements of which a declaration may have many.
+const REPEATABLE: [&str; 2] = ["let", "casimir"];
+
+/// The word that begins the statement of a key.
+fn keyword(key: &str) -> &str {
+    match key {
+        "name" => "system",
+        "casimirs" => "casimir",
+        key => key,
+    }
+}
+
 /// The statements of a macro.
 struct Parts<'a> {
     statements: Vec<Statement<'a>>,
@@ -59,8 +72,7 @@ impl<'a> Parts<'a> {
         let mut seen: Vec<&str> = Vec::new();
         for statement in &self.statements {
             let keyword = statement.keyword;
-            let repeatable = matches!(keyword, "let" | "casimir");
-            if !repeatable && seen.contains(&keyword) {
+            if !REPEATABLE.contains(&keyword) && seen.contains(&keyword) {
                 report.push(
                     Diagnostic::new(
                         Kind::Syntax,
@@ -188,144 +200,69 @@ fn system(parts: &Parts<'_>, report: &mut Report) -> Parsed {
         Some(state) => split_commas(state.rest).len(),
         None => parts.size_of_basis(),
     };
-    let entries = parts
-        .first("parameters")
-        .and_then(|s| s.block(report))
-        .unwrap_or_default();
-    let (found, parameters) = parameters(entries, report);
-    parsed.parameters = found;
-    let declaration = remainder(parts, &parsed, parameters, report);
-    if !report.has_errors() {
-        parsed.body = declaration.map(|d| Body::Declaration(Box::new(d)));
-    }
-    parsed
+    let block = parts.first("parameters").and_then(|s| s.block(report));
+    let parameters = parameters(block.unwrap_or_default(), report);
+    parsed.parameters = parameters.names;
+    reader::finish(parts, parsed, parameters.whole, report)
 }
 
-/// What is read when all names are known.
-fn remainder(
-    parts: &Parts<'_>,
-    parsed: &Parsed,
-    parameters: Vec<Parameter>,
-    report: &mut Report,
-) -> Option<Declaration> {
-    let texts = |names: &[Name]| names.iter().map(|n| n.text.clone()).collect::<Vec<_>>();
-    let constants = texts(&parsed.parameters);
-    let algebra = parts
-        .first("algebra")
-        .map(|s| (s.origin, algebra(s, &constants, report)));
-    let lets = parts
-        .all("let")
-        .filter_map(|s| s.rest.first()?.identifier())
-        .map(str::to_owned);
-    let velocity = parts.first("velocity");
-    let place = velocity.map(|s| s.origin);
-    let velocity = velocity
-        .map(|s| names(s.rest, s.origin, report))
-        .unwrap_or_default();
-    let names: Names = texts(&parsed.state)
-        .into_iter()
-        .chain(texts(&velocity))
-        .chain(constants.iter().cloned())
-        .chain(lets)
-        .chain(parts.first(item::FUNCTIONS[2]).map(|_| "h".to_owned()))
-        .collect();
-    let basis = algebra.iter().filter_map(|(_, algebra)| algebra.as_ref());
-    let names = names.with_elsewhere(basis.flat_map(|a| texts(&a.basis)));
-    let [brackets, cocycle] = ["poisson", "cocycle"].map(|keyword| {
-        let statement = parts.first(keyword)?;
-        Some((statement.origin, poisson(statement, &names, report)))
-    });
-    let of_algebra = [
-        "lagrangian",
-        "discrete_lagrangian",
-        "invariance",
-        "group",
-        "realization",
-    ]
-    .map(|keyword| {
-        let statement = parts.first(keyword)?;
-        Some((statement.origin, keyword))
-    });
-    let of_algebra: Vec<_> = of_algebra.into_iter().flatten().collect();
-    let structure = item::structure(
-        algebra,
-        brackets,
-        cocycle,
-        &of_algebra,
-        Kind::Syntax,
-        report,
-    );
-    let lets = parts.all("let").filter_map(|s| {
-        let (name, value) = item::definition(s.rest, "an abbreviation", s.origin, report)?;
-        Some((
-            name,
-            item::formula(value, ("its value", "x^2/2"), s.origin, &names, report)?,
-        ))
-    });
-    let lets = lets.collect();
-    let functions = item::FUNCTIONS.map(|keyword| {
-        let statement = parts.first(keyword)?;
-        Some((statement.origin, function(statement, &names, report)))
-    });
-    let energy = item::energy(functions, (place, velocity), Kind::Syntax, report);
-    let realization = parts
-        .first("realization")
-        .map(|s| realization(s, &constants, report));
-    let casimirs = parts
-        .all("casimir")
-        .filter_map(|s| item::casimir(s.rest, s.origin, &names, report))
-        .collect();
-    let methods = parts
-        .first("methods")
-        .map(|s| methods(s, report))
-        .unwrap_or_default();
-    let group = parts
-        .first("group")
-        .map(|s| item::name(s.rest, s.origin, report));
-    let invariance = parts
-        .first("invariance")
-        .map_or(Some(Invariance::Left), |s| {
-            let value = s.value(report)?;
-            item::invariance(
-                &render(value),
-                span(value).unwrap_or(s.origin),
-                Kind::Syntax,
-                report,
-            )
-        });
-    let constants: Names = constants.into_iter().collect();
-    let initial = parts
-        .first("initial")
-        .map(|s| (initial(s, &constants, report), s.origin));
-    Some(Declaration {
-        visibility: parsed.visibility.clone(),
-        name: parsed.name.clone()?,
-        description: parts.first("system")?.description(),
-        references: Vec::new(),
-        structure: structure?,
-        group: group.map_or(Some(None), |name| name.map(Some))?,
-        state: parsed.state.clone(),
-        parameters,
-        lets,
-        energy: energy?,
-        realization: realization.map_or(Some(None), |read| read.map(Some))?,
-        casimirs,
-        methods,
-        invariance: invariance?,
-        initial_origin: initial.as_ref().map(|(_, origin)| *origin),
-        initial: initial.map(|(values, _)| values),
-        run: Vec::new(),
-    })
-}
+impl Entries for Parts<'_> {
+    const FORM: Kind = Kind::Syntax;
 
-/// `= H` or `= l`.
-fn function(statement: &Statement<'_>, names: &Names, report: &mut Report) -> Option<Expr> {
-    let value = statement.value(report)?;
-    if value.is_empty() {
-        report.push(item::empty_function(statement.keyword, statement.origin));
-        return None;
+    fn place(&self, key: &str) -> Option<Origin> {
+        Some(self.first(keyword(key))?.origin)
     }
-    expression::parse(value, names, report)
+
+    fn line(&self, key: &str, report: &mut Report) -> Option<Line<'_>> {
+        self.first(keyword(key))?.line(report)
+    }
+
+    fn lines(&self, key: &str, report: &mut Report) -> Vec<Line<'_>> {
+        let keyword = keyword(key);
+        if REPEATABLE.contains(&keyword) {
+            return self.all(keyword).filter_map(|s| s.line(report)).collect();
+        }
+        let block = self.first(keyword).and_then(|s| s.block(report));
+        block.unwrap_or_default().iter().map(Entry::line).collect()
+    }
+
+    fn names(&self, key: &str, report: &mut Report) -> Vec<Name> {
+        let statement = self.first(keyword(key));
+        statement.map_or_else(Vec::new, |s| names(s.rest, s.origin, report))
+    }
+
+    fn methods(&self, report: &mut Report) -> Vec<Name> {
+        let statement = self.first("methods");
+        statement.map_or_else(Vec::new, |s| methods(s, report))
+    }
+
+    fn invariance(&self, report: &mut Report) -> Option<(String, Origin)> {
+        let line = self.line("invariance", report)?;
+        let place = span(&line.tokens).unwrap_or(line.place);
+        Some((render(&line.tokens), place))
+    }
+
+    fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Algebra> {
+        algebra(self.first("algebra")?, parameters, report)
+    }
+
+    fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization> {
+        realization(self.first("realization")?, parameters, report)
+    }
+
+    fn initial(&self, _: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {
+        let statement = self.first("initial");
+        statement.map_or_else(Vec::new, |s| initial(s, names, report))
+    }
+
+    fn prose(&self, _: &mut Report) -> (Vec<String>, Vec<String>) {
+        let system = self.first("system");
+        (system.map_or_else(Vec::new, |s| s.docs.clone()), Vec::new())
+    }
+
+    fn run(&self, _: &mut Report) -> Vec<RunOption> {
+        Vec::new()
+    }
 }
 
 /// The parts of `= [a, b]`.

@@ -44,76 +44,107 @@ const PARTS: &str = "expressions consist of numbers, names, + - * / ^, parenthes
 /// A token that cannot stand where it stands; `rest` is what comes behind it.
 pub fn unexpected(token: &Token, before: Option<&Token>, rest: &[Token]) -> Diagnostic {
     let text = render(std::slice::from_ref(token));
-    let syntax = |message: String| Diagnostic::new(Kind::Syntax, token.origin, message);
-    let next = rest.first().map(|token| &token.kind);
     let after = match before {
         Some(before) => format!(" after `{}`", render(std::slice::from_ref(before))),
         None => " at the beginning".to_owned(),
     };
-    match &token.kind {
-        TokenKind::Punctuation('*') if before.is_some_and(|t| t.is('*')) => {
-            syntax("`**` is not an operator".into()).help("a power is written `^`")
-        }
-        TokenKind::Punctuation('/') if before.is_some_and(|t| t.is('/')) => {
-            syntax("`//` is not an operator".into())
-                .help("a quotient is written `/`; an expression has no comments")
-        }
-        TokenKind::Punctuation(',') if before.is_some_and(ends_operand) => {
-            let help = match before.map(|t| &t.kind) {
-                Some(TokenKind::Number(_)) if matches!(next, Some(TokenKind::Number(_))) => {
-                    "a decimal number has a point, as in `0.5`"
-                }
-                _ => "a comma stands between the two arguments of `atan2` only",
-            };
-            syntax(format!("unexpected `,`{after}")).help(help)
-        }
+    let (message, help) = match &token.kind {
         TokenKind::Punctuation('.' | ':') if before.is_some_and(ends_operand) => {
-            point(token, before, rest)
+            return point(token, before, rest);
         }
-        TokenKind::Punctuation('.') => {
-            let help = match next {
-                Some(TokenKind::Number(digits)) => format!("write `0.{digits}`"),
-                _ => "write the zero, as in `0.5`".to_owned(),
-            };
-            Diagnostic::new(Kind::Number, token.origin, "a number cannot begin with `.`").help(help)
-        }
+        TokenKind::Punctuation('.') => return leading_point(token, rest),
         TokenKind::Punctuation(c) => {
-            if let Some((_, sign)) = LOOKALIKES.iter().find(|(other, _)| other == c) {
-                return syntax(format!("`{c}` is no sign of the grammar"))
-                    .help(format!("write `{sign}`"));
-            }
-            match c {
-                '*' | '/' | '^' | ',' => syntax(format!("an operand is missing before `{c}`"))
-                    .help(format!(
-                        "write a number, a name or parentheses between the operators{after}"
-                    )),
-                '=' => syntax(format!("unexpected `=`{after}"))
-                    .help("write the expression alone, without `=`"),
-                ';' => syntax(format!("unexpected `;`{after}")).help("remove it"),
-                _ if is_invisible(*c) || c.is_control() => syntax(format!(
-                    "a character that is not seen, U+{:04X},{after}",
-                    u32::from(*c)
-                ))
-                .help("remove it"),
-                _ => syntax(format!("unexpected `{c}`{after}"))
-                    .help(habits::sign(*c).unwrap_or(PARTS)),
-            }
+            let twice = before.is_some_and(|t| t.is(*c)).then(|| doubled(*c));
+            twice
+                .flatten()
+                .or_else(|| comma(*c, before, rest, &after))
+                .unwrap_or_else(|| sign(*c, &after))
         }
-        TokenKind::Close(_) if before.is_some_and(|t| matches!(t.kind, TokenKind::Open(_))) => {
-            syntax("an expression is missing in the parentheses".into())
-                .help("write one, or remove them")
-        }
-        TokenKind::Close(_) if before.is_some_and(ends_operand) => {
-            syntax(format!("`{text}` has no opening partner")).help("remove it, or open it before")
-        }
-        TokenKind::Close(_) => syntax(format!("an operand is missing before `{text}`"))
-            .help(format!("write a number, a name or parentheses{after}")),
-        TokenKind::Text(_) | TokenKind::Literal(_) => syntax(format!("unexpected {text}{after}"))
-            .help("an expression is written without quotes"),
-        TokenKind::Open(Delimiter::Bracket | Delimiter::Brace) => {
-            syntax(format!("unexpected `{text}`{after}")).help("group with `(` and `)`")
-        }
-        _ => syntax(format!("unexpected `{text}`{after}")).help(PARTS),
+        TokenKind::Close(_) if before.is_some_and(|t| matches!(t.kind, TokenKind::Open(_))) => (
+            "an expression is missing in the parentheses".into(),
+            "write one, or remove them".into(),
+        ),
+        TokenKind::Close(_) if before.is_some_and(ends_operand) => (
+            format!("`{text}` has no opening partner"),
+            "remove it, or open it before".into(),
+        ),
+        TokenKind::Close(_) => (
+            format!("an operand is missing before `{text}`"),
+            format!("write a number, a name or parentheses{after}"),
+        ),
+        TokenKind::Text(_) | TokenKind::Literal(_) => (
+            format!("unexpected {text}{after}"),
+            "an expression is written without quotes".into(),
+        ),
+        TokenKind::Open(Delimiter::Bracket | Delimiter::Brace) => (
+            format!("unexpected `{text}`{after}"),
+            "group with `(` and `)`".into(),
+        ),
+        _ => (format!("unexpected `{text}`{after}"), PARTS.into()),
+    };
+    Diagnostic::new(Kind::Syntax, token.origin, message).help(help)
+}
+
+/// `**` and `//`
+fn doubled(sign: char) -> Option<(String, String)> {
+    let help = match sign {
+        '*' => "a power is written `^`",
+        '/' => "a quotient is written `/`; an expression has no comments",
+        _ => return None,
+    };
+    Some((format!("`{sign}{sign}` is not an operator"), help.into()))
+}
+
+/// A comma behind an operand.
+fn comma(
+    sign: char,
+    before: Option<&Token>,
+    rest: &[Token],
+    after: &str,
+) -> Option<(String, String)> {
+    let before = before.filter(|before| sign == ',' && ends_operand(before))?;
+    let number = |token: &Token| matches!(token.kind, TokenKind::Number(_));
+    let help = if number(before) && rest.first().is_some_and(number) {
+        "a decimal number has a point, as in `0.5`"
+    } else {
+        "a comma stands between the two arguments of `atan2` only"
+    };
+    Some((format!("unexpected `,`{after}"), help.into()))
+}
+
+/// `.5`
+fn leading_point(point: &Token, rest: &[Token]) -> Diagnostic {
+    let help = match rest.first().map(|token| &token.kind) {
+        Some(TokenKind::Number(digits)) => format!("write `0.{digits}`"),
+        _ => "write the zero, as in `0.5`".to_owned(),
+    };
+    Diagnostic::new(Kind::Number, point.origin, "a number cannot begin with `.`").help(help)
+}
+
+/// Any other sign where none can stand: message and remedy.
+fn sign(sign: char, after: &str) -> (String, String) {
+    if let Some((_, meant)) = LOOKALIKES.iter().find(|(other, _)| *other == sign) {
+        return (
+            format!("`{sign}` is no sign of the grammar"),
+            format!("write `{meant}`"),
+        );
+    }
+    let unexpected = format!("unexpected `{sign}`{after}");
+    match sign {
+        '*' | '/' | '^' | ',' => (
+            format!("an operand is missing before `{sign}`"),
+            format!("write a number, a name or parentheses between the operators{after}"),
+        ),
+        '=' => (unexpected, "write the expression alone, without `=`".into()),
+        ';' => (unexpected, "remove it".into()),
+        _ if is_invisible(sign) || sign.is_control() => (
+            format!(
+                "a character that is not seen, U+{:04X},{after}",
+                u32::from(sign)
+            ),
+            "remove it".into(),
+        ),
+        _ => (unexpected, habits::sign(sign).unwrap_or(PARTS).into()),
     }
 }
 

@@ -22,6 +22,7 @@ mod number;
 mod object;
 mod operand;
 mod prose;
+mod reader;
 mod rust;
 mod schema;
 mod text;

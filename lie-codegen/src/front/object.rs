@@ -72,6 +72,21 @@ impl<'a> Object<'a> {
         &self.members
     }
 
+    /// The elements of a key whose value must be a list.
+    pub fn elements(&self, key: &str, report: &mut Report) -> Vec<Value<'a>> {
+        let elements = self
+            .get(key)
+            .and_then(|value| list(value, &format!("`{key}`"), report));
+        elements.unwrap_or_default()
+    }
+
+    /// The strings of a key whose value must be a list of strings; those that are, where some are not.
+    pub fn strings(&self, key: &str, report: &mut Report) -> Vec<Source<'a>> {
+        let elements = self.elements(key, report);
+        let string = |value| string(value, &format!("an element of `{key}`"), report);
+        elements.into_iter().filter_map(string).collect()
+    }
+
     /// Reports the keys that must be there and are not.
     pub fn require(&self, what: &str, keys: &[&str], report: &mut Report) {
         for key in keys {
@@ -115,14 +130,4 @@ pub fn list<'a>(value: Value<'a>, what: &str, report: &mut Report) -> Option<Vec
         return None;
     }
     Some(value.elements())
-}
-
-/// The strings of a value that must be a list of strings; those that are, where some are not.
-pub fn strings<'a>(value: Value<'a>, what: &str, report: &mut Report) -> Vec<Source<'a>> {
-    let element = format!("an element of {what}");
-    let elements = list(value, what, report).unwrap_or_default();
-    elements
-        .into_iter()
-        .filter_map(|v| string(v, &element, report))
-        .collect()
 }

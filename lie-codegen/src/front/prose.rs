@@ -155,7 +155,7 @@ mod tests {
     fn shown(text: &str) -> String {
         let mut report = Report::new();
         let lines = lines(&Source::plain(text, 0), "the text", &mut report);
-        assert!(!report.has_errors(), "{text:?}");
+        assert!(report.gate().is_ok(), "{text:?}");
         lines.join("\n")
     }
 

@@ -8,11 +8,11 @@ mod run;
 use quote::quote;
 
 use super::json::{self, Type, Value};
-use super::object::{Object, list, string, strings, wrong_type};
+use super::object::{Object, list, string, wrong_type};
+use super::reader::{self, Entries, Line};
 use super::schema::Spec;
-use super::token::Token;
-use super::{Body, Names, Parsed, expression, file, item, number, prose};
-use crate::ast::{Bracket, Declaration, Energy, Expr, ExprKind, Invariance, Name, Parameter};
+use super::{Names, Parsed, expression, file, item, number, prose};
+use crate::ast::{Algebra, Expr, ExprKind, Name, Realization, RunOption};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The only version of the format.
@@ -58,27 +58,16 @@ fn document(text: &str, report: &mut Report) -> Parsed {
         spec.require("a spec", &["hamiltonian"], report);
     }
     headers(&spec, report);
-    parsed.name = spec.get("name").and_then(|v| name_of(v, "`name`", report));
-    parsed.state = spec
-        .get("state")
-        .map(|v| name_list(v, "`state`", report))
-        .unwrap_or_default();
+    let name = spec.line("name", report);
+    parsed.name = name.and_then(|line| item::name(&line.tokens, line.place, report));
+    parsed.state = spec.names("state", report);
     parsed.dimension = spec.get("state").map_or(0, |v| v.elements().len());
     let parameters = spec
         .get("parameters")
         .map(|v| parameters::read(v, report))
         .unwrap_or_default();
     parsed.parameters = parameters.names;
-    let declaration = Remainder {
-        spec: &spec,
-        parsed: &parsed,
-        parameters: parameters.whole,
-    }
-    .read(report);
-    if !report.has_errors() {
-        parsed.body = declaration.map(|d| Body::Declaration(Box::new(d)));
-    }
-    parsed
+    reader::finish(&spec, parsed, parameters.whole, report)
 }
 
 /// `$schema` and `format`.
@@ -100,204 +89,83 @@ fn headers(spec: &Object<'_>, report: &mut Report) {
     }
 }
 
-/// What is read when all names are known.
-struct Remainder<'s, 'a> {
-    spec: &'s Object<'a>,
-    parsed: &'s Parsed,
-    parameters: Vec<Parameter>,
-}
+impl Entries for Object<'_> {
+    const FORM: Kind = Kind::Schema;
 
-impl Remainder<'_, '_> {
-    fn read(self, report: &mut Report) -> Option<Declaration> {
-        let spec = self.spec;
-        let texts = |names: &[Name]| names.iter().map(|n| n.text.clone()).collect::<Vec<_>>();
-        let parameters = texts(&self.parsed.parameters);
-        let algebra = spec
-            .get("algebra")
-            .map(|v| (v.origin(), algebra::read(v, &parameters, report)));
-        let lets: Vec<Line> = lines(spec, "let", report);
-        let defined = lets
-            .iter()
-            .filter_map(|line| line.tokens.first()?.identifier());
-        let velocity = spec
-            .get("velocity")
-            .map(|v| name_list(v, "`velocity`", report))
-            .unwrap_or_default();
-        let names: Names = texts(&self.parsed.state)
-            .into_iter()
-            .chain(texts(&velocity))
-            .chain(parameters.iter().cloned())
-            .chain(defined.map(str::to_owned))
-            .chain(spec.get(item::FUNCTIONS[2]).map(|_| "h".to_owned()))
-            .collect();
-        let basis = algebra.iter().filter_map(|(_, algebra)| algebra.as_ref());
-        let names = names.with_elsewhere(basis.flat_map(|a| texts(&a.basis)));
-        let constants: Names = parameters.iter().cloned().collect();
+    fn place(&self, key: &str) -> Option<Origin> {
+        Some(self.get(key)?.origin())
+    }
 
-        let lets = lets.iter().filter_map(|line| {
-            let (name, value) =
-                item::definition(&line.tokens, "an abbreviation", line.place, report)?;
-            Some((
-                name,
-                item::formula(value, ("its value", "x^2/2"), line.place, &names, report)?,
-            ))
-        });
-        let lets = lets.collect();
-        let [poisson, cocycle] = ["poisson", "cocycle"].map(|key| {
-            let place = spec.get(key)?.origin();
-            Some((place, poisson(spec, key, &names, report)))
-        });
-        let of_algebra = [
-            "lagrangian",
-            "discrete_lagrangian",
-            "invariance",
-            "group",
-            "realization",
-        ]
-        .map(|key| Some((spec.get(key)?.origin(), key)));
-        let of_algebra: Vec<_> = of_algebra.into_iter().flatten().collect();
-        let structure =
-            item::structure(algebra, poisson, cocycle, &of_algebra, Kind::Schema, report);
-        let energy = self.energy(velocity, &names, report);
-        let realization = spec
-            .get("realization")
-            .map(|v| realization::read(v, &parameters, report));
-        let casimirs = lines(spec, "casimirs", report)
+    fn line(&self, key: &str, report: &mut Report) -> Option<Line<'_>> {
+        line(self.get(key)?, &format!("`{key}`"), report)
+    }
+
+    fn lines(&self, key: &str, report: &mut Report) -> Vec<Line<'_>> {
+        let elements = self.elements(key, report);
+        let line = |value| line(value, &format!("an element of `{key}`"), report);
+        elements.into_iter().filter_map(line).collect()
+    }
+
+    fn names(&self, key: &str, report: &mut Report) -> Vec<Name> {
+        let lines = self.lines(key, report);
+        lines
             .iter()
-            .filter_map(|line| item::casimir(&line.tokens, line.place, &names, report))
-            .collect();
-        let methods = spec
-            .get("methods")
-            .map(|v| strings(v, "`methods`", report))
-            .unwrap_or_default();
-        let group = spec.get("group").map(|v| name_of(v, "`group`", report));
-        let invariance = spec
-            .get("invariance")
-            .map_or(Some(Invariance::Left), |v| invariance(v, report));
-        let initial = spec.get("initial").map(|v| {
-            (
-                initial(v, &self.parsed.state, &constants, report),
-                v.origin(),
-            )
-        });
-        let description = spec
+            .filter_map(|line| item::name(&line.tokens, line.place, report))
+            .collect()
+    }
+
+    fn methods(&self, report: &mut Report) -> Vec<Name> {
+        let ids = self.strings("methods", report);
+        ids.into_iter()
+            .map(|id| Name {
+                origin: id.whole(),
+                text: id.text.into_owned(),
+            })
+            .collect()
+    }
+
+    fn invariance(&self, report: &mut Report) -> Option<(String, Origin)> {
+        let source = string(self.get("invariance")?, "`invariance`", report)?;
+        Some((source.text.to_string(), source.whole()))
+    }
+
+    fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Algebra> {
+        algebra::read(self.get("algebra")?, parameters, report)
+    }
+
+    fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization> {
+        realization::read(self.get("realization")?, parameters, report)
+    }
+
+    fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {
+        let value = self.get("initial");
+        value.map_or_else(Vec::new, |v| initial(v, state, names, report))
+    }
+
+    fn prose(&self, report: &mut Report) -> (Vec<String>, Vec<String>) {
+        let description = self
             .get("description")
             .and_then(|v| string(v, "`description`", report))
             .map(|text| prose::lines(&text, "the description", report));
-        let references = spec
-            .get("references")
-            .map(|v| strings(v, "`references`", report))
-            .unwrap_or_default();
-        let references: Vec<String> = references
+        let references = self.strings("references", report);
+        let references = references
             .iter()
-            .map(|text| prose::inline(text, "the reference", report))
-            .collect();
-        let run = spec
-            .get("run")
-            .map(|v| run::read(v, report))
-            .unwrap_or_default();
-        Some(Declaration {
-            visibility: self.parsed.visibility.clone(),
-            name: self.parsed.name.clone()?,
-            description: description.unwrap_or_default(),
-            references,
-            structure: structure?,
-            group: group.map_or(Some(None), |name| name.map(Some))?,
-            state: self.parsed.state.clone(),
-            parameters: self.parameters,
-            lets,
-            energy: energy?,
-            realization: realization.map_or(Some(None), |read| read.map(Some))?,
-            casimirs,
-            methods: methods
-                .into_iter()
-                .map(|m| Name {
-                    origin: m.whole(),
-                    text: m.text.into_owned(),
-                })
-                .collect(),
-            invariance: invariance?,
-            initial_origin: initial.as_ref().map(|(_, origin)| *origin),
-            initial: initial.map(|(values, _)| values),
-            run,
-        })
+            .map(|text| prose::inline(text, "the reference", report));
+        (description.unwrap_or_default(), references.collect())
+    }
+
+    fn run(&self, report: &mut Report) -> Vec<RunOption> {
+        let value = self.get("run");
+        value.map_or_else(Vec::new, |v| run::read(v, report))
     }
 }
 
-impl Remainder<'_, '_> {
-    /// `hamiltonian`, or one of the Lagrangians with `velocity`.
-    fn energy(&self, velocity: Vec<Name>, names: &Names, report: &mut Report) -> Option<Energy> {
-        let spec = self.spec;
-        let functions = item::FUNCTIONS.map(|key| {
-            let value = spec.get(key)?;
-            Some((value.origin(), function(value, key, names, report)))
-        });
-        let place = spec.get("velocity").map(|value| value.origin());
-        item::energy(functions, (place, velocity), Kind::Schema, report)
-    }
-}
-
-/// A string of the file as tokens.
-struct Line {
-    tokens: Vec<Token>,
-    /// The string with its quotes: a place even where it is empty.
-    place: Origin,
-}
-
-fn line(value: Value<'_>, what: &str, report: &mut Report) -> Option<Line> {
-    let source = string(value, what, report)?;
+/// A string of the file as tokens; with its quotes it is a place even where it is empty.
+fn line(value: Value<'_>, what: &str, report: &mut Report) -> Option<Line<'static>> {
     Some(Line {
-        tokens: source.tokens(),
+        tokens: string(value, what, report)?.tokens().into(),
         place: value.origin(),
     })
-}
-
-fn lines(spec: &Object<'_>, key: &str, report: &mut Report) -> Vec<Line> {
-    let Some(value) = spec.get(key) else {
-        return Vec::new();
-    };
-    let (whole, element) = (format!("`{key}`"), format!("an element of `{key}`"));
-    let elements = list(value, &whole, report).unwrap_or_default();
-    elements
-        .into_iter()
-        .filter_map(|v| line(v, &element, report))
-        .collect()
-}
-
-/// Brackets of coordinates.
-fn poisson(spec: &Object<'_>, key: &str, names: &Names, report: &mut Report) -> Vec<Bracket> {
-    lines(spec, key, report)
-        .iter()
-        .filter_map(|line| item::poisson(&line.tokens, line.place, names, report))
-        .collect()
-}
-
-fn name_of(value: Value<'_>, what: &str, report: &mut Report) -> Option<Name> {
-    let line = line(value, what, report)?;
-    item::name(&line.tokens, line.place, report)
-}
-
-fn name_list(value: Value<'_>, what: &str, report: &mut Report) -> Vec<Name> {
-    let element = format!("an element of {what}");
-    let elements = list(value, what, report).unwrap_or_default();
-    elements
-        .into_iter()
-        .filter_map(|v| name_of(v, &element, report))
-        .collect()
-}
-
-fn function(value: Value<'_>, key: &str, names: &Names, report: &mut Report) -> Option<Expr> {
-    let line = line(value, &format!("`{key}`"), report)?;
-    if line.tokens.is_empty() {
-        report.push(item::empty_function(key, line.place));
-        return None;
-    }
-    expression::parse(&line.tokens, names, report)
-}
-
-fn invariance(value: Value<'_>, report: &mut Report) -> Option<Invariance> {
-    let source = string(value, "`invariance`", report)?;
-    item::invariance(&source.text, source.whole(), Kind::Schema, report)
 }
 
 /// Numbers or exact expressions in parameters, one for each name of the state.

@@ -66,7 +66,10 @@ pub struct Judge {
 impl Judge {
     /// The judge of a spec that passed its checks, for values of the parameters.
     pub fn of_spec(text: &str, model: &Model, parameters: &[f64]) -> Option<Self> {
-        let Some(Body::Declaration(declaration)) = spec::read(text, &mut Report::new()).body else {
+        let mut report = Report::new();
+        let read = spec::read(text, &mut report);
+        report.gate().ok()?;
+        let Some(Body::Declaration(declaration)) = read.body else {
             return None;
         };
         Some(Self::new(&declaration, model, parameters))
@@ -222,25 +225,29 @@ impl Judge {
                 exact(self.realization(name, z, along)?)
             }
             (_, [mu, ..]) => {
-                let at = kernels.at(mu, &sample.velocity);
-                let values = match name {
-                    "hamiltonian" => at.hamiltonian(),
-                    "energy" => at.energy(),
-                    "gradient" => at.gradient(),
-                    "hessian" => at.hessian(),
-                    "poisson_matrix" => return Some((at.poisson(), false)),
-                    "poisson_slope" => {
-                        return Some((at.poisson_slope(sample.arguments.get(1)?), false));
-                    }
-                    "vector_field" => at.field(),
-                    "jacobian" => at.jacobian(),
-                    "linearize" => [at.field(), at.jacobian()].concat(),
-                    _ => return None,
-                };
-                Some((values, discrete))
+                let values = self.at_state(name, mu, sample)?;
+                let exact = matches!(name, "poisson_matrix" | "poisson_slope");
+                Some((values, discrete && !exact))
             }
             _ => None,
         }
+    }
+
+    /// The same for a kernel of the state.
+    fn at_state(&self, name: &str, mu: &[f64], sample: &Sample) -> Option<Expected> {
+        let at = self.kernels.at(mu, &sample.velocity);
+        Some(match name {
+            "hamiltonian" => at.hamiltonian(),
+            "energy" => at.energy(),
+            "gradient" => at.gradient(),
+            "hessian" => at.hessian(),
+            "poisson_matrix" => at.poisson(),
+            "poisson_slope" => at.poisson_slope(sample.arguments.get(1)?),
+            "vector_field" => at.field(),
+            "jacobian" => at.jacobian(),
+            "linearize" => [at.field(), at.jacobian()].concat(),
+            _ => return None,
+        })
     }
 
     fn casimirs(&self, mu: &[f64]) -> Vec<Rounded> {

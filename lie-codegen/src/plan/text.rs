@@ -12,7 +12,11 @@ const LABEL: usize = 34;
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names = &self.names;
-        writeln!(f, "plan of {} (# is a digest of the operations)", names.system)?;
+        writeln!(
+            f,
+            "plan of {} (# is a digest of the operations)",
+            names.system
+        )?;
         for line in self.docs.iter().filter(|line| !line.is_empty()) {
             writeln!(f, "  {line}")?;
         }

@@ -73,5 +73,5 @@ pub(crate) use series::{Scratch, coadjoint_action_in};
 pub use series::{coadjoint_action, dexp_dual};
 pub use spherical::{Spherical, sphere_ratio, sphere_ratios};
 pub use stage_momenta::{StageMap, StageMomenta};
-pub use tableau::{Tableau, gauss_tableau};
+pub use tableau::{Tableau, gauss_entry, gauss_tableau, gauss_weight};
 pub use tensor::{MeanTensor, MidpointTensor, PoissonTensor, TensorFacts};

@@ -52,27 +52,45 @@ const C3: [Parts; 3] = [
     (0.8872983346207417, -1.3621030867463682e-17),
 ];
 
-/// The Gauss–Legendre tableau of 1, 2 or 3 stages, of order 2, 4 or 6, correctly rounded.
+/// The matrices by rows, the weights and the nodes, by the number of stages.
+const TABLEAUS: [[&[Parts]; 3]; 3] = [[&A1, &B1, &C1], [&A2, &B2, &C2], [&A3, &B3, &C3]];
+
+/// The Gauss–Legendre tableau of a number of stages, of twice that order, correctly rounded.
 ///
-/// Other numbers of stages do not compile.
+/// Numbers of stages without a tableau here do not compile.
 pub fn gauss_tableau<S: Scalar, const STAGES: usize>() -> Tableau<S, STAGES> {
     const {
         assert!(
-            STAGES >= 1 && STAGES <= 3,
-            "Gauss tableaus have 1, 2 or 3 stages"
+            STAGES >= 1 && STAGES <= TABLEAUS.len(),
+            "there is no Gauss tableau of so many stages"
         )
     };
-    let (a, b, c): (&[Parts], &[Parts], &[Parts]) = match STAGES {
-        1 => (&A1, &B1, &C1),
-        2 => (&A2, &B2, &C2),
-        _ => (&A3, &B3, &C3),
-    };
-    let number = |(high, low): Parts| S::constant(high, low);
+    let [_, b, c] = TABLEAUS[STAGES - 1];
     Tableau {
-        a: core::array::from_fn(|i| core::array::from_fn(|j| number(a[i * STAGES + j]))),
+        a: core::array::from_fn(|i| core::array::from_fn(|j| gauss_entry(STAGES, i, j))),
         b: core::array::from_fn(|i| number(b[i])),
         c: core::array::from_fn(|i| number(c[i])),
     }
+}
+
+/// The entry `a_ij` of the Gauss–Legendre tableau of a number of stages.
+///
+/// # Panics
+/// If there is no such tableau, or entry.
+pub fn gauss_entry<S: Scalar>(stages: usize, i: usize, j: usize) -> S {
+    number(TABLEAUS[stages - 1][0][i * stages + j])
+}
+
+/// The weight `b_i` of the Gauss–Legendre tableau of a number of stages.
+///
+/// # Panics
+/// If there is no such tableau, or entry.
+pub fn gauss_weight<S: Scalar>(stages: usize, i: usize) -> S {
+    number(TABLEAUS[stages - 1][1][i])
+}
+
+fn number<S: Scalar>((high, low): Parts) -> S {
+    S::constant(high, low)
 }
 
 #[cfg(test)]

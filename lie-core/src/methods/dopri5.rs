@@ -209,6 +209,48 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
         }
     }
 
+    /// A step from here, of which nothing is done.
+    fn begin(&mut self, mu: &P::State) -> Progress<S> {
+        let mut report = StepReport {
+            evaluations: 1,
+            ..StepReport::default()
+        };
+        self.current.copy_from(mu);
+        self.system.vector_field(mu, &mut self.slopes[0]);
+        report.evaluations += u32::from(self.proposal.is_none());
+        let proposal = self.proposal.unwrap_or_else(|| self.first_step());
+        Progress {
+            proposal,
+            covered: S::zero(),
+            active: S::zero().less(self.length),
+            after_rejection: S::Mask::splat(false),
+            report,
+            failure: None,
+        }
+    }
+
+    /// The size of the next attempt after one with this error.
+    fn adapt(
+        &mut self,
+        progress: &mut Progress<S>,
+        (size, last): (S, S::Mask),
+        error: S,
+        accepted: S::Mask,
+    ) {
+        let rejected = progress.active & !accepted;
+        progress.report.substeps += u32::from(accepted.any());
+        progress.report.rejected += u32::from(rejected.any());
+        let next = size / self.divisor(error, accepted);
+        let after_rejection = accepted & progress.after_rejection;
+        let next = S::select(after_rejection, minimum(next, size), next);
+        // a step cut short by the end of the interval says nothing against a longer one
+        let kept = S::select(accepted & last, progress.proposal.max(next), next);
+        progress.proposal = S::select(progress.active, kept, progress.proposal);
+        let least = error.max(S::from_f64(1e-4));
+        self.error_before = S::select(accepted, least, self.error_before);
+        progress.after_rejection = rejected;
+    }
+
     /// The factor by which the next step is divided after an error.
     fn divisor(&self, error: S, accepted: S::Mask) -> S {
         let plain = error.powf(S::from_f64(0.17));
@@ -220,6 +262,41 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
             minimum(divisor, S::from_f64(5.0)),
             S::from_f64(10.0),
         )
+    }
+}
+
+/// How far a step of the grid has come.
+struct Progress<S: Scalar> {
+    /// The size of the next attempt.
+    proposal: S,
+    /// What is behind, of the length of the step.
+    covered: S,
+    /// Lanes that have neither arrived nor failed.
+    active: S::Mask,
+    after_rejection: S::Mask,
+    report: StepReport,
+    failure: Option<StepFailure>,
+}
+
+impl<S: Scalar> Progress<S> {
+    /// The size of the next attempt, and where it is the last.
+    fn attempt(&self, length: S) -> (S, S::Mask) {
+        let remaining = length - self.covered;
+        // stretch by at most 1 percent rather than leave a sliver
+        let last = remaining.less_equal(self.proposal * S::from_f64(1.01));
+        let size = S::select(last, remaining, self.proposal);
+        (S::select(self.active, size, S::zero()), last)
+    }
+
+    /// Lanes go no further.
+    fn fail(&mut self, reason: FailureReason, lanes: S::Mask) {
+        let failed = StepFailure {
+            reason,
+            lanes: 0,
+            report: self.report,
+        };
+        self.failure.get_or_insert(failed).lanes |= lanes.bits();
+        self.active = self.active & !lanes;
     }
 }
 
@@ -236,76 +313,34 @@ impl<S: Scalar, P: Poisson<S>> Stepper<S> for Dopri5Stepper<'_, S, P> {
         mu: &mut P::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        let mut report = StepReport {
-            evaluations: 1,
-            ..StepReport::default()
-        };
-        self.current.copy_from(mu);
-        self.system.vector_field(mu, &mut self.slopes[0]);
-        let mut proposal = match self.proposal {
-            Some(proposal) => proposal,
-            None => {
-                report.evaluations += 1;
-                self.first_step()
-            }
-        };
-        let mut covered = S::zero();
-        let mut active = S::zero().less(self.length);
-        let mut after_rejection = S::Mask::splat(false);
-        let mut failure = None;
+        let mut progress = self.begin(mu);
         for _ in 0..MAX_ATTEMPTS {
-            if !active.any() {
+            if !progress.active.any() {
                 break;
             }
-            let remaining = self.length - covered;
-            // stretch by at most 1 percent rather than leave a sliver
-            let last = remaining.less_equal(proposal * S::from_f64(1.01));
-            let size = S::select(last, remaining, proposal);
-            let size = S::select(active, size, S::zero());
-            let too_small = active & !last & size.less_equal(S::epsilon() * self.length);
+            let (size, last) = progress.attempt(self.length);
+            let too_small = progress.active & !last & size.less_equal(S::epsilon() * self.length);
             if too_small.any() {
-                let failed = StepFailure {
-                    reason: FailureReason::StepTooSmall,
-                    lanes: 0,
-                    report,
-                };
-                failure.get_or_insert(failed).lanes |= too_small.bits();
-                active = active & !too_small;
+                progress.fail(FailureReason::StepTooSmall, too_small);
             }
             let error = self.attempt(self.sign * size);
-            report.evaluations += 6;
-            let accepted = active & error.less_equal(S::one()) & self.point.finite();
-            let rejected = active & !accepted;
-            report.substeps += u32::from(accepted.any());
-            report.rejected += u32::from(rejected.any());
-
-            let next = size / self.divisor(error, accepted);
-            let next = S::select(accepted & after_rejection, minimum(next, size), next);
-            // a step cut short by the end of the interval says nothing against a longer one
-            let kept = S::select(accepted & last, proposal.max(next), next);
-            proposal = S::select(active, kept, proposal);
-            let least = error.max(S::from_f64(1e-4));
-            self.error_before = S::select(accepted, least, self.error_before);
-            after_rejection = rejected;
-
-            covered = S::select(accepted, covered + size, covered);
+            progress.report.evaluations += 6;
+            let accepted = progress.active & error.less_equal(S::one()) & self.point.finite();
+            self.adapt(&mut progress, (size, last), error, accepted);
+            progress.covered = S::select(accepted, progress.covered + size, progress.covered);
             if K::ACTIVE && accepted.any() {
                 self.give_velocities(self.sign * size, accepted, sink);
             }
             self.current.assign_where(accepted, &self.point);
             let [first, .., end] = &mut self.slopes;
             first.assign_where(accepted, end);
-            active = active & !(accepted & last);
+            progress.active = progress.active & !(accepted & last);
         }
-        if active.any() {
-            let failed = StepFailure {
-                reason: FailureReason::TooManySteps,
-                lanes: 0,
-                report,
-            };
-            failure.get_or_insert(failed).lanes |= active.bits();
+        if progress.active.any() {
+            progress.fail(FailureReason::TooManySteps, progress.active);
         }
-        self.proposal = Some(proposal);
+        self.proposal = Some(progress.proposal);
+        let (report, failure) = (progress.report, progress.failure);
         let good = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
         mu.assign_where(good, &self.current);
         match failure {

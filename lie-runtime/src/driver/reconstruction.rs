@@ -21,7 +21,7 @@
 
 use super::group_matrix::{GroupMatrix, exponential, rational};
 use super::observer::{Motion, Observer, Progress};
-use crate::generic::{gauss_tableau, quaternion_product as product};
+use crate::generic::{gauss_entry, gauss_weight, quaternion_product as product};
 use crate::methods::{Retraction, RungeKutta};
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
@@ -318,18 +318,12 @@ fn coefficients<S: Scalar>(method: RungeKutta, count: usize) -> (Vec<Vec<S>>, Ve
             }
             (a, weights.iter().map(number).collect())
         }
-        RungeKutta::Gauss => match count {
-            1 => gauss::<S, 1>(),
-            2 => gauss::<S, 2>(),
-            _ => gauss::<S, 3>(),
-        },
+        RungeKutta::Gauss => {
+            let row = |i| (0..count).map(|j| gauss_entry(count, i, j)).collect();
+            let a = (0..count).map(row).collect();
+            (a, (0..count).map(|i| gauss_weight(count, i)).collect())
+        }
     }
-}
-
-fn gauss<S: Scalar, const STAGES: usize>() -> (Vec<Vec<S>>, Vec<S>) {
-    let tableau = gauss_tableau::<S, STAGES>();
-    let a = tableau.a.iter().map(|row| row.to_vec()).collect();
-    (a, tableau.b.to_vec())
 }
 
 fn combine<S: Scalar, V: State<S>>(weights: &[S], slopes: &[V], out: &mut V) {

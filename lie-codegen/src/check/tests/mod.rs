@@ -13,7 +13,7 @@ mod realization;
 mod soundness;
 
 use super::*;
-use crate::diagnostic::Origin;
+use crate::diagnostic::{Kind, Origin};
 use crate::front::{Body, spec};
 
 /// so(3) with what is given: keys of the spec, each with its JSON.

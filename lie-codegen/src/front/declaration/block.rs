@@ -1,9 +1,10 @@
-//! The blocks `algebra`, `poisson`, `cocycle` and `parameters`, and lists of names.
+//! The blocks `algebra`, `realization` and `parameters`, and lists of names.
 
 use super::entry::{Entry, inside};
 use super::statement::Statement;
-use crate::ast::{Algebra, Bracket, Matrix, Name, Parameter, Realization};
+use crate::ast::{Algebra, Matrix, Name, Parameter, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::reader::Parameters;
 use crate::front::token::{Delimiter, Token, span, split_commas};
 use crate::front::{Names, item};
 
@@ -76,13 +77,6 @@ pub fn algebra(
         matrices,
         origin: statement.origin,
     })
-}
-
-/// `{ {x, y} = …; }`
-pub fn poisson(statement: &Statement<'_>, names: &Names, report: &mut Report) -> Vec<Bracket> {
-    let entries = statement.block(report).unwrap_or_default();
-    let bracket = |entry: &Entry<'_>| item::poisson(entry.tokens, entry.origin(), names, report);
-    entries.iter().filter_map(bracket).collect()
 }
 
 /// `{ positions q1, q2; momenta p1, p2; x = …; start = [1, 0, 0, 1]; }`
@@ -179,9 +173,9 @@ fn matrix(entry: &Entry<'_>, names: &Names, report: &mut Report) -> Option<Matri
     Some(Matrix { name, rows, origin })
 }
 
-/// `{ I1 = 2.0, positive; exact k = 1/3; }`: the names that could be read, and the parameters without mistakes.
-pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> (Vec<Name>, Vec<Parameter>) {
-    let (mut names, mut parameters) = (Vec::new(), Vec::new());
+/// `{ I1 = 2.0, positive; exact k = 1/3; }`
+pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> Parameters {
+    let mut parameters = Parameters::default();
     for entry in entries {
         let exact = entry.is_word("exact")
             && entry
@@ -192,7 +186,7 @@ pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> (Vec<Name>, V
         let Some((name, value)) = item::definition(tokens, "a parameter", entry.origin(), report)
         else {
             // Code that uses the parameter is no mistake of its own.
-            names.extend(tokens.first().and_then(|token| {
+            parameters.names.extend(tokens.first().and_then(|token| {
                 let text = token.identifier()?.to_owned();
                 Some(Name {
                     text,
@@ -201,13 +195,13 @@ pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> (Vec<Name>, V
             }));
             continue;
         };
-        names.push(name.clone());
+        parameters.names.push(name.clone());
         let (value, positive) = positive(value, report);
         if value.is_empty() {
             report.push(item::missing_constant(name.origin));
         } else if let Some(default) = item::constant(value, report) {
             let description = entry.description();
-            parameters.push(Parameter {
+            parameters.whole.push(Parameter {
                 name,
                 default,
                 exact,
@@ -217,7 +211,7 @@ pub fn parameters(entries: Vec<Entry<'_>>, report: &mut Report) -> (Vec<Name>, V
             });
         }
     }
-    (names, parameters)
+    parameters
 }
 
 /// Splits `, positive` off the default of a parameter.

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::front::mistakes;
+use crate::front::reader::Line;
 use crate::front::token::{Cursor, Delimiter, Token, TokenKind, render_whole};
 
 /// One `…;` in a block.
@@ -12,7 +13,15 @@ pub struct Entry<'a> {
     pub tokens: &'a [Token],
 }
 
-impl Entry<'_> {
+impl<'a> Entry<'a> {
+    /// Its tokens with their place.
+    pub fn line(&self) -> Line<'a> {
+        Line {
+            tokens: self.tokens.into(),
+            place: self.origin(),
+        }
+    }
+
     /// Whether the entry begins with this word.
     pub fn is_word(&self, word: &str) -> bool {
         self.tokens.first().is_some_and(|t| t.is_word(word))

@@ -2,6 +2,7 @@
 
 use super::entry::{Entry, docs, inside, split};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::front::reader::Line;
 use crate::front::token::{Cursor, Delimiter, Token, TokenKind, render};
 use crate::suggest::meant;
 
@@ -86,9 +87,18 @@ impl<'a> Statement<'a> {
         Some(split(inside, report))
     }
 
-    /// The doc comment, line by line.
-    pub fn description(&self) -> Vec<String> {
-        self.docs.clone()
+    /// What it gives: behind `=` where one belongs there.
+    pub fn line(&self, report: &mut Report) -> Option<Line<'a>> {
+        let keyword = self.keyword;
+        let tokens = if KEYWORDS.contains(&(keyword, Follows::Equals)) {
+            self.value(report)?
+        } else {
+            self.rest
+        };
+        Some(Line {
+            tokens: tokens.into(),
+            place: self.origin,
+        })
     }
 }
 
@@ -286,4 +296,24 @@ fn visibility<'a>(cursor: &mut Cursor<'a>) -> &'a [Token] {
         }
     }
     cursor.since(start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::front::declaration::keyword;
+    use crate::front::schema::Spec;
+
+    #[test]
+    fn statements_are_keys_of_the_spec() {
+        let words = || KEYWORDS.iter().map(|(word, _)| *word);
+        let keys = || Spec::KEYS.iter().map(|key| keyword(key));
+        let no_keys: Vec<&str> = words().filter(|w| keys().all(|key| key != *w)).collect();
+        assert_eq!(no_keys, ["spec"]);
+        let no_statements: Vec<&str> = keys().filter(|k| words().all(|word| word != *k)).collect();
+        assert_eq!(
+            no_statements,
+            ["$schema", "format", "description", "references", "run"]
+        );
+    }
 }

@@ -1,10 +1,11 @@
 //! The key `algebra`.
 
-use super::{line, name_list, quantity};
+use super::{line, quantity};
 use crate::ast::{Algebra, Bracket, Matrix};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, list, wrong_type};
+use crate::front::reader::Entries as _;
 use crate::front::schema;
 use crate::front::{Names, item};
 
@@ -23,16 +24,14 @@ pub fn read(value: Value<'_>, parameters: &[String], report: &mut Report) -> Opt
     }
     let object = Object::read(value, "`algebra`", schema::Algebra::KEYS, report)?;
     object.require("`algebra`", schema::Algebra::REQUIRED, report);
-    let basis = object
-        .get("basis")
-        .map(|v| name_list(v, "`basis`", report))
-        .unwrap_or_default();
+    let basis = object.names("basis", report);
     let names: Names = basis
         .iter()
         .map(|n| n.text.clone())
         .chain(parameters.iter().cloned())
         .collect();
-    let brackets = object.get("brackets").map(|v| brackets(v, &names, report));
+    let brackets = object.get("brackets");
+    let brackets = brackets.map(|_| brackets_of(&object, &names, report));
     let parameters: Names = parameters.iter().cloned().collect();
     let matrices = object
         .get("matrices")
@@ -46,8 +45,8 @@ pub fn read(value: Value<'_>, parameters: &[String], report: &mut Report) -> Opt
     })
 }
 
-fn brackets(value: Value<'_>, names: &Names, report: &mut Report) -> Vec<Bracket> {
-    let elements = list(value, "`brackets`", report).unwrap_or_default();
+fn brackets_of(object: &Object<'_>, names: &Names, report: &mut Report) -> Vec<Bracket> {
+    let elements = object.elements("brackets", report);
     let bracket = |value| {
         let line = line(value, "a bracket", report)?;
         item::bracket(&line.tokens, line.place, names, report)

@@ -5,17 +5,9 @@ use crate::ast::{Name, Parameter};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::front::json::{Type, Value};
 use crate::front::object::{Object, string, wrong_type};
+use crate::front::reader::Parameters;
 use crate::front::schema::DescribedParameter;
 use crate::front::{item, prose};
-
-/// What was found.
-#[derive(Default)]
-pub struct Parameters {
-    /// The names that could be read.
-    pub names: Vec<Name>,
-    /// The parameters without mistakes.
-    pub whole: Vec<Parameter>,
-}
 
 /// Reads the parameters. Keys are the user's names here, so a repeated one is a repeated name, which later checks know.
 pub fn read(value: Value<'_>, report: &mut Report) -> Parameters {

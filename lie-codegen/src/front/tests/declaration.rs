@@ -299,6 +299,7 @@ fn invisible_groups_are_parentheses() {
     };
     assert_eq!(explicit(d.energy.expression()), "(2*(x+y)*x)");
     assert_eq!(d.visibility.to_string().replace(' ', ""), "pub(crate)");
+    assert!(report.gate().is_ok());
 }
 
 #[test]

@@ -77,7 +77,41 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> Path<S, V, STAGES> {
     ) where
         P: LagrangianPoisson<S, State = V>,
     {
+        let (coefficients, last) = self.velocity(system, node, controls);
         let [theta, xi, momentum, adjoint, moved] = &mut self.columns;
+        system.momentum(xi, momentum);
+        // xi is no longer needed: its place takes q
+        let q = xi;
+        q.fill(S::zero());
+        adjoint.fill(S::zero());
+        for k in (0..=last).rev() {
+            system.ad_star(theta, adjoint, moved);
+            adjoint.copy_from(moved);
+            adjoint.axpy(coefficients[k], momentum);
+            if k > 0 {
+                system.ad_star(&self.powers[k - 1], adjoint, moved);
+                q.axpy(-S::one(), moved);
+            }
+        }
+        let weight = self.weights[node];
+        for (j, part) in out.0.iter_mut().enumerate() {
+            part.axpy(weight * self.slopes[node][j], adjoint);
+            part.axpy(weight * self.step * self.points[node][j], q);
+        }
+    }
+
+    /// Computes theta, the `w_k` and xi at a node: the first two columns and the powers. Returns the `c_k`, as far as they
+    /// are needed, and the last k; xi is no number where the series does not end.
+    fn velocity<P>(
+        &mut self,
+        system: &P,
+        node: usize,
+        controls: &Stages<V, STAGES>,
+    ) -> ([S; TERMS], usize)
+    where
+        P: LagrangianPoisson<S, State = V>,
+    {
+        let [theta, xi, ..] = &mut self.columns;
         theta.fill(S::zero());
         let first = &mut self.powers[0];
         first.fill(S::zero());
@@ -114,25 +148,7 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> Path<S, V, STAGES> {
                 *entry = S::select(active, not_a_number, *entry);
             }
         }
-        system.momentum(xi, momentum);
-        // xi is no longer needed: its place takes q
-        let q = xi;
-        q.fill(S::zero());
-        adjoint.fill(S::zero());
-        for k in (0..=last).rev() {
-            system.ad_star(theta, adjoint, moved);
-            adjoint.copy_from(moved);
-            adjoint.axpy(coefficients[k], momentum);
-            if k > 0 {
-                system.ad_star(&self.powers[k - 1], adjoint, moved);
-                q.axpy(-S::one(), moved);
-            }
-        }
-        let weight = self.weights[node];
-        for (j, part) in out.0.iter_mut().enumerate() {
-            part.axpy(weight * self.slopes[node][j], adjoint);
-            part.axpy(weight * self.step * self.points[node][j], q);
-        }
+        (coefficients, last)
     }
 }
 

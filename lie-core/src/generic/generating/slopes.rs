@@ -79,61 +79,75 @@ fn eta_of<S: Scalar, P: Lift<S> + LiePoisson<S>>(system: &P, p: &P::State, out: 
     of_square(system, p, &flow, &mut y, out);
 }
 
-/// `grad (h H + h^3 S3 + h^5 S5)` in exponential coordinates, with
-/// `5760 S5 = -4 <X2 + 3 Y, eta> + 4 H''(X2, X2) + 12 H'''(X, X, X2) + 3 H''''(X, X, X, X)`
-/// and `eta = 24 grad S3`.
-pub(super) fn exp6<S, P>(system: &P, h: S, p: &P::State, out: &mut P::State)
-where
-    S: Scalar,
-    P: Lift<S> + LiePoisson<S>,
-    P::Lifted: LiePoisson<Dual<S>>,
-{
-    let zero = system.zero_state();
-    let number = S::from_f64;
-    let flow = Flow::at(system, p);
-    let Flow { xi, x, w } = &flow;
-    let (mut y, mut eta) = (zero.clone(), zero.clone());
-    of_square(system, p, &flow, &mut y, &mut eta);
-    started(h, xi, h * h * h * S::ratio(1.0, 24.0), &eta, out);
+/// The derivatives of a function by p and by what it is computed from.
+struct Adjoints<V> {
+    p: V,
+    x: V,
+    x2: V,
+    y: V,
+}
 
-    let (mut x2, mut part) = (zero.clone(), zero.clone());
-    system.ad_star(xi, x, &mut x2);
-    let mut moved = x2.clone();
-    moved.axpy(number(3.0), &y);
+impl<V> Adjoints<V> {
+    /// Those of 5760 S5, where p, X, X2 and Y stand in it; what p does through eta is given.
+    fn of_s5<S, P>(system: &P, p: &V, (x, x2): (&V, &V), eta: &V, through_eta: &V) -> Self
+    where
+        S: Scalar,
+        V: State<S>,
+        P: Lift<S> + LiePoisson<S, State = V>,
+    {
+        let number = S::from_f64;
+        let zero = system.zero_state();
+        let mut part = zero.clone();
+        let mut of_p = zero.clone();
+        of_p.axpy(number(-4.0), through_eta);
+        third(system, p, x2, x2, &mut part);
+        of_p.axpy(number(4.0), &part);
+        fourth(system, p, x, x, x2, &mut part);
+        of_p.axpy(number(12.0), &part);
+        fifth(system, p, x, x, x, x, &mut part);
+        of_p.axpy(number(3.0), &part);
 
-    // through eta: its derivative is symmetric, so that its adjoint is its derivative along X2 + 3 Y
-    let lifted = system.lift();
-    let q = seeded(&lifted, p.as_slice(), Some(moved.as_slice()));
-    let mut along = lifted.zero_state();
-    eta_of(&lifted, &q, &mut along);
-    let mut of_p = zero.clone();
-    slope(&along, &mut part);
-    of_p.axpy(number(-4.0), &part);
-    // explicitly in p
-    third(system, p, &x2, &x2, &mut part);
-    of_p.axpy(number(4.0), &part);
-    fourth(system, p, x, x, &x2, &mut part);
-    of_p.axpy(number(12.0), &part);
-    fifth(system, p, x, x, x, x, &mut part);
-    of_p.axpy(number(3.0), &part);
+        let mut of_x2 = zero.clone();
+        of_x2.axpy(number(-4.0), eta);
+        second(system, p, x2, &mut part);
+        of_x2.axpy(number(8.0), &part);
+        third(system, p, x, x, &mut part);
+        of_x2.axpy(number(12.0), &part);
 
-    let mut of_x2 = zero.clone();
-    of_x2.axpy(number(-4.0), &eta);
-    second(system, p, &x2, &mut part);
-    of_x2.axpy(number(8.0), &part);
-    third(system, p, x, x, &mut part);
-    of_x2.axpy(number(12.0), &part);
+        let mut of_x = zero.clone();
+        third(system, p, x, x2, &mut part);
+        of_x.axpy(number(24.0), &part);
+        fourth(system, p, x, x, x, &mut part);
+        of_x.axpy(number(12.0), &part);
 
-    let mut of_x = zero.clone();
-    third(system, p, x, &x2, &mut part);
-    of_x.axpy(number(24.0), &part);
-    fourth(system, p, x, x, x, &mut part);
-    of_x.axpy(number(12.0), &part);
+        let mut of_y = zero;
+        of_y.axpy(number(-12.0), eta);
+        Self {
+            p: of_p,
+            x: of_x,
+            x2: of_x2,
+            y: of_y,
+        }
+    }
+}
 
+/// The derivative by p in all, backwards through Y, w, X2, X and xi.
+fn back_to_p<S: Scalar, P: Lift<S> + LiePoisson<S>>(
+    system: &P,
+    p: &P::State,
+    flow: &Flow<P::State>,
+    adjoints: Adjoints<P::State>,
+) -> P::State {
+    let Flow { xi, x, w } = flow;
+    let Adjoints {
+        p: mut of_p,
+        x: mut of_x,
+        x2: of_x2,
+        y: of_y,
+    } = adjoints;
+    let mut part = system.zero_state();
     // Y = ad*_w p
-    let mut of_y = zero.clone();
-    of_y.axpy(number(-12.0), &eta);
-    let mut of_w = zero.clone();
+    let mut of_w = system.zero_state();
     system.ad_star(&of_y, p, &mut part);
     of_w.axpy(-S::one(), &part);
     system.ad(w, &of_y, &mut part);
@@ -144,7 +158,7 @@ where
     third(system, p, x, &of_w, &mut part);
     of_p.axpy(S::one(), &part);
     // X2 = ad*_xi X
-    let mut of_xi = zero.clone();
+    let mut of_xi = system.zero_state();
     system.ad(xi, &of_x2, &mut part);
     of_x.axpy(S::one(), &part);
     system.ad_star(&of_x2, x, &mut part);
@@ -157,7 +171,39 @@ where
     // xi = grad H(p)
     second(system, p, &of_xi, &mut part);
     of_p.axpy(S::one(), &part);
+    of_p
+}
 
+/// `grad (h H + h^3 S3 + h^5 S5)` in exponential coordinates, with
+/// `5760 S5 = -4 <X2 + 3 Y, eta> + 4 H''(X2, X2) + 12 H'''(X, X, X2) + 3 H''''(X, X, X, X)`
+/// and `eta = 24 grad S3`.
+pub(super) fn exp6<S, P>(system: &P, h: S, p: &P::State, out: &mut P::State)
+where
+    S: Scalar,
+    P: Lift<S> + LiePoisson<S>,
+    P::Lifted: LiePoisson<Dual<S>>,
+{
+    let zero = system.zero_state();
+    let flow = Flow::at(system, p);
+    let Flow { xi, x, .. } = &flow;
+    let (mut y, mut eta) = (zero.clone(), zero.clone());
+    of_square(system, p, &flow, &mut y, &mut eta);
+    started(h, xi, h * h * h * S::ratio(1.0, 24.0), &eta, out);
+
+    let mut x2 = zero;
+    system.ad_star(xi, x, &mut x2);
+    let mut moved = x2.clone();
+    moved.axpy(S::from_f64(3.0), &y);
+    // through eta: its derivative is symmetric, so that its adjoint is its derivative along X2 + 3 Y
+    let lifted = system.lift();
+    let q = seeded(&lifted, p.as_slice(), Some(moved.as_slice()));
+    let mut along = lifted.zero_state();
+    eta_of(&lifted, &q, &mut along);
+    let mut through_eta = system.zero_state();
+    slope(&along, &mut through_eta);
+
+    let adjoints = Adjoints::of_s5(system, p, (x, &x2), &eta, &through_eta);
+    let of_p = back_to_p(system, p, &flow, adjoints);
     let fifth_power = h * h * h * h * h;
     out.axpy(fifth_power * S::ratio(1.0, 5760.0), &of_p);
 }

@@ -1,0 +1,231 @@
+//! The reader behind both front ends: entries, by the keys of the spec, become a declaration.
+//!
+//! What is read when is the order in which the mistakes of a macro are reported; those of a spec are sorted.
+
+use std::borrow::Cow;
+
+use super::token::Token;
+use super::{Body, Names, Parsed, expression, item};
+use crate::ast::{
+    Algebra, Declaration, Energy, Expr, Invariance, Name, Parameter, Realization, RunOption,
+    Structure,
+};
+use crate::diagnostic::{Kind, Origin, Report};
+
+/// What belongs to an algebra, and stands beside no `poisson`.
+const OF_ALGEBRA: [&str; 5] = [
+    "lagrangian",
+    "discrete_lagrangian",
+    "invariance",
+    "group",
+    "realization",
+];
+
+/// The tokens of an entry, and its place even where it is empty.
+pub struct Line<'a> {
+    /// The tokens.
+    pub tokens: Cow<'a, [Token]>,
+    /// The statement or the string as a whole.
+    pub place: Origin,
+}
+
+/// The parameters as far as they could be read.
+#[derive(Default)]
+pub struct Parameters {
+    /// The names that could be read.
+    pub names: Vec<Name>,
+    /// The parameters without mistakes.
+    pub whole: Vec<Parameter>,
+}
+
+/// A declaration in the form of one of the front ends; `key` is one of the spec. Mistakes of form are reported
+/// where an entry is asked for.
+pub trait Entries {
+    /// The kind of the mistake where entries do not go together.
+    const FORM: Kind;
+
+    /// Where an entry stands, if there is one.
+    fn place(&self, key: &str) -> Option<Origin>;
+    /// An entry with one value.
+    fn line(&self, key: &str, report: &mut Report) -> Option<Line<'_>>;
+    /// An entry with many.
+    fn lines(&self, key: &str, report: &mut Report) -> Vec<Line<'_>>;
+    /// A list of names.
+    fn names(&self, key: &str, report: &mut Report) -> Vec<Name>;
+    /// The ids of the methods.
+    fn methods(&self, report: &mut Report) -> Vec<Name>;
+    /// The word `left` or `right`, or what stands there.
+    fn invariance(&self, report: &mut Report) -> Option<(String, Origin)>;
+    /// The algebra; values of brackets may use the parameters.
+    fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Algebra>;
+    /// The realization; its map may use the parameters.
+    fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization>;
+    /// The initial state in these names.
+    fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr>;
+    /// Description and references, for people.
+    fn prose(&self, report: &mut Report) -> (Vec<String>, Vec<String>);
+    /// Defaults of the command.
+    fn run(&self, report: &mut Report) -> Vec<RunOption>;
+}
+
+/// Reads what is left when the names of the system, its state and its parameters are known: the body.
+pub fn finish<E: Entries>(
+    entries: &E,
+    mut parsed: Parsed,
+    parameters: Vec<Parameter>,
+    report: &mut Report,
+) -> Parsed {
+    let declaration = remainder(entries, &parsed, parameters, report);
+    if !report.has_errors() {
+        parsed.body = declaration.map(|d| Body::Declaration(Box::new(d)));
+    }
+    parsed
+}
+
+fn remainder<E: Entries>(
+    entries: &E,
+    parsed: &Parsed,
+    parameters: Vec<Parameter>,
+    report: &mut Report,
+) -> Option<Declaration> {
+    let constants: Vec<String> = texts(&parsed.parameters).collect();
+    let place = entries.place("algebra");
+    let algebra = place.map(|place| (place, entries.algebra(&constants, report)));
+    let velocity = entries.names("velocity", report);
+    let lets = entries.lines("let", report);
+    let basis = algebra.iter().filter_map(|(_, algebra)| algebra.as_ref());
+    let names = in_functions(entries, parsed, &velocity, &lets)
+        .with_elsewhere(basis.flat_map(|algebra| texts(&algebra.basis)));
+    let structure = structure(entries, algebra, &names, report);
+    let lets = lets.iter();
+    let lets = lets.filter_map(|line| abbreviation(line, &names, report));
+    let lets = lets.collect();
+    let energy = energy(entries, velocity, &names, report);
+    let realization = entries.place("realization");
+    let realization = realization.map(|_| entries.realization(&constants, report));
+    let casimirs = entries.lines("casimirs", report);
+    let casimirs = casimirs.iter();
+    let casimirs =
+        casimirs.filter_map(|line| item::casimir(&line.tokens, line.place, &names, report));
+    let casimirs = casimirs.collect();
+    let methods = entries.methods(report);
+    let group = entries.place("group").map(|_| {
+        let line = entries.line("group", report)?;
+        item::name(&line.tokens, line.place, report)
+    });
+    let invariance = invariance(entries, report);
+    let constants: Names = constants.into_iter().collect();
+    let initial_origin = entries.place("initial");
+    let initial = initial_origin.map(|_| entries.initial(&parsed.state, &constants, report));
+    let (description, references) = entries.prose(report);
+    let run = entries.run(report);
+    Some(Declaration {
+        visibility: parsed.visibility.clone(),
+        name: parsed.name.clone()?,
+        description,
+        references,
+        structure: structure?,
+        group: without_mistake(group)?,
+        state: parsed.state.clone(),
+        parameters,
+        lets,
+        energy: energy?,
+        realization: without_mistake(realization)?,
+        casimirs,
+        methods,
+        invariance: invariance?,
+        initial,
+        initial_origin,
+        run,
+    })
+}
+
+fn texts(names: &[Name]) -> impl Iterator<Item = String> {
+    names.iter().map(|name| name.text.clone())
+}
+
+/// What may be absent: `None` only where it is there and could not be read.
+fn without_mistake<T>(read: Option<Option<T>>) -> Option<Option<T>> {
+    match read {
+        None => Some(None),
+        Some(read) => read.map(Some),
+    }
+}
+
+/// The names that the functions may use.
+fn in_functions<E: Entries>(
+    entries: &E,
+    parsed: &Parsed,
+    velocity: &[Name],
+    lets: &[Line<'_>],
+) -> Names {
+    let [.., discrete] = item::FUNCTIONS;
+    let step = entries.place(discrete).map(|_| "h".to_owned());
+    let defined = lets.iter().filter_map(|line| line.tokens.first());
+    texts(&parsed.state)
+        .chain(texts(velocity))
+        .chain(texts(&parsed.parameters))
+        .chain(defined.filter_map(|name| Some(name.identifier()?.to_owned())))
+        .chain(step)
+        .collect()
+}
+
+fn structure<E: Entries>(
+    entries: &E,
+    algebra: Option<(Origin, Option<Algebra>)>,
+    names: &Names,
+    report: &mut Report,
+) -> Option<Structure> {
+    let [poisson, cocycle] = ["poisson", "cocycle"].map(|key| {
+        let place = entries.place(key)?;
+        let lines = entries.lines(key, report);
+        let brackets = lines
+            .iter()
+            .filter_map(|line| item::poisson(&line.tokens, line.place, names, report));
+        Some((place, brackets.collect()))
+    });
+    let of_algebra = OF_ALGEBRA.iter();
+    let of_algebra: Vec<_> = of_algebra
+        .filter_map(|key| Some((entries.place(key)?, *key)))
+        .collect();
+    item::structure(algebra, poisson, cocycle, &of_algebra, E::FORM, report)
+}
+
+fn abbreviation(line: &Line<'_>, names: &Names, report: &mut Report) -> Option<(Name, Expr)> {
+    let (name, value) = item::definition(&line.tokens, "an abbreviation", line.place, report)?;
+    let example = ("its value", "x^2/2");
+    let value = item::formula(value, example, line.place, names, report)?;
+    Some((name, value))
+}
+
+/// `hamiltonian`, or one of the Lagrangians with `velocity`.
+fn energy<E: Entries>(
+    entries: &E,
+    velocity: Vec<Name>,
+    names: &Names,
+    report: &mut Report,
+) -> Option<Energy> {
+    let functions = item::FUNCTIONS.map(|key| {
+        let place = entries.place(key)?;
+        let line = entries.line(key, report);
+        Some((place, line.and_then(|l| function(&l, key, names, report))))
+    });
+    let velocity = (entries.place("velocity"), velocity);
+    item::energy(functions, velocity, E::FORM, report)
+}
+
+fn function(line: &Line<'_>, key: &str, names: &Names, report: &mut Report) -> Option<Expr> {
+    if line.tokens.is_empty() {
+        report.push(item::empty_function(key, line.place));
+        return None;
+    }
+    expression::parse(&line.tokens, names, report)
+}
+
+fn invariance<E: Entries>(entries: &E, report: &mut Report) -> Option<Invariance> {
+    if entries.place("invariance").is_none() {
+        return Some(Invariance::Left);
+    }
+    let (word, place) = entries.invariance(report)?;
+    item::invariance(&word, place, E::FORM, report)
+}
