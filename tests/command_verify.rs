@@ -138,9 +138,9 @@ fn a_system_at_rest_cannot_be_measured() {
     assert!(run.stderr.contains("is zero"), "{}", run.stderr);
 }
 
-/// `lie verify` with a program in the place of the built one, which writes these lines.
+/// `lie verify` with a program in the place of the built one, which says that it has found this.
 #[cfg(unix)]
-fn with_program(lines: &[&str]) -> common::Run {
+fn with_program(found: &[serde_json::Value]) -> common::Run {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = folder();
     let path = spec(folder.path(), |spec| spec["name"] = "Lied".into());
@@ -151,14 +151,15 @@ fn with_program(lines: &[&str]) -> common::Run {
         std::fs::set_permissions(&path, permissions).expect("it can be run");
         path
     };
-    let said: String = lines
+    let end = serde_json::json!({ "end": "done" });
+    let said = found
         .iter()
-        .map(|line| format!("printf '{line}\\n'\n"))
+        .map(|found| serde_json::json!({ "found": found }));
+    let said: String = said
+        .chain([end])
+        .map(|message| format!("printf '%s\\n' '{message}'\n"))
         .collect();
-    let program = script(
-        "program",
-        &format!("while read line; do [ \"$line\" = run ] && break; done\n{said}echo done >&2"),
-    );
+    let program = script("program", &format!("read -r request\n{said}"));
     let cargo = script(
         "cargo",
         &format!(
@@ -180,12 +181,21 @@ fn with_program(lines: &[&str]) -> common::Run {
     .into()
 }
 
+/// A measurement of `rk4`.
+#[cfg(unix)]
+fn finding(fact: &str, claim: f64, measured: f64, bound: f64, verdict: &str) -> serde_json::Value {
+    serde_json::json!({ "finding": { "method": "rk4", "finding": {
+        "fact": fact, "claim": claim, "measured": measured, "bound": bound,
+        "verdict": verdict, "step": 0.1, "note": "",
+    } } })
+}
+
 #[test]
 #[cfg(unix)]
 fn a_claim_that_fails_is_exit_code_1() {
     let run = with_program(&[
-        "finding\\trk4\\torder\\t4.0\\t4.01\\t3.7\\tholds\\t",
-        "finding\\trk4\\tsymmetric\\t0.0\\t1e-7\\t1e-14\\tfails\\t",
+        finding("order", 4.0, 4.01, 3.7, "holds"),
+        finding("symmetric", 0.0, 1e-7, 1e-14, "fails"),
     ]);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
     assert!(
@@ -206,31 +216,34 @@ fn a_claim_that_fails_is_exit_code_1() {
 #[test]
 #[cfg(unix)]
 fn the_program_is_judged_by_the_declaration() {
-    let holds = "finding\\trk4\\torder\\t4.0\\t4.01\\t3.7\\tholds\\t";
-    for (line, complaint) in [
+    let kernel = |name: &str| {
+        serde_json::json!({ "kernel": {
+            "name": name, "arguments": [[0.1, 0.2, 0.3]], "values": [1e9], "gradient": [0.0, 0.0, 0.0],
+        } })
+    };
+    for (found, complaint) in [
         (
-            "kernel\\tenergy\\t0.1 0.2 0.3\\t1e9\\t0.0 0.0 0.0",
+            Some(kernel("energy")),
             "failed: energy: entry 0 is 1000000000.0, and ",
         ),
         (
-            "broken\\tPoisson",
+            Some(serde_json::json!({ "broken": { "fact": "Poisson" } })),
             "failed: Poisson: a spoiled map passes, the measurement says nothing",
         ),
         (
-            "unsound\\tfixed-point iteration",
+            Some(serde_json::json!({ "unsound": { "what": "fixed-point iteration" } })),
             "failed: fixed-point iteration: an equation whose solution is known is not solved as it should be",
         ),
         (
-            "kernel\\tnovel\\t0.1 0.2 0.3\\t1e9\\t0.0 0.0 0.0",
+            Some(kernel("novel")),
             "failed: novel: the judge does not know it",
         ),
-        (
-            "other\\tline",
-            "failed: ad_star_matrix: the judge has not seen it",
-        ),
+        (None, "failed: ad_star_matrix: the judge has not seen it"),
     ] {
-        let run = with_program(&[holds, line]);
-        assert_eq!(run.code, Some(1), "{line}: {}", run.stderr);
+        let holds = finding("order", 4.0, 4.01, 3.7, "holds");
+        let all: Vec<_> = [holds].into_iter().chain(found).collect();
+        let run = with_program(&all);
+        assert_eq!(run.code, Some(1), "{complaint}: {}", run.stderr);
         assert!(run.stderr.contains(complaint), "{}", run.stderr);
         assert!(run.stdout.contains("1 claims, 0 fail"), "{}", run.stdout);
     }
