@@ -3,7 +3,7 @@
 use super::Source;
 use super::generating::too_large;
 use super::tape::{Tangents, Tape};
-use crate::schedule::{Known, Task, schedule};
+use crate::schedule::{Known, Operation, Task, schedule};
 use crate::symbolic::{ExprId, Symbol};
 
 /// Lists longer than this are not scheduled twice.
@@ -48,7 +48,13 @@ pub(crate) fn leaner_jacobian(
             outputs: derived.values.into_iter().chain(rows).collect(),
             known: Known::Step,
         };
-        schedule(&mut source.graph, &task).counts.weight()
+        let program = schedule(&mut source.graph, &task);
+        // derivatives in place may cancel only once they are computed: what is left is no form to write out
+        let cancels = |operation: &Operation| matches!(operation, Operation::Sub(a, b) if a == b);
+        match program.operations.iter().any(cancels) {
+            true => usize::MAX,
+            false => program.counts.weight(),
+        }
     };
     if weight(tape, &rows) <= weight(&other, &other_rows) {
         return rows;
