@@ -13,11 +13,13 @@ fn build() -> PathBuf {
     std::fs::create_dir_all(&folder).expect("a folder");
     let source = root.join("benches/instruction_counts/main.rs");
     let runtime = root.join("lie-runtime");
+    let systems = root.join("spec-systems");
     let manifest = format!(
         "[package]\nname = \"instruction_counts\"\nedition = \"2024\"\n\n\
          [[bin]]\nname = \"instruction_counts\"\npath = {source:?}\n\n\
          [dependencies]\n\
-         lie-runtime = {{ path = {runtime:?}, default-features = false, features = [\"std\"] }}\n\n\
+         lie-runtime = {{ path = {runtime:?}, default-features = false, features = [\"std\"] }}\n\
+         spec-systems = {{ path = {systems:?} }}\n\n\
          [workspace]\n"
     );
     std::fs::write(folder.join("Cargo.toml"), manifest).expect("the manifest is written");
