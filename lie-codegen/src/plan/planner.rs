@@ -15,11 +15,8 @@ use crate::structure::separable;
 
 /// The plan of a checked system with fused code for these methods; all others run on the generic forms.
 pub fn plan(model: &Model, choices: &[Choice]) -> Plan {
-    let mut planner = Planner::new(model, choices);
-    let system = planner.system();
-    let structure = planner.structure();
-    let generic = planner.equations();
-    planner.finish(system, structure, generic)
+    let (planner, begun) = Planner::begin(model, choices);
+    planner.finish(begun)
 }
 
 /// The same with methods that a user wrote.
@@ -27,14 +24,18 @@ pub fn plan(model: &Model, choices: &[Choice]) -> Plan {
 /// # Errors
 /// What cannot be traced, with the reason.
 pub fn plan_with(model: &Model, choices: &[Choice], own: &[Own]) -> Result<Plan, String> {
-    let mut planner = Planner::new(model, choices);
-    let system = planner.system();
-    let structure = planner.structure();
-    let generic = planner.equations();
+    let (mut planner, begun) = Planner::begin(model, choices);
     for method in own {
         planner.own(method)?;
     }
-    Ok(planner.finish(system, structure, generic))
+    Ok(planner.finish(begun))
+}
+
+/// What is planned of the system and the methods of the catalogue.
+struct Begun {
+    system: System,
+    structure: Structure,
+    generic: Vec<String>,
 }
 
 /// A plan in the making.
@@ -54,6 +55,16 @@ pub(super) struct Planner<'a> {
 }
 
 impl<'a> Planner<'a> {
+    fn begin(model: &'a Model, choices: &[Choice]) -> (Self, Begun) {
+        let mut planner = Self::new(model, choices);
+        let begun = Begun {
+            system: planner.system(),
+            structure: planner.structure(),
+            generic: planner.equations(),
+        };
+        (planner, begun)
+    }
+
     fn new(model: &'a Model, choices: &[Choice]) -> Self {
         let mut source = Source::of(model);
         let solved = choices.iter().map(Choice::solved);
@@ -77,7 +88,12 @@ impl<'a> Planner<'a> {
     }
 
     /// What is left once all kernels are known: flows, and the constants that they use.
-    fn finish(mut self, system: System, structure: Structure, generic: Vec<String>) -> Plan {
+    fn finish(mut self, begun: Begun) -> Plan {
+        let Begun {
+            system,
+            structure,
+            generic,
+        } = begun;
         let splitting = self.splitting();
         let defaults: Vec<_> = self.model.parameters.iter().map(|p| p.default).collect();
         let defaults = self.preparation(&defaults);
