@@ -20,7 +20,7 @@ pub fn spec(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     match compile_spec(text) {
         Ok(model) => {
-            let tokens = generate(&model, &choices(&model)).tokens;
+            let tokens = generate(&model, &choices(&model));
             assert!(syn::parse2::<syn::File>(tokens).is_ok(), "the generated code is no Rust");
         }
         Err(diagnostics) => {
