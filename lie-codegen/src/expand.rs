@@ -195,6 +195,10 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
             type Lifted = #system<::lie_runtime::Dual<S>>;
             fn lift(&self) -> Self::Lifted { #system { _scalar: ::core::marker::PhantomData } }
         }
+        impl<S: ::lie_runtime::Scalar> ::lie_runtime::Widen<S> for #system<S> {
+            type Widened = #system<S::Wide>;
+            fn widen(&self) -> Self::Widened { #system { _scalar: ::core::marker::PhantomData } }
+        }
         // whatever the method is
         impl<S: ::lie_runtime::Scalar, M> ::lie_runtime::Implicit<S, M> for #system<S> {
             type Equation<'a> = ::lie_runtime::generic::Midpoint<'a, S, Self> where Self: 'a;

@@ -5,7 +5,7 @@
 //! depends on this crate too: it runs the same equations over expressions.
 #![cfg_attr(doc, doc = include_str!("../docs/katex.html"))]
 #![cfg_attr(not(feature = "std"), no_std)]
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod elimination;
@@ -33,7 +33,7 @@ pub use lagrangian::{DiscreteLagrangian, DiscreteLagrangianPoisson, LagrangianPo
 pub use matrix::{SquareMatrix, StageMatrix};
 pub use parameter::{ParameterError, ParameterFault};
 pub use pieces::{PieceFlows, SeparablePoisson};
-pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
+pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson, Widen};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 pub use structure::{

@@ -143,6 +143,20 @@ pub trait Lift<S: Scalar>: Poisson<S> {
     fn lift(&self) -> Self::Lifted;
 }
 
+/// A system that can be had over eight numbers at once, and so evaluated at all stages of a step together.
+///
+/// Generated for every system; by hand, convert the constants with [`Scalar::widen`].
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not say how it looks over eight numbers of the scalar `{S}` at once",
+    note = "methods that evaluate all stages of a step together need it: implement `Widen<{S}>`"
+)]
+pub trait Widen<S: Scalar>: Poisson<S> {
+    /// The same system over eight numbers at once.
+    type Widened: Poisson<S::Wide>;
+    /// The system with each of its constants eight times.
+    fn widen(&self) -> Self::Widened;
+}
+
 /// A Lie–Poisson system whose algebra has a representation closed under the Jordan triple product
 /// `(abc + cba)/2 = T_abc^d`, and with it a Cayley map in coordinates.
 #[diagnostic::on_unimplemented(

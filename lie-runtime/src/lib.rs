@@ -73,7 +73,7 @@ pub use lie_core::{
     DiscreteLagrangianPoisson, Dual, Equation, GeneratingFunction, Group, Implicit, InertiaPoisson,
     LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson, ParameterError,
     ParameterFault, PieceFlows, Poisson, RealizedPoisson, Scalar, SeparablePoisson, Spectrum,
-    SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown, elimination, equation,
+    SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown, Widen, elimination, equation,
     generating, generic, generic_equations, lagrangian, matrix, methods, newton, parameter, pieces,
     poisson, scalar, state, structure,
 };
@@ -105,7 +105,7 @@ pub mod prelude {
     pub use crate::scalar::{F32x8, F64x4, F64x8};
     pub use crate::{
         CayleyPoisson, DiscreteLagrangian, DiscreteLagrangianPoisson, Dual, LagrangianPoisson,
-        LiePoisson, Lift, Mask, ParameterError, Poisson, Scalar, SquareMatrix, State,
+        LiePoisson, Lift, Mask, ParameterError, Poisson, Scalar, SquareMatrix, State, Widen,
     };
     #[cfg(feature = "macros")]
     pub use lie_macros::lie_poisson;
@@ -123,7 +123,7 @@ pub mod __private_0_1 {
     pub use crate::newton::{dense, inverse_pivots_are_safe};
     pub use crate::parameter::{ParameterError, all_finite, all_positive};
     pub use crate::pieces::{PieceFlows, SeparablePoisson};
-    pub use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson};
+    pub use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson, Widen};
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};
     pub use crate::structure::{

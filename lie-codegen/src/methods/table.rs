@@ -3,11 +3,12 @@
 use lie_core::methods::{
     CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6,
     CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, DiscreteEulerPoincare, Dopri5,
-    EulerArnold2, Exp, Facts, Gauss4, Gauss6, Generating2, Generating4, Generating6,
-    GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6,
-    ItohAbe, LieEuler, LieMidpoint, MeanValue, MoserVeselov, OrbitEnergy, Preserves,
-    Representation, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint, Splitting1, Splitting2,
-    Splitting4, Splitting6, Splitting8, Variational2, Variational4, Variational6,
+    EulerArnold2, Exp, Facts, Gauss4, Gauss6, Gauss8, Gauss10, Gauss12, Gauss14, Gauss16,
+    Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint,
+    Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue,
+    MoserVeselov, OrbitEnergy, Preserves, Representation, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6,
+    SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Variational2,
+    Variational4, Variational6,
 };
 
 use super::Method;
@@ -83,6 +84,11 @@ catalogue! {
     ImplicitMidpoint: "Poisson midpoint rule", ANY, AKW;
     Gauss4: "Gauss collocation, 2 stages", ANY, HLW;
     Gauss6: "Gauss collocation, 3 stages", ANY, HLW;
+    Gauss8: "stage-parallel Gauss collocation", ANY, HLW;
+    Gauss10: "stage-parallel Gauss collocation", ANY, HLW;
+    Gauss12: "stage-parallel Gauss collocation", ANY, HLW;
+    Gauss14: "stage-parallel Gauss collocation", ANY, HLW;
+    Gauss16: "stage-parallel Gauss collocation", ANY, HLW;
     LieMidpoint<Exp>: "retraction Lie–Poisson integrator", RETRACTION, MPS;
     Rk4: "classical Runge–Kutta method (control)", ANY, "Kutta (1901)";
     Dopri5: "Dormand–Prince pair with step control (control)", ANY, "Dormand, Prince (1980), 10.1016/0771-050X(80)90013-3";
@@ -131,11 +137,6 @@ catalogue! {
 pub const RESERVED: &[&str] = &[
     "taylor",
     "exact",
-    "gauss8",
-    "gauss10",
-    "gauss12",
-    "gauss14",
-    "gauss16",
     "collective8",
     "collective16",
     "isospectral8",

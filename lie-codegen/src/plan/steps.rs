@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use lie_core::methods::gauss::BY_NEWTON;
+
 use super::constants::Table;
 use super::elimination::Elimination;
 use super::equation::{
@@ -52,6 +54,11 @@ impl Planner<'_> {
         let mut generic = Vec::new();
         let gauss = CATALOGUE.iter().filter(|row| row.id.starts_with("gauss"));
         let gauss = gauss.filter_map(|row| Some((Choice::from_id(row.id).ok()?, row.id)));
+        // those of more stages have no equation: they run on the field over all stages at once
+        let gauss = gauss.filter(|(choice, _)| match choice {
+            Choice::Gauss(stages) => *stages <= BY_NEWTON,
+            _ => false,
+        });
         let mut methods = vec![(Choice::Midpoint, "midpoint")];
         methods.extend(gauss);
         methods.push((Choice::LieMidpoint(Retraction::Cayley), "cayley"));

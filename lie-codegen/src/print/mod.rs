@@ -33,14 +33,14 @@ pub fn print(plan: &Plan, surface: &Surface) -> TokenStream {
     let system = printer.system_struct();
     let traits = printer.traits();
     let lagrangian = printer.lagrangian();
-    let lift = printer.lift();
+    let other_scalars = printer.other_scalars();
     let structure = printer.structure();
     let realization = printer.realization();
     let items: TokenStream = plan.items.iter().map(|item| printer.item(item)).collect();
     let generic = printer.generic();
     let splitting = printer.splitting();
     of_this_version(quote! {
-        #parameters #system #traits #lagrangian #lift #structure #realization #items #generic #splitting
+        #parameters #system #traits #lagrangian #other_scalars #structure #realization #items #generic #splitting
     })
 }
 

@@ -216,21 +216,18 @@ impl Printer<'_> {
         }
     }
 
-    /// The same system over dual numbers.
-    pub(super) fn lift(&self) -> TokenStream {
+    /// The same system over dual numbers, and over eight numbers at once.
+    pub(super) fn other_scalars(&self) -> TokenStream {
         let (name, system) = (self.name(), self.system_name());
         let fields = self.constant_names();
         let names = self.parameters_by_name();
         let marker = self.marker();
         let branch = self
             .has_branches()
-            .then(|| quote! { _branch: self._branch.map(|branch| branch.map(_constant)), });
+            .then(|| quote! { _branch: self._branch.map(|branch| branch.map(&_constant)), });
         quote! {
-            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for #system<S> {
-                type Lifted = #system<::lie_runtime::Dual<S>>;
-
-                fn lift(&self) -> Self::Lifted {
-                    let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+            impl<S: ::lie_runtime::Scalar> #system<S> {
+                fn _over<T: ::lie_runtime::Scalar>(&self, _constant: impl Fn(S) -> T) -> #system<T> {
                     #system {
                         _parameters: #name {
                             #(#names: _constant(self._parameters.#names),)*
@@ -239,6 +236,22 @@ impl Printer<'_> {
                         #branch
                         #(#fields: _constant(self.#fields),)*
                     }
+                }
+            }
+
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for #system<S> {
+                type Lifted = #system<::lie_runtime::Dual<S>>;
+
+                fn lift(&self) -> Self::Lifted {
+                    self._over(::lie_runtime::Dual::constant_of)
+                }
+            }
+
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Widen<S> for #system<S> {
+                type Widened = #system<S::Wide>;
+
+                fn widen(&self) -> Self::Widened {
+                    self._over(S::widen)
                 }
             }
         }

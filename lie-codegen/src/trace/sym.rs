@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use lie_core::Scalar;
+use lie_core::scalar::Pack;
 
 use crate::derive::{Source, Tape};
 use crate::exact::Rational;
@@ -106,6 +107,7 @@ fn exact(value: f64) -> Rational {
 impl Scalar for Sym {
     type Lane = Self;
     type Mask = bool;
+    type Wide = Pack<Self>;
     const LANES: usize = 1;
 
     fn zero() -> Self {
@@ -139,6 +141,12 @@ impl Scalar for Sym {
     }
     fn with_lane(self, _index: usize, lane: Self) -> Self {
         lane
+    }
+    fn gather(numbers: [Self; 8]) -> Self::Wide {
+        Pack(numbers)
+    }
+    fn scatter(wide: Self::Wide) -> [Self; 8] {
+        wide.0
     }
     fn to_f64(self) -> f64 {
         Self::branch(f64::NAN)

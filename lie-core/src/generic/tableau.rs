@@ -1,5 +1,17 @@
-//! Gauss collocation coefficients.
+//! Gauss collocation coefficients, computed by the compiler in pairs of f64.
+//!
+//! The nodes are the roots of the Legendre polynomial `P_s`, moved to [0, 1]: `c = (1 + x)/2`. With the weights b,
+//!
+//! ```math
+//! a_{ij} = b_j \Bigl(c_i + \tfrac12 \sum_{k=1}^{s-1} P_k(x_j) \bigl(P_{k+1}(x_i) - P_{k-1}(x_i)\bigr)\Bigr)
+//! ```
+//!
+//! which integrates the interpolation polynomial in its Legendre form (Hairer, Wanner, "Solving Ordinary Differential
+//! Equations II", 2nd edition, Springer 1996, section IV.5,
+//! [doi:10.1007/978-3-642-05221-7](https://doi.org/10.1007/978-3-642-05221-7)); nothing cancels.
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+use super::pair::Pair;
 use crate::scalar::Scalar;
 
 /// Coefficients of a Runge–Kutta method with a number of stages.
@@ -13,63 +25,138 @@ pub struct Tableau<S, const STAGES: usize> {
     pub c: [S; STAGES],
 }
 
-/// High and low part of a coefficient; the sum is good to 100 bits.
-type Parts = (f64, f64);
+/// The most stages that a Gauss method may have.
+pub const MOST_STAGES: usize = 8;
 
-const A1: [Parts; 1] = [(0.5, 0.0)];
-const B1: [Parts; 1] = [(1.0, 0.0)];
-const C1: [Parts; 1] = [(0.5, 0.0)];
-const A2: [Parts; 4] = [
-    (0.25, 0.0),
-    (-0.03867513459481288, -2.8473525618637145e-18),
-    (0.5386751345948129, 1.6725140369678172e-17),
-    (0.25, 0.0),
-];
-const B2: [Parts; 2] = [(0.5, 0.0), (0.5, 0.0)];
-const C2: [Parts; 2] = [
-    (0.2113248654051871, 1.1030435245950743e-17),
-    (0.7886751345948129, 1.6725140369678172e-17),
-];
-const A3: [Parts; 9] = [
-    (0.1388888888888889, -6.1679056923619804e-18),
-    (-0.0359766675249389, -1.7131477166576787e-18),
-    (0.009789444015308325, 6.854025647616559e-19),
-    (0.30026319498086457, 2.5164098933700036e-17),
-    (0.2222222222222222, 1.2335811384723961e-17),
-    (-0.022485417203086815, 6.64006153065758e-19),
-    (0.26798833376246944, 7.795467762236068e-18),
-    (0.48042111196938336, -1.5248592937337767e-17),
-    (0.1388888888888889, -6.1679056923619804e-18),
-];
-const B3: [Parts; 3] = [
-    (0.2777777777777778, -1.2335811384723961e-17),
-    (0.4444444444444444, 2.4671622769447922e-17),
-    (0.2777777777777778, -1.2335811384723961e-17),
-];
-const C3: [Parts; 3] = [
-    (0.11270166537925831, -2.5675694035077516e-19),
-    (0.5, 0.0),
-    (0.8872983346207417, -1.3621030867463682e-17),
-];
+/// What the steps of a Gauss method are made of, in as many rows and columns as it has stages.
+#[derive(Clone, Copy)]
+struct Table {
+    a: [[Pair; MOST_STAGES]; MOST_STAGES],
+    b: [Pair; MOST_STAGES],
+    c: [Pair; MOST_STAGES],
+    /// The polynomial through values at the nodes of one step, at the nodes of the next: `L_j(1 + c_i)`.
+    ahead: [[Pair; MOST_STAGES]; MOST_STAGES],
+}
 
-/// The matrices by rows, the weights and the nodes, by the number of stages.
-const TABLEAUS: [[&[Parts]; 3]; 3] = [[&A1, &B1, &C1], [&A2, &B2, &C2], [&A3, &B3, &C3]];
+/// The tables by the number of stages, from one.
+static TABLES: [Table; MOST_STAGES] = {
+    let mut tables = [Table::EMPTY; MOST_STAGES];
+    let mut roots = [Pair::ZERO; MOST_STAGES];
+    let mut stages = 1;
+    while stages <= MOST_STAGES {
+        roots = legendre_roots(stages, &roots);
+        tables[stages - 1] = Table::gauss(stages, &roots);
+        stages += 1;
+    }
+    tables
+};
+
+impl Table {
+    const EMPTY: Self = Self {
+        a: [[Pair::ZERO; MOST_STAGES]; MOST_STAGES],
+        b: [Pair::ZERO; MOST_STAGES],
+        c: [Pair::ZERO; MOST_STAGES],
+        ahead: [[Pair::ZERO; MOST_STAGES]; MOST_STAGES],
+    };
+
+    const fn gauss(stages: usize, roots: &[Pair; MOST_STAGES]) -> Self {
+        let mut table = Self::EMPTY;
+        let mut j = 0;
+        while j < stages {
+            // b = 1/((1 - x^2) P_s'(x)^2), c = (1 + x)/2
+            let slope = legendre_slope(stages, roots[j]);
+            let square = Pair::ONE.sub(roots[j].times(roots[j]));
+            table.b[j] = Pair::ONE.over(square.times(slope).times(slope));
+            table.c[j] = Pair::ONE.plus(roots[j]).scaled(0.5);
+            j += 1;
+        }
+        let mut i = 0;
+        while i < stages {
+            let here = legendre(roots[i]);
+            let next = legendre(roots[i].plus(Pair::new(2.0)));
+            let mut j = 0;
+            while j < stages {
+                let there = legendre(roots[j]);
+                let (mut integral, mut value) = (table.c[i], Pair::ONE);
+                let mut k = 1;
+                while k < stages {
+                    let slope = here[k + 1].sub(here[k - 1]).scaled(0.5);
+                    integral = integral.plus(there[k].times(slope));
+                    let norm = (2 * k + 1) as f64;
+                    value = value.plus(there[k].times(next[k]).times(Pair::new(norm)));
+                    k += 1;
+                }
+                table.a[i][j] = table.b[j].times(integral);
+                table.ahead[i][j] = table.b[j].times(value);
+                j += 1;
+            }
+            i += 1;
+        }
+        table
+    }
+}
+
+/// `P_0(x)` to `P_8(x)`, by `k P_k = (2k - 1) x P_(k-1) - (k - 1) P_(k-2)`.
+const fn legendre(x: Pair) -> [Pair; MOST_STAGES + 1] {
+    let mut values = [Pair::ONE; MOST_STAGES + 1];
+    values[1] = x;
+    let mut k = 2;
+    while k <= MOST_STAGES {
+        let first = x.times(values[k - 1]).times(Pair::new((2 * k - 1) as f64));
+        let second = values[k - 2].times(Pair::new((k - 1) as f64));
+        values[k] = first.sub(second).over(Pair::new(k as f64));
+        k += 1;
+    }
+    values
+}
+
+/// `P_s'(x) = s (x P_s - P_(s-1))/(x^2 - 1)`
+const fn legendre_slope(stages: usize, x: Pair) -> Pair {
+    let values = legendre(x);
+    let top = x.times(values[stages]).sub(values[stages - 1]);
+    let top = top.times(Pair::new(stages as f64));
+    top.over(x.times(x).sub(Pair::ONE))
+}
+
+/// The roots of `P_s`, ascending, from those of `P_(s-1)`, between which and the ends of the interval they lie.
+const fn legendre_roots(stages: usize, between: &[Pair; MOST_STAGES]) -> [Pair; MOST_STAGES] {
+    let mut roots = [Pair::ZERO; MOST_STAGES];
+    let mut index = 0;
+    while index < stages {
+        let first = index == 0;
+        let last = index + 1 == stages;
+        let low = if first { -1.0 } else { between[index - 1].high };
+        let high = if last { 1.0 } else { between[index].high };
+        let mut root = Pair::new(0.5 * (low + high));
+        let mut newton = 0;
+        while newton < 8 {
+            let update = legendre(root)[stages].over(legendre_slope(stages, root));
+            root = root.sub(update);
+            newton += 1;
+        }
+        roots[index] = root;
+        index += 1;
+    }
+    roots
+}
+
+fn table(stages: usize) -> &'static Table {
+    assert!(
+        stages >= 1 && stages <= MOST_STAGES,
+        "there is no Gauss tableau of so many stages"
+    );
+    &TABLES[stages - 1]
+}
 
 /// The Gauss–Legendre tableau of a number of stages, of twice that order, correctly rounded.
 ///
-/// Numbers of stages without a tableau here do not compile.
+/// Numbers of stages above [`MOST_STAGES`] do not compile.
 pub fn gauss_tableau<S: Scalar, const STAGES: usize>() -> Tableau<S, STAGES> {
-    const {
-        assert!(
-            STAGES >= 1 && STAGES <= TABLEAUS.len(),
-            "there is no Gauss tableau of so many stages"
-        )
-    };
-    let [_, b, c] = TABLEAUS[STAGES - 1];
+    const { assert!(STAGES >= 1 && STAGES <= MOST_STAGES) };
     Tableau {
         a: core::array::from_fn(|i| core::array::from_fn(|j| gauss_entry(STAGES, i, j))),
-        b: core::array::from_fn(|i| number(b[i])),
-        c: core::array::from_fn(|i| number(c[i])),
+        b: core::array::from_fn(|i| gauss_weight(STAGES, i)),
+        c: core::array::from_fn(|i| table(STAGES).c[i].number()),
     }
 }
 
@@ -78,7 +165,7 @@ pub fn gauss_tableau<S: Scalar, const STAGES: usize>() -> Tableau<S, STAGES> {
 /// # Panics
 /// If there is no such tableau, or entry.
 pub fn gauss_entry<S: Scalar>(stages: usize, i: usize, j: usize) -> S {
-    number(TABLEAUS[stages - 1][0][i * stages + j])
+    table(stages).a[i][j].number()
 }
 
 /// The weight `b_i` of the Gauss–Legendre tableau of a number of stages.
@@ -86,49 +173,87 @@ pub fn gauss_entry<S: Scalar>(stages: usize, i: usize, j: usize) -> S {
 /// # Panics
 /// If there is no such tableau, or entry.
 pub fn gauss_weight<S: Scalar>(stages: usize, i: usize) -> S {
-    number(TABLEAUS[stages - 1][1][i])
+    table(stages).b[i].number()
 }
 
-fn number<S: Scalar>((high, low): Parts) -> S {
-    S::constant(high, low)
+/// What value j at a node counts in the polynomial through all of them, at node i of the step that follows.
+///
+/// # Panics
+/// If there is no such tableau, or entry.
+pub fn gauss_ahead<S: Scalar>(stages: usize, i: usize, j: usize) -> S {
+    table(stages).ahead[i][j].number()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Collocation: `sum_j a_ij c_j^(q-1) = c_i^q/q` for q up to the number of stages, and the
-    /// quadrature is exact to degree 2 STAGES - 1.
-    fn check<const STAGES: usize>() {
-        let tableau = gauss_tableau::<f64, STAGES>();
-        for q in 1..=STAGES as i32 {
-            for i in 0..STAGES {
-                let sum: f64 = (0..STAGES)
-                    .map(|j| tableau.a[i][j] * tableau.c[j].powi(q - 1))
-                    .sum();
-                assert!((sum - tableau.c[i].powi(q) / f64::from(q)).abs() < 2e-16);
-            }
-        }
-        for q in 1..=2 * STAGES as i32 {
-            let sum: f64 = (0..STAGES)
-                .map(|j| tableau.b[j] * tableau.c[j].powi(q - 1))
-                .sum();
-            assert!((sum - 1.0 / f64::from(q)).abs() < 2e-16, "degree {}", q - 1);
-        }
-        let q = 2 * STAGES as i32 + 1;
-        let sum: f64 = (0..STAGES)
-            .map(|j| tableau.b[j] * tableau.c[j].powi(q - 1))
-            .sum();
-        assert!(
-            (sum - 1.0 / f64::from(q)).abs() > 1e-4,
-            "no rule is exact beyond that"
-        );
+    /// A sum of products of pairs that should be a number, in pairs.
+    fn error(terms: impl Iterator<Item = Pair>, expected: Pair) -> f64 {
+        let sum = terms.fold(Pair::ZERO, |sum, term| sum.plus(term));
+        sum.sub(expected).high.abs()
     }
 
+    fn power(x: Pair, exponent: usize) -> Pair {
+        (0..exponent).fold(Pair::ONE, |value, _| value.times(x))
+    }
+
+    fn reciprocal(q: usize) -> Pair {
+        Pair::ONE.over(Pair::new(q as f64))
+    }
+
+    /// The simplifying assumptions B(2s), C(s) and D(s) of Butcher, to 100 bits, and the control B(2s + 1).
     #[test]
     fn order_conditions() {
-        check::<1>();
-        check::<2>();
-        check::<3>();
+        for stages in 1..=MOST_STAGES {
+            let Table { a, b, c, .. } = &TABLES[stages - 1];
+            let all = || 0..stages;
+            let weights = |q| all().map(move |j| b[j].times(power(c[j], q - 1)));
+            for q in 1..=2 * stages {
+                let off = error(weights(q), reciprocal(q));
+                assert!(off < 1e-30, "B({q}) of {stages} stages is off by {off:e}");
+            }
+            let q = 2 * stages + 1;
+            assert!(
+                error(weights(q), reciprocal(q)) > 1e-12,
+                "no rule is exact beyond"
+            );
+            for (q, i) in (1..=stages).flat_map(|q| all().map(move |i| (q, i))) {
+                let terms = all().map(|j| a[i][j].times(power(c[j], q - 1)));
+                let off = error(terms, power(c[i], q).times(reciprocal(q)));
+                assert!(off < 1e-30, "C({q}) of {stages} stages is off by {off:e}");
+                let terms = all().map(|j| b[j].times(power(c[j], q - 1)).times(a[j][i]));
+                let rest = Pair::ONE.sub(power(c[i], q));
+                let off = error(terms, b[i].times(rest).times(reciprocal(q)));
+                assert!(off < 1e-30, "D({q}) of {stages} stages is off by {off:e}");
+            }
+        }
+    }
+
+    /// The polynomial of a step is continued exactly: `sum_j L_j(1 + c_i) c_j^q = (1 + c_i)^q` for q < s.
+    #[test]
+    fn the_polynomial_of_a_step_goes_on() {
+        for stages in 1..=MOST_STAGES {
+            let Table { c, ahead, .. } = &TABLES[stages - 1];
+            for q in 0..stages {
+                for i in 0..stages {
+                    let there = power(Pair::ONE.plus(c[i]), q);
+                    let terms = (0..stages).map(|j| ahead[i][j].times(power(c[j], q)));
+                    // the entries reach 1e5 with eight stages
+                    assert!(error(terms, there) < 1e-24, "{stages} stages, degree {q}");
+                }
+            }
+        }
+    }
+
+    /// The classical coefficients of three stages.
+    #[test]
+    fn three_stages_are_kuntzmanns() {
+        let tableau = gauss_tableau::<f64, 3>();
+        let root = 15.0_f64.sqrt();
+        assert!((tableau.a[0][1] - (2.0 / 9.0 - root / 15.0)).abs() < 1e-16);
+        assert!((tableau.a[2][0] - (5.0 / 36.0 + root / 30.0)).abs() < 1e-16);
+        assert_eq!(tableau.b, [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0]);
+        assert!((tableau.c[2] - (0.5 + root / 10.0)).abs() < 2e-16);
     }
 }

@@ -8,21 +8,31 @@
 //! invariant of the equation, and is a Poisson map where the Poisson matrix is constant. The unknowns are the increments `D_i = h f(Y_i)`, of which round-off is
 //! relative to h f and not to mu.
 //!
-//! Needs: the vector field and its Jacobian; any [`Poisson`] system.
+//! From four stages on, all stages are evaluated together, in the lanes of one register, and the iteration is
+//! `F_i <- f(mu + h sum_j a_ij F_j)` from the continued polynomial of the last step (see [`StageParallel`]). A step on which it
+//! does not contract is solved by Newton's iteration like those of [`Gauss4`] and [`Gauss6`].
+//!
+//! Needs: the vector field and its Jacobian; any [`Poisson`] system, and [`Widen`] from four stages on.
 //!
 //! Reference: E. Hairer, C. Lubich, G. Wanner, "Geometric Numerical Integration", 2nd edition,
 //! Springer 2006, sections II.1.3 and IV.2,
 //! [doi:10.1007/3-540-30666-8](https://doi.org/10.1007/3-540-30666-8).
 //!
 //! [`Poisson`]: crate::Poisson
+//! [`StageParallel`]: crate::generic::StageParallel
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;
+use super::stage_parallel::StageParallelStepper;
 use super::stepper::Method;
 use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
+use crate::poisson::Widen;
 use crate::scalar::Scalar;
+
+/// The most stages of a Gauss method that is solved by Newton's iteration from the start, and has an equation for it.
+pub const BY_NEWTON: usize = 3;
 
 macro_rules! gauss {
     ($(#[$doc:meta])* $name:ident, $stages:literal, $id:literal) => {
@@ -37,7 +47,12 @@ macro_rules! gauss {
             const EXPLICIT: bool = false;
             const PRESERVES: Preserves = Preserves::QUADRATIC;
         }
+    };
+}
 
+/// A method whose stages are evaluated one after the other and solved for by Newton's iteration.
+macro_rules! by_newton {
+    ($name:ident) => {
         impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for $name {
             type Stepper<'a>
                 = ImplicitStepper<S, P::Equation<'a>>
@@ -56,6 +71,27 @@ macro_rules! gauss {
     };
 }
 
+/// A method whose stages are evaluated together.
+macro_rules! stage_parallel {
+    ($name:ident, $stages:literal) => {
+        impl<S: Scalar, P: Widen<S>> Method<S, P> for $name {
+            type Stepper<'a>
+                = StageParallelStepper<'a, S, P, $stages>
+            where
+                P: 'a;
+
+            fn stepper<'a>(
+                &self,
+                system: &'a P,
+                h: S,
+                newton: &NewtonOptions,
+            ) -> Self::Stepper<'a> {
+                StageParallelStepper::new(system, h, newton)
+            }
+        }
+    };
+}
+
 gauss!(
     /// Gauss collocation with two stages, order 4; see the [module's text](self).
     Gauss4, 2, "gauss4"
@@ -64,3 +100,30 @@ gauss!(
     /// Gauss collocation with three stages, order 6; see the [module's text](self).
     Gauss6, 3, "gauss6"
 );
+gauss!(
+    /// Gauss collocation with four stages, order 8; see the [module's text](self).
+    Gauss8, 4, "gauss8"
+);
+gauss!(
+    /// Gauss collocation with five stages, order 10; see the [module's text](self).
+    Gauss10, 5, "gauss10"
+);
+gauss!(
+    /// Gauss collocation with six stages, order 12; see the [module's text](self).
+    Gauss12, 6, "gauss12"
+);
+gauss!(
+    /// Gauss collocation with seven stages, order 14; see the [module's text](self).
+    Gauss14, 7, "gauss14"
+);
+gauss!(
+    /// Gauss collocation with eight stages, order 16; see the [module's text](self).
+    Gauss16, 8, "gauss16"
+);
+by_newton!(Gauss4);
+by_newton!(Gauss6);
+stage_parallel!(Gauss8, 4);
+stage_parallel!(Gauss10, 5);
+stage_parallel!(Gauss12, 6);
+stage_parallel!(Gauss14, 7);
+stage_parallel!(Gauss16, 8);

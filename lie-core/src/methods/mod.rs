@@ -60,6 +60,7 @@ pub mod rk4;
 pub mod rkmk;
 pub mod spherical_midpoint;
 pub mod splitting;
+mod stage_parallel;
 mod stepper;
 pub mod tensor;
 pub mod variational;
@@ -96,6 +97,7 @@ pub use spherical_midpoint::SphericalMidpoint;
 pub use splitting::{
     Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, SplittingStepper,
 };
+pub use stage_parallel::StageParallelStepper;
 pub use stepper::{
     FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper,
 };

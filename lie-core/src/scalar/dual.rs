@@ -111,6 +111,7 @@ assign!(AddAssign add_assign add, SubAssign sub_assign sub, MulAssign mul_assign
 impl<S: Scalar> Scalar for Dual<S> {
     type Lane = Dual<S::Lane>;
     type Mask = S::Mask;
+    type Wide = Dual<S::Wide>;
     const LANES: usize = S::LANES;
     const DERIVATIVES: u32 = S::DERIVATIVES + 1;
 
@@ -146,6 +147,22 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
     fn to_f64(self) -> f64 {
         self.value.to_f64()
+    }
+    fn gather(numbers: [Self; 8]) -> Self::Wide {
+        Dual::new(
+            S::gather(numbers.map(|x| x.value)),
+            S::gather(numbers.map(|x| x.derivative)),
+        )
+    }
+    fn exchange<const D: usize>(wide: Self::Wide) -> Self::Wide {
+        Dual::new(
+            S::exchange::<D>(wide.value),
+            S::exchange::<D>(wide.derivative),
+        )
+    }
+    fn scatter(wide: Self::Wide) -> [Self; 8] {
+        let (values, derivatives) = (S::scatter(wide.value), S::scatter(wide.derivative));
+        core::array::from_fn(|k| Self::new(values[k], derivatives[k]))
     }
     fn abs(self) -> Self {
         Self::select(self.value.less(S::zero()), -self, self)

@@ -4,10 +4,14 @@ use super::Scalar;
 
 /// Implements [`Scalar`] for a machine float; functions are those of `libm` under the given names.
 macro_rules! float_scalar {
-    ($float:ty, $round:expr, $ratio:expr, $abs:path, $sqrt:path, $pow:path, $atan2:path, $($name:ident = $function:path),*) => {
+    ($float:ty, $wide:ident, $round:expr, $ratio:expr, $abs:path, $sqrt:path, $pow:path, $atan2:path, $($name:ident = $function:path),*) => {
         impl Scalar for $float {
             type Lane = Self;
             type Mask = bool;
+            #[cfg(feature = "lanes")]
+            type Wide = super::$wide;
+            #[cfg(not(feature = "lanes"))]
+            type Wide = super::Pack<Self>;
             const LANES: usize = 1;
 
             #[inline(always)]
@@ -49,6 +53,29 @@ macro_rules! float_scalar {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 f64::from(self)
+            }
+            #[cfg(feature = "lanes")]
+            #[inline(always)]
+            fn gather(numbers: [Self; 8]) -> Self::Wide {
+                super::$wide::new(numbers)
+            }
+            #[cfg(not(feature = "lanes"))]
+            fn gather(numbers: [Self; 8]) -> Self::Wide {
+                super::Pack(numbers)
+            }
+            #[cfg(feature = "lanes")]
+            #[inline(always)]
+            fn scatter(wide: Self::Wide) -> [Self; 8] {
+                wide.to_array()
+            }
+            #[cfg(feature = "lanes")]
+            #[inline(always)]
+            fn exchange<const D: usize>(wide: Self::Wide) -> Self::Wide {
+                wide.exchange::<D>()
+            }
+            #[cfg(not(feature = "lanes"))]
+            fn scatter(wide: Self::Wide) -> [Self; 8] {
+                wide.0
             }
             #[inline(always)]
             fn abs(self) -> Self {
@@ -96,6 +123,7 @@ macro_rules! float_scalar {
 
 float_scalar!(
     f64,
+    F64x8,
     |high: f64, _low: f64| high,
     |numerator: f64, denominator: f64| numerator / denominator,
     libm::fabs,
@@ -117,6 +145,7 @@ float_scalar!(
 
 float_scalar!(
     f32,
+    F32x8,
     nearest_f32,
     ratio_f32,
     libm::fabsf,

@@ -94,6 +94,7 @@ macro_rules! lanes {
         impl Scalar for $name {
             type Lane = $lane;
             type Mask = $mask;
+            type Wide = super::Pack<Self>;
             const LANES: usize = $count;
 
             #[inline(always)]
@@ -137,6 +138,14 @@ macro_rules! lanes {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 f64::from(self.lane(0))
+            }
+            #[inline(always)]
+            fn gather(numbers: [Self; 8]) -> Self::Wide {
+                super::Pack(numbers)
+            }
+            #[inline(always)]
+            fn scatter(wide: Self::Wide) -> [Self; 8] {
+                wide.0
             }
             #[inline(always)]
             fn abs(self) -> Self {
@@ -254,6 +263,23 @@ lanes!(
     /// Eight f32 in lanes: one AVX register or two of SSE2.
     F32x8, Mask32x8, wide::f32x8, f32, u32, 8
 );
+
+impl F64x8 {
+    /// The lanes with places i and i xor D exchanged.
+    #[inline(always)]
+    pub(super) fn exchange<const D: usize>(self) -> Self {
+        Self(super::registers::exchange::<D>(self.0))
+    }
+}
+
+impl F32x8 {
+    /// The lanes with places i and i xor D exchanged.
+    #[inline(always)]
+    pub(super) fn exchange<const D: usize>(self) -> Self {
+        let lanes = self.to_array();
+        Self::new(core::array::from_fn(|i| lanes[i ^ D]))
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -9,11 +9,15 @@ mod float;
 #[cfg(feature = "lanes")]
 mod lanes;
 mod mask;
+mod pack;
+#[cfg(feature = "lanes")]
+mod registers;
 
 pub use dual::Dual;
 #[cfg(feature = "lanes")]
 pub use lanes::{F32x8, F64x4, F64x8, Mask32x8, Mask64x4, Mask64x8};
 pub use mask::Mask;
+pub use pack::{Pack, PackMask};
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -57,6 +61,8 @@ pub trait Scalar:
     type Lane: Scalar<Lane = Self::Lane, Mask = bool>;
     /// One truth value per lane.
     type Mask: Mask;
+    /// Eight of these numbers at once, in a register where there is one for them: the stages of a step side by side.
+    type Wide: Scalar;
     /// The number of lanes.
     const LANES: usize;
     /// How many derivatives along directions the number carries: 0 of plain numbers, one more with
@@ -95,6 +101,22 @@ pub trait Scalar:
     fn with_lane(self, index: usize, lane: Self::Lane) -> Self;
     /// The number in lane 0 (of a dual number its value).
     fn to_f64(self) -> f64;
+
+    /// Eight numbers as one.
+    fn gather(numbers: [Self; 8]) -> Self::Wide;
+    /// The eight numbers, in the order of [`Scalar::gather`].
+    fn scatter(wide: Self::Wide) -> [Self; 8];
+    /// The eight numbers with places i and i xor D exchanged.
+    #[inline(always)]
+    fn exchange<const D: usize>(wide: Self::Wide) -> Self::Wide {
+        let numbers = Self::scatter(wide);
+        Self::gather(core::array::from_fn(|i| numbers[i ^ D]))
+    }
+    /// This number eight times.
+    #[inline(always)]
+    fn widen(self) -> Self::Wide {
+        Self::gather([self; 8])
+    }
 
     /// Absolute value.
     fn abs(self) -> Self;

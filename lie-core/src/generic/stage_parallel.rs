@@ -1,0 +1,263 @@
+//! Gauss collocation with its stages side by side in one number, by fixed-point iteration.
+
+use core::array::from_fn;
+
+use super::tableau::{gauss_ahead, gauss_entry, gauss_weight};
+use crate::newton::NewtonOptions;
+use crate::scalar::{Mask, Scalar, largest};
+use crate::state::State;
+
+/// After so many iterations each, updates must have become half as large.
+const REVIEW: u32 = 8;
+/// Updates up to this many units of round-off that no longer shrink are round-off themselves.
+const STAGNATION: f64 = 256.0;
+
+/// The stages of a step of Gauss collocation for `y' = f(y)`, all in one number of type [`Scalar::Wide`].
+///
+/// With the slopes `F_i = f(Y_i)` the iteration is `F_i <- f(y + h sum_j a_ij F_j)`: one evaluation of the field on
+/// all stages and one product with the tableau. It starts from the polynomial of the step before, continued; without
+/// one, from `f(y)`. It converges linearly, by a factor proportional to h.
+#[derive(Clone, Debug)]
+pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
+    /// The diagonals of h A.
+    tableau: [S::Wide; 8],
+    /// Those of the matrix that continues the polynomial of a step.
+    ahead: [S::Wide; 8],
+    /// `h b_i` in place i.
+    weights: S::Wide,
+    step: S,
+    /// `1/|h|`
+    rate: S,
+    slopes: V,
+    point: V,
+    next: V,
+    options: NewtonOptions,
+}
+
+/// How an iteration ended.
+#[derive(Clone, Copy, Debug)]
+pub struct Iterated<S: Scalar> {
+    /// Evaluations of the field on all stages.
+    pub iterations: u32,
+    /// The size of the last update of `h F`.
+    pub residual: f64,
+    /// The lanes that have converged.
+    pub converged: S::Mask,
+}
+
+impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAGES> {
+    /// Steps of size h; `zero` is any vector of the right size.
+    pub fn new(h: S, zero: V, options: &NewtonOptions) -> Self {
+        Self {
+            tableau: diagonals(STAGES, |i, j| h * gauss_entry::<S>(STAGES, i, j)),
+            ahead: diagonals(STAGES, |i, j| gauss_ahead::<S>(STAGES, i, j)),
+            weights: S::gather(from_fn(|i| {
+                if i < STAGES {
+                    h * gauss_weight::<S>(STAGES, i)
+                } else {
+                    S::zero()
+                }
+            })),
+            step: h,
+            rate: S::one() / h.abs(),
+            slopes: zero.clone(),
+            point: zero.clone(),
+            next: zero,
+            options: *options,
+        }
+    }
+
+    /// Starts from a slope that is the same at all stages, in the lanes of a mask.
+    pub fn start_with(&mut self, mask: S::Mask, slope: &[S]) {
+        for (slopes, &entry) in self.slopes.as_mut_slice().iter_mut().zip(slope) {
+            let old = S::scatter(*slopes);
+            *slopes = S::gather(old.map(|old| S::select(mask, entry, old)));
+        }
+    }
+
+    /// Starts from the polynomial of the last step.
+    #[inline(always)]
+    pub fn go_on(&mut self) {
+        for slopes in self.slopes.as_mut_slice() {
+            *slopes = product::<S, STAGES>(&self.ahead, *slopes);
+        }
+    }
+
+    /// Iterates from a base until the error of the increments is below the tolerance of the options, or updates have
+    /// shrunk to round-off. Sizes are sums of magnitudes.
+    #[inline(always)]
+    pub fn iterate(&mut self, base: &[S], mut field: impl FnMut(&V, &mut V)) -> Iterated<S> {
+        let scale = base.iter().fold(S::zero(), |sum, y| sum + y.magnitude());
+        let ending = Ending::new(scale * self.rate, &self.options);
+        let [mut ended, mut converged] = [S::Mask::splat(false); 2];
+        let (mut iterations, mut size, mut mark) = (0, S::zero(), S::from_f64(f64::MAX));
+        let mut change = S::Wide::zero();
+        while iterations < self.options.max_iterations && !ended.all() {
+            self.set_points(base);
+            field(&self.point, &mut self.next);
+            let before = change;
+            change = self.replace(ended);
+            iterations += 1;
+            if ending.may_be(change) {
+                size = most::<S>(change);
+                converged = converged | (ending.reached(most::<S>(before), size) & !ended);
+                ended = ended | converged;
+            }
+            if iterations % REVIEW == 0 {
+                size = most::<S>(change);
+                ended = ended | !size.less(mark * S::ratio(1.0, 2.0));
+                mark = size;
+            }
+        }
+        Iterated {
+            iterations,
+            residual: largest(size * self.step.abs()),
+            converged,
+        }
+    }
+
+    /// Sets the points `y + h A F`.
+    #[inline(always)]
+    fn set_points(&mut self, base: &[S]) {
+        let entries = self.point.as_mut_slice().iter_mut().zip(base);
+        for ((point, y), slopes) in entries.zip(self.slopes.as_slice()) {
+            *point = y.widen() + product::<S, STAGES>(&self.tableau, *slopes);
+        }
+    }
+
+    /// Takes over the next slopes but in the lanes that have ended; the sum of all changes at each stage.
+    #[inline(always)]
+    fn replace(&mut self, ended: S::Mask) -> S::Wide {
+        let mut change = S::Wide::zero();
+        let slopes = self.slopes.as_mut_slice().iter_mut();
+        for (slope, &next) in slopes.zip(self.next.as_slice()) {
+            change += (next - *slope).magnitude();
+            *slope = if S::LANES == 1 {
+                next
+            } else {
+                let (old, new) = (S::scatter(*slope), S::scatter(next));
+                S::gather(from_fn(|i| S::select(ended, old[i], new[i])))
+            };
+        }
+        change
+    }
+
+    /// Adds the increment of the step to the base.
+    #[inline(always)]
+    pub fn advance(&self, base: &mut [S]) {
+        for (y, slopes) in base.iter_mut().zip(self.slopes.as_slice()) {
+            let [a, b, c, d, e, f, g, h] = S::scatter(self.weights * *slopes);
+            *y += tree(&[a, b, c, d]) + tree(&[e, f, g, h]);
+        }
+    }
+
+    /// The points of the stages, of a step from the base.
+    pub fn points(&mut self, base: &[S]) -> &V {
+        self.set_points(base);
+        &self.point
+    }
+
+    /// Replaces the slopes by given increments `h F_i` divided by h, in the lanes of a mask.
+    pub fn set_increments_where(&mut self, mask: S::Mask, increment: impl Fn(usize, usize) -> S) {
+        for (k, slopes) in self.slopes.as_mut_slice().iter_mut().enumerate() {
+            let mut entries = S::scatter(*slopes);
+            for (i, entry) in entries.iter_mut().enumerate().take(STAGES) {
+                *entry = S::select(mask, increment(i, k) / self.step, *entry);
+            }
+            *slopes = S::gather(entries);
+        }
+    }
+}
+
+/// When an iteration has ended, in changes of the slopes.
+struct Ending<S: Scalar> {
+    /// What may be left.
+    goal: S,
+    /// Changes up to this are round-off if they no longer shrink.
+    round_off: S,
+    /// Changes above this are not looked at.
+    bound: S,
+    wide_bound: S::Wide,
+}
+
+impl<S: Scalar> Ending<S> {
+    /// For slopes of which a part of round-off is `epsilon` times the size.
+    #[inline(always)]
+    fn new(size: S, options: &NewtonOptions) -> Self {
+        let unit = S::epsilon() * size;
+        let bound = unit * S::from_f64(STAGNATION.max(16.0 * options.tolerance));
+        Self {
+            goal: unit * S::from_f64(options.tolerance),
+            round_off: unit * S::from_f64(STAGNATION),
+            bound,
+            wide_bound: bound.widen(),
+        }
+    }
+
+    /// Whether a change is so small that the iteration may have ended in some lane.
+    #[inline(always)]
+    fn may_be(&self, change: S::Wide) -> bool {
+        let small = change.less_equal(self.wide_bound);
+        if S::LANES == 1 {
+            small.all()
+        } else {
+            small.any()
+        }
+    }
+
+    /// The lanes in which it has: with the ratio r of the last two changes as the rate, the last one times `r/(1 - r)` is
+    /// left.
+    #[inline(always)]
+    fn reached(&self, before: S, change: S) -> S::Mask {
+        let shrinks = (change + change).less(before);
+        let left = change * change;
+        let small = left.less_equal(self.goal * (before - change));
+        let settled = change.less_equal(self.round_off);
+        change.less_equal(self.bound) & ((shrinks & small) | (!shrinks & settled))
+    }
+}
+
+/// The largest of eight numbers.
+#[inline(always)]
+fn most<S: Scalar>(wide: S::Wide) -> S {
+    let [a, b, c, d, e, f, g, h] = S::scatter(wide);
+    S::max(S::max(a.max(b), c.max(d)), S::max(e.max(f), g.max(h)))
+}
+
+/// The diagonals of a matrix: entry `a_(i, i xor d)` in place i of diagonal d; 0 where there is no such stage.
+fn diagonals<S: Scalar>(stages: usize, entry: impl Fn(usize, usize) -> S) -> [S::Wide; 8] {
+    from_fn(|d| {
+        S::gather(from_fn(|i| {
+            let inside = i < stages && (i ^ d) < stages;
+            if inside { entry(i, i ^ d) } else { S::zero() }
+        }))
+    })
+}
+
+/// The product of a matrix, given by its diagonals, with the numbers of one entry at all stages: each diagonal times the
+/// numbers with places i and i xor d exchanged, which a register does in one or two moves.
+#[inline(always)]
+fn product<S: Scalar, const STAGES: usize>(diagonals: &[S::Wide; 8], entry: S::Wide) -> S::Wide {
+    let near = [
+        diagonals[0] * entry,
+        diagonals[1] * S::exchange::<1>(entry),
+        diagonals[2] * S::exchange::<2>(entry),
+        diagonals[3] * S::exchange::<3>(entry),
+    ];
+    if STAGES <= 4 {
+        return tree(&near);
+    }
+    let far = [
+        diagonals[4] * S::exchange::<4>(entry),
+        diagonals[5] * S::exchange::<5>(entry),
+        diagonals[6] * S::exchange::<6>(entry),
+        diagonals[7] * S::exchange::<7>(entry),
+    ];
+    tree(&near) + tree(&far)
+}
+
+/// The sum of terms, neighbours first.
+#[inline(always)]
+fn tree<S: Scalar>([a, b, c, d]: &[S; 4]) -> S {
+    (*a + *b) + (*c + *d)
+}

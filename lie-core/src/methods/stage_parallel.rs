@@ -1,0 +1,178 @@
+//! The stepper of Gauss methods whose stages are evaluated together.
+
+use super::implicit::{ImplicitStepper, clear};
+use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
+use crate::generic::{Gauss, StageParallel};
+use crate::newton::{FailureReason, Iteration, NewtonOptions};
+use crate::poisson::{Poisson, Widen};
+use crate::scalar::{Mask, Scalar};
+use crate::state::{State, Unknown};
+
+type WideState<S, P> = <<P as Widen<S>>::Widened as Poisson<<S as Scalar>::Wide>>::State;
+
+/// Gauss collocation by fixed-point iteration with all stages in one register; a step on which that does not contract is
+/// solved by Newton's iteration.
+///
+/// The iteration starts from the polynomial of the last step where the state is the one that step led to.
+pub struct StageParallelStepper<'a, S: Scalar, P: Widen<S>, const STAGES: usize> {
+    system: &'a P,
+    wide: P::Widened,
+    step: S,
+    stages: StageParallel<S, WideState<S, P>, STAGES>,
+    newton: NewtonOptions,
+    /// The state at which the last step ended, in the lanes where one did.
+    end: P::State,
+    follows: S::Mask,
+    next: P::State,
+    wide_scratch: WideState<S, P>,
+}
+
+impl<'a, S: Scalar, P: Widen<S>, const STAGES: usize> StageParallelStepper<'a, S, P, STAGES> {
+    pub(super) fn new(system: &'a P, h: S, newton: &NewtonOptions) -> Self {
+        let wide = system.widen();
+        let zero = wide.zero_state();
+        Self {
+            system,
+            wide,
+            step: h,
+            stages: StageParallel::new(h, zero.clone(), newton),
+            newton: *newton,
+            end: system.zero_state(),
+            follows: S::Mask::splat(false),
+            next: system.zero_state(),
+            wide_scratch: zero,
+        }
+    }
+
+    /// The step by Newton's iteration, in the lanes that are left.
+    #[cold]
+    #[inline(never)]
+    fn by_newton(
+        &mut self,
+        mu: &P::State,
+        left: S::Mask,
+        report: &mut StepReport,
+    ) -> Option<StepFailure> {
+        let equation = Gauss::<S, P, STAGES>::new(self.system, self.step);
+        let mut stepper = ImplicitStepper::new(equation, self.system.zero_state(), &self.newton);
+        let mut end = mu.clone();
+        let outcome = stepper.step(&mut end, &mut ());
+        let (solved, failure) = match outcome {
+            Ok(solved) => (solved, None),
+            Err(failure) => (failure.report, Some(failure)),
+        };
+        report.evaluations += solved.evaluations;
+        report.iterations += solved.iterations;
+        report.factorizations += solved.factorizations;
+        report.residual = solved.residual;
+        report.pivoted = solved.pivoted & left.bits();
+        self.next.assign_where(left, &end);
+        let unknown = stepper.unknown();
+        self.stages
+            .set_increments_where(left, |stage, k| unknown.0[stage].as_slice()[k]);
+        failure
+            .map(|failure| StepFailure {
+                lanes: failure.lanes & left.bits(),
+                ..failure
+            })
+            .filter(|failure| failure.lanes != 0)
+    }
+
+    /// Gives away `h grad H` at the stages of the step from `base`.
+    fn give_velocities<K: FactorSink<P::State>>(
+        &mut self,
+        base: &P::State,
+        failed: S::Mask,
+        sink: &mut K,
+    ) {
+        let points = self.stages.points(base.as_slice());
+        self.wide.gradient(points, &mut self.wide_scratch);
+        let mut xi = self.system.zero_state();
+        for index in 0..STAGES {
+            let entries = xi.as_mut_slice().iter_mut();
+            for (entry, &slopes) in entries.zip(self.wide_scratch.as_slice()) {
+                *entry = self.step * S::scatter(slopes)[index];
+            }
+            clear(&mut xi, failed);
+            let stage = Stage {
+                index,
+                count: STAGES,
+            };
+            sink.push_velocity(RungeKutta::Gauss, stage, &xi);
+        }
+    }
+}
+
+impl<S: Scalar, P: Widen<S>, const STAGES: usize> Stepper<S>
+    for StageParallelStepper<'_, S, P, STAGES>
+{
+    type State = P::State;
+
+    fn step<K: FactorSink<P::State>>(
+        &mut self,
+        mu: &mut P::State,
+        sink: &mut K,
+    ) -> Result<StepReport, StepFailure> {
+        let follows = self.follows & same(&self.end, mu);
+        if follows.any() {
+            self.stages.go_on();
+        }
+        if !follows.all() {
+            self.system.vector_field(mu, &mut self.next);
+            self.stages.start_with(!follows, self.next.as_slice());
+        }
+        let wide = &self.wide;
+        let solved = self.stages.iterate(mu.as_slice(), |points, slopes| {
+            wide.vector_field(points, slopes);
+        });
+        self.next.copy_from(mu);
+        self.stages.advance(self.next.as_mut_slice());
+        let mut report = StepReport {
+            evaluations: solved.iterations + 1,
+            iterations: solved.iterations,
+            residual: solved.residual,
+            substeps: 1,
+            ..StepReport::default()
+        };
+        let mut failure = None;
+        if !solved.converged.all() {
+            failure = if self.newton.iteration == Iteration::FixedPoint {
+                Some(StepFailure {
+                    reason: FailureReason::NotConverged,
+                    lanes: (!solved.converged).bits(),
+                    report,
+                })
+            } else {
+                self.by_newton(mu, !solved.converged, &mut report)
+            };
+        }
+        let solved = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
+        let finite = self.next.finite();
+        if !(finite | !solved).all() {
+            let first = StepFailure {
+                reason: FailureReason::NotFinite,
+                lanes: 0,
+                report,
+            };
+            failure.get_or_insert(first).lanes |= (solved & !finite).bits();
+        }
+        let good = solved & finite;
+        if K::ACTIVE && good.any() {
+            let base = mu.clone();
+            self.give_velocities(&base, !good, sink);
+        }
+        mu.assign_where(good, &self.next);
+        self.end.copy_from(mu);
+        self.follows = good;
+        failure.map_or(Ok(report), |failure| Err(StepFailure { report, ..failure }))
+    }
+}
+
+/// The lanes in which two states are equal.
+#[inline(always)]
+fn same<S: Scalar, V: State<S>>(one: &V, other: &V) -> S::Mask {
+    let pairs = one.as_slice().iter().zip(other.as_slice());
+    pairs.fold(S::Mask::splat(true), |equal, (&x, &y)| {
+        equal & x.less_equal(y) & y.less_equal(x)
+    })
+}
