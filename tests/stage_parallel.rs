@@ -1,0 +1,306 @@
+//! Gauss methods whose stages are evaluated together: order, symmetry, the same step as by Newton's iteration, the same
+//! digits in lanes, and what happens where the fixed point does not contract.
+
+#[path = "common/systems.rs"]
+mod systems;
+#[path = "common/vectors.rs"]
+mod vectors;
+
+use lie_runtime::generic::Gauss;
+use lie_runtime::methods::{Facts, ImplicitStepper, Method, StepReport, Stepper};
+use lie_runtime::newton::{FailureReason, NewtonOptions};
+use lie_runtime::prelude::*;
+use su3_quadratic::Su3QuadraticSystem as Su3System;
+use systems::Su3Quadratic as Su3;
+use systems::{
+    Declared, HeavyTop, KirchhoffBody, NonpolynomialSpin, Random, distance, relative_distance,
+    se3_heavy_top, se3_kirchhoff, so3_nonpolynomial, su3_quadratic,
+};
+use vectors::Reference;
+
+/// Makes steps and returns the reports.
+fn run<S: Scalar, P: Poisson<S>>(
+    system: &P,
+    method: &impl Method<S, P>,
+    options: &NewtonOptions,
+    mu: &mut P::State,
+    h: S,
+    steps: usize,
+) -> Vec<StepReport> {
+    let mut stepper = method.stepper(system, h, options);
+    let step = |_| stepper.step(mu, &mut ()).expect("the step is solved");
+    (0..steps).map(step).collect()
+}
+
+/// The order as a slope of errors at a time of the reference values.
+fn order<D: Declared, M: Method<f64, D::System<f64>>>(
+    method: &M,
+    until: &str,
+    steps: &[u32],
+) -> f64 {
+    let reference = Reference::vector(D::FILE);
+    let row = reference.times().iter().position(|&time| time == until);
+    let end = &reference.states()[row.expect("a time of the file")];
+    let until: f64 = until.parse().expect("a number");
+    let points: Vec<(f64, f64)> = steps
+        .iter()
+        .map(|&steps| {
+            let mut mu = D::initial::<f64>();
+            let h = until / f64::from(steps);
+            let options = NewtonOptions::default();
+            run(
+                &D::declared::<f64>(),
+                method,
+                &options,
+                &mut mu,
+                h,
+                steps as usize,
+            );
+            (h, distance(mu.as_slice(), end))
+        })
+        .collect();
+    println!("{} {}: {points:?}", M::ID, D::FILE);
+    slope(&points)
+}
+
+/// The slope of the errors between 1e-6 and round-off, by least squares in logarithms.
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let clear = points
+        .iter()
+        .filter(|(_, error)| (2e-13..1e-6).contains(error));
+    let logs: Vec<(f64, f64)> = clear.map(|(h, error)| (h.ln(), error.ln())).collect();
+    assert!(logs.len() >= 3, "{points:?}");
+    let count = logs.len() as f64;
+    let mean = |part: fn(&(f64, f64)) -> f64| logs.iter().map(part).sum::<f64>() / count;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let products: f64 = logs.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
+    let slope = products / logs.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>();
+    println!("    slope {slope:.2} from {} points", logs.len());
+    slope
+}
+
+#[test]
+fn orders_are_those_stated() {
+    fn check<M>(method: M, spin: &[u32], bodies: &[u32])
+    where
+        M: Facts
+            + Method<f64, so3_nonpolynomial::NonpolynomialSpinSystem>
+            + Method<f64, se3_kirchhoff::KirchhoffBodySystem>
+            + Method<f64, se3_heavy_top::HeavyTopSystem>,
+    {
+        for slope in [
+            order::<NonpolynomialSpin, _>(&method, "2", spin),
+            order::<KirchhoffBody, _>(&method, "10", bodies),
+            order::<HeavyTop, _>(&method, "10", bodies),
+        ] {
+            let claimed = f64::from(M::ORDER);
+            assert!(
+                (slope - claimed).abs() < 0.16 * claimed,
+                "{}: {slope}",
+                M::ID
+            );
+        }
+    }
+    check(Gauss8, &[12, 14, 16, 20, 24, 28], &[14, 18, 22, 28, 34, 40]);
+    check(
+        Gauss10,
+        &[5, 6, 7, 8, 10, 12, 14],
+        &[8, 10, 12, 14, 17, 20, 24],
+    );
+    check(Gauss12, &[4, 5, 6, 7, 8, 9], &[6, 7, 8, 9, 10, 12, 14]);
+    check(Gauss14, &[3, 4, 5, 6, 7], &[5, 6, 7, 8, 9, 10]);
+    check(Gauss16, &[3, 4, 5], &[4, 5, 6, 7, 8]);
+}
+
+/// One step of the same method by Newton's iteration.
+fn by_newton<P: Poisson<f64>, const STAGES: usize>(system: &P, mu: &mut P::State, h: f64) {
+    let equation = Gauss::<f64, P, STAGES>::new(system, h);
+    let options = NewtonOptions::default();
+    let mut stepper = ImplicitStepper::new(equation, system.zero_state(), &options);
+    stepper.step(mu, &mut ()).expect("the step is solved");
+}
+
+/// The step does not depend on how its equation is solved, nor on what was computed before, and a step back undoes it.
+#[test]
+fn a_step_is_the_solution_of_its_equation() {
+    fn check<D: Declared, M, const STAGES: usize>(method: &M, h: f64)
+    where
+        M: Method<f64, D::System<f64>>,
+    {
+        let (system, start) = (D::declared::<f64>(), D::initial::<f64>());
+        let options = NewtonOptions::default();
+        let mut newton = start.clone();
+        by_newton::<_, STAGES>(&system, &mut newton, h);
+        let mut fresh = start.clone();
+        run(&system, method, &options, &mut fresh, h, 1);
+        let off = relative_distance(fresh.as_slice(), newton.as_slice());
+        assert!(off < 1e-15, "{} {}: {off:e}", M::ID, D::FILE);
+
+        // after a walk of thirty steps elsewhere
+        let mut stepper = method.stepper(&system, h, &options);
+        let mut other = start.clone();
+        other.as_mut_slice()[0] += 0.2;
+        for _ in 0..30 {
+            stepper
+                .step(&mut other, &mut ())
+                .expect("the step is solved");
+        }
+        let mut later = start.clone();
+        stepper
+            .step(&mut later, &mut ())
+            .expect("the step is solved");
+        assert_eq!(later.as_slice(), fresh.as_slice(), "{} {}", M::ID, D::FILE);
+
+        let mut back = fresh.clone();
+        run(&system, method, &options, &mut back, -h, 1);
+        let off = relative_distance(back.as_slice(), start.as_slice());
+        assert!(off < 1e-15, "{} {}: {off:e} there and back", M::ID, D::FILE);
+    }
+    check::<NonpolynomialSpin, _, 4>(&Gauss8, 0.2);
+    check::<NonpolynomialSpin, _, 8>(&Gauss16, 0.2);
+    check::<HeavyTop, _, 5>(&Gauss10, 0.3);
+    check::<HeavyTop, _, 8>(&Gauss16, 0.3);
+    check::<KirchhoffBody, _, 6>(&Gauss12, 0.3);
+    check::<KirchhoffBody, _, 7>(&Gauss14, 0.3);
+}
+
+/// Where the fixed point does not contract, Newton's iteration solves the step, unless it is not wanted.
+#[test]
+fn a_step_that_does_not_contract_is_solved_by_newton() {
+    let (system, start) = (HeavyTop::declared::<f64>(), HeavyTop::initial::<f64>());
+    let h = 5.0;
+    let mut mu = start;
+    let reports = run(&system, &Gauss16, &NewtonOptions::default(), &mut mu, h, 1);
+    assert!(reports[0].factorizations > 0, "no Newton at h = {h}");
+    let mut newton = start;
+    by_newton::<_, 8>(&system, &mut newton, h);
+    assert_eq!(mu, newton);
+
+    let mut stepper = Gauss16.stepper(&system, h, &NewtonOptions::fixed_point());
+    let mut mu = start;
+    let failure = stepper.step(&mut mu, &mut ()).expect_err("no Newton");
+    assert_eq!(failure.reason, FailureReason::NotConverged);
+    assert_eq!((failure.lanes, mu), (1, start));
+
+    let near = run(
+        &system,
+        &Gauss16,
+        &NewtonOptions::fixed_point(),
+        &mut mu,
+        0.1,
+        1,
+    );
+    assert_eq!(near[0].factorizations, 0);
+}
+
+/// A looser tolerance costs fewer iterations, and errs by about as much as it says.
+#[test]
+fn the_tolerance_bounds_the_error_of_a_step() {
+    let (system, start) = (HeavyTop::declared::<f64>(), HeavyTop::initial::<f64>());
+    let (h, steps) = (0.3, 40);
+    let with = |tolerance: f64| {
+        let options = NewtonOptions {
+            tolerance,
+            ..NewtonOptions::default()
+        };
+        let mut mu = start;
+        let reports = run(&system, &Gauss16, &options, &mut mu, h, steps);
+        (
+            mu,
+            reports.iter().map(|report| report.iterations).sum::<u32>(),
+        )
+    };
+    let (exact, most) = with(1.0 / 1024.0);
+    let mut before = most;
+    for tolerance in [1e3, 1e6, 1e9] {
+        let (mu, iterations) = with(tolerance);
+        let error = relative_distance(mu.as_slice(), exact.as_slice());
+        println!("{tolerance:e}: error {error:e}, {iterations} iterations of {most}");
+        assert!(iterations < before);
+        assert!(
+            error < 100.0 * tolerance * f64::EPSILON,
+            "{tolerance:e}: {error:e}"
+        );
+        before = iterations;
+    }
+    assert!(relative_distance(with(1e9).0.as_slice(), exact.as_slice()) > 1e3 * f64::EPSILON);
+}
+
+/// Eight trajectories in lanes have the digits of eight runs, also where some lanes need Newton's iteration.
+#[test]
+fn a_lane_has_the_digits_of_its_own_run() {
+    fn check<D: Declared, M>(method: &M, sizes: [f64; 8], h: f64) -> bool
+    where
+        M: Method<F64x8, D::System<F64x8>> + Method<f64, D::System<f64>>,
+    {
+        let mut random = Random(2018);
+        let (lanes, scalar) = (D::declared::<F64x8>(), D::declared::<f64>());
+        let initial = D::initial::<f64>();
+        let mut alone = sizes.map(|size| {
+            let mut mu = initial.clone();
+            for entry in mu.as_mut_slice() {
+                *entry = size * (*entry + 0.5 * random.number());
+            }
+            mu
+        });
+        let mut together = lanes.zero_state();
+        for (row, entry) in together.as_mut_slice().iter_mut().enumerate() {
+            *entry = F64x8::new(core::array::from_fn(|lane| alone[lane].as_slice()[row]));
+        }
+        let options = NewtonOptions::default();
+        let reports = run(&lanes, method, &options, &mut together, F64x8::splat(h), 12);
+        for (lane, mu) in alone.iter_mut().enumerate() {
+            run(&scalar, method, &options, mu, h, 12);
+            for (row, x) in mu.as_slice().iter().enumerate() {
+                let other = together.as_slice()[row].lane(lane);
+                assert_eq!(
+                    other.to_bits(),
+                    x.to_bits(),
+                    "{} {} {lane} {row}",
+                    M::ID,
+                    D::FILE
+                );
+            }
+        }
+        reports.iter().any(|report| report.factorizations > 0)
+    }
+    let sizes = [1e-6, 1e-3, 0.03, 0.1, 0.3, 0.5, 0.7, 1.0];
+    assert!(!check::<NonpolynomialSpin, _>(&Gauss16, sizes, 0.1));
+    check::<HeavyTop, _>(&Gauss8, sizes, 0.2);
+    check::<HeavyTop, _>(&Gauss12, sizes, 0.3);
+    assert!(
+        check::<KirchhoffBody, _>(&Gauss8, sizes, 3.5),
+        "some lane should need Newton"
+    );
+}
+
+/// Quadratic Casimirs and a quadratic H stay, whatever the step; a control loses them.
+#[test]
+fn quadratic_invariants_stay() {
+    let (system, start) = (Su3::declared::<f64>(), Su3::initial::<f64>());
+    let drift = |mu: &<Su3System as Poisson<f64>>::State| {
+        let relative = (system.hamiltonian(mu) / system.hamiltonian(&start) - 1.0).abs();
+        let square = |mu: &<Su3System as Poisson<f64>>::State| {
+            let mut casimirs = [0.0; 2];
+            system.casimirs(mu, &mut casimirs);
+            casimirs[0]
+        };
+        assert_eq!(system.casimir_degree(0), Some(2));
+        relative.max((square(mu) / square(&start) - 1.0).abs())
+    };
+    let mut mu = start;
+    run(
+        &system,
+        &Gauss8,
+        &NewtonOptions::default(),
+        &mut mu,
+        0.2,
+        500,
+    );
+    let kept = drift(&mu);
+    assert!(kept < 2e-14, "{kept:e}");
+    let mut mu = start;
+    run(&system, &Rk4, &NewtonOptions::default(), &mut mu, 0.2, 500);
+    let lost = drift(&mu);
+    assert!(lost > 1e-6, "{lost:e}");
+}
