@@ -380,10 +380,11 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for LotkaVolterraSystem
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for LotkaVolterraSystem<S> {
-    type Lifted = LotkaVolterraSystem<::lie_runtime::Dual<S>>;
-    fn lift(&self) -> Self::Lifted {
-        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+impl<S: ::lie_runtime::Scalar> LotkaVolterraSystem<S> {
+    fn _over<T: ::lie_runtime::Scalar>(
+        &self,
+        _constant: impl Fn(S) -> T,
+    ) -> LotkaVolterraSystem<T> {
         LotkaVolterraSystem {
             _parameters: LotkaVolterra {
                 a: _constant(self._parameters.a),
@@ -406,6 +407,20 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for LotkaVolterraSystem<S>
             _k12: _constant(self._k12),
             _k13: _constant(self._k13),
         }
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for LotkaVolterraSystem<S> {
+    type Lifted = LotkaVolterraSystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        self._over(::lie_runtime::Dual::constant_of)
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Widen<S> for LotkaVolterraSystem<S> {
+    type Widened = LotkaVolterraSystem<S::Wide>;
+    fn widen(&self) -> Self::Widened {
+        self._over(S::widen)
     }
 }
 

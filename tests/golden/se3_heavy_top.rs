@@ -576,10 +576,11 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::CayleyPoisson<S> for HeavyTopSyste
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
-    type Lifted = HeavyTopSystem<::lie_runtime::Dual<S>>;
-    fn lift(&self) -> Self::Lifted {
-        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+impl<S: ::lie_runtime::Scalar> HeavyTopSystem<S> {
+    fn _over<T: ::lie_runtime::Scalar>(
+        &self,
+        _constant: impl Fn(S) -> T,
+    ) -> HeavyTopSystem<T> {
         HeavyTopSystem {
             _parameters: HeavyTop {
                 I1: _constant(self._parameters.I1),
@@ -609,6 +610,20 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
             minus_mgl_c3: _constant(self.minus_mgl_c3),
             minus_mgl_c1: _constant(self.minus_mgl_c1),
         }
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for HeavyTopSystem<S> {
+    type Lifted = HeavyTopSystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        self._over(::lie_runtime::Dual::constant_of)
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Widen<S> for HeavyTopSystem<S> {
+    type Widened = HeavyTopSystem<S::Wide>;
+    fn widen(&self) -> Self::Widened {
+        self._over(S::widen)
     }
 }
 

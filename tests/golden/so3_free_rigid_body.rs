@@ -397,10 +397,11 @@ for FreeRigidBodySystem<S> {
     }
 }
 
-impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for FreeRigidBodySystem<S> {
-    type Lifted = FreeRigidBodySystem<::lie_runtime::Dual<S>>;
-    fn lift(&self) -> Self::Lifted {
-        let _constant = |value: S| ::lie_runtime::Dual::constant_of(value);
+impl<S: ::lie_runtime::Scalar> FreeRigidBodySystem<S> {
+    fn _over<T: ::lie_runtime::Scalar>(
+        &self,
+        _constant: impl Fn(S) -> T,
+    ) -> FreeRigidBodySystem<T> {
         FreeRigidBodySystem {
             _parameters: FreeRigidBody {
                 I1: _constant(self._parameters.I1),
@@ -417,6 +418,20 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for FreeRigidBodySystem<S>
             _k7: _constant(self._k7),
             _k8: _constant(self._k8),
         }
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for FreeRigidBodySystem<S> {
+    type Lifted = FreeRigidBodySystem<::lie_runtime::Dual<S>>;
+    fn lift(&self) -> Self::Lifted {
+        self._over(::lie_runtime::Dual::constant_of)
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Widen<S> for FreeRigidBodySystem<S> {
+    type Widened = FreeRigidBodySystem<S::Wide>;
+    fn widen(&self) -> Self::Widened {
+        self._over(S::widen)
     }
 }
 
