@@ -120,7 +120,7 @@ impl Source {
         let correction = self.graph.linear(&terms);
         let middle = self.middle();
         let correction = self.at(&[correction], &middle)[0];
-        let inverse = self.block(Block::Inverse)[0];
+        let inverse = self.block(Block::Given)[0];
         let difference = self.block(Block::Difference);
         for (i, symbol) in self.symbols(Block::Direction).into_iter().enumerate() {
             definitions.push((symbol, self.graph.mul(inverse, difference[i])));
@@ -239,7 +239,7 @@ impl Source {
     /// The kernel with the definitions and arguments that it needs.
     fn complete(&self, kernel: Kernel, definitions: &[(Symbol, ExprId)], within: bool) -> Kernel {
         let needed = self.needed(definitions, &kernel.task.outputs);
-        let inverse = self.symbols(Block::Inverse)[0];
+        let inverse = self.symbols(Block::Given)[0];
         let of_length = needed
             .iter()
             .any(|(_, value)| self.graph.symbols(*value).contains(&inverse));

@@ -2,7 +2,6 @@
 
 mod cayley;
 mod coadjoint;
-mod discrete_body;
 mod discrete_gradient;
 mod field;
 mod generating;
@@ -13,10 +12,10 @@ mod poisson;
 mod realization;
 mod second_kind;
 mod source;
-mod spherical;
 mod splitting;
 mod tape;
 
+pub(crate) use field::mu;
 pub use generating::{Function, Generating};
 pub use kernel::{Argument, Kernel, Shape};
 pub(crate) use leaner::{Derived, leaner_jacobian};
@@ -25,6 +24,7 @@ pub use source::Source;
 pub use splitting::{PieceKernel, Update};
 pub(crate) use tape::{Tangents, Tape};
 
+use crate::structure::inertia::Body;
 use crate::symbolic::{ExprId, Symbol};
 use crate::trace::{self, Formulas};
 use lie_core::generic;
@@ -44,8 +44,8 @@ pub(crate) enum Block {
     Difference,
     /// The difference divided by its length.
     Direction,
-    /// Its first symbol: the inverse of that length.
-    Inverse,
+    /// What the runtime computes with comparisons, as the inverse of that length.
+    Given,
     /// Its first symbol: the correction of a gradient along the direction.
     Correction,
     /// How that correction depends on the end of the step.
@@ -231,12 +231,39 @@ impl Source {
 
     /// Residual and Jacobian of the spherical midpoint method.
     pub fn spherical_kernels(&mut self) -> Option<Vec<Kernel>> {
-        spherical::kernels(self)
+        self.spins.as_ref()?;
+        let formulas = Formulas {
+            residual: "`r = u - mu - h f(w)`, `w = rho s`, `s = mu + u`",
+            linearize: "`r = u - mu - h f(w)`, `w = rho s`, and `dr/du = 1 - h rho Df(w) (1 - s s^T/s.s)`",
+            result: "",
+        };
+        trace::kernels(self, &formulas, |system, h| {
+            trace::linearized(generic::Spherical::new(system, h)).with("ratios")
+        })
     }
 
     /// Residual and Jacobian of the discrete rigid body.
     pub fn discrete_body_kernels(&mut self) -> Option<Vec<Kernel>> {
-        discrete_body::kernels(self)
+        let (three, many) = (
+            Formulas {
+                residual: "`r = q0 u - (h/2) f(u) - mu`, `q0 = sqrt(1 - v.v)`, `v = (c h/2) grad H(u)`",
+                linearize: "`r = q0 u - (h/2) f(u) - mu`, and `dr/du = q0 - u (v^T V)/q0 - (h/2) Df(u)`, `V = (c h/2) H''`",
+                result: "",
+            },
+            Formulas {
+                residual: "`r = U - (1 - X/2) M (1 + X/2)`, `X = h grad H(U)`",
+                linearize: "`r = U - (1 - X/2) M (1 + X/2)`, and the entries of `1 + (Y^T R + R Y)/2 h H''`, `Y = M (1 + X/2)`",
+                result: "",
+            },
+        );
+        match self.body.as_ref()? {
+            Body::Three => trace::kernels(self, &three, |system, h| {
+                trace::linearized(generic::DiscreteTop::new(system, h))
+            }),
+            Body::Many { .. } => trace::kernels(self, &many, |system, h| {
+                trace::linearized(generic::DiscreteBody::new(system, h))
+            }),
+        }
     }
 
     /// The map of the realization and its derivatives.

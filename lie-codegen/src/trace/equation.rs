@@ -2,11 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use lie_core::Equation;
+use lie_core::{Equation, SquareMatrix};
 
 use super::sym::{Session, Sym, with, within};
-use super::system::SymbolicSystem;
-use crate::derive::{Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian};
+use super::system::{Square, SymbolicSystem};
+use crate::derive::{
+    Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian, mu,
+};
 use crate::symbolic::{ExprId, Symbol};
 
 /// Definitions in order, each may use the earlier ones.
@@ -27,9 +29,48 @@ pub struct Formulas {
 #[derive(Debug)]
 pub struct Step {
     residual: Vec<ExprId>,
-    /// What the residual is made of; the state at the end adds to it.
+    /// What the residual is made of.
     of_residual: Tape,
-    result: Vec<ExprId>,
+    /// The Jacobian, where it is that which the equation states.
+    rows: Option<Vec<Vec<ExprId>>>,
+    /// The state at the end, where the trace has it.
+    result: Option<Vec<ExprId>>,
+    /// The argument that holds what is given from outside.
+    given: &'static str,
+}
+
+fn symbols(ids: Vec<ExprId>) -> Vec<Sym> {
+    ids.into_iter().map(Sym).collect()
+}
+
+fn expressions(values: Vec<Sym>) -> Vec<ExprId> {
+    values.into_iter().map(|x| x.0).collect()
+}
+
+impl Step {
+    /// The residual.
+    fn of<E>(equation: &mut E) -> Self
+    where
+        E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>>,
+    {
+        let (start, unknown) = with(|s| (s.source.coordinates(), s.source.block(Block::Unknown)));
+        equation.set_base(&symbols(start));
+        let mut residual = equation.zero_unknown();
+        equation.residual(&symbols(unknown), &mut residual);
+        Self {
+            residual: expressions(residual),
+            of_residual: with(|s| s.tape.clone()),
+            rows: None,
+            result: None,
+            given: "",
+        }
+    }
+
+    /// The same step with the name of the argument that holds what the equation takes as given.
+    #[must_use]
+    pub fn with(self, given: &'static str) -> Self {
+        Self { given, ..self }
+    }
 }
 
 /// Runs an equation: the coordinates are the state before the step, the unknown has the symbols of its block.
@@ -38,20 +79,30 @@ pub fn step<E>(mut equation: E) -> Step
 where
     E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>>,
 {
-    let (start, unknown) = with(|s| (s.source.coordinates(), s.source.block(Block::Unknown)));
-    let symbols = |ids: &[ExprId]| ids.iter().map(|id| Sym(*id)).collect::<Vec<_>>();
-    let expressions = |values: Vec<Sym>| values.iter().map(|x| x.0).collect();
-    let (start, unknown) = (symbols(&start), symbols(&unknown));
-    equation.set_base(&start);
-    let mut residual = equation.zero_unknown();
-    equation.residual(&unknown, &mut residual);
-    let of_residual = with(|s| s.tape.clone());
-    let mut end = start;
-    equation.result(&unknown, &mut end);
+    let step = Step::of(&mut equation);
+    let (end, unknown) = with(|s| (s.source.coordinates(), s.source.block(Block::Unknown)));
+    let mut end = symbols(end);
+    equation.result(&symbols(unknown), &mut end);
     Step {
-        residual: expressions(residual),
-        of_residual,
-        result: expressions(end),
+        result: Some(expressions(end)),
+        ..step
+    }
+}
+
+/// Runs an equation whose Jacobian is that which it states; the state at the end is the unknown, or found by comparisons.
+pub fn linearized<E>(mut equation: E) -> Step
+where
+    E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>, Matrix = Square>,
+{
+    let step = Step::of(&mut equation);
+    let unknown = symbols(with(|s| s.source.block(Block::Unknown)));
+    let (mut residual, mut matrix) = (equation.zero_unknown(), equation.zero_matrix());
+    equation.linearize(&unknown, &mut residual, &mut matrix);
+    let n = unknown.len();
+    let rows = (0..n).map(|i| (0..n).map(|j| matrix.get(i, j).0).collect());
+    Step {
+        rows: Some(rows.collect()),
+        ..step
     }
 }
 
@@ -75,34 +126,59 @@ pub fn kernels(
     let session = Session {
         source: taken,
         tape,
+        given: 0,
         branched: false,
     };
-    let (traced, session) = within(session, || run(&system, Sym::of(Symbol::Step)));
+    let (step, session) = within(session, || run(&system, Sym::of(Symbol::Step)));
     *source = session.source;
-    if session.branched {
+    if session.branched || (session.given > 0 && step.given.is_empty()) {
         return None;
     }
-    let Step {
-        residual,
-        of_residual: mut tape,
-        result,
-    } = traced;
-    let arguments = vec![
-        Argument {
-            name: "mu",
-            symbols: (0..source.dimension).map(Symbol::Coordinate).collect(),
-        },
-        Argument {
-            name: "unknown",
-            symbols: source.symbols(Block::Unknown),
-        },
-    ];
+    let given = Argument {
+        name: step.given,
+        symbols: source.symbols(Block::Given)[..session.given].to_vec(),
+    };
+    let end = step
+        .result
+        .filter(|end| *end != source.block(Block::Unknown));
+    let (rows, slopes) = match step.rows {
+        Some(rows) => (rows, session.tape.clone()),
+        None => differentiated(source, step.of_residual, &step.residual),
+    };
+    let graph = &source.graph;
+    let residual = Kernel::vector(
+        graph,
+        "residual",
+        formulas.residual,
+        Vec::new(),
+        &step.residual,
+    );
+    let both = Kernel::fused(
+        graph,
+        "linearize",
+        formulas.linearize,
+        Vec::new(),
+        &step.residual,
+        &rows,
+    );
+    let result = end.map(|end| Kernel::vector(graph, "result", formulas.result, Vec::new(), &end));
+    let kernels = [(residual, &session.tape), (both, &slopes)].into_iter();
+    let kernels = kernels.chain(result.map(|result| (result, &session.tape)));
+    let complete = |(kernel, tape): (Kernel, &Tape)| completed(source, kernel, tape, &given);
+    Some(kernels.map(complete).collect())
+}
+
+/// The Jacobian of a residual by differentiation, and the list with its definitions.
+fn differentiated(
+    source: &mut Source,
+    mut tape: Tape,
+    residual: &[ExprId],
+) -> (Vec<Vec<ExprId>>, Tape) {
     let unknown = source.symbols(Block::Unknown);
-    let values = tape.definitions().to_vec();
     let rows = leaner_jacobian(
         source,
         &mut tape,
-        &residual,
+        residual,
         &unknown,
         Tangents::Inline,
         &|source, derived| {
@@ -114,40 +190,26 @@ pub fn kernels(
             }
         },
     );
-    let slopes = tape.definitions().to_vec();
-    let graph = &source.graph;
-    let entries: Vec<ExprId> = residual
-        .iter()
-        .chain(rows.iter().flatten())
-        .copied()
-        .collect();
-    let mut kernels = vec![
-        Kernel::vector(
-            graph,
-            "residual",
-            formulas.residual,
-            arguments.clone(),
-            &residual,
-        )
-        .within_step(needed(source, &values, &residual)),
-        Kernel::fused(
-            graph,
-            "linearize",
-            formulas.linearize,
-            arguments.clone(),
-            &residual,
-            &rows,
-        )
-        .within_step(needed(source, &slopes, &entries)),
-    ];
-    if result != source.block(Block::Unknown) {
-        let definitions = needed(source, session.tape.definitions(), &result);
-        kernels.push(
-            Kernel::vector(&source.graph, "result", formulas.result, arguments, &result)
-                .within_step(definitions),
-        );
+    (rows, tape)
+}
+
+/// A kernel with the definitions that it needs, and its arguments.
+fn completed(source: &Source, kernel: Kernel, tape: &Tape, given: &Argument) -> Kernel {
+    let definitions = needed(source, tape.definitions(), &kernel.task.outputs);
+    let mut kernel = kernel.within_step(definitions);
+    let unknown = Argument {
+        name: "unknown",
+        symbols: source.symbols(Block::Unknown),
+    };
+    kernel.arguments = vec![mu(source), unknown];
+    let values = kernel.task.definitions.iter().map(|(_, value)| value);
+    let mut symbols = values
+        .chain(&kernel.task.outputs)
+        .flat_map(|value| source.graph.symbols(*value));
+    if symbols.any(|symbol| given.symbols.contains(&symbol)) {
+        kernel.arguments.push(given.clone());
     }
-    Some(kernels)
+    kernel
 }
 
 /// The definitions that outputs depend on.

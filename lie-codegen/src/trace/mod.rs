@@ -8,7 +8,7 @@ mod equation;
 mod sym;
 mod system;
 
-pub use equation::{Formulas, Step, kernels, step};
+pub use equation::{Formulas, Step, kernels, linearized, step};
 pub use sym::Sym;
 pub use system::{Square, SymbolicSystem};
 

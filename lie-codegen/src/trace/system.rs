@@ -1,10 +1,12 @@
 //! A declared system over expressions: its traits say how the kernels of the declaration look at a point that is
 //! itself an expression.
 
-use lie_core::{CayleyPoisson, LiePoisson, Poisson, SquareMatrix};
+use lie_core::structure::Plane;
+use lie_core::{CayleyPoisson, InertiaPoisson, LiePoisson, Poisson, SpinPoisson, SquareMatrix};
 
 use super::sym::{Session, Sym, with};
 use crate::derive::Source;
+use crate::structure::inertia::Body;
 use crate::symbolic::ExprId;
 
 /// A square matrix of expressions, row by row.
@@ -32,12 +34,36 @@ type State = Vec<Sym>;
 #[derive(Clone, Debug)]
 pub struct SymbolicSystem {
     dimension: usize,
+    spins: Vec<[usize; 3]>,
+    scales: Vec<Sym>,
+    planes: Vec<Plane>,
+    moments: Vec<Sym>,
 }
 
 impl SymbolicSystem {
     pub(super) fn of(source: &Source) -> Self {
+        let spins = source.spins.iter().flatten();
+        let (spins, scales) = spins.map(|s| (s.coordinates, Sym(s.scale))).unzip();
+        let (planes, moments) = match &source.body {
+            Some(Body::Many { planes, moments }) => (planes.as_slice(), moments.as_slice()),
+            _ => Default::default(),
+        };
+        let planes = planes.iter();
         Self {
             dimension: source.dimension,
+            spins,
+            scales,
+            planes: planes
+                .map(|&(from, to)| Plane::new(from as u16, to as u16))
+                .collect(),
+            moments: moments.iter().map(|moment| Sym(*moment)).collect(),
+        }
+    }
+
+    fn zeros(size: usize) -> Square {
+        Square {
+            size,
+            entries: vec![Sym::default(); size * size],
         }
     }
 
@@ -87,10 +113,7 @@ impl Poisson<Sym> for SymbolicSystem {
         vec![Sym::default(); self.dimension]
     }
     fn zero_jacobian(&self) -> Square {
-        Square {
-            size: self.dimension,
-            entries: vec![Sym::default(); self.dimension * self.dimension],
-        }
+        Self::zeros(self.dimension)
     }
 
     fn hamiltonian(&self, mu: &State) -> Sym {
@@ -139,5 +162,27 @@ impl CayleyPoisson<Sym> for SymbolicSystem {
     fn triple(&self, x: &State, z: &State, mu: &State, out: &mut State) {
         let (x, z, mu) = (ids(x), ids(z), ids(mu));
         write(with(|s| s.source.triple_of(&x, &z, &mu)), out);
+    }
+}
+
+impl SpinPoisson<Sym> for SymbolicSystem {
+    fn spins(&self) -> &[[usize; 3]] {
+        &self.spins
+    }
+    fn scale(&self, spin: usize) -> Sym {
+        self.scales[spin]
+    }
+}
+
+impl InertiaPoisson<Sym> for SymbolicSystem {
+    type Matrix = Square;
+    fn planes(&self) -> &[Plane] {
+        &self.planes
+    }
+    fn zero_matrix(&self) -> Square {
+        Self::zeros(self.moments.len())
+    }
+    fn moment(&self, axis: usize) -> Sym {
+        self.moments[axis]
     }
 }
