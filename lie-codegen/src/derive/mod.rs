@@ -17,6 +17,7 @@ mod tape;
 
 pub(crate) use field::mu;
 pub use generating::{Function, Generating};
+pub(crate) use generating::{Slope, slope};
 pub use kernel::{Argument, Kernel, Shape};
 pub(crate) use leaner::{Derived, leaner_jacobian};
 pub use realization::Realization;
@@ -24,9 +25,11 @@ pub use source::Source;
 pub use splitting::{PieceKernel, Update};
 pub(crate) use tape::{Tangents, Tape};
 
+use crate::methods::Retraction;
 use crate::structure::inertia::Body;
 use crate::symbolic::{ExprId, Symbol};
-use crate::trace::{self, Formulas};
+use crate::trace::{self, Formulas, SymbolicFunction};
+use generating::MOST_SCHEDULED;
 use lie_core::generic;
 
 /// Vector arguments of kernels besides the state; each has n symbols.
@@ -305,9 +308,19 @@ impl Source {
     /// Residual, Jacobian and result of the generating-function method with the Cayley map; `None`
     /// without a triple product, or where they swell.
     pub fn cayley_generating_kernels(&mut self, order: u32) -> Option<Vec<Kernel>> {
-        self.triple
-            .is_some()
-            .then(|| generating::cayley_kernels(self, order))
-            .flatten()
+        self.triple.as_ref()?;
+        let formulas = Formulas {
+            residual: "`r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`",
+            linearize: "`r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`",
+            result: "`mu1 = mu + 2 ad*_y p`",
+        };
+        let size = self.graph.size();
+        let function = SymbolicFunction(Generating::First(Retraction::Cayley, order));
+        let kernels = trace::kernels(self, &formulas, |system, h| {
+            trace::step(generic::CayleyRetraction::with_function(
+                system, function, h,
+            ))
+        });
+        kernels.filter(|_| self.graph.size() - size <= MOST_SCHEDULED)
     }
 }

@@ -101,6 +101,24 @@ impl Tape {
         values.iter().map(|v| self.define(source, *v)).collect()
     }
 
+    /// Values of another list, which is in the coordinates, at a point.
+    pub fn adopt(
+        &mut self,
+        source: &mut Source,
+        (list, values): (&Self, &[ExprId]),
+        point: &[ExprId],
+    ) -> Vec<ExprId> {
+        let coordinates = (0..point.len()).map(Symbol::Coordinate);
+        let mut image: HashMap<Symbol, ExprId> = coordinates.zip(point.iter().copied()).collect();
+        for (symbol, value) in &list.definitions {
+            let value = source
+                .graph
+                .substitute(&[*value], &|s| image.get(&s).copied())[0];
+            image.insert(*symbol, self.define(source, value));
+        }
+        source.graph.substitute(values, &|s| image.get(&s).copied())
+    }
+
     /// The gradient of a quantity in the coordinates, by adjoints.
     pub fn gradient(&mut self, source: &mut Source, value: ExprId) -> Vec<ExprId> {
         let mut adjoints: BTreeMap<Symbol, Vec<ExprId>> = BTreeMap::new();

@@ -11,6 +11,9 @@ use crate::derive::{
 };
 use crate::symbolic::{ExprId, Symbol};
 
+/// A list with more definitions for each entry of the unknown is long.
+const LONG: usize = 4;
+
 /// Definitions in order, each may use the earlier ones.
 type Definitions = Vec<(Symbol, ExprId)>;
 
@@ -175,12 +178,18 @@ fn differentiated(
     residual: &[ExprId],
 ) -> (Vec<Vec<ExprId>>, Tape) {
     let unknown = source.symbols(Block::Unknown);
+    let is_long = tape.definitions().len() > LONG * unknown.len();
+    let preferred = if is_long {
+        Tangents::Named
+    } else {
+        Tangents::Inline
+    };
     let rows = leaner_jacobian(
         source,
         &mut tape,
         residual,
         &unknown,
-        Tangents::Inline,
+        preferred,
         &|source, derived| {
             let rows = derived.rows.iter().flatten();
             let entries: Vec<ExprId> = derived.values.iter().chain(rows).copied().collect();

@@ -10,6 +10,7 @@ mod system;
 
 pub use equation::{Formulas, Step, kernels, linearized, step};
 pub use sym::Sym;
+pub(crate) use system::SymbolicFunction;
 pub use system::{Square, SymbolicSystem};
 
 #[cfg(test)]

@@ -2,10 +2,13 @@
 //! itself an expression.
 
 use lie_core::structure::Plane;
-use lie_core::{CayleyPoisson, InertiaPoisson, LiePoisson, Poisson, SpinPoisson, SquareMatrix};
+use lie_core::{
+    CayleyPoisson, GeneratingFunction, InertiaPoisson, LiePoisson, Poisson, SpinPoisson,
+    SquareMatrix,
+};
 
 use super::sym::{Session, Sym, with};
-use crate::derive::Source;
+use crate::derive::{Generating, Slope, Source, slope};
 use crate::structure::inertia::Body;
 use crate::symbolic::ExprId;
 
@@ -162,6 +165,30 @@ impl CayleyPoisson<Sym> for SymbolicSystem {
     fn triple(&self, x: &State, z: &State, mu: &State, out: &mut State) {
         let (x, z, mu) = (ids(x), ids(z), ids(mu));
         write(with(|s| s.source.triple_of(&x, &z, &mu)), out);
+    }
+}
+
+/// A generating function whose gradient is derived in closed form.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SymbolicFunction(pub(crate) Generating);
+
+impl GeneratingFunction<Sym> for SymbolicFunction {
+    type State = State;
+    type Jacobian = Square;
+
+    fn gradient(&mut self, p: &State, xi: &mut State) {
+        let p = ids(p);
+        let entries = with(|Session { source, tape, .. }| {
+            let Slope {
+                tape: list,
+                entries,
+            } = slope(source, self.0);
+            tape.adopt(source, (&list, &entries), &p)
+        });
+        write(entries, xi);
+    }
+    fn linearize(&mut self, _p: &State, _xi: &mut State, _hessian: &mut Square) {
+        unreachable!("differentiated by the trace")
     }
 }
 
