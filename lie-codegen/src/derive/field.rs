@@ -3,7 +3,7 @@
 use super::{Argument, Kernel, Source};
 use crate::symbolic::{ExprId, Symbol};
 
-pub(crate) fn mu(source: &Source) -> Argument {
+pub(super) fn mu(source: &Source) -> Argument {
     Argument {
         name: "mu",
         symbols: (0..source.dimension).map(Symbol::Coordinate).collect(),

@@ -15,7 +15,7 @@ mod source;
 mod splitting;
 mod tape;
 
-pub(crate) use field::mu;
+pub(crate) use discrete_gradient::Closed;
 pub use generating::{Function, Generating};
 pub(crate) use generating::{Slope, slope};
 pub use kernel::{Argument, Kernel, Shape};
@@ -25,12 +25,12 @@ pub use source::Source;
 pub use splitting::{PieceKernel, Update};
 pub(crate) use tape::{Tangents, Tape};
 
-use crate::methods::Retraction;
+use crate::methods::{Gradient, Retraction};
 use crate::structure::inertia::Body;
 use crate::symbolic::{ExprId, Symbol};
-use crate::trace::{self, Formulas, SymbolicFunction};
+use crate::trace::{self, Formulas, SymbolicFunction, SymbolicGradient};
 use generating::MOST_SCHEDULED;
-use lie_core::generic;
+use lie_core::generic::{self, DiscreteGradientStep};
 
 /// Vector arguments of kernels besides the state; each has n symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -267,6 +267,22 @@ impl Source {
                 trace::linearized(generic::DiscreteBody::new(system, h))
             }),
         }
+    }
+
+    /// Residual and Jacobian along a discrete gradient in closed form, of a polynomial H of a degree.
+    pub fn discrete_gradient_kernels(&mut self, gradient: Gradient, degree: u32) -> Vec<Kernel> {
+        let closed = self.closed_gradient(gradient, degree);
+        let formulas = Formulas {
+            residual: "`r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`",
+            linearize: "`r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`",
+            result: "",
+        };
+        let kernels = trace::kernels(self, &formulas, |system, h| {
+            let system = system.along(closed);
+            let step = DiscreteGradientStep::<_, _, SymbolicGradient>::new(&system, h);
+            trace::linearized(step).with("inverse")
+        });
+        kernels.expect("nothing is compared")
     }
 
     /// The map of the realization and its derivatives.

@@ -101,6 +101,18 @@ impl Tape {
         values.iter().map(|v| self.define(source, *v)).collect()
     }
 
+    /// Takes over definitions under their own symbols, which no other ones have.
+    pub fn extend(&mut self, source: &mut Source, definitions: &[(Symbol, ExprId)]) {
+        for definition in definitions {
+            if !self.definitions.contains(definition) {
+                let (symbol, value) = *definition;
+                self.definitions.push(*definition);
+                let id = source.graph.symbol(symbol);
+                self.known.entry(value).or_insert(id);
+            }
+        }
+    }
+
     /// Values of another list, which is in the coordinates, at a point.
     pub fn adopt(
         &mut self,

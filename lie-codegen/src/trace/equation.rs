@@ -1,21 +1,15 @@
 //! The equation of a method, written down and differentiated.
 
-use std::collections::BTreeSet;
-
 use lie_core::{Equation, SquareMatrix};
 
 use super::sym::{Session, Sym, with, within};
 use super::system::{Square, SymbolicSystem};
-use crate::derive::{
-    Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian, mu,
-};
+use crate::derive::{Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian};
+use crate::schedule::Known;
 use crate::symbolic::{ExprId, Symbol};
 
 /// A list with more definitions for each entry of the unknown is long.
 const LONG: usize = 4;
-
-/// Definitions in order, each may use the earlier ones.
-type Definitions = Vec<(Symbol, ExprId)>;
 
 /// What a step says of itself in formulas.
 #[derive(Clone, Copy, Debug)]
@@ -167,7 +161,11 @@ pub fn kernels(
     let result = end.map(|end| Kernel::vector(graph, "result", formulas.result, Vec::new(), &end));
     let kernels = [(residual, &session.tape), (both, &slopes)].into_iter();
     let kernels = kernels.chain(result.map(|result| (result, &session.tape)));
-    let complete = |(kernel, tape): (Kernel, &Tape)| completed(source, kernel, tape, &given);
+    let complete = |(kernel, tape): (Kernel, &Tape)| {
+        let mut kernel = source.complete(kernel, tape.definitions(), &given);
+        kernel.task.known = Known::Step;
+        kernel
+    };
     Some(kernels.map(complete).collect())
 }
 
@@ -194,46 +192,10 @@ fn differentiated(
             let rows = derived.rows.iter().flatten();
             let entries: Vec<ExprId> = derived.values.iter().chain(rows).copied().collect();
             Derived {
-                definitions: needed(source, &derived.definitions, &entries),
+                definitions: source.needed(&derived.definitions, &entries),
                 ..derived
             }
         },
     );
     (rows, tape)
-}
-
-/// A kernel with the definitions that it needs, and its arguments.
-fn completed(source: &Source, kernel: Kernel, tape: &Tape, given: &Argument) -> Kernel {
-    let definitions = needed(source, tape.definitions(), &kernel.task.outputs);
-    let mut kernel = kernel.within_step(definitions);
-    let unknown = Argument {
-        name: "unknown",
-        symbols: source.symbols(Block::Unknown),
-    };
-    kernel.arguments = vec![mu(source), unknown];
-    let values = kernel.task.definitions.iter().map(|(_, value)| value);
-    let mut symbols = values
-        .chain(&kernel.task.outputs)
-        .flat_map(|value| source.graph.symbols(*value));
-    if symbols.any(|symbol| given.symbols.contains(&symbol)) {
-        kernel.arguments.push(given.clone());
-    }
-    kernel
-}
-
-/// The definitions that outputs depend on.
-fn needed(source: &Source, definitions: &[(Symbol, ExprId)], outputs: &[ExprId]) -> Definitions {
-    let mut used: BTreeSet<Symbol> = BTreeSet::new();
-    for output in outputs {
-        used.extend(source.graph.symbols(*output));
-    }
-    let mut kept: Definitions = Vec::new();
-    for (symbol, value) in definitions.iter().rev() {
-        if used.contains(symbol) {
-            used.extend(source.graph.symbols(*value));
-            kept.push((*symbol, *value));
-        }
-    }
-    kept.reverse();
-    kept
 }

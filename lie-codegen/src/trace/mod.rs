@@ -10,8 +10,8 @@ mod system;
 
 pub use equation::{Formulas, Step, kernels, linearized, step};
 pub use sym::Sym;
-pub(crate) use system::SymbolicFunction;
 pub use system::{Square, SymbolicSystem};
+pub(crate) use system::{SymbolicFunction, SymbolicGradient};
 
 #[cfg(test)]
 mod tests {

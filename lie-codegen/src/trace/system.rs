@@ -1,6 +1,7 @@
 //! A declared system over expressions: its traits say how the kernels of the declaration look at a point that is
 //! itself an expression.
 
+use lie_core::generic::DiscreteGradient;
 use lie_core::structure::Plane;
 use lie_core::{
     CayleyPoisson, GeneratingFunction, InertiaPoisson, LiePoisson, Poisson, SpinPoisson,
@@ -8,9 +9,9 @@ use lie_core::{
 };
 
 use super::sym::{Session, Sym, with};
-use crate::derive::{Generating, Slope, Source, slope};
+use crate::derive::{Block, Closed, Generating, Slope, Source, slope};
 use crate::structure::inertia::Body;
-use crate::symbolic::ExprId;
+use crate::symbolic::{ExprId, Symbol};
 
 /// A square matrix of expressions, row by row.
 #[derive(Clone, Debug)]
@@ -41,6 +42,7 @@ pub struct SymbolicSystem {
     scales: Vec<Sym>,
     planes: Vec<Plane>,
     moments: Vec<Sym>,
+    closed: Option<Closed>,
 }
 
 impl SymbolicSystem {
@@ -60,7 +62,20 @@ impl SymbolicSystem {
                 .map(|&(from, to)| Plane::new(from as u16, to as u16))
                 .collect(),
             moments: moments.iter().map(|moment| Sym(*moment)).collect(),
+            closed: None,
         }
+    }
+
+    /// The system with a discrete gradient.
+    pub(crate) fn along(&self, closed: Closed) -> Self {
+        Self {
+            closed: Some(closed),
+            ..self.clone()
+        }
+    }
+
+    fn gradient(&self) -> &Closed {
+        self.closed.as_ref().expect("a system with a gradient")
     }
 
     fn zeros(size: usize) -> Square {
@@ -141,6 +156,17 @@ impl Poisson<Sym> for SymbolicSystem {
         };
         self.matrix(Self::at(entries, mu), out);
     }
+    fn poisson_slope(&self, mu: &State, xi: &State, out: &mut Square) {
+        let (mu, xi) = (ids(mu), ids(xi));
+        let entries = with(|Session { source, .. }| {
+            let (entries, vector) = (source.poisson_slope().concat(), source.symbols(Block::Xi));
+            source.graph.substitute(&entries, &|symbol| match symbol {
+                Symbol::Coordinate(i) => Some(mu[i]),
+                other => vector.iter().position(|s| *s == other).map(|i| xi[i]),
+            })
+        });
+        self.matrix(entries.into_iter().map(Sym).collect(), out);
+    }
     fn casimirs(&self, _mu: &State, _out: &mut [Sym]) {}
     fn casimir_gradient(&self, _index: usize, _mu: &State, _out: &mut State) {}
 }
@@ -165,6 +191,46 @@ impl CayleyPoisson<Sym> for SymbolicSystem {
     fn triple(&self, x: &State, z: &State, mu: &State, out: &mut State) {
         let (x, z, mu) = (ids(x), ids(z), ids(mu));
         write(with(|s| s.source.triple_of(&x, &z, &mu)), out);
+    }
+}
+
+/// The discrete gradient in closed form that a system is given.
+#[derive(Debug)]
+pub(crate) struct SymbolicGradient;
+
+impl DiscreteGradient<Sym, SymbolicSystem> for SymbolicGradient {
+    fn new(_system: &SymbolicSystem) -> Self {
+        Self
+    }
+    fn set_start(&mut self, _system: &SymbolicSystem, _start: &State) {}
+    fn value(&mut self, system: &SymbolicSystem, _end: &State, out: &mut State) {
+        let Closed {
+            value, definitions, ..
+        } = system.gradient();
+        let value = with(
+            |Session {
+                 source,
+                 tape,
+                 given,
+                 ..
+             }| {
+                *given = 1;
+                tape.extend(source, definitions);
+                tape.define_all(source, value)
+            },
+        );
+        write(value, out);
+    }
+    fn linearize(
+        &mut self,
+        system: &SymbolicSystem,
+        end: &State,
+        out: &mut State,
+        derivative: &mut Square,
+    ) {
+        self.value(system, end, out);
+        let slopes = system.gradient().slopes.concat();
+        system.matrix(slopes.into_iter().map(Sym).collect(), derivative);
     }
 }
 
