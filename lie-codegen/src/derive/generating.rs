@@ -12,7 +12,7 @@
 use super::field::mu;
 use super::leaner::{Derived, leaner_jacobian};
 use super::tape::{Tangents, Tape};
-use super::{Argument, Block, Kernel, Source};
+use super::{Argument, Kernel, Source};
 use crate::exact::Rational;
 use crate::methods::Retraction;
 use crate::symbolic::{ExprId, Symbol};
@@ -260,7 +260,7 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
 }
 
 /// The lower half as the mirror of the upper, so that each entry is computed once.
-pub(super) fn symmetric(mut rows: Vec<Vec<ExprId>>) -> Vec<Vec<ExprId>> {
+pub(crate) fn symmetric(mut rows: Vec<Vec<ExprId>>) -> Vec<Vec<ExprId>> {
     for i in 1..rows.len() {
         let (above, below) = rows.split_at_mut(i);
         for (entry, row) in below[0].iter_mut().zip(above.iter()) {
@@ -268,16 +268,4 @@ pub(super) fn symmetric(mut rows: Vec<Vec<ExprId>>) -> Vec<Vec<ExprId>> {
         }
     }
     rows
-}
-
-/// Coordinates and unknown exchanged.
-pub(super) fn exchanged(source: &mut Source, expressions: &[ExprId]) -> Vec<ExprId> {
-    let (p, start) = (source.block(Block::Unknown), source.coordinates());
-    let unknown = source.symbols(Block::Unknown);
-    source
-        .graph
-        .substitute(expressions, &|symbol| match symbol {
-            Symbol::Coordinate(i) => Some(p[i]),
-            other => unknown.iter().position(|s| *s == other).map(|i| start[i]),
-        })
 }

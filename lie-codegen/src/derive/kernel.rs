@@ -232,7 +232,10 @@ impl Source {
             name: "unknown",
             symbols: self.symbols(Block::Unknown),
         };
-        kernel.arguments = vec![mu(self), unknown];
+        kernel.arguments = match kernel.name {
+            "initial_guess" => vec![mu(self)],
+            _ => vec![mu(self), unknown],
+        };
         kernel.task.definitions = self.needed(definitions, &kernel.task.outputs);
         let values = kernel.task.definitions.iter().map(|(_, value)| value);
         let mut symbols = values

@@ -17,18 +17,20 @@ mod tape;
 
 pub(crate) use discrete_gradient::Closed;
 pub use generating::{Function, Generating};
-pub(crate) use generating::{Slope, slope};
+pub(crate) use generating::{Slope, slope, symmetric};
 pub use kernel::{Argument, Kernel, Shape};
 pub(crate) use leaner::{Derived, leaner_jacobian};
 pub use realization::Realization;
+pub(crate) use second_kind::moved;
 pub use source::Source;
+pub(crate) use splitting::Definitions;
 pub use splitting::{PieceKernel, Update};
 pub(crate) use tape::{Tangents, Tape};
 
 use crate::methods::{Gradient, Retraction};
 use crate::structure::inertia::Body;
 use crate::symbolic::{ExprId, Symbol};
-use crate::trace::{self, Formulas, SymbolicFunction, SymbolicGradient};
+use crate::trace::{self, Formulas, SymbolicActions, SymbolicFunction, SymbolicGradient};
 use generating::MOST_SCHEDULED;
 use lie_core::generic::{self, DiscreteGradientStep};
 
@@ -318,7 +320,24 @@ impl Source {
     /// The equation of the generating-function method in coordinates of the second kind; `None`
     /// where an action has no closed form, or derivatives swell.
     pub fn second_kind_kernels(&mut self) -> Option<Vec<Kernel>> {
-        second_kind::kernels(self)
+        self.actions
+            .as_ref()?
+            .iter()
+            .all(Option::is_some)
+            .then_some(())?;
+        let formulas = Formulas {
+            residual: "`r_i = p_i - (m_(i-1))_i`, `m_i = exp(xi_i ad*_(e_i)) m_(i-1)`, `xi = grad S(p)`",
+            linearize: "`r_i = p_i - (m_(i-1))_i` and `dr/dp`, by `dm_i/dxi_i = ad*_(e_i) m_i`",
+            result: "`mu1 = m_n`",
+        };
+        let size = self.graph.size();
+        let function = SymbolicFunction(Generating::Second);
+        let kernels = trace::kernels(self, &formulas, |system, _| {
+            let equation =
+                generic::SecondKind::<_, _, _, SymbolicActions>::with_actions(system, function);
+            trace::whole(equation, "`p_i = (m_(i-1))_i` with `xi = grad S(mu)`")
+        });
+        kernels.filter(|_| self.graph.size() - size <= MOST_SCHEDULED)
     }
 
     /// Residual, Jacobian and result of the generating-function method with the Cayley map; `None`

@@ -32,8 +32,19 @@ pub struct Step {
     rows: Option<Vec<Vec<ExprId>>>,
     /// The state at the end, where the trace has it.
     result: Option<Vec<ExprId>>,
+    /// Where the iteration begins, where the trace has it, with its formula.
+    guess: Option<(Vec<ExprId>, &'static str)>,
     /// The argument that holds what is given from outside.
     given: &'static str,
+}
+
+/// The state before the step.
+fn start() -> Vec<Sym> {
+    symbols(with(|s| s.source.coordinates()))
+}
+
+fn unknown() -> Vec<Sym> {
+    symbols(with(|s| s.source.block(Block::Unknown)))
 }
 
 fn symbols(ids: Vec<ExprId>) -> Vec<Sym> {
@@ -50,16 +61,44 @@ impl Step {
     where
         E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>>,
     {
-        let (start, unknown) = with(|s| (s.source.coordinates(), s.source.block(Block::Unknown)));
-        equation.set_base(&symbols(start));
+        equation.set_base(&start());
         let mut residual = equation.zero_unknown();
-        equation.residual(&symbols(unknown), &mut residual);
+        equation.residual(&unknown(), &mut residual);
         Self {
             residual: expressions(residual),
             of_residual: with(|s| s.tape.clone()),
             rows: None,
             result: None,
+            guess: None,
             given: "",
+        }
+    }
+
+    /// With the state at the end.
+    fn ending<E>(self, equation: &mut E) -> Self
+    where
+        E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>>,
+    {
+        let mut end = start();
+        equation.result(&unknown(), &mut end);
+        Self {
+            result: Some(expressions(end)),
+            ..self
+        }
+    }
+
+    /// With the Jacobian that the equation states.
+    fn stating<E>(self, equation: &mut E) -> Self
+    where
+        E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>, Matrix = Square>,
+    {
+        let (mut residual, mut matrix) = (equation.zero_unknown(), equation.zero_matrix());
+        equation.linearize(&unknown(), &mut residual, &mut matrix);
+        let columns = 0..residual.len();
+        let row = |i| columns.clone().map(|j| matrix.get(i, j).0).collect();
+        Self {
+            rows: Some(columns.clone().map(row).collect()),
+            ..self
         }
     }
 
@@ -76,14 +115,7 @@ pub fn step<E>(mut equation: E) -> Step
 where
     E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>>,
 {
-    let step = Step::of(&mut equation);
-    let (end, unknown) = with(|s| (s.source.coordinates(), s.source.block(Block::Unknown)));
-    let mut end = symbols(end);
-    equation.result(&symbols(unknown), &mut end);
-    Step {
-        result: Some(expressions(end)),
-        ..step
-    }
+    Step::of(&mut equation).ending(&mut equation)
 }
 
 /// Runs an equation whose Jacobian is that which it states; the state at the end is the unknown, or found by comparisons.
@@ -91,15 +123,21 @@ pub fn linearized<E>(mut equation: E) -> Step
 where
     E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>, Matrix = Square>,
 {
-    let step = Step::of(&mut equation);
-    let unknown = symbols(with(|s| s.source.block(Block::Unknown)));
-    let (mut residual, mut matrix) = (equation.zero_unknown(), equation.zero_matrix());
-    equation.linearize(&unknown, &mut residual, &mut matrix);
-    let n = unknown.len();
-    let rows = (0..n).map(|i| (0..n).map(|j| matrix.get(i, j).0).collect());
+    Step::of(&mut equation).stating(&mut equation)
+}
+
+/// Runs an equation whose Jacobian is that which it states, with the state at the end and, under this formula, where the
+/// iteration begins.
+pub(crate) fn whole<E>(mut equation: E, formula: &'static str) -> Step
+where
+    E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>, Matrix = Square>,
+{
+    let step = Step::of(&mut equation).stating(&mut equation);
+    let mut guess = equation.zero_unknown();
+    equation.initial_guess(&mut guess);
     Step {
-        rows: Some(rows.collect()),
-        ..step
+        guess: Some((expressions(guess), formula)),
+        ..step.ending(&mut equation)
     }
 }
 
@@ -159,7 +197,12 @@ pub fn kernels(
         &rows,
     );
     let result = end.map(|end| Kernel::vector(graph, "result", formulas.result, Vec::new(), &end));
-    let kernels = [(residual, &session.tape), (both, &slopes)].into_iter();
+    let guess = step.guess.map(|(guess, formula)| {
+        let kernel = Kernel::vector(graph, "initial_guess", formula, Vec::new(), &guess);
+        (kernel, &session.tape)
+    });
+    let kernels = guess.into_iter();
+    let kernels = kernels.chain([(residual, &session.tape), (both, &slopes)]);
     let kernels = kernels.chain(result.map(|result| (result, &session.tape)));
     let complete = |(kernel, tape): (Kernel, &Tape)| {
         let mut kernel = source.complete(kernel, tape.definitions(), &given);

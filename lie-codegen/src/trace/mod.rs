@@ -8,10 +8,11 @@ mod equation;
 mod sym;
 mod system;
 
+pub(crate) use equation::whole;
 pub use equation::{Formulas, Step, kernels, linearized, step};
 pub use sym::Sym;
 pub use system::{Square, SymbolicSystem};
-pub(crate) use system::{SymbolicFunction, SymbolicGradient};
+pub(crate) use system::{SymbolicActions, SymbolicFunction, SymbolicGradient};
 
 #[cfg(test)]
 mod tests {

@@ -1,7 +1,7 @@
 //! A declared system over expressions: its traits say how the kernels of the declaration look at a point that is
 //! itself an expression.
 
-use lie_core::generic::DiscreteGradient;
+use lie_core::generic::{Actions, DiscreteGradient};
 use lie_core::structure::Plane;
 use lie_core::{
     CayleyPoisson, GeneratingFunction, InertiaPoisson, LiePoisson, Poisson, SpinPoisson,
@@ -9,7 +9,9 @@ use lie_core::{
 };
 
 use super::sym::{Session, Sym, with};
-use crate::derive::{Block, Closed, Generating, Slope, Source, slope};
+use crate::derive::{
+    Block, Closed, Definitions, Generating, Slope, Source, moved, slope, symmetric,
+};
 use crate::structure::inertia::Body;
 use crate::symbolic::{ExprId, Symbol};
 
@@ -253,8 +255,46 @@ impl GeneratingFunction<Sym> for SymbolicFunction {
         });
         write(entries, xi);
     }
-    fn linearize(&mut self, _p: &State, _xi: &mut State, _hessian: &mut Square) {
-        unreachable!("differentiated by the trace")
+    fn linearize(&mut self, p: &State, xi: &mut State, hessian: &mut Square) {
+        let p = ids(p);
+        let (entries, rows) = with(|Session { source, tape, .. }| {
+            let Slope {
+                tape: mut list,
+                mut entries,
+            } = slope(source, self.0);
+            let rows = symmetric(list.jacobian(source, &entries));
+            entries.extend(rows.concat());
+            let mut entries = tape.adopt(source, (&list, &entries), &p);
+            let rows = entries.split_off(p.len());
+            (entries, rows)
+        });
+        write(entries, xi);
+        hessian.entries = rows.into_iter().map(Sym).collect();
+    }
+}
+
+/// Actions in closed form.
+#[derive(Debug, Default)]
+pub(crate) struct SymbolicActions(Definitions);
+
+impl Actions<Sym, SymbolicSystem> for SymbolicActions {
+    fn new(_system: &SymbolicSystem) -> Self {
+        Self::default()
+    }
+    fn act(&mut self, _system: &SymbolicSystem, i: usize, s: Sym, m: &State, out: &mut State) {
+        let m = ids(m);
+        let moved = with(|Session { source, tape, .. }| {
+            let action = source
+                .actions
+                .as_ref()
+                .and_then(|actions| actions[i].clone());
+            let blocks = action.expect("a closed form of each action");
+            let known = self.0.all().len();
+            let moved = moved(source, &blocks, s.0, &m, &mut self.0);
+            tape.extend(source, &self.0.all()[known..]);
+            moved
+        });
+        write(moved, out);
     }
 }
 
