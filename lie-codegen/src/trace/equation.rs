@@ -104,7 +104,7 @@ impl Step {
 
     /// The same step with the name of the argument that holds what the equation takes as given.
     #[must_use]
-    pub fn with(self, given: &'static str) -> Self {
+    pub(crate) fn with(self, given: &'static str) -> Self {
         Self { given, ..self }
     }
 }
@@ -119,7 +119,7 @@ where
 }
 
 /// Runs an equation whose Jacobian is that which it states; the state at the end is the unknown, or found by comparisons.
-pub fn linearized<E>(mut equation: E) -> Step
+pub(crate) fn linearized<E>(mut equation: E) -> Step
 where
     E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>, Matrix = Square>,
 {
@@ -141,13 +141,12 @@ where
     }
 }
 
-/// The kernels of a method: residual, residual with its Jacobian, and the state at the end where it is not the unknown.
-/// `None` where the equation depends on comparisons.
-pub fn kernels(
+/// The trace of a step, its definitions, and the argument that holds what is given from outside. `None` where it depends
+/// on comparisons.
+fn traced(
     source: &mut Source,
-    formulas: &Formulas,
     run: impl FnOnce(&SymbolicSystem, Sym) -> Step,
-) -> Option<Vec<Kernel>> {
+) -> Option<(Step, Tape, Argument)> {
     // Sums and products are ordered by the age of their parts: the state first, then quantities, the unknown, the step.
     let first = Block::COUNT * source.dimension;
     source.coordinates();
@@ -173,11 +172,22 @@ pub fn kernels(
         name: step.given,
         symbols: source.symbols(Block::Given)[..session.given].to_vec(),
     };
+    Some((step, session.tape, given))
+}
+
+/// The kernels of a method: residual, residual with its Jacobian, and where the trace has them the start of the
+/// iteration and the state at the end, unless that is the unknown. `None` where the equation depends on comparisons.
+pub fn kernels(
+    source: &mut Source,
+    formulas: &Formulas,
+    run: impl FnOnce(&SymbolicSystem, Sym) -> Step,
+) -> Option<Vec<Kernel>> {
+    let (step, tape, given) = traced(source, run)?;
     let end = step
         .result
         .filter(|end| *end != source.block(Block::Unknown));
     let (rows, slopes) = match step.rows {
-        Some(rows) => (rows, session.tape.clone()),
+        Some(rows) => (rows, tape.clone()),
         None => differentiated(source, step.of_residual, &step.residual),
     };
     let graph = &source.graph;
@@ -198,14 +208,13 @@ pub fn kernels(
     );
     let result = end.map(|end| Kernel::vector(graph, "result", formulas.result, Vec::new(), &end));
     let guess = step.guess.map(|(guess, formula)| {
-        let kernel = Kernel::vector(graph, "initial_guess", formula, Vec::new(), &guess);
-        (kernel, &session.tape)
+        Kernel::vector(graph, "initial_guess", formula, Vec::new(), &guess)
     });
-    let kernels = guess.into_iter();
-    let kernels = kernels.chain([(residual, &session.tape), (both, &slopes)]);
-    let kernels = kernels.chain(result.map(|result| (result, &session.tape)));
-    let complete = |(kernel, tape): (Kernel, &Tape)| {
-        let mut kernel = source.complete(kernel, tape.definitions(), &given);
+    let kernels = guess.map(|guess| (guess, &tape)).into_iter();
+    let kernels = kernels.chain([(residual, &tape), (both, &slopes)]);
+    let kernels = kernels.chain(result.map(|result| (result, &tape)));
+    let complete = |(kernel, list): (Kernel, &Tape)| {
+        let mut kernel = source.complete(kernel, list.definitions(), &given);
         kernel.task.known = Known::Step;
         kernel
     };
