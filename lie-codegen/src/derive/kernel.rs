@@ -224,10 +224,12 @@ impl Source {
     /// A kernel of a step with the definitions that it needs, and its arguments; `given` where it depends on that.
     pub(crate) fn complete(
         &self,
-        mut kernel: Kernel,
+        kernel: Kernel,
         definitions: &[(Symbol, ExprId)],
         given: &Argument,
     ) -> Kernel {
+        let definitions = self.needed(definitions, &kernel.task.outputs);
+        let mut kernel = kernel.within_step(definitions);
         let unknown = Argument {
             name: "unknown",
             symbols: self.symbols(Block::Unknown),
@@ -236,7 +238,6 @@ impl Source {
             "initial_guess" => vec![mu(self)],
             _ => vec![mu(self), unknown],
         };
-        kernel.task.definitions = self.needed(definitions, &kernel.task.outputs);
         let values = kernel.task.definitions.iter().map(|(_, value)| value);
         let mut symbols = values
             .chain(&kernel.task.outputs)

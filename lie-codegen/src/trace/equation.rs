@@ -5,7 +5,6 @@ use lie_core::{Equation, SquareMatrix};
 use super::sym::{Session, Sym, with, within};
 use super::system::{Square, SymbolicSystem};
 use crate::derive::{Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian};
-use crate::schedule::Known;
 use crate::symbolic::{ExprId, Symbol};
 
 /// A list with more definitions for each entry of the unknown is long.
@@ -213,11 +212,8 @@ pub fn kernels(
     let kernels = guess.map(|guess| (guess, &tape)).into_iter();
     let kernels = kernels.chain([(residual, &tape), (both, &slopes)]);
     let kernels = kernels.chain(result.map(|result| (result, &tape)));
-    let complete = |(kernel, list): (Kernel, &Tape)| {
-        let mut kernel = source.complete(kernel, list.definitions(), &given);
-        kernel.task.known = Known::Step;
-        kernel
-    };
+    let complete =
+        |(kernel, list): (Kernel, &Tape)| source.complete(kernel, list.definitions(), &given);
     Some(kernels.map(complete).collect())
 }
 
