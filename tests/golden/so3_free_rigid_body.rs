@@ -2195,14 +2195,14 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
     fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let [_d_x, _] = ::lie_runtime::generic::sphere_ratios::<
+        let [_given_x, _] = ::lie_runtime::generic::sphere_ratios::<
             S,
             _,
             2,
         >(self.system, &self.base, unknown);
-        let _t0 = (y + _u_y) * _d_x;
-        let _t1 = (z + _u_z) * _d_x;
-        let _t2 = (x + _u_x) * _d_x;
+        let _t0 = (y + _u_y) * _given_x;
+        let _t1 = (z + _u_z) * _given_x;
+        let _t2 = (x + _u_x) * _given_x;
         residual[0] = _u_x - x + _t0 * _t1 * self._h0;
         residual[1] = _u_y - y - _t2 * _t1 * self._h1;
         residual[2] = _u_z - z + _t2 * _t0 * self._h2;
@@ -2220,29 +2220,29 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
     ) {
         let [[x, y, z]] = self.base.data.0;
         let [[_u_x, _u_y, _u_z]] = unknown.data.0;
-        let [_d_x, _d_y] = ::lie_runtime::generic::sphere_ratios::<
+        let [_given_x, _given_y] = ::lie_runtime::generic::sphere_ratios::<
             S,
             _,
             2,
         >(self.system, &self.base, unknown);
         let _t0 = y + _u_y;
-        let _t1 = _t0 * _d_x;
+        let _t1 = _t0 * _given_x;
         let _t2 = z + _u_z;
-        let _t3 = _t2 * _d_x;
+        let _t3 = _t2 * _given_x;
         let _t4 = x + _u_x;
-        let _t5 = _t4 * _d_x;
-        let _t6 = _t4 * _d_y;
-        let _t7 = self.h * _d_x;
+        let _t5 = _t4 * _given_x;
+        let _t6 = _t4 * _given_y;
+        let _t7 = self.h * _given_x;
         let _t8 = _t3 * _t7 * self.system._k6;
         let _t9 = _t1 * _t7;
         let _t10 = self.system._k6 * _t9;
         let _t11 = _t0 * _t8 + _t2 * _t10;
-        let _t12 = _t0 * _d_y;
-        let _t13 = _t2 * _d_y;
+        let _t12 = _t0 * _given_y;
+        let _t13 = _t2 * _given_y;
         let _t14 = self.system._k7 * _t7;
         let _t15 = _t3 * _t14;
         let _t16 = _t5 * _t14;
-        let _t17 = _t15 * _t4 + _t16 * _t2;
+        let _t17 = _t4 * _t15 + _t2 * _t16;
         let _t18 = self.system._k8 * _t9;
         let _t19 = _t5 * _t7 * self.system._k8;
         let _t20 = _t4 * _t18 + _t0 * _t19;
@@ -2252,9 +2252,9 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
         matrix[(0, 0)] = S::one() + _t6 * _t11;
         matrix[(0, 1)] = _t12 * _t11 - _t8;
         matrix[(0, 2)] = _t13 * _t11 - _t10;
-        matrix[(1, 0)] = _t17 * _t6 - _t15;
-        matrix[(1, 1)] = S::one() + _t17 * _t12;
-        matrix[(1, 2)] = _t17 * _t13 - _t16;
+        matrix[(1, 0)] = _t6 * _t17 - _t15;
+        matrix[(1, 1)] = S::one() + _t12 * _t17;
+        matrix[(1, 2)] = _t13 * _t17 - _t16;
         matrix[(2, 0)] = _t6 * _t20 - _t18;
         matrix[(2, 1)] = _t12 * _t20 - _t19;
         matrix[(2, 2)] = S::one() + _t13 * _t20;
@@ -2446,9 +2446,9 @@ for FreeRigidBodyMoserVeselov<'_, S> {
         let _t5 = _u_x * self._h4;
         let _t6 = _u_x * self._h5;
         let _t7 = S::one() / _t3;
-        let _t8 = self.h_over_2_I1 * _t7 * _t0;
-        let _t9 = self.h_over_2_I2 * _t7 * _t1;
-        let _t10 = self.h_over_2_I3 * _t2 * _t7;
+        let _t8 = _t0 * self.h_over_2_I1 * _t7;
+        let _t9 = _t1 * self.h_over_2_I2 * _t7;
+        let _t10 = _t2 * self.h_over_2_I3 * _t7;
         residual[0] = _u_x * _t3 - x + _u_z * _t4;
         residual[1] = _u_y * _t3 - y - _u_z * _t5;
         residual[2] = _u_z * _t3 - z + _u_y * _t6;

@@ -1,4 +1,4 @@
-//! Discrete gradients of a polynomial H in closed form, and the steps along them.
+//! Discrete gradients of a polynomial H in closed form.
 //!
 //! With the ends x and u of a step, `m = (x + u)/2`, `d = u - x` and D the derivative along d, the
 //! increment of a polynomial is a finite sum of odd terms about the middle,
@@ -11,9 +11,6 @@
 //!
 //! For a quadratic H all three are `grad H(m)`.
 
-use std::collections::BTreeSet;
-
-use super::field::mu;
 use super::{Argument, Block, Kernel, Source};
 use crate::exact::Rational;
 use crate::methods::Gradient;
@@ -21,10 +18,11 @@ use crate::symbolic::{ExprId, Symbol};
 
 /// A discrete gradient with its derivative in u, row by row, in the symbols of both ends and of what
 /// is defined from them.
-struct Closed {
-    value: Vec<ExprId>,
-    slopes: Vec<Vec<ExprId>>,
-    definitions: Vec<(Symbol, ExprId)>,
+#[derive(Clone, Debug)]
+pub(crate) struct Closed {
+    pub(crate) value: Vec<ExprId>,
+    pub(crate) slopes: Vec<Vec<ExprId>>,
+    pub(crate) definitions: Vec<(Symbol, ExprId)>,
 }
 
 /// `1/(2^k (k + 1)!)`
@@ -35,7 +33,7 @@ fn mean_coefficient(k: u32) -> Rational {
 
 impl Source {
     /// The closed form for a polynomial H of a degree.
-    fn closed_gradient(&mut self, gradient: Gradient, degree: u32) -> Closed {
+    pub(super) fn closed_gradient(&mut self, gradient: Gradient, degree: u32) -> Closed {
         let (x, u) = (self.coordinates(), self.block(Block::Unknown));
         let mut definitions = Vec::new();
         for (i, symbol) in self.symbols(Block::Middle).into_iter().enumerate() {
@@ -120,7 +118,7 @@ impl Source {
         let correction = self.graph.linear(&terms);
         let middle = self.middle();
         let correction = self.at(&[correction], &middle)[0];
-        let inverse = self.block(Block::Inverse)[0];
+        let inverse = self.block(Block::Given)[0];
         let difference = self.block(Block::Difference);
         for (i, symbol) in self.symbols(Block::Direction).into_iter().enumerate() {
             definitions.push((symbol, self.graph.mul(inverse, difference[i])));
@@ -215,55 +213,6 @@ impl Source {
             .collect()
     }
 
-    /// The definitions that the outputs need, in order.
-    fn needed(
-        &self,
-        definitions: &[(Symbol, ExprId)],
-        outputs: &[ExprId],
-    ) -> Vec<(Symbol, ExprId)> {
-        let mut used: BTreeSet<Symbol> = BTreeSet::new();
-        for output in outputs {
-            used.extend(self.graph.symbols(*output));
-        }
-        let mut kept = Vec::new();
-        for (symbol, value) in definitions.iter().rev() {
-            if used.contains(symbol) {
-                used.extend(self.graph.symbols(*value));
-                kept.push((*symbol, *value));
-            }
-        }
-        kept.reverse();
-        kept
-    }
-
-    /// The kernel with the definitions and arguments that it needs.
-    fn complete(&self, kernel: Kernel, definitions: &[(Symbol, ExprId)], within: bool) -> Kernel {
-        let needed = self.needed(definitions, &kernel.task.outputs);
-        let inverse = self.symbols(Block::Inverse)[0];
-        let of_length = needed
-            .iter()
-            .any(|(_, value)| self.graph.symbols(*value).contains(&inverse));
-        let mut kernel = kernel;
-        kernel.arguments = vec![
-            mu(self),
-            Argument {
-                name: "unknown",
-                symbols: self.symbols(Block::Unknown),
-            },
-        ];
-        if of_length {
-            kernel.arguments.push(Argument {
-                name: "inverse",
-                symbols: vec![inverse],
-            });
-        }
-        if within {
-            return kernel.within_step(needed);
-        }
-        kernel.task.definitions = needed;
-        kernel
-    }
-
     /// Value and derivative of a discrete gradient.
     pub fn gradient_kernels(&mut self, gradient: Gradient, degree: u32) -> Vec<Kernel> {
         let closed = self.closed_gradient(gradient, degree);
@@ -277,103 +226,12 @@ impl Source {
             &closed.value,
             &closed.slopes,
         );
+        let inverse = Argument {
+            name: "inverse",
+            symbols: self.symbols(Block::Given)[..1].to_vec(),
+        };
         [value, both]
-            .into_iter()
-            .map(|kernel| self.complete(kernel, &closed.definitions, false))
-            .collect()
-    }
-
-    /// Residual and Jacobian of `u - mu - h Pi(m) g(mu, u)`.
-    pub fn discrete_gradient_kernels(&mut self, gradient: Gradient, degree: u32) -> Vec<Kernel> {
-        let n = self.dimension;
-        let mut closed = self.closed_gradient(gradient, degree);
-        // entries that vary stay one quantity each
-        let mut g = self.block(Block::Xi);
-        for (i, symbol) in self.symbols(Block::Xi).into_iter().enumerate() {
-            let symbols = self.graph.symbols(closed.value[i]);
-            if symbols
-                .iter()
-                .any(|s| matches!(s, Symbol::Input(_) | Symbol::Coordinate(_)))
-            {
-                closed.definitions.push((symbol, closed.value[i]));
-            } else {
-                g[i] = closed.value[i];
-            }
-        }
-        let (start, unknown) = (self.coordinates(), self.block(Block::Unknown));
-        let (factor, field) = self.field_along(&g);
-        let residual: Vec<ExprId> = (0..n)
-            .map(|i| {
-                let moved = self.graph.mul(factor, field[i]);
-                self.graph.linear(&[
-                    (unknown[i], Rational::ONE),
-                    (start[i], Rational::MINUS_ONE),
-                    (moved, Rational::MINUS_ONE),
-                ])
-            })
-            .collect();
-        let zero = self.graph.integer(0);
-        let mut rows = vec![vec![zero; n]; n];
-        for j in 0..n {
-            let mut unit = vec![zero; n];
-            unit[j] = self.graph.integer(1);
-            let along: Vec<ExprId> = closed.slopes.iter().map(|row| row[j]).collect();
-            let turned = self.turned(&g, &field, &unit, j);
-            let bent = self.bent(&along);
-            for i in 0..n {
-                let sum = self.graph.add(turned[i], bent[i]);
-                let moved = self.graph.mul(factor, sum);
-                rows[i][j] = self.graph.sub(unit[i], moved);
-            }
-        }
-        let graph = &self.graph;
-        let residual_alone = Kernel::vector(
-            graph,
-            "residual",
-            "`r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`",
-            Vec::new(),
-            &residual,
-        );
-        let both = Kernel::fused(
-            graph,
-            "linearize",
-            "`r = u - mu - h Pi(m) g(mu, u)`, `m = (mu + u)/2`, and `dr/du`",
-            Vec::new(),
-            &residual,
-            &rows,
-        );
-        [residual_alone, both]
-            .into_iter()
-            .map(|kernel| self.complete(kernel, &closed.definitions, true))
-            .collect()
-    }
-
-    /// The factor h/2 and `ad*_g s`, whose product is `h Pi(s/2) g`; of another Poisson matrix h and
-    /// `Pi(s/2) g`.
-    fn field_along(&mut self, g: &[ExprId]) -> (ExprId, Vec<ExprId>) {
-        let h = self.graph.symbol(Symbol::Step);
-        if !self.is_lie() {
-            let middle = self.middle();
-            return (h, self.poisson_times(g, &middle));
-        }
-        let sums = self.block(Block::Middle);
-        let half_step = self
-            .graph
-            .scale(h, &Rational::new(1, 2).unwrap_or(Rational::ONE));
-        (half_step, self.ad_star_of(g, &sums))
-    }
-
-    /// The derivative of that field in `u_j`, g fixed.
-    fn turned(&mut self, g: &[ExprId], field: &[ExprId], unit: &[ExprId], j: usize) -> Vec<ExprId> {
-        if self.is_lie() {
-            return self.ad_star_of(g, unit);
-        }
-        let entries = field.iter();
-        entries.map(|entry| self.slope_in_end(*entry, j)).collect()
-    }
-
-    /// That field with another vector in place of g.
-    fn bent(&mut self, along: &[ExprId]) -> Vec<ExprId> {
-        self.field_along(along).1
+            .map(|kernel| self.complete(kernel, &closed.definitions, &inverse))
+            .into()
     }
 }

@@ -12,7 +12,7 @@
 use super::field::mu;
 use super::leaner::{Derived, leaner_jacobian};
 use super::tape::{Tangents, Tape};
-use super::{Argument, Block, Kernel, Source};
+use super::{Argument, Kernel, Source};
 use crate::exact::Rational;
 use crate::methods::Retraction;
 use crate::symbolic::{ExprId, Symbol};
@@ -27,10 +27,10 @@ pub enum Generating {
 }
 
 /// The gradient of S at p as definitions and results.
-pub(super) struct Slope {
-    pub(super) tape: Tape,
+pub(crate) struct Slope {
+    pub(crate) tape: Tape,
     /// `grad S`.
-    pub(super) entries: Vec<ExprId>,
+    pub(crate) entries: Vec<ExprId>,
 }
 
 fn rational(numerator: i64, denominator: i64) -> Rational {
@@ -73,7 +73,7 @@ fn power_of_step(source: &mut Source, power: i64, denominator: i64) -> ExprId {
 }
 
 /// The gradient of S.
-pub(super) fn slope(source: &mut Source, generating: Generating) -> Slope {
+pub(crate) fn slope(source: &mut Source, generating: Generating) -> Slope {
     let n = source.dimension;
     // vectors of the algebra, the unknown and the midpoint have symbols of their own
     let mut tape = Tape::new(source, 4 * n);
@@ -195,7 +195,7 @@ pub struct Function {
 
 /// The arena of a function that is written out, nodes and operands together: seconds of scheduling,
 /// not minutes. Order 6 on su(3) takes 40 000.
-const MOST_SCHEDULED: usize = 60_000;
+pub(super) const MOST_SCHEDULED: usize = 60_000;
 
 /// Whether what was derived is no good, or too much to be written out.
 pub(super) fn too_large(source: &Source, tape: &Tape) -> bool {
@@ -259,20 +259,8 @@ pub(super) fn function(source: &mut Source, generating: Generating) -> Option<Fu
     })
 }
 
-/// Values and derivatives with coordinates and unknown exchanged.
-fn exchange(source: &mut Source, mut derived: Derived) -> Derived {
-    for (_, value) in &mut derived.definitions {
-        *value = exchanged(source, &[*value])[0];
-    }
-    derived.values = exchanged(source, &derived.values);
-    for row in &mut derived.rows {
-        *row = exchanged(source, row);
-    }
-    derived
-}
-
 /// The lower half as the mirror of the upper, so that each entry is computed once.
-pub(super) fn symmetric(mut rows: Vec<Vec<ExprId>>) -> Vec<Vec<ExprId>> {
+pub(crate) fn symmetric(mut rows: Vec<Vec<ExprId>>) -> Vec<Vec<ExprId>> {
     for i in 1..rows.len() {
         let (above, below) = rows.split_at_mut(i);
         for (entry, row) in below[0].iter_mut().zip(above.iter()) {
@@ -280,116 +268,4 @@ pub(super) fn symmetric(mut rows: Vec<Vec<ExprId>>) -> Vec<Vec<ExprId>> {
         }
     }
     rows
-}
-
-/// Residual, Jacobian and result of the method with the Cayley map, unknown p:
-/// `r(p) = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, `mu1 = mu + 2 ad*_y p`.
-/// `None` where their expressions swell.
-pub(super) fn cayley_kernels(source: &mut Source, order: u32) -> Option<Vec<Kernel>> {
-    let n = source.dimension;
-    let generating = Generating::First(Retraction::Cayley, order);
-    let Slope { mut tape, entries } = slope(source, generating);
-    let half = rational(1, 2);
-    let y: Vec<ExprId> = entries
-        .iter()
-        .map(|e| source.graph.scale(*e, &half))
-        .collect();
-    let y = tape.define_all(source, &y);
-    let p = source.coordinates();
-    let start = source.block(Block::Unknown);
-    let action = source.ad_star_of(&y, &p);
-    let square = super::cayley::triple_of(source, &y, &y, &p);
-    let residual: Vec<ExprId> = (0..n)
-        .map(|i| {
-            source.graph.linear(&[
-                (p[i], Rational::ONE),
-                (action[i], Rational::MINUS_ONE),
-                (square[i], Rational::MINUS_ONE),
-                (start[i], Rational::MINUS_ONE),
-            ])
-        })
-        .collect();
-    let result: Vec<ExprId> = (0..n)
-        .map(|i| {
-            source
-                .graph
-                .linear(&[(start[i], Rational::ONE), (action[i], Rational::from(2))])
-        })
-        .collect();
-    let values = tape.definitions().to_vec();
-    let coordinates = mu(source).symbols;
-    let rows = leaner_jacobian(
-        source,
-        &mut tape,
-        &residual,
-        &coordinates,
-        Tangents::Named,
-        &exchange,
-    );
-    let slopes = tape.definitions().to_vec();
-    if too_large(source, &tape) {
-        return None;
-    }
-    // the list was made in the coordinates; the unknown has a block of its own
-    let arguments = vec![
-        mu(source),
-        Argument {
-            name: "unknown",
-            symbols: source.symbols(Block::Unknown),
-        },
-    ];
-    let of_values = Derived {
-        definitions: values,
-        values: result,
-        rows: Vec::new(),
-    };
-    let of_values = exchange(source, of_values);
-    let of_slopes = Derived {
-        definitions: slopes,
-        values: residual,
-        rows,
-    };
-    let of_slopes = exchange(source, of_slopes);
-    let (values, result) = (of_values.definitions, of_values.values);
-    let (slopes, residual, rows) = (of_slopes.definitions, of_slopes.values, of_slopes.rows);
-    let graph = &source.graph;
-    Some(vec![
-        Kernel::vector(
-            graph,
-            "residual",
-            "`r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`",
-            arguments.clone(),
-            &residual,
-        )
-        .within_step(values.clone()),
-        Kernel::fused(
-            graph,
-            "linearize",
-            "`r = p - ad*_y p - Q_y p - mu`, `y = grad S(p)/2`, and `dr/dp`",
-            arguments.clone(),
-            &residual,
-            &rows,
-        )
-        .within_step(slopes),
-        Kernel::vector(
-            graph,
-            "result",
-            "`mu1 = mu + 2 ad*_y p`",
-            arguments,
-            &result,
-        )
-        .within_step(values),
-    ])
-}
-
-/// Coordinates and unknown exchanged.
-pub(super) fn exchanged(source: &mut Source, expressions: &[ExprId]) -> Vec<ExprId> {
-    let (p, start) = (source.block(Block::Unknown), source.coordinates());
-    let unknown = source.symbols(Block::Unknown);
-    source
-        .graph
-        .substitute(expressions, &|symbol| match symbol {
-            Symbol::Coordinate(i) => Some(p[i]),
-            other => unknown.iter().position(|s| *s == other).map(|i| start[i]),
-        })
 }

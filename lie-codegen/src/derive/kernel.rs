@@ -1,8 +1,11 @@
 //! A kernel: named outputs as expressions in its arguments.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
+use super::field::mu;
+use super::{Block, Source};
 use crate::schedule::{Known, Program, Task, schedule, schedule_beside};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
@@ -193,6 +196,56 @@ impl Kernel {
         first.whole = Some((whole.clone(), 0..split));
         second.whole = Some((whole.clone(), split..end));
         both.whole = Some((whole, 0..end));
+    }
+}
+
+impl Source {
+    /// The definitions that outputs depend on, in order.
+    pub(crate) fn needed(
+        &self,
+        definitions: &[(Symbol, ExprId)],
+        outputs: &[ExprId],
+    ) -> Vec<(Symbol, ExprId)> {
+        let mut used: BTreeSet<Symbol> = BTreeSet::new();
+        for output in outputs {
+            used.extend(self.graph.symbols(*output));
+        }
+        let mut kept = Vec::new();
+        for (symbol, value) in definitions.iter().rev() {
+            if used.contains(symbol) {
+                used.extend(self.graph.symbols(*value));
+                kept.push((*symbol, *value));
+            }
+        }
+        kept.reverse();
+        kept
+    }
+
+    /// A kernel of a step with the definitions that it needs, and its arguments; `given` where it depends on that.
+    pub(crate) fn complete(
+        &self,
+        kernel: Kernel,
+        definitions: &[(Symbol, ExprId)],
+        given: &Argument,
+    ) -> Kernel {
+        let definitions = self.needed(definitions, &kernel.task.outputs);
+        let mut kernel = kernel.within_step(definitions);
+        let unknown = Argument {
+            name: "unknown",
+            symbols: self.symbols(Block::Unknown),
+        };
+        kernel.arguments = match kernel.name {
+            "initial_guess" => vec![mu(self)],
+            _ => vec![mu(self), unknown],
+        };
+        let values = kernel.task.definitions.iter().map(|(_, value)| value);
+        let mut symbols = values
+            .chain(&kernel.task.outputs)
+            .flat_map(|value| self.graph.symbols(*value));
+        if symbols.any(|symbol| given.symbols.contains(&symbol)) {
+            kernel.arguments.push(given.clone());
+        }
+        kernel
     }
 }
 

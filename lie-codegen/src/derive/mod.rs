@@ -2,7 +2,6 @@
 
 mod cayley;
 mod coadjoint;
-mod discrete_body;
 mod discrete_gradient;
 mod field;
 mod generating;
@@ -13,21 +12,23 @@ mod poisson;
 mod realization;
 mod second_kind;
 mod source;
-mod spherical;
 mod splitting;
 mod tape;
+mod traced;
 
+pub(crate) use discrete_gradient::Closed;
 pub use generating::{Function, Generating};
+pub(crate) use generating::{Slope, slope, symmetric};
 pub use kernel::{Argument, Kernel, Shape};
 pub(crate) use leaner::{Derived, leaner_jacobian};
 pub use realization::Realization;
+pub(crate) use second_kind::moved;
 pub use source::Source;
+pub(crate) use splitting::Definitions;
 pub use splitting::{PieceKernel, Update};
 pub(crate) use tape::{Tangents, Tape};
 
 use crate::symbolic::{ExprId, Symbol};
-use crate::trace::{self, Formulas};
-use lie_core::generic;
 
 /// Vector arguments of kernels besides the state; each has n symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,8 +45,8 @@ pub(crate) enum Block {
     Difference,
     /// The difference divided by its length.
     Direction,
-    /// Its first symbol: the inverse of that length.
-    Inverse,
+    /// What the runtime computes with comparisons, as the inverse of that length.
+    Given,
     /// Its first symbol: the correction of a gradient along the direction.
     Correction,
     /// How that correction depends on the end of the step.
@@ -216,46 +217,10 @@ impl Source {
         Some(lagrangian::discrete_kernels(self, value))
     }
 
-    /// Residual, Jacobian and result of the Poisson midpoint rule.
-    pub fn midpoint_kernels(&mut self) -> Vec<Kernel> {
-        let formulas = Formulas {
-            residual: "`r = u - mu - h f(m)`, `m = (mu + u)/2`",
-            linearize: "`r = u - mu - h f(m)`, `m = (mu + u)/2`, and `dr/du = 1 - (h/2) Df(m)`",
-            result: "`mu1 = u`",
-        };
-        trace::kernels(self, &formulas, |system, h| {
-            trace::step(generic::Midpoint::new(system, h))
-        })
-        .expect("nothing is compared")
-    }
-
-    /// Residual and Jacobian of the spherical midpoint method.
-    pub fn spherical_kernels(&mut self) -> Option<Vec<Kernel>> {
-        spherical::kernels(self)
-    }
-
-    /// Residual and Jacobian of the discrete rigid body.
-    pub fn discrete_body_kernels(&mut self) -> Option<Vec<Kernel>> {
-        discrete_body::kernels(self)
-    }
-
     /// The map of the realization and its derivatives.
     pub fn realization_kernels(&mut self) -> Option<Vec<Kernel>> {
         let realization = self.realization.clone()?;
         Some(realization::kernels(self, &realization))
-    }
-
-    /// Residual, Jacobian and result of the retraction method with the Cayley map.
-    pub fn cayley_kernels(&mut self) -> Option<Vec<Kernel>> {
-        self.triple.as_ref()?;
-        let formulas = Formulas {
-            residual: "`r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`",
-            linearize: "`r = m - ad*_x m/2 - Q_y m - mu`, `x = h grad H(m)`, `y = x/2`, and `dr/dm`",
-            result: "`mu1 = mu + ad*_x m = mu + h f(m)`",
-        };
-        trace::kernels(self, &formulas, |system, h| {
-            trace::step(generic::CayleyMidpoint::new(system, h))
-        })
     }
 
     /// The flows of the coordinate pieces of a separable Hamiltonian.
@@ -267,20 +232,5 @@ impl Source {
     /// Gradient and Hessian of a generating function; `None` where they swell.
     pub fn generating_function(&mut self, generating: Generating) -> Option<Function> {
         generating::function(self, generating)
-    }
-
-    /// The equation of the generating-function method in coordinates of the second kind; `None`
-    /// where an action has no closed form, or derivatives swell.
-    pub fn second_kind_kernels(&mut self) -> Option<Vec<Kernel>> {
-        second_kind::kernels(self)
-    }
-
-    /// Residual, Jacobian and result of the generating-function method with the Cayley map; `None`
-    /// without a triple product, or where they swell.
-    pub fn cayley_generating_kernels(&mut self, order: u32) -> Option<Vec<Kernel>> {
-        self.triple
-            .is_some()
-            .then(|| generating::cayley_kernels(self, order))
-            .flatten()
     }
 }

@@ -2,21 +2,12 @@
 
 use super::coadjoint::xi;
 use super::field::mu;
-use super::{Kernel, Source};
-use crate::symbolic::{ExprId, Symbol};
+use super::{Block, Kernel, Source};
+use crate::symbolic::ExprId;
 
 /// The derivative against a fixed vector, of which that of a Lie algebra is `ad*_xi`.
 pub(super) fn slope(source: &mut Source) -> Kernel {
-    let (vector, mu_) = (source.block(super::Block::Xi), source.coordinates());
-    let image = source.poisson_times(&vector, &mu_);
-    let rows: Vec<Vec<ExprId>> = image
-        .iter()
-        .map(|entry| {
-            (0..source.dimension)
-                .map(|j| source.graph.derivative(*entry, Symbol::Coordinate(j)))
-                .collect()
-        })
-        .collect();
+    let rows = source.poisson_slope();
     Kernel::matrix(
         &source.graph,
         "poisson_slope",
@@ -42,6 +33,13 @@ impl Source {
     /// Whether the Poisson matrix is that of a Lie algebra alone.
     pub fn is_lie(&self) -> bool {
         self.poisson.is_none()
+    }
+
+    /// `d(Pi(mu) xi)_i/dmu_j` for the vector xi of that block.
+    pub(crate) fn poisson_slope(&mut self) -> Vec<Vec<ExprId>> {
+        let (vector, mu) = (self.block(Block::Xi), self.coordinates());
+        let image = self.poisson_times(&vector, &mu);
+        self.jacobian_of(&image)
     }
 
     /// `Pi(point) xi`, of a Lie algebra `ad*_xi point`.

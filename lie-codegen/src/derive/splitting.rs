@@ -44,14 +44,14 @@ pub enum Update {
 }
 
 /// Definitions under construction, each made once.
-#[derive(Default)]
-pub(super) struct Definitions {
+#[derive(Debug, Default)]
+pub(crate) struct Definitions {
     made: Vec<(Symbol, ExprId)>,
 }
 
 impl Definitions {
     /// The definitions in order.
-    pub(super) fn all(&self) -> &[(Symbol, ExprId)] {
+    pub(crate) fn all(&self) -> &[(Symbol, ExprId)] {
         &self.made
     }
 

@@ -101,6 +101,36 @@ impl Tape {
         values.iter().map(|v| self.define(source, *v)).collect()
     }
 
+    /// Takes over definitions under their own symbols, which no other ones have.
+    pub fn extend(&mut self, source: &mut Source, definitions: &[(Symbol, ExprId)]) {
+        for definition in definitions {
+            if !self.definitions.contains(definition) {
+                let (symbol, value) = *definition;
+                self.definitions.push(*definition);
+                let id = source.graph.symbol(symbol);
+                self.known.entry(value).or_insert(id);
+            }
+        }
+    }
+
+    /// Values of another list, which is in the coordinates, at a point.
+    pub fn adopt(
+        &mut self,
+        source: &mut Source,
+        (list, values): (&Self, &[ExprId]),
+        point: &[ExprId],
+    ) -> Vec<ExprId> {
+        let coordinates = (0..point.len()).map(Symbol::Coordinate);
+        let mut image: HashMap<Symbol, ExprId> = coordinates.zip(point.iter().copied()).collect();
+        for (symbol, value) in &list.definitions {
+            let value = source
+                .graph
+                .substitute(&[*value], &|s| image.get(&s).copied())[0];
+            image.insert(*symbol, self.define(source, value));
+        }
+        source.graph.substitute(values, &|s| image.get(&s).copied())
+    }
+
     /// The gradient of a quantity in the coordinates, by adjoints.
     pub fn gradient(&mut self, source: &mut Source, value: ExprId) -> Vec<ExprId> {
         let mut adjoints: BTreeMap<Symbol, Vec<ExprId>> = BTreeMap::new();

@@ -77,15 +77,7 @@ impl Names {
 
 /// How the locals of each block of inputs begin, in the order of `derive::Block`.
 const PREFIXES: [&str; 9] = [
-    "_xi_",
-    "_eta_",
-    "_u_",
-    "_s_",
-    "_d_",
-    "_e_",
-    "_inverse_",
-    "_along_",
-    "_tilt_",
+    "_xi_", "_eta_", "_u_", "_s_", "_d_", "_e_", "_given_", "_along_", "_tilt_",
 ];
 
 /// The local of a coordinate: its name. One that begins with a capital could be read as a constant

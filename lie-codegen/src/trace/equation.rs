@@ -1,16 +1,14 @@
 //! The equation of a method, written down and differentiated.
 
-use std::collections::BTreeSet;
-
-use lie_core::Equation;
+use lie_core::{Equation, SquareMatrix};
 
 use super::sym::{Session, Sym, with, within};
-use super::system::SymbolicSystem;
+use super::system::{Square, SymbolicSystem};
 use crate::derive::{Argument, Block, Derived, Kernel, Source, Tangents, Tape, leaner_jacobian};
 use crate::symbolic::{ExprId, Symbol};
 
-/// Definitions in order, each may use the earlier ones.
-type Definitions = Vec<(Symbol, ExprId)>;
+/// A list with more definitions for each entry of the unknown is long.
+const LONG: usize = 4;
 
 /// What a step says of itself in formulas.
 #[derive(Clone, Copy, Debug)]
@@ -27,9 +25,87 @@ pub struct Formulas {
 #[derive(Debug)]
 pub struct Step {
     residual: Vec<ExprId>,
-    /// What the residual is made of; the state at the end adds to it.
+    /// What the residual is made of.
     of_residual: Tape,
-    result: Vec<ExprId>,
+    /// The Jacobian, where it is that which the equation states.
+    rows: Option<Vec<Vec<ExprId>>>,
+    /// The state at the end, where the trace has it.
+    result: Option<Vec<ExprId>>,
+    /// Where the iteration begins, where the trace has it, with its formula.
+    guess: Option<(Vec<ExprId>, &'static str)>,
+    /// The argument that holds what is given from outside.
+    given: &'static str,
+}
+
+/// The state before the step.
+fn start() -> Vec<Sym> {
+    symbols(with(|s| s.source.coordinates()))
+}
+
+fn unknown() -> Vec<Sym> {
+    symbols(with(|s| s.source.block(Block::Unknown)))
+}
+
+fn symbols(ids: Vec<ExprId>) -> Vec<Sym> {
+    ids.into_iter().map(Sym).collect()
+}
+
+fn expressions(values: Vec<Sym>) -> Vec<ExprId> {
+    values.into_iter().map(|x| x.0).collect()
+}
+
+impl Step {
+    /// The residual.
+    fn of<E>(equation: &mut E) -> Self
+    where
+        E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>>,
+    {
+        equation.set_base(&start());
+        let mut residual = equation.zero_unknown();
+        equation.residual(&unknown(), &mut residual);
+        Self {
+            residual: expressions(residual),
+            of_residual: with(|s| s.tape.clone()),
+            rows: None,
+            result: None,
+            guess: None,
+            given: "",
+        }
+    }
+
+    /// With the state at the end.
+    fn ending<E>(self, equation: &mut E) -> Self
+    where
+        E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>>,
+    {
+        let mut end = start();
+        equation.result(&unknown(), &mut end);
+        Self {
+            result: Some(expressions(end)),
+            ..self
+        }
+    }
+
+    /// With the Jacobian that the equation states.
+    fn stating<E>(self, equation: &mut E) -> Self
+    where
+        E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>, Matrix = Square>,
+    {
+        let (mut residual, mut matrix) = (equation.zero_unknown(), equation.zero_matrix());
+        equation.linearize(&unknown(), &mut residual, &mut matrix);
+        let columns = 0..residual.len();
+        let row = |i| columns.clone().map(|j| matrix.get(i, j).0).collect();
+        Self {
+            rows: Some(columns.clone().map(row).collect()),
+            ..self
+        }
+    }
+
+    /// The same step with the name of the argument that holds what the equation takes as given.
+    #[must_use]
+    pub(crate) fn with(self, given: &'static str) -> Self {
+        Self { given, ..self }
+    }
 }
 
 /// Runs an equation: the coordinates are the state before the step, the unknown has the symbols of its block.
@@ -38,30 +114,38 @@ pub fn step<E>(mut equation: E) -> Step
 where
     E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>>,
 {
-    let (start, unknown) = with(|s| (s.source.coordinates(), s.source.block(Block::Unknown)));
-    let symbols = |ids: &[ExprId]| ids.iter().map(|id| Sym(*id)).collect::<Vec<_>>();
-    let expressions = |values: Vec<Sym>| values.iter().map(|x| x.0).collect();
-    let (start, unknown) = (symbols(&start), symbols(&unknown));
-    equation.set_base(&start);
-    let mut residual = equation.zero_unknown();
-    equation.residual(&unknown, &mut residual);
-    let of_residual = with(|s| s.tape.clone());
-    let mut end = start;
-    equation.result(&unknown, &mut end);
+    Step::of(&mut equation).ending(&mut equation)
+}
+
+/// Runs an equation whose Jacobian is that which it states; the state at the end is the unknown, or found by comparisons.
+pub(crate) fn linearized<E>(mut equation: E) -> Step
+where
+    E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>, Matrix = Square>,
+{
+    Step::of(&mut equation).stating(&mut equation)
+}
+
+/// Runs an equation whose Jacobian is that which it states, with the state at the end and, under this formula, where the
+/// iteration begins.
+pub(crate) fn whole<E>(mut equation: E, formula: &'static str) -> Step
+where
+    E: Equation<Sym, State = Vec<Sym>, Unknown = Vec<Sym>, Matrix = Square>,
+{
+    let step = Step::of(&mut equation).stating(&mut equation);
+    let mut guess = equation.zero_unknown();
+    equation.initial_guess(&mut guess);
     Step {
-        residual: expressions(residual),
-        of_residual,
-        result: expressions(end),
+        guess: Some((expressions(guess), formula)),
+        ..step.ending(&mut equation)
     }
 }
 
-/// The kernels of a method: residual, residual with its Jacobian, and the state at the end where it is not the unknown.
-/// `None` where the equation depends on comparisons.
-pub fn kernels(
+/// The trace of a step, its definitions, and the argument that holds what is given from outside. `None` where it depends
+/// on comparisons.
+fn traced(
     source: &mut Source,
-    formulas: &Formulas,
     run: impl FnOnce(&SymbolicSystem, Sym) -> Step,
-) -> Option<Vec<Kernel>> {
+) -> Option<(Step, Tape, Argument)> {
     // Sums and products are ordered by the age of their parts: the state first, then quantities, the unknown, the step.
     let first = Block::COUNT * source.dimension;
     source.coordinates();
@@ -75,94 +159,91 @@ pub fn kernels(
     let session = Session {
         source: taken,
         tape,
+        given: 0,
         branched: false,
     };
-    let (traced, session) = within(session, || run(&system, Sym::of(Symbol::Step)));
+    let (step, session) = within(session, || run(&system, Sym::of(Symbol::Step)));
     *source = session.source;
-    if session.branched {
+    if session.branched || (session.given > 0 && step.given.is_empty()) {
         return None;
     }
-    let Step {
-        residual,
-        of_residual: mut tape,
-        result,
-    } = traced;
-    let arguments = vec![
-        Argument {
-            name: "mu",
-            symbols: (0..source.dimension).map(Symbol::Coordinate).collect(),
-        },
-        Argument {
-            name: "unknown",
-            symbols: source.symbols(Block::Unknown),
-        },
-    ];
+    let given = Argument {
+        name: step.given,
+        symbols: source.symbols(Block::Given)[..session.given].to_vec(),
+    };
+    Some((step, session.tape, given))
+}
+
+/// The kernels of a method: residual, residual with its Jacobian, and where the trace has them the start of the
+/// iteration and the state at the end, unless that is the unknown. `None` where the equation depends on comparisons.
+pub fn kernels(
+    source: &mut Source,
+    formulas: &Formulas,
+    run: impl FnOnce(&SymbolicSystem, Sym) -> Step,
+) -> Option<Vec<Kernel>> {
+    let (step, tape, given) = traced(source, run)?;
+    let end = step
+        .result
+        .filter(|end| *end != source.block(Block::Unknown));
+    let (rows, slopes) = match step.rows {
+        Some(rows) => (rows, tape.clone()),
+        None => differentiated(source, step.of_residual, &step.residual),
+    };
+    let graph = &source.graph;
+    let residual = Kernel::vector(
+        graph,
+        "residual",
+        formulas.residual,
+        Vec::new(),
+        &step.residual,
+    );
+    let both = Kernel::fused(
+        graph,
+        "linearize",
+        formulas.linearize,
+        Vec::new(),
+        &step.residual,
+        &rows,
+    );
+    let result = end.map(|end| Kernel::vector(graph, "result", formulas.result, Vec::new(), &end));
+    let guess = step.guess.map(|(guess, formula)| {
+        Kernel::vector(graph, "initial_guess", formula, Vec::new(), &guess)
+    });
+    let kernels = guess.map(|guess| (guess, &tape)).into_iter();
+    let kernels = kernels.chain([(residual, &tape), (both, &slopes)]);
+    let kernels = kernels.chain(result.map(|result| (result, &tape)));
+    let complete =
+        |(kernel, list): (Kernel, &Tape)| source.complete(kernel, list.definitions(), &given);
+    Some(kernels.map(complete).collect())
+}
+
+/// The Jacobian of a residual by differentiation, and the list with its definitions.
+fn differentiated(
+    source: &mut Source,
+    mut tape: Tape,
+    residual: &[ExprId],
+) -> (Vec<Vec<ExprId>>, Tape) {
     let unknown = source.symbols(Block::Unknown);
-    let values = tape.definitions().to_vec();
+    let is_long = tape.definitions().len() > LONG * unknown.len();
+    let preferred = if is_long {
+        Tangents::Named
+    } else {
+        Tangents::Inline
+    };
     let rows = leaner_jacobian(
         source,
         &mut tape,
-        &residual,
+        residual,
         &unknown,
-        Tangents::Inline,
+        preferred,
         &|source, derived| {
             let rows = derived.rows.iter().flatten();
             let entries: Vec<ExprId> = derived.values.iter().chain(rows).copied().collect();
             Derived {
-                definitions: needed(source, &derived.definitions, &entries),
+                definitions: source.needed(&derived.definitions, &entries),
                 ..derived
             }
         },
     );
-    let slopes = tape.definitions().to_vec();
-    let graph = &source.graph;
-    let entries: Vec<ExprId> = residual
-        .iter()
-        .chain(rows.iter().flatten())
-        .copied()
-        .collect();
-    let mut kernels = vec![
-        Kernel::vector(
-            graph,
-            "residual",
-            formulas.residual,
-            arguments.clone(),
-            &residual,
-        )
-        .within_step(needed(source, &values, &residual)),
-        Kernel::fused(
-            graph,
-            "linearize",
-            formulas.linearize,
-            arguments.clone(),
-            &residual,
-            &rows,
-        )
-        .within_step(needed(source, &slopes, &entries)),
-    ];
-    if result != source.block(Block::Unknown) {
-        let definitions = needed(source, session.tape.definitions(), &result);
-        kernels.push(
-            Kernel::vector(&source.graph, "result", formulas.result, arguments, &result)
-                .within_step(definitions),
-        );
-    }
-    Some(kernels)
-}
-
-/// The definitions that outputs depend on.
-fn needed(source: &Source, definitions: &[(Symbol, ExprId)], outputs: &[ExprId]) -> Definitions {
-    let mut used: BTreeSet<Symbol> = BTreeSet::new();
-    for output in outputs {
-        used.extend(source.graph.symbols(*output));
-    }
-    let mut kept: Definitions = Vec::new();
-    for (symbol, value) in definitions.iter().rev() {
-        if used.contains(symbol) {
-            used.extend(source.graph.symbols(*value));
-            kept.push((*symbol, *value));
-        }
-    }
-    kept.reverse();
-    kept
+    (rows, tape)
 }

@@ -2,15 +2,18 @@
 //! over it is to write its formula down, and what is written down is differentiated, scheduled and printed.
 //!
 //! A trace has one path. An equation that compares numbers has several, and is refused; it runs as it is, or
-//! marks what it compares as given from outside.
+//! marks what it compares as given from outside. The Jacobian is found by differentiation, or is that which the
+//! equation states.
 
 mod equation;
 mod sym;
 mod system;
 
 pub use equation::{Formulas, Step, kernels, step};
+pub(crate) use equation::{linearized, whole};
 pub use sym::Sym;
 pub use system::{Square, SymbolicSystem};
+pub(crate) use system::{SymbolicActions, SymbolicFunction, SymbolicGradient};
 
 #[cfg(test)]
 mod tests {

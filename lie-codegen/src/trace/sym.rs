@@ -6,7 +6,7 @@ use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssi
 use lie_core::Scalar;
 use lie_core::scalar::Pack;
 
-use crate::derive::{Source, Tape};
+use crate::derive::{Block, Source, Tape};
 use crate::exact::Rational;
 use crate::symbolic::{ExprId, Function, Symbol};
 
@@ -14,6 +14,8 @@ use crate::symbolic::{ExprId, Function, Symbol};
 pub(super) struct Session {
     pub(super) source: Source,
     pub(super) tape: Tape,
+    /// How many numbers were taken for arguments.
+    pub(super) given: usize,
     /// Whether something was asked that has no answer for an expression.
     pub(super) branched: bool,
 }
@@ -131,6 +133,14 @@ impl Scalar for Sym {
 
     fn quantity(self) -> Self {
         Self(with(|s| s.tape.define(&mut s.source, self.0)))
+    }
+
+    fn given<const K: usize>(first: usize, _compute: impl FnOnce() -> [Self; K]) -> [Self; K] {
+        with(|s| {
+            s.given = s.given.max(first + K);
+            let symbols = s.source.block(Block::Given);
+            std::array::from_fn(|k| Self(symbols[first + k]))
+        })
     }
 
     fn splat(lane: Self) -> Self {

@@ -1,11 +1,19 @@
 //! A declared system over expressions: its traits say how the kernels of the declaration look at a point that is
 //! itself an expression.
 
-use lie_core::{CayleyPoisson, LiePoisson, Poisson, SquareMatrix};
+use lie_core::generic::{Actions, DiscreteGradient};
+use lie_core::structure::Plane;
+use lie_core::{
+    CayleyPoisson, GeneratingFunction, InertiaPoisson, LiePoisson, Poisson, SpinPoisson,
+    SquareMatrix,
+};
 
 use super::sym::{Session, Sym, with};
-use crate::derive::Source;
-use crate::symbolic::ExprId;
+use crate::derive::{
+    Block, Closed, Definitions, Generating, Slope, Source, moved, slope, symmetric,
+};
+use crate::structure::inertia::Body;
+use crate::symbolic::{ExprId, Symbol};
 
 /// A square matrix of expressions, row by row.
 #[derive(Clone, Debug)]
@@ -32,12 +40,50 @@ type State = Vec<Sym>;
 #[derive(Clone, Debug)]
 pub struct SymbolicSystem {
     dimension: usize,
+    spins: Vec<[usize; 3]>,
+    scales: Vec<Sym>,
+    planes: Vec<Plane>,
+    moments: Vec<Sym>,
+    closed: Option<Closed>,
 }
 
 impl SymbolicSystem {
     pub(super) fn of(source: &Source) -> Self {
+        let spins = source.spins.iter().flatten();
+        let (spins, scales) = spins.map(|s| (s.coordinates, Sym(s.scale))).unzip();
+        let (planes, moments) = match &source.body {
+            Some(Body::Many { planes, moments }) => (planes.as_slice(), moments.as_slice()),
+            _ => Default::default(),
+        };
+        let planes = planes.iter();
         Self {
             dimension: source.dimension,
+            spins,
+            scales,
+            planes: planes
+                .map(|&(from, to)| Plane::new(from as u16, to as u16))
+                .collect(),
+            moments: moments.iter().map(|moment| Sym(*moment)).collect(),
+            closed: None,
+        }
+    }
+
+    /// The system with a discrete gradient.
+    pub(crate) fn along(&self, closed: Closed) -> Self {
+        Self {
+            closed: Some(closed),
+            ..self.clone()
+        }
+    }
+
+    fn gradient(&self) -> &Closed {
+        self.closed.as_ref().expect("a system with a gradient")
+    }
+
+    fn zeros(size: usize) -> Square {
+        Square {
+            size,
+            entries: vec![Sym::default(); size * size],
         }
     }
 
@@ -87,10 +133,7 @@ impl Poisson<Sym> for SymbolicSystem {
         vec![Sym::default(); self.dimension]
     }
     fn zero_jacobian(&self) -> Square {
-        Square {
-            size: self.dimension,
-            entries: vec![Sym::default(); self.dimension * self.dimension],
-        }
+        Self::zeros(self.dimension)
     }
 
     fn hamiltonian(&self, mu: &State) -> Sym {
@@ -114,6 +157,17 @@ impl Poisson<Sym> for SymbolicSystem {
             source.jacobian_of(&field).concat()
         };
         self.matrix(Self::at(entries, mu), out);
+    }
+    fn poisson_slope(&self, mu: &State, xi: &State, out: &mut Square) {
+        let (mu, xi) = (ids(mu), ids(xi));
+        let entries = with(|Session { source, .. }| {
+            let (entries, vector) = (source.poisson_slope().concat(), source.symbols(Block::Xi));
+            source.graph.substitute(&entries, &|symbol| match symbol {
+                Symbol::Coordinate(i) => Some(mu[i]),
+                other => vector.iter().position(|s| *s == other).map(|i| xi[i]),
+            })
+        });
+        self.matrix(entries.into_iter().map(Sym).collect(), out);
     }
     fn casimirs(&self, _mu: &State, _out: &mut [Sym]) {}
     fn casimir_gradient(&self, _index: usize, _mu: &State, _out: &mut State) {}
@@ -139,5 +193,129 @@ impl CayleyPoisson<Sym> for SymbolicSystem {
     fn triple(&self, x: &State, z: &State, mu: &State, out: &mut State) {
         let (x, z, mu) = (ids(x), ids(z), ids(mu));
         write(with(|s| s.source.triple_of(&x, &z, &mu)), out);
+    }
+}
+
+/// The discrete gradient in closed form that a system is given.
+#[derive(Debug)]
+pub(crate) struct SymbolicGradient;
+
+impl DiscreteGradient<Sym, SymbolicSystem> for SymbolicGradient {
+    fn new(_system: &SymbolicSystem) -> Self {
+        Self
+    }
+    fn set_start(&mut self, _system: &SymbolicSystem, _start: &State) {}
+    fn value(&mut self, system: &SymbolicSystem, _end: &State, out: &mut State) {
+        let Closed {
+            value, definitions, ..
+        } = system.gradient();
+        let value = with(
+            |Session {
+                 source,
+                 tape,
+                 given,
+                 ..
+             }| {
+                *given = 1;
+                tape.extend(source, definitions);
+                tape.define_all(source, value)
+            },
+        );
+        write(value, out);
+    }
+    fn linearize(
+        &mut self,
+        system: &SymbolicSystem,
+        end: &State,
+        out: &mut State,
+        derivative: &mut Square,
+    ) {
+        self.value(system, end, out);
+        let slopes = system.gradient().slopes.concat();
+        system.matrix(slopes.into_iter().map(Sym).collect(), derivative);
+    }
+}
+
+/// A generating function whose gradient is derived in closed form.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SymbolicFunction(pub(crate) Generating);
+
+impl GeneratingFunction<Sym> for SymbolicFunction {
+    type State = State;
+    type Jacobian = Square;
+
+    fn gradient(&mut self, p: &State, xi: &mut State) {
+        let p = ids(p);
+        let entries = with(|Session { source, tape, .. }| {
+            let Slope {
+                tape: list,
+                entries,
+            } = slope(source, self.0);
+            tape.adopt(source, (&list, &entries), &p)
+        });
+        write(entries, xi);
+    }
+    fn linearize(&mut self, p: &State, xi: &mut State, hessian: &mut Square) {
+        let p = ids(p);
+        let (entries, rows) = with(|Session { source, tape, .. }| {
+            let Slope {
+                tape: mut list,
+                mut entries,
+            } = slope(source, self.0);
+            let rows = symmetric(list.jacobian(source, &entries));
+            entries.extend(rows.concat());
+            let mut entries = tape.adopt(source, (&list, &entries), &p);
+            let rows = entries.split_off(p.len());
+            (entries, rows)
+        });
+        write(entries, xi);
+        hessian.entries = rows.into_iter().map(Sym).collect();
+    }
+}
+
+/// Actions in closed form.
+#[derive(Debug, Default)]
+pub(crate) struct SymbolicActions(Definitions);
+
+impl Actions<Sym, SymbolicSystem> for SymbolicActions {
+    fn new(_system: &SymbolicSystem) -> Self {
+        Self::default()
+    }
+    fn act(&mut self, _system: &SymbolicSystem, i: usize, s: Sym, m: &State, out: &mut State) {
+        let m = ids(m);
+        let moved = with(|Session { source, tape, .. }| {
+            let action = source
+                .actions
+                .as_ref()
+                .and_then(|actions| actions[i].clone());
+            let blocks = action.expect("a closed form of each action");
+            let known = self.0.all().len();
+            let moved = moved(source, &blocks, s.0, &m, &mut self.0);
+            tape.extend(source, &self.0.all()[known..]);
+            moved
+        });
+        write(moved, out);
+    }
+}
+
+impl SpinPoisson<Sym> for SymbolicSystem {
+    fn spins(&self) -> &[[usize; 3]] {
+        &self.spins
+    }
+    fn scale(&self, spin: usize) -> Sym {
+        self.scales[spin]
+    }
+}
+
+impl InertiaPoisson<Sym> for SymbolicSystem {
+    type Matrix = Square;
+    fn planes(&self) -> &[Plane] {
+        &self.planes
+    }
+    fn zero_matrix(&self) -> Square {
+        Self::zeros(self.moments.len())
+    }
+    fn moment(&self, axis: usize) -> Sym {
+        self.moments[axis]
     }
 }

@@ -62,16 +62,24 @@ where
         }
     }
 
-    /// Computes the residual for the direction.
-    fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) {
-        let half = S::ratio(1.0, 2.0);
-        let [action, triple, y, _] = &mut self.columns;
-        for (y, &x) in y.as_mut_slice().iter_mut().zip(self.direction.as_slice()) {
-            *y = (half * x).quantity();
+    /// Computes `y = xi/2` and `ad*_xi p` for the direction xi.
+    fn set_action(&mut self, unknown: &P::State) {
+        let [action, _, y, _] = &mut self.columns;
+        let directions = self.direction.as_mut_slice().iter_mut();
+        for (y, x) in y.as_mut_slice().iter_mut().zip(directions) {
+            *y = (S::ratio(1.0, 2.0) * *x).quantity();
+            *x = *y + *y;
         }
-        self.system.triple(y, y, unknown, triple);
         self.function
             .motion(self.system, unknown, &self.direction, action);
+    }
+
+    /// Computes the residual for the direction.
+    fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) {
+        self.set_action(unknown);
+        let half = S::ratio(1.0, 2.0);
+        let [action, triple, y, _] = &mut self.columns;
+        self.system.triple(y, y, unknown, triple);
         for (row, out) in residual.as_mut_slice().iter_mut().enumerate() {
             let corrections = half * action.as_slice()[row] + triple.as_slice()[row];
             *out = unknown.as_slice()[row] - corrections - self.base.as_slice()[row];
@@ -153,9 +161,8 @@ where
 
     fn result(&mut self, unknown: &P::State, mu: &mut P::State) {
         self.function.gradient(unknown, &mut self.direction);
-        let [action, ..] = &mut self.columns;
-        self.function
-            .motion(self.system, unknown, &self.direction, action);
+        self.set_action(unknown);
+        let [action, ..] = &self.columns;
         for (row, out) in mu.as_mut_slice().iter_mut().enumerate() {
             *out = self.base.as_slice()[row] + action.as_slice()[row];
         }

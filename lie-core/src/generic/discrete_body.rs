@@ -32,7 +32,7 @@ pub struct DiscreteBody<'a, S: Scalar, P: InertiaPoisson<S>> {
     hessian: P::Jacobian,
     /// M
     momentum: P::Matrix,
-    /// X
+    /// X/2
     rotation: P::Matrix,
     /// `Y = M (1 + X/2)`, and other products
     product: P::Matrix,
@@ -57,22 +57,23 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
         }
     }
 
-    /// Sets X, Y and `(1 - X/2) M (1 + X/2)`.
+    /// Sets X/2, Y and `(1 - X/2) M (1 + X/2)`.
     fn set(&mut self, unknown: &P::State) {
         self.system.gradient(unknown, &mut self.direction);
+        let half = self.step * S::ratio(1.0, 2.0);
         for entry in self.direction.as_mut_slice() {
-            *entry *= self.step;
+            *entry = (half * *entry).quantity();
         }
         antisymmetric(self.system, &self.direction, &mut self.rotation);
         let size = self.momentum.dimension();
-        let half = S::ratio(1.0, 2.0);
         for r in 0..size {
             for c in 0..size {
                 let mut sum = S::zero();
                 for k in 0..size {
                     sum += self.momentum.get(r, k) * self.rotation.get(k, c);
                 }
-                self.product.set(r, c, self.momentum.get(r, c) + half * sum);
+                let entry = self.momentum.get(r, c) + sum;
+                self.product.set(r, c, entry.quantity());
             }
         }
         for r in 0..size {
@@ -81,8 +82,7 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
                 for k in 0..size {
                     sum += self.rotation.get(r, k) * self.product.get(k, c);
                 }
-                self.transformed
-                    .set(r, c, self.product.get(r, c) - half * sum);
+                self.transformed.set(r, c, self.product.get(r, c) - sum);
             }
         }
     }
@@ -100,12 +100,11 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
     /// not a number where that does not converge.
     fn logarithm(&mut self, xi: &mut P::State) {
         let size = self.momentum.dimension();
-        let quarter = S::ratio(1.0, 4.0);
         copy(&self.rotation, &mut self.product);
         xi.fill(S::zero());
         let mut settled = S::Mask::splat(false);
         for term in 0..LOGARITHM {
-            let weight = S::ratio(1.0, (2 * term + 1) as f64);
+            let weight = S::ratio(2.0, (2 * term + 1) as f64);
             let mut largest = S::zero();
             for (out, plane) in xi.as_mut_slice().iter_mut().zip(self.system.planes()) {
                 let (from, to) = axes(plane);
@@ -117,7 +116,7 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
             if settled.all() {
                 break;
             }
-            // X^(2 k + 1) to X^(2 k + 3)/4
+            // (X/2)^(2 k + 1) to (X/2)^(2 k + 3)
             for _ in 0..2 {
                 for r in 0..size {
                     for c in 0..size {
@@ -130,11 +129,6 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
                 }
                 copy(&self.transformed, &mut self.product);
             }
-            for r in 0..size {
-                for c in 0..size {
-                    self.product.set(r, c, quarter * self.product.get(r, c));
-                }
-            }
         }
         for entry in xi.as_mut_slice() {
             *entry = S::select(settled, *entry, S::from_f64(f64::NAN));
@@ -144,7 +138,6 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
     /// 0 where the pivots of `J + X J X/4` have the signs of those of J, and not a number elsewhere.
     fn off_the_branch(&mut self) -> S {
         let size = self.momentum.dimension();
-        let quarter = S::ratio(1.0, 4.0);
         for r in 0..size {
             for c in 0..size {
                 let mut sum = S::zero();
@@ -157,7 +150,7 @@ impl<'a, S: Scalar, P: InertiaPoisson<S>> DiscreteBody<'a, S, P> {
                 } else {
                     S::zero()
                 };
-                self.product.set(r, c, diagonal + quarter * sum);
+                self.product.set(r, c, diagonal + sum);
             }
         }
         dense::factor(&mut self.product);
@@ -244,13 +237,11 @@ impl<S: Scalar, P: InertiaPoisson<S>> Equation<S> for DiscreteBody<'_, S, P> {
         self.set(unknown);
         let poison = self.off_the_branch();
         let size = self.momentum.dimension();
-        let half = S::ratio(1.0, 2.0);
         // the leading minors of 1 + X/2 are at least 1
         for r in 0..size {
             for c in 0..size {
                 let identity = if r == c { S::one() } else { S::zero() };
-                self.product
-                    .set(r, c, identity + half * self.rotation.get(r, c));
+                self.product.set(r, c, identity + self.rotation.get(r, c));
             }
         }
         dense::factor(&mut self.product);
@@ -267,7 +258,7 @@ impl<S: Scalar, P: InertiaPoisson<S>> Equation<S> for DiscreteBody<'_, S, P> {
                 sum += self.rotation.get(to, k) * self.transformed.get(k, from);
                 sum -= self.transformed.get(to, k) * self.rotation.get(k, from);
             }
-            *out = *out + sum + poison;
+            *out = *out + S::from_f64(2.0) * sum + poison;
         }
     }
 }

@@ -54,10 +54,10 @@ impl<'a, S: Scalar, P: SpinPoisson<S>> DiscreteTop<'a, S, P> {
         self.system.gradient(unknown, &mut self.direction);
         let mut square = S::zero();
         for entry in self.direction.as_mut_slice() {
-            *entry *= self.half;
+            *entry = (self.half * *entry).quantity();
             square += *entry * *entry;
         }
-        (S::one() - square).sqrt()
+        (S::one() - square).sqrt().quantity()
     }
 
     fn write_residual(&self, real: S, unknown: &P::State, residual: &mut P::State) {
@@ -105,9 +105,10 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for DiscreteTop<'_, S, P> {
         self.system.hessian(unknown, &mut self.hessian);
         self.write_residual(real, unknown, residual);
         let half = self.step * S::ratio(1.0, 2.0);
+        let inverse = (S::one() / real).quantity();
         for column in 0..self.system.dimension() {
             let curvature = self.half * self.hessian.get(column, column);
-            let slope = self.direction.as_slice()[column] * curvature / real;
+            let slope = (self.direction.as_slice()[column] * curvature * inverse).quantity();
             for (row, &u) in unknown.as_slice().iter().enumerate() {
                 let identity = if row == column { real } else { S::zero() };
                 let entry = identity - u * slope - half * self.jacobian.get(row, column);

@@ -70,7 +70,7 @@ pub use quadrature::{MAX_NODES, Quadrature};
 pub use quaternion_stages::QuaternionStages;
 pub use quaternion_stages::product as quaternion_product;
 pub use realized::{Canonical, Lifting};
-pub use second_kind::SecondKind;
+pub use second_kind::{Actions, SecondKind, SeriesActions};
 pub(crate) use series::{Scratch, coadjoint_action_in};
 pub use series::{coadjoint_action, dexp_dual};
 pub use spherical::{Spherical, sphere_ratio, sphere_ratios};

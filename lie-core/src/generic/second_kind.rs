@@ -7,9 +7,40 @@ use crate::generating::GeneratingFunction;
 use crate::matrix::SquareMatrix;
 use crate::methods::Retraction;
 use crate::newton::dense;
-use crate::poisson::{LiePoisson, Lift};
+use crate::poisson::{LiePoisson, Lift, Poisson};
 use crate::scalar::{Dual, Scalar};
 use crate::state::State;
+
+/// How momenta move along the elements of the basis.
+pub trait Actions<S: Scalar, P: LiePoisson<S>> {
+    /// The actions with their scratch space.
+    fn new(system: &P) -> Self;
+    /// `out = exp(s ad*_(e_i)) m`
+    fn act(&mut self, system: &P, i: usize, s: S, m: &P::State, out: &mut P::State);
+}
+
+/// Actions by the series of the exponential.
+#[derive(Clone, Debug)]
+pub struct SeriesActions<V> {
+    element: V,
+    scratch: Scratch<V>,
+}
+
+impl<S: Scalar, P: LiePoisson<S>> Actions<S, P> for SeriesActions<P::State> {
+    fn new(system: &P) -> Self {
+        let zero = system.zero_state();
+        Self {
+            scratch: Scratch::new(&zero),
+            element: zero,
+        }
+    }
+
+    fn act(&mut self, system: &P, i: usize, s: S, m: &P::State, out: &mut P::State) {
+        self.element.as_mut_slice()[i] = s;
+        coadjoint_action_in(system, &self.element, m, out, &mut self.scratch);
+        self.element.as_mut_slice()[i] = S::zero();
+    }
+}
 
 /// The method `mu1 = Ad*_g mu` with `g = exp(xi_1 e_1) … exp(xi_n e_n)`, `xi = grad S(p)`, for any
 /// Lie algebra.
@@ -21,15 +52,19 @@ use crate::state::State;
 /// Jacobian: `dm_i/dxi_l` is `ad*_(e_l) m_l` moved on by the actions l+1 to i.
 /// Start: the fixed-point form of the equation at mu.
 #[derive(Clone, Debug)]
-pub struct SecondKind<'a, S: Scalar, P: LiePoisson<S>, G> {
+pub struct SecondKind<'a, S, P, G, A = SeriesActions<<P as Poisson<S>>::State>>
+where
+    S: Scalar,
+    P: LiePoisson<S>,
+{
     system: &'a P,
     function: G,
+    actions: A,
     base: P::State,
     xi: P::State,
     hessian: P::Jacobian,
     tangents: P::Jacobian,
-    scratch: Scratch<P::State>,
-    columns: [P::State; 4],
+    columns: [P::State; 3],
 }
 
 impl<'a, S, P> SecondKind<'a, S, P, SecondKind2<'a, S, P>>
@@ -52,29 +87,40 @@ where
 {
     /// The equation of the step of a generating function.
     pub fn with_function(system: &'a P, function: G) -> Self {
+        Self::with_actions(system, function)
+    }
+}
+
+impl<'a, S, P, G, A> SecondKind<'a, S, P, G, A>
+where
+    S: Scalar,
+    P: LiePoisson<S>,
+    G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
+    A: Actions<S, P>,
+{
+    /// The same by actions of any kind.
+    pub fn with_actions(system: &'a P, function: G) -> Self {
         let zero = system.zero_state();
         Self {
             system,
             function,
+            actions: A::new(system),
             base: zero.clone(),
             xi: zero.clone(),
             hessian: system.zero_jacobian(),
             tangents: system.zero_jacobian(),
-            scratch: Scratch::new(&zero),
             columns: core::array::from_fn(|_| zero.clone()),
         }
     }
 
     /// Calls `visit` with i and `m_(i-1)` before each action and leaves `m_n` in `columns[0]`.
     fn walk(&mut self, mut visit: impl FnMut(usize, &P::State)) {
-        let [moment, one, moved, _] = &mut self.columns;
+        let [moment, moved, _] = &mut self.columns;
         moment.copy_from(&self.base);
-        one.fill(S::zero());
         for i in 0..self.system.dimension() {
             visit(i, moment);
-            one.as_mut_slice()[i] = self.xi.as_slice()[i];
-            coadjoint_action_in(self.system, one, &*moment, moved, &mut self.scratch);
-            one.as_mut_slice()[i] = S::zero();
+            let s = self.xi.as_slice()[i].quantity();
+            self.actions.act(self.system, i, s, moment, moved);
             core::mem::swap(moment, moved);
         }
     }
@@ -86,11 +132,12 @@ where
     }
 }
 
-impl<S, P, G> Equation<S> for SecondKind<'_, S, P, G>
+impl<S, P, G, A> Equation<S> for SecondKind<'_, S, P, G, A>
 where
     S: Scalar,
     P: LiePoisson<S>,
     G: GeneratingFunction<S, State = P::State, Jacobian = P::Jacobian>,
+    A: Actions<S, P>,
 {
     type State = P::State;
     type Unknown = P::State;
@@ -121,22 +168,21 @@ where
     fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
         self.function
             .linearize(unknown, &mut self.xi, &mut self.hessian);
-        let [moment, one, moved, column] = &mut self.columns;
-        let (system, scratch) = (self.system, &mut self.scratch);
+        let [moment, moved, column] = &mut self.columns;
+        let (system, actions) = (self.system, &mut self.actions);
         moment.copy_from(&self.base);
-        one.fill(S::zero());
         for i in 0..self.system.dimension() {
             residual.as_mut_slice()[i] = unknown.as_slice()[i] - moment.as_slice()[i];
             // dm_(i-1)/dxi_l; component i stays when action i moves the rest
             for j in 0..self.system.dimension() {
                 let mut sum = if i == j { S::one() } else { S::zero() };
                 for l in 0..i {
-                    sum -= self.tangents.get(i, l) * self.hessian.get(l, j);
+                    sum -= self.tangents.get(i, l) * self.hessian.get(l, j).quantity();
                 }
                 matrix.set(i, j, sum);
             }
-            one.as_mut_slice()[i] = self.xi.as_slice()[i];
-            coadjoint_action_in(system, one, &*moment, moved, scratch);
+            let s = self.xi.as_slice()[i].quantity();
+            actions.act(system, i, s, moment, moved);
             core::mem::swap(moment, moved);
             if i + 1 == self.system.dimension() {
                 break;
@@ -145,17 +191,17 @@ where
                 for (row, entry) in column.as_mut_slice().iter_mut().enumerate() {
                     *entry = self.tangents.get(row, l);
                 }
-                coadjoint_action_in(system, one, &*column, moved, scratch);
+                actions.act(system, i, s, column, moved);
                 for (row, &entry) in moved.as_slice().iter().enumerate() {
                     self.tangents.set(row, l, entry);
                 }
             }
-            one.as_mut_slice()[i] = S::one();
-            system.ad_star(one, moment, column);
+            moved.fill(S::zero());
+            moved.as_mut_slice()[i] = S::one();
+            system.ad_star(moved, moment, column);
             for (row, &entry) in column.as_slice().iter().enumerate() {
                 self.tangents.set(row, i, entry);
             }
-            one.as_mut_slice()[i] = S::zero();
         }
     }
 

@@ -11,7 +11,7 @@ use crate::structure::SpinPoisson;
 
 /// `|mu| / |s|` for the momentum mu of a spin and the sum s of its ends, and `1 / s.s`; 1 and 0 where the sum
 /// is zero and mu is, and not a number where only the sum is.
-pub fn sphere_ratio<S: Scalar>(mu: [S; 3], sum: [S; 3]) -> (S, S) {
+pub fn sphere_ratio<S: Scalar>(mu: [S; 3], sum: [S; 3]) -> [S; 2] {
     let square = |v: [S; 3]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     let (start, sum) = (square(mu), square(sum));
     let zero = S::zero();
@@ -19,10 +19,10 @@ pub fn sphere_ratio<S: Scalar>(mu: [S; 3], sum: [S; 3]) -> (S, S) {
     let divisor = S::select(resting, S::one(), sum);
     let ratio = (start / divisor).sqrt();
     let antipodal = S::select(start.less_equal(zero), S::one(), S::from_f64(f64::NAN));
-    (
+    [
         S::select(resting, antipodal, ratio),
         S::select(resting, zero, S::one() / divisor),
-    )
+    ]
 }
 
 /// [`sphere_ratio`] of all spins, one after the other; K is twice their number.
@@ -35,9 +35,8 @@ pub fn sphere_ratios<S: Scalar, P: SpinPoisson<S>, const K: usize>(
     let mut ratios = [S::zero(); K];
     for (index, spin) in _system.spins().iter().enumerate() {
         let sum = spin.map(|k| mu[k] + unknown[k]);
-        let (ratio, inverse) = sphere_ratio(spin.map(|k| mu[k]), sum);
-        ratios[2 * index] = ratio;
-        ratios[2 * index + 1] = inverse;
+        let of_spin = sphere_ratio(spin.map(|k| mu[k]), sum);
+        ratios[2 * index..][..2].copy_from_slice(&of_spin);
     }
     ratios
 }
@@ -72,20 +71,20 @@ impl<'a, S: Scalar, P: SpinPoisson<S>> Spherical<'a, S, P> {
     }
 
     /// The sum of the ends of a spin, and [`sphere_ratio`].
-    fn sum(&self, spin: &[usize; 3], unknown: &P::State) -> ([S; 3], S, S) {
+    fn sum(&self, index: usize, unknown: &P::State) -> ([S; 3], [S; 2]) {
         let (mu, unknown) = (self.base.as_slice(), unknown.as_slice());
-        let start = spin.map(|k| mu[k]);
-        let sum = spin.map(|k| mu[k] + unknown[k]);
-        let (ratio, inverse) = sphere_ratio(start, sum);
-        (sum, ratio, inverse)
+        let spin = self.system.spins()[index];
+        let sum = spin.map(|k| (mu[k] + unknown[k]).quantity());
+        let ratios = S::given(2 * index, || sphere_ratio(spin.map(|k| mu[k]), sum));
+        (sum, ratios)
     }
 
     /// Sets the point to w.
     fn set_point(&mut self, unknown: &P::State) {
-        for spin in self.system.spins() {
-            let (sum, ratio, _) = self.sum(spin, unknown);
+        for (index, spin) in self.system.spins().iter().enumerate() {
+            let (sum, [ratio, _]) = self.sum(index, unknown);
             for (k, &coordinate) in spin.iter().enumerate() {
-                self.point.as_mut_slice()[coordinate] = ratio * sum[k];
+                self.point.as_mut_slice()[coordinate] = (ratio * sum[k]).quantity();
             }
         }
     }
@@ -132,16 +131,17 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
         self.system
             .linearize(&self.point, &mut self.field, &mut self.jacobian);
         self.write_residual(unknown, residual);
-        for spin in self.system.spins() {
-            let (sum, ratio, inverse) = self.sum(spin, unknown);
-            let factor = self.step * ratio;
+        for (index, spin) in self.system.spins().iter().enumerate() {
+            let (sum, [ratio, inverse]) = self.sum(index, unknown);
+            let factor = (self.step * ratio).quantity();
+            let scaled = sum.map(|entry| (entry * inverse).quantity());
             for row in 0..self.system.dimension() {
-                let slopes = spin.map(|k| factor * self.jacobian.get(row, k));
+                let slopes = spin.map(|k| (factor * self.jacobian.get(row, k)).quantity());
                 let along = slopes[0] * sum[0] + slopes[1] * sum[1] + slopes[2] * sum[2];
+                let along = along.quantity();
                 for (k, &column) in spin.iter().enumerate() {
                     let identity = if row == column { S::one() } else { S::zero() };
-                    let tangent = slopes[k] - along * (sum[k] * inverse);
-                    matrix.set(row, column, identity - tangent);
+                    matrix.set(row, column, identity - (slopes[k] - along * scaled[k]));
                 }
             }
         }
@@ -160,7 +160,7 @@ impl<S: Scalar, P: SpinPoisson<S>> Equation<S> for Spherical<'_, S, P> {
         self.system.gradient(&self.point, &mut self.field);
         for (index, spin) in self.system.spins().iter().enumerate() {
             // u - mu = ad*_x (u + mu)/2 with x = 2 h (|mu|/|s|) grad H: the rotation of the quaternion (1, c x/2)
-            let (scale, (_, ratio, _)) = (self.system.scale(index), self.sum(spin, unknown));
+            let (scale, (_, [ratio, _])) = (self.system.scale(index), self.sum(index, unknown));
             let factor = scale * self.step * ratio;
             let axis = spin.map(|k| factor * self.field.as_slice()[k]);
             for (&k, entry) in spin.iter().zip(rotation_vector(S::one(), axis)) {

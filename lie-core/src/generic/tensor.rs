@@ -55,7 +55,7 @@ fn middle<S: Scalar, P: Poisson<S>>(system: &P, start: &P::State, end: &P::State
     let mut middle = system.zero_state();
     let pairs = start.as_slice().iter().zip(end.as_slice());
     for (middle, (&x, &y)) in middle.as_mut_slice().iter_mut().zip(pairs) {
-        *middle = half::<S>() * (x + y);
+        *middle = half::<S>() * (x + y).quantity();
     }
     middle
 }

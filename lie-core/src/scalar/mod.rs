@@ -92,6 +92,13 @@ pub trait Scalar:
         self
     }
 
+    /// Numbers that are found by comparisons. A symbolic scalar takes them for arguments, the first of them for that of
+    /// this index.
+    #[inline(always)]
+    fn given<const K: usize>(_first: usize, compute: impl FnOnce() -> [Self; K]) -> [Self; K] {
+        compute()
+    }
+
     /// The same number in every lane.
     fn splat(lane: Self::Lane) -> Self;
     /// The number in one lane; `index` must be below [`Scalar::LANES`].
