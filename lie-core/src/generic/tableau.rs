@@ -142,7 +142,7 @@ const fn legendre_roots(stages: usize, between: &[Pair; MOST_STAGES]) -> [Pair; 
 
 fn table(stages: usize) -> &'static Table {
     assert!(
-        stages >= 1 && stages <= MOST_STAGES,
+        (1..=MOST_STAGES).contains(&stages),
         "there is no Gauss tableau of so many stages"
     );
     &TABLES[stages - 1]

@@ -45,6 +45,7 @@ macro_rules! gauss {
             const ORDER: u32 = 2 * $stages;
             const SYMMETRIC: bool = true;
             const EXPLICIT: bool = false;
+            const FIXED_POINT: bool = $stages > BY_NEWTON;
             const PRESERVES: Preserves = Preserves::QUADRATIC;
         }
     };

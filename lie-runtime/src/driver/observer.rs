@@ -1,5 +1,6 @@
 //! Who looks on while a run goes.
 
+use super::pace::Chosen;
 use super::solution::Solution;
 use crate::methods::{FactorSink, Retraction, RungeKutta, Stage};
 use crate::poisson::Poisson;
@@ -25,6 +26,10 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
     /// Whether it wants to see the motion on the group; steppers skip the work otherwise.
     const MOTION: bool = false;
 
+    /// Sees the step that was chosen, before all else, where the options give a tolerance.
+    fn chosen(&mut self, chosen: &Chosen) {
+        let _ = chosen;
+    }
     /// Sees the state before the first step.
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         let _ = (system, progress, mu);
@@ -105,6 +110,9 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
     fn return_to_grid(&mut self) {
         (**self).return_to_grid();
     }
+    fn chosen(&mut self, chosen: &Chosen) {
+        (**self).chosen(chosen);
+    }
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         (**self).start(system, progress, mu);
     }
@@ -131,6 +139,10 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
     fn return_to_grid(&mut self) {
         self.0.return_to_grid();
         self.1.return_to_grid();
+    }
+    fn chosen(&mut self, chosen: &Chosen) {
+        self.0.chosen(chosen);
+        self.1.chosen(chosen);
     }
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         self.0.start(system, progress, mu);
@@ -178,6 +190,10 @@ impl<S: Scalar, V> Recorder<S, V> {
 }
 
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Recorder<S, P::State> {
+    fn chosen(&mut self, chosen: &Chosen) {
+        self.solution.chosen = Some(*chosen);
+    }
+
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {
         let mut casimirs = vec![S::zero(); system.casimir_count()];
         system.casimirs(mu, &mut casimirs);

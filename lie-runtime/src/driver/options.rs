@@ -16,11 +16,20 @@ pub enum Save {
     Ends,
 }
 
+/// How large steps are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// A step size; negative for a run backwards in time.
+    Step(f64),
+    /// A relative error at the end of the span, from which a constant step is chosen (see [`choose`](super::pace::choose)).
+    Tolerance(f64),
+}
+
 /// Options of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The step size; negative for a run backwards in time.
-    pub step: f64,
+    /// How large steps are.
+    pub pace: Pace,
     /// Which states are saved; every step by default.
     pub save: Save,
     /// The solver of implicit methods.
@@ -30,8 +39,17 @@ pub struct Options {
 impl Options {
     /// Options with a step size, every step saved.
     pub fn new(step: f64) -> Self {
+        Self::paced(Pace::Step(step))
+    }
+
+    /// Options with a tolerance, from which the step is chosen, every step saved.
+    pub fn tolerance(tolerance: f64) -> Self {
+        Self::paced(Pace::Tolerance(tolerance))
+    }
+
+    fn paced(pace: Pace) -> Self {
         Self {
-            step,
+            pace,
             save: Save::Every(1),
             newton: NewtonOptions::default(),
         }
@@ -57,6 +75,14 @@ pub enum OptionError {
     /// The step size is zero, infinite or not a number.
     #[error("the step must be a finite number other than zero, not {0}")]
     Step(f64),
+    /// The tolerance is below round-off, 1 or more, or not a number.
+    #[error("a tolerance lies between 2e-15 and 1, unlike {0}")]
+    Tolerance(f64),
+    /// No step was found with which the method keeps the tolerance.
+    #[error(
+        "no step was found that keeps the tolerance {0}: the error of a step does not fall with the step"
+    )]
+    NoStep(f64),
     /// Start or end is infinite or not a number.
     #[error("start and end must be finite, not {0} and {1}")]
     Span(f64, f64),

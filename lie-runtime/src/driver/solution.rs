@@ -1,5 +1,6 @@
 //! What a run has saved.
 
+use super::pace::Chosen;
 use super::stats::{Stats, Status};
 use crate::diagnostics::{Drift, InvariantDrift};
 use crate::poisson::Poisson;
@@ -20,6 +21,8 @@ pub struct Solution<S, V> {
     pub casimirs: Vec<Vec<S>>,
     /// The work of the run.
     pub stats: Stats,
+    /// The step that was chosen, where the options gave a tolerance.
+    pub chosen: Option<Chosen>,
     /// How the run ended.
     pub status: Status,
     /// The names of the coordinates.
@@ -42,6 +45,7 @@ impl<S, V> Solution<S, V> {
             energy: Vec::new(),
             casimirs: Vec::new(),
             stats: Stats::default(),
+            chosen: None,
             status: Status::Finished,
             coordinates: coordinates.collect(),
             casimir_names: casimirs.collect(),

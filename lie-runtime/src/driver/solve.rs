@@ -4,11 +4,12 @@ use super::error::{SolveError, StepError};
 use super::grid::{Grid, Place};
 use super::observer::{Observer, Progress, Recorder, Shown};
 use super::options::{OptionError, Options};
+use super::pace::settle;
 use super::problem::Problem;
 use super::solution::Solution;
 use super::stats::{Stats, Status};
 use crate::methods::{Method, StepFailure, StepReport, Stepper};
-use crate::newton::FailureReason;
+use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
@@ -96,12 +97,16 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     options: &Options,
     observer: &mut impl Observer<S, P>,
 ) -> Result<(Stats, Status), IntegrateError> {
-    let grid = Grid::new(problem.span, options.step)?;
+    let (step, newton, chosen) = settle(problem, &method, options)?;
+    if let Some(chosen) = &chosen {
+        observer.chosen(chosen);
+    }
+    let grid = Grid::new(problem.span, step)?;
     let mut rows = grid.rows(&options.save)?.peekable();
     let mut course = Course {
         grid: &grid,
         method: &method,
-        options,
+        newton,
         stats: Stats::default(),
         index: 0,
     };
@@ -114,7 +119,7 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     // once, and again with each branch of the system that has to be followed
     loop {
         let system = followed.as_ref().unwrap_or(&problem.system);
-        let mut stepper = method.stepper(system, S::from_f64(options.step), &options.newton);
+        let mut stepper = method.stepper(system, S::from_f64(step), &newton);
         let next = loop {
             while let Some(row) = rows.next_if(|row| row.place.index() == course.index) {
                 let looked = match row.place {
@@ -136,7 +141,7 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
             }
             match stepper.step(&mut mu, &mut Shown::to(observer, system)) {
                 Ok(report) => course.arrived(system, &mu, report)?,
-                Err(failure) => return Err(course.stopped(system, failure, options.step, &mu)),
+                Err(failure) => return Err(course.stopped(system, failure, step, &mu)),
             }
             course.index += 1;
             let looked = observer.step(system, course.progress(), &mu);
@@ -156,7 +161,7 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
 struct Course<'r, M> {
     grid: &'r Grid,
     method: &'r M,
-    options: &'r Options,
+    newton: NewtonOptions,
     stats: Stats,
     /// Steps done.
     index: u64,
@@ -196,7 +201,7 @@ impl<M> Course<'_, M> {
         M: Method<S, P>,
     {
         let left = failure.reason == FailureReason::OutsideChart;
-        let works = left.then(|| smaller(system, self.method, self.options, h, mu));
+        let works = left.then(|| smaller(system, self.method, &self.newton, h, mu));
         let error = StepError {
             works: works.flatten(),
             ..*self.failed(failure)
@@ -228,8 +233,8 @@ impl<M> Course<'_, M> {
     where
         M: Method<S, P>,
     {
-        let newton = &self.options.newton;
-        let mut shorter = self.method.stepper(system, S::from_f64(rest), newton);
+        let rest_step = S::from_f64(rest);
+        let mut shorter = self.method.stepper(system, rest_step, &self.newton);
         observer.leave_grid();
         match shorter.step(between, &mut Shown::to(observer, system)) {
             Ok(report) => Ok(self.arrived(system, between, report)?),
@@ -245,14 +250,14 @@ const HALVINGS: u32 = 30;
 fn smaller<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     system: &P,
     method: &M,
-    options: &Options,
+    newton: &NewtonOptions,
     h: f64,
     mu: &P::State,
 ) -> Option<f64> {
     let mut h = h;
     (0..HALVINGS).find_map(|_| {
         h *= 0.5;
-        let mut stepper = method.stepper(system, S::from_f64(h), &options.newton);
+        let mut stepper = method.stepper(system, S::from_f64(h), newton);
         stepper.step(&mut mu.clone(), &mut ()).ok().map(|_| h)
     })
 }

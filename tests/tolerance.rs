@@ -1,0 +1,136 @@
+//! Steps that are chosen from a tolerance: the error at the end against it, over systems, methods and tolerances.
+
+#[macro_use]
+#[path = "common/systems.rs"]
+mod systems;
+
+use lie_runtime::driver::{IntegrateError, OptionError, integrate};
+use lie_runtime::methods::Method;
+use lie_runtime::prelude::*;
+use systems::{
+    Declared, FreeRigidBody, HeavyTop, KirchhoffBody, NonpolynomialSpin, Random, Su3Quadratic,
+    relative_distance,
+};
+
+const SPAN: f64 = 20.0;
+
+/// The relative errors at the end over the tolerance, of random states of a system.
+fn ratios<D: Declared, M>(method: M, tolerances: &[f64], states: usize) -> Vec<f64>
+where
+    M: Method<f64, D::System<f64>> + Clone,
+    Gauss16: Method<f64, D::System<f64>>,
+{
+    let mut random = Random(2018);
+    let mut found = Vec::new();
+    for _ in 0..states {
+        let mut mu = D::initial::<f64>();
+        for entry in mu.as_mut_slice() {
+            *entry += 0.3 * random.number();
+        }
+        let problem = Problem {
+            system: D::declared::<f64>(),
+            mu0: mu,
+            span: (0.0, SPAN),
+        };
+        let ends = Options::new(0.05).save(Save::Ends);
+        let reference = solve(&problem, Gauss16, &ends).ok().expect("it is solved");
+        for &tolerance in tolerances {
+            let options = Options::tolerance(tolerance).save(Save::Ends);
+            let solution = solve(&problem, method.clone(), &options)
+                .ok()
+                .expect("it is solved");
+            let chosen = solution.chosen.expect("a step was chosen");
+            let last = |solution: &Solution<f64, _>| solution.mu.last().cloned().expect("an end");
+            let (end, exact): (<D::System<f64> as Poisson<f64>>::State, _) =
+                (last(&solution), last(&reference));
+            let error = relative_distance(end.as_slice(), exact.as_slice());
+            println!(
+                "{} {} {tolerance:e}: h {:.4}, error {error:.1e}, at round-off {}",
+                M::ID,
+                D::FILE,
+                chosen.step,
+                chosen.at_round_off
+            );
+            let steps = SPAN / chosen.step;
+            assert!((steps - steps.round()).abs() < 1e-9, "{steps} steps");
+            found.push(error / tolerance);
+        }
+    }
+    found
+}
+
+/// 95 of 100 errors are below 100 times the tolerance, and half of them below ten times; none is far below for no reason.
+#[test]
+fn errors_are_about_the_tolerance() {
+    let all = [1e-3, 1e-5, 1e-7, 1e-9, 1e-11];
+    let mut found = Vec::new();
+    found.extend(ratios::<FreeRigidBody, _>(Gauss16, &all, 4));
+    found.extend(ratios::<HeavyTop, _>(Gauss16, &all, 4));
+    found.extend(ratios::<KirchhoffBody, _>(Gauss12, &all, 4));
+    found.extend(ratios::<NonpolynomialSpin, _>(Gauss8, &all, 4));
+    found.extend(ratios::<Su3Quadratic, _>(Gauss10, &all, 2));
+    found.extend(ratios::<HeavyTop, _>(Gauss6, &[1e-3, 1e-6, 1e-8], 2));
+    found.extend(ratios::<HeavyTop, _>(LieMidpoint::exp(), &[1e-2, 1e-3], 2));
+    found.extend(ratios::<NonpolynomialSpin, _>(Rk4, &[1e-3, 1e-6], 3));
+    found.extend(ratios::<FreeRigidBody, _>(Rkmk4, &[1e-3, 1e-6], 2));
+    found.sort_by(f64::total_cmp);
+    let quantile = |part: f64| found[(part * (found.len() - 1) as f64) as usize];
+    let quantiles = [0.0, 0.05, 0.5, 0.95, 1.0].map(quantile);
+    println!("{} runs, error/tolerance: {quantiles:?}", found.len());
+    assert!(quantiles[3] < 100.0, "{quantiles:?}");
+    assert!(quantiles[2] < 10.0, "{quantiles:?}");
+    assert!(quantiles[1] > 1e-4, "{quantiles:?}");
+}
+
+/// A constant step: the run is the one that `Options::new` with the chosen step makes.
+#[test]
+fn the_run_is_that_of_the_chosen_step() {
+    let problem = Problem::new(
+        HeavyTop::declared::<f64>(),
+        HeavyTop::initial::<f64>(),
+        (0.0, -7.0),
+    );
+    let options = Options::tolerance(1e-8).save(Save::At(vec![-1.0, -6.9]));
+    let by_tolerance = solve(&problem, Gauss6, &options).expect("it is solved");
+    let chosen = by_tolerance.chosen.expect("a step was chosen");
+    assert!(chosen.step < 0.0 && !chosen.at_round_off && chosen.error < 1e-8);
+    let same = Options::new(chosen.step).save(options.save.clone());
+    let by_step = solve(&problem, Gauss6, &same).expect("it is solved");
+    assert_eq!(by_tolerance.mu, by_step.mu);
+    assert_eq!(by_tolerance.t, [-1.0, -6.9]);
+}
+
+#[test]
+fn what_cannot_be_kept_is_refused() {
+    let problem = |end: f64| {
+        let (system, mu) = (HeavyTop::declared::<f64>(), HeavyTop::initial::<f64>());
+        Problem::new(system, mu, (0.0, end))
+    };
+    for tolerance in [0.0, 1e-17, 1.0, -1e-3, f64::NAN] {
+        let outcome = integrate(
+            &problem(1.0),
+            Gauss6,
+            &Options::tolerance(tolerance),
+            &mut (),
+        );
+        assert!(
+            matches!(
+                outcome,
+                Err(IntegrateError::Option(OptionError::Tolerance(_)))
+            ),
+            "{tolerance}: {outcome:?}"
+        );
+    }
+    let endless = integrate(
+        &problem(f64::INFINITY),
+        Gauss6,
+        &Options::tolerance(1e-6),
+        &mut (),
+    );
+    assert!(matches!(
+        endless,
+        Err(IntegrateError::Option(OptionError::Span(..)))
+    ));
+    let nowhere = solve(&problem(0.0), Gauss6, &Options::tolerance(1e-6)).expect("nothing to do");
+    assert_eq!(nowhere.t, [0.0]);
+}
