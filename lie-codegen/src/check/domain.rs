@@ -3,7 +3,7 @@
 use super::velocity::velocity;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Rational;
-use crate::model::{Model, Structure};
+use crate::model::{Bracket, Energy, Model};
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
 
 /// A group element within this of the group is one, written with few digits.
@@ -37,9 +37,9 @@ pub fn check(model: &Model, origin: Option<Origin>, report: &mut Report) {
             .configuration
             .as_ref()
             .is_some_and(|c| c.group.is_some());
-        report.push(diagnostic.help(match model.structure {
+        report.push(diagnostic.help(match model.bracket {
             _ if group => "begin at an element of the group, inside the domain of the Hamiltonian",
-            Structure::General => {
+            Bracket::General(_) => {
                 "begin inside the domain of the brackets, of the Hamiltonian and of the Casimirs"
             }
             _ => "begin inside the domain of the Hamiltonian and of the Casimirs",
@@ -62,11 +62,7 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
     }
     let mut scratch = model.graph.clone();
     let mut xi = Vec::new();
-    if let Some(lagrangian) = model
-        .lagrangian
-        .as_ref()
-        .filter(|_| !model.has_expression())
-    {
+    if let Energy::Legendre(lagrangian, _) = &model.energy {
         match velocity(&mut scratch, lagrangian.value, mu, parameters) {
             Some(found) => xi = found,
             None => {
@@ -77,10 +73,11 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
             }
         }
     }
-    let mut functions: Vec<(ExprId, String)> = vec![(model.hamiltonian, "the Hamiltonian".into())];
-    for symbol in model.graph.symbols(model.hamiltonian) {
+    let hamiltonian = model.hamiltonian();
+    let mut functions: Vec<(ExprId, String)> = vec![(hamiltonian, "the Hamiltonian".into())];
+    for symbol in model.graph.symbols(hamiltonian) {
         if let Symbol::Coordinate(i) = symbol {
-            let component = scratch.derivative(model.hamiltonian, symbol);
+            let component = scratch.derivative(hamiltonian, symbol);
             functions.push((
                 component,
                 format!(
@@ -96,8 +93,8 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
             .iter()
             .map(|c| (c.expr, format!("the Casimir `{}`", c.name))),
     );
-    if model.structure == Structure::General {
-        functions.extend(model.poisson.entries.iter().map(|(i, j, value)| {
+    if let Bracket::General(matrix) = &model.bracket {
+        functions.extend(matrix.entries.iter().map(|(i, j, value)| {
             let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);
             (*value, format!("the bracket {{{a}, {b}}}"))
         }));
@@ -145,7 +142,7 @@ fn outside_the_group(model: &Model, mu: &[f64]) -> Option<Fault> {
     let configuration = model.configuration.as_ref()?;
     let (name, size) = configuration.group.as_ref()?;
     let (first, size) = (configuration.momenta, *size);
-    let matrices = &model.representation.as_ref()?.matrices;
+    let matrices = &model.bracket.representation()?.matrices;
     let skew = |matrix: &Vec<Vec<Rational>>| {
         let pairs = (0..size).flat_map(|i| (0..=i).map(move |j| (i, j)));
         let mut sums = pairs.map(|(i, j)| &matrix[i][j] + &matrix[j][i]);

@@ -13,7 +13,7 @@ use super::normal::{NormalForm, Verdict};
 use crate::ast::Name;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::{Budget, Rational};
-use crate::model::{Parameter, Transform};
+use crate::model::Parameter;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for one decision of the normal form.
@@ -48,7 +48,15 @@ impl Lagrangian<'_> {
     }
 }
 
-/// The Hamiltonian in the coordinates of mu; of a Lagrangian that is not quadratic, in mu and its velocity.
+/// The Hamiltonian of a Lagrangian.
+pub enum Transform {
+    /// In the coordinates of mu.
+    Exact(ExprId),
+    /// Of a Lagrangian that is not quadratic, in mu and its velocity: `<mu, xi> - l(xi)`.
+    InVelocity(ExprId),
+}
+
+/// The Legendre transform.
 ///
 /// # Errors
 /// `legendre`, reported, for a Lagrangian that is singular or has no value at rest.
@@ -56,7 +64,7 @@ pub fn hamiltonian(
     graph: &mut Graph,
     lagrangian: &Lagrangian<'_>,
     report: &mut Report,
-) -> Option<(ExprId, Transform)> {
+) -> Option<Transform> {
     let (mut form, quadratic) = match Quadratic::of(graph, lagrangian) {
         Ok(form) => form,
         Err(diagnostic) => {
@@ -73,7 +81,7 @@ pub fn hamiltonian(
             report.push(singular_at_rest(lagrangian, rank));
             return None;
         }
-        return Some((in_velocity(graph, lagrangian), Transform::Newton));
+        return Some(Transform::InVelocity(in_velocity(graph, lagrangian)));
     }
     let mut terms = Vec::new();
     while !form.rest.is_empty() {
@@ -85,7 +93,7 @@ pub fn hamiltonian(
     }
     let constant = graph.neg(form.constant);
     terms.push(constant);
-    Some((graph.sum(&terms), Transform::Exact))
+    Some(Transform::Exact(graph.sum(&terms)))
 }
 
 /// `<mu, xi> - l(xi)`
