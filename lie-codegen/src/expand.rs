@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::ast::Name;
@@ -139,8 +139,9 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
         .filter(|p| seen.insert(p.text.clone()))
         .filter_map(identifier)
         .collect();
-    let n = proc_macro2::Literal::usize_unsuffixed(parsed.dimension);
+    let n = Literal::usize_unsuffixed(parsed.dimension);
     let vector = quote! { ::lie_runtime::__private::SVector<S, #n> };
+    let traits = stub_of_traits(&system, &n, &vector);
     of_this_version(quote! {
         #[allow(non_snake_case)]
         #[derive(Clone, Debug, PartialEq)]
@@ -157,6 +158,13 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
         }
         #[derive(Clone, Debug, PartialEq)]
         #visibility struct #system<S = f64> { _scalar: ::core::marker::PhantomData<S> }
+        #traits
+    })
+}
+
+/// Every trait that generated code may implement.
+fn stub_of_traits(system: &Ident, n: &Literal, vector: &TokenStream) -> TokenStream {
+    quote! {
         impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for #system<S> {
             type State = #vector;
             type Jacobian = ::lie_runtime::__private::SMatrix<S, #n, #n>;
@@ -203,5 +211,5 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
             }
         }
         ::lie_runtime::generic_equations!([S: ::lie_runtime::Scalar] #system<S>, S: splitting);
-    })
+    }
 }

@@ -61,69 +61,32 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
         return Some(fault);
     }
     let mut scratch = model.graph.clone();
-    let mut xi = Vec::new();
-    if let Energy::Legendre(lagrangian, _) = &model.energy {
-        match velocity(&mut scratch, lagrangian.value, mu, parameters) {
-            Some(found) => xi = found,
-            None => {
-                return Some(Fault {
-                    coordinate: None,
-                    message: "the Hamiltonian is not finite because no velocity with this momentum was found".into(),
-                });
+    let xi = match &model.energy {
+        Energy::Legendre(lagrangian, _) => {
+            match velocity(&mut scratch, lagrangian.value, mu, parameters) {
+                Some(xi) => xi,
+                None => return Some(no_velocity()),
             }
         }
-    }
-    let hamiltonian = model.hamiltonian();
-    let mut functions: Vec<(ExprId, String)> = vec![(hamiltonian, "the Hamiltonian".into())];
-    for symbol in model.graph.symbols(hamiltonian) {
-        if let Symbol::Coordinate(i) = symbol {
-            let component = scratch.derivative(hamiltonian, symbol);
-            functions.push((
-                component,
-                format!(
-                    "the derivative of the Hamiltonian by `{}`",
-                    model.coordinates[i].text
-                ),
-            ));
-        }
-    }
-    functions.extend(
-        model
-            .casimirs
-            .iter()
-            .map(|c| (c.expr, format!("the Casimir `{}`", c.name))),
-    );
-    if let Bracket::General(matrix) = &model.bracket {
-        functions.extend(matrix.entries.iter().map(|(i, j, value)| {
-            let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);
-            (*value, format!("the bracket {{{a}, {b}}}"))
-        }));
-    }
+        _ => Vec::new(),
+    };
     let value = |symbol| match symbol {
         Symbol::Coordinate(i) => mu[i],
         Symbol::Parameter(p) => parameters[p],
         Symbol::Input(i) => xi.get(i).copied().unwrap_or(f64::NAN),
         _ => f64::NAN,
     };
+    let functions = functions(model, &mut scratch);
     let roots: Vec<ExprId> = functions.iter().map(|(id, _)| *id).collect();
     let values = scratch.evaluate_all(&roots, &value);
     let bad = values.iter().position(|v| !v.is_finite())?;
     let (root, what) = &functions[bad];
-    // Children come before parents: the first part that is not finite is where it begins.
-    let parts = scratch.dependencies(&[*root]);
-    let part_values = scratch.evaluate_all(&parts, &value);
-    let origin = part_values
-        .iter()
-        .position(|v| !v.is_finite())
-        .map_or(*root, |i| parts[i]);
-    let origin = culprit(&mut scratch, origin, &value);
-    let coordinate = scratch
-        .symbols(origin)
-        .into_iter()
-        .find_map(|symbol| match symbol {
-            Symbol::Coordinate(i) => Some(i),
-            _ => None,
-        });
+    let origin = first_part(&mut scratch, *root, &value);
+    let symbols = scratch.symbols(origin);
+    let coordinate = symbols.into_iter().find_map(|symbol| match symbol {
+        Symbol::Coordinate(i) => Some(i),
+        _ => None,
+    });
     let shown = scratch.display(origin, &|symbol| model.symbol_name(symbol));
     let because = if shown.chars().count() <= 80 {
         format!(" because of `{shown}`")
@@ -134,6 +97,47 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
         coordinate,
         message: format!("{what} is not finite{because}"),
     })
+}
+
+fn no_velocity() -> Fault {
+    Fault {
+        coordinate: None,
+        message: "the Hamiltonian is not finite because no velocity with this momentum was found"
+            .into(),
+    }
+}
+
+/// What must be finite, with its name.
+fn functions(model: &Model, scratch: &mut Graph) -> Vec<(ExprId, String)> {
+    let hamiltonian = model.hamiltonian();
+    let mut functions: Vec<(ExprId, String)> = vec![(hamiltonian, "the Hamiltonian".into())];
+    for symbol in model.graph.symbols(hamiltonian) {
+        if let Symbol::Coordinate(i) = symbol {
+            let name = &model.coordinates[i].text;
+            let component = scratch.derivative(hamiltonian, symbol);
+            functions.push((
+                component,
+                format!("the derivative of the Hamiltonian by `{name}`"),
+            ));
+        }
+    }
+    let casimirs = model.casimirs.iter();
+    functions.extend(casimirs.map(|c| (c.expr, format!("the Casimir `{}`", c.name))));
+    if let Bracket::General(matrix) = &model.bracket {
+        functions.extend(matrix.entries.iter().map(|(i, j, value)| {
+            let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);
+            (*value, format!("the bracket {{{a}, {b}}}"))
+        }));
+    }
+    functions
+}
+
+/// Where it begins that a function is not finite: children come before parents.
+fn first_part(graph: &mut Graph, root: ExprId, value: &dyn Fn(Symbol) -> f64) -> ExprId {
+    let parts = graph.dependencies(&[root]);
+    let values = graph.evaluate_all(&parts, value);
+    let first = values.iter().position(|v| !v.is_finite());
+    culprit(graph, first.map_or(root, |i| parts[i]), value)
 }
 
 /// A group element off the group by more than the digits that someone may have left out. Known for groups of
