@@ -22,7 +22,10 @@ pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
     }
     match &parsed.body {
         Some(Body::Declaration(declaration)) => match compile_declaration(declaration) {
-            Ok(model) => generate(&model, &declared_choices(&model)),
+            Ok(mut model) => {
+                model.runtime = parsed.runtime;
+                generate(&model, &declared_choices(&model))
+            }
             Err(diagnostics) => failure(&parsed, &diagnostics),
         },
         Some(Body::Spec { path }) => expand_spec(&parsed, path, manifest),
@@ -58,9 +61,11 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
     let mut report = Report::new();
     let mut read = spec::read(&text, &mut report);
     read.visibility = parsed.visibility.clone();
+    read.runtime = parsed.runtime.clone();
     match compile_read(&read, report) {
         Ok(mut model) => {
             model.visibility = read.visibility;
+            model.runtime = read.runtime;
             let items = generate(&model, &declared_choices(&model));
             quote! { #items #track }
         }
@@ -115,6 +120,7 @@ fn failure(parsed: &Parsed, diagnostics: &[Diagnostic]) -> TokenStream {
         syn::Error::new(span, visible(&message)).into_compile_error()
     });
     let stub = parsed.name.as_ref().map(|name| stub(parsed, name));
+    let stub = stub.map(|stub| parsed.runtime.root(stub));
     quote! { #(#errors)* #rest #stub }
 }
 

@@ -7,6 +7,7 @@ use crate::ast::{Invariance, Name, RunOption};
 use crate::check::configuration::Configuration;
 use crate::diagnostic::{Diagnostic, Origin};
 use crate::exact::{Fraction, Rational};
+use crate::print::Runtime;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// A parameter of the system.
@@ -245,6 +246,8 @@ pub struct Model {
     pub name_origin: Origin,
     /// Visibility of the generated type.
     pub visibility: TokenStream,
+    /// Where the generated code finds the runtime.
+    pub runtime: Runtime,
     /// Description, by lines of Markdown.
     pub description: Vec<String>,
     /// References, for people, as Markdown within a line.

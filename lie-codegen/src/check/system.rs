@@ -17,6 +17,7 @@ use crate::exact::Rational;
 use crate::model::{
     self, Bracket, Casimir, Energy, Hamiltonian, Model, Parameter, PoissonMatrix, Realization,
 };
+use crate::print::Runtime;
 use crate::structure::separable;
 use crate::symbolic::{ExprId, Graph};
 
@@ -337,6 +338,7 @@ impl<'a> System<'a> {
             name: declaration.name.text.clone(),
             name_origin: declaration.name.origin,
             visibility: declaration.visibility.clone(),
+            runtime: Runtime::default(),
             description: declaration.description.clone(),
             references: declaration.references.clone(),
             graph,

@@ -130,7 +130,7 @@ fn named(name: &str) -> TokenStream {
 }
 
 /// A method with its order or the like in its name.
-fn numbered(family: &str, number: u32) -> TokenStream {
+fn numbered(family: &str, number: impl std::fmt::Display) -> TokenStream {
     method(format_ident!("{family}{number}"))
 }
 
