@@ -10,7 +10,7 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
     if let Choice::Compose(_, _, base) = choice {
         return refusal(model, base);
     }
-    if let Some(reason) = bracket(model, choice) {
+    if let Some(reason) = bracket(model, choice).or_else(|| lagrangian(model, choice)) {
         return Some(reason);
     }
     match choice {
@@ -23,6 +23,33 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
             "use `generating6` with `--retraction exp`, or `generating4` with `--retraction cayley`"
                 .into(),
         )),
+        Choice::LieMidpoint(Retraction::Cayley)
+        | Choice::Generating(_, Retraction::Cayley)
+        | Choice::Variational(_, Retraction::Cayley)
+        | Choice::DiscreteEulerPoincare(Retraction::Cayley) => {
+            cayley(model).map(|reason| {
+                let help = format!(
+                    "use `{}` with `--retraction exp`, which works for every Lie algebra",
+                    choice.id()
+                );
+                (reason.into(), help)
+            })
+        }
+        Choice::Collective(order, Lift::Representation) | Choice::Isospectral(order) => {
+            matrices::refusal(model, *order)
+        }
+        Choice::Collective(order, Lift::Spec) => realization(model, *order),
+        Choice::Collective(order, Lift::Hopf) => spins::refusal(model, Some(*order)),
+        Choice::EulerArnold2 => cotangent(model),
+        Choice::SphericalMidpoint => spins::refusal(model, None),
+        Choice::MoserVeselov => inertia::refusal(model),
+        _ => None,
+    }
+}
+
+/// Why a method for Lagrangians does not apply.
+fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
+    match choice {
         Choice::Variational(order, _) if model.energy.lagrangian().is_none() => Some((
             if model.configuration.is_some() {
                 "the method is for reduced Lagrangians, without the group element and without the time"
@@ -50,26 +77,6 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
             let help = "use `--retraction cayley`";
             Some((message.into(), help.into()))
         }
-        Choice::LieMidpoint(Retraction::Cayley)
-        | Choice::Generating(_, Retraction::Cayley)
-        | Choice::Variational(_, Retraction::Cayley)
-        | Choice::DiscreteEulerPoincare(Retraction::Cayley) => {
-            cayley(model).map(|reason| {
-                let help = format!(
-                    "use `{}` with `--retraction exp`, which works for every Lie algebra",
-                    choice.id()
-                );
-                (reason.into(), help)
-            })
-        }
-        Choice::Collective(order, Lift::Representation) | Choice::Isospectral(order) => {
-            matrices::refusal(model, *order)
-        }
-        Choice::Collective(order, Lift::Spec) => realization(model, *order),
-        Choice::Collective(order, Lift::Hopf) => spins::refusal(model, Some(*order)),
-        Choice::EulerArnold2 => cotangent(model),
-        Choice::SphericalMidpoint => spins::refusal(model, None),
-        Choice::MoserVeselov => inertia::refusal(model),
         _ => None,
     }
 }
