@@ -83,7 +83,9 @@ impl Golden {
     pub fn runtime(&mut self, path: &str) -> &mut Self {
         match Runtime::at(path) {
             Ok(runtime) => self.runtime = runtime,
-            Err(no_path) => self.problems.push(no_path.to_string()),
+            Err(no_path) => self.problems.push(format!(
+                "{no_path}{REMEDY}write the path at which the runtime is re-exported, such as my_crate::lie_runtime"
+            )),
         }
         self
     }
@@ -291,6 +293,28 @@ mod tests {
         golden.run(true).unwrap();
         golden.run(false).unwrap();
         std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn the_runtime_of_a_golden_file_is_at_a_path() {
+        let folder = std::env::temp_dir().join(format!("lie-golden-path-{}", std::process::id()));
+        let mut golden = Golden::new(&folder);
+        golden.runtime("my_crate::lie_runtime");
+        golden.spec("../specs/so3_free_rigid_body.json", &[]);
+        let code = &golden.files["so3_free_rigid_body.rs"];
+        assert!(
+            code.contains("impl<S: my_crate::lie_runtime::Scalar>"),
+            "{code}"
+        );
+        assert!(
+            !code.contains("::lie_runtime::Scalar> ::lie_runtime"),
+            "{code}"
+        );
+        let Stale(problems) = golden.runtime("my-crate").run(true).unwrap_err();
+        assert!(
+            problems[0].starts_with("`my-crate` is not the path of a crate"),
+            "{problems:?}"
+        );
     }
 
     #[test]
