@@ -34,7 +34,11 @@ pub fn parse(input: TokenStream, report: &mut Report) -> Parsed {
         system(&parts, &mut found)
     };
     if let Some(statement) = parts.first("crate") {
-        parsed.runtime = runtime(statement, &mut found).unwrap_or_default();
+        match runtime(statement, &mut found) {
+            Some(runtime) => parsed.runtime = runtime,
+            // nothing can stand in for the system: what it is made of is not found
+            None => parsed.name = None,
+        }
     }
     found
         .into_diagnostics()
