@@ -121,6 +121,13 @@ fn expand_prints_rust_with_fused_code_on_demand() {
         fused,
         lie("expand specs/so3_free_rigid_body.json --method gauss4 --method midpoint").stdout
     );
+    let elsewhere = lie("expand specs/so3_free_rigid_body.json --crate my_crate::rt")
+        .ok()
+        .stdout;
+    assert!(elsewhere.contains("impl<S: my_crate::rt::Scalar> my_crate::rt::Poisson<S>"));
+    assert!(!elsewhere.contains("::lie_runtime"));
+    lie("expand specs/so3_free_rigid_body.json --crate my-crate::rt")
+        .error("option", "command line: --crate");
     lie("expand specs/so3_free_rigid_body.json --method gaus4")
         .error("method", "command line: --method");
     lie("expand specs/so3_free_rigid_body.json --method variational4")

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use lie_codegen::compile::{compile_spec, declared_choices, expand};
-use lie_codegen::methods::{CATALOGUE, Method};
+use lie_codegen::methods::{CATALOGUE, Choice, Method};
 
 const DOCUMENTS: [&str; 5] = [
     "README.md",
@@ -200,6 +200,49 @@ fn the_methods_of_the_readme_are_those_of_the_catalogue() {
         listed.retain(|id| *id != method.id);
     }
     assert_eq!(listed, [""; 0], "methods that do not exist");
+}
+
+/// The type of a method in the runtime.
+fn type_name(method: &Method) -> String {
+    let id = match method.id.starts_with("compose") {
+        true => format!("{}(midpoint)", method.id),
+        false => method.id.to_owned(),
+    };
+    let choice = Choice::from_id(&id).unwrap_or_else(|_| panic!("{id}"));
+    let path = choice.constructor().to_string().replace(' ', "");
+    let (_, name) = path.split_once("::methods::").expect("a path");
+    let letter = |c: char| c.is_alphanumeric() || c == '_';
+    name.split(|c| !letter(c))
+        .next()
+        .unwrap_or_default()
+        .to_owned()
+}
+
+/// Those of Gauss come by a glob, of every number of stages.
+#[test]
+fn the_prelude_has_the_methods_of_the_catalogue() {
+    let runtime = read("lie-runtime/src/lib.rs");
+    let (_, prelude) = runtime
+        .split_once("pub mod prelude {")
+        .expect("the prelude");
+    assert!(prelude.contains("pub use crate::methods::gauss::*;"));
+    let (_, list) = prelude
+        .split_once("pub use crate::methods::{")
+        .expect("the list");
+    let (list, _) = list.split_once('}').expect("its end");
+    let listed = list.split(',').map(str::trim);
+    let mut listed: Vec<&str> = listed.filter(|name| !name.is_empty()).collect();
+    listed.sort_unstable();
+    let types = CATALOGUE.iter().map(type_name);
+    let mut expected: Vec<String> = types.filter(|name| !name.starts_with("Gauss")).collect();
+    expected.extend(["Method", "Scheme", "Stepper"].map(str::to_owned));
+    expected.sort();
+    let expected = expected.join(", ");
+    assert_eq!(
+        listed.join(", "),
+        expected,
+        "the list is to be {{{expected}}}"
+    );
 }
 
 /// Links and paths of files in code marks lead somewhere.

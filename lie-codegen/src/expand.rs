@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::ast::Name;
@@ -22,7 +22,10 @@ pub fn expand_macro(input: TokenStream, manifest: &Path) -> TokenStream {
     }
     match &parsed.body {
         Some(Body::Declaration(declaration)) => match compile_declaration(declaration) {
-            Ok(model) => generate(&model, &declared_choices(&model)),
+            Ok(mut model) => {
+                model.runtime = parsed.runtime;
+                generate(&model, &declared_choices(&model))
+            }
             Err(diagnostics) => failure(&parsed, &diagnostics),
         },
         Some(Body::Spec { path }) => expand_spec(&parsed, path, manifest),
@@ -58,9 +61,11 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
     let mut report = Report::new();
     let mut read = spec::read(&text, &mut report);
     read.visibility = parsed.visibility.clone();
+    read.runtime = parsed.runtime.clone();
     match compile_read(&read, report) {
         Ok(mut model) => {
             model.visibility = read.visibility;
+            model.runtime = read.runtime;
             let items = generate(&model, &declared_choices(&model));
             quote! { #items #track }
         }
@@ -115,6 +120,7 @@ fn failure(parsed: &Parsed, diagnostics: &[Diagnostic]) -> TokenStream {
         syn::Error::new(span, visible(&message)).into_compile_error()
     });
     let stub = parsed.name.as_ref().map(|name| stub(parsed, name));
+    let stub = stub.map(|stub| parsed.runtime.root(stub));
     quote! { #(#errors)* #rest #stub }
 }
 
@@ -139,8 +145,9 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
         .filter(|p| seen.insert(p.text.clone()))
         .filter_map(identifier)
         .collect();
-    let n = proc_macro2::Literal::usize_unsuffixed(parsed.dimension);
+    let n = Literal::usize_unsuffixed(parsed.dimension);
     let vector = quote! { ::lie_runtime::__private::SVector<S, #n> };
+    let traits = stub_of_traits(&system, &n, &vector);
     of_this_version(quote! {
         #[allow(non_snake_case)]
         #[derive(Clone, Debug, PartialEq)]
@@ -157,6 +164,13 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
         }
         #[derive(Clone, Debug, PartialEq)]
         #visibility struct #system<S = f64> { _scalar: ::core::marker::PhantomData<S> }
+        #traits
+    })
+}
+
+/// Every trait that generated code may implement.
+fn stub_of_traits(system: &Ident, n: &Literal, vector: &TokenStream) -> TokenStream {
+    quote! {
         impl<S: ::lie_runtime::Scalar> ::lie_runtime::Poisson<S> for #system<S> {
             type State = #vector;
             type Jacobian = ::lie_runtime::__private::SMatrix<S, #n, #n>;
@@ -207,5 +221,5 @@ fn stub(parsed: &Parsed, name: &Name) -> TokenStream {
             }
         }
         ::lie_runtime::generic_equations!([S: ::lie_runtime::Scalar] #system<S>, S: splitting);
-    })
+    }
 }

@@ -23,6 +23,7 @@ use crate::front::line_column;
 use crate::methods::Choice;
 use crate::model::Model;
 use crate::plan::plan;
+use crate::print::Runtime;
 
 /// The environment variable that makes [`Golden::check`] write instead of compare.
 pub const UPDATE: &str = "LIE_UPDATE_GOLDEN";
@@ -33,6 +34,7 @@ pub struct Golden {
     folder: PathBuf,
     files: BTreeMap<String, String>,
     problems: Vec<String>,
+    runtime: Runtime,
 }
 
 /// What is wrong with a folder of golden files.
@@ -72,7 +74,20 @@ impl Golden {
             folder: folder.into(),
             files: BTreeMap::new(),
             problems: Vec::new(),
+            runtime: Runtime::default(),
         }
+    }
+
+    /// The path at which the generated code of the systems that follow finds the runtime, such as
+    /// `my_crate::lie_runtime`, where it is not `::lie_runtime`.
+    pub fn runtime(&mut self, path: &str) -> &mut Self {
+        match Runtime::at(path) {
+            Ok(runtime) => self.runtime = runtime,
+            Err(no_path) => self.problems.push(format!(
+                "{no_path}{REMEDY}write the path at which the runtime is re-exported, such as my_crate::lie_runtime"
+            )),
+        }
+        self
     }
 
     /// Adds the generated code of a spec file with fused code for the methods (every option of an
@@ -98,7 +113,8 @@ impl Golden {
     ) -> &mut Self {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         match read(path, methods) {
-            Ok((model, choices)) => {
+            Ok((mut model, choices)) => {
+                model.runtime = self.runtime.clone();
                 self.text(&format!("{stem}.{extension}"), write(&model, &choices))
             }
             Err(problem) => {
@@ -277,6 +293,28 @@ mod tests {
         golden.run(true).unwrap();
         golden.run(false).unwrap();
         std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn the_runtime_of_a_golden_file_is_at_a_path() {
+        let folder = std::env::temp_dir().join(format!("lie-golden-path-{}", std::process::id()));
+        let mut golden = Golden::new(&folder);
+        golden.runtime("my_crate::lie_runtime");
+        golden.spec("../specs/so3_free_rigid_body.json", &[]);
+        let code = &golden.files["so3_free_rigid_body.rs"];
+        assert!(
+            code.contains("impl<S: my_crate::lie_runtime::Scalar>"),
+            "{code}"
+        );
+        assert!(
+            !code.contains("::lie_runtime::Scalar> ::lie_runtime"),
+            "{code}"
+        );
+        let Stale(problems) = golden.runtime("my-crate").run(true).unwrap_err();
+        assert!(
+            problems[0].starts_with("`my-crate` is not the path of a crate"),
+            "{problems:?}"
+        );
     }
 
     #[test]

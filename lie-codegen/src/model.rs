@@ -7,6 +7,7 @@ use crate::ast::{Invariance, Name, RunOption};
 use crate::check::configuration::Configuration;
 use crate::diagnostic::{Diagnostic, Origin};
 use crate::exact::{Fraction, Rational};
+use crate::print::Runtime;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// A parameter of the system.
@@ -45,40 +46,131 @@ pub struct Casimir {
     pub degree: Option<u32>,
 }
 
-/// The reduced Lagrangian of a system that was declared by one.
+/// Where the equations of motion come from. Of its Hamiltonian a checked system knows what is in [`Hamiltonian`];
+/// before that it is an expression.
+#[derive(Clone, Debug)]
+pub enum Energy<H = Hamiltonian> {
+    /// A Hamiltonian. It was declared, or is the Legendre transform of a Lagrangian that depends on the group element or
+    /// the time as well.
+    Expression(H),
+    /// A reduced Lagrangian and its Legendre transform, an expression in mu.
+    Lagrangian(Lagrangian, H),
+    /// A reduced Lagrangian whose velocity for a momentum is found by Newton's iteration when it is needed. The
+    /// function is `<mu, xi> - l(xi)` in mu and the velocity xi of mu, so that its derivative by a coordinate is a
+    /// component of xi.
+    Legendre(Lagrangian, ExprId),
+}
+
+impl<H> Energy<H> {
+    /// The Hamiltonian, where it is an expression in mu alone, which methods can take apart.
+    pub fn expression(&self) -> Option<&H> {
+        match self {
+            Energy::Expression(hamiltonian) | Energy::Lagrangian(_, hamiltonian) => {
+                Some(hamiltonian)
+            }
+            Energy::Legendre(..) => None,
+        }
+    }
+
+    /// The reduced Lagrangian, if the system was declared by one.
+    pub fn lagrangian(&self) -> Option<&Lagrangian> {
+        match self {
+            Energy::Lagrangian(lagrangian, _) | Energy::Legendre(lagrangian, _) => Some(lagrangian),
+            Energy::Expression(_) => None,
+        }
+    }
+
+    /// The same with another thing known of the Hamiltonian.
+    pub fn with<K>(self, of: impl FnOnce(H) -> K) -> Energy<K> {
+        match self {
+            Energy::Expression(hamiltonian) => Energy::Expression(of(hamiltonian)),
+            Energy::Lagrangian(lagrangian, hamiltonian) => {
+                Energy::Lagrangian(lagrangian, of(hamiltonian))
+            }
+            Energy::Legendre(lagrangian, function) => Energy::Legendre(lagrangian, function),
+        }
+    }
+}
+
+/// A Hamiltonian that is an expression in mu.
+#[derive(Clone, Debug)]
+pub struct Hamiltonian {
+    /// The function; of a system that depends on the time, that of the extended phase space.
+    pub value: ExprId,
+    /// The energy: the Hamiltonian as it was declared.
+    pub energy: ExprId,
+    /// Its total degree in the coordinates, where it is a polynomial in them.
+    pub degree: Option<u32>,
+    /// The coordinates on which H depends, if H is a sum of functions of one of them each; else two
+    /// that it mixes.
+    pub pieces: Result<Vec<usize>, (usize, usize)>,
+}
+
+/// A reduced Lagrangian.
 #[derive(Clone, Debug)]
 pub struct Lagrangian {
     /// The function l(xi); component i of the velocity is [`Symbol::Input`] i.
     pub value: ExprId,
     /// Names of the components of the velocity.
     pub velocity: Vec<Name>,
-    /// How the Hamiltonian comes from it.
-    pub transform: Transform,
-    /// The discrete Lagrangian by which the system was declared, in the same symbols and the step size; l is the
-    /// Lagrangian that it approximates.
-    pub discrete: Option<ExprId>,
-    /// Whether that was written in the entries of the group element, and so in Cayley coordinates.
+    /// The discrete Lagrangian by which the system was declared; l is the Lagrangian that it approximates.
+    pub discrete: Option<Discrete>,
+}
+
+/// A discrete Lagrangian.
+#[derive(Clone, Copy, Debug)]
+pub struct Discrete {
+    /// The function, in the symbols of the velocity and the step size.
+    pub value: ExprId,
+    /// Whether it was written in the entries of the group element, and so in Cayley coordinates.
     pub in_entries: bool,
 }
 
-/// How the Legendre transform of a Lagrangian is had.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Transform {
-    /// The Hamiltonian is an expression in mu.
-    Exact,
-    /// The velocity of a momentum is found by Newton's iteration when it is needed.
-    Newton,
+/// What the bracket of a system is.
+#[derive(Clone, Debug)]
+pub enum Bracket {
+    /// The Lie–Poisson bracket of an algebra: `{mu_i, mu_j} = -C_ij^k mu_k`.
+    Lie(Algebra),
+    /// The same with a constant term, a cocycle of the algebra; the matrix is that of the sum.
+    Extended(Algebra, PoissonMatrix),
+    /// A Poisson matrix that was given entry by entry.
+    General(PoissonMatrix),
 }
 
-/// What the bracket of a system is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Structure {
-    /// The Lie–Poisson bracket of the algebra.
-    Lie,
-    /// The same with a constant term: a cocycle of the algebra.
-    Extended,
-    /// A Poisson matrix that was given entry by entry; there is no algebra.
-    General,
+impl Bracket {
+    /// The algebra.
+    pub fn algebra(&self) -> Option<&Algebra> {
+        match self {
+            Bracket::Lie(algebra) | Bracket::Extended(algebra, _) => Some(algebra),
+            Bracket::General(_) => None,
+        }
+    }
+
+    /// The matrices of the algebra.
+    pub fn representation(&self) -> Option<&Representation> {
+        self.algebra()?.representation.as_ref()
+    }
+
+    /// The Poisson matrix, where structure constants do not say it all.
+    pub fn matrix(&self) -> Option<&PoissonMatrix> {
+        match self {
+            Bracket::Lie(_) => None,
+            Bracket::Extended(_, matrix) | Bracket::General(matrix) => Some(matrix),
+        }
+    }
+}
+
+/// A Lie algebra. Of a right-invariant declaration it is the opposite one, so that every model is left-invariant.
+#[derive(Clone, Debug)]
+pub struct Algebra {
+    /// Names of the basis.
+    pub basis: Vec<Name>,
+    /// Structure constants as rational functions of the parameters (variable `p` is parameter `p`).
+    pub exact: StructureConstants<Fraction>,
+    /// The same in the arena.
+    pub constants: StructureConstants<ExprId>,
+    /// The matrix representation.
+    pub representation: Option<Representation>,
 }
 
 /// The Poisson matrix `Pi_ij = {x_i, x_j}`.
@@ -86,8 +178,7 @@ pub enum Structure {
 pub struct PoissonMatrix {
     /// Number of coordinates n.
     pub dimension: usize,
-    /// The entries `(i, j, Pi_ij)` above the diagonal, `i < j`, ascending, those that are not zero; none
-    /// where the structure constants of the model say it all.
+    /// The entries `(i, j, Pi_ij)` above the diagonal, `i < j`, ascending, those that are not zero.
     pub entries: Vec<(usize, usize, ExprId)>,
     /// The largest total degree of an entry in the coordinates, where all are polynomials in them.
     pub degree: Option<u32>,
@@ -145,8 +236,8 @@ pub enum Descent {
 
 /// A checked system.
 ///
-/// The right-invariant sign is already in `constants`, `representation` (both negated) and `poisson`, so
-/// that `mu' = Pi(mu) grad H(mu)`, of an algebra `mu' = ad*_{grad H} mu`, holds for every model.
+/// The right-invariant sign is already in the bracket, so that `mu' = Pi(mu) grad H(mu)`, of an algebra
+/// `mu' = ad*_{grad H} mu`, holds for every model.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// Name of the system.
@@ -155,6 +246,8 @@ pub struct Model {
     pub name_origin: Origin,
     /// Visibility of the generated type.
     pub visibility: TokenStream,
+    /// Where the generated code finds the runtime.
+    pub runtime: Runtime,
     /// Description, by lines of Markdown.
     pub description: Vec<String>,
     /// References, for people, as Markdown within a line.
@@ -162,41 +255,21 @@ pub struct Model {
     /// The arena of all expressions.
     pub graph: Graph,
     /// What the bracket is.
-    pub structure: Structure,
-    /// The Poisson matrix.
-    pub poisson: PoissonMatrix,
-    /// Names of the basis; none without an algebra.
-    pub basis: Vec<Name>,
+    pub bracket: Bracket,
     /// Names of the coordinates.
     pub coordinates: Vec<Name>,
     /// The parameters.
     pub parameters: Vec<Parameter>,
-    /// Structure constants in the arena; none without an algebra.
-    pub constants: StructureConstants<ExprId>,
-    /// The same as rational functions of the parameters (variable `p` is parameter `p`).
-    pub exact_constants: StructureConstants<Fraction>,
     /// How it was declared.
     pub invariance: Invariance,
-    /// The Hamiltonian; of a system that depends on the time, that of the extended phase space. Where [`Model::has_expression`] is false it is `<mu, xi> - l(xi)` in mu and the
-    /// velocity xi of mu, so that its derivative by a coordinate is a component of xi.
-    pub hamiltonian: ExprId,
-    /// The Lagrangian, if the system was declared by one.
-    pub lagrangian: Option<Lagrangian>,
-    /// The energy: the Hamiltonian as it was declared.
-    pub energy: ExprId,
+    /// Where the equations of motion come from.
+    pub energy: Energy,
     /// What the coordinates beside mu are, of a system on `T*G` or one that depends on the time.
     pub configuration: Option<Configuration>,
-    /// Its total degree in the coordinates, where it is a polynomial in them.
-    pub hamiltonian_degree: Option<u32>,
-    /// The coordinates on which H depends, if H is a sum of functions of one of them each; else two
-    /// that it mixes.
-    pub pieces: Result<Vec<usize>, (usize, usize)>,
     /// The realization, for collective methods.
     pub realization: Option<Realization>,
     /// The independent declared Casimirs.
     pub casimirs: Vec<Casimir>,
-    /// The matrix representation.
-    pub representation: Option<Representation>,
     /// Methods that get fused code.
     pub methods: Vec<Name>,
     /// The initial state, expressions in constants and parameters.
@@ -221,16 +294,17 @@ impl Model {
 
     /// Whether the bracket is the Lie–Poisson bracket of an algebra and nothing else.
     pub fn is_lie_poisson(&self) -> bool {
-        self.structure == Structure::Lie
+        matches!(self.bracket, Bracket::Lie(_))
     }
 
-    /// Whether the Hamiltonian is an expression in mu alone, which methods can take apart.
-    pub fn has_expression(&self) -> bool {
-        let transform = self
-            .lagrangian
-            .as_ref()
-            .map(|lagrangian| lagrangian.transform);
-        transform != Some(Transform::Newton)
+    /// The Hamiltonian in mu; of [`Energy::Legendre`] in mu and its velocity.
+    pub fn hamiltonian(&self) -> ExprId {
+        match &self.energy {
+            Energy::Expression(hamiltonian) | Energy::Lagrangian(_, hamiltonian) => {
+                hamiltonian.value
+            }
+            Energy::Legendre(_, function) => *function,
+        }
     }
 
     /// How many independent Casimirs a user may look for. The unit beside the time is one that nobody has to
@@ -264,7 +338,7 @@ impl Model {
             Symbol::Time => "t".into(),
             Symbol::Input(i) => {
                 let canonical = i.checked_sub(CANONICAL);
-                let names = match (canonical, &self.realization, &self.lagrangian) {
+                let names = match (canonical, &self.realization, self.energy.lagrangian()) {
                     (Some(place), Some(realization), _) => realization.names.get(place),
                     (None, _, Some(lagrangian)) => lagrangian.velocity.get(i),
                     _ => None,

@@ -96,7 +96,7 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
 /// The same system without fused equations, and the methods that are compared on it: those that are fused, once each.
 fn plain(model: &Model, choices: &[Choice]) -> Option<(TokenStream, TokenStream)> {
     let fused: Vec<&Choice> = choices.iter().filter(|choice| is_fused(choice)).collect();
-    if fused.is_empty() || !model.has_expression() {
+    if fused.is_empty() || model.energy.expression().is_none() {
         return None;
     }
     let system = generate(model, &[]);
@@ -153,8 +153,11 @@ fn evidence(model: &Model) -> TokenStream {
     add(model.is_lie_poisson(), quote! { .with_orbits() });
     add(source.group.is_some(), quote! { .with_group() });
     add(source.triple.is_some(), quote! { .with_cayley() });
-    add(source.lagrangian.is_some(), quote! { .with_lagrangian() });
-    add(source.discrete.is_some(), quote! { .with_discrete() });
+    add(
+        source.energy.lagrangian().is_some(),
+        quote! { .with_lagrangian() },
+    );
+    add(source.discrete().is_some(), quote! { .with_discrete() });
     add(source.realization.is_some(), quote! { .with_realization() });
     calls
 }

@@ -107,7 +107,7 @@ fn check(system: &random::System, offset: f64) -> Result<(), TestCaseError> {
     let graph = &mut source.graph;
     let slopes: Vec<f64> = (0..n)
         .map(|i| {
-            let slope = graph.derivative(model.hamiltonian, Symbol::Coordinate(i));
+            let slope = graph.derivative(model.hamiltonian(), Symbol::Coordinate(i));
             graph.evaluate(slope, &point)
         })
         .collect();

@@ -12,6 +12,7 @@ pub mod elimination;
 pub mod equation;
 pub mod generating;
 pub mod generic;
+mod generic_equations;
 pub mod lagrangian;
 pub mod matrix;
 pub mod methods;

@@ -79,6 +79,12 @@ use proc_macro::TokenStream;
 /// }
 ///
 /// lie_poisson! { pub spec = "specs/se3_heavy_top.json"; }
+///
+/// lie_poisson! {
+///     // Where another crate re-exports the runtime: generated paths begin here, and not at `::lie_runtime`.
+///     crate = my_crate::lie_runtime;
+///     pub spec = "specs/so3_free_rigid_body.json";
+/// }
 /// ```
 ///
 /// A Lagrangian that is not quadratic in the velocity must be regular at rest, where the iteration for the velocity

@@ -100,6 +100,9 @@ pub struct Expand {
     /// Emits fused code for this method (repeatable), in place of the spec's `methods`
     #[arg(long, value_name = "ID")]
     pub method: Vec<String>,
+    /// The path at which the code finds the runtime, where another crate re-exports it [default: ::lie_runtime]
+    #[arg(long = "crate", value_name = "PATH")]
+    pub runtime: Option<String>,
     /// Prints the plan of the code instead: what is computed, with operation counts
     #[arg(long)]
     pub plan: bool,

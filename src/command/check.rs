@@ -237,19 +237,18 @@ fn write_system(model: &Model, text: &mut String) -> std::fmt::Result {
     if let Some(configuration) = &model.configuration {
         writeln!(text, "  {}", configuration.description())?;
     }
-    if let Some(lagrangian) = &model.lagrangian {
+    if let Some(lagrangian) = model.energy.lagrangian() {
         if let Some(discrete) = lagrangian.discrete {
-            writeln!(text, "  l_d = {}", model.display(discrete))?;
+            writeln!(text, "  l_d = {}", model.display(discrete.value))?;
         }
         writeln!(text, "  l = {}", model.display(lagrangian.value))?;
     }
-    if model.has_expression() {
-        writeln!(text, "  H = {}", model.display(model.energy))?;
-    } else {
-        writeln!(
+    match model.energy.expression() {
+        Some(hamiltonian) => writeln!(text, "  H = {}", model.display(hamiltonian.energy))?,
+        None => writeln!(
             text,
             "  H = Legendre transform of l, solved by Newton's iteration"
-        )?;
+        )?,
     }
     let independent = model.casimirs_to_find();
     writeln!(

@@ -2,6 +2,7 @@
 
 use lie_codegen::compile;
 use lie_codegen::plan::plan;
+use lie_codegen::print::Runtime;
 
 use super::{args, method, print};
 use crate::compiler;
@@ -13,9 +14,18 @@ use crate::render;
 /// # Errors
 /// Invalid input.
 pub fn run(arguments: &args::Expand) -> Result<u8, Failure> {
-    let spec = compiler::load(&arguments.spec)?;
+    let mut spec = compiler::load(&arguments.spec)?;
     let mut choices = Vec::new();
     let mut mistakes: Vec<Message> = Vec::new();
+    if let Some(path) = &arguments.runtime {
+        match Runtime::at(path) {
+            Ok(runtime) => spec.model.runtime = runtime,
+            Err(no_path) => mistakes.push(
+                Message::option("--crate", no_path.to_string())
+                    .help("write the path at which the runtime is re-exported, as in `--crate my_crate::lie_runtime`"),
+            ),
+        }
+    }
     for id in &arguments.method {
         match method::find(id).and_then(|choice| method::applies(choice, &spec.model)) {
             Ok(choice) => choices.push(choice),

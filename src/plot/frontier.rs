@@ -18,7 +18,10 @@
 //! assert!(picture.to_svg().contains("rk4"));
 //! ```
 
+mod front;
+
 use super::svg::{INK, Place, Svg};
+use front::{fastest, front};
 
 const WIDTH: f64 = 1160.0;
 const HEAD: f64 = 76.0;
@@ -38,9 +41,6 @@ const COLOURS: [&str; 16] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#332288", "#882255", "#44aa99",
     "#999933", "#56b4e9", "#aa4466", "#117733", "#6699cc", "#b8860b", "#7f3fbf", "#4d4d00",
 ];
-/// The error below which a method is measured against others.
-const SERIOUS: f64 = 1e-2;
-
 /// One method.
 #[derive(Clone, Debug)]
 pub struct Curve {
@@ -292,60 +292,10 @@ fn bounds(curves: &[Curve]) -> ((f64, f64), (f64, f64)) {
     ((x.0 - 0.08, x.1 + 0.08), (low, y.1.max(low + 1.0) + 0.1))
 }
 
-/// Which curves have a point that no other curve beats in both.
-fn front(curves: &[&Curve], floor: f64) -> Vec<bool> {
-    let on_front = |curve: &Curve| {
-        // errors of the size of the solution are no contest, nor are those that nobody knows
-        let serious = curve
-            .points
-            .iter()
-            .filter(|point| point.1 < SERIOUS && point.1 > floor);
-        serious.into_iter().any(|&(seconds, error)| {
-            let others = curves.iter().filter(|other| other.name != curve.name);
-            let beaten = others
-                .flat_map(|other| segments(&other.points))
-                .any(|(from, to)| beats(from, to, seconds, error));
-            !beaten
-        })
-    };
-    curves.iter().map(|curve| on_front(curve)).collect()
-}
-
 /// A pale band along the points that none beats.
 fn draw_front(svg: &mut Svg, curves: &[Curve], scale: &Scale) {
-    let all = curves.iter().filter(|curve| !curve.control);
-    let mut points: Vec<(f64, f64)> = all.flat_map(|curve| curve.points.iter().copied()).collect();
-    points.retain(|point| point.1 < SERIOUS);
-    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut least = f64::INFINITY;
-    points.retain(|point| {
-        let better = point.1 < least;
-        least = least.min(point.1);
-        better
-    });
     let band = "stroke=\"#ffe08a\" stroke-width=\"9\" stroke-linecap=\"round\" opacity=\"0.6\"";
-    svg.polyline(scale.line(&points), band);
-}
-
-fn segments(points: &[(f64, f64)]) -> impl Iterator<Item = ((f64, f64), (f64, f64))> {
-    points.iter().enumerate().map(|(index, &point)| {
-        let next = points.get(index + 1).copied().unwrap_or(point);
-        (point, next)
-    })
-}
-
-/// Whether a segment passes below and left of a point.
-fn beats(from: (f64, f64), to: (f64, f64), seconds: f64, error: f64) -> bool {
-    let better = |p: (f64, f64)| p.0 < seconds && p.1 < error;
-    if better(from) || better(to) {
-        return true;
-    }
-    if from.0 >= seconds || to.0 <= seconds {
-        return false;
-    }
-    let part = (seconds / from.0).ln() / (to.0 / from.0).ln();
-    let there = from.1.ln() + part * (to.1 / from.1).ln();
-    there < error.ln() - 1e-9
+    svg.polyline(scale.line(&fastest(curves)), band);
 }
 
 /// Dashes by order: the higher, the more solid.

@@ -1,11 +1,14 @@
 //! The algebra: brackets, Jacobi identity, representation.
 
+use super::expression;
 use crate::algebra::{
     Representation, Scope, StructureConstants, WORK, brackets, jacobi, representation,
 };
-use crate::ast::{self, Declaration};
+use crate::ast::{self, Declaration, Invariance};
 use crate::diagnostic::Report;
 use crate::exact::{Budget, Fraction};
+use crate::model;
+use crate::symbolic::Graph;
 
 /// A Lie algebra in which nothing is wrong.
 pub struct Algebra {
@@ -16,16 +19,22 @@ pub struct Algebra {
 }
 
 impl Algebra {
-    /// No structure at all, for brackets that belong to no algebra.
-    pub fn none(dimension: usize) -> Self {
-        Self {
-            constants: StructureConstants::new(dimension, Vec::new()),
-            representation: None,
+    /// The algebra of the system, with its constants in the arena: of a right-invariant declaration the opposite one.
+    pub fn of_system(self, declaration: &Declaration, graph: &mut Graph) -> model::Algebra {
+        let turned = match declaration.invariance {
+            Invariance::Left => self,
+            Invariance::Right => self.opposite(),
+        };
+        model::Algebra {
+            basis: declaration.basis().to_vec(),
+            constants: turned.constants.map(|value| expression(graph, value)),
+            exact: turned.constants,
+            representation: turned.representation,
         }
     }
 
     /// The opposite algebra: the right-invariant system is the left-invariant one on it.
-    pub fn opposite(self) -> Self {
+    fn opposite(self) -> Self {
         let mut representation = self.representation;
         if let Some(representation) = &mut representation {
             // The triple product of three matrices changes its sign with them.

@@ -87,7 +87,7 @@ mod tests {
                 ("hamiltonian", &hamiltonian),
             ]);
             let model = model(&spec);
-            assert_eq!(jumps(&model.graph, model.hamiltonian), expected, "{text}");
+            assert_eq!(jumps(&model.graph, model.hamiltonian()), expected, "{text}");
         }
     }
 }

@@ -97,18 +97,70 @@ pub fn check(
     scratch: &mut Graph,
     report: &mut Report,
 ) {
-    let n = constants.dimension();
-    let zero = scratch.integer(0);
-    let mut cocycle = vec![vec![zero; n]; n];
-    for entry in entries {
-        cocycle[entry.row][entry.column] = entry.value;
-        cocycle[entry.column][entry.row] = scratch.neg(entry.value);
+    let cocycle = matrix(entries, constants.dimension(), scratch);
+    let brackets = brackets(constants, scratch);
+    let sums = sums(&cocycle, &brackets, scratch);
+    let scratch = &*scratch;
+    let budget = Budget::new(WORK);
+    let mut normal = NormalForm::new(scratch, &budget);
+    let name = |symbol: Symbol| symbol_name(declaration, symbol);
+    for (triple, sum) in &sums {
+        let [a, b, c] = triple.map(|index| declaration.basis()[index].text.as_str());
+        let sums = format!("S([{a}, {b}], {c}) + S([{b}, {c}], {a}) + S([{c}, {a}], {b})");
+        let message = match examine(&mut normal, scratch, *sum, &name) {
+            Proof::Zero => continue,
+            Proof::Nonzero(shown) => {
+                format!("the cocycle identity fails for ({a}, {b}, {c}): {sums} = {shown}")
+            }
+            Proof::Unproven { .. } => format!(
+                "the cocycle identity is unproven for ({a}, {b}, {c}): it could not be shown that {sums} is zero"
+            ),
+        };
+        let mut involved = entries
+            .iter()
+            .filter(|entry| is_part(entry, triple, &brackets));
+        let found = involved.next().or(entries.first());
+        let place = found.map_or(declaration.place(), |entry| entry.origin);
+        report.push(
+            Diagnostic::new(Kind::Cocycle, place, message).help(
+                "correct the constants; S(a, b) is what is added to the bracket of the coordinates of a and b",
+            ),
+        );
+        return;
     }
+}
+
+/// `S(e_i, e_j)` for all i, j.
+fn matrix(entries: &[Entry], n: usize, scratch: &mut Graph) -> Vec<Vec<ExprId>> {
+    let zero = scratch.integer(0);
+    let mut rows = vec![vec![zero; n]; n];
+    for entry in entries {
+        rows[entry.row][entry.column] = entry.value;
+        rows[entry.column][entry.row] = scratch.neg(entry.value);
+    }
+    rows
+}
+
+/// The terms `(k, C_ij^k)` of `[e_i, e_j]`, for all i, j.
+type Brackets = Vec<Vec<Vec<(usize, ExprId)>>>;
+
+fn brackets(constants: &StructureConstants<ExprId>, scratch: &mut Graph) -> Brackets {
+    let n = constants.dimension();
     let mut brackets = vec![vec![Vec::new(); n]; n];
     for (i, j, k, value) in constants.entries() {
         brackets[*i][*j].push((*k, *value));
         brackets[*j][*i].push((*k, scratch.neg(*value)));
     }
+    brackets
+}
+
+/// The sums of the identity that are not zero at sight, with their i < j < k.
+fn sums(
+    cocycle: &[Vec<ExprId>],
+    brackets: &Brackets,
+    scratch: &mut Graph,
+) -> Vec<([usize; 3], ExprId)> {
+    let n = brackets.len();
     let mut sums = Vec::new();
     for i in 0..n {
         for j in i + 1..n {
@@ -126,39 +178,15 @@ pub fn check(
             }
         }
     }
-    let scratch = &*scratch;
-    let budget = Budget::new(WORK);
-    let mut normal = NormalForm::new(scratch, &budget);
-    let name = |symbol: Symbol| symbol_name(declaration, symbol);
-    for (triple, sum) in &sums {
-        let [a, b, c] = triple.map(|index| declaration.basis()[index].text.as_str());
-        let sums = format!("S([{a}, {b}], {c}) + S([{b}, {c}], {a}) + S([{c}, {a}], {b})");
-        let message = match examine(&mut normal, scratch, *sum, &name) {
-            Proof::Zero => continue,
-            Proof::Nonzero(shown) => {
-                format!("the cocycle identity fails for ({a}, {b}, {c}): {sums} = {shown}")
-            }
-            Proof::Unproven { .. } => format!(
-                "the cocycle identity is unproven for ({a}, {b}, {c}): it could not be shown that {sums} is zero"
-            ),
-        };
-        // the constants S(e_l, e_c) that the sum contains
-        let involved = |entry: &&Entry| {
-            [(0, 1, 2), (1, 2, 0), (2, 0, 1)].iter().any(|&(x, y, z)| {
-                let (x, y, z) = (triple[x], triple[y], triple[z]);
-                let mut from = brackets[x][y].iter();
-                from.any(|(l, _)| {
-                    (entry.row, entry.column) == (*l, z) || (entry.row, entry.column) == (z, *l)
-                })
-            })
-        };
-        let found = entries.iter().find(involved).or(entries.first());
-        let place = found.map_or(declaration.place(), |entry| entry.origin);
-        report.push(
-            Diagnostic::new(Kind::Cocycle, place, message).help(
-                "correct the constants; S(a, b) is what is added to the bracket of the coordinates of a and b",
-            ),
-        );
-        return;
-    }
+    sums
+}
+
+/// Whether the sum of a triple contains a constant `S(e_l, e_c)`.
+fn is_part(entry: &Entry, triple: &[usize; 3], brackets: &Brackets) -> bool {
+    let ends = (entry.row, entry.column);
+    [(0, 1, 2), (1, 2, 0), (2, 0, 1)].iter().any(|&(x, y, z)| {
+        let (x, y, z) = (triple[x], triple[y], triple[z]);
+        let mut from = brackets[x][y].iter();
+        from.any(|(l, _)| ends == (*l, z) || ends == (z, *l))
+    })
 }

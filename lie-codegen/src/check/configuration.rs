@@ -12,7 +12,7 @@
 
 mod larger;
 
-use crate::ast::{Bracket, Declaration, Expr, ExprKind, Name, Structure};
+use crate::ast::{Algebra, Bracket, Declaration, Expr, ExprKind, Invariance, Name, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Rational;
 use larger::Builder;
@@ -200,98 +200,121 @@ pub fn extended(
     configuration: &Configuration,
     report: &mut Report,
 ) -> Declaration {
-    let origin = declaration
-        .group
-        .as_ref()
-        .map_or(declaration.energy.expression().origin, |name| name.origin);
-    let name = |text: &str| Name {
-        text: text.to_owned(),
+    let group = declaration.group.as_ref();
+    let origin = group.map_or(declaration.energy.expression().origin, |name| name.origin);
+    let added = Added {
+        configuration,
         origin,
     };
-    let entries = configuration.entries();
-    clashes(declaration, &entries, origin, report);
+    clashes(declaration, &configuration.entries(), origin, report);
     let mut whole = declaration.clone();
-    let add = |names: &mut Vec<Name>| {
-        if configuration.time {
-            names.push(name(TIME_MOMENTUM));
-        }
-        names.extend(entries.iter().map(|text| name(text)));
-        if configuration.time {
-            names.extend([name(TIME), name(UNIT)]);
-        }
-    };
-    add(&mut whole.state);
-    let number = |value| Expr {
-        kind: ExprKind::Number(Rational::from(value)),
-        origin,
-    };
+    added.names(&mut whole.state);
     match &mut whole.structure {
-        Structure::Lie { algebra, .. } => {
-            let declared = algebra.clone();
-            let builder = Builder {
-                algebra: &declared,
-                invariance: declaration.invariance,
-                configuration,
-                origin,
-            };
-            add(&mut algebra.basis);
-            if let Some(brackets) = &mut algebra.brackets {
-                builder.add_brackets(brackets);
-            }
-            if !declared.matrices.is_empty() {
-                algebra.matrices = builder.matrices();
-            }
-        }
+        Structure::Lie { algebra, .. } => added.elements(algebra, declaration.invariance),
         // the pair is canonical by itself; the central coordinate is there for the order of the others
         Structure::General { brackets, .. } => brackets.push(Bracket {
-            left: name(TIME),
-            right: name(TIME_MOMENTUM),
-            value: number(1),
+            left: added.name(TIME),
+            right: added.name(TIME_MOMENTUM),
+            value: added.number(1),
             origin,
         }),
     }
     if let Some(initial) = &declaration.initial {
-        let complete = configuration.complete(initial, number);
+        let complete = configuration.complete(initial, |value| added.number(value));
         if complete.is_none() {
-            let place = declaration
-                .initial_origin
-                .or(initial.last().map(|e| e.origin));
-            let entries = entries.len();
-            let own = declaration.state.len();
-            let (or, help) = if entries > 0 {
-                let all = own + entries;
-                let or = format!(", or {all} with the entries of the group element");
-                (
-                    or,
-                    "write the momenta alone, to begin at the identity, or also the entries row by row",
-                )
-            } else {
-                (
-                    String::new(),
-                    "write one value for every coordinate, in their order",
-                )
-            };
-            report.push(
-                Diagnostic::new(
-                    Kind::StateLength,
-                    place.unwrap_or(origin),
-                    format!(
-                        "the initial state has {} {}, but the state has {own} coordinates{or}",
-                        initial.len(),
-                        super::size::plural(initial.len(), "value")
-                    ),
-                )
-                .help(help),
-            );
+            report.push(incomplete(declaration, configuration, initial, origin));
         }
         // of a wrong number of values each is still looked at
         whole.initial = complete.or_else(|| {
             let mut padded = initial.clone();
-            padded.resize(whole.state.len(), number(0));
+            padded.resize(whole.state.len(), added.number(0));
             Some(padded)
         });
     }
     whole
+}
+
+/// What is added to a declaration, at the place of what asks for it.
+struct Added<'a> {
+    configuration: &'a Configuration,
+    origin: Origin,
+}
+
+impl Added<'_> {
+    fn name(&self, text: &str) -> Name {
+        Name {
+            text: text.to_owned(),
+            origin: self.origin,
+        }
+    }
+
+    fn number(&self, value: i64) -> Expr {
+        Expr {
+            kind: ExprKind::Number(Rational::from(value)),
+            origin: self.origin,
+        }
+    }
+
+    /// The names of coordinates, or of basis elements, behind those that were declared.
+    fn names(&self, names: &mut Vec<Name>) {
+        let time = self.configuration.time;
+        if time {
+            names.push(self.name(TIME_MOMENTUM));
+        }
+        let entries = self.configuration.entries();
+        names.extend(entries.iter().map(|text| self.name(text)));
+        if time {
+            names.extend([TIME, UNIT].map(|text| self.name(text)));
+        }
+    }
+
+    /// The elements of the larger algebra with their brackets and matrices.
+    fn elements(&self, algebra: &mut Algebra, invariance: Invariance) {
+        let declared = algebra.clone();
+        let builder = Builder {
+            algebra: &declared,
+            invariance,
+            configuration: self.configuration,
+            origin: self.origin,
+        };
+        self.names(&mut algebra.basis);
+        if let Some(brackets) = &mut algebra.brackets {
+            builder.add_brackets(brackets);
+        }
+        if !declared.matrices.is_empty() {
+            algebra.matrices = builder.matrices();
+        }
+    }
+}
+
+/// An initial state that has neither the values of the declared coordinates nor those of all.
+fn incomplete(
+    declaration: &Declaration,
+    configuration: &Configuration,
+    initial: &[Expr],
+    origin: Origin,
+) -> Diagnostic {
+    let place = declaration.initial_origin;
+    let place = place.or(initial.last().map(|e| e.origin)).unwrap_or(origin);
+    let (own, entries) = (declaration.state.len(), configuration.entries().len());
+    let (or, help) = match entries {
+        0 => (
+            String::new(),
+            "write one value for every coordinate, in their order",
+        ),
+        _ => (
+            format!(
+                ", or {} with the entries of the group element",
+                own + entries
+            ),
+            "write the momenta alone, to begin at the identity, or also the entries row by row",
+        ),
+    };
+    let count = initial.len();
+    let values = super::size::plural(count, "value");
+    let message =
+        format!("the initial state has {count} {values}, but the state has {own} coordinates{or}");
+    Diagnostic::new(Kind::StateLength, place, message).help(help)
 }
 
 /// Reports names of the user that the entries of the group element take.

@@ -1,9 +1,9 @@
 //! Structure constants at the default values of the exact parameters.
 
-use crate::algebra::StructureConstants;
+use super::algebra::Algebra;
 use crate::ast::Declaration;
 use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::exact::{Fraction, Rational};
+use crate::exact::Rational;
 use crate::model::Parameter;
 
 /// Work that exact evaluation may cost, in products of words.
@@ -13,7 +13,7 @@ const WORK: u64 = 300_000_000;
 /// there, because the exact rank at the initial state needs their values.
 pub fn check(
     declaration: &Declaration,
-    constants: &StructureConstants<Fraction>,
+    algebra: Option<&Algebra>,
     parameters: &[Parameter],
     report: &mut Report,
 ) -> Option<Vec<Rational>> {
@@ -31,7 +31,8 @@ pub fn check(
         .max()
         .unwrap_or(0)
         .max(16);
-    let work = constants.entries().iter().fold(0, |sum: u64, e| {
+    let entries = algebra.map_or(&[][..], |algebra| algebra.constants.entries());
+    let work = entries.iter().fold(0, |sum: u64, e| {
         sum.saturating_add(e.3.evaluation_work(bits))
     });
     if work > WORK {
@@ -46,11 +47,7 @@ pub fn check(
         return None;
     }
     let value = |p: usize| defaults[p].clone();
-    if let Some((i, j, ..)) = constants
-        .entries()
-        .iter()
-        .find(|e| e.3.evaluate(&value).is_none())
-    {
+    if let Some((i, j, ..)) = entries.iter().find(|e| e.3.evaluate(&value).is_none()) {
         let [a, b] = [*i, *j].map(|index| &declaration.basis()[index].text);
         report.push(
             Diagnostic::new(

@@ -3,7 +3,7 @@
 use super::velocity::velocity;
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Rational;
-use crate::model::{Model, Structure};
+use crate::model::{Bracket, Energy, Model};
 use crate::symbolic::{ExprId, Graph, Node, Symbol};
 
 /// A group element within this of the group is one, written with few digits.
@@ -37,9 +37,9 @@ pub fn check(model: &Model, origin: Option<Origin>, report: &mut Report) {
             .configuration
             .as_ref()
             .is_some_and(|c| c.group.is_some());
-        report.push(diagnostic.help(match model.structure {
+        report.push(diagnostic.help(match model.bracket {
             _ if group => "begin at an element of the group, inside the domain of the Hamiltonian",
-            Structure::General => {
+            Bracket::General(_) => {
                 "begin inside the domain of the brackets, of the Hamiltonian and of the Casimirs"
             }
             _ => "begin inside the domain of the Hamiltonian and of the Casimirs",
@@ -61,72 +61,32 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
         return Some(fault);
     }
     let mut scratch = model.graph.clone();
-    let mut xi = Vec::new();
-    if let Some(lagrangian) = model
-        .lagrangian
-        .as_ref()
-        .filter(|_| !model.has_expression())
-    {
-        match velocity(&mut scratch, lagrangian.value, mu, parameters) {
-            Some(found) => xi = found,
-            None => {
-                return Some(Fault {
-                    coordinate: None,
-                    message: "the Hamiltonian is not finite because no velocity with this momentum was found".into(),
-                });
+    let xi = match &model.energy {
+        Energy::Legendre(lagrangian, _) => {
+            match velocity(&mut scratch, lagrangian.value, mu, parameters) {
+                Some(xi) => xi,
+                None => return Some(no_velocity()),
             }
         }
-    }
-    let mut functions: Vec<(ExprId, String)> = vec![(model.hamiltonian, "the Hamiltonian".into())];
-    for symbol in model.graph.symbols(model.hamiltonian) {
-        if let Symbol::Coordinate(i) = symbol {
-            let component = scratch.derivative(model.hamiltonian, symbol);
-            functions.push((
-                component,
-                format!(
-                    "the derivative of the Hamiltonian by `{}`",
-                    model.coordinates[i].text
-                ),
-            ));
-        }
-    }
-    functions.extend(
-        model
-            .casimirs
-            .iter()
-            .map(|c| (c.expr, format!("the Casimir `{}`", c.name))),
-    );
-    if model.structure == Structure::General {
-        functions.extend(model.poisson.entries.iter().map(|(i, j, value)| {
-            let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);
-            (*value, format!("the bracket {{{a}, {b}}}"))
-        }));
-    }
+        _ => Vec::new(),
+    };
     let value = |symbol| match symbol {
         Symbol::Coordinate(i) => mu[i],
         Symbol::Parameter(p) => parameters[p],
         Symbol::Input(i) => xi.get(i).copied().unwrap_or(f64::NAN),
         _ => f64::NAN,
     };
+    let functions = functions(model, &mut scratch);
     let roots: Vec<ExprId> = functions.iter().map(|(id, _)| *id).collect();
     let values = scratch.evaluate_all(&roots, &value);
     let bad = values.iter().position(|v| !v.is_finite())?;
     let (root, what) = &functions[bad];
-    // Children come before parents: the first part that is not finite is where it begins.
-    let parts = scratch.dependencies(&[*root]);
-    let part_values = scratch.evaluate_all(&parts, &value);
-    let origin = part_values
-        .iter()
-        .position(|v| !v.is_finite())
-        .map_or(*root, |i| parts[i]);
-    let origin = culprit(&mut scratch, origin, &value);
-    let coordinate = scratch
-        .symbols(origin)
-        .into_iter()
-        .find_map(|symbol| match symbol {
-            Symbol::Coordinate(i) => Some(i),
-            _ => None,
-        });
+    let origin = first_part(&mut scratch, *root, &value);
+    let symbols = scratch.symbols(origin);
+    let coordinate = symbols.into_iter().find_map(|symbol| match symbol {
+        Symbol::Coordinate(i) => Some(i),
+        _ => None,
+    });
     let shown = scratch.display(origin, &|symbol| model.symbol_name(symbol));
     let because = if shown.chars().count() <= 80 {
         format!(" because of `{shown}`")
@@ -139,13 +99,54 @@ pub fn fault(model: &Model, mu: &[f64], parameters: &[f64]) -> Option<Fault> {
     })
 }
 
+fn no_velocity() -> Fault {
+    Fault {
+        coordinate: None,
+        message: "the Hamiltonian is not finite because no velocity with this momentum was found"
+            .into(),
+    }
+}
+
+/// What must be finite, with its name.
+fn functions(model: &Model, scratch: &mut Graph) -> Vec<(ExprId, String)> {
+    let hamiltonian = model.hamiltonian();
+    let mut functions: Vec<(ExprId, String)> = vec![(hamiltonian, "the Hamiltonian".into())];
+    for symbol in model.graph.symbols(hamiltonian) {
+        if let Symbol::Coordinate(i) = symbol {
+            let name = &model.coordinates[i].text;
+            let component = scratch.derivative(hamiltonian, symbol);
+            functions.push((
+                component,
+                format!("the derivative of the Hamiltonian by `{name}`"),
+            ));
+        }
+    }
+    let casimirs = model.casimirs.iter();
+    functions.extend(casimirs.map(|c| (c.expr, format!("the Casimir `{}`", c.name))));
+    if let Bracket::General(matrix) = &model.bracket {
+        functions.extend(matrix.entries.iter().map(|(i, j, value)| {
+            let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);
+            (*value, format!("the bracket {{{a}, {b}}}"))
+        }));
+    }
+    functions
+}
+
+/// Where it begins that a function is not finite: children come before parents.
+fn first_part(graph: &mut Graph, root: ExprId, value: &dyn Fn(Symbol) -> f64) -> ExprId {
+    let parts = graph.dependencies(&[root]);
+    let values = graph.evaluate_all(&parts, value);
+    let first = values.iter().position(|v| !v.is_finite());
+    culprit(graph, first.map_or(root, |i| parts[i]), value)
+}
+
 /// A group element off the group by more than the digits that someone may have left out. Known for groups of
 /// orthogonal matrices: their algebras have antisymmetric ones.
 fn outside_the_group(model: &Model, mu: &[f64]) -> Option<Fault> {
     let configuration = model.configuration.as_ref()?;
     let (name, size) = configuration.group.as_ref()?;
     let (first, size) = (configuration.momenta, *size);
-    let matrices = &model.representation.as_ref()?.matrices;
+    let matrices = &model.bracket.representation()?.matrices;
     let skew = |matrix: &Vec<Vec<Rational>>| {
         let pairs = (0..size).flat_map(|i| (0..=i).map(move |j| (i, j)));
         let mut sums = pairs.map(|(i, j)| &matrix[i][j] + &matrix[j][i]);

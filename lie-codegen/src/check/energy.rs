@@ -1,12 +1,12 @@
 //! The Hamiltonian of a declaration: as it stands, or that of a Lagrangian.
 
 use super::configuration::Configuration;
-use super::legendre::{self, Lagrangian};
+use super::legendre::{self, Lagrangian, Transform};
 use super::{discrete, size};
 use crate::ast::{Declaration, Energy, Name};
 use crate::diagnostic::{Origin, Report};
-use crate::model::{self, Parameter};
-use crate::symbolic::{ExprId, Graph};
+use crate::model::{self, Discrete, Parameter};
+use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// What the equations of motion come from.
 pub struct Motion<'a> {
@@ -20,24 +20,43 @@ pub struct Motion<'a> {
     pub on_algebra: bool,
 }
 
+/// The Hamiltonian of a declaration.
+#[derive(Clone, Copy, Debug)]
+pub struct Declared {
+    /// The function whose field moves the state: of a system that depends on the time `H(t, mu) + p`.
+    pub value: ExprId,
+    /// As it was declared.
+    pub energy: ExprId,
+}
+
 impl Motion<'_> {
-    /// The Hamiltonian for the lowered function of the declaration, and the Lagrangian if it is one.
+    /// The energy for the lowered function of the declaration.
     ///
     /// # Errors
     /// A Lagrangian without a Hamiltonian, reported.
-    pub fn hamiltonian(
+    pub fn energy(
         &self,
         graph: &mut Graph,
         function: ExprId,
         report: &mut Report,
-    ) -> Option<(ExprId, Option<model::Lagrangian>)> {
-        match &self.declaration.energy {
-            Energy::Hamiltonian(_) => Some((function, None)),
+    ) -> Option<model::Energy<Declared>> {
+        let energy = match &self.declaration.energy {
+            Energy::Hamiltonian(_) => model::Energy::Expression(function),
             Energy::Lagrangian { velocity, value }
             | Energy::DiscreteLagrangian { velocity, value } => {
-                self.of_lagrangian(graph, function, (velocity, value.origin), report)
+                self.of_lagrangian(graph, function, (velocity, value.origin), report)?
             }
-        }
+        };
+        Some(energy.with(|energy| Declared {
+            value: match self.configuration {
+                Some(configuration) if configuration.time => {
+                    let momentum = graph.symbol(Symbol::Coordinate(configuration.momenta - 1));
+                    graph.add(energy, momentum)
+                }
+                _ => energy,
+            },
+            energy,
+        }))
     }
 
     fn of_lagrangian(
@@ -46,7 +65,7 @@ impl Motion<'_> {
         function: ExprId,
         (velocity, origin): (&[Name], Origin),
         report: &mut Report,
-    ) -> Option<(ExprId, Option<model::Lagrangian>)> {
+    ) -> Option<model::Energy<ExprId>> {
         let count = velocity.len();
         if !size::lagrangian(graph, function, count, origin, report) {
             return None;
@@ -68,15 +87,20 @@ impl Motion<'_> {
             configuration: self.configuration,
             on_algebra: self.on_algebra,
         };
-        let (hamiltonian, transform) = legendre::hamiltonian(graph, &lagrangian, report)?;
-        // one that depends on the group element or the time is none on the algebra alone
-        let reduced = self.on_algebra.then(|| model::Lagrangian {
+        let transform = legendre::hamiltonian(graph, &lagrangian, report)?;
+        let in_entries = self.declaration.group.is_some();
+        let lagrangian = model::Lagrangian {
             value,
             velocity: velocity.to_vec(),
-            transform,
-            discrete,
-            in_entries: self.declaration.group.is_some(),
-        });
-        Some((hamiltonian, reduced))
+            discrete: discrete.map(|value| Discrete { value, in_entries }),
+        };
+        Some(match transform {
+            Transform::InVelocity(function) => model::Energy::Legendre(lagrangian, function),
+            Transform::Exact(hamiltonian) if self.on_algebra => {
+                model::Energy::Lagrangian(lagrangian, hamiltonian)
+            }
+            // one that depends on the group element or the time is none on the algebra alone
+            Transform::Exact(hamiltonian) => model::Energy::Expression(hamiltonian),
+        })
     }
 }

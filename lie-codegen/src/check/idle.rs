@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::ast::{Declaration, Expr, ExprKind, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Report};
-use crate::model::{Model, Structure as Bracket};
+use crate::model::{Bracket, Model};
 use crate::symbolic::Symbol;
 
 /// Warns of parameters and abbreviations that no expression mentions, of brackets that are all
@@ -38,10 +38,10 @@ fn unused(declaration: &Declaration, report: &mut Report) {
 
 /// A sum of brackets that are zero, or a constant H: every state is at rest.
 fn motionless(declaration: &Declaration, model: &Model, report: &mut Report) {
-    let no_bracket = match model.structure {
-        Bracket::Lie => model.constants.entries().is_empty(),
-        Bracket::General => model.poisson.entries.is_empty(),
-        Bracket::Extended => false,
+    let no_bracket = match &model.bracket {
+        Bracket::Lie(algebra) => algebra.constants.entries().is_empty(),
+        Bracket::General(matrix) => matrix.entries.is_empty(),
+        Bracket::Extended(..) => false,
     };
     // A single coordinate has no bracket but with itself, and whoever declares it knows.
     if no_bracket && declaration.dimension() > 1 {
@@ -58,7 +58,8 @@ fn motionless(declaration: &Declaration, model: &Model, report: &mut Report) {
         report.push(warning.help(help).warning());
     }
     let moves = |symbol: &Symbol| matches!(symbol, Symbol::Coordinate(_));
-    if !model.graph.symbols(model.energy).iter().any(moves) {
+    let energy = model.energy.expression().map(|h| h.energy);
+    if energy.is_some_and(|energy| !model.graph.symbols(energy).iter().any(moves)) {
         let place = declaration.energy.expression().origin;
         let message = "the Hamiltonian does not depend on the state: no state moves";
         let warning = Diagnostic::new(Kind::Motionless, place, message);

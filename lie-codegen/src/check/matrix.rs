@@ -5,18 +5,18 @@ use std::collections::BTreeMap;
 use super::{poisson, ranks};
 use crate::algebra::StructureConstants;
 use crate::exact::Rational;
-use crate::model::{Model, PoissonMatrix, Structure};
+use crate::model::{Model, PoissonMatrix};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
-/// The entries: `-C_ij^k x_k` of an algebra, and what is declared.
+/// The entries: `-C_ij^k x_k` of an algebra, and what is declared. Nothing is known of their degree.
 pub fn of(
     graph: &mut Graph,
-    structure: Structure,
-    constants: &StructureConstants<ExprId>,
+    dimension: usize,
+    constants: Option<&StructureConstants<ExprId>>,
     brackets: &[poisson::Entry],
 ) -> PoissonMatrix {
     let mut terms: BTreeMap<(usize, usize), Vec<ExprId>> = BTreeMap::new();
-    for (i, j, k, value) in constants.entries() {
+    for (i, j, k, value) in constants.into_iter().flat_map(StructureConstants::entries) {
         let x = graph.symbol(Symbol::Coordinate(*k));
         let product = graph.mul(*value, x);
         let term = graph.neg(product);
@@ -30,9 +30,9 @@ pub fn of(
     let entries = entries.map(|((i, j), terms)| (i, j, graph.sum(&terms)));
     let entries: Vec<_> = entries.collect();
     PoissonMatrix {
-        dimension: constants.dimension(),
+        dimension,
         entries,
-        degree: (structure != Structure::General).then_some(1),
+        degree: None,
     }
 }
 
@@ -45,8 +45,13 @@ pub fn generic_rank(scratch: &mut Graph, poisson: &PoissonMatrix, bound: usize) 
 }
 
 /// The rank at the initial state, rounded to double precision; in the same way.
-pub fn initial_rank(model: &Model, scratch: &mut Graph, mu: &[f64]) -> Option<usize> {
-    let rows = model.poisson.rows(scratch);
+pub fn initial_rank(
+    model: &Model,
+    poisson: &PoissonMatrix,
+    scratch: &mut Graph,
+    mu: &[f64],
+) -> Option<usize> {
+    let rows = poisson.rows(scratch);
     let rows: Vec<&Vec<ExprId>> = rows.iter().collect();
     let exact = |symbol| match symbol {
         Symbol::Coordinate(i) => Rational::from_f64(mu[i]),

@@ -48,30 +48,10 @@ pub fn check(declaration: &Declaration, report: &mut Report) {
         permitted(name, report);
     }
     if declaration.energy.has_step() {
-        let lets = declaration.lets.iter().map(|(name, _)| name);
-        let parameters = declaration.parameters.iter().map(|p| &p.name);
-        for name in velocity.iter().chain(state).chain(parameters).chain(lets) {
-            if name.text == "h" {
-                report.push(
-                    Diagnostic::new(
-                        Kind::ReservedName,
-                        name.origin,
-                        "`h` is the step size in a discrete Lagrangian",
-                    )
-                    .help("choose another name"),
-                );
-            }
-        }
+        steps(declaration, report);
     }
     if TYPES.contains(&declaration.name.text.as_str()) {
-        let message = format!(
-            "`{}` is the name of a type of the generated code",
-            declaration.name.text
-        );
-        report.push(
-            Diagnostic::new(Kind::ReservedName, declaration.name.origin, message)
-                .help("choose another name for the system, such as RigidBody"),
-        );
+        report.push(of_a_type(&declaration.name));
     }
     let mut algebra: HashMap<&str, &str> = HashMap::new();
     let mut dual: HashMap<&str, &str> = HashMap::new();
@@ -98,6 +78,35 @@ pub fn check(declaration: &Declaration, report: &mut Report) {
     for name in casimirs {
         declare(&mut [&mut columns], name, "Casimir", report);
     }
+}
+
+/// Reports what is called as the step size, which a discrete Lagrangian contains.
+fn steps(declaration: &Declaration, report: &mut Report) {
+    let lets = declaration.lets.iter().map(|(name, _)| name);
+    let parameters = declaration.parameters.iter().map(|p| &p.name);
+    let names = declaration.energy.velocity().iter();
+    for name in names
+        .chain(&declaration.state)
+        .chain(parameters)
+        .chain(lets)
+    {
+        if name.text == "h" {
+            let message = "`h` is the step size in a discrete Lagrangian";
+            report.push(
+                Diagnostic::new(Kind::ReservedName, name.origin, message)
+                    .help("choose another name"),
+            );
+        }
+    }
+}
+
+fn of_a_type(name: &Name) -> Diagnostic {
+    let message = format!(
+        "`{}` is the name of a type of the generated code",
+        name.text
+    );
+    Diagnostic::new(Kind::ReservedName, name.origin, message)
+        .help("choose another name for the system, such as RigidBody")
 }
 
 fn declare<'a>(

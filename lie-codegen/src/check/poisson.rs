@@ -76,11 +76,8 @@ pub fn check(
             }
             continue;
         }
-        let (pair, above) = if a < b {
-            ((a, b), value)
-        } else {
-            ((b, a), graph.neg(value))
-        };
+        let above = if a < b { value } else { graph.neg(value) };
+        let pair = (a.min(b), a.max(b));
         let Some(&(first, earlier)) = known.get(&pair) else {
             known.insert(pair, (above, bracket));
             continue;
@@ -97,18 +94,22 @@ pub fn check(
             complete = false;
         }
     }
-    let entries = known.into_iter();
-    let entries = entries.filter(|(_, (value, _))| !graph.is_zero(*value));
-    complete.then(|| {
-        entries
-            .map(|((row, column), (value, bracket))| Entry {
-                row,
-                column,
-                value,
-                origin: bracket.origin,
-            })
-            .collect()
-    })
+    complete.then(|| entries(graph, known))
+}
+
+/// What is not zero.
+fn entries(graph: &Graph, known: BTreeMap<(usize, usize), (ExprId, &Bracket)>) -> Vec<Entry> {
+    let known = known.into_iter();
+    let entry = |((row, column), (value, bracket)): (_, (_, &Bracket))| Entry {
+        row,
+        column,
+        value,
+        origin: bracket.origin,
+    };
+    known
+        .filter(|(_, (value, _))| !graph.is_zero(*value))
+        .map(entry)
+        .collect()
 }
 
 fn unknown(declaration: &Declaration, name: &Name) -> Diagnostic {

@@ -170,31 +170,61 @@ pub fn check(
     name: &dyn Fn(Symbol) -> String,
     report: &mut Report,
 ) {
-    let half = realization.names.len() / 2;
+    let points = realization.names.len();
     let map = realization.map.clone();
-    let slopes: Vec<Vec<ExprId>> = map
+    let slopes: Vec<Vec<ExprId>> = map.iter().map(|&j| slopes(scratch, j, points)).collect();
+    let differences = differences(scratch, &map, &slopes, poisson);
+    let (components, thirds) = higher_derivatives(scratch, &map, &slopes);
+    let scratch = &*scratch;
+    let budget = Budget::new(WORK);
+    let mut normal = NormalForm::within(scratch, &budget, &map);
+    for (a, b, difference) in differences {
+        let shown = |k| name(Symbol::Coordinate(k));
+        let proof = examine(&mut normal, scratch, difference, name);
+        if let Some(message) = message(&proof, &shown(a), &shown(b)) {
+            report.push(mistake(
+                realization.origins[b],
+                message,
+                "{f, g} = sum df/dq dg/dp - df/dp dg/dq must be the bracket of the system; often a sign is wrong",
+            ));
+            return;
+        }
+    }
+    let quadratic = thirds
         .iter()
-        .map(|&component| {
-            let symbols = (0..2 * half).map(|i| Symbol::Input(CANONICAL + i));
-            symbols
-                .map(|symbol| scratch.derivative(component, symbol))
-                .collect()
-        })
-        .collect();
+        .all(|third| matches!(normal.verdict(*third), Verdict::Zero));
+    realization.descent = match quadratic {
+        true => descent::of(scratch, &components, points),
+        false => Descent::Degree,
+    };
+}
+
+/// The derivatives of a function by the canonical coordinates.
+fn slopes(graph: &mut Graph, function: ExprId, points: usize) -> Vec<ExprId> {
+    let symbols = (0..points).map(|i| Symbol::Input(CANONICAL + i));
+    let slopes = symbols.map(|symbol| graph.derivative(function, symbol));
+    slopes.collect()
+}
+
+/// What must vanish: `(a, b, {J_a, J_b} - Pi_ab(J))`, a < b.
+fn differences(
+    scratch: &mut Graph,
+    map: &[ExprId],
+    slopes: &[Vec<ExprId>],
+    poisson: &PoissonMatrix,
+) -> Vec<(usize, usize, ExprId)> {
     let mut differences = Vec::new();
     for a in 0..map.len() {
         for b in a + 1..map.len() {
+            let half = slopes[a].len() / 2;
             let mut terms = Vec::new();
             for i in 0..half {
                 terms.push(scratch.mul(slopes[a][i], slopes[b][half + i]));
                 let other = scratch.mul(slopes[a][half + i], slopes[b][i]);
                 terms.push(scratch.neg(other));
             }
-            let entry = poisson
-                .entries
-                .iter()
-                .find(|entry| (entry.0, entry.1) == (a, b));
-            if let Some(&(_, _, value)) = entry {
+            let mut entries = poisson.entries.iter();
+            if let Some(&(_, _, value)) = entries.find(|entry| (entry.0, entry.1) == (a, b)) {
                 let over = scratch.substitute(&[value], &|symbol| match symbol {
                     Symbol::Coordinate(k) => Some(map[k]),
                     _ => None,
@@ -204,57 +234,48 @@ pub fn check(
             differences.push((a, b, scratch.sum(&terms)));
         }
     }
-    let mut thirds = Vec::new();
-    let mut components: Vec<Component> = Vec::new();
-    for (&value, slopes) in map.iter().zip(&slopes) {
-        let mut component = Component {
-            value,
-            slopes: slopes.clone(),
-            seconds: Vec::new(),
-        };
-        for (slope, i) in slopes
-            .iter()
-            .flat_map(|s| (0..2 * half).map(move |i| (s, i)))
-        {
-            let second = scratch.derivative(*slope, Symbol::Input(CANONICAL + i));
-            component.seconds.push(second);
-            for j in i..2 * half {
-                thirds.push(scratch.derivative(second, Symbol::Input(CANONICAL + j)));
+    differences
+}
+
+/// The components with their second derivatives, and all third ones.
+fn higher_derivatives(
+    scratch: &mut Graph,
+    map: &[ExprId],
+    slopes: &[Vec<ExprId>],
+) -> (Vec<Component>, Vec<ExprId>) {
+    let (mut components, mut thirds) = (Vec::new(), Vec::new());
+    for (&value, slopes) in map.iter().zip(slopes) {
+        let mut seconds = Vec::new();
+        for slope in slopes {
+            for i in 0..slopes.len() {
+                let second = scratch.derivative(*slope, Symbol::Input(CANONICAL + i));
+                seconds.push(second);
+                for j in i..slopes.len() {
+                    thirds.push(scratch.derivative(second, Symbol::Input(CANONICAL + j)));
+                }
             }
         }
-        components.push(component);
+        components.push(Component {
+            value,
+            slopes: slopes.clone(),
+            seconds,
+        });
     }
     thirds.sort_unstable();
     thirds.dedup();
-    let scratch = &*scratch;
-    let budget = Budget::new(WORK);
-    let mut normal = NormalForm::within(scratch, &budget, &map);
-    for (a, b, difference) in differences {
-        let (state, place) = (|k| name(Symbol::Coordinate(k)), realization.origins[b]);
-        let (left, right) = (state(a), state(b));
-        let message = match examine(&mut normal, scratch, difference, name) {
-            Proof::Zero => continue,
-            Proof::Nonzero(shown) => format!(
-                "the realization is no Poisson map: {{{left}, {right}}} of its components is not that of the \
-                 system, the difference is {shown}"
-            ),
-            Proof::Unproven { .. } => {
-                format!(
-                    "it could not be shown that {{{left}, {right}}} of the components is that of the system"
-                )
-            }
-        };
-        report.push(
-            Diagnostic::new(Kind::Representation, place, message)
-                .help("{f, g} = sum df/dq dg/dp - df/dp dg/dq must be the bracket of the system; often a sign is wrong"),
-        );
-        return;
+    (components, thirds)
+}
+
+/// Why two components do not have the bracket of the system.
+fn message(proof: &Proof, left: &str, right: &str) -> Option<String> {
+    match proof {
+        Proof::Zero => None,
+        Proof::Nonzero(shown) => Some(format!(
+            "the realization is no Poisson map: {{{left}, {right}}} of its components is not that of the system, the \
+             difference is {shown}"
+        )),
+        Proof::Unproven { .. } => Some(format!(
+            "it could not be shown that {{{left}, {right}}} of the components is that of the system"
+        )),
     }
-    let quadratic = thirds
-        .iter()
-        .all(|third| matches!(normal.verdict(*third), Verdict::Zero));
-    realization.descent = match quadratic {
-        true => descent::of(scratch, &components, 2 * half),
-        false => Descent::Degree,
-    };
 }

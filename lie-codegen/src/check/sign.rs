@@ -7,7 +7,6 @@ use crate::algebra::{StructureConstants, WORK, jacobi};
 use crate::ast::Declaration;
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::exact::{Budget, Fraction};
-use crate::model::Structure;
 use crate::symbolic::{Graph, Symbol};
 
 /// Brackets whose signs are tried; each trial is a check of the algebra and of its Casimirs.
@@ -72,7 +71,7 @@ fn holds(
         return false;
     }
     let symbolic = constants.map(|value| expression(graph, value));
-    let poisson = matrix::of(graph, Structure::Lie, &symbolic, &[]);
+    let poisson = matrix::of(graph, symbolic.dimension(), Some(&symbolic), &[]);
     let mut unheard = Report::new();
     let nameless = |_: Symbol| String::new();
     let all = candidates.iter().all(|candidate| {

@@ -19,78 +19,74 @@ const MOST_DERIVED: usize = 300_000;
 /// Checks that the basis is neither empty nor beyond every size, and that the state fits it;
 /// whether the other checks of the stage make sense.
 pub fn check(declaration: &Declaration, report: &mut Report) -> bool {
-    let dimension = declaration.dimension();
-    let state = declaration.state.len();
-    if dimension == 0 {
-        let place = declaration.place();
-        report.push(match declaration.algebra() {
-            Some(_) => Diagnostic::new(Kind::Basis, place, "the basis is empty")
-                .help("name at least one basis element"),
-            None => Diagnostic::new(Kind::StateLength, place, "the state is empty")
-                .help("name at least one coordinate"),
-        });
+    if let Some(diagnostic) = empty(declaration).or_else(|| beyond_every_size(declaration)) {
+        report.push(diagnostic);
         return false;
     }
-    if dimension > MAX_DIMENSION {
-        report.push(
-            Diagnostic::new(
-                Kind::Limit,
-                declaration.place(),
-                format!("the dimension {dimension} is above the limit of {MAX_DIMENSION}"),
-            )
-            .help("kernels are straight-line code; declare a smaller system"),
-        );
-        return false;
-    }
-    if let Some(parameter) = declaration.parameters.get(MOST_PARAMETERS) {
-        let count = declaration.parameters.len();
-        report.push(
-            Diagnostic::new(
-                Kind::Limit,
-                parameter.name.origin,
-                format!(
-                    "the number of parameters, {count}, is above the limit of {MOST_PARAMETERS}"
-                ),
-            )
-            .help("write what never varies as numbers, or express many parameters by few"),
-        );
-        return false;
-    }
-    let velocity = declaration.energy.velocity();
-    if let (Some(name), true) = (velocity.last(), velocity.len() != dimension) {
-        let place = velocity.get(dimension).unwrap_or(name).origin;
-        let (count, names) = (velocity.len(), plural(velocity.len(), "name"));
-        let elements = plural(dimension, "element");
-        report.push(
-            Diagnostic::new(
-                Kind::StateLength,
-                place,
-                format!(
-                    "the velocity has {count} {names}, but the basis has {dimension} {elements}"
-                ),
-            )
-            .help("the velocity xi has one component for every basis element"),
-        );
-    }
-    if state != dimension {
-        let place = match declaration
-            .state
-            .get(dimension)
-            .or(declaration.state.last())
-        {
-            Some(name) => name.origin,
-            None => declaration.place(),
-        };
-        report.push(
-            Diagnostic::new(
-                Kind::StateLength,
-                place,
-                format!("the state has {state} {}, but the basis has {dimension} {}", plural(state, "name"), plural(dimension, "element")),
-            )
-            .help("the state names the coordinates of mu in the dual basis: one for every basis element"),
-        );
-    }
+    let others = [velocity(declaration), state(declaration)];
+    others.into_iter().flatten().for_each(|d| report.push(d));
     true
+}
+
+fn empty(declaration: &Declaration) -> Option<Diagnostic> {
+    let place = declaration.place();
+    (declaration.dimension() == 0).then(|| match declaration.algebra() {
+        Some(_) => Diagnostic::new(Kind::Basis, place, "the basis is empty")
+            .help("name at least one basis element"),
+        None => Diagnostic::new(Kind::StateLength, place, "the state is empty")
+            .help("name at least one coordinate"),
+    })
+}
+
+fn beyond_every_size(declaration: &Declaration) -> Option<Diagnostic> {
+    let dimension = declaration.dimension();
+    if dimension > MAX_DIMENSION {
+        let message = format!("the dimension {dimension} is above the limit of {MAX_DIMENSION}");
+        return Some(
+            Diagnostic::new(Kind::Limit, declaration.place(), message)
+                .help("kernels are straight-line code; declare a smaller system"),
+        );
+    }
+    let parameter = declaration.parameters.get(MOST_PARAMETERS)?;
+    let count = declaration.parameters.len();
+    let message =
+        format!("the number of parameters, {count}, is above the limit of {MOST_PARAMETERS}");
+    Some(
+        Diagnostic::new(Kind::Limit, parameter.name.origin, message)
+            .help("write what never varies as numbers, or express many parameters by few"),
+    )
+}
+
+/// A velocity that does not fit the basis.
+fn velocity(declaration: &Declaration) -> Option<Diagnostic> {
+    let velocity = declaration.energy.velocity();
+    let (count, dimension) = (velocity.len(), declaration.dimension());
+    let last = velocity.last().filter(|_| count != dimension)?;
+    let place = velocity.get(dimension).unwrap_or(last).origin;
+    let (names, elements) = (plural(count, "name"), plural(dimension, "element"));
+    let message =
+        format!("the velocity has {count} {names}, but the basis has {dimension} {elements}");
+    Some(
+        Diagnostic::new(Kind::StateLength, place, message)
+            .help("the velocity xi has one component for every basis element"),
+    )
+}
+
+/// A state that does not fit the basis.
+fn state(declaration: &Declaration) -> Option<Diagnostic> {
+    let state = &declaration.state;
+    let (count, dimension) = (state.len(), declaration.dimension());
+    if count == dimension {
+        return None;
+    }
+    let nearest = state.get(dimension).or(state.last());
+    let place = nearest.map_or(declaration.place(), |name| name.origin);
+    let (names, elements) = (plural(count, "name"), plural(dimension, "element"));
+    let message =
+        format!("the state has {count} {names}, but the basis has {dimension} {elements}");
+    Some(Diagnostic::new(Kind::StateLength, place, message).help(
+        "the state names the coordinates of mu in the dual basis: one for every basis element",
+    ))
 }
 
 /// Checks that the kernels of a system stay of reasonable size: products of many factors and deep

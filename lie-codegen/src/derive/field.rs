@@ -1,6 +1,7 @@
 //! Energy, Casimirs and the field: the kernels of a Poisson system.
 
-use super::{Argument, Kernel, Source};
+use super::{Argument, Bracket, Kernel, Source};
+use crate::model::Hamiltonian;
 use crate::symbolic::{ExprId, Symbol};
 
 pub(super) fn mu(source: &Source) -> Argument {
@@ -13,8 +14,9 @@ pub(super) fn mu(source: &Source) -> Argument {
 /// All kernels, or those without derivatives of the field and second ones of H.
 pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
     let mut kernels = Vec::new();
-    if let Some(hamiltonian) = source.hamiltonian {
-        kernels.extend(motion(source, hamiltonian, derivatives));
+    let hamiltonian = source.energy.expression().cloned();
+    if let Some(hamiltonian) = &hamiltonian {
+        kernels.extend(motion(source, hamiltonian.value, derivatives));
     }
     let matrix = poisson_matrix(source);
     let [of_matrix, ..] = formulas(source.is_lie());
@@ -29,12 +31,11 @@ pub(super) fn kernels(source: &mut Source, derivatives: bool) -> Vec<Kernel> {
     kernels.insert(kernels.len().min(3), poisson_matrix);
     let graph = &source.graph;
     let arguments = || vec![mu(source)];
-    if source
-        .hamiltonian
-        .is_some_and(|hamiltonian| hamiltonian != source.energy)
+    if let Some(Hamiltonian { value, energy, .. }) = hamiltonian
+        && value != energy
     {
-        let energy = "`H(t, mu)`, without the momentum of the time";
-        kernels.push(Kernel::scalar("energy", energy, arguments(), source.energy));
+        let formula = "`H(t, mu)`, without the momentum of the time";
+        kernels.push(Kernel::scalar("energy", formula, arguments(), energy));
     }
     let values = source.casimirs.clone();
     kernels.push(Kernel::vector(
@@ -139,7 +140,7 @@ pub(super) fn jacobian(source: &mut Source, field: &[ExprId]) -> Vec<Vec<ExprId>
 
 /// `Pi_ab`, of a Lie algebra `-C_ab^k mu_k`.
 pub(super) fn poisson_matrix(source: &mut Source) -> Vec<Vec<ExprId>> {
-    if let Some(entries) = source.poisson.clone() {
+    if let Bracket::Entries(entries) = source.bracket.clone() {
         return super::poisson::matrix(source, &entries);
     }
     let n = source.dimension;

@@ -127,7 +127,7 @@ fn second_order(source: &mut Source, tape: &mut Tape) -> ExprId {
     let xi = tape.define_all(source, &gradient);
     let p = source.coordinates();
     let mut terms = Vec::new();
-    for (i, j, k, value) in source.constants.clone() {
+    for (i, j, k, value) in source.constants().to_vec() {
         let term = source.graph.product(&[value, xi[i], xi[j], p[k]]);
         terms.push((term, Rational::MINUS_ONE));
     }

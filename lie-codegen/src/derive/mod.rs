@@ -23,7 +23,7 @@ pub use kernel::{Argument, Kernel, Shape};
 pub(crate) use leaner::{Derived, leaner_jacobian};
 pub use realization::Realization;
 pub(crate) use second_kind::moved;
-pub use source::Source;
+pub use source::{Bracket, Source};
 pub(crate) use splitting::Definitions;
 pub use splitting::{PieceKernel, Update};
 pub(crate) use tape::{Tangents, Tape};
@@ -79,8 +79,8 @@ impl Source {
 
     /// Both halves of the structure constants: `(i, j, k, C_ij^k)` for all i, j.
     pub(crate) fn all_constants(&mut self) -> Vec<(usize, usize, usize, ExprId)> {
-        let mut all = Vec::with_capacity(2 * self.constants.len());
-        for (i, j, k, value) in self.constants.clone() {
+        let mut all = Vec::with_capacity(2 * self.constants().len());
+        for (i, j, k, value) in self.constants().to_vec() {
             let negative = self.graph.neg(value);
             all.push((i, j, k, value));
             all.push((j, i, k, negative));
@@ -137,7 +137,10 @@ impl Source {
 
     /// H, and 0 where it has no expression: nothing is derived from it then.
     pub(crate) fn function(&mut self) -> ExprId {
-        self.hamiltonian.unwrap_or_else(|| self.graph.integer(0))
+        match self.energy.expression() {
+            Some(hamiltonian) => hamiltonian.value,
+            None => self.graph.integer(0),
+        }
     }
 
     /// `dH/dmu_i`
@@ -207,13 +210,13 @@ impl Source {
 
     /// The kernels of a Lagrangian, if there is one.
     pub fn lagrangian_kernels(&mut self) -> Option<Vec<Kernel>> {
-        let value = self.lagrangian?;
+        let value = self.energy.lagrangian()?.value;
         Some(lagrangian::kernels(self, value))
     }
 
     /// The kernels of a discrete Lagrangian, if there is one.
     pub fn discrete_kernels(&mut self) -> Option<Vec<Kernel>> {
-        let value = self.discrete?;
+        let value = self.discrete()?;
         Some(lagrangian::discrete_kernels(self, value))
     }
 

@@ -2,7 +2,7 @@
 
 use super::coadjoint::xi;
 use super::field::mu;
-use super::{Block, Kernel, Source};
+use super::{Block, Bracket, Kernel, Source};
 use crate::symbolic::ExprId;
 
 /// The derivative against a fixed vector, of which that of a Lie algebra is `ad*_xi`.
@@ -32,7 +32,7 @@ pub(super) fn matrix(source: &mut Source, entries: &[(usize, usize, ExprId)]) ->
 impl Source {
     /// Whether the Poisson matrix is that of a Lie algebra alone.
     pub fn is_lie(&self) -> bool {
-        self.poisson.is_none()
+        matches!(self.bracket, Bracket::Lie(_))
     }
 
     /// `d(Pi(mu) xi)_i/dmu_j` for the vector xi of that block.
@@ -44,7 +44,7 @@ impl Source {
 
     /// `Pi(point) xi`, of a Lie algebra `ad*_xi point`.
     pub(crate) fn poisson_times(&mut self, xi: &[ExprId], point: &[ExprId]) -> Vec<ExprId> {
-        let Some(entries) = self.poisson.clone() else {
+        let Bracket::Entries(entries) = self.bracket.clone() else {
             return self.ad_star_of(xi, point);
         };
         let values: Vec<ExprId> = entries.iter().map(|(.., value)| *value).collect();

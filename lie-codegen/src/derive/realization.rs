@@ -30,14 +30,7 @@ fn points(count: usize, first: usize) -> Vec<Symbol> {
 pub(super) fn kernels(source: &mut Source, realization: &Realization) -> Vec<Kernel> {
     let count = realization.names.len();
     let (z, v) = (points(count, 0), points(count, count));
-    let slopes: Vec<Vec<ExprId>> = realization
-        .map
-        .iter()
-        .map(|&component| {
-            let derivative = |symbol: &Symbol| source.graph.derivative(component, *symbol);
-            z.iter().map(derivative).collect()
-        })
-        .collect();
+    let slopes = derivatives(source, &realization.map, &z);
     let covector = source.block(Block::Xi);
     let along: Vec<ExprId> = v
         .iter()
@@ -60,13 +53,7 @@ pub(super) fn kernels(source: &mut Source, realization: &Realization) -> Vec<Ker
             combination(source, &mut pairs)
         })
         .collect();
-    let curvature: Vec<Vec<ExprId>> = pullback
-        .iter()
-        .map(|entry| {
-            let derivative = |symbol: &Symbol| source.graph.derivative(*entry, *symbol);
-            z.iter().map(derivative).collect()
-        })
-        .collect();
+    let curvature = derivatives(source, &pullback, &z);
     let point = || Argument {
         name: "z",
         symbols: z.clone(),
@@ -77,34 +64,31 @@ pub(super) fn kernels(source: &mut Source, realization: &Realization) -> Vec<Ker
     };
     let covector = || xi(source);
     let graph = &source.graph;
+    let (of_map, of_pullback) = ("`out = J(z)`", "`out_i = sum_k xi_k dJ_k/dz_i`");
+    let of_pushforward = "`out_k = sum_i dJ_k/dz_i v_i`";
+    let of_curvature = "`out_ij = sum_k xi_k d^2J_k/dz_i dz_j`";
+    let along = vec![point(), covector()];
+    let (map, alone) = (&realization.map, vec![point()]);
     vec![
-        Kernel::vector(
-            graph,
-            "momentum_map",
-            "`out = J(z)`",
-            vec![point()],
-            &realization.map,
-        ),
-        Kernel::vector(
-            graph,
-            "pullback",
-            "`out_i = sum_k xi_k dJ_k/dz_i`",
-            vec![point(), covector()],
-            &pullback,
-        ),
+        Kernel::vector(graph, "momentum_map", of_map, alone, map),
+        Kernel::vector(graph, "pullback", of_pullback, along.clone(), &pullback),
         Kernel::vector(
             graph,
             "pushforward",
-            "`out_k = sum_i dJ_k/dz_i v_i`",
+            of_pushforward,
             vec![point(), vector],
             &pushforward,
         ),
-        Kernel::matrix(
-            graph,
-            "curvature",
-            "`out_ij = sum_k xi_k d^2J_k/dz_i dz_j`",
-            vec![point(), covector()],
-            &curvature,
-        ),
+        Kernel::matrix(graph, "curvature", of_curvature, along, &curvature),
     ]
+}
+
+/// The derivatives of functions by symbols, row by row.
+fn derivatives(source: &mut Source, functions: &[ExprId], symbols: &[Symbol]) -> Vec<Vec<ExprId>> {
+    let row = |function: &ExprId| {
+        let slopes = symbols.iter();
+        let slopes = slopes.map(|symbol| source.graph.derivative(*function, *symbol));
+        slopes.collect()
+    };
+    functions.iter().map(row).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::Realization;
 use crate::algebra::{Representation, TripleEntry};
-use crate::model::{Descent, Model};
+use crate::model::{self, Descent, Discrete, Energy, Hamiltonian, Lagrangian, Model};
 use crate::structure::group::Group;
 use crate::structure::inertia::Body;
 use crate::structure::one_parameter::Block as OneParameter;
@@ -11,6 +11,15 @@ use crate::structure::spins::Spin;
 use crate::structure::{group, inertia, separable, spins};
 use crate::symbolic::{ExprId, Graph};
 
+/// What the Poisson matrix is made of.
+#[derive(Clone, Debug)]
+pub enum Bracket {
+    /// Structure constants `(i, j, k, C_ij^k)` with `i < j`: `Pi_ij = -C_ij^k mu_k`.
+    Lie(Vec<(usize, usize, usize, ExprId)>),
+    /// Its entries `(i, j, Pi_ij)`, `i < j`, where they are not those of a Lie algebra alone.
+    Entries(Vec<(usize, usize, ExprId)>),
+}
+
 /// What the kernels are derived from.
 #[derive(Clone, Debug)]
 pub struct Source {
@@ -18,18 +27,10 @@ pub struct Source {
     pub graph: Graph,
     /// Number of coordinates n.
     pub dimension: usize,
-    /// Structure constants `(i, j, k, C_ij^k)` with `i < j`; none where the bracket is another one.
-    pub constants: Vec<(usize, usize, usize, ExprId)>,
-    /// The entries `(i, j, Pi_ij)`, `i < j`, of a Poisson matrix that is not that of a Lie algebra alone.
-    pub poisson: Option<Vec<(usize, usize, ExprId)>>,
-    /// The Hamiltonian, if it is an expression in mu; else that of the Lagrangian, by Newton's iteration.
-    pub hamiltonian: Option<ExprId>,
-    /// The Lagrangian, in the symbols of an element of the algebra.
-    pub lagrangian: Option<ExprId>,
-    /// The discrete Lagrangian, in the same symbols and the step size.
-    pub discrete: Option<ExprId>,
-    /// The energy: the Hamiltonian, of a system that depends on the time without the momentum of the time.
-    pub energy: ExprId,
+    /// The Poisson matrix.
+    pub bracket: Bracket,
+    /// Hamiltonian and Lagrangian, as they were written.
+    pub energy: Energy,
     /// The number of momenta of a system on `T*G`, which are its first coordinates.
     pub momenta: Option<usize>,
     /// The Casimirs.
@@ -56,16 +57,17 @@ pub struct Source {
 impl Source {
     /// A source without anything in it.
     pub fn empty(mut graph: Graph) -> Self {
-        let hamiltonian = graph.integer(0);
+        let zero = graph.integer(0);
         Self {
             graph,
             dimension: 0,
-            constants: Vec::new(),
-            poisson: None,
-            hamiltonian: Some(hamiltonian),
-            lagrangian: None,
-            discrete: None,
-            energy: hamiltonian,
+            bracket: Bracket::Lie(Vec::new()),
+            energy: Energy::Expression(Hamiltonian {
+                value: zero,
+                energy: zero,
+                degree: Some(0),
+                pieces: Ok(Vec::new()),
+            }),
             momenta: None,
             group: None,
             casimirs: Vec::new(),
@@ -81,53 +83,76 @@ impl Source {
 
     /// What the kernels of a model are derived from.
     pub fn of(model: &Model) -> Self {
-        let mut graph = model.graph.clone();
+        let graph = model.graph.clone();
         // What is proven was proven of normal forms; what is evaluated is what was written.
         let written = |id: ExprId| model.graph.as_written(id);
-        let casimirs = model.casimirs.iter().map(|c| written(c.expr)).collect();
-        if !model.is_lie_poisson() {
-            let entries = model.poisson.entries.iter();
-            return Source {
-                dimension: model.dimension(),
-                poisson: Some(
-                    entries
-                        .map(|(i, j, value)| (*i, *j, written(*value)))
-                        .collect(),
-                ),
-                hamiltonian: Some(written(model.hamiltonian)),
-                energy: written(model.energy),
-                casimirs,
-                realization: realization(model),
-                ..Source::empty(graph)
-            };
-        }
+        let general = Source {
+            dimension: model.dimension(),
+            energy: energy(model, written),
+            casimirs: model.casimirs.iter().map(|c| written(c.expr)).collect(),
+            realization: realization(model),
+            ..Source::empty(graph)
+        };
+        let algebra = match &model.bracket {
+            model::Bracket::Lie(algebra) => algebra,
+            model::Bracket::Extended(_, matrix) | model::Bracket::General(matrix) => {
+                let entries = matrix.entries.iter();
+                let entries = entries.map(|(i, j, value)| (*i, *j, written(*value)));
+                let bracket = Bracket::Entries(entries.collect());
+                return Source { bracket, ..general };
+            }
+        };
+        let mut graph = general.graph;
         let body = inertia::body(model, &mut graph).ok();
+        let representation = algebra.representation.as_ref();
+        let configuration = model.configuration.as_ref();
         Source {
             graph,
-            dimension: model.dimension(),
-            constants: model.constants.entries().to_vec(),
-            poisson: None,
-            hamiltonian: model.has_expression().then_some(written(model.hamiltonian)),
-            lagrangian: model.lagrangian.as_ref().map(|l| written(l.value)),
-            discrete: model
-                .lagrangian
-                .as_ref()
-                .and_then(|l| l.discrete.map(written)),
-            energy: written(model.energy),
-            momenta: model
-                .configuration
-                .as_ref()
-                .and_then(|c| c.group.as_ref().map(|_| c.momenta)),
-            casimirs,
+            bracket: Bracket::Lie(algebra.constants.entries().to_vec()),
+            momenta: configuration.and_then(|c| c.group.as_ref().map(|_| c.momenta)),
             pieces: separable::pieces(model),
-            actions: None,
-            triple: model.representation.as_ref().and_then(|r| r.triple.clone()),
+            triple: representation.and_then(|r| r.triple.clone()),
             group: group::group(model),
-            realization: realization(model),
-            matrices: model.representation.clone().filter(|r| r.dual.is_some()),
+            matrices: representation.filter(|r| r.dual.is_some()).cloned(),
             spins: spins::spins(model),
             body,
+            ..general
         }
+    }
+
+    /// The structure constants of an algebra.
+    pub fn constants(&self) -> &[(usize, usize, usize, ExprId)] {
+        match &self.bracket {
+            Bracket::Lie(constants) => constants,
+            Bracket::Entries(_) => &[],
+        }
+    }
+
+    /// The discrete Lagrangian by which the system was declared.
+    pub fn discrete(&self) -> Option<ExprId> {
+        Some(self.energy.lagrangian()?.discrete?.value)
+    }
+}
+
+/// The energy of a model as it was written.
+fn energy(model: &Model, written: impl Fn(ExprId) -> ExprId) -> Energy {
+    let of_l = |lagrangian: Lagrangian| Lagrangian {
+        value: written(lagrangian.value),
+        discrete: lagrangian.discrete.map(|discrete| Discrete {
+            value: written(discrete.value),
+            ..discrete
+        }),
+        ..lagrangian
+    };
+    let of_h = |hamiltonian: Hamiltonian| Hamiltonian {
+        value: written(hamiltonian.value),
+        energy: written(hamiltonian.energy),
+        ..hamiltonian
+    };
+    match model.energy.clone() {
+        Energy::Expression(h) => Energy::Expression(of_h(h)),
+        Energy::Lagrangian(l, h) => Energy::Lagrangian(of_l(l), of_h(h)),
+        Energy::Legendre(l, function) => Energy::Legendre(of_l(l), function),
     }
 }
 

@@ -14,6 +14,7 @@ use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::{Body, Names, Parsed, item, rust};
 use crate::ast::{Algebra, Expr, Name, Realization, RunOption};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::print::{NoPath, Runtime};
 
 /// Parses the input of the macro. Every mistake is reported at its token; one in a statement does
 /// not hide those of the others. The body is there only if there is no mistake.
@@ -27,11 +28,18 @@ pub fn parse(input: TokenStream, report: &mut Report) -> Parsed {
         statements: statements(&tokens, &mut found),
         start,
     };
-    let parsed = if parts.first("spec").is_some() {
+    let mut parsed = if parts.first("spec").is_some() {
         spec(&parts, &mut found)
     } else {
         system(&parts, &mut found)
     };
+    if let Some(statement) = parts.first("crate") {
+        match runtime(statement, &mut found) {
+            Some(runtime) => parsed.runtime = runtime,
+            // nothing can stand in for the system: what it is made of is not found
+            None => parsed.name = None,
+        }
+    }
     found
         .into_diagnostics()
         .into_iter()
@@ -123,12 +131,45 @@ impl<'a> Parts<'a> {
     }
 }
 
+/// `crate = my_crate::lie_runtime;`
+fn runtime(statement: &Statement<'_>, report: &mut Report) -> Option<Runtime> {
+    let value = statement.value(report)?;
+    let invisible = |kind: &TokenKind| {
+        let delimiter = Delimiter::Invisible;
+        [TokenKind::Open(delimiter), TokenKind::Close(delimiter)].contains(kind)
+    };
+    // a path that another macro was given stands in a group of its own
+    let path: Vec<Token> = value
+        .iter()
+        .filter(|t| !invisible(&t.kind))
+        .cloned()
+        .collect();
+    let runtime = path
+        .iter()
+        .all(|token| token.identifier().is_some() || token.is(':'))
+        .then(|| Runtime::of_tokens(rust::stream(&path)))
+        .flatten();
+    if runtime.is_none() {
+        let place = span(value).unwrap_or(statement.origin);
+        let no_path = NoPath(render(value));
+        report.push(
+            Diagnostic::new(Kind::Syntax, place, no_path.to_string()).help(
+                "write the path at which the runtime is re-exported, as in `crate = my_crate::lie_runtime;`",
+            ),
+        );
+    }
+    runtime
+}
+
 /// `pub spec = "path";`
 fn spec(parts: &Parts<'_>, report: &mut Report) -> Parsed {
     parts.check_heads(report);
     let mut parsed = Parsed::default();
     let mut path = None;
     for statement in &parts.statements {
+        if statement.keyword == "crate" {
+            continue;
+        }
         if statement.keyword != "spec" {
             report.push(
                 Diagnostic::new(

@@ -34,6 +34,7 @@ pub use schema::schema;
 
 use crate::ast::{Declaration, Expr, Name};
 use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::print::Runtime;
 use proc_macro2::TokenStream;
 use text::Source;
 
@@ -43,6 +44,8 @@ use text::Source;
 pub struct Parsed {
     /// Visibility tokens (`pub`, `pub(crate)`, nothing); `pub` for specs.
     pub visibility: TokenStream,
+    /// Where the generated code finds the runtime.
+    pub runtime: Runtime,
     /// Name of the system.
     pub name: Option<Name>,
     /// Names of the coordinates, as far as they could be read.

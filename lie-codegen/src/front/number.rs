@@ -54,19 +54,8 @@ pub fn read(literal: &str, names: &Names) -> Result<Rational, Mistake> {
         .find(|c: char| !c.is_ascii_digit() && c != '.')
         .unwrap_or(literal.len());
     let (factor, tail) = literal.split_at(mantissa);
-    let product = |factor: &str, name: &str| {
-        let mut help = format!("write `{factor}*{name}`");
-        if let Ok(value) = decimal(literal) {
-            help.push_str(&format!(
-                ", or `{}` if the number is meant",
-                plain(&value, literal)
-            ));
-        }
-        let message = format!("`*` is missing between `{factor}` and `{name}`, which is a name");
-        Mistake::new(Kind::Syntax, message, help)
-    };
     if !tail.is_empty() && is_name(tail) {
-        return Err(product(factor, tail));
+        return Err(product(literal, factor, tail));
     }
     if names.declares_elsewhere(tail)
         && let Ok(value) = decimal(literal)
@@ -86,7 +75,7 @@ pub fn read(literal: &str, names: &Names) -> Result<Rational, Mistake> {
     }
     let value = &literal[..literal.len() - suffix.len()];
     if is_name(suffix) {
-        return Err(product(value, suffix));
+        return Err(product(literal, value, suffix));
     }
     if suffix.contains('_') && suffix.chars().all(|c| c == '_' || c.is_ascii_digit())
         || tail.starts_with('_')
@@ -98,17 +87,32 @@ pub fn read(literal: &str, names: &Names) -> Result<Rational, Mistake> {
             format!("write `{clean}`"),
         ));
     }
-    let help =
-        if suffix.starts_with(['f', 'i', 'u']) && suffix[1..].bytes().all(|b| b.is_ascii_digit()) {
-            format!("write `{value}`; numbers are exact and have no type")
-        } else {
-            format!("if `{suffix}` is meant as a name, declare it and write `{value}*{suffix}`")
-        };
-    Err(Mistake::new(
-        Kind::Number,
-        format!("`{literal}` is a number with the suffix `{suffix}`"),
-        help,
-    ))
+    Err(with_suffix(literal, value, suffix))
+}
+
+/// A factor and a name without a `*` between them.
+fn product(literal: &str, factor: &str, name: &str) -> Mistake {
+    let mut help = format!("write `{factor}*{name}`");
+    if let Ok(value) = decimal(literal) {
+        help.push_str(&format!(
+            ", or `{}` if the number is meant",
+            plain(&value, literal)
+        ));
+    }
+    let message = format!("`*` is missing between `{factor}` and `{name}`, which is a name");
+    Mistake::new(Kind::Syntax, message, help)
+}
+
+fn with_suffix(literal: &str, value: &str, suffix: &str) -> Mistake {
+    let is_type =
+        suffix.starts_with(['f', 'i', 'u']) && suffix[1..].bytes().all(|b| b.is_ascii_digit());
+    let help = if is_type {
+        format!("write `{value}`; numbers are exact and have no type")
+    } else {
+        format!("if `{suffix}` is meant as a name, declare it and write `{value}*{suffix}`")
+    };
+    let message = format!("`{literal}` is a number with the suffix `{suffix}`");
+    Mistake::new(Kind::Number, message, help)
 }
 
 /// `2000` for `2e3`, or the literal with its exponent marked where that would be long.

@@ -2,7 +2,7 @@
 
 use super::{CATALOGUE, Choice, Lift, Retraction, Tensor};
 use crate::diagnostic::Kind;
-use crate::model::{Descent, Model, Structure};
+use crate::model::{Bracket, Descent, Discrete, Model};
 use crate::structure::{inertia, matrices, separable, spins};
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
@@ -10,7 +10,7 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
     if let Choice::Compose(_, _, base) = choice {
         return refusal(model, base);
     }
-    if let Some(reason) = bracket(model, choice) {
+    if let Some(reason) = bracket(model, choice).or_else(|| lagrangian(model, choice)) {
         return Some(reason);
     }
     match choice {
@@ -23,33 +23,6 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
             "use `generating6` with `--retraction exp`, or `generating4` with `--retraction cayley`"
                 .into(),
         )),
-        Choice::Variational(order, _) if model.lagrangian.is_none() => Some((
-            if model.configuration.is_some() {
-                "the method is for reduced Lagrangians, without the group element and without the time"
-            } else {
-                "the method needs a system by its Lagrangian, and this one is given by its Hamiltonian"
-            }
-            .into(),
-            format!(
-                "declare `velocity` and `lagrangian` instead of `hamiltonian`, or use `generating{order}`, which is a \
-                 Poisson map of the same order"
-            ),
-        )),
-        Choice::DiscreteEulerPoincare(_)
-            if model.lagrangian.as_ref().is_none_or(|l| l.discrete.is_none()) =>
-        {
-            let message = "the method needs a system by a discrete Lagrangian, and this one declares none";
-            let help = "declare `discrete_lagrangian`; a system by its `lagrangian` has `variational2`";
-            Some((message.into(), help.into()))
-        }
-        Choice::DiscreteEulerPoincare(Retraction::Exp)
-            if model.lagrangian.as_ref().is_some_and(|l| l.in_entries) =>
-        {
-            let message = "the discrete Lagrangian is written in the entries of the group element, which are functions \
-                           of the coordinates of the Cayley map";
-            let help = "use `--retraction cayley`";
-            Some((message.into(), help.into()))
-        }
         Choice::LieMidpoint(Retraction::Cayley)
         | Choice::Generating(_, Retraction::Cayley)
         | Choice::Variational(_, Retraction::Cayley)
@@ -70,6 +43,40 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
         Choice::EulerArnold2 => cotangent(model),
         Choice::SphericalMidpoint => spins::refusal(model, None),
         Choice::MoserVeselov => inertia::refusal(model),
+        _ => None,
+    }
+}
+
+/// Why a method for Lagrangians does not apply.
+fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
+    match choice {
+        Choice::Variational(order, _) if model.energy.lagrangian().is_none() => Some((
+            if model.configuration.is_some() {
+                "the method is for reduced Lagrangians, without the group element and without the time"
+            } else {
+                "the method needs a system by its Lagrangian, and this one is given by its Hamiltonian"
+            }
+            .into(),
+            format!(
+                "declare `velocity` and `lagrangian` instead of `hamiltonian`, or use `generating{order}`, which is a \
+                 Poisson map of the same order"
+            ),
+        )),
+        Choice::DiscreteEulerPoincare(_)
+            if discrete(model).is_none() =>
+        {
+            let message = "the method needs a system by a discrete Lagrangian, and this one declares none";
+            let help = "declare `discrete_lagrangian`; a system by its `lagrangian` has `variational2`";
+            Some((message.into(), help.into()))
+        }
+        Choice::DiscreteEulerPoincare(Retraction::Exp)
+            if discrete(model).is_some_and(|discrete| discrete.in_entries) =>
+        {
+            let message = "the discrete Lagrangian is written in the entries of the group element, which are functions \
+                           of the coordinates of the Cayley map";
+            let help = "use `--retraction cayley`";
+            Some((message.into(), help.into()))
+        }
         _ => None,
     }
 }
@@ -100,13 +107,13 @@ fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
         _ => "`compose8(midpoint)`",
     };
     let apply = format!("use {nearest}, which apply to every Poisson bracket");
-    match model.structure {
-        Structure::Lie => None,
-        Structure::General => Some((
+    match model.bracket {
+        Bracket::Lie(_) => None,
+        Bracket::General(_) => Some((
             "it needs a Lie algebra, and the system declares a general bracket".into(),
             apply,
         )),
-        Structure::Extended => Some((
+        Bracket::Extended(..) => Some((
             "it needs the Lie–Poisson bracket of an algebra, and a cocycle is added to it".into(),
             format!(
                 "{apply}; or declare the central extension as an algebra with one more basis element, \
@@ -116,9 +123,15 @@ fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
     }
 }
 
+/// The discrete Lagrangian by which a system is declared.
+fn discrete(model: &Model) -> Option<&Discrete> {
+    model.energy.lagrangian()?.discrete.as_ref()
+}
+
 /// Why there is no choice of the tensor.
 fn tensor(model: &Model, choice: &Choice) -> Option<(String, String)> {
-    let affine = model.poisson.degree.is_some_and(|degree| degree <= 1);
+    let matrix = model.bracket.matrix();
+    let affine = matrix.is_none_or(|matrix| matrix.degree.is_some_and(|degree| degree <= 1));
     affine.then(|| {
         let id = choice.id();
         (
@@ -181,7 +194,7 @@ fn cotangent(model: &Model) -> Option<(String, String)> {
 
 /// Why a system has no Cayley map.
 fn cayley(model: &Model) -> Option<&'static str> {
-    match &model.representation {
+    match model.bracket.representation() {
         None => Some(
             "the Cayley map needs a matrix representation, and the algebra declares no `matrices`",
         ),

@@ -59,43 +59,32 @@ impl Choice {
 
     /// The value of the method in the runtime, as Rust; `tolerances` is in scope.
     pub fn constructor(&self) -> TokenStream {
-        let method = |name: Ident| quote! { ::lie_runtime::methods::#name };
-        let named = |name: &str| method(format_ident!("{name}"));
         match self {
             Self::Midpoint => named("ImplicitMidpoint"),
-            Self::Gauss(stages) => method(format_ident!("Gauss{}", 2 * stages)),
-            Self::LieMidpoint(retraction) => {
-                let tau = function_of(*retraction);
-                quote! { ::lie_runtime::methods::LieMidpoint::#tau() }
-            }
+            Self::Gauss(stages) => numbered("Gauss", 2 * stages),
+            Self::LieMidpoint(retraction) => with_retraction(named("LieMidpoint"), *retraction),
             Self::LieEuler => named("LieEuler"),
-            Self::Rkmk(order) => method(format_ident!("Rkmk{order}")),
+            Self::Rkmk(order) => numbered("Rkmk", *order),
             Self::CrouchGrossman3 => named("CrouchGrossman3"),
             Self::CommutatorFree4 => named("CommutatorFree4"),
             Self::Variational(order, retraction) => {
-                let variational = method(format_ident!("Variational{order}"));
-                let tau = function_of(*retraction);
-                quote! { #variational::#tau() }
+                with_retraction(numbered("Variational", *order), *retraction)
             }
             Self::DiscreteEulerPoincare(retraction) => {
-                let tau = function_of(*retraction);
-                quote! { ::lie_runtime::methods::DiscreteEulerPoincare::#tau() }
+                with_retraction(named("DiscreteEulerPoincare"), *retraction)
             }
             Self::MoserVeselov => named("MoserVeselov"),
             Self::Compose(order, scheme, base) => {
-                let compose = method(format_ident!("Compose{order}"));
-                let base = base.constructor();
-                let scheme = (*scheme != Scheme::of_composition(*order)[0]).then(|| with(*scheme));
+                let (compose, base) = (numbered("Compose", *order), base.constructor());
+                let scheme = with_scheme(*scheme, Scheme::of_composition(*order));
                 quote! { #compose::new(#base) #scheme }
             }
             Self::Generating(order, retraction) => {
-                let generating = method(format_ident!("Generating{order}"));
-                let tau = function_of(*retraction);
-                quote! { #generating::#tau() }
+                with_retraction(numbered("Generating", *order), *retraction)
             }
             Self::GeneratingSecondKind2 => named("GeneratingSecondKind2"),
             Self::Collective(order, lift) => {
-                let collective = method(format_ident!("Collective{order}"));
+                let collective = numbered("Collective", *order);
                 let lift = match lift {
                     Lift::Representation => format_ident!("representation"),
                     Lift::Hopf => format_ident!("hopf"),
@@ -103,44 +92,69 @@ impl Choice {
                 };
                 quote! { #collective::#lift() }
             }
-            Self::Isospectral(order) => {
-                let isospectral = method(format_ident!("Isospectral{order}"));
-                quote! { #isospectral::new() }
-            }
+            Self::Isospectral(order) => new(numbered("Isospectral", *order)),
             Self::EulerArnold2 => named("EulerArnold2"),
             Self::SphericalMidpoint => named("SphericalMidpoint"),
             Self::Splitting(order, scheme) => {
-                let splitting = method(format_ident!("Splitting{order}"));
-                let default = Scheme::of_splitting(*order).first().copied();
-                let scheme = default
-                    .is_some_and(|default| default != *scheme)
-                    .then(|| with(*scheme));
-                quote! { #splitting::new() #scheme }
+                let splitting = new(numbered("Splitting", *order));
+                let scheme = with_scheme(*scheme, Scheme::of_splitting(*order));
+                quote! { #splitting #scheme }
             }
             Self::DiscreteGradient(gradient, Tensor::Midpoint) => method(type_of(*gradient)),
             Self::DiscreteGradient(gradient, Tensor::Mean) => {
+                let (with_tensor, mean) = (named("WithTensor"), named("MeanTensor"));
                 let gradient = method(type_of(*gradient));
-                quote! {
-                    ::lie_runtime::methods::WithTensor::new(#gradient, ::lie_runtime::methods::MeanTensor)
-                }
+                quote! { #with_tensor::new(#gradient, #mean) }
             }
             Self::OrbitEnergy(gradient) => {
-                let gradient = match gradient {
-                    Gradient::Gonzalez => format_ident!("gonzalez"),
-                    Gradient::MeanValue => format_ident!("mean_value"),
-                    Gradient::ItohAbe => format_ident!("itoh_abe"),
-                };
-                quote! { ::lie_runtime::methods::OrbitEnergy::#gradient() }
+                let (orbit_energy, gradient) = (named("OrbitEnergy"), constructor_of(*gradient));
+                quote! { #orbit_energy::#gradient() }
             }
-            Self::CohenHairer(order) => {
-                let method = method(format_ident!("CohenHairer{order}"));
-                quote! { #method::new() }
-            }
+            Self::CohenHairer(order) => new(numbered("CohenHairer", *order)),
             Self::Rk4 => named("Rk4"),
-            Self::Dopri5 => quote! {
-                ::lie_runtime::methods::Dopri5 { rtol: tolerances.rtol, atol: tolerances.atol }
-            },
+            Self::Dopri5 => {
+                let dopri5 = named("Dopri5");
+                quote! { #dopri5 { rtol: tolerances.rtol, atol: tolerances.atol } }
+            }
         }
+    }
+}
+
+/// The path of a method.
+fn method(name: Ident) -> TokenStream {
+    quote! { ::lie_runtime::methods::#name }
+}
+
+fn named(name: &str) -> TokenStream {
+    method(format_ident!("{name}"))
+}
+
+/// A method with its order or the like in its name.
+fn numbered(family: &str, number: impl std::fmt::Display) -> TokenStream {
+    method(format_ident!("{family}{number}"))
+}
+
+fn new(method: TokenStream) -> TokenStream {
+    quote! { #method::new() }
+}
+
+fn with_retraction(method: TokenStream, retraction: Retraction) -> TokenStream {
+    let tau = function_of(retraction);
+    quote! { #method::#tau() }
+}
+
+/// What chooses a scheme, unless it is the first of those that there are.
+fn with_scheme(scheme: Scheme, all: &[Scheme]) -> Option<TokenStream> {
+    all.first()
+        .is_some_and(|default| *default != scheme)
+        .then(|| with(scheme))
+}
+
+fn constructor_of(gradient: Gradient) -> Ident {
+    match gradient {
+        Gradient::Gonzalez => format_ident!("gonzalez"),
+        Gradient::MeanValue => format_ident!("mean_value"),
+        Gradient::ItohAbe => format_ident!("itoh_abe"),
     }
 }
 

@@ -1,16 +1,16 @@
 //! The doc lines of a system.
 
-use crate::model::{Model, Structure};
+use crate::model::{Bracket, Model};
 
 /// What the bracket is, in words.
 fn bracket_in_words(model: &Model) -> String {
     let dimension = model.dimension();
     let dual = format!("on the dual of a Lie algebra of dimension {dimension}");
-    match model.structure {
-        Structure::Lie => dual,
-        Structure::Extended => format!("{dual}, its bracket with a constant term"),
-        Structure::General => {
-            let brackets = model.poisson.entries.iter().map(|(i, j, value)| {
+    match &model.bracket {
+        Bracket::Lie(_) => dual,
+        Bracket::Extended(..) => format!("{dual}, its bracket with a constant term"),
+        Bracket::General(matrix) => {
+            let brackets = matrix.entries.iter().map(|(i, j, value)| {
                 let [a, b] = [*i, *j].map(|index| &model.coordinates[index].text);
                 format!("`{{{a}, {b}}} = {}`", model.display(*value))
             });
@@ -28,12 +28,11 @@ pub(super) fn docs(model: &Model) -> Vec<String> {
     let mut docs = model.description.clone();
     let names: Vec<&str> = model.coordinates.iter().map(|c| c.text.as_str()).collect();
     docs.push(String::new());
-    let energy = if model.has_expression() {
-        format!("`H = {}`", model.display(model.energy))
-    } else {
-        "The Legendre transform of its Lagrangian, by Newton's iteration,".to_owned()
+    let energy = match model.energy.expression() {
+        Some(hamiltonian) => format!("`H = {}`", model.display(hamiltonian.energy)),
+        None => "The Legendre transform of its Lagrangian, by Newton's iteration,".to_owned(),
     };
-    if let Some(lagrangian) = &model.lagrangian {
+    if let Some(lagrangian) = model.energy.lagrangian() {
         let velocity: Vec<&str> = lagrangian
             .velocity
             .iter()
@@ -42,7 +41,7 @@ pub(super) fn docs(model: &Model) -> Vec<String> {
         if let Some(discrete) = lagrangian.discrete {
             docs.push(format!(
                 "Discrete Lagrangian `l_d = {}` of a step with the coordinates `{}`.",
-                model.display(discrete),
+                model.display(discrete.value),
                 velocity.join(", ")
             ));
         }

@@ -107,13 +107,14 @@ impl Planner<'_> {
     }
 
     pub(super) fn quadratic(&self) -> bool {
-        self.model.hamiltonian_degree.is_some_and(|d| d <= 2)
+        self.degree_of_h().is_some_and(|degree| degree <= 2)
     }
 
     /// The degree of H if discrete gradients have closed forms of reasonable size.
     fn closed(&self) -> Option<u32> {
-        let degree = self.model.hamiltonian_degree?;
-        let nodes = self.source.graph.dependencies(&[self.source.hamiltonian?]);
+        let hamiltonian = self.source.energy.expression()?;
+        let degree = hamiltonian.degree?;
+        let nodes = self.source.graph.dependencies(&[hamiltonian.value]);
         let size = (2..degree).fold(nodes.len(), |size, _| {
             size.saturating_mul(self.source.dimension)
         });

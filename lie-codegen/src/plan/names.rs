@@ -1,7 +1,7 @@
 //! What is called how. A name of the user never begins with an underscore, hence the names of ours that share a scope
 //! with them do.
 
-use crate::model::{CANONICAL, Model, Structure};
+use crate::model::{CANONICAL, Model};
 use crate::symbolic::Symbol;
 
 /// The names of a system.
@@ -20,10 +20,8 @@ pub struct Names {
 impl Names {
     /// The names that a declaration gives.
     pub(super) fn of(model: &Model) -> Self {
-        let basis = match model.structure {
-            Structure::General => &model.coordinates,
-            _ => &model.basis,
-        };
+        let algebra = model.bracket.algebra();
+        let basis = algebra.map_or(&model.coordinates, |algebra| &algebra.basis);
         let texts = |names: &[crate::ast::Name]| names.iter().map(|n| n.text.clone()).collect();
         Self {
             system: model.name.clone(),

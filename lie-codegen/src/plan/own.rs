@@ -27,7 +27,7 @@ impl Planner<'_> {
     /// The fused equation of a method that a user wrote.
     pub(super) fn own(&mut self, own: &Own) -> Result<(), String> {
         let method = own.method;
-        if !self.model.has_expression() {
+        if self.model.energy.expression().is_none() {
             return Err(format!(
                 "`{method}` stays generic: the Hamiltonian of `{}` has no expression",
                 self.model.name

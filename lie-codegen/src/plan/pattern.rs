@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::planner::Planner;
+use crate::derive::Bracket;
 use crate::methods::{Gradient, Lift};
 use crate::symbolic::{ExprId, Symbol};
 
@@ -74,22 +75,28 @@ impl Planner<'_> {
         let graph = &self.source.graph;
         let enters = |a: usize| gradient == Gradient::Gonzalez || !graph.is_zero(of_h[a]);
         let mut places = BTreeSet::new();
-        for (a, b, value) in self.source.poisson.iter().flatten() {
-            let symbols = graph.symbols(*value);
-            let varies = |k: &usize| symbols.contains(&Symbol::Coordinate(*k));
-            for (row, column) in [(*a, *b), (*b, *a)] {
-                if enters(column) {
-                    places.extend((0..n).filter(varies).map(|k| (row, k)));
+        match &self.source.bracket {
+            Bracket::Lie(constants) => {
+                for (i, j, k, _) in constants {
+                    for (a, b) in [(*i, *j), (*j, *i)] {
+                        if enters(a) {
+                            places.insert((b, *k));
+                        }
+                        places.extend((0..n).filter(|j| derivative[a][*j]).map(|j| (b, j)));
+                    }
                 }
-                places.extend((0..n).filter(|j| derivative[column][*j]).map(|j| (row, j)));
             }
-        }
-        for (i, j, k, _) in &self.source.constants {
-            for (a, b) in [(*i, *j), (*j, *i)] {
-                if enters(a) {
-                    places.insert((b, *k));
+            Bracket::Entries(entries) => {
+                for (a, b, value) in entries {
+                    let symbols = graph.symbols(*value);
+                    let varies = |k: &usize| symbols.contains(&Symbol::Coordinate(*k));
+                    for (row, column) in [(*a, *b), (*b, *a)] {
+                        if enters(column) {
+                            places.extend((0..n).filter(varies).map(|k| (row, k)));
+                        }
+                        places.extend((0..n).filter(|j| derivative[column][*j]).map(|j| (row, j)));
+                    }
                 }
-                places.extend((0..n).filter(|j| derivative[a][*j]).map(|j| (b, j)));
             }
         }
         places.into_iter().collect()

@@ -68,18 +68,19 @@ impl<'a> Planner<'a> {
     fn new(model: &'a Model, choices: &[Choice]) -> Self {
         let mut source = Source::of(model);
         let solved = choices.iter().map(Choice::solved);
-        if solved
-            .clone()
-            .any(|choice| *choice == Choice::GeneratingSecondKind2)
-        {
-            source.actions = Some(separable::actions(model));
+        let mut chosen = solved.clone();
+        if chosen.any(|choice| *choice == Choice::GeneratingSecondKind2) {
+            source.actions = model.bracket.algebra().map(separable::actions);
         }
         Self {
             model,
             source,
             names: Names::of(model),
             // without an expression of H there is nothing to fuse
-            methods: solved.filter(|_| model.has_expression()).cloned().collect(),
+            methods: solved
+                .filter(|_| model.energy.expression().is_some())
+                .cloned()
+                .collect(),
             constants: Table::default(),
             items: Vec::new(),
             known: Vec::new(),

@@ -112,8 +112,8 @@ impl Planner<'_> {
     /// The equations of systems by a Lagrangian, which are generic.
     fn lagrangian(&mut self, generic: &mut Vec<String>) {
         let kinds = [
-            (self.source.lagrangian.is_some(), "variational"),
-            (self.source.discrete.is_some(), "discrete"),
+            (self.source.energy.lagrangian().is_some(), "variational"),
+            (self.source.discrete().is_some(), "discrete"),
         ];
         for (_, key) in kinds.into_iter().filter(|(present, _)| *present) {
             generic.push(key.to_owned());

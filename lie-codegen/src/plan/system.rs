@@ -92,14 +92,13 @@ impl Planner<'_> {
         let lagrangian = self.functions(&lagrangian);
         let discrete = self.source.discrete_kernels().unwrap_or_default();
         System {
-            hamiltonian_degree: self.model.hamiltonian_degree,
+            hamiltonian_degree: self.degree_of_h(),
             // of an algebra nothing is said: its Poisson matrix is linear
-            poisson_degree: self.model.poisson.degree.filter(|_| !self.source.is_lie()),
+            poisson_degree: self.model.bracket.matrix().and_then(|matrix| matrix.degree),
             casimirs,
-            energy: if self.source.hamiltonian.is_some() {
-                Energy::Expression
-            } else {
-                Energy::Legendre
+            energy: match self.source.energy.expression() {
+                Some(_) => Energy::Expression,
+                None => Energy::Legendre,
             },
             derivatives,
             poisson,
@@ -108,6 +107,11 @@ impl Planner<'_> {
             lagrangian,
             discrete: self.functions(&discrete),
         }
+    }
+
+    /// The total degree of H in the coordinates, where it is a polynomial in them.
+    pub(super) fn degree_of_h(&self) -> Option<u32> {
+        self.source.energy.expression()?.degree
     }
 
     pub(super) fn functions(&mut self, kernels: &[Kernel]) -> Vec<Function> {

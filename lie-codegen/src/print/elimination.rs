@@ -24,46 +24,16 @@ impl Printer<'_> {
             ..
         } = sparse;
         let name = self.type_name(&sparse.suffix);
-        let n = self.plan.dimension();
-        let entry = |name: &str, i: usize, j: usize| {
-            let matrix = ident(name);
-            let (p, q, i, j) = (index(i / n), index(j / n), index(i % n), index(j % n));
-            if *unknown == Unknown::State {
-                quote! { #matrix[(#i, #j)] }
-            } else {
-                quote! { #matrix.0[#p][#q][(#i, #j)] }
-            }
-        };
-        let right = |i: usize| {
-            let (p, i) = (index(i / n), index(i % n));
-            if *unknown == Unknown::State {
-                quote! { vector[#i] }
-            } else {
-                quote! { vector.0[#p][#i] }
-            }
-        };
-        let (factor, solve, table) = if elimination.is_unrolled() {
-            let write = |i: usize, j: usize, value: TokenStream| {
-                let place = entry("matrix", i, j);
-                quote! { #place = #value; }
-            };
-            (
-                elimination.factor_tokens(&|i, j| entry("matrix", i, j), &write),
-                elimination.solve_tokens(&|i, j| entry("factors", i, j), &right),
-                None,
-            )
-        } else {
+        let (factor, solve) = self.factor_and_solve(sparse);
+        let table = (!elimination.is_unrolled()).then(|| {
             let list = elimination.table_tokens();
-            (
-                quote! { Self::LIST.factor(matrix) },
-                quote! { Self::LIST.solve(factors, vector); },
-                Some(quote! {
-                    impl #name {
-                        const LIST: ::lie_runtime::__private::StaticElimination = #list;
-                    }
-                }),
-            )
-        };
+            quote! {
+                impl #name {
+                    const LIST: ::lie_runtime::__private::StaticElimination = #list;
+                }
+            }
+        });
+        let n = self.plan.dimension();
         let (size, rows) = (index(n), unknown.states() * n);
         let mut matrix = quote! { ::lie_runtime::__private::SMatrix<S, #size, #size> };
         let mut vector = quote! { ::lie_runtime::__private::SVector<S, #size> };
@@ -97,6 +67,43 @@ impl Printer<'_> {
                     #solve
                 }
             }
+        }
+    }
+
+    /// The two bodies: written out, or by the list of the type.
+    fn factor_and_solve(&self, sparse: &Sparse) -> (TokenStream, TokenStream) {
+        let n = self.plan.dimension();
+        let one_state = sparse.unknown == Unknown::State;
+        let entry = |name: &str, i: usize, j: usize| {
+            let matrix = ident(name);
+            let (p, q, i, j) = (index(i / n), index(j / n), index(i % n), index(j % n));
+            match one_state {
+                true => quote! { #matrix[(#i, #j)] },
+                false => quote! { #matrix.0[#p][#q][(#i, #j)] },
+            }
+        };
+        let right = |i: usize| {
+            let (p, i) = (index(i / n), index(i % n));
+            match one_state {
+                true => quote! { vector[#i] },
+                false => quote! { vector.0[#p][#i] },
+            }
+        };
+        let write = |i: usize, j: usize, value: TokenStream| {
+            let place = entry("matrix", i, j);
+            quote! { #place = #value; }
+        };
+        let elimination = &sparse.elimination;
+        if elimination.is_unrolled() {
+            (
+                elimination.factor_tokens(&|i, j| entry("matrix", i, j), &write),
+                elimination.solve_tokens(&|i, j| entry("factors", i, j), &right),
+            )
+        } else {
+            (
+                quote! { Self::LIST.factor(matrix) },
+                quote! { Self::LIST.solve(factors, vector); },
+            )
         }
     }
 }

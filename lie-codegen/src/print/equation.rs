@@ -32,14 +32,7 @@ impl Printer<'_> {
             values,
         } = self.step_constants(&fused.step);
         let methods = self.equation_methods(fused);
-        let table = (!fused.elimination.is_unrolled()).then(|| {
-            let list = fused.elimination.table_tokens();
-            quote! {
-                impl<S: ::lie_runtime::Scalar> #name<'_, S> {
-                    const ELIMINATION: ::lie_runtime::__private::StaticElimination = #list;
-                }
-            }
-        });
+        let table = self.table(fused);
         quote! {
             #(#[doc = #docs])*
             #[derive(Clone, Debug)]
@@ -84,6 +77,19 @@ impl Printer<'_> {
 
             #table
         }
+    }
+
+    /// The list of an elimination that is not written out.
+    fn table(&self, fused: &Fused) -> Option<TokenStream> {
+        let name = self.type_name(fused.suffix);
+        (!fused.elimination.is_unrolled()).then(|| {
+            let list = fused.elimination.table_tokens();
+            quote! {
+                impl<S: ::lie_runtime::Scalar> #name<'_, S> {
+                    const ELIMINATION: ::lie_runtime::__private::StaticElimination = #list;
+                }
+            }
+        })
     }
 
     /// The constants of a step size.

@@ -125,31 +125,14 @@ fn write(operation: &Operation, get: &mut dyn FnMut(&Value) -> Text) -> Text {
         Operation::Mul(a, b) => infix(a, b, quote!(*), Binding::Product, Binding::Unary),
         Operation::Div(a, b) => infix(a, b, quote!(/), Binding::Product, Binding::Unary),
         Operation::Neg(a) => {
-            let a = get(a);
-            let inner = enclose(&a, Binding::Atom);
-            Text {
-                tokens: quote! { -#inner },
-                binding: Binding::Unary,
-                length: a.length + 1,
-            }
+            let mut text = of_atom(&get(a), |inner| quote! { -#inner });
+            text.binding = Binding::Unary;
+            text
         }
-        Operation::Sqrt(a) => {
-            let a = get(a);
-            let inner = enclose(&a, Binding::Atom);
-            Text {
-                tokens: quote! { #inner.sqrt() },
-                binding: Binding::Atom,
-                length: a.length + 1,
-            }
-        }
+        Operation::Sqrt(a) => of_atom(&get(a), |inner| quote! { #inner.sqrt() }),
         Operation::Power(a, exponent) => {
-            let (a, exponent) = (get(a), number(exponent));
-            let inner = enclose(&a, Binding::Atom);
-            Text {
-                tokens: quote! { #inner.powf(#exponent) },
-                binding: Binding::Atom,
-                length: a.length + 1,
-            }
+            let exponent = number(exponent);
+            of_atom(&get(a), |inner| quote! { #inner.powf(#exponent) })
         }
         Operation::Call(function, arguments) => {
             let name = ident(function.name());
@@ -157,18 +140,21 @@ fn write(operation: &Operation, get: &mut dyn FnMut(&Value) -> Text) -> Text {
             let Some(first) = arguments.next() else {
                 unreachable!("every function has an argument")
             };
-            let inner = enclose(&first, Binding::Atom);
             let rest: Vec<Text> = arguments.collect();
-            let length = rest
-                .iter()
-                .fold(first.length + 1, |sum, text| sum + text.length);
-            let rest = rest.iter().map(|text| &text.tokens);
-            Text {
-                tokens: quote! { #inner.#name(#(#rest),*) },
-                binding: Binding::Atom,
-                length,
-            }
+            let others = rest.iter().map(|text| &text.tokens);
+            let mut text = of_atom(&first, |inner| quote! { #inner.#name(#(#others),*) });
+            text.length += rest.iter().map(|text| text.length).sum::<usize>();
+            text
         }
+    }
+}
+
+/// What is written around an operand that binds as an atom.
+fn of_atom(operand: &Text, around: impl FnOnce(TokenStream) -> TokenStream) -> Text {
+    Text {
+        tokens: around(enclose(operand, Binding::Atom)),
+        binding: Binding::Atom,
+        length: operand.length + 1,
     }
 }
 

@@ -73,33 +73,8 @@ impl Printer<'_> {
     /// The struct of a generating function and its impl.
     pub(super) fn generating(&self, function: &Generating) -> TokenStream {
         let n = index(self.plan.dimension());
-        let [p, xi, hessian] = ["p", "xi", "hessian"].map(|name| self.argument(name));
-        let argument = p.clone();
-        let place = move |_: &str| quote! { #argument };
-        let docs = self.docs(&function.gradient);
-        let body = self.body(
-            &function.gradient,
-            &Body::of(Owner::Equation(&function.step), &place, &["xi"]),
-        );
+        let methods = self.generating_methods(function);
         let name = self.type_name(function.suffix);
-        let (linearize_docs, linearize) = match &function.linearize {
-            Some(linearize) => (
-                self.docs(linearize),
-                self.body(
-                    linearize,
-                    &Body::of(Owner::Equation(&function.step), &place, &["xi", "hessian"]),
-                ),
-            ),
-            None => (
-                quote! { #[doc = " The Hessian from the gradient over dual numbers: written out it would be too long."] },
-                quote! {
-                    let _lifted = ::lie_runtime::Lift::lift(self.system);
-                    let mut _function = #name::new(&_lifted, ::lie_runtime::Dual::constant_of(self.h));
-                    let _zero = ::lie_runtime::Poisson::zero_state(&_lifted);
-                    ::lie_runtime::generic::linearize_by_duals(&mut _function, &_zero, #p, #xi, #hessian);
-                },
-            ),
-        };
         let (visibility, system) = (&self.surface.visibility, self.system_name());
         let doc = format!(" The generating function {}.", function.formula);
         let StepConstants {
@@ -131,17 +106,47 @@ impl Printer<'_> {
                 type State = ::lie_runtime::__private::SVector<S, #n>;
                 type Jacobian = ::lie_runtime::__private::SMatrix<S, #n, #n>;
 
-                #docs
-                #[inline]
-                fn gradient(&mut self, #p: &Self::State, #xi: &mut Self::State) {
-                    #body
-                }
+                #methods
+            }
+        }
+    }
 
-                #linearize_docs
-                #[inline]
-                fn linearize(&mut self, #p: &Self::State, #xi: &mut Self::State, #hessian: &mut Self::Jacobian) {
-                    #linearize
-                }
+    fn generating_methods(&self, function: &Generating) -> TokenStream {
+        let [p, xi, hessian] = ["p", "xi", "hessian"].map(|name| self.argument(name));
+        let argument = p.clone();
+        let place = move |_: &str| quote! { #argument };
+        let body = |function_of: &Function, targets: &[&str]| {
+            let owner = Owner::Equation(&function.step);
+            self.body(function_of, &Body::of(owner, &place, targets))
+        };
+        let docs = self.docs(&function.gradient);
+        let gradient = body(&function.gradient, &["xi"]);
+        let (linearize_docs, linearize) = match &function.linearize {
+            Some(linearize) => (self.docs(linearize), body(linearize, &["xi", "hessian"])),
+            None => {
+                let name = self.type_name(function.suffix);
+                (
+                    quote! { #[doc = " The Hessian from the gradient over dual numbers: written out it would be too long."] },
+                    quote! {
+                        let _lifted = ::lie_runtime::Lift::lift(self.system);
+                        let mut _function = #name::new(&_lifted, ::lie_runtime::Dual::constant_of(self.h));
+                        let _zero = ::lie_runtime::Poisson::zero_state(&_lifted);
+                        ::lie_runtime::generic::linearize_by_duals(&mut _function, &_zero, #p, #xi, #hessian);
+                    },
+                )
+            }
+        };
+        quote! {
+            #docs
+            #[inline]
+            fn gradient(&mut self, #p: &Self::State, #xi: &mut Self::State) {
+                #gradient
+            }
+
+            #linearize_docs
+            #[inline]
+            fn linearize(&mut self, #p: &Self::State, #xi: &mut Self::State, #hessian: &mut Self::Jacobian) {
+                #linearize
             }
         }
     }

@@ -12,6 +12,7 @@ mod names;
 mod parameters;
 mod partner;
 mod realization;
+mod runtime;
 mod splitting;
 mod structure;
 mod surface;
@@ -21,6 +22,7 @@ mod text;
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use quote::quote;
 
+pub use runtime::{NoPath, Runtime};
 pub use surface::Surface;
 pub(crate) use text::format;
 
@@ -39,9 +41,9 @@ pub fn print(plan: &Plan, surface: &Surface) -> TokenStream {
     let items: TokenStream = plan.items.iter().map(|item| printer.item(item)).collect();
     let generic = printer.generic();
     let splitting = printer.splitting();
-    of_this_version(quote! {
+    surface.runtime.root(of_this_version(quote! {
         #parameters #system #traits #lagrangian #other_scalars #structure #realization #items #generic #splitting
-    })
+    }))
 }
 
 /// What generated code uses of the runtime beyond its public names: a module whose name bears the version, so that code

@@ -23,14 +23,7 @@ impl Printer<'_> {
         let generic = quote! { ::lie_runtime::generic::CoordinateFlows };
         let field = series.then(|| quote! { series: #generic<'a, S, #system<S>>, });
         let value = series.then(|| quote! { series: #generic::new(system), });
-        let names: Vec<String> = pieces
-            .iter()
-            .map(|piece| format!("`{}`", self.plan.names.coordinates[piece.coordinate]))
-            .collect();
-        let doc = match names.as_slice() {
-            [] => " The flows of the pieces of H: none moves the state.".to_owned(),
-            names => format!(" The flows of the pieces of H in {}.", names.join(", ")),
-        };
+        let doc = self.doc_of_flows(pieces);
         let functions: Vec<Ident> = (0..pieces.len())
             .map(|position| format_ident!("_flow{position}"))
             .collect();
@@ -39,20 +32,7 @@ impl Printer<'_> {
             .zip(&functions)
             .map(|(piece, function)| self.flow(piece, function, &state))
             .collect();
-        let sweeps = sweeps(&functions);
-        let count = index(pieces.len());
-        let message = format!("the splitting has {} pieces", pieces.len());
-        let positions = (0..pieces.len()).map(index);
-        let coordinates = pieces.iter().map(|piece| index(piece.coordinate));
-        let direction = if pieces.is_empty() {
-            quote! { panic!(#message); }
-        } else {
-            quote! {
-                const COORDINATES: [usize; #count] = [#(#coordinates),*];
-                let coordinate = COORDINATES[_piece];
-                ::lie_runtime::generic::piece_direction(self.system, coordinate, _t, _mu, _xi);
-            }
-        };
+        let methods = methods_of_flows(pieces, &functions);
         Some(quote! {
             #[doc = #doc]
             #[derive(Debug)]
@@ -75,24 +55,7 @@ impl Printer<'_> {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::PieceFlows<S> for #name<'_, S> {
                 type State = #state;
 
-                #[inline]
-                fn pieces(&self) -> usize {
-                    #count
-                }
-
-                fn direction(&self, _piece: usize, _t: S, _mu: &Self::State, _xi: &mut Self::State) {
-                    #direction
-                }
-
-                #[inline]
-                fn flow(&mut self, piece: usize, _t: S, _mu: &mut Self::State) {
-                    match piece {
-                        #(#positions => self.#functions(_t, _mu),)*
-                        _ => panic!(#message),
-                    }
-                }
-
-                #sweeps
+                #methods
             }
 
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::SeparablePoisson<S> for #system<S> {
@@ -102,6 +65,16 @@ impl Printer<'_> {
                 }
             }
         })
+    }
+
+    fn doc_of_flows(&self, pieces: &[Flow]) -> String {
+        let names = pieces
+            .iter()
+            .map(|piece| format!("`{}`", self.plan.names.coordinates[piece.coordinate]));
+        match names.collect::<Vec<_>>().as_slice() {
+            [] => " The flows of the pieces of H: none moves the state.".to_owned(),
+            names => format!(" The flows of the pieces of H in {}.", names.join(", ")),
+        }
     }
 
     /// The flow of one piece as a function.
@@ -138,6 +111,44 @@ impl Printer<'_> {
                 #writes
             }
         }
+    }
+}
+
+/// The methods of the trait, over a function for the flow of each piece.
+fn methods_of_flows(pieces: &[Flow], functions: &[Ident]) -> TokenStream {
+    let sweeps = sweeps(functions);
+    let count = index(pieces.len());
+    let message = format!("the splitting has {} pieces", pieces.len());
+    let positions = (0..pieces.len()).map(index);
+    let coordinates = pieces.iter().map(|piece| index(piece.coordinate));
+    let direction = if pieces.is_empty() {
+        quote! { panic!(#message); }
+    } else {
+        quote! {
+            const COORDINATES: [usize; #count] = [#(#coordinates),*];
+            let coordinate = COORDINATES[_piece];
+            ::lie_runtime::generic::piece_direction(self.system, coordinate, _t, _mu, _xi);
+        }
+    };
+    quote! {
+        #[inline]
+        fn pieces(&self) -> usize {
+            #count
+        }
+
+        fn direction(&self, _piece: usize, _t: S, _mu: &Self::State, _xi: &mut Self::State) {
+            #direction
+        }
+
+        #[inline]
+        fn flow(&mut self, piece: usize, _t: S, _mu: &mut Self::State) {
+            match piece {
+                #(#positions => self.#functions(_t, _mu),)*
+                _ => panic!(#message),
+            }
+        }
+
+        #sweeps
     }
 }
 

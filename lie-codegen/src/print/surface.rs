@@ -2,6 +2,7 @@
 
 use proc_macro2::{Span, TokenStream};
 
+use super::Runtime;
 use crate::diagnostic::Origin;
 use crate::model::Model;
 
@@ -10,6 +11,8 @@ use crate::model::Model;
 pub struct Surface {
     /// Visibility of the generated types.
     pub visibility: TokenStream,
+    /// Where the runtime is found.
+    pub runtime: Runtime,
     /// Where the name of the system stands.
     pub name: Span,
     /// Where the coordinates are declared.
@@ -27,6 +30,7 @@ impl Surface {
         };
         Self {
             visibility: model.visibility.clone(),
+            runtime: model.runtime.clone(),
             name: span(model.name_origin),
             coordinates: model.coordinates.iter().map(|c| span(c.origin)).collect(),
             parameters: model.parameters.iter().map(|p| span(p.origin)).collect(),

@@ -101,49 +101,8 @@ impl Writer<'_> {
                 }
                 None => leaf,
             },
-            Atom::Sum(mut terms) => {
-                // What was written first stands first.
-                let sum = |atom: &AtomId| matches!(self.formula.atoms[*atom], Atom::Sum(_));
-                let first = terms
-                    .iter()
-                    .position(|(negative, atom)| !negative && sum(atom))
-                    .or_else(|| terms.iter().position(|(negative, _)| !negative));
-                if let Some(first) = first {
-                    let term = terms.remove(first);
-                    terms.insert(0, term);
-                }
-                let mut terms = terms.into_iter();
-                let Some((negative, first)) = terms.next() else {
-                    return Value::Number(crate::exact::Rational::ZERO);
-                };
-                let mut sum = self.values[&first].clone();
-                if negative {
-                    sum = self.negate(sum);
-                }
-                for (negative, term) in terms {
-                    let term = self.values[&term].clone();
-                    sum = self.push(if negative {
-                        Operation::Sub(sum, term)
-                    } else {
-                        Operation::Add(sum, term)
-                    });
-                }
-                sum
-            }
-            Atom::Product(factors) => {
-                let mut factors = factors
-                    .into_iter()
-                    .map(|f| self.values[&f].clone())
-                    .collect::<Vec<_>>()
-                    .into_iter();
-                let Some(mut product) = factors.next() else {
-                    return Value::Number(crate::exact::Rational::ONE);
-                };
-                for factor in factors {
-                    product = self.push(Operation::Mul(product, factor));
-                }
-                product
-            }
+            Atom::Sum(terms) => self.sum(terms),
+            Atom::Product(factors) => self.product(&factors),
             Atom::Quotient(a, b) => {
                 let (a, b) = (self.values[&a].clone(), self.values[&b].clone());
                 self.push(Operation::Div(a, b))
@@ -161,6 +120,48 @@ impl Writer<'_> {
                 self.push(Operation::Call(function, arguments))
             }
         }
+    }
+
+    fn sum(&mut self, mut terms: Vec<(bool, AtomId)>) -> Value {
+        // What was written first stands first.
+        let sum = |atom: &AtomId| matches!(self.formula.atoms[*atom], Atom::Sum(_));
+        let first = terms
+            .iter()
+            .position(|(negative, atom)| !negative && sum(atom))
+            .or_else(|| terms.iter().position(|(negative, _)| !negative));
+        if let Some(first) = first {
+            let term = terms.remove(first);
+            terms.insert(0, term);
+        }
+        let mut terms = terms.into_iter();
+        let Some((negative, first)) = terms.next() else {
+            return Value::Number(crate::exact::Rational::ZERO);
+        };
+        let mut sum = self.values[&first].clone();
+        if negative {
+            sum = self.negate(sum);
+        }
+        for (negative, term) in terms {
+            let term = self.values[&term].clone();
+            sum = self.push(if negative {
+                Operation::Sub(sum, term)
+            } else {
+                Operation::Add(sum, term)
+            });
+        }
+        sum
+    }
+
+    fn product(&mut self, factors: &[AtomId]) -> Value {
+        let values = factors.iter().map(|factor| self.values[factor].clone());
+        let mut factors = values.collect::<Vec<_>>().into_iter();
+        let Some(mut product) = factors.next() else {
+            return Value::Number(crate::exact::Rational::ONE);
+        };
+        for factor in factors {
+            product = self.push(Operation::Mul(product, factor));
+        }
+        product
     }
 
     /// What a defined symbol stands for; a definition that nothing uses costs nothing.

@@ -2,7 +2,7 @@
 
 use crate::ast::Invariance;
 use crate::exact::Rational;
-use crate::model::Model;
+use crate::model::{Bracket, Model};
 
 /// Matrices of the algebra, and what is known of their group.
 #[derive(Clone, Debug)]
@@ -31,10 +31,10 @@ impl Group {
 
 /// The group of a system, if its algebra has matrices and the group element is no part of the state.
 pub fn group(model: &Model) -> Option<Group> {
-    let representation = model.representation.as_ref()?;
-    if !model.is_lie_poisson() {
+    let Bracket::Lie(algebra) = &model.bracket else {
         return None;
-    }
+    };
+    let representation = algebra.representation.as_ref()?;
     let configuration = model.configuration.as_ref();
     if configuration.is_some_and(|c| c.group.is_some()) {
         return None;
@@ -56,21 +56,19 @@ pub fn group(model: &Model) -> Option<Group> {
 /// Why a chart of the group cannot be had, with a remedy.
 pub fn refusal(model: &Model, quaternion: bool) -> Option<(String, String)> {
     let Some(group) = group(model) else {
-        return Some(if !model.is_lie_poisson() {
-            (
-                "the bracket is not that of an algebra alone".into(),
-                "leave the option out".into(),
-            )
-        } else if model.representation.is_none() {
-            (
+        return Some(match &model.bracket {
+            Bracket::Lie(algebra) if algebra.representation.is_none() => (
                 "the algebra declares no `matrices`".into(),
                 "declare the matrix of each basis element: the group element is a matrix of their size".into(),
-            )
-        } else {
-            (
+            ),
+            Bracket::Lie(_) => (
                 "the group element is part of the state already".into(),
                 "leave the option out: its entries are columns of the output".into(),
-            )
+            ),
+            _ => (
+                "the bracket is not that of an algebra alone".into(),
+                "leave the option out".into(),
+            ),
         });
     };
     (quaternion && !group.is_rotations()).then(|| {

@@ -59,14 +59,15 @@ pub fn body(model: &Model, graph: &mut Graph) -> Result<Body, Other> {
 
 /// The coefficients `a_k` of `H = sum a_k x_k^2/2 + constant`, none of which vanishes.
 fn squares(model: &Model, graph: &mut Graph) -> Option<Vec<ExprId>> {
-    if model.hamiltonian_degree != Some(2) {
+    let hamiltonian = model.energy.expression()?;
+    if hamiltonian.degree != Some(2) {
         return None;
     }
     let n = model.dimension();
     let mut vanishing = Vec::new();
     let mut squares = Vec::new();
     for i in 0..n {
-        let slope = graph.derivative(model.hamiltonian, Symbol::Coordinate(i));
+        let slope = graph.derivative(hamiltonian.value, Symbol::Coordinate(i));
         for j in i + 1..n {
             vanishing.push(graph.derivative(slope, Symbol::Coordinate(j)));
         }
@@ -136,7 +137,7 @@ fn planes(model: &Model) -> Option<Vec<(usize, usize)>> {
     }
     // table[a][b] = (c, +-1) for [e_a, e_b] = +-e_c
     let mut table = vec![vec![None; n]; n];
-    for (a, b, c, value) in model.exact_constants.entries() {
+    for (a, b, c, value) in model.bracket.algebra()?.exact.entries() {
         let sign = match value.as_constant()? {
             one if one.is_one() => 1,
             minus if (-&minus).is_one() => -1,

@@ -14,7 +14,7 @@ pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
         };
         format!("{remedy}{also}")
     };
-    match &model.representation {
+    match model.bracket.representation() {
         None => {
             let spins = super::spins::spins(model).is_some();
             let hopf = format!(", or `collective{order} --lift hopf`");

@@ -8,7 +8,7 @@ use super::one_parameter::{self, Block, Entry};
 use crate::check::confirmation::{Confirmation, Finding};
 use crate::check::normal::{NormalForm, Verdict};
 use crate::exact::Budget;
-use crate::model::Model;
+use crate::model::{Algebra, Model};
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Work allowed for the derivatives of one Hamiltonian.
@@ -67,9 +67,10 @@ pub fn coordinates(
 
 /// The pieces with their flows, if H is such a sum; elements that act as zero are left out.
 pub fn pieces(model: &Model) -> Option<Vec<Piece>> {
+    let algebra = model.bracket.algebra()?;
     let mut pieces = Vec::new();
-    for &coordinate in model.pieces.as_ref().ok()? {
-        let entries = action(model, coordinate);
+    for &coordinate in model.energy.expression()?.pieces.as_ref().ok()? {
+        let entries = action(algebra, coordinate);
         if !entries.is_empty() {
             let blocks = one_parameter::closed_form(&entries);
             pieces.push(Piece { coordinate, blocks });
@@ -79,9 +80,9 @@ pub fn pieces(model: &Model) -> Option<Vec<Piece>> {
 }
 
 /// The matrix of `ad*_(e_i)`.
-fn action(model: &Model, coordinate: usize) -> Vec<Entry> {
+fn action(algebra: &Algebra, coordinate: usize) -> Vec<Entry> {
     // (ad*_(e_i))_jk = C_ij^k, and C_ji^k = -C_ij^k
-    let constants = model.exact_constants.entries().iter();
+    let constants = algebra.exact.entries().iter();
     constants
         .filter_map(|(i, j, k, value)| match coordinate {
             _ if coordinate == *i => Some((*j, *k, value.clone())),
@@ -92,20 +93,20 @@ fn action(model: &Model, coordinate: usize) -> Vec<Entry> {
 }
 
 /// The closed form of `exp(s ad*_(e_i))` for each basis element that has one.
-pub fn actions(model: &Model) -> Vec<Option<Vec<Block>>> {
-    (0..model.dimension())
-        .map(|i| one_parameter::closed_form(&action(model, i)))
+pub fn actions(algebra: &Algebra) -> Vec<Option<Vec<Block>>> {
+    (0..algebra.basis.len())
+        .map(|i| one_parameter::closed_form(&action(algebra, i)))
         .collect()
 }
 
 /// Why H cannot be split by coordinates, with the nearest method for each order.
 pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
-    let (i, j) = model.pieces.clone().err()?;
-    if !model.has_expression() {
+    let Some(hamiltonian) = model.energy.expression() else {
         let reason = "the Hamiltonian is no sum of functions of one coordinate each: it is the Legendre transform of \
                       a Lagrangian that is not quadratic";
         return Some((reason.to_owned(), nearest(order)));
-    }
+    };
+    let (i, j) = hamiltonian.pieces.clone().err()?;
     let name = |i: usize| &model.coordinates[i].text;
     let reason = format!(
         "the Hamiltonian is no sum of functions of one coordinate each: it mixes `{}` and `{}`",

@@ -23,8 +23,9 @@ pub fn spins(model: &Model) -> Option<Vec<Spin>> {
         return None;
     }
     let budget = Budget::new(WORK);
-    let entries = model.exact_constants.entries();
-    let expressions = model.constants.entries();
+    let algebra = model.bracket.algebra()?;
+    let entries = algebra.exact.entries();
+    let expressions = algebra.constants.entries();
     if entries.len() != n || expressions.len() != n {
         return None;
     }
@@ -35,11 +36,11 @@ pub fn spins(model: &Model) -> Option<Vec<Spin>> {
             continue;
         }
         // i < j < k: [e_i, e_j] = c e_k, [e_j, e_k] = c e_i, [e_i, e_k] = -c e_j
-        let find = |a: usize, b: usize, to: usize| match model.exact_constants.upper(a, b) {
+        let find = |a: usize, b: usize, to: usize| match algebra.exact.upper(a, b) {
             [(_, _, found, value)] if *found == to => Some(value),
             _ => None,
         };
-        let alone = model.exact_constants.upper(i, j).len() == 1;
+        let alone = algebra.exact.upper(i, j).len() == 1;
         let (second, third) = (find(j, k, i)?, find(i, k, j)?);
         if !alone || !c.equals(second, &budget).ok()? || !c.neg().equals(third, &budget).ok()? {
             return None;

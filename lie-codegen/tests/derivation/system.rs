@@ -23,7 +23,7 @@ impl System {
         let model = compile_spec(text).expect("a sound declaration");
         let mut source = Source::of(&model);
         if model.is_lie_poisson() {
-            source.actions = Some(separable::actions(&model));
+            source.actions = model.bracket.algebra().map(separable::actions);
         }
         let basic = source.basic_kernels();
         let find = |name| basic.iter().find(|k| k.name == name).expect(name).clone();
@@ -101,9 +101,10 @@ impl System {
     }
 
     pub fn energy(&self, mu: &[f64]) -> f64 {
+        let hamiltonian = self.source.energy.expression().expect("an expression");
         self.source
             .graph
-            .evaluate(self.source.energy, &|symbol| match symbol {
+            .evaluate(hamiltonian.energy, &|symbol| match symbol {
                 Symbol::Coordinate(i) => mu[i],
                 Symbol::Parameter(p) => self.parameters[p],
                 _ => f64::NAN,

@@ -199,11 +199,7 @@ pub(super) fn run<P: Poisson<f64>>(
     let worst = moved[1..].iter().max_by(|a, b| a.drift.total_cmp(&b.drift));
     let (outcome, what) = match done.stopped {
         _ if !matches!(excess, excess if excess <= 1.0) => {
-            let beyond = |moved: &Moved| !matches!(moved.drift / bound, r if r <= 1.0);
-            let all = watched.drifts.iter().zip(&moved).zip(&claims);
-            let lost = all.filter(|((_, moved), claimed)| **claimed && beyond(moved));
-            let names: Vec<&str> = lost.map(|((drift, _), _)| drift.name.as_str()).collect();
-            (Outcome::Lost, names.join(" "))
+            (Outcome::Lost, lost(&watched, &moved, &claims, bound))
         }
         Some(why) => (Outcome::Stopped, why),
         None if !done.finite => (Outcome::Lost, "a number is not finite".to_owned()),
@@ -219,6 +215,15 @@ pub(super) fn run<P: Poisson<f64>>(
         claimed: excess,
         ..domain(label, trial, &what)
     }
+}
+
+/// The names of what moved further than is claimed.
+fn lost(watched: &Watched, moved: &[Moved], claims: &[bool], bound: f64) -> String {
+    let beyond = |moved: &Moved| !matches!(moved.drift / bound, r if r <= 1.0);
+    let all = watched.drifts.iter().zip(moved).zip(claims);
+    let lost = all.filter(|((_, moved), claimed)| **claimed && beyond(moved));
+    let names: Vec<&str> = lost.map(|((drift, _), _)| drift.name.as_str()).collect();
+    names.join(" ")
 }
 
 /// Steps until the end, or until one fails or leaves the domain of H.

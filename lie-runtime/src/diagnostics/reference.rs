@@ -90,21 +90,21 @@ fn run<P: Poisson<f64>>(
             }
             continue;
         }
-        for ((entry, lost), change) in state
-            .as_mut_slice()
-            .iter_mut()
-            .zip(&mut lost)
-            .zip(&increment)
-        {
-            let change = change - *lost;
-            let sum = *entry + change;
-            *lost = (sum - *entry) - change;
-            *entry = sum;
-        }
+        add(state.as_mut_slice(), &mut lost, &increment);
         done = if h == left { t.abs() } else { done + h };
         step = h * (0.9 * ratio.max(1e-30).powf(-1.0 / order)).clamp(0.3, 3.0);
     }
     None
+}
+
+/// Adds an increment; what rounding loses is kept for the next one.
+fn add(state: &mut [f64], lost: &mut [f64], increment: &[f64]) {
+    for ((entry, lost), change) in state.iter_mut().zip(lost).zip(increment) {
+        let change = change - *lost;
+        let sum = *entry + change;
+        *lost = (sum - *entry) - change;
+        *entry = sum;
+    }
 }
 
 /// The extrapolated increment over one step, and the size of the last correction.

@@ -75,14 +75,7 @@ fn integrate(
     };
     let draws = outputs.plot.is_some();
     let mut reception = Reception::start(spec, plan, format, outputs.rows, draws).map_err(lost)?;
-    let request = lie_program::protocol::Run {
-        method: plan.method.label(),
-        start: plan.start.clone(),
-        step: plan.step.0,
-        times: reception.times(plan),
-        tolerances: plan.tolerances,
-        newton: plan.newton,
-    };
+    let request = request(plan, &reception);
     // Rows that scroll by on the same terminal say enough.
     let scrolls = flags.out.is_none() && io::stdout().is_terminal();
     let bar = Bar::new(!flags.quiet && !scrolls);
@@ -114,14 +107,29 @@ fn integrate(
             .map_err(|error| outputs::unwritable(path, &error))?;
     }
     if !flags.quiet && matches!(outcome, Outcome::Done) {
-        let method = plan.method.title();
-        let title = format!("{}, {method}, step {}", spec.model.name, plan.step.1.trim());
+        let (title, adaptive) = (title(spec, plan), plan.method.is_adaptive());
         let (work, drift) = (&received.work, &received.drift);
-        let adaptive = plan.method.is_adaptive();
         let text = summary::text(&title, work, adaptive, drift, clock.elapsed());
         eprint!("{text}");
     }
     ended(outcome, &received.drift, flags.quiet, program)
+}
+
+/// What the built program is asked for.
+fn request(plan: &Plan, reception: &Reception) -> lie_program::protocol::Run {
+    lie_program::protocol::Run {
+        method: plan.method.label(),
+        start: plan.start.clone(),
+        step: plan.step.0,
+        times: reception.times(plan),
+        tolerances: plan.tolerances,
+        newton: plan.newton,
+    }
+}
+
+fn title(spec: &Spec, plan: &Plan) -> String {
+    let (name, method) = (&spec.model.name, plan.method.title());
+    format!("{name}, {method}, step {}", plan.step.1.trim())
 }
 
 /// Says how the run ended; answers the exit code.

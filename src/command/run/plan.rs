@@ -162,8 +162,8 @@ impl Planner<'_> {
         let given = self.given("--method", self.flags.method.as_ref());
         let id = given.clone().unwrap_or_else(|| {
             let model = &self.spec.model;
-            let discrete = model.lagrangian.as_ref();
-            let method = if discrete.is_some_and(|l| l.discrete.is_some() && !l.in_entries) {
+            let discrete = model.energy.lagrangian().and_then(|l| l.discrete);
+            let method = if discrete.is_some_and(|discrete| !discrete.in_entries) {
                 DISCRETE
             } else {
                 METHODS[usize::from(!model.is_lie_poisson())]

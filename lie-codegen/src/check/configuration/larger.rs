@@ -89,43 +89,21 @@ impl Builder<'_> {
     pub(super) fn matrices(&self) -> Vec<Matrix> {
         let declared = &self.algebra.matrices;
         let size = declared.first().map_or(0, |m| m.rows.len());
-        let group = self.configuration.group.is_some();
-        let blocks = if group { 2 * size } else { size };
+        let blocks = match self.configuration.group {
+            Some(_) => 2 * size,
+            None => size,
+        };
         let whole = blocks + 3 * usize::from(self.configuration.time);
         let left = self.invariance == Invariance::Left;
-        let zero = || vec![vec![self.number(Rational::ZERO); whole]; whole];
-        let mut matrices = Vec::new();
-        for matrix in declared {
-            let mut rows = zero();
-            let mut misshapen = false;
-            for (i, row) in matrix.rows.iter().enumerate() {
-                for (j, value) in row.iter().enumerate() {
-                    misshapen |= i >= size || j >= size;
-                    if misshapen {
-                        continue;
-                    }
-                    if group {
-                        let negative = ExprKind::Negative(Box::new(value.clone()));
-                        rows[j][i] = Expr {
-                            kind: negative,
-                            origin: value.origin,
-                        };
-                    } else {
-                        rows[i][j] = value.clone();
-                    }
-                }
-            }
-            misshapen |= matrix.rows.len() != size || matrix.rows.iter().any(|r| r.len() != size);
-            // one of another shape is reported as it was written
-            let rows = if misshapen { matrix.rows.clone() } else { rows };
-            matrices.push(Matrix {
-                name: matrix.name.clone(),
-                rows,
-                origin: matrix.origin,
-            });
-        }
+        let mut matrices: Vec<Matrix> = declared
+            .iter()
+            .map(|matrix| Matrix {
+                rows: self.enlarged(&matrix.rows, size, whole),
+                ..matrix.clone()
+            })
+            .collect();
         let mut unit = |name: String, row: usize, column: usize| {
-            let mut rows = zero();
+            let mut rows = self.zero(whole);
             rows[row][column] = self.number(Rational::ONE);
             matrices.push(Matrix {
                 name: self.name(name),
@@ -146,5 +124,31 @@ impl Builder<'_> {
             unit(UNIT.into(), blocks, blocks + 2);
         }
         matrices
+    }
+
+    fn zero(&self, size: usize) -> Vec<Vec<Expr>> {
+        vec![vec![self.number(Rational::ZERO); size]; size]
+    }
+
+    /// The matrix of a declared element: its block, beside a group element `-rho^T`. One of another shape than the
+    /// first is reported as it was written.
+    fn enlarged(&self, declared: &[Vec<Expr>], size: usize, whole: usize) -> Vec<Vec<Expr>> {
+        if declared.len() != size || declared.iter().any(|row| row.len() != size) {
+            return declared.to_vec();
+        }
+        let mut rows = self.zero(whole);
+        for (i, row) in declared.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                if self.configuration.group.is_some() {
+                    rows[j][i] = Expr {
+                        kind: ExprKind::Negative(Box::new(value.clone())),
+                        origin: value.origin,
+                    };
+                } else {
+                    rows[i][j] = value.clone();
+                }
+            }
+        }
+        rows
     }
 }

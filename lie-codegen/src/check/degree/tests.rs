@@ -8,7 +8,7 @@ fn of(hamiltonian: &str) -> Option<u32> {
         ("parameters", PARAMETERS),
         ("hamiltonian", &format!("{hamiltonian:?}")),
     ]);
-    model(&text).hamiltonian_degree
+    model(&text).energy.expression()?.degree
 }
 
 #[test]

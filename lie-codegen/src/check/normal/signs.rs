@@ -171,9 +171,16 @@ impl NormalForm<'_> {
                 return Err(Stop::Undefined);
             }
         }
-        // Signs of sums may follow from those of their terms.
-        let mut news = true;
-        let mut signs = false;
+        if self.signs_of_sums()? {
+            self.values.clear();
+        }
+        self.established = true;
+        Ok(())
+    }
+
+    /// Finds the signs of sums that follow from those of their terms; whether there are signs at all.
+    fn signs_of_sums(&mut self) -> Result<bool, Stop> {
+        let (mut news, mut signs) = (true, false);
         while news {
             news = false;
             for v in 0..self.atoms.len() {
@@ -197,11 +204,7 @@ impl NormalForm<'_> {
                 }
             }
         }
-        if signs {
-            self.values.clear();
-        }
-        self.established = true;
-        Ok(())
+        Ok(signs)
     }
 
     /// The sign of an expression, by its factors as they are written.

@@ -1,5 +1,14 @@
 use super::*;
-use crate::algebra::known;
+use crate::algebra::{Representation, known};
+use crate::model::Algebra;
+
+fn algebra_of(model: &Model) -> &Algebra {
+    model.bracket.algebra().expect("an algebra")
+}
+
+fn matrices_of(model: &Model) -> Representation {
+    model.bracket.representation().expect("matrices").clone()
+}
 
 /// A spec of an algebra with coordinates x0, x1, ….
 fn with_brackets(basis: &[&str], brackets: &[&str], extra: &[(&str, &str)]) -> String {
@@ -78,14 +87,16 @@ fn exact_parameters() {
         &["[a, b] = k*b", "[a, c] = c/(1 + k^2)"],
         &[exact],
     ));
-    let entries: Vec<String> = good
+    let algebra = algebra_of(&good);
+    let entries: Vec<String> = algebra
         .constants
         .entries()
         .iter()
         .map(|e| good.display(e.3))
         .collect();
     assert_eq!(entries, ["k", "1/(k^2 + 1)"]);
-    let numbers = default_constants(&good).unwrap();
+    let default = |p: usize| good.parameters[p].exact.clone().expect("exact");
+    let numbers = algebra.exact.try_map(|c| c.evaluate(&default)).unwrap();
     assert_eq!(numbers.entries()[1].3, Rational::new(9, 10).unwrap());
     assert_eq!(good.generic_rank, 2);
     // [[a,b],c] + [[b,c],a] + [[c,a],b] = k a + (1 - k) (-a)…: holds for one value of k only.
@@ -210,17 +221,14 @@ fn right_sides_are_linear() {
 #[test]
 fn brackets_from_matrices() {
     let se3 = model(&with_matrices(&known::se3(), None));
-    assert_eq!(se3.constants.entries().len(), 9);
-    let representation = se3.representation.unwrap();
+    assert_eq!(algebra_of(&se3).constants.entries().len(), 9);
+    let representation = matrices_of(&se3);
     assert_eq!(
         (representation.dimension, representation.triple.is_some()),
         (4, true)
     );
     let su3 = model(&with_matrices(&known::su(3), None));
-    assert_eq!(
-        (su3.generic_rank, su3.representation.unwrap().triple),
-        (6, None)
-    );
+    assert_eq!((su3.generic_rank, matrices_of(&su3).triple), (6, None));
     let mut dependent = known::sl2();
     dependent.push(vec![vec![2, 3], vec![0, -2]]);
     let found = errors(&with_matrices(&dependent, None));
@@ -247,10 +255,7 @@ fn matrices_are_checked_against_brackets() {
     // A representation need not be faithful where the brackets are declared.
     let trivial = vec![vec![vec![0; 2]; 2]; 3];
     assert_eq!(
-        model(&with_matrices(&trivial, Some(&so3)))
-            .representation
-            .unwrap()
-            .triple,
+        matrices_of(&model(&with_matrices(&trivial, Some(&so3)))).triple,
         None
     );
     let mut ragged = good.clone();
@@ -280,15 +285,11 @@ fn right_invariance_is_the_opposite_algebra() {
     let se3 = with_matrices(&known::se3(), None);
     let left = model(&se3);
     let right = model(&se3.replace("\"format\": 1", "\"format\": 1, \"invariance\": \"right\""));
-    for (a, b) in left
-        .exact_constants
-        .entries()
-        .iter()
-        .zip(right.exact_constants.entries())
-    {
+    let [of_left, of_right] = [&left, &right].map(|model| algebra_of(model).exact.entries());
+    for (a, b) in of_left.iter().zip(of_right) {
         assert_eq!(a.3.as_constant(), Some(-b.3.as_constant().unwrap()));
     }
-    let (a, b) = (left.representation.unwrap(), right.representation.unwrap());
+    let (a, b) = (matrices_of(&left), matrices_of(&right));
     assert_eq!(a.matrices[0][1][2], -&b.matrices[0][1][2]);
     assert_eq!(a.triple, b.triple);
 }

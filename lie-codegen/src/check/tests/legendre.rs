@@ -1,4 +1,5 @@
 use super::*;
+use crate::model::Energy;
 
 /// so(3) with a Lagrangian in the velocity w1, w2, w3.
 fn lagrangian(value: &str, extra: &[(&str, &str)]) -> String {
@@ -19,15 +20,16 @@ fn lagrangian(value: &str, extra: &[(&str, &str)]) -> String {
 #[test]
 fn a_diagonal_lagrangian_gives_the_hamiltonian_that_one_writes() {
     let model = model(&lagrangian("a*w1^2/2 + b*w2^2/2 + w3^2", &[]));
-    let text = model.display(model.hamiltonian);
+    let text = model.display(model.hamiltonian());
     let expected = so3(&[
         ("parameters", r#"{"a": 2, "b": "1/3"}"#),
         ("hamiltonian", r#""x^2/(2*a) + y^2/(2*b) + z^2/4""#),
     ]);
     let expected = super::model(&expected);
-    assert_eq!(text, expected.display(expected.hamiltonian));
-    assert_eq!(model.hamiltonian_degree, Some(2));
-    assert_eq!(model.pieces, Ok(vec![0, 1, 2]));
+    assert_eq!(text, expected.display(expected.hamiltonian()));
+    let hamiltonian = model.energy.expression().expect("an expression");
+    assert_eq!(hamiltonian.degree, Some(2));
+    assert_eq!(hamiltonian.pieces, Ok(vec![0, 1, 2]));
 }
 
 /// `l = <A w, w>/2 + <b, w> + c` as text and as numbers at a = 2, b = 1/3, c = -3/2.
@@ -89,8 +91,8 @@ fn the_gradient_of_h_inverts_the_legendre_map() {
         let mu: Vec<f64> = (0..3).map(|i| times(i) + linear[i]).collect();
         let kinetic = 0.5 * (0..3).map(|i| times(i) * w[i]).sum::<f64>();
         let mut graph = model.graph.clone();
-        let mut roots = vec![model.hamiltonian];
-        roots.extend((0..3).map(|i| graph.derivative(model.hamiltonian, Symbol::Coordinate(i))));
+        let mut roots = vec![model.hamiltonian()];
+        roots.extend((0..3).map(|i| graph.derivative(model.hamiltonian(), Symbol::Coordinate(i))));
         let values = graph.evaluate_all(&roots, &|symbol| match symbol {
             Symbol::Coordinate(i) => mu[i],
             Symbol::Parameter(p) => [2.0, 1.0 / 3.0, -1.5][p],
@@ -101,7 +103,7 @@ fn the_gradient_of_h_inverts_the_legendre_map() {
             assert!(
                 (value - expected).abs() < 1e-13,
                 "{text}: {values:?}, expected {expected}, H = {}",
-                model.display(model.hamiltonian)
+                model.display(model.hamiltonian())
             );
         }
     }
@@ -111,7 +113,8 @@ fn the_gradient_of_h_inverts_the_legendre_map() {
 fn abbreviations_serve_lagrangians() {
     let extra = [("let", r#"["turn = w1 + w2"]"#)];
     let model = model(&lagrangian("turn^2/2 + w2^2/2 + w3^2/2", &extra));
-    assert_eq!(model.hamiltonian_degree, Some(2));
+    let hamiltonian = model.energy.expression().expect("an expression");
+    assert_eq!(hamiltonian.degree, Some(2));
 }
 
 #[test]
@@ -149,7 +152,6 @@ fn what_has_no_transform_is_refused() {
 #[test]
 fn others_are_left_to_newtons_iteration() {
     use crate::methods::{Choice, refusal};
-    use crate::model::Transform;
 
     for (value, xi, mu) in [
         (
@@ -166,10 +168,9 @@ fn others_are_left_to_newtons_iteration() {
         ("w1*w2 + w3^2/2 + w3^4", [1.5, -2.0, 0.5], [-2.0, 1.5, 1.0]),
     ] {
         let model = model(&lagrangian(value, &[]));
-        let lagrangian = model.lagrangian.clone().expect("it has one");
-        assert_eq!(lagrangian.transform, Transform::Newton, "{value}");
-        assert!(!model.has_expression());
-        assert_eq!(model.hamiltonian_degree, None);
+        let Energy::Legendre(lagrangian, _) = &model.energy else {
+            panic!("{value}: {:?}", model.energy)
+        };
         let found = super::super::velocity::velocity(
             &mut model.graph.clone(),
             lagrangian.value,
@@ -205,9 +206,8 @@ fn others_are_left_to_newtons_iteration() {
 fn a_quadratic_lagrangian_in_disguise_is_exact() {
     let text = lagrangian("(w1^2 + w2^2)*(cos(w1)^2 + sin(w1)^2) + w3^2", &[]);
     let model = model(&text);
-    assert!(model.has_expression());
-    assert_eq!(model.display(model.hamiltonian), "x^2/4 + y^2/4 + z^2/4");
-    assert!(model.lagrangian.is_some());
+    assert!(matches!(model.energy, Energy::Lagrangian(..)));
+    assert_eq!(model.display(model.hamiltonian()), "x^2/4 + y^2/4 + z^2/4");
 }
 
 #[test]
@@ -322,7 +322,7 @@ fn discrete_lagrangians_have_their_limit() {
         ),
     ] {
         let model = model(&discrete(value));
-        let found = model.lagrangian.clone().expect("it has one");
+        let found = model.energy.lagrangian().expect("it has one");
         assert!(found.discrete.is_some());
         let at = |value: ExprId, w: [f64; 3]| {
             model.graph.evaluate(value, &|symbol| match symbol {
@@ -332,7 +332,7 @@ fn discrete_lagrangians_have_their_limit() {
             })
         };
         let expected = super::model(&lagrangian(limit, &[]));
-        let value_of_limit = expected.lagrangian.as_ref().expect("it has one").value;
+        let value_of_limit = expected.energy.lagrangian().expect("it has one").value;
         for w in [[0.3, -0.7, 1.1], [2.0, 0.25, -0.5]] {
             let (a, b) = (
                 at(found.value, w),
@@ -351,7 +351,7 @@ fn discrete_lagrangians_have_their_limit() {
             );
         }
         if let Some(hamiltonian) = hamiltonian {
-            assert!(model.has_expression());
+            assert!(model.energy.expression().is_some());
             let expected = so3(&[
                 ("parameters", r#"{"a": 2, "b": "1/3", "c": "-3/2"}"#),
                 ("hamiltonian", &format!("{hamiltonian:?}")),
@@ -360,7 +360,7 @@ fn discrete_lagrangians_have_their_limit() {
             let value = |model: &crate::model::Model| {
                 model
                     .graph
-                    .evaluate(model.hamiltonian, &|symbol| match symbol {
+                    .evaluate(model.hamiltonian(), &|symbol| match symbol {
                         Symbol::Coordinate(i) => [0.3, 0.8, -1.2][i],
                         Symbol::Parameter(p) => model.defaults()[p],
                         _ => f64::NAN,

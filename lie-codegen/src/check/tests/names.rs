@@ -86,7 +86,7 @@ fn lets_use_earlier_ones_only() {
         ("let", r#"["a = x^2", "b = 2*a"]"#),
         ("hamiltonian", r#""b + y""#),
     ]));
-    assert_eq!(good.display(good.hamiltonian), "2*x^2 + y");
+    assert_eq!(good.display(good.hamiltonian()), "2*x^2 + y");
     expect(
         &so3(&[("let", r#"["a = 2*b", "b = x"]"#)]),
         &["unknown-symbol at b: `b` is not known yet"],

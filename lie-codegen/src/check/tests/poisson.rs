@@ -1,4 +1,5 @@
 use super::*;
+use crate::model::Bracket;
 
 /// Brackets of coordinates with what is given.
 fn general(state: &str, brackets: &str, extra: &[(&str, &str)]) -> String {
@@ -63,9 +64,11 @@ fn brackets_that_are_poisson() {
         }
         let model = model(&text);
         assert_eq!(model.generic_rank, rank, "{brackets}");
-        assert_eq!(model.poisson.degree, degree, "{brackets}");
-        assert_eq!(model.structure, Structure::General);
-        assert!(!model.is_lie_poisson() && model.basis.is_empty());
+        let Bracket::General(matrix) = &model.bracket else {
+            panic!("{:?}", model.bracket)
+        };
+        assert_eq!(matrix.degree, degree, "{brackets}");
+        assert!(!model.is_lie_poisson());
     }
 }
 
@@ -179,9 +182,11 @@ fn cocycles() {
         r#"["{z, y} = sqrt(2)*k"]"#,
     ] {
         let model = model(&with(cocycle));
-        assert_eq!(model.structure, Structure::Extended, "{cocycle}");
-        assert_eq!(model.poisson.degree, Some(1));
-        assert!(!model.is_lie_poisson() && model.basis.len() == 4);
+        let Bracket::Extended(algebra, matrix) = &model.bracket else {
+            panic!("{cocycle}: {:?}", model.bracket)
+        };
+        assert_eq!(matrix.degree, Some(1));
+        assert!(!model.is_lie_poisson() && algebra.basis.len() == 4);
     }
     for cocycle in [
         r#"["{y, w} = 1"]"#,
@@ -200,5 +205,5 @@ fn cocycles() {
     );
     assert_eq!(kinds(&with(r#"["{y, z} = m"]"#)), ["unknown-symbol"]);
     // constants that are zero add nothing
-    assert_eq!(model(&with(r#"["{y, w} = 0"]"#)).structure, Structure::Lie);
+    assert!(model(&with(r#"["{y, w} = 0"]"#)).is_lie_poisson());
 }

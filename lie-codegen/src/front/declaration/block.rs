@@ -2,7 +2,7 @@
 
 use super::entry::{Entry, inside};
 use super::statement::Statement;
-use crate::ast::{Algebra, Matrix, Name, Parameter, Realization};
+use crate::ast::{Algebra, Expr, Matrix, Name, Parameter, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::front::reader::Parameters;
 use crate::front::token::{Delimiter, Token, span, split_commas};
@@ -122,17 +122,7 @@ pub fn realization(
             map.extend(value.map(|value| (name, value)));
             continue;
         }
-        let Some(values) = inside(value, Delimiter::Bracket) else {
-            let place = span(value).unwrap_or(name.origin);
-            report.push(
-                Diagnostic::new(Kind::Syntax, place, "`start` is a list in brackets")
-                    .help("write `start = [1, 0, 0, 1];`"),
-            );
-            continue;
-        };
-        let what = ("an entry of `start`", "1/2");
-        let entry = |part| item::formula(part, what, name.origin, &constants, report);
-        start = Some(split_commas(values).into_iter().filter_map(entry).collect());
+        start = starting_point(value, name.origin, &constants, report).or(start);
     }
     Some(Realization {
         positions,
@@ -141,6 +131,26 @@ pub fn realization(
         start,
         origin: statement.origin,
     })
+}
+
+/// `[1, 0, 0, 1]`
+fn starting_point(
+    value: &[Token],
+    origin: Origin,
+    constants: &Names,
+    report: &mut Report,
+) -> Option<Vec<Expr>> {
+    let Some(values) = inside(value, Delimiter::Bracket) else {
+        let place = span(value).unwrap_or(origin);
+        report.push(
+            Diagnostic::new(Kind::Syntax, place, "`start` is a list in brackets")
+                .help("write `start = [1, 0, 0, 1];`"),
+        );
+        return None;
+    };
+    let what = ("an entry of `start`", "1/2");
+    let entry = |part| item::formula(part, what, origin, constants, report);
+    Some(split_commas(values).into_iter().filter_map(entry).collect())
 }
 
 /// `matrix NAME = [[a, b], [c, d]]`

@@ -25,6 +25,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("methods", Follows::Equals),
     ("invariance", Follows::Equals),
     ("initial", Follows::Equals),
+    ("crate", Follows::Equals),
     ("spec", Follows::Equals),
 ];
 
@@ -309,7 +310,7 @@ mod tests {
         let words = || KEYWORDS.iter().map(|(word, _)| *word);
         let keys = || Spec::KEYS.iter().map(|key| keyword(key));
         let no_keys: Vec<&str> = words().filter(|w| keys().all(|key| key != *w)).collect();
-        assert_eq!(no_keys, ["spec"]);
+        assert_eq!(no_keys, ["crate", "spec"]);
         let no_statements: Vec<&str> = keys().filter(|k| words().all(|word| word != *k)).collect();
         assert_eq!(
             no_statements,

@@ -143,6 +143,40 @@ fn a_spec_by_its_path() {
 }
 
 #[test]
+fn the_path_of_the_runtime() {
+    let whole = |path: &str| format!("crate = {path}; {BODY}");
+    for path in [
+        "my_crate::lie_runtime",
+        "::a",
+        "crate::a::b",
+        "super::super::a",
+    ] {
+        for text in [
+            whole(path),
+            format!("crate = {path}; spec = \"a\";"),
+            format!("spec = \"a\"; crate = {path};"),
+        ] {
+            let (parsed, diagnostics) = read(&text);
+            assert!(diagnostics.is_empty() && parsed.body.is_some(), "{text}");
+            let written = parsed.runtime.root("::lie_runtime".parse().unwrap());
+            assert_eq!(written.to_string().replace(' ', ""), path);
+        }
+    }
+    for path in [
+        "my-crate::a",
+        "\"a\"",
+        "a::",
+        "a::<b>",
+        "a b",
+        "a.b",
+        "a::{b}",
+    ] {
+        assert_eq!(mistakes(&whole(path)), one(Kind::Syntax, path), "{path}");
+    }
+    assert_eq!(mistakes("crate; spec = \"a\";"), one(Kind::Syntax, "crate"));
+}
+
+#[test]
 fn expressions_at_their_tokens() {
     use Kind::{Arity, EmptyHamiltonian, Number, Syntax, UnknownFunction};
     for (from, to, kind, place) in [
