@@ -348,3 +348,61 @@ fn the_solver_of_implicit_methods_is_chosen() {
     assert_eq!(in_spec.code, Some(3), "{}", in_spec.stderr);
     lie(&format!("run {} --method rk4 --quiet", path.display())).ok();
 }
+
+#[test]
+fn a_tolerance_chooses_step_and_method() {
+    let end = |options: &str| {
+        let run = lie(&format!(
+            "run specs/so3_free_rigid_body.json --at 20 {options}"
+        ))
+        .ok();
+        (run.csv().1[0][1..4].to_vec(), run.stderr)
+    };
+    let (exact, _) = end("--method gauss16 --step 0.1");
+    let error = |state: &[f64]| {
+        let pairs = state.iter().zip(&exact);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    for tolerance in [1e-4, 1e-8] {
+        let (state, said) = end(&format!("--tol {tolerance:e}"));
+        assert!(error(&state) < 10.0 * tolerance, "{tolerance:e}: {state:?}");
+        assert!(said.contains("gauss16 was picked"), "{said}");
+        let (state, said) = end(&format!("--tol {tolerance:e} --method gauss6"));
+        assert!(error(&state) < 10.0 * tolerance, "{tolerance:e}: {state:?}");
+        assert!(
+            !said.contains("picked") && said.contains("gauss6, tolerance"),
+            "{said}"
+        );
+    }
+    let (coarse, _) = end("--tol 1e-2 --method midpoint");
+    assert!(error(&coarse) > 1e-8, "a tolerance is used");
+
+    let json = lie(&format!("{BODY} --tol 1e-6 --until 3 --format json")).ok();
+    let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
+    let step = value["step"].as_f64().expect("the step that was chosen");
+    let rows = value["rows"].as_array().expect("rows");
+    assert!(
+        (3.0 / step - (rows.len() - 1) as f64).abs() < 1e-9,
+        "{step}"
+    );
+    assert_eq!(rows.last().and_then(|row| row[0].as_f64()), Some(3.0));
+}
+
+#[test]
+fn a_tolerance_that_cannot_be_is_refused() {
+    for (options, text) in [
+        ("--tol 0", "a tolerance lies between 2e-15"),
+        ("--tol 1", "a tolerance lies between 2e-15"),
+        (
+            "--tol 1e-6 --step 0.1",
+            "a tolerance and a step are both given",
+        ),
+        ("--tol 1e-6 --method dopri5", "dopri5 chooses its own steps"),
+        ("--tol small", "error"),
+    ] {
+        let run = lie(&format!("{BODY} {options}"));
+        assert_eq!(run.code, Some(2), "{options}: {}", run.stderr);
+        assert!(run.stderr.contains(text), "{options}: {}", run.stderr);
+        assert!(run.stderr.contains("help: "), "{options}: {}", run.stderr);
+    }
+}

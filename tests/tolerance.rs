@@ -98,6 +98,8 @@ fn the_run_is_that_of_the_chosen_step() {
     let by_step = solve(&problem, Gauss6, &same).expect("it is solved");
     assert_eq!(by_tolerance.mu, by_step.mu);
     assert_eq!(by_tolerance.t, [-1.0, -6.9]);
+    let ends = solve(&problem, Gauss6, &Options::tolerance(1e-8).save(Save::Ends));
+    assert_eq!(ends.expect("it is solved").t, [0.0, -7.0]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::protocol::{Columns, End, Found};
 use crate::session::Session;
 use core::ops::ControlFlow;
-use lie_runtime::driver::{Motion, Observer, Progress, Reconstruction};
+use lie_runtime::driver::{Chosen, Motion, Observer, Progress, Reconstruction};
 use lie_runtime::{MatrixGroup, Poisson, State};
 use std::time::{Duration, Instant};
 
@@ -125,6 +125,10 @@ fn on(state: Result<(), End>) -> ControlFlow<()> {
 }
 
 impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
+    fn chosen(&mut self, chosen: &Chosen) {
+        self.session.of_run(Found::Chosen(chosen.into()), &[]);
+    }
+
     fn step(&mut self, _system: &P, progress: Progress, _mu: &P::State) -> ControlFlow<()> {
         if self.session.is_interrupted() {
             return ControlFlow::Break(());
@@ -150,6 +154,10 @@ pub(crate) struct OnGroup<'r, 's, 'o, V> {
 
 impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
     const MOTION: bool = true;
+
+    fn chosen(&mut self, chosen: &Chosen) {
+        Observer::<f64, P>::chosen(self.rows, chosen);
+    }
 
     fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {
         self.rows.step(system, progress, mu)

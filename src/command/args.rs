@@ -134,6 +134,9 @@ pub struct Run {
     /// this: none of its steps is longer
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub step: Option<String>,
+    /// Relative error at the end, in place of --step: chooses a constant step, and without --method the method too
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    pub tol: Option<String>,
     /// Final time
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub until: Option<String>,

@@ -130,6 +130,8 @@ objects! {
         "method" method: Option<String>,
         /// Step size.
         "step" step: Option<Constant>,
+        /// Relative error at the end from which the step is chosen, in place of it.
+        "tol" tol: Option<Constant>,
         /// End time.
         "until" until: Option<Constant>,
         /// Every how many steps a row is written.

@@ -26,6 +26,8 @@ pub struct Method {
     pub symmetric: bool,
     /// Whether a step needs no equation to be solved.
     pub explicit: bool,
+    /// Whether it is solved by fixed-point iteration.
+    pub fixed_point: bool,
     /// What it preserves.
     pub preserves: Preserves,
     /// What a system must have.

@@ -63,6 +63,7 @@ const fn row<M: Facts>(
         order: M::ORDER,
         symmetric: M::SYMMETRIC,
         explicit: M::EXPLICIT,
+        fixed_point: M::FIXED_POINT,
         preserves: if composes {
             Preserves::NOTHING
         } else {

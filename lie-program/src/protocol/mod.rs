@@ -10,7 +10,7 @@
 pub mod number;
 
 use crate::session;
-use lie_runtime::driver::{Options, Save, Stats};
+use lie_runtime::driver::{Chosen, Options, Pace, Save, Stats};
 use lie_runtime::newton::{Iteration, NewtonOptions};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -53,6 +53,14 @@ enum IterationInWords {
     Newton,
     Simplified,
     FixedPoint,
+}
+
+/// [`Pace`] in words.
+#[derive(Deserialize, Serialize)]
+#[serde(remote = "Pace", rename_all = "kebab-case")]
+enum PaceInWords {
+    Step(#[serde(with = "number")] f64),
+    Tolerance(#[serde(with = "number")] f64),
 }
 
 /// The fields of [`NewtonOptions`].
@@ -101,9 +109,9 @@ pub struct Run {
     pub method: String,
     /// Where it starts.
     pub start: Start,
-    /// The step size.
-    #[serde(with = "number")]
-    pub step: f64,
+    /// The step size, or a tolerance.
+    #[serde(with = "PaceInWords")]
+    pub pace: Pace,
     /// When rows are wanted.
     pub times: Times,
     /// The tolerances of an adaptive method.
@@ -137,7 +145,11 @@ impl Run {
             Times::Until { every, .. } => Save::Every(*every),
             Times::At(times) => Save::At(times.clone()),
         };
-        Options::new(self.step).save(save).newton(self.newton)
+        Options {
+            pace: self.pace,
+            save,
+            newton: self.newton,
+        }
     }
 }
 
@@ -170,6 +182,8 @@ pub struct Progress {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Found {
+    /// The step that was chosen from a tolerance, before all else.
+    Chosen(Choice),
     /// What the numbers of the rows to come are.
     Columns(Columns),
     /// So many rows follow this line: little-endian float64, row by row. They come at least every 0.2 s while steps are
@@ -180,6 +194,26 @@ pub enum Found {
     },
     /// The work so far, at the end.
     Work(Work),
+}
+
+/// A step that was chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Choice {
+    /// The step.
+    #[serde(with = "number")]
+    pub step: f64,
+    /// Whether round-off forbids the error that was asked for.
+    pub at_round_off: bool,
+}
+
+impl From<&Chosen> for Choice {
+    fn from(chosen: &Chosen) -> Self {
+        Self {
+            step: chosen.step,
+            at_round_off: chosen.at_round_off,
+        }
+    }
 }
 
 /// The numbers of a row: the time, the coordinates, the energy, the Casimirs, the group element.

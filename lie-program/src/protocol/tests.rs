@@ -7,7 +7,7 @@ fn run(times: Times) -> Run {
             parameters: [("k".to_owned(), 1e-300)].into(),
             initial: vec![-0.5, 0.1 + 0.2],
         },
-        step: 0.1,
+        pace: Pace::Step(0.1),
         times,
         tolerances: Tolerances::both(1e-8),
         newton: NewtonOptions::fixed_point(),

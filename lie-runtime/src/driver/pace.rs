@@ -91,7 +91,7 @@ pub fn choose<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         tolerance,
     };
     let (size, error) = trial.run_in(&problem.mu0, span)?;
-    let steps = (span.abs() / (SAFETY * size)).ceil().max(1.0);
+    let steps = count(span, (span.abs() / (SAFETY * size)).ceil().max(1.0));
     let step = if span == 0.0 { 1.0 } else { span / steps };
     Ok(Chosen {
         tolerance,
@@ -100,6 +100,13 @@ pub fn choose<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         at_round_off: tolerance / steps < ROUND_OFF,
         newton: trial.newton_of(step.abs()),
     })
+}
+
+/// The least number of steps, from one on, whose last time is the end of the span to the last digit, if it is near.
+fn count(span: f64, least: f64) -> f64 {
+    let near = (0..16).map(|k| least + f64::from(k));
+    let mut exact = near.filter(|steps| span / steps * steps == span);
+    exact.next().unwrap_or(least)
 }
 
 /// Steps that are tried.

@@ -15,7 +15,8 @@ use std::time::Instant;
 
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::program::{Purpose, program};
-use lie_program::protocol::Stop;
+use lie_program::protocol::{Obstacle, Stop};
+use lie_runtime::driver::Pace;
 
 use super::args::{self, Cpu, Format};
 use crate::build::talk::{Outcome, talk};
@@ -28,7 +29,7 @@ use bar::Bar;
 use outputs::Outputs;
 use plan::Plan;
 use reception::Reception;
-use summary::Drift;
+use summary::{Drift, Solver};
 
 /// Runs a spec.
 ///
@@ -107,9 +108,11 @@ fn integrate(
             .map_err(|error| outputs::unwritable(path, &error))?;
     }
     if !flags.quiet && matches!(outcome, Outcome::Done) {
-        let (title, adaptive) = (title(spec, plan), plan.method.is_adaptive());
+        say_of_tolerance(plan, received.at_round_off);
+        let title = title(spec, plan, received.step);
+        let solver = Solver::of(&plan.method);
         let (work, drift) = (&received.work, &received.drift);
-        let text = summary::text(&title, work, adaptive, drift, clock.elapsed());
+        let text = summary::text(&title, work, solver, drift, clock.elapsed());
         eprint!("{text}");
     }
     ended(outcome, &received.drift, flags.quiet, program)
@@ -120,16 +123,34 @@ fn request(plan: &Plan, reception: &Reception) -> lie_program::protocol::Run {
     lie_program::protocol::Run {
         method: plan.method.label(),
         start: plan.start.clone(),
-        step: plan.step.0,
+        pace: plan.pace.0,
         times: reception.times(plan),
         tolerances: plan.tolerances,
         newton: plan.newton,
     }
 }
 
-fn title(spec: &Spec, plan: &Plan) -> String {
+fn title(spec: &Spec, plan: &Plan, step: f64) -> String {
     let (name, method) = (&spec.model.name, plan.method.title());
-    format!("{name}, {method}, step {}", plan.step.1.trim())
+    let written = plan.pace.1.trim();
+    match plan.pace.0 {
+        Pace::Step(_) => format!("{name}, {method}, step {written}"),
+        Pace::Tolerance(_) => format!("{name}, {method}, tolerance {written}, step {step:.4e}"),
+    }
+}
+
+/// Why the method is the one it is, and what the tolerance may miss.
+fn say_of_tolerance(plan: &Plan, at_round_off: bool) {
+    if plan.picked {
+        eprintln!(
+            "{} was picked: it applies to every system, has order 16, and keeps quadratic Casimirs and a quadratic energy to \
+             round-off; --method takes another",
+            plan.method.id()
+        );
+    }
+    if at_round_off {
+        eprintln!("round-off of so many steps may exceed the tolerance");
+    }
 }
 
 /// Says how the run ended; answers the exit code.
@@ -148,6 +169,10 @@ fn ended(outcome: Outcome, drift: &Drift, quiet: bool, program: &Path) -> Result
             Ok(STOPPED)
         }
         Outcome::Parameter(name, why) => Err(impossible(&name, &why)),
+        Outcome::Refused(Obstacle::Option, why) => {
+            let help = "give a step by `--step`, or another tolerance";
+            Err(Message::option("--tol", why).help(help).into())
+        }
         Outcome::Refused(what, why) => Err(build::broken(program, &format!("{what:?}: {why}"))),
         Outcome::Broken(how) => Err(build::broken(program, &how)),
         Outcome::NotTaken(error) => Err(build::broken(program, &error.to_string())),

@@ -8,6 +8,7 @@ use lie_codegen::methods::{Choice, OptionError};
 use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
 use lie_program::protocol::{Start, Times, Tolerances};
+use lie_runtime::driver::Pace;
 use lie_runtime::newton::NewtonOptions;
 
 use super::values::Given;
@@ -18,6 +19,8 @@ use crate::message::Message;
 
 /// The method where none is given, for Lie–Poisson brackets and for others.
 const METHODS: [&str; 2] = ["lie-midpoint", "midpoint"];
+/// That of a tolerance.
+const OF_TOLERANCE: &str = "gauss16";
 /// That of a system by a discrete Lagrangian in coordinates of the exponential map.
 const DISCRETE: &str = "discrete-euler-poincare";
 
@@ -26,8 +29,10 @@ const DISCRETE: &str = "discrete-euler-poincare";
 pub struct Plan {
     /// The method and its options.
     pub method: Choice,
-    /// Step size, and as it was written.
-    pub step: (f64, String),
+    /// Step size or tolerance, and as it was written.
+    pub pace: (Pace, String),
+    /// Whether the method was taken because of a tolerance.
+    pub picked: bool,
     /// When rows are wanted.
     pub times: Times,
     /// Where it starts.
@@ -61,20 +66,24 @@ pub fn plan(spec: &Spec, flags: &args::Run) -> Result<Plan, Vec<Message>> {
         mistakes: Vec::new(),
     };
     let method = planner.method();
-    let step = planner.step();
-    let times = planner.times(step.as_ref());
+    let pace = planner.pace();
+    let times = planner.times(pace.as_ref());
     let solved = method.as_ref();
+    if let (Some(method), Some((Pace::Tolerance(_), given))) = (solved, &pace) {
+        planner.has_constant_steps(method, given);
+    }
     let tolerances = solved.map(|method| planner.tolerances(method));
     let newton = solved.map(|method| planner.newton(method));
     let chart = planner.chart();
     let start = planner.start();
-    match (method, step, times, start) {
-        (Some(method), Some((step, given)), Some(times), Some(start))
+    match (method, pace, times, start) {
+        (Some(method), Some((pace, given)), Some(times), Some(start))
             if planner.mistakes.is_empty() =>
         {
             Ok(Plan {
                 method,
-                step: (step, given.text),
+                pace: (pace, given.text),
+                picked: planner.picks(),
                 times,
                 start: start.named(spec),
                 chart,
@@ -158,12 +167,22 @@ impl Planner<'_> {
         result.map_err(|message| self.mistakes.push(message)).ok()
     }
 
+    /// Whether a tolerance is given without a method, which is picked then: on the command line, or in the spec.
+    fn picks(&self) -> bool {
+        let in_spec = self.flags.tol.is_none() && !self.in_spec("method").is_empty();
+        self.wants_tolerance() && self.flags.method.is_none() && !in_spec
+    }
+
     fn method(&mut self) -> Option<Choice> {
-        let given = self.given("--method", self.flags.method.as_ref());
-        let id = given.clone().unwrap_or_else(|| {
+        let given = self
+            .given("--method", self.flags.method.as_ref())
+            .filter(|_| !self.picks());
+        let id = given.unwrap_or_else(|| {
             let model = &self.spec.model;
             let discrete = model.energy.lagrangian().and_then(|l| l.discrete);
-            let method = if discrete.is_some_and(|discrete| !discrete.in_entries) {
+            let method = if self.picks() {
+                OF_TOLERANCE
+            } else if discrete.is_some_and(|discrete| !discrete.in_entries) {
                 DISCRETE
             } else {
                 METHODS[usize::from(!model.is_lie_poisson())]
@@ -183,7 +202,7 @@ impl Planner<'_> {
                 continue;
             };
             // The spec's option belongs to the spec's method; a flag may have replaced that.
-            let belongs = flag.is_some() || self.flags.method.is_none();
+            let belongs = flag.is_some() || (self.flags.method.is_none() && !self.picks());
             match choice.clone().with_option(name, &given.text) {
                 Ok(chosen) => choice = chosen,
                 Err(OptionError::Foreign) => {

@@ -5,6 +5,7 @@ use std::io::{self, BufRead};
 use lie_poisson::plot::Plot;
 use lie_program::listen;
 use lie_program::protocol::{Found, Times, Work};
+use lie_runtime::driver::Pace;
 
 use super::layout::Layout;
 use super::plan::Plan;
@@ -15,7 +16,9 @@ use crate::output::{Destination, Header, Rows};
 
 /// Takes what the program of a run finds.
 pub struct Reception {
-    rows: Rows,
+    /// What the output needs to begin, until the step is known.
+    waiting: Option<(Destination, Format, Header)>,
+    rows: Option<Rows>,
     received: Received,
     layout: Layout,
     /// Where the columns that are shown stand in a row of the program, and how wide that is.
@@ -33,6 +36,10 @@ pub struct Received {
     pub drift: Drift,
     /// What was counted.
     pub work: Work,
+    /// The step, given or chosen.
+    pub step: f64,
+    /// Whether round-off forbids the tolerance.
+    pub at_round_off: bool,
 }
 
 impl Reception {
@@ -49,14 +56,22 @@ impl Reception {
     ) -> io::Result<Self> {
         let model = &spec.model;
         let layout = Layout::new(model, plan.chart);
+        let step = match plan.pace.0 {
+            Pace::Step(step) => step,
+            Pace::Tolerance(_) => f64::NAN,
+        };
         let header = Header {
             system: model.name.clone(),
             method: plan.method.id().to_owned(),
-            step: plan.step.0,
+            step,
             columns: layout.columns.clone(),
         };
         let plot = draws.then(|| {
-            let subtitle = format!("{}, h = {}", plan.method.title(), plan.step.1.trim());
+            let (method, written) = (plan.method.title(), plan.pace.1.trim());
+            let subtitle = match plan.pace.0 {
+                Pace::Step(_) => format!("{method}, h = {written}"),
+                Pace::Tolerance(_) => format!("{method}, tolerance {written}"),
+            };
             let (own, element) = layout.columns.split_at(layout.invariants.end);
             Plot::new(&*model.name, own, layout.states, (0.0, plan.end()))
                 .subtitle(subtitle)
@@ -66,18 +81,36 @@ impl Reception {
         for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
             drift.leave_out(&casimir.name);
         }
-        Ok(Self {
-            rows: Rows::start(destination, format, &header)?,
+        let mut reception = Self {
+            waiting: Some((destination, format, header)),
+            rows: None,
             received: Received {
                 plot,
                 drift,
                 work: Work::default(),
+                step,
+                at_round_off: false,
             },
             layout,
             places: Vec::new(),
             width: 0,
             hidden: !starts_at_zero(&plan.times),
-        })
+        };
+        if let Pace::Step(_) = plan.pace.0 {
+            reception.begin()?;
+        }
+        Ok(reception)
+    }
+
+    /// The output, begun with the step as it is known now.
+    fn begin(&mut self) -> io::Result<&mut Rows> {
+        if let Some((destination, format, mut header)) = self.waiting.take() {
+            header.step = self.received.step;
+            self.rows = Some(Rows::start(destination, format, &header)?);
+        }
+        self.rows
+            .as_mut()
+            .ok_or_else(|| io::Error::other("the output could not be begun"))
     }
 
     /// The times at which rows are asked for: errors are taken against the initial state, also where it is not shown.
@@ -96,6 +129,11 @@ impl Reception {
     /// `InvalidData` for rows that are not those of the system; what the destination says.
     pub fn take(&mut self, found: Found, rest: &mut dyn BufRead) -> io::Result<()> {
         match found {
+            Found::Chosen(chosen) => {
+                self.received.step = chosen.step;
+                self.received.at_round_off = chosen.at_round_off;
+                self.begin()?;
+            }
             Found::Columns(columns) => {
                 let places = self.layout.places(&columns).ok_or_else(|| {
                     let text = format!("these are not the columns of the system: {columns:?}");
@@ -132,15 +170,18 @@ impl Reception {
         }
         let from = if self.hidden { columns } else { 0 };
         self.hidden = false;
-        self.rows.push(&shown[from..])
+        self.begin()?.push(&shown[from..])
     }
 
     /// Writes what stands behind the rows: how the run ended.
     ///
     /// # Errors
     /// The destination cannot be written.
-    pub fn finish(self, word: &'static str) -> io::Result<Received> {
-        self.rows.finish(word)?;
+    pub fn finish(mut self, word: &'static str) -> io::Result<Received> {
+        self.begin()?;
+        if let Some(rows) = self.rows {
+            rows.finish(word)?;
+        }
         Ok(self.received)
     }
 }

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use lie_codegen::methods::Choice;
 use lie_poisson::plot::reference;
 use lie_program::protocol::Work;
 use lie_runtime::diagnostics::InvariantDrift;
@@ -78,9 +79,39 @@ fn short(error: f64) -> String {
     }
 }
 
+/// What a step of the method costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solver {
+    /// Steps of its own within those of the grid.
+    Adaptive,
+    /// Newton's iteration, if any.
+    Newton,
+    /// Fixed-point iteration.
+    FixedPoint,
+}
+
+impl Solver {
+    /// That of a method.
+    pub fn of(method: &Choice) -> Self {
+        let fixed_point = method.solved().entry().is_some_and(|row| row.fixed_point);
+        match (method.is_adaptive(), fixed_point) {
+            (true, _) => Self::Adaptive,
+            (false, true) => Self::FixedPoint,
+            (false, false) => Self::Newton,
+        }
+    }
+
+    fn iterations(self) -> &'static str {
+        match self {
+            Self::FixedPoint => "fixed-point iterations",
+            Self::Adaptive | Self::Newton => "Newton iterations",
+        }
+    }
+}
+
 /// What was done, and how well the invariants were kept; for a method that chooses its own steps, how many those
 /// were, and whether it had a choice.
-pub fn text(title: &str, work: &Work, adaptive: bool, drift: &Drift, time: Duration) -> String {
+pub fn text(title: &str, work: &Work, solver: Solver, drift: &Drift, time: Duration) -> String {
     let steps = work.steps;
     let mut text = format!(
         "{title}: {steps} steps to t = {:?} in {:.3} s",
@@ -89,10 +120,12 @@ pub fn text(title: &str, work: &Work, adaptive: bool, drift: &Drift, time: Durat
     );
     if work.newton > 0 && steps > 0 {
         text.push_str(&format!(
-            ", {:.2} Newton iterations per step",
-            work.newton as f64 / steps as f64
+            ", {:.2} {} per step",
+            work.newton as f64 / steps as f64,
+            solver.iterations()
         ));
     }
+    let adaptive = solver == Solver::Adaptive;
     if adaptive {
         let (own, refused) = (work.accepted, work.rejected);
         text.push_str(&format!(
@@ -130,7 +163,13 @@ mod tests {
             newton: 5,
             ..Work::default()
         };
-        let text = text("T", &work, false, &drift, Duration::from_millis(1500));
+        let text = text(
+            "T",
+            &work,
+            Solver::Newton,
+            &drift,
+            Duration::from_millis(1500),
+        );
         assert_eq!(
             text,
             "T: 2 steps to t = 1.0 in 1.500 s, 2.50 Newton iterations per step\n\
@@ -152,7 +191,7 @@ mod tests {
                 rejected,
                 ..Work::default()
             };
-            text("T", &work, true, &drift, Duration::ZERO)
+            text("T", &work, Solver::Adaptive, &drift, Duration::ZERO)
         };
         assert!(of(25, 2).contains(", 25 of its own within these, 2 refused\n"));
         assert!(!of(25, 2).contains("larger --step") && !of(10, 1).contains("larger --step"));

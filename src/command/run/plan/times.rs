@@ -3,13 +3,58 @@
 use super::super::values::Given;
 use super::Planner;
 use crate::message::Message;
+use lie_codegen::methods::Choice;
 use lie_program::protocol::Times;
+use lie_runtime::driver::Pace;
 
 const STEP: &str = "0.01";
 const UNTIL: &str = "10";
+/// Below this a tolerance is round-off.
+const LEAST_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
 impl Planner<'_> {
-    pub(super) fn step(&mut self) -> Option<(f64, Given)> {
+    /// Whether the step is to be chosen from a tolerance: a flag replaces what the spec says.
+    pub(super) fn wants_tolerance(&self) -> bool {
+        let in_spec = !self.in_spec("tol").is_empty();
+        self.flags.tol.is_some() || (self.flags.step.is_none() && in_spec)
+    }
+
+    /// The step, or the tolerance from which it is chosen.
+    pub(super) fn pace(&mut self) -> Option<(Pace, Given)> {
+        if !self.wants_tolerance() {
+            return self.step().map(|(step, given)| (Pace::Step(step), given));
+        }
+        let given = self.given("--tol", self.flags.tol.as_ref())?;
+        let both = match self.flags.tol {
+            Some(_) => self.flags.step.is_some(),
+            None => !self.in_spec("step").is_empty(),
+        };
+        if both {
+            let message = given.wrong("a tolerance and a step are both given");
+            let help = "a tolerance chooses the step: leave one of them out";
+            self.mistakes.push(message.help(help));
+            return None;
+        }
+        let tolerance = self.keep(given.number())?;
+        if !(LEAST_TOLERANCE..1.0).contains(&tolerance) {
+            let message = given.wrong("a tolerance lies between 2e-15, which is round-off, and 1");
+            let help = "give the relative error that the end may have, such as 1e-9";
+            self.mistakes.push(message.help(help));
+            return None;
+        }
+        Some((Pace::Tolerance(tolerance), given))
+    }
+
+    /// A method that adapts its own steps has no constant step to choose.
+    pub(super) fn has_constant_steps(&mut self, method: &Choice, given: &Given) {
+        if method.is_adaptive() {
+            let text = format!("{} chooses its own steps", method.id());
+            let help = "give `--rtol` and `--atol` with `--step`, or take another method";
+            self.mistakes.push(given.wrong(text).help(help));
+        }
+    }
+
+    fn step(&mut self) -> Option<(f64, Given)> {
         let given = self.given("--step", self.flags.step.as_ref());
         let fallback = given.is_none();
         let given = given.unwrap_or_else(|| Given::flag("--step", STEP));
@@ -53,7 +98,7 @@ impl Planner<'_> {
         }
     }
 
-    pub(super) fn times(&mut self, step: Option<&(f64, Given)>) -> Option<Times> {
+    pub(super) fn times(&mut self, pace: Option<&(Pace, Given)>) -> Option<Times> {
         let flags = self.flags;
         for (name, other) in [("--until", &flags.until), ("--every", &flags.every)] {
             if flags.at.is_some() && other.is_some() {
@@ -81,7 +126,7 @@ impl Planner<'_> {
         let mut values = Vec::new();
         for end in &ends {
             let value = self.keep(end.number());
-            if let (Some(value), Some((step, given))) = (value, step) {
+            if let (Some(value), Some((Pace::Step(step), given))) = (value, pace) {
                 self.compatible(*step, given, value, end);
             }
             values.extend(value);
