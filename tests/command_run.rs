@@ -399,6 +399,7 @@ fn a_tolerance_that_cannot_be_is_refused() {
         ),
         ("--tol 1e-6 --method dopri5", "dopri5 chooses its own steps"),
         ("--tol small", "error"),
+        ("--tol 1e-6 --at=-1,1", "lie on both sides of t = 0"),
     ] {
         let run = lie(&format!("{BODY} {options}"));
         assert_eq!(run.code, Some(2), "{options}: {}", run.stderr);

@@ -98,6 +98,17 @@ fn the_run_is_that_of_the_chosen_step() {
     let by_step = solve(&problem, Gauss6, &same).expect("it is solved");
     assert_eq!(by_tolerance.mu, by_step.mu);
     assert_eq!(by_tolerance.t, [-1.0, -6.9]);
+    // of a fixed-point method, too, whose quadratic Casimirs stay to round-off
+    let by_tolerance = solve(&problem, Gauss16, &options).expect("it is solved");
+    let chosen = by_tolerance.chosen.expect("a step was chosen");
+    let same = Options::new(chosen.step).save(options.save.clone());
+    let by_step = solve(&problem, Gauss16, &same).expect("it is solved");
+    assert_eq!(by_tolerance.mu, by_step.mu);
+    let drift = by_tolerance.drift();
+    assert!(
+        drift.casimirs.iter().all(|casimir| casimir.max < 1e-14),
+        "{drift:?}"
+    );
     let ends = solve(&problem, Gauss6, &Options::tolerance(1e-8).save(Save::Ends));
     assert_eq!(ends.expect("it is solved").t, [0.0, -7.0]);
 }

@@ -159,6 +159,10 @@ pub trait SpinPoisson<S: Scalar>: LiePoisson<S> {
     fn spins(&self) -> &[[usize; 3]];
     /// The constant c of one spin.
     fn scale(&self, spin: usize) -> S;
+    /// Points of `T*R^2` over all spins, four coordinates `(q1, q2, p1, p2)` for each.
+    type Spinors: State<S>;
+    /// Points of the right size, all coordinates 0.
+    fn zero_spinors(&self) -> Self::Spinors;
 }
 
 /// A system with a realization of its bracket: a map `mu = J(z)` from points z = (q, p) with canonical brackets and

@@ -1,5 +1,6 @@
-use super::protocol::{Columns, Message, Start, Times};
+use super::protocol::{Choice, Columns, Message, Start, Times};
 use super::*;
+use lie_runtime::driver::Pace;
 use lie_runtime::methods::{Dopri5, Rk4};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{ParameterFault, State};
@@ -78,7 +79,7 @@ fn request(method: &str, step: f64, times: Times, initial: &[f64]) -> Run {
             initial: initial.to_vec(),
             ..Start::default()
         },
-        step,
+        pace: Pace::Step(step),
         times,
         tolerances: Tolerances::default(),
         newton: NewtonOptions::default(),
@@ -93,6 +94,7 @@ fn until(end: f64) -> Times {
 #[derive(Debug, Default)]
 struct Heard {
     code: u8,
+    chosen: Option<Choice>,
     columns: Option<Columns>,
     rows: Vec<[f64; 4]>,
     work: Option<Work>,
@@ -106,6 +108,7 @@ fn heard(code: u8, mut output: &[u8]) -> Heard {
     };
     listen::listen(&mut output, &mut |message: Message<Found>, output| {
         match message {
+            Message::Found(Found::Chosen(chosen)) => heard.chosen = Some(chosen),
             Message::Found(Found::Columns(columns)) => heard.columns = Some(columns),
             Message::Found(Found::Rows { count }) => {
                 listen::rows(output, 4, count, &mut |numbers| {

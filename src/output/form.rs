@@ -65,7 +65,11 @@ impl Form for Json {
         let columns = serde_json::Value::from(header.columns.clone());
         let (system, method) = (text(&header.system), text(&header.method));
         let _ = write!(out, "{{\"system\":{system},\"method\":{method},\"step\":");
-        number(header.step, out);
+        if header.step.is_finite() {
+            number(header.step, out);
+        } else {
+            out.extend_from_slice(b"null");
+        }
         let _ = write!(out, ",\"columns\":{columns},\"rows\":[");
     }
 

@@ -517,6 +517,11 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for FreeRigidBodySy
     fn scale(&self, _spin: usize) -> S {
         S::one()
     }
+
+    type Spinors = ::lie_runtime::__private_0_1::SVector<S, 4>;
+    fn zero_spinors(&self) -> Self::Spinors {
+        ::lie_runtime::__private_0_1::SVector::from_element(S::zero())
+    }
 }
 
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.

@@ -152,6 +152,13 @@ fn pick<T: Copy + PartialEq>(
         })
 }
 
+impl Lift {
+    /// Those of the collective method of an order: from order 8 on the stages are evaluated together over the Hopf map.
+    pub fn of_collective(order: u32) -> &'static [Self] {
+        if order > 6 { &[Self::Hopf] } else { Self::ALL }
+    }
+}
+
 impl Choice {
     /// The same method with an option set; the options of a composition are those of its base, and
     /// its own.
@@ -174,7 +181,8 @@ impl Choice {
                 pick(option, value, Retraction::ALL, Retraction::name)?,
             ),
             (Self::Collective(order, _), "lift") => {
-                Self::Collective(order, pick(option, value, Lift::ALL, Lift::name)?)
+                let all = Lift::of_collective(order);
+                Self::Collective(order, pick(option, value, all, Lift::name)?)
             }
             (Self::DiscreteGradient(gradient, _), "tensor") => {
                 let tensor = pick(option, value, Tensor::ALL, Tensor::name)?;
@@ -253,7 +261,7 @@ impl Choice {
                 .iter()
                 .map(|r| Self::Generating(*order, *r))
                 .collect(),
-            Self::Collective(order, _) => Lift::ALL
+            Self::Collective(order, _) => Lift::of_collective(*order)
                 .iter()
                 .map(|l| Self::Collective(*order, *l))
                 .collect(),

@@ -1,14 +1,14 @@
 //! The table itself: one row for each method. What is known of it stands in its type.
 
 use lie_core::methods::{
-    CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6,
-    CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3, DiscreteEulerPoincare, Dopri5,
-    EulerArnold2, Exp, Facts, Gauss4, Gauss6, Gauss8, Gauss10, Gauss12, Gauss14, Gauss16,
-    Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint,
-    Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue,
-    MoserVeselov, OrbitEnergy, Preserves, Representation, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6,
-    SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Variational2,
-    Variational4, Variational6,
+    CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6, Collective8,
+    Collective12, Collective16, CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3,
+    DiscreteEulerPoincare, Dopri5, EulerArnold2, Exp, Facts, Gauss4, Gauss6, Gauss8, Gauss10,
+    Gauss12, Gauss14, Gauss16, Generating2, Generating4, Generating6, GeneratingSecondKind2,
+    Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler,
+    LieMidpoint, MeanValue, MoserVeselov, OrbitEnergy, Preserves, Representation, Rk4, Rkmk2,
+    Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6,
+    Splitting8, Variational2, Variational4, Variational6,
 };
 
 use super::Method;
@@ -22,6 +22,7 @@ const REDUCTIVE: &str =
     "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const COLLECTIVE: &str = "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it; with --lift hopf a direct sum of algebras so(3)";
 
+const SPINS: &str = "a direct sum of algebras so(3)";
 const SUM: &str = "H = sum f_i(x_i), each term of one coordinate";
 
 const AKW: &str = "Austin, Krishnaprasad, Wang (1993), 10.1006/jcph.1993.1128";
@@ -115,10 +116,13 @@ catalogue! {
     Collective2<Representation>: "collective symplectic", COLLECTIVE, COLL;
     Collective4<Representation>: "collective symplectic", COLLECTIVE, COLL;
     Collective6<Representation>: "collective symplectic", COLLECTIVE, COLL;
+    Collective8: "stage-parallel collective symplectic", SPINS, COLL;
+    Collective12: "stage-parallel collective symplectic", SPINS, COLL;
+    Collective16: "stage-parallel collective symplectic", SPINS, COLL;
     Isospectral2: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
     Isospectral4: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
     Isospectral6: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
-    SphericalMidpoint: "spherical midpoint", "a direct sum of algebras so(3)", MMV;
+    SphericalMidpoint: "spherical midpoint", SPINS, MMV;
     Splitting1: "Lie–Trotter splitting", SUM, MCL;
     Splitting2: "Strang splitting", SUM, MCL;
     Splitting4: "Blanes–Moan splitting", SUM, BM;
@@ -138,8 +142,6 @@ catalogue! {
 pub const RESERVED: &[&str] = &[
     "taylor",
     "exact",
-    "collective8",
-    "collective16",
     "isospectral8",
     "isospectral16",
     "cohen-hairer8",

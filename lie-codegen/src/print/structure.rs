@@ -120,6 +120,7 @@ impl Printer<'_> {
             quote! { [#(#triple),*] }
         });
         let (argument, value) = self.chosen("spin", &spins.scales);
+        let coordinates = index(4 * spins.scales.len());
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for #system<S> {
                 fn spins(&self) -> &[[usize; 3]] {
@@ -129,6 +130,12 @@ impl Printer<'_> {
                 #[inline]
                 fn scale(&self, #argument: usize) -> S {
                     #value
+                }
+
+                type Spinors = ::lie_runtime::__private::SVector<S, #coordinates>;
+
+                fn zero_spinors(&self) -> Self::Spinors {
+                    ::lie_runtime::__private::SVector::from_element(S::zero())
                 }
             }
         })

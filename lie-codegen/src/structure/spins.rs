@@ -68,8 +68,11 @@ pub fn refusal(model: &Model, hopf: Option<u32>) -> Option<(String, String)> {
         }
     };
     let remedy = match hopf {
-        Some(order) if super::matrices::refusal(model, order).is_none() => {
+        Some(order) if order <= 6 && super::matrices::refusal(model, order).is_none() => {
             format!("use `collective{order}` with `--lift representation`")
+        }
+        Some(order) if order > 8 => {
+            "use `compose8(lie-midpoint)`, or `gauss16`, which is no Poisson map but keeps quadratic Casimirs".into()
         }
         Some(order) if order > 2 => {
             format!("use `compose{order}(lie-midpoint)`, which works for every Lie algebra")

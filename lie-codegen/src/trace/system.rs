@@ -305,6 +305,10 @@ impl SpinPoisson<Sym> for SymbolicSystem {
     fn scale(&self, spin: usize) -> Sym {
         self.scales[spin]
     }
+    type Spinors = State;
+    fn zero_spinors(&self) -> State {
+        vec![<Sym as lie_core::Scalar>::zero(); 4 * self.spins.len()]
+    }
 }
 
 impl InertiaPoisson<Sym> for SymbolicSystem {

@@ -25,6 +25,8 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
     ahead: [S::Wide; 8],
     /// `h b_i` in place i.
     weights: S::Wide,
+    /// 1 in the place of each stage, 0 in the others.
+    inside: S::Wide,
     step: S,
     /// `1/|h|`
     rate: S,
@@ -58,6 +60,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                     S::zero()
                 }
             })),
+            inside: S::gather(from_fn(|i| if i < STAGES { S::one() } else { S::zero() })),
             step: h,
             rate: S::one() / h.abs(),
             slopes: zero.clone(),
@@ -87,10 +90,9 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// shrunk to round-off. Sizes are sums of magnitudes.
     #[inline(always)]
     pub fn iterate(&mut self, base: &[S], mut field: impl FnMut(&V, &mut V)) -> Iterated<S> {
-        let scale = base.iter().fold(S::zero(), |sum, y| sum + y.magnitude());
-        let ending = Ending::new(scale * self.rate, &self.options);
+        let ending = Ending::new(self.size(base), &self.options);
         let [mut ended, mut converged] = [S::Mask::splat(false); 2];
-        let (mut iterations, mut size, mut mark) = (0, S::zero(), S::from_f64(f64::MAX));
+        let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
         let mut change = S::Wide::zero();
         while iterations < self.options.max_iterations && !ended.all() {
             self.set_points(base);
@@ -99,21 +101,35 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             change = self.replace(ended);
             iterations += 1;
             if ending.may_be(change) {
-                size = most::<S>(change);
-                converged = converged | (ending.reached(most::<S>(before), size) & !ended);
+                let size = most::<S>(change);
+                let before = if iterations > 1 {
+                    most::<S>(before)
+                } else {
+                    size
+                };
+                converged = converged | (ending.reached(before, size) & !ended);
                 ended = ended | converged;
             }
             if iterations % REVIEW == 0 {
-                size = most::<S>(change);
+                let size = most::<S>(change);
                 ended = ended | !size.less(mark * S::ratio(1.0, 2.0));
                 mark = size;
             }
         }
         Iterated {
             iterations,
-            residual: largest(size * self.step.abs()),
+            residual: largest(most::<S>(change) * self.step.abs()),
             converged,
         }
+    }
+
+    /// The size of the slopes against which changes are measured: that of the base over h, or of the slopes themselves.
+    #[inline(always)]
+    fn size(&self, base: &[S]) -> S {
+        let scale = base.iter().fold(S::zero(), |sum, y| sum + y.magnitude());
+        let slopes = self.slopes.as_slice().iter();
+        let slopes = slopes.fold(S::Wide::zero(), |sum, f| sum + f.magnitude());
+        (scale * self.rate).max(most::<S>(slopes))
     }
 
     /// Sets the points `y + h A F`.
@@ -139,7 +155,12 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 S::gather(from_fn(|i| S::select(ended, old[i], new[i])))
             };
         }
-        change
+        // places without a stage do not count
+        if STAGES < 8 {
+            change * self.inside
+        } else {
+            change
+        }
     }
 
     /// Adds the increment of the step to the base.
@@ -206,13 +227,15 @@ impl<S: Scalar> Ending<S> {
     }
 
     /// The lanes in which it has: with the ratio r of the last two changes as the rate, the last one times `r/(1 - r)` is
-    /// left.
+    /// left. Of one change alone, `before` is that change.
     #[inline(always)]
     fn reached(&self, before: S, change: S) -> S::Mask {
         let shrinks = (change + change).less(before);
         let left = change * change;
         let small = left.less_equal(self.goal * (before - change));
-        let settled = change.less_equal(self.round_off);
+        let same = before.less_equal(change) & change.less_equal(before);
+        let first = change.less_equal(self.goal);
+        let settled = first | (!same & change.less_equal(self.round_off));
         change.less_equal(self.bound) & ((shrinks & small) | (!shrinks & settled))
     }
 }

@@ -165,6 +165,7 @@ pub fn gauss_tableau<S: Scalar, const STAGES: usize>() -> Tableau<S, STAGES> {
 /// # Panics
 /// If there is no such tableau, or entry.
 pub fn gauss_entry<S: Scalar>(stages: usize, i: usize, j: usize) -> S {
+    assert!(i < stages && j < stages, "there is no such entry");
     table(stages).a[i][j].number()
 }
 
@@ -173,6 +174,7 @@ pub fn gauss_entry<S: Scalar>(stages: usize, i: usize, j: usize) -> S {
 /// # Panics
 /// If there is no such tableau, or entry.
 pub fn gauss_weight<S: Scalar>(stages: usize, i: usize) -> S {
+    assert!(i < stages, "there is no such weight");
     table(stages).b[i].number()
 }
 
@@ -181,6 +183,7 @@ pub fn gauss_weight<S: Scalar>(stages: usize, i: usize) -> S {
 /// # Panics
 /// If there is no such tableau, or entry.
 pub fn gauss_ahead<S: Scalar>(stages: usize, i: usize, j: usize) -> S {
+    assert!(i < stages && j < stages, "there is no such entry");
     table(stages).ahead[i][j].number()
 }
 

@@ -52,11 +52,13 @@
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;
 use super::realized::RealizedStepper;
+use super::spinors::SpinorStepper;
 use super::stepper::Method;
 use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
+use crate::poisson::Widen;
 use crate::scalar::Scalar;
-use crate::structure::ClosedRealization;
+use crate::structure::{ClosedRealization, SpinPoisson};
 
 /// The lift to `T*V` of the declared representation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -116,6 +118,56 @@ impl<L, const STAGES: usize> Facts for Collective<L, STAGES> {
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
     const PRESERVES: Preserves = Preserves::POISSON;
+}
+
+/// The collective Gauss method over the Hopf map with four to eight stages, which are evaluated together on the points of
+/// `T*R^2` themselves, by fixed-point iteration from the continued polynomial of the last step (see
+/// [`StageParallel`](crate::generic::StageParallel)); see the [module's text](self). A step on which that does not contract is
+/// refused.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ParallelCollective<const STAGES: usize>(());
+
+/// Order 8.
+pub type Collective8 = ParallelCollective<4>;
+/// Order 12.
+pub type Collective12 = ParallelCollective<6>;
+/// Order 16.
+pub type Collective16 = ParallelCollective<8>;
+
+impl<const STAGES: usize> ParallelCollective<STAGES> {
+    /// Over so(3)* by the Hopf map.
+    pub const fn hopf() -> Self {
+        Self(())
+    }
+}
+
+impl<const STAGES: usize> Facts for ParallelCollective<STAGES> {
+    const ID: &'static str = match STAGES {
+        4 => "collective8",
+        6 => "collective12",
+        _ => "collective16",
+    };
+    const ORDER: u32 = 2 * STAGES as u32;
+    const SYMMETRIC: bool = true;
+    const EXPLICIT: bool = false;
+    const FIXED_POINT: bool = true;
+    const PRESERVES: Preserves = Preserves::POISSON;
+}
+
+impl<S, P, const STAGES: usize> Method<S, P> for ParallelCollective<STAGES>
+where
+    S: Scalar,
+    P: SpinPoisson<S> + Widen<S>,
+    P::Widened: SpinPoisson<S::Wide>,
+{
+    type Stepper<'a>
+        = SpinorStepper<'a, S, P, STAGES>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+        SpinorStepper::new(system, h, newton)
+    }
 }
 
 impl<S, P, const STAGES: usize> Method<S, P> for Collective<Given, STAGES>

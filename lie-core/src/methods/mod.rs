@@ -59,6 +59,7 @@ mod realized;
 pub mod rk4;
 pub mod rkmk;
 pub mod spherical_midpoint;
+mod spinors;
 pub mod splitting;
 mod stage_parallel;
 mod stepper;
@@ -68,7 +69,8 @@ pub mod variational;
 pub use coefficients::Scheme;
 pub use cohen_hairer::{CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6};
 pub use collective::{
-    Collective, Collective2, Collective4, Collective6, Given, Hopf, Reduced, Representation,
+    Collective, Collective2, Collective4, Collective6, Collective8, Collective12, Collective16,
+    Given, Hopf, ParallelCollective, Reduced, Representation,
 };
 pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
 pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};
@@ -94,6 +96,7 @@ pub use realized::RealizedStepper;
 pub use rk4::{Rk4, Rk4Stepper};
 pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
 pub use spherical_midpoint::SphericalMidpoint;
+pub use spinors::SpinorStepper;
 pub use splitting::{
     Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, SplittingStepper,
 };

@@ -8,10 +8,13 @@ use crate::poisson::{Poisson, Widen};
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
 
+/// Newton's iteration takes a full matrix of so many rows at most, 0.5 MB in double precision.
+const MOST_UNKNOWNS: usize = 256;
+
 type WideState<S, P> = <<P as Widen<S>>::Widened as Poisson<<S as Scalar>::Wide>>::State;
 
 /// Gauss collocation by fixed-point iteration with all stages in one register; a step on which that does not contract is
-/// solved by Newton's iteration.
+/// solved by Newton's iteration, and refused where that has more than 256 unknowns.
 ///
 /// The iteration starts from the polynomial of the last step where the state is the one that step led to.
 pub struct StageParallelStepper<'a, S: Scalar, P: Widen<S>, const STAGES: usize> {
@@ -128,7 +131,7 @@ impl<S: Scalar, P: Widen<S>, const STAGES: usize> Stepper<S>
         self.next.copy_from(mu);
         self.stages.advance(self.next.as_mut_slice());
         let mut report = StepReport {
-            evaluations: solved.iterations + 1,
+            evaluations: solved.iterations + u32::from(!follows.all()),
             iterations: solved.iterations,
             residual: solved.residual,
             substeps: 1,
@@ -136,7 +139,9 @@ impl<S: Scalar, P: Widen<S>, const STAGES: usize> Stepper<S>
         };
         let mut failure = None;
         if !solved.converged.all() {
-            failure = if self.newton.iteration == Iteration::FixedPoint {
+            let unknowns = STAGES * self.system.dimension();
+            let alone = self.newton.iteration == Iteration::FixedPoint || unknowns > MOST_UNKNOWNS;
+            failure = if alone {
                 Some(StepFailure {
                     reason: FailureReason::NotConverged,
                     lanes: (!solved.converged).bits(),
@@ -170,7 +175,7 @@ impl<S: Scalar, P: Widen<S>, const STAGES: usize> Stepper<S>
 
 /// The lanes in which two states are equal.
 #[inline(always)]
-fn same<S: Scalar, V: State<S>>(one: &V, other: &V) -> S::Mask {
+pub(super) fn same<S: Scalar, V: State<S>>(one: &V, other: &V) -> S::Mask {
     let pairs = one.as_slice().iter().zip(other.as_slice());
     pairs.fold(S::Mask::splat(true), |equal, (&x, &y)| {
         equal & x.less_equal(y) & y.less_equal(x)

@@ -48,7 +48,8 @@ mod tests {
         let numbers = f64x8::new(core::array::from_fn(|k| k as f64));
         assert_eq!(exchange::<D>(numbers), portable::<D>(numbers), "{D}");
         assert_eq!(exchange::<D>(exchange::<D>(numbers)), numbers, "{D}");
-        assert_eq!(exchange::<D>(numbers).to_array()[0], D as f64);
+        let places: [f64; 8] = core::array::from_fn(|k| (k ^ D) as f64);
+        assert_eq!(exchange::<D>(numbers).to_array(), places, "{D}");
     }
 
     #[test]

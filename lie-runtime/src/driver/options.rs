@@ -76,7 +76,7 @@ pub enum OptionError {
     #[error("the step must be a finite number other than zero, not {0}")]
     Step(f64),
     /// The tolerance is below round-off, 1 or more, or not a number.
-    #[error("a tolerance lies between 2e-15 and 1, unlike {0}")]
+    #[error("the tolerance must lie between eight units of round-off and 1, not {0}")]
     Tolerance(f64),
     /// No step was found with which the method keeps the tolerance.
     #[error(

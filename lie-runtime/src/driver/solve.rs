@@ -97,7 +97,8 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     options: &Options,
     observer: &mut impl Observer<S, P>,
 ) -> Result<(Stats, Status), IntegrateError> {
-    let (step, newton, chosen) = settle(problem, &method, options)?;
+    let (step, chosen) = settle(problem, &method, options)?;
+    let newton = options.newton;
     if let Some(chosen) = &chosen {
         observer.chosen(chosen);
     }

@@ -200,6 +200,10 @@ impl<S: Scalar> SpinPoisson<S> for RigidBody<S> {
     fn scale(&self, _spin: usize) -> S {
         S::one()
     }
+    type Spinors = [S; 4];
+    fn zero_spinors(&self) -> [S; 4] {
+        [S::zero(); 4]
+    }
 }
 
 lie_runtime::generic_equations!([S: Scalar] RigidBody<S>, S: isospectral2, isospectral4, isospectral6, hopf, spherical, moser_veselov);

@@ -115,7 +115,14 @@ fn integrate(
         let text = summary::text(&title, work, solver, drift, clock.elapsed());
         eprint!("{text}");
     }
-    ended(outcome, &received.drift, flags.quiet, program)
+    let by_tolerance = matches!(plan.pace.0, Pace::Tolerance(_));
+    match outcome {
+        Outcome::Refused(Obstacle::Option, why) if by_tolerance => {
+            let help = "give a step by `--step`, or another tolerance";
+            Err(Message::option("--tol", why).help(help).into())
+        }
+        outcome => ended(outcome, &received.drift, flags.quiet, program),
+    }
 }
 
 /// What the built program is asked for.
@@ -169,10 +176,6 @@ fn ended(outcome: Outcome, drift: &Drift, quiet: bool, program: &Path) -> Result
             Ok(STOPPED)
         }
         Outcome::Parameter(name, why) => Err(impossible(&name, &why)),
-        Outcome::Refused(Obstacle::Option, why) => {
-            let help = "give a step by `--step`, or another tolerance";
-            Err(Message::option("--tol", why).help(help).into())
-        }
         Outcome::Refused(what, why) => Err(build::broken(program, &format!("{what:?}: {why}"))),
         Outcome::Broken(how) => Err(build::broken(program, &how)),
         Outcome::NotTaken(error) => Err(build::broken(program, &error.to_string())),

@@ -44,7 +44,7 @@ impl Planner<'_> {
     /// An option that the method does not have: a mistake where it was given with the method, of no importance where the
     /// spec gives it and another method was asked for.
     fn out_of_place(&mut self, is_flag: bool, message: Message) {
-        if is_flag || self.flags.method.is_none() {
+        if is_flag || (self.flags.method.is_none() && !self.picks()) {
             self.mistakes.push(message);
         }
     }

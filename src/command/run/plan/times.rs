@@ -134,6 +134,16 @@ impl Planner<'_> {
         if values.len() < ends.len() {
             return None;
         }
+        let against = ends
+            .iter()
+            .zip(&values)
+            .find(|(_, value)| *value * values[0] < 0.0);
+        if let (Some((end, _)), Some((Pace::Tolerance(_), _))) = (against, pace) {
+            let message = end.wrong("the times asked for lie on both sides of t = 0");
+            let help = "a run goes one way: make two of it";
+            self.mistakes.push(message.help(help));
+            return None;
+        }
         if wants_times {
             values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
             return Some(Times::At(values));
