@@ -304,3 +304,179 @@ fn quadratic_invariants_stay() {
     let lost = drift(&mu);
     assert!(lost > 1e-6, "{lost:e}");
 }
+
+/// Along a walk, where the iteration starts from the step before, each step is that of Newton's iteration to round-off, also
+/// where it starts so near that few iterations are made.
+#[test]
+fn each_step_of_a_walk_is_solved_to_the_end() {
+    fn worst<const STAGES: usize, M>(method: &M, h: f64) -> f64
+    where
+        M: Method<f64, so3_nonpolynomial::NonpolynomialSpinSystem>,
+    {
+        let system = NonpolynomialSpin::declared::<f64>();
+        let mut mu = NonpolynomialSpin::initial::<f64>();
+        let mut stepper = method.stepper(&system, h, &NewtonOptions::default());
+        let step = |_| {
+            let mut newton = mu;
+            by_newton::<_, STAGES>(&system, &mut newton, h);
+            stepper.step(&mut mu, &mut ()).expect("the step is solved");
+            distance(mu.as_slice(), newton.as_slice())
+        };
+        (0..400).map(step).fold(0.0, f64::max)
+    }
+    for h in [0.2, 0.05, 0.01, 0.002] {
+        let worst = worst::<8, _>(&Gauss16, h).max(worst::<4, _>(&Gauss8, h));
+        println!("h = {h}: {worst:e}");
+        assert!(worst < 1e-15, "h = {h}: {worst:e}");
+    }
+}
+
+/// The collective methods over the Hopf map: on the points of `T*R^2` as in the momenta of the stages.
+mod over_the_hopf_map {
+    use super::*;
+    use lie_runtime::diagnostics::poisson_defect;
+    use lie_runtime::generic::{QuaternionStages, StageMomenta};
+
+    type Spin<S> = so3_nonpolynomial::NonpolynomialSpinSystem<S>;
+    type Top<S> = systems::so3_free_rigid_body::FreeRigidBodySystem<S>;
+    type Reduced<'a, P, const STAGES: usize> =
+        StageMomenta<'a, f64, P, QuaternionStages<f64, STAGES>, STAGES>;
+
+    /// One step in the momenta of the stages, by Newton's iteration.
+    fn reduced<const STAGES: usize>(
+        system: &Spin<f64>,
+        mu: &mut <Spin<f64> as Poisson<f64>>::State,
+        h: f64,
+    ) {
+        let equation = Reduced::<_, STAGES>::new(system, h);
+        let options = NewtonOptions::default();
+        let mut stepper = ImplicitStepper::new(equation, system.zero_state(), &options);
+        stepper.step(mu, &mut ()).expect("the step is solved");
+    }
+
+    #[test]
+    fn a_step_is_that_in_the_momenta() {
+        fn check<const STAGES: usize, M: Method<f64, Spin<f64>>>(method: &M) {
+            let system = NonpolynomialSpin::declared::<f64>();
+            let initial = NonpolynomialSpin::initial::<f64>();
+            for turn in 0..4 {
+                // above and below the equator, where the points are chosen differently
+                let mut start = initial;
+                start[2] *= [1.0, -1.0, 0.0, -4.0][turn];
+                let mut expected = start;
+                reduced::<STAGES>(&system, &mut expected, 0.1);
+                let mut mu = start;
+                run(&system, method, &NewtonOptions::default(), &mut mu, 0.1, 1);
+                let off = relative_distance(mu.as_slice(), expected.as_slice());
+                assert!(off < 1e-15, "{} {turn}: {off:e}", M::ID);
+                run(&system, method, &NewtonOptions::default(), &mut mu, -0.1, 1);
+                let off = relative_distance(mu.as_slice(), start.as_slice());
+                assert!(off < 2e-15, "{} {turn}: {off:e} there and back", M::ID);
+            }
+        }
+        check::<4, _>(&Collective8::hopf());
+        check::<6, _>(&Collective12::hopf());
+        check::<8, _>(&Collective16::hopf());
+    }
+
+    #[test]
+    fn orders_are_those_stated() {
+        fn check<M: Method<f64, Spin<f64>>>(method: M, steps: &[u32]) {
+            let slope = order::<NonpolynomialSpin, _>(&method, "2", steps);
+            let claimed = f64::from(M::ORDER);
+            assert!(
+                (slope - claimed).abs() < 0.16 * claimed,
+                "{}: {slope}",
+                M::ID
+            );
+        }
+        check(Collective8::hopf(), &[8, 10, 12, 14, 16, 20, 24]);
+        check(Collective12::hopf(), &[3, 4, 5, 6, 7, 8]);
+        check(Collective16::hopf(), &[2, 3, 4, 5]);
+    }
+
+    /// The executed map is a Poisson map to round-off at any step that is solved; Gauss collocation on mu is not.
+    #[test]
+    fn the_step_is_a_poisson_map() {
+        let system = NonpolynomialSpin::declared::<Dual<f64>>();
+        let mu = NonpolynomialSpin::initial::<f64>();
+        let options = NewtonOptions::default();
+        let defect = |h: f64| {
+            poisson_defect(&system, &Collective16::hopf(), h, mu.as_slice(), &options)
+                .expect("the step is solved")
+        };
+        for h in [0.05, 0.2, -0.5, 1.0] {
+            let found = defect(h);
+            println!("h = {h}: {found:e}");
+            assert!(found < 2e-14, "h = {h}: {found:e}");
+        }
+        let control = poisson_defect(&system, &Gauss16, 1.0, mu.as_slice(), &options);
+        assert!(control.expect("the step is solved") > 1e-10);
+    }
+
+    /// The Casimir stays, and the energy error does not grow.
+    #[test]
+    fn the_orbit_is_kept_and_the_energy_does_not_drift() {
+        let system = systems::FreeRigidBody::declared::<f64>();
+        let start = systems::FreeRigidBody::initial::<f64>();
+        let mut mu = start;
+        let mut stepper = Method::<f64, Top<f64>>::stepper(
+            &Collective8::hopf(),
+            &system,
+            0.5,
+            &NewtonOptions::default(),
+        );
+        let energy = |mu: &<Top<f64> as Poisson<f64>>::State| {
+            (system.hamiltonian(mu) / system.hamiltonian(&start) - 1.0).abs()
+        };
+        let (mut early, mut late) = (0.0_f64, 0.0_f64);
+        for k in 0..20_000 {
+            stepper.step(&mut mu, &mut ()).expect("the step is solved");
+            if k < 2_000 {
+                early = early.max(energy(&mu));
+            } else {
+                late = late.max(energy(&mu));
+            }
+        }
+        let length = (mu.norm() / start.norm() - 1.0).abs();
+        println!("energy {early:e}, then {late:e}; length {length:e}");
+        assert!(early > 1e-12 && late < 1.2 * early, "{early:e} {late:e}");
+        assert!(length < 1e-12, "{length:e}");
+    }
+
+    #[test]
+    fn a_lane_has_the_digits_of_its_own_run() {
+        let (lanes, scalar) = (
+            NonpolynomialSpin::declared::<F64x8>(),
+            NonpolynomialSpin::declared::<f64>(),
+        );
+        let mut random = Random(2018);
+        let mut alone: [_; 8] = core::array::from_fn(|lane| {
+            let mut mu = NonpolynomialSpin::initial::<f64>();
+            for entry in mu.as_mut_slice() {
+                *entry = (*entry + random.number()) * 0.2 * lane as f64;
+            }
+            mu
+        });
+        let mut together = lanes.zero_state();
+        for (row, entry) in together.as_mut_slice().iter_mut().enumerate() {
+            *entry = F64x8::new(core::array::from_fn(|lane| alone[lane][row]));
+        }
+        let (method, options) = (Collective12::hopf(), NewtonOptions::default());
+        run(
+            &lanes,
+            &method,
+            &options,
+            &mut together,
+            F64x8::splat(0.1),
+            12,
+        );
+        for (lane, mu) in alone.iter_mut().enumerate() {
+            run(&scalar, &method, &options, mu, 0.1, 12);
+            for (row, x) in mu.iter().enumerate() {
+                let other = together[row].lane(lane);
+                assert_eq!(other.to_bits(), x.to_bits(), "lane {lane}, row {row}");
+            }
+        }
+    }
+}

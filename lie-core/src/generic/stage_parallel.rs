@@ -102,11 +102,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             iterations += 1;
             if ending.may_be(change) {
                 let size = most::<S>(change);
-                let before = if iterations > 1 {
-                    most::<S>(before)
-                } else {
-                    size
-                };
+                let before = (iterations > 1).then(|| most::<S>(before));
                 converged = converged | (ending.reached(before, size) & !ended);
                 ended = ended | converged;
             }
@@ -227,15 +223,16 @@ impl<S: Scalar> Ending<S> {
     }
 
     /// The lanes in which it has: with the ratio r of the last two changes as the rate, the last one times `r/(1 - r)` is
-    /// left. Of one change alone, `before` is that change.
+    /// left. One change alone says no rate.
     #[inline(always)]
-    fn reached(&self, before: S, change: S) -> S::Mask {
+    fn reached(&self, before: Option<S>, change: S) -> S::Mask {
+        let Some(before) = before else {
+            return change.less_equal(self.goal);
+        };
         let shrinks = (change + change).less(before);
         let left = change * change;
         let small = left.less_equal(self.goal * (before - change));
-        let same = before.less_equal(change) & change.less_equal(before);
-        let first = change.less_equal(self.goal);
-        let settled = first | (!same & change.less_equal(self.round_off));
+        let settled = change.less_equal(self.round_off);
         change.less_equal(self.bound) & ((shrinks & small) | (!shrinks & settled))
     }
 }
