@@ -105,7 +105,7 @@ fn offline_first_then_the_network_then_advice() {
     let run = run(&path, &environment);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
     assert!(
-        run.stderr.contains("once more with the network"),
+        run.stderr.contains("trying again with the network"),
         "{}",
         run.stderr
     );
@@ -208,7 +208,7 @@ fn advice_fits_the_failure() {
             "{help}"
         );
         assert!(
-            !run.stderr.contains("once more with the network"),
+            !run.stderr.contains("trying again with the network"),
             "{}",
             run.stderr
         );

@@ -26,7 +26,7 @@ pub fn not_shown(count: usize) -> Option<String> {
         ("messages", "are")
     };
     Some(format!(
-        "{at_least}{rest} more {noun} {verb} not shown; mend these first"
+        "{at_least}{rest} more {noun} {verb} not shown; fix these first"
     ))
 }
 
@@ -87,14 +87,14 @@ kinds! {
     DuplicateBracket "duplicate-bracket" "The same pair twice, with different values.",
     Jacobi "jacobi" "The Jacobi identity fails.",
     Representation "representation" "The matrices do not represent the brackets.",
-    Casimir "casimir" "A declared Casimir is none, or cannot be proven to be one.",
+    Casimir "casimir" "A declared Casimir is not a Casimir, or cannot be proven to be one.",
     Cocycle "cocycle" "The cocycle identity fails.",
     StateLength "state-length" "Length of the state or the initial values differs from the basis.",
     EmptyHamiltonian "empty-hamiltonian" "The text of the Hamiltonian is blank.",
     Domain "domain" "The Hamiltonian, its gradient or a Casimir is not finite at the initial state.",
     Method "method" "The method does not apply to the system, or is not built yet.",
     Legendre "legendre" "The Legendre transform fails.",
-    Splitting "splitting" "The Hamiltonian has no such splitting.",
+    Splitting "splitting" "The Hamiltonian cannot be split in this way.",
     Option "option" "Bad or missing option.",
     Io "io" "A file cannot be read or written.",
     Toolchain "toolchain" "cargo is missing or failed.",
@@ -265,7 +265,7 @@ mod tests {
         assert_eq!(not_shown(MOST_SHOWN), None);
         assert_eq!(
             not_shown(MOST_SHOWN + 1).as_deref(),
-            Some("1 more message is not shown; mend these first")
+            Some("1 more message is not shown; fix these first")
         );
         assert!(not_shown(MOST_KEPT).is_some_and(|text| text.starts_with("at least 950 more")));
     }

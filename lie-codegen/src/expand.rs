@@ -49,7 +49,7 @@ fn expand_spec(parsed: &Parsed, path: &Name, manifest: &Path) -> TokenStream {
         Err(error) => {
             let message = format!("cannot read the spec `{}`: {error}", path.text);
             let diagnostic = Diagnostic::new(Kind::Io, path.origin, message)
-                .help("the path starts at the folder of the crate's Cargo.toml");
+                .help("the path is relative to the folder of the crate's Cargo.toml");
             return failure(parsed, &[diagnostic]);
         }
     };

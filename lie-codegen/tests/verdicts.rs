@@ -181,7 +181,7 @@ fn initial_elements_of_groups() {
     let turn = json!([[0, -1], [1, 0]]);
     assert_eq!(refused(turn.clone(), [0.6, -0.8, 0.8, 0.6]), None);
     let message = refused(turn, [2.0, 0.0, 0.0, 1.0]).expect("no rotation");
-    assert!(message.contains("no element of the group"), "{message}");
+    assert!(message.contains("not an element of the group"), "{message}");
     // stretches along one axis or the other, shears
     assert_eq!(refused(json!([[1, 0], [0, 0]]), [2.0, 0.0, 0.0, 1.0]), None);
     assert_eq!(refused(json!([[0, 0], [0, 1]]), [1.0, 0.0, 0.0, 2.0]), None);

@@ -26,8 +26,8 @@ pub trait Equation<S: Scalar> {
 
     /// Sets the state from which the step starts. Everything below refers to it.
     fn set_base(&mut self, mu: &Self::State);
-    /// The size that errors of the unknown are measured against, for the base mu; that of the unknown itself
-    /// counts too.
+    /// The size against which errors of the unknown are measured, for the base mu; the size of the unknown
+    /// itself counts too.
     fn scale(&self, mu: &Self::State) -> S {
         mu.max_norm()
     }
@@ -56,8 +56,8 @@ pub trait Equation<S: Scalar> {
     fn resolved(&mut self, _unknown: &Self::Unknown, _end: &Self::State) -> S::Mask {
         S::Mask::splat(true)
     }
-    /// The lanes in which the group element of a step, for a solution u, is joined to the identity by those of the
-    /// same element of the algebra times s, 0 <= s <= 1. In others the step is refused: beyond a pole of
+    /// The lanes in which a path joins the group element of a step, for a solution u, to the identity: the group
+    /// elements of s times its algebra element, 0 <= s <= 1. In others the step is refused: beyond a pole of
     /// the Cayley map, or of a method that is a rational function, it may leave the coadjoint orbit.
     fn within_chart(&mut self, _unknown: &Self::Unknown) -> S::Mask {
         S::Mask::splat(true)
@@ -71,8 +71,8 @@ pub trait Equation<S: Scalar> {
     ) -> Option<Retraction> {
         None
     }
-    /// For a solution u of any other method: `h xi` of a stage, where the step applied to `g' = g xi(t)` is
-    /// that of the Gauss method with as many stages as are returned; 0 where it is not known.
+    /// For a solution u of any other method: writes `h xi` of a stage, and returns the number of stages of the
+    /// Gauss method that the step applies to `g' = g xi(t)`; 0 where that is not known.
     fn velocity(
         &mut self,
         _unknown: &Self::Unknown,

@@ -59,7 +59,7 @@ pub trait Poisson<S: Scalar>: Sized {
         false
     }
     /// The largest total degree of an entry of the Poisson matrix in the coordinates, where all are
-    /// polynomials in them and that is known: 0 for a constant one, of which symplectic methods are
+    /// polynomials in them and that is known: 0 for a constant matrix, for which symplectic methods are
     /// Poisson maps.
     fn poisson_degree(&self) -> Option<u32> {
         None
@@ -70,8 +70,8 @@ pub trait Poisson<S: Scalar>: Sized {
     /// A matrix of the right size, all entries 0.
     fn zero_jacobian(&self) -> Self::Jacobian;
 
-    /// The same system, where H has several branches, with that which goes on from its own to the state mu: a run
-    /// carries it along. `None` where there is but one, or where that of the system still serves.
+    /// Where H has several branches: the same system on the branch that continues its own to the state mu. A run
+    /// carries it along. `None` if there is only one branch, or if the system's own branch still serves.
     fn following(&self, _mu: &Self::State) -> Option<Self> {
         None
     }
@@ -133,7 +133,7 @@ pub trait LiePoisson<S: Scalar>: Poisson<S> {
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian);
 }
 
-/// A system that can be had over dual numbers too, and so be differentiated by running it.
+/// A system that also exists over dual numbers, so that running it there differentiates it.
 ///
 /// Generated for every system; by hand, convert the constants with [`Dual::constant_of`].
 pub trait Lift<S: Scalar>: Poisson<S> {
@@ -143,7 +143,7 @@ pub trait Lift<S: Scalar>: Poisson<S> {
     fn lift(&self) -> Self::Lifted;
 }
 
-/// A system that can be had over eight numbers at once, and so evaluated at all stages of a step together.
+/// A system that also exists over eight numbers at once, so that all stages of a step are evaluated together.
 ///
 /// Generated for every system; by hand, convert the constants with [`Scalar::widen`].
 #[diagnostic::on_unimplemented(

@@ -60,7 +60,7 @@ impl Entry {
 /// elements span the algebra of the group, which acts on the span of the others; these commute. The time and
 /// its momentum take part where H depends on it.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no system on T*G over the scalar `{S}`",
+    message = "`{Self}` is not a system on T*G over the scalar `{S}`",
     note = "declare the group element (`group R;`), whose entries may stand in the Hamiltonian"
 )]
 pub trait CotangentPoisson<S: Scalar>: LiePoisson<S> {
@@ -119,7 +119,7 @@ pub struct Group<'a> {
 /// A Lie–Poisson system whose algebra has declared matrices, and with them a group of matrices.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no matrices over the scalar `{S}`, and so no group element",
-    note = "declare `matrices` beside the brackets"
+    note = "declare `matrices` in addition to the brackets"
 )]
 pub trait MatrixGroup<S: Scalar>: LiePoisson<S> {
     /// The group, by the matrices of its algebra.
@@ -151,7 +151,7 @@ pub trait MatrixPoisson<S: Scalar>: LiePoisson<S> {
 /// A Lie–Poisson system on a direct sum of algebras so(3): each coordinate belongs to one spin, a triple
 /// (i, j, k) with `[e_i, e_j] = c e_k` and its cyclic permutations.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no system of spins over the scalar `{S}`",
+    message = "`{Self}` is not a system of spins over the scalar `{S}`",
     note = "the method needs a direct sum of algebras so(3), each with [e1, e2] = c e3 and cyclic permutations"
 )]
 pub trait SpinPoisson<S: Scalar>: LiePoisson<S> {
@@ -230,7 +230,7 @@ impl Plane {
 /// The rigid body in n >= 4 dimensions: so(n) in the basis of planes of rotation, and
 /// `H = sum_(i<j) M_ij^2 / (2 (J_i + J_j))`.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no rigid body in n dimensions over the scalar `{S}`",
+    message = "`{Self}` is not a rigid body in n dimensions over the scalar `{S}`",
     note = "the method needs so(n) in the basis E_ij - E_ji and H = sum M_ij^2/(2 (J_i + J_j))"
 )]
 pub trait InertiaPoisson<S: Scalar>: LiePoisson<S> {

@@ -19,8 +19,8 @@
 //! For so(3) this is `$\dot\mu = \mu \times \nabla H(\mu)$`; on the group, `$\dot g = g\, \nabla H(\mu)$`. A
 //! right-invariant system is declared as such and is the same with `$-C$` in the place of `$C$`.
 //!
-//! Poisson brackets that are not those of an algebra, as that of canonical coordinates, `$\{q, p\} = 1$`, have a
-//! Poisson matrix `$\Pi(\mu)$` of their own, `$\dot\mu = \Pi(\mu)\, \nabla H(\mu)$`: their systems implement [`Poisson`] and
+//! A Poisson bracket that does not come from an algebra, such as the canonical one, `$\{q, p\} = 1$`, has its own
+//! Poisson matrix `$\Pi(\mu)$`, with `$\dot\mu = \Pi(\mu)\, \nabla H(\mu)$`. Such a system implements [`Poisson`], but
 //! not [`LiePoisson`].
 //!
 //! Functions `$C$` with `$\Pi\, \nabla C = 0$` are Casimirs: the flow keeps them whatever the Hamiltonian is.

@@ -127,7 +127,7 @@ impl Cause {
                 "make room for the cache {cache}, or set LIE_CACHE_DIR to a folder on another disk"
             ),
             Self::Permission => format!(
-                "see that {cache} and cargo's folder (CARGO_HOME) can be written, or set LIE_CACHE_DIR to another folder"
+                "check that {cache} and cargo's folder (CARGO_HOME) can be written, or set LIE_CACHE_DIR to another folder"
             ),
             Self::Version => format!(
                 "update Rust (`rustup update`): version {} or later is needed",
@@ -143,7 +143,7 @@ impl Cause {
             Self::Damage => format!("delete the cache folder {cache} and try again"),
             Self::Code => format!(
                 "repeat the build with `cargo build --release --manifest-path {manifest}`; where that works, delete the \
-                 cache folder {cache}; if it stays, report it"
+                 cache folder {cache}; if the failure remains, report it"
             ),
             Self::Packages => format!(
                 "where there is a network, run `cargo fetch --locked --manifest-path {manifest}`, then try again"

@@ -120,7 +120,7 @@ pub fn broken(program: &Path, how: &str) -> Failure {
     let message = Message::new(Kind::Toolchain, format!("the built program failed: {how}"));
     let folder = program.parent().unwrap_or(program).display();
     Failure::surroundings(message.help(format!(
-        "delete its folder {folder} and try again; if it stays, report it"
+        "delete its folder {folder} and try again; if the failure remains, report it"
     )))
 }
 
@@ -207,7 +207,7 @@ fn build(
     };
     let mut output = cargo(true)?;
     if !output.status.success() && Cause::of(&output).is_for_want_of_packages() {
-        say("Packages are missing from cargo's cache; once more with the network…");
+        say("Packages are missing from cargo's cache; trying again with the network…");
         output = cargo(false)?;
     }
     let failed = || cause::failed(&output, cache, folder);

@@ -120,7 +120,7 @@ pub struct Methods {
 #[derive(Args, Debug, Default)]
 #[command(after_help = "Numbers may be exact constants: 1/7, -1/2, cos(11/10).
 Flags override the `run` keys of the spec; without either: --method lie-midpoint (midpoint
-where the bracket is not that of an algebra) --step 0.01 --until 10.
+if the bracket is not the Lie–Poisson bracket of an algebra) --step 0.01 --until 10.
 Exit codes: 0 done, 1 surroundings failed, 2 invalid input, 3 integration stopped early, 130 Ctrl-C, 143 SIGTERM,
 129 SIGHUP: ended in order, rows kept.")]
 pub struct Run {
@@ -289,7 +289,7 @@ pub struct Verify {
 /// `lie bench`.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Without --until, the end is that of the spec's `run`, but at most 20; 10 without either.
+    after_help = "Without --until, the end is taken from the spec's `run`, but is at most 20; without either it is 10.
 Exit codes: 0 done, 1 the reference solution was not confirmed, 2 invalid input, 130 Ctrl-C,
 143 SIGTERM, 129 SIGHUP."
 )]

@@ -94,7 +94,7 @@ fn message(error: &clap::Error, command: &str) -> Message {
         ErrorKind::MissingRequiredArgument => (format!("`{place}` is missing"), None),
         ErrorKind::ArgumentConflict => match text(error, ContextKind::PriorArg) {
             Some(prior) if flag(&prior) != place => (
-                format!("`{place}` cannot stand beside `{}`", flag(&prior)),
+                format!("`{place}` cannot be combined with `{}`", flag(&prior)),
                 None,
             ),
             _ => (
@@ -105,7 +105,7 @@ fn message(error: &clap::Error, command: &str) -> Message {
         ErrorKind::TooFewValues | ErrorKind::WrongNumberOfValues => {
             (format!("`{place}` needs a value"), None)
         }
-        ErrorKind::TooManyValues => (format!("`{place}` takes no value like `{value}`"), None),
+        ErrorKind::TooManyValues => (format!("`{place}` does not take the value `{value}`"), None),
         _ => {
             let rendered = error.to_string();
             let first = rendered.lines().next().unwrap_or_default();
@@ -121,7 +121,7 @@ fn message(error: &clap::Error, command: &str) -> Message {
 /// An argument that the command does not have, and which of its flags may be meant.
 fn unknown(place: &str, command: &str) -> (String, Option<String>) {
     if !place.starts_with('-') {
-        return (format!("`{place}` is one argument too many"), None);
+        return (format!("unexpected argument `{place}`"), None);
     }
     let flags = flags(command);
     let near = meant(

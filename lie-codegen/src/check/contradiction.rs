@@ -43,8 +43,8 @@ pub fn clear() {
 pub fn diagnostic(origin: Origin) -> Option<Diagnostic> {
     let text = FOUND.take()?;
     let message = format!(
-        "the compiler contradicts itself: it proves something of `{text}` that its values at a point refute"
+        "the compiler contradicts itself: values at a point refute what it has proven about `{text}`"
     );
-    let help = "this is a mistake of the compiler, not of the declaration; please report it with the declaration";
+    let help = "this is a bug in the compiler, not in the declaration; please report it with the declaration";
     Some(Diagnostic::new(Kind::Limit, origin, message).help(help))
 }

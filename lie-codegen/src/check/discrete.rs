@@ -29,8 +29,8 @@ pub fn lagrangian(
             Diagnostic::new(
                 Kind::Legendre,
                 origin,
-                "the discrete Lagrangian is consistent with no Lagrangian: `l_d(h xi)/h` has no limit as the step size \
-                 h goes to 0, or none that could be found",
+                "the discrete Lagrangian is not consistent with any Lagrangian: `l_d(h xi)/h` has no limit as the step \
+                 size h goes to 0, or none was found",
             )
             .help("an action of one step is about `h*l(x/h)`, such as `x^2/(2*h)`"),
         );
@@ -45,7 +45,7 @@ pub fn elsewhere(origin: Origin) -> Diagnostic {
         origin,
         "a discrete Lagrangian needs the Lie–Poisson bracket of an algebra, and no dependence on the time",
     )
-    .help("give the system by a `hamiltonian` or a `lagrangian`")
+    .help("declare a `hamiltonian` or a `lagrangian`")
 }
 
 fn limit(graph: &mut Graph, series: &Series, count: usize) -> Option<ExprId> {

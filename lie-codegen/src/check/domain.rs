@@ -117,7 +117,7 @@ fn functions(model: &Model, scratch: &mut Graph) -> Vec<(ExprId, String)> {
             let component = scratch.derivative(hamiltonian, symbol);
             functions.push((
                 component,
-                format!("the derivative of the Hamiltonian by `{name}`"),
+                format!("the derivative of the Hamiltonian with respect to `{name}`"),
             ));
         }
     }
@@ -170,7 +170,7 @@ fn outside_the_group(model: &Model, mu: &[f64]) -> Option<Fault> {
     (worst.0 > OFF_THE_GROUP).then(|| Fault {
         coordinate: Some(worst.1),
         message: format!(
-            "{name} is no element of the group (its rows are not orthonormal, by {:.1e})",
+            "{name} is not an element of the group (its rows are not orthonormal, by {:.1e})",
             worst.0
         ),
     })

@@ -147,9 +147,8 @@ impl<'a> Environment<'a> {
         if let Some(latin) = habits::in_latin(name)
             && self.get(&latin).is_some_and(|binding| usable(&binding))
         {
-            let message = format!(
-                "unknown symbol `{name}`: it looks like `{latin}`, but its letters are others"
-            );
+            let message =
+                format!("unknown symbol `{name}`: it looks like `{latin}`, but has other letters");
             return (message, format!("write `{latin}`"));
         }
         let bindings = self.bindings.iter();
@@ -172,7 +171,7 @@ impl<'a> Environment<'a> {
             }
             None if others.is_empty() => declare,
             None => format!(
-                "{declare}; of these names there {} {}",
+                "{declare}; in this series there {} {}",
                 if others.len() == 1 { "is" } else { "are" },
                 listed(&others)
             ),

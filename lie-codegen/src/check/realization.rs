@@ -271,11 +271,11 @@ fn message(proof: &Proof, left: &str, right: &str) -> Option<String> {
     match proof {
         Proof::Zero => None,
         Proof::Nonzero(shown) => Some(format!(
-            "the realization is no Poisson map: {{{left}, {right}}} of its components is not that of the system, the \
-             difference is {shown}"
+            "the realization is not a Poisson map: {{{left}, {right}}} of its components is not the bracket of the \
+             system; the difference is {shown}"
         )),
         Proof::Unproven { .. } => Some(format!(
-            "it could not be shown that {{{left}, {right}}} of the components is that of the system"
+            "it could not be shown that {{{left}, {right}}} of the components is the bracket of the system"
         )),
     }
 }

@@ -175,7 +175,7 @@ fn spec(parts: &Parts<'_>, report: &mut Report) -> Parsed {
                 Diagnostic::new(
                     Kind::Syntax,
                     statement.origin,
-                    format!("`{}` beside `spec`", statement.keyword),
+                    format!("`{}` cannot be combined with `spec`", statement.keyword),
                 )
                 .help("the spec file declares everything; remove the statement"),
             );
@@ -344,7 +344,7 @@ fn methods(statement: &Statement<'_>, report: &mut Report) -> Vec<Name> {
                 Diagnostic::new(
                     Kind::Syntax,
                     place,
-                    format!("`{}` is no id of a method", render(part)),
+                    format!("`{}` is not a method id", render(part)),
                 )
                 .help("ids are like lie-midpoint or gauss4, without quotes"),
             );

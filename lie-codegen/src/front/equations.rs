@@ -66,6 +66,6 @@ pub fn second_bracket(value: &[Token], delimiter: Delimiter) -> Option<Diagnosti
         Origin::Text { .. } => "write one string for each bracket",
         _ => "end each bracket with `;`",
     };
-    let message = format!("a second bracket, `{}`, behind the first", render(bracket));
+    let message = format!("a second bracket, `{}`, after the first", render(bracket));
     Some(Diagnostic::new(Kind::Syntax, place, message).help(help))
 }

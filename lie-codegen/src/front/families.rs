@@ -20,7 +20,7 @@ pub fn refuse(expression: &Expr, report: &mut Report) -> bool {
                 index: Some(index),
             } if index.variable.is_none() => {
                 let message = format!(
-                    "`{name}[{}]`: coordinates are no elements of a list",
+                    "`{name}[{}]`: coordinates are not elements of a list",
                     index.offset
                 );
                 report.push(
@@ -64,7 +64,7 @@ pub fn indexed_name(name: &Token, index: &[Token], origin: Origin) -> Diagnostic
         return not_built(origin);
     };
     let message =
-        format!("`{name}[{digits}]` is not a name: coordinates are no elements of a list");
+        format!("`{name}[{digits}]` is not a name: coordinates are not elements of a list");
     Diagnostic::new(Kind::Syntax, origin, message).help(format!("write `{name}{digits}`"))
 }
 

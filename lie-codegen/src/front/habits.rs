@@ -233,11 +233,11 @@ pub fn constant(name: &str) -> Option<(String, &'static str)> {
             "all quantities are real; declare it as a parameter if it is one",
         ),
         "inf" | "Inf" | "INF" | "infinity" | "Infinity" | "nan" | "NaN" | "NAN" => (
-            format!("`{name}` is no number of the grammar"),
+            format!("`{name}` is not a valid number"),
             "write a finite value",
         ),
         "True" | "False" | "None" | "null" => (
-            format!("`{name}` is no number"),
+            format!("`{name}` is not a number"),
             "write a number or an expression",
         ),
         _ => return None,

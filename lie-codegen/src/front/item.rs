@@ -29,13 +29,13 @@ pub fn name(tokens: &[Token], whole: Origin, report: &mut Report) -> Option<Name
             report.push(mistakes::raw_identifier(token));
         } else if let Some(hidden) = text.chars().find(|c| is_invisible(*c)) {
             let message = format!(
-                "the name `{}` contains U+{:04X}, which is not seen",
+                "the name `{}` contains U+{:04X}, which is invisible",
                 visible(text),
                 u32::from(hidden)
             );
             report.push(
                 Diagnostic::new(Kind::Syntax, place, message)
-                    .help("type the name anew: names that look the same must be the same"),
+                    .help("retype the name: names that look the same must be the same"),
             );
         } else {
             return Some(Name {
@@ -225,7 +225,7 @@ pub fn structure(
     match (algebra, poisson, cocycle) {
         (Some(_), Some((place, _)), _) => fails(
             place,
-            "`poisson` beside `algebra`: either gives the bracket",
+            "`poisson` and `algebra` are both given, and each defines the bracket",
             "remove one of the two; a constant term is added to the bracket of an algebra by `cocycle`",
         ),
         (None, _, Some((place, _))) => fails(
@@ -235,7 +235,8 @@ pub fn structure(
         ),
         (None, Some((origin, brackets)), None) => {
             for (place, name) in of_algebra {
-                let message = format!("`{name}` beside `poisson`: it needs a Lie algebra");
+                let message =
+                    format!("`{name}` cannot be combined with `poisson`: it needs a Lie algebra");
                 fails(*place, &message, "remove it, or declare an `algebra`");
             }
             if of_algebra.is_empty() {
@@ -290,14 +291,14 @@ pub fn energy(
     let mut found = found.filter_map(|(function, key)| Some((function?, key)));
     let ((origin, value), key) = found.next()?;
     if let Some(((second, _), other)) = found.next() {
-        let message = format!("`{other}` beside `{key}`: either gives the system");
+        let message = format!("`{other}` and `{key}` are both given, and each defines the system");
         fails(second, &message, "remove one of the two");
         return None;
     }
     match (key, place) {
         ("hamiltonian", Some(velocity)) => fails(
             velocity,
-            "`velocity` beside `hamiltonian`: a Hamiltonian is a function of mu",
+            "`velocity` cannot be combined with `hamiltonian`: a Hamiltonian is a function of mu",
             "remove it, or give a `lagrangian`",
         ),
         ("hamiltonian", None) => return value.map(Energy::Hamiltonian),
@@ -334,7 +335,7 @@ pub fn invariance(
                 Diagnostic::new(
                     kind,
                     place,
-                    format!("`{}` is no invariance", text.escape_debug()),
+                    format!("unknown invariance `{}`", text.escape_debug()),
                 )
                 .help("write `left` or `right`"),
             );

@@ -62,16 +62,13 @@ const REMEDIES: &[(&str, &str)] = &[
     ("EOF", "close what is still open, with `\"`, `]` or `}`"),
     (
         "key must be a string",
-        "keys stand in double quotes; there are no comments and no comma before `}`",
+        "write keys in double quotes, without comments and without a comma before `}`",
     ),
     (
         "trailing comma",
         "remove the comma before the closing bracket",
     ),
-    (
-        "trailing characters",
-        "remove what stands behind the object",
-    ),
+    ("trailing characters", "remove everything after the object"),
     (
         "expected `,`",
         "put a comma between two of a kind; a constant such as \"1/3\" stands in quotes",

@@ -65,8 +65,8 @@ pub fn unexpected(token: &Token, before: Option<&Token>, rest: &[Token]) -> Diag
             "write one, or remove them".into(),
         ),
         TokenKind::Close(_) if before.is_some_and(ends_operand) => (
-            format!("`{text}` has no opening partner"),
-            "remove it, or open it before".into(),
+            format!("unmatched `{text}`"),
+            "remove it, or add the opening one before it".into(),
         ),
         TokenKind::Close(_) => (
             format!("an operand is missing before `{text}`"),
@@ -125,7 +125,7 @@ fn leading_point(point: &Token, rest: &[Token]) -> Diagnostic {
 fn sign(sign: char, after: &str) -> (String, String) {
     if let Some((_, meant)) = LOOKALIKES.iter().find(|(other, _)| *other == sign) {
         return (
-            format!("`{sign}` is no sign of the grammar"),
+            format!("`{sign}` is not part of the grammar"),
             format!("write `{meant}`"),
         );
     }
@@ -138,10 +138,7 @@ fn sign(sign: char, after: &str) -> (String, String) {
         '=' => (unexpected, "write the expression alone, without `=`".into()),
         ';' => (unexpected, "remove it".into()),
         _ if is_invisible(sign) || sign.is_control() => (
-            format!(
-                "a character that is not seen, U+{:04X},{after}",
-                u32::from(sign)
-            ),
+            format!("an invisible character, U+{:04X},{after}", u32::from(sign)),
             "remove it".into(),
         ),
         _ => (unexpected, habits::sign(sign).unwrap_or(PARTS).into()),
@@ -157,7 +154,7 @@ fn point(token: &Token, before: Option<&Token>, rest: &[Token]) -> Diagnostic {
     let module = before.and_then(Token::identifier);
     let (message, help) = match rest.first().map(|t| &t.kind) {
         Some(TokenKind::Identifier(member)) if module.is_some() => (
-            format!("`{}` is no module here", module.unwrap_or_default()),
+            format!("`{}` is not a module", module.unwrap_or_default()),
             match arity(member) {
                 Some(_) => format!("write `{}`; functions stand alone", operand_text(rest)),
                 None if member == "pi" => "write `pi`".to_owned(),
@@ -256,7 +253,7 @@ pub fn middle_dot(name: &str, origin: Origin) -> Diagnostic {
     Diagnostic::new(
         Kind::Syntax,
         origin,
-        format!("`{name}` contains `·`, which is no operator"),
+        format!("`{name}` contains `·`, which is not an operator"),
     )
     .help(format!("write `{}`", name.replace(MIDDLE_DOTS, "*")))
 }

@@ -28,7 +28,7 @@ impl<'a> Object<'a> {
             };
             if members.iter().any(|m| m.key.text == member.key.text) {
                 error(
-                    format!("the key `{key}` stands twice in {what}"),
+                    format!("duplicate key `{key}` in {what}"),
                     "remove one of the two".into(),
                 );
             } else if keys.contains(&key) {

@@ -54,7 +54,7 @@ fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
             if model.configuration.is_some() {
                 "the method is for reduced Lagrangians, without the group element and without the time"
             } else {
-                "the method needs a system by its Lagrangian, and this one is given by its Hamiltonian"
+                "the method needs a Lagrangian, and the system is given by its Hamiltonian"
             }
             .into(),
             format!(
@@ -65,8 +65,8 @@ fn lagrangian(model: &Model, choice: &Choice) -> Option<(String, String)> {
         Choice::DiscreteEulerPoincare(_)
             if discrete(model).is_none() =>
         {
-            let message = "the method needs a system by a discrete Lagrangian, and this one declares none";
-            let help = "declare `discrete_lagrangian`; a system by its `lagrangian` has `variational2`";
+            let message = "the method needs a discrete Lagrangian, and the system declares none";
+            let help = "declare `discrete_lagrangian`; for a system with a `lagrangian` use `variational2`";
             Some((message.into(), help.into()))
         }
         Choice::DiscreteEulerPoincare(Retraction::Exp)
@@ -158,13 +158,13 @@ fn realization(model: &Model, order: u32) -> Option<(String, String)> {
     let reason = match realization.descent {
         Descent::Closed => return None,
         Descent::Degree => format!(
-            "the components of the realization are not of degree at most two: the Gauss method of order {order} \
-             over it does not descend to the state"
+            "the components of the realization must have degree at most two: otherwise the Gauss method of order \
+             {order} does not descend to the state"
         ),
         Descent::Adds { commuting: false } => {
-            "it needs components whose flows, linear maps, are closed under (abc + cba)/2; the closure of those of the \
-             realization adds others, and the step would depend on the point over the state and leave the coadjoint \
-             orbit"
+            "the flows of the components are linear maps, which must be closed under (abc + cba)/2; for this \
+             realization the closure adds others: the step would depend on the point over the state and leave the \
+             coadjoint orbit"
                 .into()
         }
         Descent::Adds { commuting: true } => {
@@ -187,7 +187,7 @@ fn cotangent(model: &Model) -> Option<(String, String)> {
     group.is_none().then(|| {
         (
             "the method is for systems on T*G, and no group element is declared".into(),
-            "declare `group` beside `matrices`, or use `lie-midpoint`".into(),
+            "declare `group` in addition to `matrices`, or use `lie-midpoint`".into(),
         )
     })
 }

@@ -92,7 +92,7 @@ impl Choice {
         }
         if let Some((id, option)) = id.split_once(" --") {
             return Err(Unusable {
-                message: format!("`--{option}` is not a part of the id"),
+                message: format!("`--{option}` is not part of a method id"),
                 help: format!(
                     "write `{}` and give the option as a flag of its own",
                     id.trim()
@@ -136,7 +136,7 @@ impl Choice {
         if !symmetric {
             return Err(Unusable {
                 message: format!(
-                    "`{outer}` composes symmetric methods of order 2, and `{}` is none",
+                    "`{outer}` composes symmetric methods of order 2, and `{}` is not one",
                     base.id()
                 ),
                 help: format!("take for example `{outer}(lie-midpoint)`"),

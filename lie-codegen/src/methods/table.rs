@@ -17,7 +17,7 @@ const ANY: &str = "any Poisson system";
 const ALGEBRA: &str = "any Lie algebra";
 const RETRACTION: &str =
     "any Lie algebra (exp), a matrix representation closed under (abc + cba)/2 (cayley)";
-const LAGRANGIAN: &str = "a system by its Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2";
+const LAGRANGIAN: &str = "a system given by its Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2";
 const REDUCTIVE: &str =
     "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const COLLECTIVE: &str = "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it; with --lift hopf a direct sum of algebras so(3)";
@@ -102,9 +102,9 @@ catalogue! {
     CrouchGrossman3: "Crouch–Grossman", ALGEBRA, CROUCH;
     CommutatorFree4: "commutator-free", ALGEBRA, CMO;
     Variational2: "variational integrator (discrete Euler–Poincaré)", LAGRANGIAN, MPS;
-    Variational4: "variational integrator (Lie-group Galerkin)", "a system by its Lagrangian", LEOK;
-    Variational6: "variational integrator (Lie-group Galerkin)", "a system by its Lagrangian", LEOK;
-    DiscreteEulerPoincare<Exp>: "step of a declared discrete Lagrangian; its order is at least 1", "a system by its discrete Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2", MPS;
+    Variational4: "variational integrator (Lie-group Galerkin)", "a system given by its Lagrangian", LEOK;
+    Variational6: "variational integrator (Lie-group Galerkin)", "a system given by its Lagrangian", LEOK;
+    DiscreteEulerPoincare<Exp>: "step of a declared discrete Lagrangian; its order is at least 1", "a system given by its discrete Lagrangian; for --retraction cayley a matrix representation closed under (abc + cba)/2", MPS;
     MoserVeselov: "discrete rigid body", "so(3) with a diagonal quadratic H, or so(n) with H = sum M_ij^2/(2(J_i + J_j))", MV;
     Compose4<ImplicitMidpoint>: "composition of a symmetric method", "a symmetric method of order 2", KL;
     Compose6<ImplicitMidpoint>: "composition of a symmetric method", "a symmetric method of order 2", KL;

@@ -140,7 +140,7 @@ impl Printer<'_> {
 /// A path as it was written.
 pub(super) fn path(text: &str) -> TokenStream {
     text.parse().unwrap_or_else(|_| {
-        let message = format!("`{text}` is no path of a type");
+        let message = format!("`{text}` is not the path of a type");
         quote! { ::core::compile_error!(#message) }
     })
 }

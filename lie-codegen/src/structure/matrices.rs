@@ -25,8 +25,8 @@ pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
         }
         Some(representation) if representation.dual.is_none() => Some((
             "it needs a representation whose closure under (abc + cba)/2 adds only matrices that \
-             commute with it; that of the declared `matrices` adds others, and the step would leave \
-             the coadjoint orbit"
+             commute with it; the closure of the declared `matrices` adds others, and the step would \
+             leave the coadjoint orbit"
                 .into(),
             nearest(", or declare other matrices, such as those that define the algebra"),
         )),

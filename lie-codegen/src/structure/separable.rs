@@ -102,14 +102,14 @@ pub fn actions(algebra: &Algebra) -> Vec<Option<Vec<Block>>> {
 /// Why H cannot be split by coordinates, with the nearest method for each order.
 pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
     let Some(hamiltonian) = model.energy.expression() else {
-        let reason = "the Hamiltonian is no sum of functions of one coordinate each: it is the Legendre transform of \
-                      a Lagrangian that is not quadratic";
+        let reason = "the Hamiltonian is not a sum of functions of one coordinate each: it is the Legendre transform \
+                      of a Lagrangian that is not quadratic";
         return Some((reason.to_owned(), nearest(order)));
     };
     let (i, j) = hamiltonian.pieces.clone().err()?;
     let name = |i: usize| &model.coordinates[i].text;
     let reason = format!(
-        "the Hamiltonian is no sum of functions of one coordinate each: it mixes `{}` and `{}`",
+        "the Hamiltonian is not a sum of functions of one coordinate each: it mixes `{}` and `{}`",
         name(i),
         name(j)
     );

@@ -72,7 +72,7 @@ pub fn refusal(model: &Model, hopf: Option<u32>) -> Option<(String, String)> {
             format!("use `collective{order}` with `--lift representation`")
         }
         Some(order) if order > 8 => {
-            "use `compose8(lie-midpoint)`, or `gauss16`, which is no Poisson map but keeps quadratic Casimirs".into()
+            "use `compose8(lie-midpoint)`, or `gauss16`, which is not a Poisson map but keeps quadratic Casimirs".into()
         }
         Some(order) if order > 2 => {
             format!("use `compose{order}(lie-midpoint)`, which works for every Lie algebra")

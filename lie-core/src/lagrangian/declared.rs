@@ -11,7 +11,7 @@ use crate::scalar::Scalar;
 /// every system with `discrete_lagrangian = …;`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian over the scalar `{S}`",
-    note = "the method needs a system by its discrete Lagrangian: declare `velocity` and `discrete_lagrangian` instead of `hamiltonian`"
+    note = "the method needs a system given by its discrete Lagrangian: declare `velocity` and `discrete_lagrangian` instead of `hamiltonian`"
 )]
 pub trait DiscreteLagrangianPoisson<S: Scalar>: LiePoisson<S> {
     /// The value `l_d(tau(x))` for a step of size h.

@@ -39,7 +39,7 @@ use crate::scalar::Scalar;
 /// [`Poisson`](crate::Poisson), whose H, gradient and Hessian can come from [`legendre`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no Lagrangian over the scalar `{S}`",
-    note = "the method needs a system by its reduced Lagrangian: declare `velocity` and `lagrangian` instead of `hamiltonian`"
+    note = "the method needs a system given by its reduced Lagrangian: declare `velocity` and `lagrangian` instead of `hamiltonian`"
 )]
 pub trait LagrangianPoisson<S: Scalar>: LiePoisson<S> {
     /// The Lagrangian l(xi).

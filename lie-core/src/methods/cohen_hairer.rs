@@ -16,7 +16,7 @@
 //! The integrals are exact for a polynomial H of known degree; otherwise they are Gauss quadrature with
 //! 10 nodes, and a step that those do not resolve is refused
 //! ([`FailureReason::Unresolved`](crate::newton::FailureReason::Unresolved)). The unknowns are
-//! the increments `$h\, \dot u(c_i)$`, of which round-off is relative to h f and not to mu.
+//! the increments `$h\, \dot u(c_i)$`, whose round-off is relative to h f and not to mu.
 //!
 //! Needs: gradient and Hessian of H, the Poisson matrix; any [`Poisson`](crate::Poisson) system.
 //!

@@ -13,7 +13,7 @@
 //!   E\!\left(\tfrac14 k_1 + \tfrac16 k_2 + \tfrac16 k_3 - \tfrac1{12} k_4\right) \mu
 //! ```
 //!
-//! The tableau is that of the classical Runge–Kutta method, its last row shared out between two
+//! The tableau is the classical Runge–Kutta tableau, with its last row split between two
 //! exponentials. Explicit, order 4, without commutators. Keeps the coadjoint orbit and with it every
 //! Casimir; not symmetric, not a Poisson map, and the energy drifts.
 //!

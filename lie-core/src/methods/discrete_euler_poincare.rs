@@ -9,7 +9,7 @@
 //! \mu_1 = F^-(g) = (\mathrm{d}\tau_{-x}^{-1})^*\, l_d'(x) = \mathrm{Ad}^*_g\, \mu
 //! ```
 //!
-//! A Poisson map that keeps every Casimir and the coadjoint orbit, whatever `$l_d$` is. Its order is that to which
+//! A Poisson map that keeps every Casimir and the coadjoint orbit, whatever `$l_d$` is. Its order is the one to which
 //! `$l_d$` approximates the action of its Lagrangian, at least 1: an `$l_d$` with `$l_d(g^{-1}; -h) = -l_d(g; h)$` makes
 //! symmetric steps of order 2. With `$l_d = h\, l(x/h)$` it is [`Variational2`], with
 //! `$l_d = (\mathrm{tr}\, J - \mathrm{tr}(g J))/h$` on SO(n) [`MoserVeselov`].

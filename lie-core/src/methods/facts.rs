@@ -81,7 +81,7 @@ pub trait Facts {
     const SYMMETRIC: bool;
     /// Whether a step needs no solver.
     const EXPLICIT: bool;
-    /// Whether a step is solved by fixed-point iteration, of which each digit costs the same.
+    /// Whether a step is solved by fixed-point iteration, where each digit costs the same.
     const FIXED_POINT: bool = false;
     /// What is kept.
     const PRESERVES: Preserves;

@@ -11,8 +11,8 @@
 //!
 //! With another tensor in place of `$\Pi(m)$`: [`WithTensor`](super::WithTensor).
 //!
-//! The quotient loses digits where d is small. How that is avoided, for polynomials and in general, is
-//! told in [`GonzalezGradient`](crate::generic::GonzalezGradient).
+//! The quotient loses digits where d is small. [`GonzalezGradient`](crate::generic::GonzalezGradient)
+//! explains how that is avoided, for polynomials and in general.
 //!
 //! Needs: H, its gradient and Hessian, the Poisson matrix; any [`Poisson`](crate::Poisson) system.
 //!

@@ -12,8 +12,8 @@
 //! keeps quadratic Casimirs, those of higher degree and the Poisson structure only to O(h^2) per
 //! unit of time. For a quadratic H it is the midpoint rule.
 //!
-//! A quotient loses digits where its increment is small. How that is avoided, for polynomials and in
-//! general, is told in [`ItohAbeGradient`](crate::generic::ItohAbeGradient).
+//! A quotient loses digits where its increment is small. [`ItohAbeGradient`](crate::generic::ItohAbeGradient)
+//! explains how that is avoided, for polynomials and in general.
 //!
 //! Needs: H, its gradient and Hessian (for Newton's matrix), the Poisson matrix; any
 //! [`Poisson`](crate::Poisson) system.

@@ -21,7 +21,7 @@
 //! | [`Rkmk4`] | classical Runge–Kutta method | `$\mathrm{ad}_\sigma^3$`, whose coefficient is 0 | 4 |
 //! | [`Rkmk6`] | Butcher's method of order 6 with 7 stages | `$\mathrm{ad}_\sigma^6$` | 7 |
 //!
-//! Explicit. They keep the coadjoint orbit and with it every Casimir; not symmetric, no Poisson maps,
+//! Explicit. They keep the coadjoint orbit and with it every Casimir; not symmetric, not Poisson maps,
 //! and the energy drifts.
 //!
 //! Needs: the gradient of H, the bracket and ad*; any Lie algebra.

@@ -83,7 +83,7 @@ pub trait FactorSink<V> {
     const ACTIVE: bool = true;
     /// Takes one factor `tau(xi)`. In lanes whose step failed, xi is 0.
     fn push(&mut self, retraction: Retraction, xi: &V);
-    /// Takes `h xi` at one stage of a step that is of no coadjoint form: the stages come in order, and after
+    /// Takes `h xi` at one stage of a step that is not of coadjoint form: the stages come in order, and after
     /// the last of them g moves by that Runge–Kutta method applied to `g' = g xi(t)`.
     fn push_velocity(&mut self, _method: RungeKutta, _stage: Stage, _xi: &V) {}
 }

@@ -1,4 +1,4 @@
-//! Discrete gradient methods with another Poisson tensor than that at the midpoint.
+//! Discrete gradient methods with a Poisson tensor other than the one at the midpoint.
 //!
 //! ```math
 //! \mu_1 = \mu + h\, \tilde\Pi(\mu, \mu_1, h)\, \overline\nabla H(\mu, \mu_1), \qquad

@@ -19,7 +19,7 @@ pub struct NewtonReport {
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FailureReason {
-    /// A number became infinite or not a number.
+    /// A number became infinite or NaN.
     #[error("a number is not finite")]
     NotFinite,
     /// The Hamiltonian is not finite at the end of a step.
@@ -34,7 +34,7 @@ pub enum FailureReason {
     /// The updates of the iteration neither grew nor reached round-off.
     #[error("the iteration does not converge")]
     NotConverged,
-    /// The step lies beyond a pole of the Cayley map, or of the rational function that a Gauss method is.
+    /// The step lies beyond a pole of the Cayley map, or of the rational function of a Gauss method.
     #[error("the step leaves the chart of the retraction")]
     OutsideChart,
     /// No rotation near the identity carries the momentum of the step, see
@@ -70,7 +70,7 @@ impl FailureReason {
                 "take a smaller step; a simplified iteration can also be replaced by Newton's"
             }
             Self::OutsideChart => {
-                "take a smaller step, or a method along the exponential map, whose chart has no end"
+                "take a smaller step, or a method with the exponential map, whose chart is unbounded"
             }
             Self::RotationTooLarge => {
                 "take a smaller step: h times the angular momentum must be below the moments of inertia"

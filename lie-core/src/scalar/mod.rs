@@ -84,16 +84,16 @@ pub trait Scalar:
     /// The distance from 1 to the next larger number.
     fn epsilon() -> Self;
 
-    /// The number as a quantity of its own. A symbolic scalar keeps it as one, whose parts are not mixed with what it is
-    /// used in; a number is one anyway.
+    /// The number as a quantity of its own. A symbolic scalar does not mix its parts with the expressions that use it;
+    /// for plain numbers this changes nothing.
     #[must_use]
     #[inline(always)]
     fn quantity(self) -> Self {
         self
     }
 
-    /// Numbers that are found by comparisons. A symbolic scalar takes them for arguments, the first of them for that of
-    /// this index.
+    /// Numbers that are found by comparisons. A symbolic scalar takes them as arguments, numbered from the given index
+    /// on.
     #[inline(always)]
     fn given<const K: usize>(_first: usize, compute: impl FnOnce() -> [Self; K]) -> [Self; K] {
         compute()
@@ -167,7 +167,7 @@ pub trait Scalar:
     fn less(self, other: Self) -> Self::Mask;
     /// `self <= other`, false where either is not a number.
     fn less_equal(self, other: Self) -> Self::Mask;
-    /// Neither infinite nor not a number (of a dual number: value and derivative).
+    /// Whether the number is finite (for a dual number: value and derivative).
     fn finite(self) -> Self::Mask;
     /// `yes` in the lanes where the mask is true, `no` in the others.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;

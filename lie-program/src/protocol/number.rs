@@ -35,7 +35,9 @@ impl<'de> Deserialize<'de> for Number {
             Written::Finite(value) => Ok(Self(value)),
             Written::Other(text) => match text.parse::<f64>() {
                 Ok(value) if !value.is_finite() => Ok(Self(value)),
-                _ => Err(serde::de::Error::custom(format!("`{text}` is no number"))),
+                _ => Err(serde::de::Error::custom(format!(
+                    "`{text}` is not a number"
+                ))),
             },
         }
     }

@@ -50,7 +50,7 @@ impl fmt::Display for Remedy<'_> {
 /// A run that could not start, or failed on its way.
 #[derive(Clone, Debug, Error)]
 pub enum SolveError<S, V> {
-    /// The options make no run.
+    /// The options are invalid.
     #[error(transparent)]
     Option(#[from] OptionError),
     /// A step failed; everything saved before is kept.

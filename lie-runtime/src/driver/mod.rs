@@ -1,4 +1,4 @@
-//! From a problem to a solution: the loop over the time grid, what is saved, who looks on.
+//! From a problem to a solution: the loop over the time grid, what is saved, and observers.
 
 mod error;
 mod grid;

@@ -1,4 +1,4 @@
-//! Who looks on while a run goes.
+//! Observers of a run.
 
 use super::pace::Chosen;
 use super::solution::Solution;
@@ -19,9 +19,9 @@ pub struct Progress {
     pub time: f64,
 }
 
-/// Looks on during a run and may end it with [`ControlFlow::Break`].
+/// Observes a run and may end it with [`ControlFlow::Break`].
 ///
-/// Two observers make one as a pair. A closure becomes one by [`EveryStep`].
+/// A pair of observers is an observer. [`EveryStep`] makes an observer of a closure.
 pub trait Observer<S: Scalar, P: Poisson<S>> {
     /// Whether it wants to see the motion on the group; steppers skip the work otherwise.
     const MOTION: bool = false;
@@ -95,7 +95,7 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> FactorSink<P::State> for Shown
     }
 }
 
-/// Nobody looks on.
+/// No observer.
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for () {}
 
 impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
@@ -124,7 +124,7 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
     }
 }
 
-/// Both look on; either may end the run.
+/// Both observe the run; either may end it.
 impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S, P> for (A, B) {
     const MOTION: bool = A::MOTION || B::MOTION;
 

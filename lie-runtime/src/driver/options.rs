@@ -68,7 +68,7 @@ impl Options {
     }
 }
 
-/// Options that make no run; nothing was computed.
+/// Invalid options; nothing was computed.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum OptionError {
@@ -80,7 +80,7 @@ pub enum OptionError {
     Tolerance(f64),
     /// No step was found with which the method keeps the tolerance.
     #[error(
-        "no step was found that keeps the tolerance {0}: the error of a step does not fall with the step"
+        "no step was found that keeps the tolerance {0}: the error of a step does not decrease with its size"
     )]
     NoStep(f64),
     /// Start or end is infinite or not a number.

@@ -1,4 +1,4 @@
-//! The motion on the group beside the motion of mu.
+//! The motion on the group, together with the motion of mu.
 //!
 //! ```math
 //! \dot g = g\, \xi, \quad \xi = \nabla H(\mu), \qquad g_{k+1} = g_k\, \tau(h \xi_k), \qquad
@@ -50,7 +50,7 @@ pub enum Chart {
     Quaternion,
 }
 
-/// Looks on and keeps the group element; see the [module's text](self).
+/// Observes a run and keeps the group element; see the [module's text](self).
 ///
 /// ```
 /// use lie_runtime::driver::{Chart, Reconstruction};

@@ -18,7 +18,7 @@ use thiserror::Error;
 /// A run without a recorder that could not start or failed.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum IntegrateError {
-    /// The options make no run.
+    /// The options are invalid.
     #[error(transparent)]
     Option(#[from] OptionError),
     /// A step failed.
@@ -29,7 +29,7 @@ pub enum IntegrateError {
 /// Integrates a problem and returns what was saved.
 ///
 /// # Errors
-/// [`SolveError::Option`] for options that make no run; [`SolveError::Step`], which carries what
+/// [`SolveError::Option`] for invalid options; [`SolveError::Step`], which carries what
 /// was saved before, if a step fails.
 ///
 /// ```
@@ -86,10 +86,10 @@ pub fn solve_observed<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
 /// Integrates a problem and shows every step and every saved state to an observer.
 ///
 /// The trajectory goes along the grid `t0 + k h`. A saved time between two grid points is reached
-/// by one shorter step from the grid point before it, which is not continued from.
+/// by one shorter step from the grid point before it; the run then goes on from that grid point.
 ///
 /// # Errors
-/// [`IntegrateError::Option`] for options that make no run, [`IntegrateError::Step`] if a step
+/// [`IntegrateError::Option`] for invalid options, [`IntegrateError::Step`] if a step
 /// fails or the system is not finite at the start.
 pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     problem: &Problem<S, P>,

@@ -94,7 +94,7 @@ fn refused(system: &str, what: Obstacle, why: &str) -> Failure {
     if what == Obstacle::Still {
         let text = format!("nothing can be compared on {system}: {why}");
         let message = Message::new(Kind::Domain, text).at_option("--initial");
-        let help = "give an initial state that is no equilibrium with `--initial`";
+        let help = "give an initial state with `--initial` that is not an equilibrium";
         return message.help(help).into();
     }
     let text = format!("the reference solution is not confirmed: {why}");

@@ -157,7 +157,7 @@ impl Evidence {
             .filter(|excess| excess.is_nan() || *excess > 1.0)
         {
             failures.push(format!(
-                "the reference solution is {} times as far from that of the declaration as is allowed",
+                "the reference solution differs from the solution of the declaration by {} times what is allowed",
                 short(excess)
             ));
         }
@@ -168,7 +168,7 @@ impl Evidence {
         }
         for what in &self.unsound {
             failures.push(format!(
-                "{what}: an equation whose solution is known is not solved as it should be"
+                "{what}: an equation with a known solution is not solved correctly"
             ));
         }
         failures

@@ -86,7 +86,7 @@ impl Quiet {
         }
         let reasons = reasons.join(", and ");
         (!reasons.is_empty()).then(|| {
-            format!("the machine was busy: {reasons}; times that differ by less than that are equal, repeat them when it is quiet")
+            format!("the machine was busy: {reasons}; smaller differences in times mean nothing, repeat them when it is quiet")
         })
     }
 }

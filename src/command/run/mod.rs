@@ -151,12 +151,12 @@ fn say_of_tolerance(plan: &Plan, at_round_off: bool) {
     if plan.picked {
         eprintln!(
             "{} was picked: it applies to every system, has order 16, and keeps quadratic Casimirs and a quadratic energy to \
-             round-off; --method takes another",
+             round-off; --method chooses another",
             plan.method.id()
         );
     }
     if at_round_off {
-        eprintln!("round-off of so many steps may exceed the tolerance");
+        eprintln!("the round-off of this many steps may exceed the tolerance");
     }
 }
 

@@ -60,7 +60,7 @@ fn by_name(path: &Path) -> Result<Format, Failure> {
         })
     });
     named.ok_or_else(|| {
-        let text = format!("`.{}` is no form that rows are written in", extension.display());
+        let text = format!("rows cannot be written in the form `.{}`", extension.display());
         let help = "name the file .csv, .json or .npy, or say which of them it holds, such as `--format csv`";
         Message::option("--out", text).help(help).into()
     })
@@ -74,7 +74,7 @@ pub fn table(flag: &str, path: &Path) -> Result<(), Failure> {
     match path.extension() {
         Some(extension) if !extension.eq_ignore_ascii_case("csv") => {
             let text = format!(
-                "`{}` names no CSV file, and the table is CSV",
+                "`{}` is not the name of a CSV file, and the table is CSV",
                 path.display()
             );
             let name = path.with_extension("csv");
@@ -94,7 +94,7 @@ pub fn picture(flag: &str, path: Option<&Path>) -> Result<(), Failure> {
     match path.extension() {
         Some(extension) if !extension.eq_ignore_ascii_case("svg") => {
             let text = format!(
-                "`{}` names no SVG file, and pictures are SVG",
+                "`{}` is not the name of an SVG file, and pictures are SVG",
                 path.display()
             );
             let name = path.with_extension("svg");
@@ -134,8 +134,8 @@ impl Outputs {
 pub fn writing_failed(path: Option<&Path>, error: &io::Error) -> Failure {
     let what = match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room",
-        io::ErrorKind::FileTooLarge => "raise the limit of the size of files (`ulimit -f`)",
-        _ => "look whether the disk is still there",
+        io::ErrorKind::FileTooLarge => "raise the limit on the size of files (`ulimit -f`)",
+        _ => "check that the disk is still there",
     };
     let (path, help) = match path {
         Some(path) => {

@@ -226,7 +226,7 @@ impl Planner<'_> {
             "matrix" => Chart::Matrix,
             "quaternion" => Chart::Quaternion,
             other => {
-                let message = given.wrong(format!("`{other}` is no way to write a group element"));
+                let message = given.wrong(format!("unknown form of the group element `{other}`"));
                 self.mistakes
                     .push(message.help("write `matrix` or `quaternion`"));
                 return None;

@@ -110,7 +110,7 @@ impl Reception {
         }
         self.rows
             .as_mut()
-            .ok_or_else(|| io::Error::other("the output could not be begun"))
+            .ok_or_else(|| io::Error::other("the output could not be started"))
     }
 
     /// The times at which rows are asked for: errors are taken against the initial state, also where it is not shown.

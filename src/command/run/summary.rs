@@ -129,12 +129,12 @@ pub fn text(title: &str, work: &Work, solver: Solver, drift: &Drift, time: Durat
     if adaptive {
         let (own, refused) = (work.accepted, work.rejected);
         text.push_str(&format!(
-            ", {own} of its own within these, {refused} refused"
+            ", {own} adaptive steps within these, {refused} refused"
         ));
     }
     if adaptive && work.accepted == steps && work.rejected == 0 {
         text.push_str(
-            "\nno step was longer than --step: it decided every step, and the tolerances none; give a larger --step to \
+            "\n--step decided the size of every step, and the tolerances of none; give a larger --step to \
              let them decide",
         );
     }
@@ -193,7 +193,7 @@ mod tests {
             };
             text("T", &work, Solver::Adaptive, &drift, Duration::ZERO)
         };
-        assert!(of(25, 2).contains(", 25 of its own within these, 2 refused\n"));
+        assert!(of(25, 2).contains(", 25 adaptive steps within these, 2 refused\n"));
         assert!(!of(25, 2).contains("larger --step") && !of(10, 1).contains("larger --step"));
         assert!(of(10, 0).contains("give a larger --step"));
     }

@@ -82,7 +82,7 @@ impl Given {
         if value.fract() == 0.0 && (1.0..=9_007_199_254_740_992.0).contains(&value) {
             Ok(value as u64)
         } else {
-            let text = format!("`{}` is not a whole number from 1 on", self.text.trim());
+            let text = format!("`{}` is not a whole number of at least 1", self.text.trim());
             Err(self.wrong(text).help("1 keeps every step, 10 every tenth"))
         }
     }

@@ -19,7 +19,7 @@ fn what_is_not_finite_points_at_the_entry() {
     assert_eq!(
         at("sqrt(z) + x", "[11, 22, 0]"),
         [
-            "domain at 0: the derivative of the Hamiltonian by `z` is not finite because of `1/sqrt(z)` at the initial state"
+            "domain at 0: the derivative of the Hamiltonian with respect to `z` is not finite because of `1/sqrt(z)` at the initial state"
         ]
     );
     let found = at("x/(y - z)", "[11, 22, \"2*11\"]");

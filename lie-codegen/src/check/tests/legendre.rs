@@ -261,15 +261,15 @@ fn one_function_gives_the_system() {
     let l = "w1^2 + w2^2 + w3^2";
     expect(
         &lagrangian(l, &[("hamiltonian", r#""x^2""#)]),
-        &["schema at \"w1^2 + w2^2 + w3^2\": `lagrangian` beside `hamiltonian`"],
+        &["schema at \"w1^2 + w2^2 + w3^2\": `lagrangian` and `hamiltonian` are both given"],
     );
     expect(
         &so3(&[("velocity", r#"["w1", "w2", "w3"]"#)]),
-        &["schema at [\"w1\", \"w2\", \"w3\"]: `velocity` beside `hamiltonian`"],
+        &["schema at [\"w1\", \"w2\", \"w3\"]: `velocity` cannot be combined with `hamiltonian`"],
     );
     expect(
         &so3(&[("lagrangian", r#""x^2""#)]),
-        &["schema at \"x^2\": `lagrangian` beside"],
+        &["schema at \"x^2\": `lagrangian` and"],
     );
     let alone = system(
         &[

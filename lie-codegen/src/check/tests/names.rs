@@ -137,12 +137,12 @@ fn another_number_is_no_slip() {
         (
             "hamiltonian",
             r#""I4*x + I1/I2""#,
-            "of these names there are `I1`, `I2`",
+            "in this series there are `I1`, `I2`",
         ),
         (
             "initial",
             r#"["I3", "I1", "I2"]"#,
-            "of these names there are `I1`, `I2`",
+            "in this series there are `I1`, `I2`",
         ),
         ("hamiltonian", r#""I_1*x + I1/I2""#, "did you mean `I1`?"),
     ] {
@@ -202,7 +202,7 @@ fn names_have_no_characters_that_are_not_seen() {
     ]);
     expect(
         &text,
-        &["syntax at x\u{fe0f}: the name `x\\u{fe0f}` contains U+FE0F, which is not seen"],
+        &["syntax at x\u{fe0f}: the name `x\\u{fe0f}` contains U+FE0F, which is invisible"],
     );
 }
 

@@ -233,7 +233,7 @@ fn positive<'a>(value: &'a [Token], report: &mut Report) -> (&'a [Token], bool) 
         return (value, false);
     };
     if text != "positive" {
-        let message = format!("unknown word `{text}` behind the default of a parameter");
+        let message = format!("unknown word `{text}` after the default of a parameter");
         report.push(
             Diagnostic::new(Kind::Syntax, word.origin, message)
                 .help("write `, positive` for a parameter that takes positive values only"),

@@ -73,7 +73,7 @@ pub fn docs(cursor: &mut Cursor<'_>, report: &mut Report) -> Vec<String> {
                 Diagnostic::new(
                     Kind::Syntax,
                     hash.origin,
-                    "the declaration takes no attributes but doc comments",
+                    "a declaration takes doc comments, but no other attributes",
                 )
                 .help("remove the attribute"),
             ),

@@ -245,7 +245,7 @@ fn unknown(token: &Token, next: Option<&Token>) -> Diagnostic {
     Diagnostic::new(
         Kind::Syntax,
         token.origin,
-        format!("`{text}` begins no statement"),
+        format!("unknown statement `{text}`"),
     )
     .help(help)
 }

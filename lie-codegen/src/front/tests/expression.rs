@@ -181,7 +181,7 @@ fn signs_and_delimiters() {
             "write a number, a name or parentheses behind it",
         ),
         ("(x + y", "(", "add its closing partner"),
-        ("x + y)", ")", "remove it, or open it before"),
+        ("x + y)", ")", "remove it, or add the opening one before it"),
         ("x = y", "=", "write the expression alone, without `=`"),
         ("x × y", "×", "write `*`"),
         ("x · y", "·", "write `*`"),

@@ -196,7 +196,7 @@ fn an_initial_state_by_names_becomes_a_list() {
 fn names_with_a_number_in_brackets() {
     let (place, message, help) = mistake("[\"x\",", "[\"x[0]\",");
     assert_eq!((place.as_str(), help.as_str()), ("x[0]", "write `x0`"));
-    assert!(message.contains("no elements of a list"), "{message}");
+    assert!(message.contains("not elements of a list"), "{message}");
 }
 
 #[test]

@@ -93,7 +93,7 @@ fn iteration(given: &Given) -> Result<NewtonOptions, Message> {
         "simplified" => Ok(NewtonOptions::simplified()),
         "fixed-point" => Ok(NewtonOptions::fixed_point()),
         other => {
-            let message = given.wrong(format!("`{other}` is no iteration"));
+            let message = given.wrong(format!("unknown iteration `{other}`"));
             Err(message.help("write `newton`, `simplified` or `fixed-point`"))
         }
     }
@@ -102,7 +102,7 @@ fn iteration(given: &Given) -> Result<NewtonOptions, Message> {
 fn tolerance(given: &Given) -> Result<f64, Message> {
     let value = given.number()?;
     if value < 0.0 {
-        let message = given.wrong("a tolerance is not negative");
+        let message = given.wrong("a tolerance cannot be negative");
         return Err(message.help("give a number of units of round-off such as 1/1024"));
     }
     Ok(value)
@@ -113,7 +113,7 @@ fn count(given: &Given) -> Result<u32, Message> {
     let value = given.count().map_err(|message| message.help(help))?;
     u32::try_from(value).map_err(|_| {
         given
-            .wrong("so many iterations cannot be counted")
+            .wrong("more iterations than can be counted")
             .help(help)
     })
 }
