@@ -5,7 +5,8 @@
 //! ```
 //!
 //! with the nodes of Gauss and Legendre: order 2s with s stages, symmetric, keeps every quadratic
-//! invariant of the equation, and is a Poisson map where the Poisson matrix is constant. The unknowns are the increments `D_i = h f(Y_i)`, whose round-off is
+//! invariant of the equation, and is a Poisson map where the Poisson matrix is constant. The unknowns are the increments
+//! `D_i = h f(Y_i)`, or from four stages on the slopes `f(Y_i)`, whose round-off is
 //! relative to h f and not to mu.
 //!
 //! From four stages on, all stages are evaluated together, in the lanes of one register, and the iteration is
