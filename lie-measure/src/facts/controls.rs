@@ -80,6 +80,7 @@ impl<S: Scalar, P: Poisson<S>> AnyMethod<S, P> for Spoiled<'_, S, P> {
             order: 2,
             symmetric: true,
             explicit: true,
+            fixed_point: false,
             preserves: Preserves {
                 energy: true,
                 casimirs: true,

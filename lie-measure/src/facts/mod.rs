@@ -255,6 +255,10 @@ fn iterations<P: Lift<f64>>(
     if composed {
         return vec![explicit, Finding::absent("Newton", "that of the base")];
     }
+    if claims.fixed_point {
+        let newton = Finding::absent("Newton", "a fixed-point iteration");
+        return vec![explicit, newton, residual(system, ground, method)];
+    }
     let note = if slowest.is_finite() {
         format!("order of the iteration, at most {most} iterations")
     } else {

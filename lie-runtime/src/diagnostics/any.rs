@@ -19,6 +19,8 @@ pub struct Claims {
     pub symmetric: bool,
     /// Whether a step needs no solver.
     pub explicit: bool,
+    /// Whether a step is solved by fixed-point iteration, which has no order.
+    pub fixed_point: bool,
     /// What is kept.
     pub preserves: Preserves,
 }
@@ -30,6 +32,7 @@ impl Claims {
             order: M::ORDER,
             symmetric: M::SYMMETRIC,
             explicit: M::EXPLICIT,
+            fixed_point: M::FIXED_POINT,
             preserves: M::PRESERVES,
         }
     }
