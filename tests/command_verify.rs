@@ -232,7 +232,7 @@ fn the_program_is_judged_by_the_declaration() {
         ),
         (
             Some(serde_json::json!({ "unsound": { "what": "fixed-point iteration" } })),
-            "failed: fixed-point iteration: an equation whose solution is known is not solved as it should be",
+            "failed: fixed-point iteration: an equation with a known solution is not solved correctly",
         ),
         (
             Some(kernel("novel")),

@@ -167,8 +167,8 @@ mod tests {
             ("run x --step 1 --step 2", "--step", "twice"),
             ("run x --format xml", "--format", "`xml` is not a value"),
             ("run x --cpu=", "--cpu", "needs a value"),
-            ("run x --quiet=1", "--quiet", "takes no value"),
-            ("schema more", "more", "too many"),
+            ("run x --quiet=1", "--quiet", "does not take the value `1`"),
+            ("schema more", "more", "unexpected argument"),
             ("expand", "SPEC", "missing"),
             ("check --json", "SPEC", "missing"),
         ] {

@@ -30,6 +30,7 @@ where
     step: S,
     stages: StageParallel<S, WideSpinors<S, P>, STAGES>,
     point: P::Spinors,
+    base: P::Spinors,
     end: P::State,
     next: P::State,
     follows: S::Mask,
@@ -49,6 +50,7 @@ where
         Self {
             stages: StageParallel::new(h, wide.zero_spinors(), newton),
             point: system.zero_spinors(),
+            base: system.zero_spinors(),
             end: system.zero_state(),
             next: system.zero_state(),
             follows: S::Mask::splat(false),
@@ -71,14 +73,9 @@ where
         self.stages.start_with(fresh, slope.as_slice());
     }
 
-    /// Gives away `h grad H` at the stages of the step from a point.
-    fn give_velocities<K: FactorSink<P::State>>(
-        &mut self,
-        base: &P::Spinors,
-        failed: S::Mask,
-        sink: &mut K,
-    ) {
-        let points = self.stages.points(base.as_slice());
+    /// Gives away `h grad H` at the stages of the last step.
+    fn give_velocities<K: FactorSink<P::State>>(&mut self, failed: S::Mask, sink: &mut K) {
+        let points = self.stages.points(self.base.as_slice());
         spins_of(&self.wide, points, &mut self.momenta);
         self.wide.gradient(&self.momenta, &mut self.gradient);
         let mut xi = self.system.zero_state();
@@ -122,7 +119,7 @@ where
                 wide.gradient(momenta, gradient);
                 flow_of_spinors(wide, points, gradient, slopes);
             });
-        let base = self.point.clone();
+        self.base.copy_from(&self.point);
         self.stages.advance(self.point.as_mut_slice());
         spins_of(self.system, &self.point, &mut self.next);
         let report = StepReport {
@@ -135,7 +132,7 @@ where
         let finite = self.next.finite();
         let good = solved.converged & finite;
         if K::ACTIVE && good.any() {
-            self.give_velocities(&base, !good, sink);
+            self.give_velocities(!good, sink);
         }
         mu.assign_where(good, &self.next);
         self.end.copy_from(mu);

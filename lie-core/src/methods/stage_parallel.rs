@@ -163,8 +163,7 @@ impl<S: Scalar, P: Widen<S>, const STAGES: usize> Stepper<S>
         }
         let good = solved & finite;
         if K::ACTIVE && good.any() {
-            let base = mu.clone();
-            self.give_velocities(&base, !good, sink);
+            self.give_velocities(mu, !good, sink);
         }
         mu.assign_where(good, &self.next);
         self.end.copy_from(mu);
