@@ -38,7 +38,8 @@ fn what_is_not_known_is_refused() {
     let line = serde_json::to_string(&run(Times::At(vec![]))).expect("text");
     for (known, wrong) in [
         ("\"step\":0.1", "\"step\":\"x\""),
-        ("\"step\":0.1,", ""),
+        ("\"pace\":{\"step\":0.1},", ""),
+        ("{\"step\":0.1}", "{\"speed\":3}"),
         ("\"step\":0.1", "\"step\":0.1,\"speed\":3"),
         ("fixed-point", "secant"),
     ] {
