@@ -170,7 +170,9 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
         let (mut reached, mut estimates) = (0.0, Estimates::NONE);
         let (mut ceiling, mut shrunk, mut failure) = (f64::INFINITY, false, None);
         for _ in 0..ATTEMPTS {
-            if estimates.count >= ESTIMATES || reached >= self.span {
+            // a step that the end cuts short says nothing of longer ones
+            let cut = estimates.count > 0 && h > self.span - reached;
+            if estimates.count >= ESTIMATES || reached >= self.span || cut {
                 let allowed = estimates.allowed.min(ceiling).min(self.span);
                 return Ok((allowed.max(f64::MIN_POSITIVE), estimates.worst));
             }
