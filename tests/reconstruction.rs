@@ -217,7 +217,6 @@ fn every_method_moves_the_group_element_at_its_order() {
         true Gauss4;
         true Gauss6;
         true Gauss8;
-        true Collective8::hopf();
         true Gonzalez;
         true MeanValue;
         true CohenHairer4::new();
