@@ -1,6 +1,6 @@
 //! The generic equations for systems written by hand.
 
-/// Implements [`Implicit`] with the generic equations, for a system written by hand.
+/// Implements [`Implicit`](crate::Implicit) with the generic equations, for a system written by hand.
 ///
 /// ```text
 /// lie_runtime::generic_equations!([S: Scalar] Body<S>, S: midpoint, gauss4, exp);
