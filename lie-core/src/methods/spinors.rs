@@ -1,8 +1,7 @@
 //! The stepper of collective methods over the Hopf map whose stages are evaluated together.
 
-use super::implicit::clear;
-use super::stage_parallel::same;
-use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
+use super::stage_parallel::{give, same};
+use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
 use crate::generic::{StageParallel, flow_of_spinors, spinors_of, spins_of};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::{Poisson, Widen};
@@ -78,16 +77,8 @@ where
         let points = self.stages.points(self.base.as_slice());
         spins_of(&self.wide, points, &mut self.momenta);
         self.wide.gradient(&self.momenta, &mut self.gradient);
-        let mut xi = self.system.zero_state();
-        for index in 0..STAGES {
-            let entries = xi.as_mut_slice().iter_mut();
-            for (entry, &slopes) in entries.zip(self.gradient.as_slice()) {
-                *entry = self.step * S::scatter(slopes)[index];
-            }
-            clear(&mut xi, failed);
-            let count = STAGES;
-            sink.push_velocity(RungeKutta::Gauss, Stage { index, count }, &xi);
-        }
+        let xi = self.system.zero_state();
+        give::<S, _, _, _, STAGES>(self.step, &self.gradient, xi, failed, sink);
     }
 }
 

@@ -90,19 +90,8 @@ impl<'a, S: Scalar, P: Widen<S>, const STAGES: usize> StageParallelStepper<'a, S
     ) {
         let points = self.stages.points(base.as_slice());
         self.wide.gradient(points, &mut self.wide_scratch);
-        let mut xi = self.system.zero_state();
-        for index in 0..STAGES {
-            let entries = xi.as_mut_slice().iter_mut();
-            for (entry, &slopes) in entries.zip(self.wide_scratch.as_slice()) {
-                *entry = self.step * S::scatter(slopes)[index];
-            }
-            clear(&mut xi, failed);
-            let stage = Stage {
-                index,
-                count: STAGES,
-            };
-            sink.push_velocity(RungeKutta::Gauss, stage, &xi);
-        }
+        let xi = self.system.zero_state();
+        give::<S, _, _, _, STAGES>(self.step, &self.wide_scratch, xi, failed, sink);
     }
 }
 
@@ -179,4 +168,28 @@ pub(super) fn same<S: Scalar, V: State<S>>(one: &V, other: &V) -> S::Mask {
     pairs.fold(S::Mask::splat(true), |equal, (&x, &y)| {
         equal & x.less_equal(y) & y.less_equal(x)
     })
+}
+
+/// Gives away h times the gradients at the stages, one stage after the other; `xi` is any state of the right size.
+pub(super) fn give<S, V, W, K, const STAGES: usize>(
+    step: S,
+    gradients: &W,
+    mut xi: V,
+    failed: S::Mask,
+    sink: &mut K,
+) where
+    S: Scalar,
+    V: State<S>,
+    W: State<S::Wide>,
+    K: FactorSink<V>,
+{
+    for index in 0..STAGES {
+        let entries = xi.as_mut_slice().iter_mut();
+        for (entry, &gradients) in entries.zip(gradients.as_slice()) {
+            *entry = step * S::scatter(gradients)[index];
+        }
+        clear(&mut xi, failed);
+        let count = STAGES;
+        sink.push_velocity(RungeKutta::Gauss, Stage { index, count }, &xi);
+    }
 }

@@ -2,7 +2,7 @@
 //!
 //! This is the one module with unsafe code: the compiler knows these moves as intrinsics alone, and from the portable form it
 //! makes gathers of single numbers where vectors lie in memory (measured on a six-dimensional field: 85 ns an iteration against
-//! 46). They are compiled where the whole program is compiled for registers of 512 bits; a test holds them to the portable form.
+//! 40). They are compiled where the whole program is compiled for registers of 512 bits; a test holds them to the portable form.
 #![allow(unsafe_code)]
 
 use wide::f64x8;
