@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::collections::BTreeMap;
+
 use common::{csv, folder, lie};
 
 #[test]
@@ -58,6 +60,44 @@ fn points_picture_and_table() {
     assert!(
         svg.starts_with("<svg") && svg.contains(">gauss4<") && svg.trim_end().ends_with("</svg>")
     );
+}
+
+/// One method of each kind of step: the processor changes the time of a run and no bit of it.
+#[test]
+fn every_processor_gives_the_same_errors() {
+    let folder = folder();
+    let measured = |name: &str, flags: &str| -> BTreeMap<String, String> {
+        let out = folder.path().join(name);
+        lie(&format!(
+            "bench specs/so3_nonpolynomial.json --until 2 --budget 0.002 --quiet {flags} --out {} --methods \
+             gauss6,gauss8,lie-midpoint,rkmk4,cf4,collective4,collective8,isospectral4,spherical-midpoint,gonzalez,\
+             orbit-energy,cohen-hairer4,generating4,compose4(midpoint),dopri5",
+            out.display()
+        ))
+        .ok();
+        let text = std::fs::read_to_string(out).expect("points");
+        let points = text.lines().skip(1).map(|line| {
+            let fields: Vec<_> = line.split(',').collect();
+            (
+                fields[..3].join(","),
+                format!("{}, {} steps", fields[3], fields[7]),
+            )
+        });
+        points
+            .filter(|(run, _)| !run.starts_with("ode_solvers"))
+            .collect()
+    };
+    let native = measured("native.csv", "");
+    let portable = measured("portable.csv", "--cpu portable");
+    let mut compared = 0;
+    for (run, result) in &native {
+        // how many step sizes fit the budget depends on the machine's hour
+        if let Some(other) = portable.get(run) {
+            assert_eq!(result, other, "{run}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 50, "{compared}");
 }
 
 #[test]

@@ -252,11 +252,28 @@ fn a_step_over_a_singularity_stops_the_run() {
 }
 
 #[test]
-fn the_processor_of_this_machine_gives_the_same_bits() {
-    let flags = "--method gauss4 --step 0.05 --until 2";
-    let portable = lie(&format!("{BODY} {flags}")).ok().stdout;
-    let native = lie(&format!("{BODY} {flags} --cpu native")).ok().stdout;
+fn fused_multiply_add_has_other_bits_and_is_asked_for() {
+    let flags = "--method rk4 --step 0.05 --until 2";
+    let portable = lie(&format!("{BODY} {flags} --cpu portable")).ok().stdout;
+    let native = lie(&format!("{BODY} {flags}")).ok().stdout;
     assert_eq!(portable, native);
+    let fused = lie(&format!("{BODY} {flags} --fma"));
+    if fused.code == Some(2) {
+        fused.says("option", "--fma");
+        return;
+    }
+    let fused = fused.ok().stdout;
+    assert_ne!(fused, native);
+    let (_, native) = csv(&native);
+    let (_, fused) = csv(&fused);
+    for (row, other) in native.iter().flatten().zip(fused.iter().flatten()) {
+        assert!(
+            (row - other).abs() <= 1e-14 * row.abs().max(1.0),
+            "{row} {other}"
+        );
+    }
+    let run = lie(&format!("{BODY} {flags} --fma --cpu portable"));
+    run.error("option", "command line: --fma");
 }
 
 #[test]

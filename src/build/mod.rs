@@ -11,6 +11,7 @@ mod cache;
 mod cause;
 mod entry;
 mod key;
+mod processor;
 mod runtime;
 pub mod talk;
 mod toolchain;
@@ -27,6 +28,7 @@ use crate::message::{Failure, Message};
 use cause::Cause;
 use entry::Entry;
 use key::Key;
+pub use processor::Processor;
 use toolchain::Toolchain;
 
 /// The files of a program beside its `main.rs`.
@@ -74,8 +76,8 @@ pub struct Request<'a> {
     pub name: &'a str,
     /// The generated `main.rs`.
     pub source: &'a str,
-    /// Whether to use every instruction of this machine.
-    pub native: bool,
+    /// Which instructions it may use.
+    pub processor: Processor,
     /// Whether to say nothing.
     pub quiet: bool,
     /// What the program is for.
@@ -88,7 +90,7 @@ pub struct Request<'a> {
 /// `io` for the cache folder, `toolchain` for everything that cargo cannot do; a signal.
 pub fn program(request: &Request<'_>, interrupt: &Interrupt) -> Result<PathBuf, Failure> {
     let cache = cache::root()?;
-    let toolchain = Toolchain::find(&cache, request.native)?;
+    let toolchain = Toolchain::find(&cache, request.processor)?;
     let template = Template::of(request.purpose);
     let modules = template.modules.iter();
     let key = modules
@@ -99,7 +101,7 @@ pub fn program(request: &Request<'_>, interrupt: &Interrupt) -> Result<PathBuf, 
         .with(&runtime::identity())
         .with(template.manifest)
         .with(template.lock)
-        .with(if request.native { "native" } else { "portable" })
+        .with(request.processor.name())
         .hex();
     let entry = Entry::new(&cache, &key);
     if entry.is_whole(request.source) {

@@ -7,6 +7,7 @@ use std::process::{Command, Output, Stdio};
 
 use lie_codegen::diagnostic::Kind;
 
+use super::processor::Processor;
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
 
@@ -46,7 +47,7 @@ pub struct Toolchain {
     pub identity: String,
     /// The target triple of this machine.
     pub host: String,
-    native: bool,
+    processor: Processor,
 }
 
 fn program(variable: &str, default: &str) -> OsString {
@@ -64,8 +65,8 @@ impl Toolchain {
     /// Asks the compiler who it is; `folder` is where cargo will run.
     ///
     /// # Errors
-    /// `toolchain` if there is no compiler that answers.
-    pub fn find(folder: &Path, native: bool) -> Result<Self, Failure> {
+    /// `toolchain` if there is no compiler that answers, `option` if the processor cannot do what is asked.
+    pub fn find(folder: &Path, processor: Processor) -> Result<Self, Failure> {
         let ask = |arguments: &[&str]| -> Result<String, Failure> {
             let mut command = Command::new(program("RUSTC", "rustc"));
             command
@@ -85,14 +86,16 @@ impl Toolchain {
             .lines()
             .find_map(|line| line.strip_prefix("host: "));
         let host = host.unwrap_or_default().trim().to_owned();
-        if native {
+        if processor.is_of_this_machine() {
             // A cache that several machines share must not serve one with another's instructions.
-            identity.push_str(&ask(&["--print", "cfg", "-C", "target-cpu=native"])?);
+            let features = ask(&["--print", "cfg", "-C", "target-cpu=native"])?;
+            processor.check(&features)?;
+            identity.push_str(&features);
         }
         Ok(Self {
             identity,
             host,
-            native,
+            processor,
         })
     }
 
@@ -123,12 +126,7 @@ impl Toolchain {
             }
         }
         command.envs(OURS.iter().copied());
-        let flags = if self.native {
-            "-Ctarget-cpu=native"
-        } else {
-            ""
-        };
-        command.env("CARGO_ENCODED_RUSTFLAGS", flags);
+        command.env("CARGO_ENCODED_RUSTFLAGS", self.processor.flags());
         interrupt.build(command.current_dir(folder))
     }
 }

@@ -19,12 +19,12 @@ use lie_program::protocol::Obstacle;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::args::{self, Cpu, Measured};
+use super::args::{self, Measured};
 use super::run::bar::Bar;
 use super::run::impossible;
 use super::run::plan::{self, Point};
 use crate::build::talk::{Outcome, talk};
-use crate::build::{self, Request};
+use crate::build::{self, Processor, Request};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
@@ -95,7 +95,7 @@ impl Bed {
         let request = Request {
             name: &self.spec.model.name,
             source: &program(&self.spec.model, &self.choices, purpose),
-            native: flags.cpu == Some(Cpu::Native),
+            processor: Processor::of(flags.cpu, flags.fma)?,
             quiet: flags.quiet,
             purpose,
         };

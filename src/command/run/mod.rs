@@ -18,9 +18,9 @@ use lie_codegen::program::{Purpose, program};
 use lie_program::protocol::{Obstacle, Stop};
 use lie_runtime::driver::Pace;
 
-use super::args::{self, Cpu, Format};
+use super::args::{self, Format};
 use crate::build::talk::{Outcome, talk};
-use crate::build::{self, Request};
+use crate::build::{self, Processor, Request};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message, STOPPED};
@@ -41,6 +41,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         let help = "run them one after the other; `lie check` takes several";
         return Err(Message::option("SPEC", text).help(help).into());
     };
+    let processor = Processor::of(flags.cpu, flags.fma)?;
     let spec = compiler::load(path)?;
     let plan = plan::plan(&spec, flags).map_err(Failure::invalid)?;
     let format = outputs::format(flags, path)?;
@@ -53,7 +54,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     let request = Request {
         name: &spec.model.name,
         source: &program(&spec.model, std::slice::from_ref(&plan.method), purpose),
-        native: flags.cpu == Some(Cpu::Native),
+        processor,
         quiet: flags.quiet,
         purpose,
     };
