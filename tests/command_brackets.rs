@@ -63,6 +63,11 @@ fn ranks_casimirs_and_methods() {
             "cohen-hairer2",
             "cohen-hairer4",
             "cohen-hairer6",
+            "cohen-hairer8",
+            "cohen-hairer10",
+            "cohen-hairer12",
+            "cohen-hairer14",
+            "cohen-hairer16",
         ];
         expected.sort_unstable();
         assert_eq!(apply, expected);

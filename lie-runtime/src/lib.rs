@@ -92,10 +92,11 @@ pub mod prelude {
     #[doc(no_inline)]
     pub use crate::methods::gauss::*;
     pub use crate::methods::{
-        CohenHairer2, CohenHairer4, CohenHairer6, Collective2, Collective4, Collective6,
-        Collective8, Collective12, Collective16, CommutatorFree4, Compose4, Compose6, Compose8,
-        CrouchGrossman3, DiscreteEulerPoincare, Dopri5, EulerArnold2, Generating2, Generating4,
-        Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4,
+        CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10, CohenHairer12,
+        CohenHairer14, CohenHairer16, Collective2, Collective4, Collective6, Collective8,
+        Collective12, Collective16, CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3,
+        DiscreteEulerPoincare, Dopri5, EulerArnold2, Generating2, Generating4, Generating6,
+        GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4,
         Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue, Method, MoserVeselov, OrbitEnergy,
         Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint, Splitting1, Splitting2,
         Splitting4, Splitting6, Splitting8, Stepper, Variational2, Variational4, Variational6,

@@ -104,7 +104,8 @@ fn bracket(model: &Model, choice: &Choice) -> Option<(String, String)> {
         1 | 2 => "`midpoint` or `gonzalez`",
         3 | 4 => "`gauss4` or `cohen-hairer4`",
         5 | 6 => "`gauss6` or `cohen-hairer6`",
-        _ => "`compose8(midpoint)`",
+        7 | 8 => "`gauss8` or `cohen-hairer8`",
+        _ => "`gauss16` or `cohen-hairer16`",
     };
     let apply = format!("use {nearest}, which apply to every Poisson bracket");
     match model.bracket {

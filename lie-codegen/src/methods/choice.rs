@@ -50,7 +50,7 @@ pub enum Choice {
     DiscreteGradient(Gradient, Tensor),
     /// `orbit-energy`
     OrbitEnergy(Gradient),
-    /// `cohen-hairer2`, `cohen-hairer4`, `cohen-hairer6`
+    /// `cohen-hairer2`, `cohen-hairer4`, … `cohen-hairer16`
     CohenHairer(u32),
     /// `rk4`
     Rk4,
@@ -193,13 +193,14 @@ impl Choice {
             "mean-value" => Self::DiscreteGradient(Gradient::MeanValue, Tensor::Midpoint),
             "itoh-abe" => Self::DiscreteGradient(Gradient::ItohAbe, Tensor::Midpoint),
             "orbit-energy" => Self::OrbitEnergy(Gradient::Gonzalez),
-            "cohen-hairer2" => Self::CohenHairer(2),
-            "cohen-hairer4" => Self::CohenHairer(4),
-            "cohen-hairer6" => Self::CohenHairer(6),
             "rk4" => Self::Rk4,
             "dopri5" => Self::Dopri5,
             _ => {
-                let order: usize = find(id)?.id.strip_prefix("gauss")?.parse().ok()?;
+                let id = find(id)?.id;
+                if let Some(order) = id.strip_prefix("cohen-hairer") {
+                    return Some(Self::CohenHairer(order.parse().ok()?));
+                }
+                let order: usize = id.strip_prefix("gauss")?.parse().ok()?;
                 Self::Gauss(order / 2)
             }
         })

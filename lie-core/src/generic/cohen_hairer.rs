@@ -10,7 +10,7 @@ use crate::poisson::Poisson;
 use crate::scalar::{Mask as _, Scalar};
 use crate::state::{Stages, State};
 
-/// The method of Cohen and Hairer with 1, 2 or 3 stages for any Poisson system.
+/// The method of Cohen and Hairer for any Poisson system.
 ///
 /// Unknown: the increments `D_i` of the stages. With the Gauss nodes c and weights b, the Lagrange
 /// polynomials `l_i` on the nodes and `L_i(t) = int_0^t l_i`, the solution is
@@ -74,6 +74,11 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
         }
     }
 
+    /// Whether the quadrature is not exact, so that a step may be too large for it.
+    pub fn may_be_unresolved(&self) -> bool {
+        !self.rule.is_exact()
+    }
+
     /// Sets the point to `mu + sum_j weights_j D_j`.
     fn set_point(&mut self, weights: &[S; STAGES], increments: &Stages<P::State, STAGES>) {
         for (index, point) in self.point.as_mut_slice().iter_mut().enumerate() {
@@ -126,7 +131,7 @@ impl<'a, S: Scalar, P: Poisson<S>, const STAGES: usize> CohenHairerStep<'a, S, P
 }
 
 /// The Lagrange polynomial of a node at t.
-fn lagrange<S: Scalar>(nodes: &[S], index: usize, t: S) -> S {
+pub(super) fn lagrange<S: Scalar>(nodes: &[S], index: usize, t: S) -> S {
     let mut product = S::one();
     for (other, &node) in nodes.iter().enumerate() {
         if other != index {

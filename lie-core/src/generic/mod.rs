@@ -22,6 +22,7 @@ mod generating;
 mod inverse_tangent;
 mod kernels;
 mod matrix_stages;
+mod mean_gradients;
 mod midpoint;
 mod orbit_energy;
 mod pair;
@@ -65,6 +66,7 @@ pub use kernels::{
     linearize, multiply, poisson_slope, vector_field,
 };
 pub use matrix_stages::MatrixStages;
+pub use mean_gradients::MeanGradients;
 pub use midpoint::Midpoint;
 pub use orbit_energy::OrbitEnergyStep;
 pub use quadrature::{MAX_NODES, Quadrature};

@@ -45,14 +45,15 @@ impl<S: Scalar> Quadrature<S> {
     }
 
     /// The rule for gradients of H along a curve of degree `degree` against polynomials of degree
-    /// `degree - 1`: exact where H is a polynomial of known degree, with 10 nodes elsewhere.
+    /// `degree - 1`: exact where H is a polynomial of known degree, with 10 nodes elsewhere, or twice the degree if that is
+    /// more.
     pub fn of_hamiltonian<P: Poisson<S>>(system: &P, degree: usize) -> Self {
         let needed = system
             .hamiltonian_degree()
             .map(|of_h| (degree * of_h as usize).div_ceil(2));
         Self {
             exact: needed.is_some_and(|needed| needed <= MAX_NODES),
-            ..Self::gauss(needed.unwrap_or(DEFAULT_NODES))
+            ..Self::gauss(needed.unwrap_or(DEFAULT_NODES.max(2 * degree)))
         }
     }
 

@@ -5,7 +5,7 @@ use core::array::from_fn;
 use super::tableau::{gauss_ahead, gauss_entry, gauss_weight};
 use crate::newton::NewtonOptions;
 use crate::scalar::{Mask, Scalar, largest};
-use crate::state::State;
+use crate::state::{Stages, State};
 
 /// After so many iterations each, updates must have become half as large.
 const REVIEW: u32 = 8;
@@ -51,8 +51,8 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// Steps of size h; `zero` is any vector of the right size.
     pub fn new(h: S, zero: V, options: &NewtonOptions) -> Self {
         Self {
-            tableau: diagonals(STAGES, |i, j| h * gauss_entry::<S>(STAGES, i, j)),
-            ahead: diagonals(STAGES, |i, j| gauss_ahead::<S>(STAGES, i, j)),
+            tableau: diagonals(STAGES, STAGES, |i, j| h * gauss_entry::<S>(STAGES, i, j)),
+            ahead: diagonals(STAGES, STAGES, |i, j| gauss_ahead::<S>(STAGES, i, j)),
             weights: S::gather(from_fn(|i| {
                 if i < STAGES {
                     h * gauss_weight::<S>(STAGES, i)
@@ -87,16 +87,17 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     }
 
     /// Iterates from a base until the error of the increments is below the tolerance of the options, or updates have
-    /// shrunk to round-off. Sizes are sums of magnitudes.
+    /// shrunk to round-off. Sizes are sums of magnitudes. `field` takes the slopes and the points at the stages and gives
+    /// the next slopes.
     #[inline(always)]
-    pub fn iterate(&mut self, base: &[S], mut field: impl FnMut(&V, &mut V)) -> Iterated<S> {
+    pub fn iterate(&mut self, base: &[S], mut field: impl FnMut(&V, &V, &mut V)) -> Iterated<S> {
         let ending = Ending::new(self.size(base), &self.options);
         let [mut ended, mut converged] = [S::Mask::splat(false); 2];
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
         let mut change = S::Wide::zero();
         while iterations < self.options.max_iterations && !ended.all() {
             self.set_points(base);
-            field(&self.point, &mut self.next);
+            field(&self.slopes, &self.point, &mut self.next);
             let before = change;
             change = self.replace(ended);
             iterations += 1;
@@ -168,10 +169,20 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         }
     }
 
-    /// The points of the stages, of a step from the base.
-    pub fn points(&mut self, base: &[S]) -> &V {
+    /// The slopes and the points of the stages, of a step from the base.
+    pub fn stages(&mut self, base: &[S]) -> (&V, &V) {
         self.set_points(base);
-        &self.point
+        (&self.slopes, &self.point)
+    }
+
+    /// The increments `h F_i` of the stages.
+    pub fn increments<U: State<S>>(&self, out: &mut Stages<U, STAGES>) {
+        for (k, &slopes) in self.slopes.as_slice().iter().enumerate() {
+            let entries = S::scatter(slopes);
+            for (out, &entry) in out.0.iter_mut().zip(&entries) {
+                out.as_mut_slice()[k] = self.step * entry;
+            }
+        }
     }
 
     /// Replaces the slopes by given increments `h F_i` divided by h, in the lanes of a mask.
@@ -244,11 +255,15 @@ fn most<S: Scalar>(wide: S::Wide) -> S {
     S::max(S::max(a.max(b), c.max(d)), S::max(e.max(f), g.max(h)))
 }
 
-/// The diagonals of a matrix: entry `a_(i, i xor d)` in place i of diagonal d; 0 where there is no such stage.
-fn diagonals<S: Scalar>(stages: usize, entry: impl Fn(usize, usize) -> S) -> [S::Wide; 8] {
+/// The diagonals of a matrix: entry `a_(i, i xor d)` in place i of diagonal d; 0 where there is no such row or column.
+pub(super) fn diagonals<S: Scalar>(
+    rows: usize,
+    columns: usize,
+    entry: impl Fn(usize, usize) -> S,
+) -> [S::Wide; 8] {
     from_fn(|d| {
         S::gather(from_fn(|i| {
-            let inside = i < stages && (i ^ d) < stages;
+            let inside = i < rows && (i ^ d) < columns;
             if inside { entry(i, i ^ d) } else { S::zero() }
         }))
     })
@@ -257,7 +272,10 @@ fn diagonals<S: Scalar>(stages: usize, entry: impl Fn(usize, usize) -> S) -> [S:
 /// The product of a matrix, given by its diagonals, with the numbers of one entry at all stages: each diagonal times the
 /// numbers with places i and i xor d exchanged, which a register does in one or two moves.
 #[inline(always)]
-fn product<S: Scalar, const STAGES: usize>(diagonals: &[S::Wide; 8], entry: S::Wide) -> S::Wide {
+pub(super) fn product<S: Scalar, const STAGES: usize>(
+    diagonals: &[S::Wide; 8],
+    entry: S::Wide,
+) -> S::Wide {
     let near = [
         diagonals[0] * entry,
         diagonals[1] * S::exchange::<1>(entry),

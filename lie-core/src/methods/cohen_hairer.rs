@@ -14,11 +14,17 @@
 //! is Gauss collocation.
 //!
 //! The integrals are exact for a polynomial H of known degree; otherwise they are Gauss quadrature with
-//! 10 nodes, and a step that those do not resolve is refused
+//! 10 nodes or 2s, whichever is more, and a step that those do not resolve is refused
 //! ([`FailureReason::Unresolved`](crate::newton::FailureReason::Unresolved)). The unknowns are
 //! the increments `$h\, \dot u(c_i)$`, whose round-off is relative to h f and not to mu.
 //!
-//! Needs: gradient and Hessian of H, the Poisson matrix; any [`Poisson`](crate::Poisson) system.
+//! From four stages on, all stages are evaluated together, in the lanes of one register, by fixed-point iteration from
+//! the continued polynomial of the last step (see [`StageParallel`](crate::generic::StageParallel)), and so are the nodes of
+//! the quadrature, in blocks of eight. A step on which that does not contract is solved by Newton's iteration like those
+//! of fewer stages.
+//!
+//! Needs: gradient and Hessian of H, the Poisson matrix; any [`Poisson`](crate::Poisson) system, and
+//! [`Widen`](crate::Widen) from four stages on.
 //!
 //! Reference: D. Cohen, E. Hairer, "Linear energy-preserving integrators for Poisson systems", BIT
 //! Numerical Mathematics 51 (2011) 91–101,
@@ -26,13 +32,18 @@
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
 use super::facts::{Facts, Preserves};
+use super::gauss::BY_NEWTON;
 use super::implicit::ImplicitStepper;
+use super::stage_parallel::{At, Slopes, StageParallelStepper, WideState};
 use super::stepper::Method;
-use crate::equation::Implicit;
+use crate::equation::{Equation as _, Implicit};
+use crate::generic::{CohenHairerStep, MeanGradients};
 use crate::newton::NewtonOptions;
-use crate::scalar::Scalar;
+use crate::poisson::{Poisson, Widen};
+use crate::scalar::{Mask as _, Scalar};
+use crate::state::Stages;
 
-/// Energy-preserving collocation with 1, 2 or 3 stages, of order twice that; see the
+/// Energy-preserving collocation with 1 to 8 stages, of order twice that; see the
 /// [module's text](self).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CohenHairer<const STAGES: usize>;
@@ -43,6 +54,16 @@ pub type CohenHairer2 = CohenHairer<1>;
 pub type CohenHairer4 = CohenHairer<2>;
 /// Energy-preserving collocation with three stages, order 6.
 pub type CohenHairer6 = CohenHairer<3>;
+/// Energy-preserving collocation with four stages, order 8.
+pub type CohenHairer8 = CohenHairer<4>;
+/// Energy-preserving collocation with five stages, order 10.
+pub type CohenHairer10 = CohenHairer<5>;
+/// Energy-preserving collocation with six stages, order 12.
+pub type CohenHairer12 = CohenHairer<6>;
+/// Energy-preserving collocation with seven stages, order 14.
+pub type CohenHairer14 = CohenHairer<7>;
+/// Energy-preserving collocation with eight stages, order 16.
+pub type CohenHairer16 = CohenHairer<8>;
 
 impl<const STAGES: usize> CohenHairer<STAGES> {
     /// The method; it has no options.
@@ -55,21 +76,106 @@ impl<const STAGES: usize> Facts for CohenHairer<STAGES> {
     const ID: &'static str = match STAGES {
         1 => "cohen-hairer2",
         2 => "cohen-hairer4",
-        _ => "cohen-hairer6",
+        3 => "cohen-hairer6",
+        4 => "cohen-hairer8",
+        5 => "cohen-hairer10",
+        6 => "cohen-hairer12",
+        7 => "cohen-hairer14",
+        _ => "cohen-hairer16",
     };
     const ORDER: u32 = 2 * STAGES as u32;
     const SYMMETRIC: bool = true;
     const EXPLICIT: bool = false;
+    const FIXED_POINT: bool = STAGES > BY_NEWTON;
     const PRESERVES: Preserves = Preserves::ENERGY;
 }
 
-impl<S: Scalar, P: Implicit<S, Self>, const STAGES: usize> Method<S, P> for CohenHairer<STAGES> {
-    type Stepper<'a>
-        = ImplicitStepper<S, P::Equation<'a>>
-    where
-        P: 'a;
+/// Methods whose stages are evaluated one after the other and solved for by Newton's iteration.
+macro_rules! by_newton {
+    ($($stages:literal)+) => {$(
+        impl<S: Scalar, P: Implicit<S, Self>> Method<S, P> for CohenHairer<$stages> {
+            type Stepper<'a>
+                = ImplicitStepper<S, P::Equation<'a>>
+            where
+                P: 'a;
 
-    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
+            fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+                ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
+            }
+        }
+    )+};
+}
+
+/// Methods whose stages are evaluated together.
+macro_rules! stage_parallel {
+    ($($stages:literal)+) => {$(
+        impl<S: Scalar, P: Widen<S>> Method<S, P> for CohenHairer<$stages> {
+            type Stepper<'a>
+                = StageParallelStepper<'a, S, P, MeanField<'a, S, P, $stages>, $stages>
+            where
+                P: 'a;
+
+            fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+                StageParallelStepper::new(system, h, newton)
+            }
+        }
+    )+};
+}
+
+by_newton!(1 2 3);
+stage_parallel!(4 5 6 7 8);
+
+/// `F_i = Pi(Y_i) g_i` with the means `g_i` of the gradient.
+pub struct MeanField<'a, S: Scalar, P: Widen<S>, const STAGES: usize> {
+    means: MeanGradients<S, WideState<S, P>, <P::Widened as Poisson<S::Wide>>::Jacobian, STAGES>,
+    equation: CohenHairerStep<'a, S, P, STAGES>,
+    increments: Stages<P::State, STAGES>,
+}
+
+impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAGES>
+    for MeanField<'a, S, P, STAGES>
+{
+    type Equation = CohenHairerStep<'a, S, P, STAGES>;
+
+    fn new(system: &'a P, wide: &P::Widened, h: S) -> Self {
+        let equation = CohenHairerStep::new(system, h);
+        Self {
+            means: MeanGradients::new(system, wide, h),
+            increments: equation.zero_unknown(),
+            equation,
+        }
+    }
+
+    fn equation(system: &'a P, h: S) -> Self::Equation {
+        CohenHairerStep::new(system, h)
+    }
+
+    #[inline(always)]
+    fn next(&mut self, wide: &P::Widened, base: &[S], at: At<'_, S, P>, out: &mut WideState<S, P>) {
+        self.means.slopes(wide, base, at.0, at.1, out);
+    }
+
+    fn directions(
+        &mut self,
+        wide: &P::Widened,
+        base: &[S],
+        at: At<'_, S, P>,
+        out: &mut WideState<S, P>,
+    ) {
+        out.clone_from(self.means.means(wide, base, at.0, at.1));
+    }
+
+    fn resolved(
+        &mut self,
+        mu: &P::State,
+        end: &P::State,
+        increments: impl FnOnce(&mut Stages<P::State, STAGES>),
+    ) -> S::Mask {
+        if !self.equation.may_be_unresolved() {
+            return S::Mask::splat(true);
+        }
+        increments(&mut self.increments);
+        self.equation.set_base(mu);
+        self.equation.resolved(&self.increments, end)
     }
 }

@@ -25,7 +25,7 @@
 
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;
-use super::stage_parallel::StageParallelStepper;
+use super::stage_parallel::{Field, StageParallelStepper};
 use super::stepper::Method;
 use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
@@ -78,7 +78,7 @@ macro_rules! stage_parallel {
     ($name:ident, $stages:literal) => {
         impl<S: Scalar, P: Widen<S>> Method<S, P> for $name {
             type Stepper<'a>
-                = StageParallelStepper<'a, S, P, $stages>
+                = StageParallelStepper<'a, S, P, Field, $stages>
             where
                 P: 'a;
 

@@ -67,7 +67,10 @@ pub mod tensor;
 pub mod variational;
 
 pub use coefficients::Scheme;
-pub use cohen_hairer::{CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6};
+pub use cohen_hairer::{
+    CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10,
+    CohenHairer12, CohenHairer14, CohenHairer16, MeanField,
+};
 pub use collective::{
     Collective, Collective2, Collective4, Collective6, Collective8, Collective12, Collective16,
     Given, Hopf, ParallelCollective, Reduced, Representation,
@@ -100,7 +103,7 @@ pub use spinors::SpinorStepper;
 pub use splitting::{
     Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, SplittingStepper,
 };
-pub use stage_parallel::StageParallelStepper;
+pub use stage_parallel::{Field, Slopes, StageParallelStepper};
 pub use stepper::{
     FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper,
 };

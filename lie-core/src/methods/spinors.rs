@@ -74,7 +74,7 @@ where
 
     /// Gives away `h grad H` at the stages of the last step.
     fn give_velocities<K: FactorSink<P::State>>(&mut self, failed: S::Mask, sink: &mut K) {
-        let points = self.stages.points(self.base.as_slice());
+        let (_, points) = self.stages.stages(self.base.as_slice());
         spins_of(&self.wide, points, &mut self.momenta);
         self.wide.gradient(&self.momenta, &mut self.gradient);
         let xi = self.system.zero_state();
@@ -105,7 +105,7 @@ where
         let (wide, momenta, gradient) = (&self.wide, &mut self.momenta, &mut self.gradient);
         let solved = self
             .stages
-            .iterate(self.point.as_slice(), |points, slopes| {
+            .iterate(self.point.as_slice(), |_, points, slopes| {
                 spins_of(wide, points, momenta);
                 wide.gradient(momenta, gradient);
                 flow_of_spinors(wide, points, gradient, slopes);

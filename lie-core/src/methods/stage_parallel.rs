@@ -2,24 +2,101 @@
 
 use super::implicit::{ImplicitStepper, clear};
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
+use crate::equation::Equation;
 use crate::generic::{Gauss, StageParallel};
 use crate::newton::{FailureReason, Iteration, NewtonOptions};
 use crate::poisson::{Poisson, Widen};
 use crate::scalar::{Mask, Scalar};
-use crate::state::{State, Unknown};
+use crate::state::{Stages, State, Unknown};
 
 /// Newton's iteration takes a full matrix of so many rows at most, 0.5 MB in double precision.
 const MOST_UNKNOWNS: usize = 256;
 
-type WideState<S, P> = <<P as Widen<S>>::Widened as Poisson<<S as Scalar>::Wide>>::State;
+/// The state of the system over eight numbers.
+pub type WideState<S, P> = <<P as Widen<S>>::Widened as Poisson<<S as Scalar>::Wide>>::State;
 
-/// Gauss collocation by fixed-point iteration with all stages in one register; a step on which that does not contract is
-/// solved by Newton's iteration, and refused where that has more than 256 unknowns.
+/// How the slopes at the stages of a collocation method come about, and the same method by Newton's iteration.
+pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize>: Sized {
+    /// The equation of a step.
+    type Equation: Equation<S, State = P::State, Unknown = Stages<P::State, STAGES>>;
+
+    /// For steps of size h.
+    fn new(system: &'a P, wide: &P::Widened, h: S) -> Self;
+
+    /// The equation of a step of size h.
+    fn equation(system: &'a P, h: S) -> Self::Equation;
+
+    /// The next slopes, from the last ones and the points at the stages of a step from the base.
+    fn next(&mut self, wide: &P::Widened, base: &[S], at: At<'_, S, P>, out: &mut WideState<S, P>);
+
+    /// The directions in the algebra at the stages: `grad H`, or a mean of it.
+    fn directions(
+        &mut self,
+        wide: &P::Widened,
+        base: &[S],
+        at: At<'_, S, P>,
+        out: &mut WideState<S, P>,
+    );
+
+    /// The lanes in which a step that was solved is good; `increments` gives those of its stages.
+    fn resolved(
+        &mut self,
+        _mu: &P::State,
+        _end: &P::State,
+        _increments: impl FnOnce(&mut Stages<P::State, STAGES>),
+    ) -> S::Mask {
+        S::Mask::splat(true)
+    }
+}
+
+/// The slopes and the points at all stages.
+pub type At<'a, S, P> = (&'a WideState<S, P>, &'a WideState<S, P>);
+
+/// `F_i = f(Y_i)`: Gauss collocation.
+#[derive(Clone, Copy, Debug)]
+pub struct Field;
+
+impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAGES> for Field {
+    type Equation = Gauss<'a, S, P, STAGES>;
+
+    fn new(_system: &'a P, _wide: &P::Widened, _h: S) -> Self {
+        Self
+    }
+
+    fn equation(system: &'a P, h: S) -> Self::Equation {
+        Gauss::new(system, h)
+    }
+
+    #[inline(always)]
+    fn next(
+        &mut self,
+        wide: &P::Widened,
+        _base: &[S],
+        at: At<'_, S, P>,
+        out: &mut WideState<S, P>,
+    ) {
+        wide.vector_field(at.1, out);
+    }
+
+    fn directions(
+        &mut self,
+        wide: &P::Widened,
+        _base: &[S],
+        at: At<'_, S, P>,
+        out: &mut WideState<S, P>,
+    ) {
+        wide.gradient(at.1, out);
+    }
+}
+
+/// A collocation method by fixed-point iteration with all stages in one register; a step on which that does not contract
+/// is solved by Newton's iteration, and refused where that has more than 256 unknowns.
 ///
 /// The iteration starts from the polynomial of the last step where the state is the one that step led to.
-pub struct StageParallelStepper<'a, S: Scalar, P: Widen<S>, const STAGES: usize> {
+pub struct StageParallelStepper<'a, S: Scalar, P: Widen<S>, F, const STAGES: usize> {
     system: &'a P,
     wide: P::Widened,
+    rule: F,
     step: S,
     stages: StageParallel<S, WideState<S, P>, STAGES>,
     newton: NewtonOptions,
@@ -30,11 +107,17 @@ pub struct StageParallelStepper<'a, S: Scalar, P: Widen<S>, const STAGES: usize>
     wide_scratch: WideState<S, P>,
 }
 
-impl<'a, S: Scalar, P: Widen<S>, const STAGES: usize> StageParallelStepper<'a, S, P, STAGES> {
+impl<'a, S, P, F, const STAGES: usize> StageParallelStepper<'a, S, P, F, STAGES>
+where
+    S: Scalar,
+    P: Widen<S>,
+    F: Slopes<'a, S, P, STAGES>,
+{
     pub(super) fn new(system: &'a P, h: S, newton: &NewtonOptions) -> Self {
         let wide = system.widen();
         let zero = wide.zero_state();
         Self {
+            rule: F::new(system, &wide, h),
             system,
             wide,
             step: h,
@@ -56,7 +139,7 @@ impl<'a, S: Scalar, P: Widen<S>, const STAGES: usize> StageParallelStepper<'a, S
         left: S::Mask,
         report: &mut StepReport,
     ) -> Option<StepFailure> {
-        let equation = Gauss::<S, P, STAGES>::new(self.system, self.step);
+        let equation = F::equation(self.system, self.step);
         let mut stepper = ImplicitStepper::new(equation, self.system.zero_state(), &self.newton);
         let mut end = mu.clone();
         let outcome = stepper.step(&mut end, &mut ());
@@ -81,22 +164,26 @@ impl<'a, S: Scalar, P: Widen<S>, const STAGES: usize> StageParallelStepper<'a, S
             .filter(|failure| failure.lanes != 0)
     }
 
-    /// Gives away `h grad H` at the stages of the step from `base`.
+    /// Gives away h times the directions at the stages of the step from `base`.
     fn give_velocities<K: FactorSink<P::State>>(
         &mut self,
         base: &P::State,
         failed: S::Mask,
         sink: &mut K,
     ) {
-        let points = self.stages.points(base.as_slice());
-        self.wide.gradient(points, &mut self.wide_scratch);
+        let at = self.stages.stages(base.as_slice());
+        let out = &mut self.wide_scratch;
+        self.rule.directions(&self.wide, base.as_slice(), at, out);
         let xi = self.system.zero_state();
         give::<S, _, _, _, STAGES>(self.step, &self.wide_scratch, xi, failed, sink);
     }
 }
 
-impl<S: Scalar, P: Widen<S>, const STAGES: usize> Stepper<S>
-    for StageParallelStepper<'_, S, P, STAGES>
+impl<'a, S, P, F, const STAGES: usize> Stepper<S> for StageParallelStepper<'a, S, P, F, STAGES>
+where
+    S: Scalar,
+    P: Widen<S>,
+    F: Slopes<'a, S, P, STAGES>,
 {
     type State = P::State;
 
@@ -113,9 +200,9 @@ impl<S: Scalar, P: Widen<S>, const STAGES: usize> Stepper<S>
             self.system.vector_field(mu, &mut self.next);
             self.stages.start_with(!follows, self.next.as_slice());
         }
-        let wide = &self.wide;
-        let solved = self.stages.iterate(mu.as_slice(), |points, slopes| {
-            wide.vector_field(points, slopes);
+        let (wide, rule, base) = (&self.wide, &mut self.rule, mu.as_slice());
+        let solved = self.stages.iterate(base, |slopes, points, next| {
+            rule.next(wide, base, (slopes, points), next);
         });
         self.next.copy_from(mu);
         self.stages.advance(self.next.as_mut_slice());
@@ -142,15 +229,23 @@ impl<S: Scalar, P: Widen<S>, const STAGES: usize> Stepper<S>
         }
         let solved = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
         let finite = self.next.finite();
-        if !(finite | !solved).all() {
-            let first = StepFailure {
-                reason: FailureReason::NotFinite,
-                lanes: 0,
-                report,
-            };
-            failure.get_or_insert(first).lanes |= (solved & !finite).bits();
+        let stages = &self.stages;
+        let increments = |out: &mut Stages<P::State, STAGES>| stages.increments(out);
+        let resolved = self.rule.resolved(mu, &self.next, increments);
+        for (bad, reason) in [
+            (solved & !finite, FailureReason::NotFinite),
+            (solved & finite & !resolved, FailureReason::Unresolved),
+        ] {
+            if bad.any() {
+                let first = StepFailure {
+                    reason,
+                    lanes: 0,
+                    report,
+                };
+                failure.get_or_insert(first).lanes |= bad.bits();
+            }
         }
-        let good = solved & finite;
+        let good = solved & finite & resolved;
         if K::ACTIVE && good.any() {
             self.give_velocities(mu, !good, sink);
         }

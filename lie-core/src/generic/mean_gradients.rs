@@ -1,0 +1,141 @@
+//! The means of the gradient in energy-preserving collocation, at all stages in one number.
+
+use core::array::from_fn;
+
+use super::cohen_hairer::lagrange;
+use super::kernels::multiply;
+use super::quadrature::{MAX_NODES, Quadrature};
+use super::stage_parallel::{diagonals, product};
+use super::tableau::gauss_tableau;
+use crate::matrix::SquareMatrix;
+use crate::poisson::Poisson;
+use crate::scalar::Scalar;
+use crate::state::State;
+
+/// Numbers of nodes that are looked at together.
+const BLOCK: usize = 8;
+const MAX_BLOCKS: usize = MAX_NODES / BLOCK;
+
+/// `g_i = (1/b_i) int_0^1 l_i(t) grad H(u(t)) dt` along the polynomial `u(t) = mu + h sum_j L_j(t) F_j` of a step of
+/// Gauss collocation with slopes F, by quadrature with nodes in blocks of eight; `l_i` is the Lagrange polynomial of
+/// stage i and `L_i` its integral from 0.
+#[derive(Clone, Debug)]
+pub struct MeanGradients<S: Scalar, V, M, const STAGES: usize> {
+    /// `None` for a quadratic H: the mean is the gradient at the stage.
+    blocks: Option<[Block<S>; MAX_BLOCKS]>,
+    count: usize,
+    point: V,
+    gradient: V,
+    matrix: M,
+    means: V,
+}
+
+/// Eight nodes `t_q` of a rule with weights `w_q`, as diagonals of matrices.
+#[derive(Clone, Copy, Debug)]
+struct Block<S: Scalar> {
+    /// `h L_j(t_q)`
+    curve: [S::Wide; BLOCK],
+    /// `w_q l_i(t_q)/b_i`
+    means: [S::Wide; BLOCK],
+}
+
+impl<S, V, M, const STAGES: usize> MeanGradients<S, V, M, STAGES>
+where
+    S: Scalar,
+    V: State<S::Wide>,
+    M: SquareMatrix<S::Wide>,
+{
+    /// For steps of size h of a system, of which `wide` is the form over eight numbers.
+    pub fn new<P, W>(system: &P, wide: &W, h: S) -> Self
+    where
+        P: Poisson<S>,
+        W: Poisson<S::Wide, State = V, Jacobian = M>,
+    {
+        let rule = Quadrature::of_hamiltonian(system, STAGES);
+        let quadratic = system
+            .hamiltonian_degree()
+            .is_some_and(|degree| degree <= 2);
+        let zero = wide.zero_state();
+        Self {
+            blocks: (!quadratic).then(|| from_fn(|index| Block::new::<STAGES>(&rule, index, h))),
+            count: rule.len().div_ceil(BLOCK),
+            point: zero.clone(),
+            gradient: zero.clone(),
+            matrix: wide.zero_jacobian(),
+            means: zero,
+        }
+    }
+
+    /// The means at all stages, of a step from the base whose slopes and points at the stages are given.
+    #[inline(always)]
+    pub fn means<W>(&mut self, wide: &W, base: &[S], slopes: &V, points: &V) -> &V
+    where
+        W: Poisson<S::Wide, State = V, Jacobian = M>,
+    {
+        let Some(blocks) = &self.blocks else {
+            wide.gradient(points, &mut self.means);
+            return &self.means;
+        };
+        self.means.fill(S::Wide::zero());
+        for block in &blocks[..self.count] {
+            let entries = self.point.as_mut_slice().iter_mut().zip(base);
+            for ((point, y), slopes) in entries.zip(slopes.as_slice()) {
+                *point = y.widen() + product::<S, BLOCK>(&block.curve, *slopes);
+            }
+            wide.gradient(&self.point, &mut self.gradient);
+            let means = self.means.as_mut_slice().iter_mut();
+            for (mean, &gradient) in means.zip(self.gradient.as_slice()) {
+                *mean += product::<S, BLOCK>(&block.means, gradient);
+            }
+        }
+        &self.means
+    }
+
+    /// The slopes `Pi(Y_i) g_i` at all stages, of a step from the base with slopes and points `Y_i`.
+    #[inline(always)]
+    pub fn slopes<W>(&mut self, wide: &W, base: &[S], slopes: &V, points: &V, out: &mut V)
+    where
+        W: Poisson<S::Wide, State = V, Jacobian = M>,
+    {
+        if self.blocks.is_none() {
+            wide.vector_field(points, out);
+            return;
+        }
+        self.means(wide, base, slopes, points);
+        wide.poisson_matrix(points, &mut self.matrix);
+        multiply(&self.matrix, &self.means, out);
+    }
+}
+
+impl<S: Scalar> Block<S> {
+    /// The nodes of a rule from `8 index` on; a node that is not there counts nothing.
+    fn new<const STAGES: usize>(rule: &Quadrature<S>, index: usize, h: S) -> Self {
+        let tableau = gauss_tableau::<S, STAGES>();
+        let node = |place: usize| {
+            let node = BLOCK * index + place;
+            (node < rule.len()).then(|| rule.node(node))
+        };
+        let half = S::ratio(1.0, 2.0);
+        let curve = |place: usize, j: usize| {
+            let Some((offset, _)) = node(place) else {
+                return S::zero();
+            };
+            let t = half + offset;
+            let pairs = tableau.b.iter().zip(&tableau.c);
+            let sum = pairs.fold(S::zero(), |sum, (&b, &c)| {
+                sum + b * lagrange(&tableau.c, j, t * c)
+            });
+            h * t * sum
+        };
+        let mean = |i: usize, place: usize| {
+            let Some((offset, weight)) = node(place) else {
+                return S::zero();
+            };
+            weight * lagrange(&tableau.c, i, half + offset) / tableau.b[i]
+        };
+        Self {
+            curve: diagonals(BLOCK, STAGES, curve),
+            means: diagonals(STAGES, BLOCK, mean),
+        }
+    }
+}
