@@ -165,6 +165,33 @@ pub trait SpinPoisson<S: Scalar>: LiePoisson<S> {
     fn zero_spinors(&self) -> Self::Spinors;
 }
 
+/// How the flow of a system is known in closed form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Free rigid bodies: a direct sum of algebras so(3), and H a quadratic form that does not couple them.
+    Bodies,
+    /// The gradient of H is constant along each solution.
+    Uniform,
+}
+
+/// A Lie–Poisson system whose flow is known in closed form. The compiler decides it.
+#[diagnostic::on_unimplemented(
+    message = "no closed form of the flow of `{Self}` is known",
+    note = "`lie check` says for which systems there is one; `Gauss16` with `Options::tolerance` errs little more"
+)]
+pub trait IntegrablePoisson<S: Scalar>: LiePoisson<S> {
+    /// The form.
+    fn motion(&self) -> Motion;
+    /// The coordinates (i, j, k) of each body, with `[e_i, e_j] = c e_k` and its cyclic permutations.
+    fn bodies(&self) -> &[[usize; 3]] {
+        &[]
+    }
+    /// The constant c of one body.
+    fn body_scale(&self, _body: usize) -> S {
+        S::one()
+    }
+}
+
 /// A system with a realization of its bracket: a map `mu = J(z)` from points z = (q, p) with canonical brackets and
 /// `{J_a, J_b} = Pi_ab(J)`. Flows of functions of J lie over those of functions of mu.
 ///

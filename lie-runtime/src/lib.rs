@@ -71,11 +71,11 @@ mod test_systems;
 pub use lie_core::{
     CayleyPoisson, ClosedRealization, CotangentPoisson, DiscreteLagrangian,
     DiscreteLagrangianPoisson, Dual, Equation, GeneratingFunction, Group, Implicit, InertiaPoisson,
-    LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson, ParameterError,
-    ParameterFault, PieceFlows, Poisson, RealizedPoisson, Scalar, SeparablePoisson, Spectrum,
-    SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown, Widen, elimination, equation,
-    generating, generic, generic_equations, lagrangian, matrix, methods, newton, parameter, pieces,
-    poisson, scalar, state, structure,
+    IntegrablePoisson, LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson,
+    Motion, ParameterError, ParameterFault, PieceFlows, Poisson, RealizedPoisson, Scalar,
+    SeparablePoisson, Spectrum, SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown,
+    Widen, elimination, equation, generating, generic, generic_equations, lagrangian, matrix,
+    methods, newton, parameter, pieces, poisson, scalar, state, structure,
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
@@ -95,7 +95,7 @@ pub mod prelude {
         CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10, CohenHairer12,
         CohenHairer14, CohenHairer16, Collective2, Collective4, Collective6, Collective8,
         Collective12, Collective16, CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3,
-        DiscreteEulerPoincare, Dopri5, EulerArnold2, Generating2, Generating4, Generating6,
+        DiscreteEulerPoincare, Dopri5, EulerArnold2, Exact, Generating2, Generating4, Generating6,
         GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4,
         Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue, Method, MoserVeselov, OrbitEnergy,
         Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint, Splitting1, Splitting2,
@@ -128,7 +128,7 @@ pub mod __private_0_1 {
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};
     pub use crate::structure::{
-        CotangentPoisson, Entry, Group, InertiaPoisson, MatrixGroup, MatrixPoisson, Plane,
+        CotangentPoisson, Entry, Group, InertiaPoisson, MatrixGroup, MatrixPoisson, Motion, Plane,
         Representation, Spectrum, SpinPoisson,
     };
     pub use core::marker::PhantomData;

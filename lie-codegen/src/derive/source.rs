@@ -5,6 +5,7 @@ use crate::algebra::{Representation, TripleEntry};
 use crate::model::{self, Descent, Discrete, Energy, Hamiltonian, Lagrangian, Model};
 use crate::structure::group::Group;
 use crate::structure::inertia::Body;
+use crate::structure::integrable::{self, Motion};
 use crate::structure::one_parameter::Block as OneParameter;
 use crate::structure::separable::Piece;
 use crate::structure::spins::Spin;
@@ -50,6 +51,8 @@ pub struct Source {
     pub spins: Option<Vec<Spin>>,
     /// The free rigid body that the system is.
     pub body: Option<Body>,
+    /// The form of the flow, where it is known.
+    pub motion: Option<Motion>,
     /// The closed form of `exp(s ad*_(e_i))` for each basis element, where a method needs them.
     pub actions: Option<Vec<Option<Vec<OneParameter>>>>,
 }
@@ -77,6 +80,7 @@ impl Source {
             matrices: None,
             spins: None,
             body: None,
+            motion: None,
             actions: None,
         }
     }
@@ -115,6 +119,7 @@ impl Source {
             group: group::group(model),
             matrices: representation.filter(|r| r.dual.is_some()).cloned(),
             spins: spins::spins(model),
+            motion: integrable::motion(model),
             body,
             ..general
         }

@@ -52,6 +52,8 @@ pub enum Choice {
     OrbitEnergy(Gradient),
     /// `cohen-hairer2`, `cohen-hairer4`, … `cohen-hairer16`
     CohenHairer(u32),
+    /// `exact`
+    Exact,
     /// `rk4`
     Rk4,
     /// `dopri5`; its tolerances are arguments of the program.
@@ -193,6 +195,7 @@ impl Choice {
             "mean-value" => Self::DiscreteGradient(Gradient::MeanValue, Tensor::Midpoint),
             "itoh-abe" => Self::DiscreteGradient(Gradient::ItohAbe, Tensor::Midpoint),
             "orbit-energy" => Self::OrbitEnergy(Gradient::Gonzalez),
+            "exact" => Self::Exact,
             "rk4" => Self::Rk4,
             "dopri5" => Self::Dopri5,
             _ => {
@@ -266,6 +269,7 @@ impl Choice {
             Self::DiscreteGradient(gradient, _) => gradient.name().into(),
             Self::OrbitEnergy(_) => "orbit-energy".into(),
             Self::CohenHairer(order) => format!("cohen-hairer{order}"),
+            Self::Exact => "exact".into(),
             Self::Rk4 => "rk4".into(),
             Self::Dopri5 => "dopri5".into(),
         }

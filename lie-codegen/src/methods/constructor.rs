@@ -111,6 +111,7 @@ impl Choice {
                 quote! { #orbit_energy::#gradient() }
             }
             Self::CohenHairer(order) => new(numbered("CohenHairer", *order)),
+            Self::Exact => named("Exact"),
             Self::Rk4 => named("Rk4"),
             Self::Dopri5 => {
                 let dopri5 = named("Dopri5");

@@ -4,12 +4,12 @@ use lie_core::methods::{
     CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10, CohenHairer12,
     CohenHairer14, CohenHairer16, Collective2, Collective4, Collective6, Collective8, Collective12,
     Collective16, CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3,
-    DiscreteEulerPoincare, Dopri5, EulerArnold2, Exp, Facts, Gauss4, Gauss6, Gauss8, Gauss10,
-    Gauss12, Gauss14, Gauss16, Generating2, Generating4, Generating6, GeneratingSecondKind2,
-    Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler,
-    LieMidpoint, MeanValue, MoserVeselov, OrbitEnergy, Preserves, Representation, Rk4, Rkmk2,
-    Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6,
-    Splitting8, Variational2, Variational4, Variational6,
+    DiscreteEulerPoincare, Dopri5, EulerArnold2, Exact, Exp, Facts, Gauss4, Gauss6, Gauss8,
+    Gauss10, Gauss12, Gauss14, Gauss16, Generating2, Generating4, Generating6,
+    GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6,
+    ItohAbe, LieEuler, LieMidpoint, MeanValue, MoserVeselov, OrbitEnergy, Preserves,
+    Representation, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint, Splitting1, Splitting2,
+    Splitting4, Splitting6, Splitting8, Variational2, Variational4, Variational6,
 };
 
 use super::Method;
@@ -44,6 +44,7 @@ const MCL: &str = "McLachlan (1993), 10.1103/PhysRevLett.71.3043";
 const BM: &str = "McLachlan (1993), 10.1103/PhysRevLett.71.3043; Blanes, Moan (2002), 10.1016/S0377-0427(01)00492-7";
 const DG: &str = "Gonzalez (1996), 10.1007/BF02440162; McLachlan, Quispel, Robidoux (1999), 10.1098/rsta.1999.0363";
 const EF: &str = "Engø, Faltinsen (2001), 10.1137/S0036142999364212";
+const WW: &str = "Whittaker, Watson, A Course of Modern Analysis (1927), 10.1017/CBO9780511608759";
 const CH: &str = "Cohen, Hairer (2011), 10.1007/s10543-011-0310-z";
 const KL: &str =
     "Suzuki (1990), 10.1016/0375-9601(90)90962-N; Kahan, Li (1997), 10.1090/S0025-5718-97-00873-9";
@@ -141,11 +142,12 @@ catalogue! {
     CohenHairer12: "stage-parallel energy-preserving collocation", ANY, CH;
     CohenHairer14: "stage-parallel energy-preserving collocation", ANY, CH;
     CohenHairer16: "stage-parallel energy-preserving collocation", ANY, CH;
+    Exact: "exact flow; the order is that of the group element", "so(3), or a sum of such, with a quadratic form H that does not couple them; or H that is linear or contains only coordinates that commute", WW;
     EulerArnold2: "symplectic method on T*G", "a system on T*G: a group element is declared", BRM;
 }
 
 /// Ids that are kept for later and have no row in the table yet.
-pub const RESERVED: &[&str] = &["taylor", "exact", "isospectral8", "isospectral16"];
+pub const RESERVED: &[&str] = &["taylor", "isospectral8", "isospectral16"];
 
 #[cfg(test)]
 mod tests {

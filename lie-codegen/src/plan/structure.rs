@@ -6,6 +6,7 @@ use super::planner::Planner;
 use crate::derive::Kernel;
 use crate::exact::Rational;
 use crate::structure::inertia::Body;
+use crate::structure::integrable::Motion;
 use crate::structure::spectrum;
 use crate::symbolic::ExprId;
 
@@ -21,6 +22,8 @@ pub struct Structure {
     pub representation: Option<Representation>,
     /// The summands of a direct sum of algebras so(3).
     pub spins: Option<Spins>,
+    /// The form of the flow, where it is known.
+    pub motion: Option<Motion>,
     /// The inertia of a free rigid body in four dimensions or more.
     pub inertia: Option<Inertia>,
     /// The number of momenta of a system on `T*G`, which are its first coordinates.
@@ -110,6 +113,7 @@ impl Planner<'_> {
             group: self.group(),
             representation: self.representation(),
             spins,
+            motion: self.source.motion,
             inertia,
             momenta: self.source.momenta,
             realization: self.realization(),

@@ -5,6 +5,7 @@ use std::hash::{Hash, Hasher};
 
 use super::{Code, Constants, Fused, Generating, Item, Method, Partner, Plan, Solver};
 use super::{Energy, Function, Spectrum, Structure};
+use crate::structure::integrable::Motion;
 
 /// The width of the column of labels.
 const LABEL: usize = 34;
@@ -98,6 +99,13 @@ impl fmt::Display for Structure {
         }
         if let Some(spins) = &self.spins {
             writeln!(f, "spins {:?}", spins.coordinates)?;
+        }
+        if let Some(motion) = self.motion {
+            let motion = match motion {
+                Motion::Bodies => "free rigid bodies",
+                Motion::Uniform => "a constant gradient along each solution",
+            };
+            writeln!(f, "flow in closed form: {motion}")?;
         }
         if let Some(inertia) = &self.inertia {
             writeln!(f, "free rigid body, planes {:?}", inertia.planes)?;

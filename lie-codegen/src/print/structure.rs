@@ -8,6 +8,7 @@ use super::function::Owner;
 use super::names::{ident, index};
 use crate::exact::Rational;
 use crate::plan::{Code, Spectrum};
+use crate::structure::integrable::Motion;
 
 impl Printer<'_> {
     /// The impls that the system has a structure for.
@@ -15,9 +16,10 @@ impl Printer<'_> {
         let matrices = self.matrix_poisson();
         let spins = self.spin_poisson();
         let inertia = self.inertia_poisson();
+        let integrable = self.integrable_poisson();
         let cotangent = self.cotangent_poisson();
         let group = self.matrix_group();
-        quote! { #group #matrices #spins #inertia #cotangent }
+        quote! { #group #matrices #spins #integrable #inertia #cotangent }
     }
 
     fn matrix_poisson(&self) -> Option<TokenStream> {
@@ -137,6 +139,32 @@ impl Printer<'_> {
                 fn zero_spinors(&self) -> Self::Spinors {
                     ::lie_runtime::__private::SVector::from_element(S::zero())
                 }
+            }
+        })
+    }
+
+    fn integrable_poisson(&self) -> Option<TokenStream> {
+        let motion = self.plan.structure.motion?;
+        let system = self.system_name();
+        let name = ident(&format!("{motion:?}"));
+        let bodies = (motion == Motion::Bodies).then(|| {
+            quote! {
+                fn bodies(&self) -> &[[usize; 3]] {
+                    ::lie_runtime::SpinPoisson::<S>::spins(self)
+                }
+
+                fn body_scale(&self, body: usize) -> S {
+                    ::lie_runtime::SpinPoisson::<S>::scale(self, body)
+                }
+            }
+        });
+        Some(quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::IntegrablePoisson<S> for #system<S> {
+                fn motion(&self) -> ::lie_runtime::__private::Motion {
+                    ::lie_runtime::__private::Motion::#name
+                }
+
+                #bodies
             }
         })
     }

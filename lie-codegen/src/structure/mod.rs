@@ -2,6 +2,7 @@
 
 pub mod group;
 pub mod inertia;
+pub mod integrable;
 pub mod matrices;
 pub mod one_parameter;
 pub mod separable;

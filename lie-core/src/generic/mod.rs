@@ -16,6 +16,7 @@ mod discrete_top;
 mod euler_arnold;
 mod exp_midpoint;
 mod exp_variational;
+mod free_body;
 mod galerkin;
 mod gauss;
 mod generating;
@@ -54,6 +55,7 @@ pub use discrete_top::DiscreteTop;
 pub use euler_arnold::{EulerArnoldHalf, Half};
 pub use exp_midpoint::{ExpMidpoint, ExpRetraction};
 pub use exp_variational::ExpVariational;
+pub use free_body::{FreeBody, principal_axes};
 pub use galerkin::GalerkinStep;
 pub use gauss::Gauss;
 pub use generating::{

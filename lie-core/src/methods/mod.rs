@@ -23,7 +23,7 @@
 //! | [`MoserVeselov`] | `$h M = g J - J g^T, \quad M_1 = g^T M g$`, keeps the energy too | 2 |
 //! | [`EulerArnold2`] | on `T*G`, for a Hamiltonian of g and mu: `$B_{h/2} \circ A_{h/2}$`, symplectic | 2 |
 //!
-//! Explicit, by exponentials: [`LieEuler`], [`Rkmk2`], [`Rkmk3`], [`Rkmk4`], [`Rkmk6`], [`CrouchGrossman3`]
+//! [`Exact`] is the flow itself, where it is known in closed form. Explicit, by exponentials: [`LieEuler`], [`Rkmk2`], [`Rkmk3`], [`Rkmk4`], [`Rkmk6`], [`CrouchGrossman3`]
 //! and [`CommutatorFree4`] for any Lie algebra; [`Splitting`] for a Hamiltonian that is a sum of functions
 //! of one coordinate each. [`Compose`] makes methods of order 4, 6 and 8 of any symmetric one of order 2.
 //!
@@ -40,6 +40,7 @@ pub mod crouch_grossman;
 pub mod discrete_euler_poincare;
 pub mod dopri5;
 pub mod euler_arnold;
+pub mod exact;
 mod explicit;
 mod facts;
 pub mod gauss;
@@ -81,6 +82,7 @@ pub use crouch_grossman::{CrouchGrossman3, CrouchGrossmanStepper};
 pub use discrete_euler_poincare::DiscreteEulerPoincare;
 pub use dopri5::{Dopri5, Dopri5Stepper};
 pub use euler_arnold::{EulerArnold2, EulerArnoldStepper};
+pub use exact::{Exact, ExactStepper};
 pub use facts::{Facts, Preserves};
 pub use gauss::*;
 pub use generating::{Generating, Generating2, Generating4, Generating6};

@@ -1,0 +1,197 @@
+//! The exact flow: free rigid bodies against the reference values, near the separatrix and for any symmetric matrix; constant
+//! velocities; what is kept.
+
+#[path = "common/systems.rs"]
+mod systems;
+#[path = "common/vectors.rs"]
+mod vectors;
+
+use lie_runtime::diagnostics::poisson_defect;
+use lie_runtime::lie_poisson;
+use lie_runtime::methods::{Exact, Facts as _, Gauss16, Method, Stepper};
+use lie_runtime::newton::NewtonOptions;
+use lie_runtime::prelude::*;
+use systems::{Declared, FreeRigidBody, distance};
+use vectors::Reference;
+
+lie_poisson! {
+    /// A body whose axes are not those of the basis.
+    system Oblique {
+        algebra: basis(e1, e2, e3);
+        brackets { [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+        state(x, y, z);
+        hamiltonian: 0.7*x^2 + 0.4*y^2 + 0.55*z^2 + 0.15*x*y - 0.2*y*z + 0.1*x*z;
+    }
+}
+
+lie_poisson! {
+    /// Two bodies that do not know of each other, the second with another bracket.
+    system Pair {
+        algebra: basis(e1, e2, e3, f1, f2, f3);
+        brackets {
+            [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2;
+            [f1, f2] = -2*f3; [f2, f3] = -2*f1; [f3, f1] = -2*f2;
+        }
+        state(x, y, z, u, v, w);
+        hamiltonian: x^2 + y^2/2 + z^2/3 + u^2/4 + v*w;
+    }
+}
+
+lie_poisson! {
+    /// A velocity that does not change.
+    system Linear {
+        algebra: basis(J, P1, P2);
+        brackets { [J, P1] = P2; [J, P2] = -P1; }
+        state(m, p, q);
+        hamiltonian: 0.3*p - 0.2*q + 1.1*m;
+    }
+}
+
+lie_poisson! {
+    /// A function of coordinates that commute.
+    system Commuting {
+        algebra: basis(J, P1, P2);
+        brackets { [J, P1] = P2; [J, P2] = -P1; }
+        state(m, p, q);
+        hamiltonian: sin(p) + p*q^2;
+    }
+}
+
+fn walk<P: Poisson<f64>>(
+    system: &P,
+    method: &impl Method<f64, P>,
+    mu: &mut P::State,
+    h: f64,
+    steps: usize,
+) {
+    let mut stepper = method.stepper(system, h, &NewtonOptions::default());
+    for _ in 0..steps {
+        stepper.step(mu, &mut ()).expect("the step is made");
+    }
+}
+
+#[test]
+fn the_rigid_body_is_where_the_reference_has_it() {
+    let reference = Reference::vector(FreeRigidBody::FILE);
+    let system = FreeRigidBody::declared::<f64>();
+    for (time, expected) in reference.times().iter().zip(reference.states()) {
+        let time: f64 = time.parse().expect("a time");
+        for steps in [1, 7, 200] {
+            let mut mu = FreeRigidBody::initial::<f64>();
+            walk(&system, &Exact, &mut mu, time / steps as f64, steps);
+            let off = distance(mu.as_slice(), &expected);
+            println!("t = {time} in {steps} steps: {off:e}");
+            assert!(off < 4e-16 * (8.0 + time), "{time} {steps}: {off:e}");
+        }
+    }
+}
+
+/// One step of any size is many small ones by a method of order 16.
+#[test]
+fn a_step_is_the_flow() {
+    fn check<P: Lift<f64> + Widen<f64>>(system: &P, start: &[f64], bound: f64)
+    where
+        Exact: Method<f64, P>,
+    {
+        for h in [1e-9, 0.01, 1.0, -3.0, 20.0] {
+            let mut mu = system.zero_state();
+            mu.as_mut_slice().copy_from_slice(start);
+            let mut fine = mu.clone();
+            walk(system, &Exact, &mut mu, h, 1);
+            walk(system, &Gauss16, &mut fine, h / 256.0, 256);
+            let off = distance(mu.as_slice(), fine.as_slice());
+            println!("h = {h}: {off:e}");
+            assert!(off < bound, "{h}: {off:e}");
+        }
+    }
+    check(
+        &Oblique::default().system().unwrap(),
+        &[0.9, -0.4, 0.7],
+        2e-14,
+    );
+    check(
+        &Oblique::default().system().unwrap(),
+        &[0.0, 0.0, 0.0],
+        1e-300,
+    );
+    check(
+        &Pair::default().system().unwrap(),
+        &[0.9, -0.4, 0.7, 0.3, 1.1, -0.6],
+        1e-13,
+    );
+    check(
+        &Linear::default().system().unwrap(),
+        &[0.9, -0.4, 0.7],
+        2e-14,
+    );
+    check(
+        &Commuting::default().system().unwrap(),
+        &[0.9, -0.4, 0.7],
+        5e-14,
+    );
+}
+
+/// Beside the separatrix, where a step passes the unstable axis slowly, and with equal moments.
+#[test]
+fn every_body_and_every_state() {
+    let body = |moments: [f64; 3]| {
+        systems::so3_free_rigid_body::FreeRigidBody {
+            I1: moments[0],
+            I2: moments[1],
+            I3: moments[2],
+        }
+        .system()
+        .unwrap()
+    };
+    for moments in [
+        [1.0, 2.0, 3.0],
+        [3.0, 1.0, 2.0],
+        [2.0, 2.0, 1.0],
+        [1.0, 1.0, 1.0],
+        [1.0, 1.0 + 1e-12, 3.0],
+    ] {
+        let system = body(moments);
+        for tilt in [0.0, 1e-12, 1e-6, 0.1] {
+            let mut mu = system.zero_state();
+            mu.as_mut_slice().copy_from_slice(&[tilt, 1.0, 0.5 * tilt]);
+            let (mut fine, start) = (mu, mu);
+            walk(&system, &Exact, &mut mu, 12.0, 1);
+            walk(&system, &Gauss16, &mut fine, 12.0 / 512.0, 512);
+            let off = distance(mu.as_slice(), fine.as_slice());
+            println!("{moments:?} {tilt:e}: {off:e}");
+            assert!(off < 1e-13, "{moments:?} {tilt:e}: {off:e}");
+            walk(&system, &Exact, &mut mu, -12.0, 1);
+            let back = distance(mu.as_slice(), start.as_slice());
+            assert!(
+                back < 1e-13,
+                "{moments:?} {tilt:e}: {back:e} there and back"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_kept() {
+    let system = Oblique::default().system().unwrap();
+    let mut mu = system.zero_state();
+    mu.as_mut_slice().copy_from_slice(&[0.9, -0.4, 0.7]);
+    let (h, lifted) = (5.0, system.lift());
+    let defect =
+        poisson_defect(&lifted, &Exact, h, mu.as_slice(), &NewtonOptions::default()).unwrap();
+    let control = poisson_defect(
+        &lifted,
+        &Gauss16,
+        h,
+        mu.as_slice(),
+        &NewtonOptions::default(),
+    )
+    .unwrap();
+    println!("{} {defect:e}, gauss16 {control:e}", Exact::ID);
+    assert!(defect < 2e-14 && control > 1e-8, "{defect:e} {control:e}");
+    let (energy, length) = (system.hamiltonian(&mu), distance(mu.as_slice(), &[0.0; 3]));
+    walk(&system, &Exact, &mut mu, h, 100_000);
+    let off = (system.hamiltonian(&mu) - energy).abs();
+    let off = off.max((distance(mu.as_slice(), &[0.0; 3]) - length).abs());
+    println!("energy and length move by {off:e}");
+    assert!(off < 1e-12, "{off:e}");
+}
