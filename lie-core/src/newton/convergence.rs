@@ -33,6 +33,7 @@ impl<S: Scalar> Convergence<S> {
     ///
     /// With `rate` the ratio of the last two updates d, the error left is about `d rate^2` for
     /// Newton's method and `d rate/(1 - rate)` for linear convergence.
+    #[inline(always)]
     pub(super) fn observe(&mut self, update: S, size: S) -> S::Mask {
         let round_off = S::epsilon() * size;
         let goal = self.tolerance * round_off;

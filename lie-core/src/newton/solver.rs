@@ -39,6 +39,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     ///
     /// # Errors
     /// A [`Failure`] if some lane did not converge; the unknown then is the solution in the others.
+    #[inline(always)]
     pub fn solve<E>(
         &mut self,
         equation: &mut E,
@@ -52,7 +53,9 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let mut convergence = Convergence::new(&self.options);
         let mut active = S::Mask::splat(true);
         let mut failed = None;
-        while active.any() && report.iterations < self.options.max_iterations {
+        let mut residual = S::zero();
+        let mut size = scale;
+        while report.iterations < self.options.max_iterations {
             let outcome = update::compute(
                 equation,
                 unknown,
@@ -63,26 +66,32 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             );
             report.iterations += 1;
             report.factorizations += outcome.factorizations;
-            report.residual = largest(S::select(active, outcome.residual, S::zero()));
             report.pivoted |= outcome.pivoted.bits();
+            residual = S::select(active, outcome.residual, S::zero());
 
-            let step = self.workspace.update.max_norm();
-            let infinite = active & !outcome.singular & !step.finite();
-            record(
-                &mut failed,
-                active & outcome.singular,
-                FailureReason::Singular,
-            );
-            record(&mut failed, infinite, FailureReason::NotFinite);
-            active = active & !outcome.singular & !infinite;
-
+            let sound = outcome.update.finite() & !outcome.singular;
+            if !(sound | !active).all() {
+                refuse(&mut failed, active, outcome.singular, sound);
+                active = active & sound;
+                if !active.any() {
+                    break;
+                }
+            }
             unknown.subtract_where(active, &self.workspace.update);
-            let size = scale.max(unknown.max_norm());
-            active = active & !convergence.observe(step, size);
+            if report.iterations % REVIEW == 1 {
+                size = S::largest_magnitude(&[scale, unknown.max_norm()]);
+            }
+            active = active & !convergence.observe(outcome.update, size);
+            if !active.any() {
+                break;
+            }
         }
-        let growing = convergence.growing();
-        record(&mut failed, active & growing, FailureReason::Diverged);
-        record(&mut failed, active & !growing, FailureReason::NotConverged);
+        report.residual = largest(residual);
+        if active.any() {
+            let growing = convergence.growing();
+            record(&mut failed, active & growing, FailureReason::Diverged);
+            record(&mut failed, active & !growing, FailureReason::NotConverged);
+        }
         match failed {
             None => Ok(report),
             Some((reason, lanes)) => Err(Failure {
@@ -92,6 +101,17 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             }),
         }
     }
+}
+
+/// The unknown is measured with the first iteration, and again after so many.
+const REVIEW: u32 = 4;
+
+/// Lanes that go on no longer: their matrix is singular, or their update not finite.
+#[cold]
+fn refuse<M: Mask>(failed: &mut Option<(FailureReason, u64)>, active: M, singular: M, sound: M) {
+    record(failed, active & singular, FailureReason::Singular);
+    let infinite = active & !singular & !sound;
+    record(failed, infinite, FailureReason::NotFinite);
 }
 
 /// Adds lanes to the failed ones; the reason is that of the lowest lane.

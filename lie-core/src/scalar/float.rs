@@ -81,6 +81,14 @@ macro_rules! float_scalar {
             fn abs(self) -> Self {
                 $abs(self)
             }
+            /// Without the sign, bits are ordered like the numbers, and what is not a number comes last.
+            #[inline(always)]
+            fn largest_magnitude(numbers: &[Self]) -> Self {
+                let largest = numbers.iter().fold(0, |largest, number| {
+                    Ord::max(largest, number.to_bits() << 1)
+                });
+                Self::from_bits(largest >> 1)
+            }
             #[inline(always)]
             fn sqrt(self) -> Self {
                 $sqrt(self)
@@ -219,6 +227,23 @@ mod tests {
         );
         assert_eq!(quotient as f32, 1.0, "the control rounds twice");
         assert_eq!(once, 1.0 + f32::EPSILON);
+    }
+
+    #[test]
+    fn the_largest_magnitude_is_that_of_the_numbers() {
+        assert_eq!(f64::largest_magnitude(&[]), 0.0);
+        assert_eq!(f64::largest_magnitude(&[-0.0, 1e-310, -3.0, 2.0]), 3.0);
+        assert_eq!(
+            f32::largest_magnitude(&[1.0, f32::NEG_INFINITY]),
+            f32::INFINITY
+        );
+        for place in 0..3 {
+            for nan in [f64::NAN, -f64::NAN] {
+                let mut numbers = [1.0, f64::INFINITY, -2.0];
+                numbers[place] = nan;
+                assert!(f64::largest_magnitude(&numbers).is_nan());
+            }
+        }
     }
 
     #[test]

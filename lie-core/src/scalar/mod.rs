@@ -132,6 +132,13 @@ pub trait Scalar:
     fn magnitude(self) -> Self {
         self.abs()
     }
+    /// The largest [`Scalar::magnitude`] of some numbers, 0 of none; not a number if one of them is not.
+    #[inline(always)]
+    fn largest_magnitude(numbers: &[Self]) -> Self {
+        numbers.iter().fold(Self::zero(), |largest, number| {
+            largest.max(number.magnitude())
+        })
+    }
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;
     /// Exponential.
