@@ -58,7 +58,7 @@ pub(super) fn compute<S: Scalar, E: Equation<S>>(
     }
     outcome.residual = workspace.update.max_norm();
     outcome.update = outcome.residual;
-    if iteration == Iteration::FixedPoint {
+    if !matches!(iteration, Iteration::Newton | Iteration::Simplified) {
         return outcome;
     }
     equation.solve(&workspace.factors, &mut workspace.update);
