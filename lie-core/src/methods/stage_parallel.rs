@@ -57,7 +57,14 @@ impl<'a, S: Scalar, P: Widen<S>, const STAGES: usize> StageParallelStepper<'a, S
         report: &mut StepReport,
     ) -> Option<StepFailure> {
         let equation = Gauss::<S, P, STAGES>::new(self.system, self.step);
-        let mut stepper = ImplicitStepper::new(equation, self.system.zero_state(), &self.newton);
+        let options = NewtonOptions {
+            iteration: match self.newton.iteration {
+                Iteration::Automatic => Iteration::Newton,
+                chosen => chosen,
+            },
+            ..self.newton
+        };
+        let mut stepper = ImplicitStepper::new(equation, self.system.zero_state(), &options);
         let mut end = mu.clone();
         let outcome = stepper.step(&mut end, &mut ());
         let (solved, failure) = match outcome {
@@ -122,6 +129,7 @@ impl<S: Scalar, P: Widen<S>, const STAGES: usize> Stepper<S>
         let mut report = StepReport {
             evaluations: solved.iterations + u32::from(!follows.all()),
             iterations: solved.iterations,
+            fixed_point: solved.iterations,
             residual: solved.residual,
             substeps: 1,
             ..StepReport::default()
