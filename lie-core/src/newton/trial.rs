@@ -4,7 +4,7 @@ use super::options::{Iteration, NewtonOptions};
 use crate::scalar::{Mask, Scalar};
 
 /// Newton's method takes so many iterations; the fixed point may cost as much.
-const NEWTON: f64 = 2.5;
+const NEWTON: f64 = 2.2;
 /// The fixed point is not tried where it would have to end after fewer iterations.
 const FEWEST: f64 = 6.0;
 /// So many bits of the first update are to be gained.
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn updates_must_shrink_by_the_rate() {
-        let trial = Trial::<f64>::new(&NewtonOptions::default(), 8.0);
+        let trial = Trial::<f64>::new(&NewtonOptions::default(), 20.0 / NEWTON);
         let keeps = |rate: f64| {
             let mut bound = trial.bound();
             (0..8).all(|k| bound.keeps(1e-3 * rate.powi(k), false))

@@ -1,8 +1,8 @@
 //! `f64` and `f32` as scalars.
 
-use super::Scalar;
+use super::{Scalar, elementary};
 
-/// Implements [`Scalar`] for a machine float; functions are those of `libm` under the given names.
+/// Implements [`Scalar`] for a machine float; functions are the given ones.
 macro_rules! float_scalar {
     ($float:ty, $wide:ident, $round:expr, $ratio:expr, $abs:path, $sqrt:path, $pow:path, $atan2:path, $($name:ident = $function:path),*) => {
         impl Scalar for $float {
@@ -140,9 +140,9 @@ float_scalar!(
     libm::atan2,
     exp = libm::exp,
     log = libm::log,
-    sin = libm::sin,
-    cos = libm::cos,
-    tan = libm::tan,
+    sin = elementary::one::sin,
+    cos = elementary::one::cos,
+    tan = elementary::one::tan,
     asin = libm::asin,
     acos = libm::acos,
     atan = libm::atan,
