@@ -5,7 +5,7 @@ use lie_runtime::methods::{Method, Stepper};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
 use spec_systems::so3_free_rigid_body::FreeRigidBody;
-use spec_systems::{se3_heavy_top, so3_free_rigid_body, so4_manakov, su3_quadratic};
+use spec_systems::{se3_heavy_top, so4_manakov, su3_quadratic};
 
 /// Makes steps of 0.05 with the default solver; prints the state at the end.
 fn run<P: Poisson<f64>>(system: &P, mut mu: P::State, method: &impl Method<f64, P>, steps: u32) {
@@ -30,7 +30,7 @@ macro_rules! steps {
             "gauss6" => run(&system, mu, &Gauss6, $steps),
             "gauss16" => run(&system, mu, &Gauss16, $steps),
             "lie-midpoint" => run(&system, mu, &LieMidpoint::exp(), $steps),
-            "collective4" => run(&system, mu, &Collective4::new(), $steps),
+            "collective4" => run(&system, mu, &Collective4::representation(), $steps),
             "cohen-hairer4" => run(&system, mu, &CohenHairer4::new(), $steps),
             "orbit-energy" => run(&system, mu, &OrbitEnergy::gonzalez(), $steps),
             "rk4" => run(&system, mu, &Rk4, $steps),
