@@ -1,8 +1,9 @@
-//! Kernels of the heavy top over f64, generated and written by hand, and `linearize` of su(3), in a loop for a
-//! profiler to count. `tests/instruction_counts.rs` builds and runs this under callgrind; by hand:
-//! `cargo bench --bench instruction_counts -- generated vector_field 1000`.
+//! Kernels of the heavy top over f64, generated and written by hand, `linearize` of su(3), and steps of the main
+//! methods, in a loop for a profiler to count. `tests/instruction_counts.rs` builds and runs this under callgrind; by
+//! hand: `cargo bench --bench instruction_counts -- generated vector_field 1000`, or `se3_heavy_top gauss6 1000`.
 
 mod plain;
+mod steps;
 
 use lie_runtime::{Poisson, generic};
 use spec_systems::se3_heavy_top::{HeavyTop, HeavyTopSystem};
@@ -57,9 +58,13 @@ fn main() -> ExitCode {
         .collect();
     let [form, kernel, repetitions] = arguments.as_slice() else {
         println!("usage: generated|generic|plain vector_field|linearize|su3_linearize REPETITIONS");
+        println!("or a system, a method, and the number of steps");
         return ExitCode::SUCCESS;
     };
     let repetitions: u32 = repetitions.parse().unwrap_or(1);
+    if steps::make(form, kernel, repetitions) {
+        return ExitCode::SUCCESS;
+    }
     if kernel == "su3_linearize" {
         return su3_linearize(repetitions);
     }

@@ -168,6 +168,10 @@ where
         T::solve(factors, residual);
     }
 
+    fn jacobian_cost(&self) -> f64 {
+        self.equation.jacobian_cost()
+    }
+
     #[inline]
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State) {
         self.equation.result(unknown, mu);

@@ -49,6 +49,13 @@ pub trait Equation<S: Scalar> {
     fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask;
     /// Solves `(dr/du) x = r` by the factors, in place of r.
     fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown);
+    /// What an iteration with a Jacobian costs, in evaluations of the residual: [`Equation::linearize`],
+    /// [`Equation::factor`] and [`Equation::solve`]. Decides whether iterations without one are tried. The default is
+    /// `1.5 + n^2/20` of n unknowns, as counted of equations whose elimination is written out.
+    fn jacobian_cost(&self) -> f64 {
+        let size = self.zero_unknown().len() as f64;
+        1.5 + size * size / 20.0
+    }
     /// The state at the end of the step for a solution u.
     fn result(&mut self, unknown: &Self::Unknown, mu: &mut Self::State);
     /// The lanes in which the step is what the method promises, for a solution u and the state at its

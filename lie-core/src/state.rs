@@ -49,27 +49,29 @@ pub trait Unknown<S: Scalar>: Clone {
     fn max_norm(&self) -> S {
         let mut norm = S::zero();
         for part in 0..self.parts() {
-            for &entry in self.part(part) {
-                norm = norm.max(entry.magnitude());
-            }
+            let largest = S::largest_magnitude(self.part(part));
+            norm = if part == 0 {
+                largest
+            } else {
+                S::largest_magnitude(&[norm, largest])
+            };
         }
         norm
     }
     /// The lanes in which every entry is finite.
     #[inline]
     fn finite(&self) -> S::Mask {
-        let mut finite = S::Mask::splat(true);
-        for part in 0..self.parts() {
-            for entry in self.part(part) {
-                finite = finite & entry.finite();
-            }
-        }
-        finite
+        self.max_norm().finite()
     }
     /// Takes the entries of `other` in the lanes of the mask and keeps its own in the rest.
     #[inline]
     fn assign_where(&mut self, mask: S::Mask, other: &Self) {
+        let all = mask.all();
         for part in 0..self.parts() {
+            if all {
+                self.part_mut(part).copy_from_slice(other.part(part));
+                continue;
+            }
             for (mine, &theirs) in self.part_mut(part).iter_mut().zip(other.part(part)) {
                 *mine = S::select(mask, theirs, *mine);
             }
@@ -78,9 +80,15 @@ pub trait Unknown<S: Scalar>: Clone {
     /// Subtracts `other` in the lanes of the mask.
     #[inline]
     fn subtract_where(&mut self, mask: S::Mask, other: &Self) {
+        let all = mask.all();
         for part in 0..self.parts() {
             for (mine, &theirs) in self.part_mut(part).iter_mut().zip(other.part(part)) {
-                *mine = S::select(mask, *mine - theirs, *mine);
+                let difference = *mine - theirs;
+                *mine = if all {
+                    difference
+                } else {
+                    S::select(mask, difference, *mine)
+                };
             }
         }
     }

@@ -20,7 +20,7 @@ pub fn residuals<P: Poisson<f64>>(
     h: f64,
     mu: &P::State,
 ) -> Result<(Vec<f64>, u32), StepFailure> {
-    let own = NewtonOptions::default();
+    let own = NewtonOptions::newton();
     let mut state = mu.clone();
     let iterations = method
         .any_stepper(system, h, &own)

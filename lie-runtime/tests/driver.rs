@@ -65,7 +65,7 @@ fn the_work_of_a_run_is_that_of_its_steps() {
         ImplicitMidpoint: Method<f64, P>,
     {
         let mut mu = state(&system, start);
-        let mut stepper = ImplicitMidpoint.stepper(&system, h, &NewtonOptions::default());
+        let mut stepper = ImplicitMidpoint.stepper(&system, h, &NewtonOptions::newton());
         let (mut evaluations, mut newton, mut factorizations) = (0, 0, 0);
         for _ in 0..5 {
             let report = stepper.step(&mut mu, &mut ()).expect("it converges");
@@ -76,12 +76,14 @@ fn the_work_of_a_run_is_that_of_its_steps() {
         drop(stepper);
         let start = state(&system, start);
         let problem = Problem::new(system, start, (0.0, 5.0 * h));
-        let solution = solve(&problem, ImplicitMidpoint, &Options::new(h)).expect("it converges");
+        let options = Options::new(h).newton(NewtonOptions::newton());
+        let solution = solve(&problem, ImplicitMidpoint, &options).expect("it converges");
         assert_eq!(solution.last().expect("rows").1, &mu);
         let stats = solution.stats;
         assert_eq!((stats.steps, stats.accepted), (5, 5));
         assert_eq!((stats.rejected, stats.failures), (0, 0));
         assert_eq!((stats.evaluations, stats.newton), (evaluations, newton));
+        assert_eq!(stats.fixed_point, 0);
         assert_eq!(
             (stats.factorizations, stats.pivoted),
             (factorizations, pivoted)

@@ -27,7 +27,7 @@ fn one_step<P: Poisson<f64>>(
 
 /// Iterations and factorizations of a step of 0.1 by each variant; all must reach the same state.
 fn work<P: Poisson<f64>>(system: &P, method: &impl Method<f64, P>, start: &[f64]) -> [u32; 6] {
-    let (mu, newton) = one_step(system, method, &NewtonOptions::default(), start);
+    let (mu, newton) = one_step(system, method, &NewtonOptions::newton(), start);
     let (other, simplified) = one_step(system, method, &NewtonOptions::simplified(), start);
     assert!(distance(&mu, &other) < 4e-16);
     let (other, fixed) = one_step(system, method, &NewtonOptions::fixed_point(), start);

@@ -188,16 +188,16 @@ pub struct Run {
 /// The solver of implicit methods.
 #[derive(Args, Clone, Debug, Default)]
 pub struct SolverOptions {
-    /// How implicit methods solve a step: newton (default; a new Jacobian in every iteration),
-    /// simplified (that of the start) or fixed-point (none)
+    /// How implicit methods solve a step: newton (a new Jacobian in every iteration), simplified (that of
+    /// the start), fixed-point (none), or automatic (default; fixed-point where that pays, newton elsewhere)
     #[arg(long, value_name = "NAME")]
     pub iteration: Option<String>,
     /// Error at which that iteration ends, in units of round-off of the state (default 1/1024, so
     /// that it does not add up; 0 goes on until nothing changes)
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     pub newton_tolerance: Option<String>,
-    /// Iterations after which a step has failed (default: newton 50, simplified 200,
-    /// fixed-point 500)
+    /// Iterations after which a step has failed (default: newton 50, also where that is
+    /// chosen automatically; simplified 200, fixed-point 500)
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub max_iterations: Option<String>,
 }

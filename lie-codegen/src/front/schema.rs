@@ -156,7 +156,7 @@ objects! {
         "rtol" rtol: Option<Constant>,
         /// Absolute tolerance.
         "atol" atol: Option<Constant>,
-        /// Iteration of an implicit method: `newton`, `simplified` or `fixed-point`.
+        /// Iteration of an implicit method: `automatic`, `newton`, `simplified` or `fixed-point`.
         "iteration" iteration: Option<String>,
         /// Error at which that iteration ends, in units of round-off.
         "newton-tolerance" newton_tolerance: Option<Constant>,

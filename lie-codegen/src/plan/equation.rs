@@ -63,6 +63,22 @@ pub struct Fused {
     pub ending: Ending,
 }
 
+impl Fused {
+    /// What an iteration with a Jacobian costs and one without, in instructions about: the operations of their kernels,
+    /// and what the iteration does with each coordinate.
+    pub fn costs(&self) -> Option<[usize; 2]> {
+        let weight = |name: &str| {
+            let mut functions = self.functions.iter();
+            let function = functions.find(|function| function.name == name)?;
+            Some(function.program.counts.weight())
+        };
+        let size = self.elimination.order.len();
+        let elimination = 3 * self.elimination.multiplications();
+        let jacobian = weight("linearize")? + elimination + 35 + 25 * size;
+        Some([jacobian, weight("residual")? + 25 + 12 * size])
+    }
+}
+
 /// Where Newton's iteration begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Guess {

@@ -1,6 +1,6 @@
 //! Fused equations of implicit steps.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::Printer;
@@ -119,7 +119,8 @@ impl Printer<'_> {
         let elimination = elimination_methods(&fused.elimination);
         let motion = self.motion(fused);
         let chart = fused.chart.map(|chart| self.within_chart(fused, chart));
-        quote! { #kernels #ending #guess #elimination #motion #chart }
+        let cost = fused.costs().map(jacobian_cost);
+        quote! { #kernels #ending #guess #elimination #cost #motion #chart }
     }
 
     /// A kernel as a method of the equation.
@@ -273,6 +274,16 @@ impl Printer<'_> {
             fn within_chart(&mut self, unknown: &Self::State) -> S::Mask {
                 #joined
             }
+        }
+    }
+}
+
+/// What decides whether iterations without a Jacobian are tried.
+fn jacobian_cost([with, without]: [usize; 2]) -> TokenStream {
+    let [with, without] = [with, without].map(|count| Literal::f64_unsuffixed(count as f64));
+    quote! {
+        fn jacobian_cost(&self) -> f64 {
+            #with / #without
         }
     }
 }

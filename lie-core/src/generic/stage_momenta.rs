@@ -147,6 +147,12 @@ where
         }))
     }
 
+    /// As counted of the built maps: the residual has linear systems of its own.
+    fn jacobian_cost(&self) -> f64 {
+        let size = self.system.dimension() as f64;
+        1.0 + size * size / 8.0
+    }
+
     fn set_base(&mut self, mu: &P::State) {
         self.base.copy_from(mu);
     }

@@ -223,6 +223,7 @@ impl<S: Scalar, T: Stepper<S>> Stages<S, T> {
                 }
             };
             total.evaluations += report.evaluations;
+            total.fixed_point += report.fixed_point;
             total.iterations += report.iterations;
             total.factorizations += report.factorizations;
             total.residual = Scalar::max(total.residual, report.residual);

@@ -109,7 +109,7 @@ impl<S: Scalar, P: Poisson<S>> Method<S, P> for Dopri5 {
             length: h.abs(),
             sign: S::select(h.less(S::zero()), -S::one(), S::one()),
             proposal: None,
-            error_before: S::from_f64(1e-4),
+            log_error_before: S::from_f64(-4.0 * core::f64::consts::LN_10),
             slopes: core::array::from_fn(|_| zero.clone()),
             current: zero.clone(),
             point: zero,
@@ -127,7 +127,7 @@ pub struct Dopri5Stepper<'a, S: Scalar, P: Poisson<S>> {
     sign: S,
     /// The size of the next step, kept from one step of the grid to the next.
     proposal: Option<S>,
-    error_before: S,
+    log_error_before: S,
     slopes: [P::State; 7],
     current: P::State,
     point: P::State,
@@ -240,22 +240,24 @@ impl<S: Scalar, P: Poisson<S>> Dopri5Stepper<'_, S, P> {
         let rejected = progress.active & !accepted;
         progress.report.substeps += u32::from(accepted.any());
         progress.report.rejected += u32::from(rejected.any());
-        let next = size / self.divisor(error, accepted);
+        let log_error = error.log();
+        let next = size / self.divisor(log_error, accepted);
         let after_rejection = accepted & progress.after_rejection;
         let next = S::select(after_rejection, minimum(next, size), next);
         // a step cut short by the end of the interval says nothing against a longer one
         let kept = S::select(accepted & last, progress.proposal.max(next), next);
         progress.proposal = S::select(progress.active, kept, progress.proposal);
-        let least = error.max(S::from_f64(1e-4));
-        self.error_before = S::select(accepted, least, self.error_before);
+        let least = log_error.max(S::from_f64(-4.0 * core::f64::consts::LN_10));
+        self.log_error_before = S::select(accepted, least, self.log_error_before);
         progress.after_rejection = rejected;
     }
 
-    /// The factor by which the next step is divided after an error.
-    fn divisor(&self, error: S, accepted: S::Mask) -> S {
-        let plain = error.powf(S::from_f64(0.17));
-        let controlled = plain / self.error_before.powf(S::from_f64(0.04));
-        let divisor = S::select(accepted, controlled, plain) / S::from_f64(0.9);
+    /// The factor by which the next step is divided after an error, given by its logarithm.
+    fn divisor(&self, log_error: S, accepted: S::Mask) -> S {
+        // error^0.17/error_before^0.04, the second factor after an accepted step alone
+        let plain = log_error * S::from_f64(0.17);
+        let controlled = plain - self.log_error_before * S::from_f64(0.04);
+        let divisor = S::select(accepted, controlled, plain).exp() / S::from_f64(0.9);
         let divisor = divisor.max(S::select(accepted, S::ratio(1.0, 10.0), S::one()));
         S::select(
             divisor.finite(),
@@ -383,15 +385,16 @@ mod tests {
     #[test]
     fn growth_is_limited() {
         let mut stepper = stepper(1e-6, 1e-9);
-        stepper.error_before = 1e-4;
-        assert_eq!(stepper.divisor(0.0, true), 0.1);
-        assert_eq!(stepper.divisor(1e-12, true), 0.1);
-        assert_eq!(stepper.divisor(1e30, false), 5.0);
-        assert_eq!(stepper.divisor(0.3, false), 1.0);
-        assert_eq!(stepper.divisor(f64::NAN, false), 10.0);
+        stepper.log_error_before = 1e-4_f64.ln();
+        let divisor = |error: f64, accepted| stepper.divisor(error.ln(), accepted);
+        assert_eq!(divisor(0.0, true), 0.1);
+        assert_eq!(divisor(1e-12, true), 0.1);
+        assert_eq!(divisor(1e30, false), 5.0);
+        assert_eq!(divisor(0.3, false), 1.0);
+        assert_eq!(divisor(f64::NAN, false), 10.0);
         let expected = 0.02_f64.powf(0.17) / 1e-4_f64.powf(0.04) / 0.9;
-        assert!((stepper.divisor(0.02, true) - expected).abs() < 1e-15);
+        assert!((divisor(0.02, true) - expected).abs() < 1e-15);
         let expected = 50.0_f64.powf(0.17) / 0.9;
-        assert!((stepper.divisor(50.0, false) - expected).abs() < 1e-15);
+        assert!((divisor(50.0, false) - expected).abs() < 1e-15);
     }
 }

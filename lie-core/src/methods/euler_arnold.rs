@@ -111,6 +111,7 @@ impl<S: Scalar, P: CotangentPoisson<S>> Stepper<S> for EulerArnoldStepper<'_, S,
             };
             report.evaluations += part.evaluations;
             report.iterations += part.iterations;
+            report.fixed_point += part.fixed_point;
             report.factorizations += part.factorizations;
             report.residual = Scalar::max(report.residual, part.residual);
             report.pivoted |= part.pivoted;

@@ -2,7 +2,7 @@
 
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
-use crate::newton::{FailureReason, Newton, NewtonOptions};
+use crate::newton::{Failure, FailureReason, Newton, NewtonOptions, NewtonReport};
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
 
@@ -41,6 +41,7 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
     }
 
     /// Advances one step without a sink.
+    #[inline(always)]
     fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
         self.equation.set_base(mu);
         self.equation.initial_guess(&mut self.unknown);
@@ -48,6 +49,28 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         let solved = self
             .newton
             .solve(&mut self.equation, &mut self.unknown, scale);
+        self.equation.result(&self.unknown, &mut self.next);
+        let finite = self.next.finite();
+        let charted = self.equation.within_chart(&self.unknown);
+        let resolved = self.equation.resolved(&self.unknown, &self.next);
+        if let Ok(report) = &solved
+            && (finite & charted & resolved).all()
+        {
+            mu.copy_from(&self.next);
+            return Ok(StepReport::implicit(report));
+        }
+        self.refuse(mu, solved, [finite, charted, resolved])
+    }
+
+    /// Takes over the step in the lanes where nothing is against it, and says what is in the others.
+    #[cold]
+    #[inline(never)]
+    fn refuse(
+        &mut self,
+        mu: &mut E::State,
+        solved: Result<NewtonReport, Failure>,
+        [finite, charted, resolved]: [S::Mask; 3],
+    ) -> Result<StepReport, StepFailure> {
         let (report, mut failure) = match solved {
             Ok(report) => (StepReport::implicit(&report), None),
             Err(failure) => {
@@ -56,10 +79,6 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
             }
         };
         let good = !S::Mask::from_bits(failure.map_or(0, |failure| failure.lanes));
-        self.equation.result(&self.unknown, &mut self.next);
-        let finite = self.next.finite();
-        let charted = self.equation.within_chart(&self.unknown);
-        let resolved = self.equation.resolved(&self.unknown, &self.next);
         mu.assign_where(good & finite & charted & resolved, &self.next);
         for (bad, reason) in [
             (good & !finite, FailureReason::NotFinite),

@@ -116,6 +116,7 @@ where
         let report = StepReport {
             evaluations: solved.iterations + u32::from(!follows.all()),
             iterations: solved.iterations,
+            fixed_point: solved.iterations,
             residual: solved.residual,
             substeps: 1,
             ..StepReport::default()

@@ -140,7 +140,14 @@ where
         report: &mut StepReport,
     ) -> Option<StepFailure> {
         let equation = F::equation(self.system, self.step);
-        let mut stepper = ImplicitStepper::new(equation, self.system.zero_state(), &self.newton);
+        let options = NewtonOptions {
+            iteration: match self.newton.iteration {
+                Iteration::Automatic => Iteration::Newton,
+                chosen => chosen,
+            },
+            ..self.newton
+        };
+        let mut stepper = ImplicitStepper::new(equation, self.system.zero_state(), &options);
         let mut end = mu.clone();
         let outcome = stepper.step(&mut end, &mut ());
         let (solved, failure) = match outcome {
@@ -209,6 +216,7 @@ where
         let mut report = StepReport {
             evaluations: solved.iterations + u32::from(!follows.all()),
             iterations: solved.iterations,
+            fixed_point: solved.iterations,
             residual: solved.residual,
             substeps: 1,
             ..StepReport::default()

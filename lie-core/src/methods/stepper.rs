@@ -15,6 +15,8 @@ pub struct StepReport {
     pub evaluations: u32,
     /// Iterations of the solver.
     pub iterations: u32,
+    /// Those among them without a Jacobian.
+    pub fixed_point: u32,
     /// Jacobians factored.
     pub factorizations: u32,
     /// Largest entry of the residual when it was last evaluated; 0 of an explicit method.
@@ -33,6 +35,7 @@ impl StepReport {
         Self {
             evaluations: report.iterations + 1,
             iterations: report.iterations,
+            fixed_point: report.fixed_point,
             factorizations: report.factorizations,
             residual: report.residual,
             substeps: 1,

@@ -1,6 +1,6 @@
 //! When an iteration has converged, lane by lane.
 
-use super::options::{Iteration, NewtonOptions};
+use super::options::Iteration;
 use crate::scalar::{Mask, Scalar};
 
 /// Updates up to this many units of round-off that no longer shrink are round-off themselves.
@@ -17,10 +17,12 @@ pub(super) struct Convergence<S> {
 }
 
 impl<S: Scalar> Convergence<S> {
-    pub(super) fn new(options: &NewtonOptions) -> Self {
+    /// For an iteration that ends at an error of `tolerance` units of round-off.
+    #[inline(always)]
+    pub(super) fn new(iteration: Iteration, tolerance: f64) -> Self {
         Self {
-            quadratic: options.iteration == Iteration::Newton,
-            tolerance: S::from_f64(options.tolerance),
+            quadratic: iteration == Iteration::Newton,
+            tolerance: S::from_f64(tolerance),
             first: S::zero(),
             previous: S::zero(),
             count: 0,
@@ -33,6 +35,7 @@ impl<S: Scalar> Convergence<S> {
     ///
     /// With `rate` the ratio of the last two updates d, the error left is about `d rate^2` for
     /// Newton's method and `d rate/(1 - rate)` for linear convergence.
+    #[inline(always)]
     pub(super) fn observe(&mut self, update: S, size: S) -> S::Mask {
         let round_off = S::epsilon() * size;
         let goal = self.tolerance * round_off;
@@ -59,6 +62,12 @@ impl<S: Scalar> Convergence<S> {
         converged
     }
 
+    /// The lanes in which an update may be round-off.
+    #[inline(always)]
+    pub(super) fn is_round_off(&self, update: S, size: S) -> S::Mask {
+        update.less_equal(S::from_f64(STAGNATION) * S::epsilon() * size)
+    }
+
     /// The lanes whose last update is larger than the first.
     pub(super) fn growing(&self) -> S::Mask {
         self.first.less(self.previous)
@@ -67,10 +76,11 @@ impl<S: Scalar> Convergence<S> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::options::NewtonOptions;
     use super::*;
 
     fn iterations(options: &NewtonOptions, updates: &[f64]) -> Option<usize> {
-        let mut convergence = Convergence::<f64>::new(options);
+        let mut convergence = Convergence::<f64>::new(options.iteration, options.tolerance);
         updates
             .iter()
             .position(|&update| convergence.observe(update, 1.0))
@@ -79,7 +89,7 @@ mod tests {
 
     #[test]
     fn quadratic_convergence_is_foreseen() {
-        let options = NewtonOptions::default();
+        let options = NewtonOptions::newton();
         assert_eq!(iterations(&options, &[1e-3, 1e-6, 1e-12, 1e-24]), Some(3));
         assert_eq!(iterations(&options, &[1e-4, 1e-9, 1e-18]), Some(2));
         assert_eq!(iterations(&options, &[1e-17]), Some(1));
@@ -103,7 +113,7 @@ mod tests {
 
     #[test]
     fn growth_is_seen() {
-        let mut convergence = Convergence::<f64>::new(&NewtonOptions::default());
+        let mut convergence = Convergence::<f64>::new(Iteration::Newton, 0.0);
         convergence.observe(1.0, 1.0);
         convergence.observe(0.5, 1.0);
         assert!(!convergence.growing());

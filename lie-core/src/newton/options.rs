@@ -3,8 +3,13 @@
 /// Which matrix an iteration solves with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Iteration {
-    /// Newton's method: a new Jacobian in every iteration. Converges quadratically.
+    /// The fixed point where a Jacobian costs so much more than a residual that this may pay
+    /// ([`Equation::jacobian_cost`](crate::Equation::jacobian_cost)), Newton's method elsewhere. A lane in which the
+    /// updates of the fixed point shrink too slowly is solved by Newton's method from the start of the step, and so
+    /// are its next steps, until the fixed point is tried again.
     #[default]
+    Automatic,
+    /// Newton's method: a new Jacobian in every iteration. Converges quadratically.
     Newton,
     /// Simplified Newton: the Jacobian of the start in every iteration. Converges linearly, by a
     /// factor proportional to the change of the Jacobian.
@@ -24,14 +29,14 @@ pub struct NewtonOptions {
     /// updates. The default 2^-10 keeps the error that is left far below round-off, so that it
     /// does not add up to a drift over millions of steps.
     pub tolerance: f64,
-    /// The number of iterations after which a step has failed.
+    /// The number of iterations after which a step has failed; of an automatic choice, those of Newton's method.
     pub max_iterations: u32,
 }
 
 impl Default for NewtonOptions {
     fn default() -> Self {
         Self {
-            iteration: Iteration::Newton,
+            iteration: Iteration::Automatic,
             tolerance: 1.0 / 1024.0,
             max_iterations: 50,
         }
@@ -39,6 +44,14 @@ impl Default for NewtonOptions {
 }
 
 impl NewtonOptions {
+    /// Newton's method alone.
+    pub fn newton() -> Self {
+        Self {
+            iteration: Iteration::Newton,
+            ..Self::default()
+        }
+    }
+
     /// Simplified Newton, with room for its slower convergence.
     pub fn simplified() -> Self {
         Self {

@@ -7,6 +7,8 @@ use thiserror::Error;
 pub struct NewtonReport {
     /// Iterations, of the lane that took most.
     pub iterations: u32,
+    /// Those among them without a Jacobian.
+    pub fixed_point: u32,
     /// Jacobians computed and factored.
     pub factorizations: u32,
     /// Largest entry of the residual when it was last evaluated (before the last update).

@@ -21,6 +21,8 @@ pub(super) struct Workspace<S: Scalar, U, M> {
 pub(super) struct Outcome<S: Scalar> {
     /// Size of the residual.
     pub(super) residual: S,
+    /// Size of the update.
+    pub(super) update: S,
     /// Lanes solved with row exchanges.
     pub(super) pivoted: S::Mask,
     /// Lanes whose Jacobian has no inverse.
@@ -31,6 +33,7 @@ pub(super) struct Outcome<S: Scalar> {
 
 /// Computes the update of an iteration at an unknown into `workspace.update`; it is to be
 /// subtracted from the unknown.
+#[inline(always)]
 pub(super) fn compute<S: Scalar, E: Equation<S>>(
     equation: &mut E,
     unknown: &E::Unknown,
@@ -41,16 +44,12 @@ pub(super) fn compute<S: Scalar, E: Equation<S>>(
 ) -> Outcome<S> {
     let mut outcome = Outcome {
         residual: S::zero(),
+        update: S::zero(),
         pivoted: S::Mask::splat(false),
         singular: S::Mask::splat(false),
         factorizations: 0,
     };
-    if iteration == Iteration::FixedPoint {
-        equation.residual(unknown, &mut workspace.update);
-        outcome.residual = workspace.update.max_norm();
-        return outcome;
-    }
-    if iteration == Iteration::Newton || first {
+    if iteration == Iteration::Newton || (first && iteration == Iteration::Simplified) {
         equation.linearize(unknown, &mut workspace.update, &mut workspace.factors);
         workspace.safe = equation.factor(&mut workspace.factors);
         outcome.factorizations += 1;
@@ -58,16 +57,25 @@ pub(super) fn compute<S: Scalar, E: Equation<S>>(
         equation.residual(unknown, &mut workspace.update);
     }
     outcome.residual = workspace.update.max_norm();
-    equation.solve(&workspace.factors, &mut workspace.update);
-    outcome.pivoted = !workspace.safe & active & outcome.residual.finite();
-    if outcome.pivoted.any() {
-        outcome.singular = redo(equation, unknown, outcome.pivoted, workspace);
-        outcome.factorizations += 1;
+    outcome.update = outcome.residual;
+    if !matches!(iteration, Iteration::Newton | Iteration::Simplified) {
+        return outcome;
     }
+    equation.solve(&workspace.factors, &mut workspace.update);
+    if !(workspace.safe | !active).all() {
+        outcome.pivoted = !workspace.safe & active & outcome.residual.finite();
+        if outcome.pivoted.any() {
+            outcome.singular = redo(equation, unknown, outcome.pivoted, workspace);
+            outcome.factorizations += 1;
+        }
+    }
+    outcome.update = workspace.update.max_norm();
     outcome
 }
 
 /// Solves the lanes of a mask one by one with row exchanges; returns those that are singular.
+#[cold]
+#[inline(never)]
 fn redo<S: Scalar, E: Equation<S>>(
     equation: &mut E,
     unknown: &E::Unknown,

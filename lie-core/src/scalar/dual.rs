@@ -182,10 +182,16 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(self.value.log(), S::one() / self.value)
     }
     fn sin(self) -> Self {
-        self.chain(self.value.sin(), self.value.cos())
+        let (sine, cosine) = self.value.sin_cos();
+        self.chain(sine, cosine)
     }
     fn cos(self) -> Self {
-        self.chain(self.value.cos(), -self.value.sin())
+        let (sine, cosine) = self.value.sin_cos();
+        self.chain(cosine, -sine)
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let (sine, cosine) = self.value.sin_cos();
+        (self.chain(sine, cosine), self.chain(cosine, -sine))
     }
     fn tan(self) -> Self {
         let value = self.value.tan();

@@ -1,8 +1,8 @@
 //! `f64` and `f32` as scalars.
 
-use super::Scalar;
+use super::{Scalar, elementary};
 
-/// Implements [`Scalar`] for a machine float; functions are those of `libm` under the given names.
+/// Implements [`Scalar`] for a machine float; functions are the given ones.
 macro_rules! float_scalar {
     ($float:ty, $wide:ident, $round:expr, $ratio:expr, $abs:path, $sqrt:path, $pow:path, $atan2:path, $($name:ident = $function:path),*) => {
         impl Scalar for $float {
@@ -81,6 +81,14 @@ macro_rules! float_scalar {
             fn abs(self) -> Self {
                 $abs(self)
             }
+            /// Without the sign, bits are ordered like the numbers, and what is not a number comes last.
+            #[inline(always)]
+            fn largest_magnitude(numbers: &[Self]) -> Self {
+                let largest = numbers.iter().fold(0, |largest, number| {
+                    Ord::max(largest, number.to_bits() << 1)
+                });
+                Self::from_bits(largest >> 1)
+            }
             #[inline(always)]
             fn sqrt(self) -> Self {
                 $sqrt(self)
@@ -132,9 +140,9 @@ float_scalar!(
     libm::atan2,
     exp = libm::exp,
     log = libm::log,
-    sin = libm::sin,
-    cos = libm::cos,
-    tan = libm::tan,
+    sin = elementary::one::sin,
+    cos = elementary::one::cos,
+    tan = elementary::one::tan,
     asin = libm::asin,
     acos = libm::acos,
     atan = libm::atan,
@@ -219,6 +227,23 @@ mod tests {
         );
         assert_eq!(quotient as f32, 1.0, "the control rounds twice");
         assert_eq!(once, 1.0 + f32::EPSILON);
+    }
+
+    #[test]
+    fn the_largest_magnitude_is_that_of_the_numbers() {
+        assert_eq!(f64::largest_magnitude(&[]), 0.0);
+        assert_eq!(f64::largest_magnitude(&[-0.0, 1e-310, -3.0, 2.0]), 3.0);
+        assert_eq!(
+            f32::largest_magnitude(&[1.0, f32::NEG_INFINITY]),
+            f32::INFINITY
+        );
+        for place in 0..3 {
+            for nan in [f64::NAN, -f64::NAN] {
+                let mut numbers = [1.0, f64::INFINITY, -2.0];
+                numbers[place] = nan;
+                assert!(f64::largest_magnitude(&numbers).is_nan());
+            }
+        }
     }
 
     #[test]

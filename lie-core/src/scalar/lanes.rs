@@ -1,9 +1,10 @@
 //! SIMD lanes over the vectors of the `wide` crate.
 //!
 //! Arithmetic and square roots are the vector's, which round like the scalar ones; elementary
-//! functions are those of one lane, lane by lane, because the vector's own differ in the last bits.
+//! functions are those of one lane, lane by lane, because the vector's own differ in the last bits; where all angles are
+//! small, the operations of one lane are made in all lanes at once.
 
-use super::{Mask, Scalar};
+use super::{Mask, Scalar, elementary};
 use core::fmt;
 use core::ops::{
     Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,
@@ -36,9 +37,23 @@ macro_rules! lane_function {
     )*};
 }
 
+/// Functions that are polynomials of small angles in all lanes.
+macro_rules! small_angles {
+    ($lane:ty, $($name:ident),*) => {$(
+        #[inline]
+        fn $name(self) -> Self {
+            if elementary::is_small(self).all() {
+                elementary::$name(self)
+            } else {
+                self.map(<$lane as Scalar>::$name)
+            }
+        }
+    )*};
+}
+
 /// Defines a scalar of several lanes and its mask.
 macro_rules! lanes {
-    ($(#[$doc:meta])* $name:ident, $mask:ident, $vector:ty, $lane:ty, $bits:ty, $count:literal) => {
+    ($(#[$doc:meta])* $name:ident, $mask:ident, $vector:ty, $lane:ty, $bits:ty, $count:literal, $angles:ident) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Default, PartialEq)]
         #[repr(transparent)]
@@ -155,7 +170,8 @@ macro_rules! lanes {
             fn sqrt(self) -> Self {
                 Self(self.0.sqrt())
             }
-            lane_function!($lane, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh);
+            lane_function!($lane, exp, log, asin, acos, atan, sinh, cosh, tanh);
+            $angles!($lane, sin, cos, tan);
             #[inline]
             fn atan2(self, x: Self) -> Self {
                 self.zip(x, <$lane as Scalar>::atan2)
@@ -253,15 +269,15 @@ macro_rules! lanes {
 
 lanes!(
     /// Eight f64 in lanes: one AVX-512 register, two of AVX or four of SSE2.
-    F64x8, Mask64x8, wide::f64x8, f64, u64, 8
+    F64x8, Mask64x8, wide::f64x8, f64, u64, 8, small_angles
 );
 lanes!(
     /// Four f64 in lanes: one AVX register or two of SSE2.
-    F64x4, Mask64x4, wide::f64x4, f64, u64, 4
+    F64x4, Mask64x4, wide::f64x4, f64, u64, 4, small_angles
 );
 lanes!(
     /// Eight f32 in lanes: one AVX register or two of SSE2.
-    F32x8, Mask32x8, wide::f32x8, f32, u32, 8
+    F32x8, Mask32x8, wide::f32x8, f32, u32, 8, lane_function
 );
 
 impl F64x8 {

@@ -1,10 +1,11 @@
 //! The scalar of all numeric code: `f64`, `f32`, SIMD lanes and dual numbers behind one trait.
 //!
-//! Elementary functions come from the `libm` crate in every scalar, lane by lane, and nothing is
-//! contracted to a fused multiply-add: the same input gives the same bits on every machine, and a
-//! lane gives the bits of the scalar run.
+//! Elementary functions come from the `libm` crate in every scalar, lane by lane, but for sine, cosine and tangent of
+//! small angles, which are polynomials in all lanes at once; nothing is contracted to a fused multiply-add: the same
+//! input gives the same bits on every machine, and a lane gives the bits of the scalar run.
 
 mod dual;
+mod elementary;
 mod float;
 #[cfg(feature = "lanes")]
 mod lanes;
@@ -132,6 +133,13 @@ pub trait Scalar:
     fn magnitude(self) -> Self {
         self.abs()
     }
+    /// The largest [`Scalar::magnitude`] of some numbers, 0 of none; not a number if one of them is not.
+    #[inline(always)]
+    fn largest_magnitude(numbers: &[Self]) -> Self {
+        numbers.iter().fold(Self::zero(), |largest, number| {
+            largest.max(number.magnitude())
+        })
+    }
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;
     /// Exponential.
@@ -142,6 +150,11 @@ pub trait Scalar:
     fn sin(self) -> Self;
     /// Cosine of an angle in radians.
     fn cos(self) -> Self;
+    /// Sine and cosine of an angle in radians.
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        (self.sin(), self.cos())
+    }
     /// Tangent of an angle in radians.
     fn tan(self) -> Self;
     /// Inverse sine in radians.

@@ -134,7 +134,7 @@ fn limited() -> bool {
         let mut equation = straight();
         let options = NewtonOptions {
             max_iterations,
-            ..NewtonOptions::default()
+            ..NewtonOptions::newton()
         };
         let mut unknown = Vector::zeros();
         let outcome = Newton::new(&equation, &options).solve(&mut equation, &mut unknown, 1.0);
@@ -148,7 +148,7 @@ fn limited() -> bool {
 
 /// What of the iteration does not do what it is for.
 pub(super) fn unsound() -> Vec<&'static str> {
-    let (newton, simplified) = (NewtonOptions::default(), NewtonOptions::simplified());
+    let (newton, simplified) = (NewtonOptions::newton(), NewtonOptions::simplified());
     let exchanging = |options| in_two(without_diagonal(), options, true);
     let sound = [
         (

@@ -142,6 +142,7 @@ fn is_work_of<V>(solution: &Solution<f64, V>, steps: impl Iterator<Item = StepRe
         work.steps += 1;
         work.evaluations += u64::from(report.evaluations);
         work.newton += u64::from(report.iterations);
+        work.fixed_point += u64::from(report.fixed_point);
         work.factorizations += u64::from(report.factorizations);
         work.pivoted += u64::from(report.pivoted != 0);
         work.accepted += u64::from(report.substeps);

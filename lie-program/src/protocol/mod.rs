@@ -50,6 +50,7 @@ impl Tolerances {
 #[derive(Deserialize, Serialize)]
 #[serde(remote = "Iteration", rename_all = "kebab-case")]
 enum IterationInWords {
+    Automatic,
     Newton,
     Simplified,
     FixedPoint,
@@ -263,8 +264,10 @@ pub struct Work {
     pub steps: u64,
     /// Evaluations of the vector field or the residual.
     pub evaluations: u64,
-    /// Newton iterations.
+    /// Iterations of the solver.
     pub newton: u64,
+    /// Those among them without a Jacobian.
+    pub fixed_point: u64,
     /// Steps that an adaptive method took within those; every other method takes one.
     pub accepted: u64,
     /// Steps tried and refused by an adaptive method.
@@ -277,6 +280,7 @@ impl From<&Stats> for Work {
             steps: stats.steps,
             evaluations: stats.evaluations,
             newton: stats.newton,
+            fixed_point: stats.fixed_point,
             accepted: stats.accepted,
             rejected: stats.rejected,
         }

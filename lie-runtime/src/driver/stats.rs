@@ -11,6 +11,8 @@ pub struct Stats {
     pub evaluations: u64,
     /// Iterations of the solver.
     pub newton: u64,
+    /// Those among them without a Jacobian.
+    pub fixed_point: u64,
     /// Jacobians factored.
     pub factorizations: u64,
     /// Steps in which some lane had a small pivot and was solved with row exchanges.
@@ -39,6 +41,7 @@ impl Stats {
     fn add_work(&mut self, report: &StepReport) {
         self.evaluations += u64::from(report.evaluations);
         self.newton += u64::from(report.iterations);
+        self.fixed_point += u64::from(report.fixed_point);
         self.factorizations += u64::from(report.factorizations);
         self.pivoted += u64::from(report.pivoted != 0);
         self.accepted += u64::from(report.substeps);

@@ -60,7 +60,7 @@ fn text(cell: &Cell) -> String {
             cell.steps
         ),
         Outcome::Kept => format!(
-            "{place}: energy {} (grows {}), Casimirs {} (grows {}), {} Newton iterations",
+            "{place}: energy {} (grows {}), Casimirs {} (grows {}), {} iterations of the solver",
             short(cell.energy.drift),
             short(cell.energy.growth),
             short(cell.casimirs.drift),

@@ -29,7 +29,7 @@ use bar::Bar;
 use outputs::Outputs;
 use plan::Plan;
 use reception::Reception;
-use summary::{Drift, Solver};
+use summary::Drift;
 
 /// Runs a spec.
 ///
@@ -111,9 +111,9 @@ fn integrate(
     if !flags.quiet && matches!(outcome, Outcome::Done) {
         say_of_tolerance(plan, received.at_round_off);
         let title = title(spec, plan, received.step);
-        let solver = Solver::of(&plan.method);
+        let adaptive = plan.method.is_adaptive();
         let (work, drift) = (&received.work, &received.drift);
-        let text = summary::text(&title, work, solver, drift, clock.elapsed());
+        let text = summary::text(&title, work, adaptive, drift, clock.elapsed());
         eprint!("{text}");
     }
     let by_tolerance = matches!(plan.pace.0, Pace::Tolerance(_));

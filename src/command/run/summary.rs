@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-use lie_codegen::methods::Choice;
 use lie_poisson::plot::reference;
 use lie_program::protocol::Work;
 use lie_runtime::diagnostics::InvariantDrift;
@@ -79,39 +78,21 @@ fn short(error: f64) -> String {
     }
 }
 
-/// What a step of the method costs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Solver {
-    /// Steps of its own within those of the grid.
-    Adaptive,
-    /// Newton's iteration, if any.
-    Newton,
-    /// Fixed-point iteration.
-    FixedPoint,
-}
-
-impl Solver {
-    /// That of a method.
-    pub fn of(method: &Choice) -> Self {
-        let fixed_point = method.solved().entry().is_some_and(|row| row.fixed_point);
-        match (method.is_adaptive(), fixed_point) {
-            (true, _) => Self::Adaptive,
-            (false, true) => Self::FixedPoint,
-            (false, false) => Self::Newton,
-        }
-    }
-
-    fn iterations(self) -> &'static str {
-        match self {
-            Self::FixedPoint => "fixed-point iterations",
-            Self::Adaptive | Self::Newton => "Newton iterations",
-        }
+/// The iterations of a step, of each kind that there were.
+fn iterations(work: &Work) -> String {
+    let per_step = |count: u64| count as f64 / work.steps as f64;
+    let fixed = per_step(work.fixed_point);
+    let newton = per_step(work.newton - work.fixed_point);
+    match (work.fixed_point, work.newton - work.fixed_point) {
+        (0, _) => format!(", {newton:.2} Newton iterations per step"),
+        (_, 0) => format!(", {fixed:.2} fixed-point iterations per step"),
+        _ => format!(", {fixed:.2} fixed-point and {newton:.2} Newton iterations per step"),
     }
 }
 
 /// What was done, and how well the invariants were kept; for a method that chooses its own steps, how many those
 /// were, and whether it had a choice.
-pub fn text(title: &str, work: &Work, solver: Solver, drift: &Drift, time: Duration) -> String {
+pub fn text(title: &str, work: &Work, adaptive: bool, drift: &Drift, time: Duration) -> String {
     let steps = work.steps;
     let mut text = format!(
         "{title}: {steps} steps to t = {:?} in {:.3} s",
@@ -119,13 +100,8 @@ pub fn text(title: &str, work: &Work, solver: Solver, drift: &Drift, time: Durat
         time.as_secs_f64()
     );
     if work.newton > 0 && steps > 0 {
-        text.push_str(&format!(
-            ", {:.2} {} per step",
-            work.newton as f64 / steps as f64,
-            solver.iterations()
-        ));
+        text.push_str(&iterations(work));
     }
-    let adaptive = solver == Solver::Adaptive;
     if adaptive {
         let (own, refused) = (work.accepted, work.rejected);
         text.push_str(&format!(
@@ -163,13 +139,7 @@ mod tests {
             newton: 5,
             ..Work::default()
         };
-        let text = text(
-            "T",
-            &work,
-            Solver::Newton,
-            &drift,
-            Duration::from_millis(1500),
-        );
+        let text = text("T", &work, false, &drift, Duration::from_millis(1500));
         assert_eq!(
             text,
             "T: 2 steps to t = 1.0 in 1.500 s, 2.50 Newton iterations per step\n\
@@ -182,6 +152,23 @@ mod tests {
     }
 
     #[test]
+    fn iterations_are_counted_by_their_kind() {
+        let of = |newton, fixed_point| {
+            iterations(&Work {
+                steps: 4,
+                newton,
+                fixed_point,
+                ..Work::default()
+            })
+        };
+        assert_eq!(of(10, 10), ", 2.50 fixed-point iterations per step");
+        assert_eq!(
+            of(11, 10),
+            ", 2.50 fixed-point and 0.25 Newton iterations per step"
+        );
+    }
+
+    #[test]
     fn adaptive_methods_say_how_many_steps_were_their_own() {
         let drift = Drift::new(&[]);
         let of = |accepted, rejected| {
@@ -191,7 +178,7 @@ mod tests {
                 rejected,
                 ..Work::default()
             };
-            text("T", &work, Solver::Adaptive, &drift, Duration::ZERO)
+            text("T", &work, true, &drift, Duration::ZERO)
         };
         assert!(of(25, 2).contains(", 25 adaptive steps within these, 2 refused\n"));
         assert!(!of(25, 2).contains("larger --step") && !of(10, 1).contains("larger --step"));

@@ -89,12 +89,13 @@ fn name(flag: &str) -> &str {
 
 fn iteration(given: &Given) -> Result<NewtonOptions, Message> {
     match given.text.trim() {
-        "newton" => Ok(NewtonOptions::default()),
+        "automatic" => Ok(NewtonOptions::default()),
+        "newton" => Ok(NewtonOptions::newton()),
         "simplified" => Ok(NewtonOptions::simplified()),
         "fixed-point" => Ok(NewtonOptions::fixed_point()),
         other => {
             let message = given.wrong(format!("unknown iteration `{other}`"));
-            Err(message.help("write `newton`, `simplified` or `fixed-point`"))
+            Err(message.help("write `automatic`, `newton`, `simplified` or `fixed-point`"))
         }
     }
 }
