@@ -173,5 +173,15 @@ fn far_phi<S: Scalar, const FIRST: usize, const COUNT: usize>(z: S) -> [S; COUNT
     select(summed, values, upwards::<S, FIRST, COUNT>(z, &[z.exp()]))
 }
 
+/// One Stumpff function in double precision; `k` must be below [`MOST_FUNCTIONS`].
+pub fn stumpff_of(k: usize, w: f64) -> f64 {
+    stumpff::<f64, 0, MOST_FUNCTIONS>(w)[k]
+}
+
+/// One function `phi_k` in double precision; `k` must be below [`MOST_FUNCTIONS`].
+pub fn phi_of(k: usize, z: f64) -> f64 {
+    phi::<f64, 0, MOST_FUNCTIONS>(z)[k]
+}
+
 #[cfg(test)]
 mod tests;
