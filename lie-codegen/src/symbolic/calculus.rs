@@ -153,7 +153,10 @@ impl Graph {
             }
             Function::Phi(k) => {
                 let next = self.call(Function::Phi(k + 1), &[x]);
-                self.linear(&[(value, Rational::ONE), (next, Rational::from(-i64::from(k)))])
+                self.linear(&[
+                    (value, Rational::ONE),
+                    (next, Rational::from(-i64::from(k))),
+                ])
             }
             Function::Atan2 => unreachable!("atan2 has two arguments and its own rule"),
         }

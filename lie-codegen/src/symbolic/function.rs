@@ -45,7 +45,8 @@ const STUMPFF: [&str; closed::MOST_FUNCTIONS] = [
     "S0", "S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "S10", "S11", "S12", "S13",
 ];
 const PHI: [&str; closed::MOST_FUNCTIONS] = [
-    "phi0", "phi1", "phi2", "phi3", "phi4", "phi5", "phi6", "phi7", "phi8", "phi9", "phi10", "phi11", "phi12", "phi13",
+    "phi0", "phi1", "phi2", "phi3", "phi4", "phi5", "phi6", "phi7", "phi8", "phi9", "phi10",
+    "phi11", "phi12", "phi13",
 ];
 
 impl Function {
