@@ -73,9 +73,9 @@ pub use lie_core::{
     DiscreteLagrangianPoisson, Dual, Equation, GeneratingFunction, Group, Implicit, InertiaPoisson,
     LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson, ParameterError,
     ParameterFault, PieceFlows, Poisson, RealizedPoisson, Scalar, SeparablePoisson, Spectrum,
-    SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown, Widen, elimination, equation,
-    generating, generic, generic_equations, lagrangian, matrix, methods, newton, parameter, pieces,
-    poisson, scalar, state, structure,
+    SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown, Widen, closed, elimination,
+    equation, generating, generic, generic_equations, lagrangian, matrix, methods, newton,
+    parameter, pieces, poisson, scalar, state, structure,
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;

@@ -301,6 +301,23 @@ impl Choice {
         self.options().iter().any(|(name, _)| *name == "rtol")
     }
 
+    /// Whether its steps act by exponentials of elements that are not known beforehand.
+    pub fn follows_exponentials(&self) -> bool {
+        match self.solved() {
+            Self::LieMidpoint(retraction)
+            | Self::Variational(_, retraction)
+            | Self::DiscreteEulerPoincare(retraction)
+            | Self::Generating(_, retraction) => *retraction == Retraction::Exp,
+            Self::LieEuler
+            | Self::Rkmk(_)
+            | Self::CrouchGrossman3
+            | Self::CommutatorFree4
+            | Self::EulerArnold2
+            | Self::OrbitEnergy(_) => true,
+            _ => false,
+        }
+    }
+
     /// The methods whose equations this one solves: itself, or the base of a composition.
     pub fn solved(&self) -> &Self {
         match self {

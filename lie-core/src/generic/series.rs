@@ -116,11 +116,25 @@ pub fn coadjoint_action<S: Scalar, P: LiePoisson<S>>(
     mu: &P::State,
     out: &mut P::State,
 ) {
-    coadjoint_action_in(system, x, mu, out, &mut Scratch::new(&system.zero_state()));
+    by_series(system, x, mu, out, &mut Scratch::new(&system.zero_state()));
 }
 
-/// [`coadjoint_action`] in space of the caller's.
+/// The closed form where the system has one, else [`coadjoint_action`] in space of the caller's.
 pub(crate) fn coadjoint_action_in<S: Scalar, P: LiePoisson<S>>(
+    system: &P,
+    x: &P::State,
+    mu: &P::State,
+    out: &mut P::State,
+    scratch: &mut Scratch<P::State>,
+) {
+    if system.has_closed_exponential() {
+        system.coadjoint_action(x, mu, out);
+        return;
+    }
+    by_series(system, x, mu, out, scratch);
+}
+
+fn by_series<S: Scalar, P: LiePoisson<S>>(
     system: &P,
     x: &P::State,
     mu: &P::State,
