@@ -60,33 +60,71 @@ fn inverse_factorial<S: Scalar>(n: usize) -> S {
     S::from_f64(INVERSE_FACTORIALS[n])
 }
 
-/// `sum_(n < TERMS) x^n/(stride n + k)!`
+/// Stumpff functions with `x = -w` from the sums of the last two down: `S_k = 1/k! + x S_(k + 2)`.
 #[inline(always)]
-fn sum<S: Scalar>(x: S, k: usize, stride: usize, terms: usize) -> S {
-    let mut sum = inverse_factorial::<S>(k + stride * (terms - 1));
-    for n in (0..terms - 1).rev() {
-        sum = sum * x + inverse_factorial(k + stride * n);
-    }
-    sum
-}
-
-/// Fills functions from the last of `stride` ones down: `f_k = 1/k! + x f_(k + stride)`.
-#[inline(always)]
-fn downwards<S: Scalar, const FIRST: usize, const COUNT: usize>(
+fn stumpff_downwards<S: Scalar, const FIRST: usize, const COUNT: usize, const TERMS: usize>(
     x: S,
-    stride: usize,
-    terms: usize,
 ) -> [S; COUNT] {
     const { assert!(FIRST + COUNT <= MOST_FUNCTIONS) };
-    let mut all = [S::zero(); MOST_FUNCTIONS];
-    let end = (FIRST + COUNT).max(LOWEST + stride);
-    for (k, function) in all.iter_mut().enumerate().take(end).skip(end - stride) {
-        *function = sum(x, k, stride, terms);
+    let mut out = [S::zero(); COUNT];
+    let mut k = if FIRST + COUNT > LOWEST + 2 {
+        FIRST + COUNT - 1
+    } else {
+        LOWEST + 1
+    };
+    // S_k and S_(k - 1)
+    let mut this = inverse_factorial::<S>(k + 2 * (TERMS - 1));
+    let mut before = inverse_factorial::<S>(k - 1 + 2 * (TERMS - 1));
+    let mut n = TERMS - 1;
+    while n > 0 {
+        n -= 1;
+        this = this * x + inverse_factorial(k + 2 * n);
+        before = before * x + inverse_factorial(k - 1 + 2 * n);
     }
-    for k in (FIRST..end - stride).rev() {
-        all[k] = inverse_factorial::<S>(k) + x * all[k + stride];
+    loop {
+        if k < FIRST + COUNT {
+            out[k - FIRST] = this;
+        }
+        if k == FIRST {
+            return out;
+        }
+        if k >= FIRST + 2 {
+            (this, before) = (before, inverse_factorial::<S>(k - 2) + x * this);
+        } else {
+            this = before;
+        }
+        k -= 1;
     }
-    core::array::from_fn(|index| all[FIRST + index])
+}
+
+/// The functions `phi_k` from the sum of the last one down: `phi_k = 1/k! + z phi_(k + 1)`.
+#[inline(always)]
+fn phi_downwards<S: Scalar, const FIRST: usize, const COUNT: usize, const TERMS: usize>(
+    z: S,
+) -> [S; COUNT] {
+    const { assert!(FIRST + COUNT <= MOST_FUNCTIONS) };
+    let mut out = [S::zero(); COUNT];
+    let mut k = if FIRST + COUNT > LOWEST + 1 {
+        FIRST + COUNT - 1
+    } else {
+        LOWEST
+    };
+    let mut this = inverse_factorial::<S>(k + TERMS - 1);
+    let mut n = TERMS - 1;
+    while n > 0 {
+        n -= 1;
+        this = this * z + inverse_factorial(k + n);
+    }
+    loop {
+        if k < FIRST + COUNT {
+            out[k - FIRST] = this;
+        }
+        if k == FIRST {
+            return out;
+        }
+        k -= 1;
+        this = inverse_factorial::<S>(k) + z * this;
+    }
 }
 
 /// Fills functions from the first ones up: `f_(k + stride) = (f_k - 1/k!)/x`.
@@ -121,7 +159,7 @@ fn select<S: Scalar, const COUNT: usize>(
 #[inline]
 pub fn stumpff<S: Scalar, const FIRST: usize, const COUNT: usize>(w: S) -> [S; COUNT] {
     let near = w.abs().less_equal(S::from_f64(NEAR));
-    let values = downwards::<S, FIRST, COUNT>(-w, 2, STUMPFF_TERMS);
+    let values = stumpff_downwards::<S, FIRST, COUNT, STUMPFF_TERMS>(-w);
     if near.all() {
         return values;
     }
@@ -132,7 +170,7 @@ pub fn stumpff<S: Scalar, const FIRST: usize, const COUNT: usize>(w: S) -> [S; C
 #[inline(never)]
 fn far_stumpff<S: Scalar, const FIRST: usize, const COUNT: usize>(w: S) -> [S; COUNT] {
     let summed = w.abs().less_equal(S::from_f64(STUMPFF_FAR));
-    let values = downwards::<S, FIRST, COUNT>(-w, 2, STUMPFF_FAR_TERMS);
+    let values = stumpff_downwards::<S, FIRST, COUNT, STUMPFF_FAR_TERMS>(-w);
     if summed.all() {
         return values;
     }
@@ -155,7 +193,7 @@ fn far_stumpff<S: Scalar, const FIRST: usize, const COUNT: usize>(w: S) -> [S; C
 #[inline]
 pub fn phi<S: Scalar, const FIRST: usize, const COUNT: usize>(z: S) -> [S; COUNT] {
     let near = z.abs().less_equal(S::from_f64(NEAR));
-    let values = downwards::<S, FIRST, COUNT>(z, 1, PHI_TERMS);
+    let values = phi_downwards::<S, FIRST, COUNT, PHI_TERMS>(z);
     if near.all() {
         return values;
     }
@@ -166,7 +204,7 @@ pub fn phi<S: Scalar, const FIRST: usize, const COUNT: usize>(z: S) -> [S; COUNT
 #[inline(never)]
 fn far_phi<S: Scalar, const FIRST: usize, const COUNT: usize>(z: S) -> [S; COUNT] {
     let summed = z.abs().less_equal(S::from_f64(PHI_FAR));
-    let values = downwards::<S, FIRST, COUNT>(z, 1, PHI_FAR_TERMS);
+    let values = phi_downwards::<S, FIRST, COUNT, PHI_FAR_TERMS>(z);
     if summed.all() {
         return values;
     }
