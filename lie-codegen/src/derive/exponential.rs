@@ -133,6 +133,7 @@ impl Source {
             add(self, weight, &vector);
         }
         let first = (summand.nilpotent + k) as u8;
+        let supports = &summand.supports;
         match &summand.factor {
             Factor::None => {}
             Factor::Linear(form, power) => {
@@ -147,7 +148,8 @@ impl Source {
                     add(self, value, &vector);
                     if i + 1 < *power {
                         let moved = self.ad_star_of(x, &vector);
-                        vector = self.shifted(tape, &moved, &vector, root, &Rational::MINUS_ONE);
+                        let root = (root, &Rational::MINUS_ONE);
+                        vector = self.shifted(tape, (&moved, &vector), root, &supports[i + 1]);
                         weight = Family::Phi.derivative(&weight);
                     }
                 }
@@ -170,7 +172,8 @@ impl Source {
                     add(self, value, &next);
                     if i + 1 < *power {
                         let moved = self.ad_star_of(x, &next);
-                        vector = self.shifted(tape, &moved, &vector, square, &Rational::ONE);
+                        let square = (square, &Rational::ONE);
+                        vector = self.shifted(tape, (&moved, &vector), square, &supports[i + 1]);
                         even = Family::Stumpff.derivative(&even);
                         odd = Family::Stumpff.derivative(&odd);
                     }
@@ -190,17 +193,19 @@ impl Source {
         self.graph.mul(coefficient, product)
     }
 
-    /// `moved + sign * form * vector`
+    /// `moved + sign * form * vector` in the rows where that does not vanish.
     fn shifted(
         &mut self,
         tape: &mut Tape,
-        moved: &[ExprId],
-        vector: &[ExprId],
-        form: ExprId,
-        sign: &Rational,
+        (moved, vector): (&[ExprId], &[ExprId]),
+        (form, sign): (ExprId, &Rational),
+        support: &[usize],
     ) -> Vec<ExprId> {
-        let entries = moved.iter().zip(vector);
-        let entries = entries.map(|(moved, entry)| {
+        let entries = moved.iter().zip(vector).enumerate();
+        let entries = entries.map(|(row, (moved, entry))| {
+            if !support.contains(&row) {
+                return self.graph.integer(0);
+            }
             let term = self.graph.mul(form, *entry);
             let term = self.graph.scale(term, sign);
             self.graph.add(*moved, term)

@@ -46,6 +46,9 @@ pub struct Summand {
     pub nilpotent: usize,
     /// The other factor.
     pub factor: Factor,
+    /// For each power of the other factor's base below its exponent, the rows of `A^a` times it that do not vanish: those
+    /// of a quotient by an ideal in which the exponent is smaller.
+    pub supports: Vec<Vec<usize>>,
 }
 
 /// What the minimal polynomial has besides a power of z.
@@ -92,6 +95,7 @@ fn of_component(operator: Operator, budget: &Budget) -> Result<Option<Vec<Summan
             return Ok(None);
         };
         summands.push(Summand {
+            supports: vec![coordinates.clone(); summand.supports.len()],
             coordinates: coordinates.clone(),
             projection: Some(projection),
             ..summand
@@ -128,12 +132,13 @@ fn summand(operator: &Operator, budget: &Budget) -> Result<Option<Summand>, Exha
             Factor::Quadratic(scaled.collect(), power)
         }
     };
-    let proven = operator.is_annihilated(nilpotent, &factor, budget)?;
-    Ok(proven.then(|| Summand {
+    let supports = operator.supports(nilpotent, &factor, budget)?;
+    Ok(supports.map(|supports| Summand {
         coordinates: operator.coordinates(),
         projection: None,
         nilpotent,
         factor,
+        supports,
     }))
 }
 

@@ -1,6 +1,6 @@
 //! A matrix whose entries are linear forms in x, over the rational functions of the parameters.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Factor;
 use crate::algebra::StructureConstants;
@@ -113,13 +113,14 @@ impl Operator {
         entries.map(|(j, k, form)| ((*j, *k), form)).collect()
     }
 
-    /// Whether `A^a` times the factor vanishes, as an identity in x and the parameters.
-    pub fn is_annihilated(
+    /// The rows of `A^a` times powers 0, 1, … of the factor's base, below the exponent, that do not vanish; `None` unless
+    /// `A^a` times the factor vanishes, as an identity in x and the parameters.
+    pub fn supports(
         &self,
         nilpotent: usize,
         factor: &Factor,
         budget: &Budget,
-    ) -> Result<bool, Exhausted> {
+    ) -> Result<Option<Vec<Vec<usize>>>, Exhausted> {
         let matrix = self.entries.iter().map(|(j, k, form)| {
             let form = form.iter().map(|(i, c)| term(c, &[*i], budget));
             Ok((*j, *k, total(form, budget)?))
@@ -136,17 +137,19 @@ impl Operator {
                 budget,
             )?,
         };
+        let (applications, power) = match factor {
+            Factor::None => (0, 0),
+            Factor::Linear(_, power) => (1, *power),
+            Factor::Quadratic(_, power) => (2, *power),
+        };
+        let mut supports = vec![BTreeSet::new(); power];
         for column in self.coordinates() {
             let mut vector = Vector::from([(column, Fraction::from(Rational::ONE))]);
             for _ in 0..nilpotent {
                 vector = apply(&matrix, &vector, budget)?;
             }
-            let (applications, power) = match factor {
-                Factor::None => (0, 0),
-                Factor::Linear(_, power) => (1, *power),
-                Factor::Quadratic(_, power) => (2, *power),
-            };
-            for _ in 0..power {
+            for support in &mut supports {
+                support.extend(vector.keys().copied());
                 let mut moved = vector.clone();
                 for _ in 0..applications {
                     moved = apply(&matrix, &moved, budget)?;
@@ -159,10 +162,11 @@ impl Operator {
                 vector = moved;
             }
             if !vector.is_empty() {
-                return Ok(false);
+                return Ok(None);
             }
         }
-        Ok(true)
+        let sorted = supports.into_iter().map(|rows| rows.into_iter().collect());
+        Ok(Some(sorted.collect()))
     }
 }
 
