@@ -4,8 +4,8 @@
 //! The error must stay below 16 units of round-off times the condition: what relative changes of round-off of the entries of
 //! x and mu do to the result.
 
-use lie_runtime::prelude::*;
 use lie_runtime::LiePoisson;
+use lie_runtime::prelude::*;
 
 macro_rules! algebras {
     ($($module:ident $name:ident $folder:literal;)+) => {
@@ -46,7 +46,10 @@ const MOST: f64 = 16.0;
 
 /// The numbers of each line: x, mu, the two results, their conditions.
 fn lines(name: &str) -> Vec<Vec<f64>> {
-    let path = format!("{}/tests/data/closed/{name}.txt", env!("CARGO_MANIFEST_DIR"));
+    let path = format!(
+        "{}/tests/data/closed/{name}.txt",
+        env!("CARGO_MANIFEST_DIR")
+    );
     let text = std::fs::read_to_string(path).expect("reference values");
     let number = |word: &str| word.parse().expect("a number");
     text.lines()
@@ -59,7 +62,11 @@ fn error(computed: &[f64], expected: &[f64], size: f64) -> f64 {
     let differences = computed.iter().zip(expected).map(|(a, b)| (a - b).abs());
     let not_a_number = computed.iter().any(|entry| !entry.is_finite());
     let largest = differences.fold(0.0, f64::max);
-    if not_a_number { f64::NAN } else { largest / (size * f64::EPSILON) }
+    if not_a_number {
+        f64::NAN
+    } else {
+        largest / (size * f64::EPSILON)
+    }
 }
 
 /// The largest errors of the coadjoint action and of the dual of dexp.
@@ -88,7 +95,10 @@ fn all_digits_on_every_algebra() {
     for (name, closed, errors) in errors() {
         println!("{name} {closed} {errors:.2?}");
         assert_eq!(closed, name != "su3_quadratic", "{name}");
-        assert!(errors.iter().all(|error| *error < MOST), "{name} {errors:?}");
+        assert!(
+            errors.iter().all(|error| *error < MOST),
+            "{name} {errors:?}"
+        );
     }
 }
 
@@ -113,8 +123,7 @@ fn elementary_functions_alone_lose_digits() {
         // ad*_x mu = mu x
         let moved = cross(mu, x);
         let again = cross(moved, x);
-        let out: [f64; 3] =
-            core::array::from_fn(|i| mu[i] + first * moved[i] + second * again[i]);
+        let out: [f64; 3] = core::array::from_fn(|i| mu[i] + first * moved[i] + second * again[i]);
         let error = error(&out, &line[9..12], line[13]);
         worst = worst.max(error);
     }

@@ -3,6 +3,7 @@
 use lie_core::generic::{self, DiscreteGradientStep, SecondKind};
 
 use super::generating::MOST_SCHEDULED;
+use super::tape::Tangents;
 use super::{Generating, Kernel, Source};
 use crate::methods::{Gradient, Retraction};
 use crate::structure::inertia::Body;
@@ -99,7 +100,7 @@ impl Source {
         };
         let size = self.graph.size();
         let kernels = trace::kernels(self, &formulas, |system, h| {
-            trace::step(generic::ExpMidpoint::new(system, h))
+            trace::step(generic::ExpMidpoint::new(system, h)).deriving(Tangents::Inline)
         });
         kernels.filter(|_| self.graph.size() - size <= MOST_SCHEDULED)
     }

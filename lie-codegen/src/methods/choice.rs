@@ -318,6 +318,18 @@ impl Choice {
         }
     }
 
+    /// Whether its generic equation needs the derivative of `phi1(ad*_x) mu` in x.
+    pub fn follows_slopes(&self) -> bool {
+        match self.solved() {
+            Self::Variational(2, retraction) | Self::DiscreteEulerPoincare(retraction) => {
+                *retraction == Retraction::Exp
+            }
+            Self::Generating(order, retraction) => *order > 2 && *retraction == Retraction::Exp,
+            Self::EulerArnold2 => true,
+            _ => false,
+        }
+    }
+
     /// The methods whose equations this one solves: itself, or the base of a composition.
     pub fn solved(&self) -> &Self {
         match self {

@@ -145,7 +145,7 @@ impl Planner<'_> {
     }
 
     /// Whether the longest of the kernels of an equation may be written out.
-    pub(super) fn short(&mut self, kernels: &[Kernel]) -> bool {
+    fn short(&mut self, kernels: &[Kernel]) -> bool {
         let mut kernels = kernels.iter();
         let longest = kernels.find(|kernel| matches!(kernel.shape, Shape::VectorAndMatrix(..)));
         longest

@@ -182,9 +182,6 @@ impl Planner<'_> {
             return Some(known.clone());
         }
         let kernels = self.source.exp_kernels()?;
-        if !self.short(&kernels) {
-            return None;
-        }
         let form = Form {
             docs: &[
                 "The retraction method with the exponential, unknown the momentum `m` at the midpoint:",

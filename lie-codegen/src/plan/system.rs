@@ -91,7 +91,8 @@ impl Planner<'_> {
             }
         }
         let casimirs = self.casimir_gradients(&gradients);
-        let exponential = self.source.exponential_kernels(derivatives);
+        let slopes = self.methods.is_empty() || self.methods.iter().any(Choice::follows_slopes);
+        let exponential = self.source.exponential_kernels(slopes);
         let exponential = self.functions(&exponential);
         let lagrangian = self.source.lagrangian_kernels().unwrap_or_default();
         let lagrangian = self.functions(&lagrangian);
