@@ -8,6 +8,7 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod closed;
 pub mod elimination;
 pub mod equation;
 pub mod generating;

@@ -131,6 +131,33 @@ pub trait LiePoisson<S: Scalar>: Poisson<S> {
     fn ad_star(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State);
     /// The matrix of `mu -> ad*_xi mu`: `out_jk = C_ij^k xi^i`.
     fn ad_star_matrix(&self, xi: &Self::State, out: &mut Self::Jacobian);
+
+    /// Whether [`LiePoisson::coadjoint_action`] and [`LiePoisson::dexp_dual`] are closed forms; else they are series.
+    fn has_closed_exponential(&self) -> bool {
+        false
+    }
+    /// Whether [`LiePoisson::dexp_dual_slope`] is a closed form.
+    fn has_closed_slope(&self) -> bool {
+        false
+    }
+    /// The coadjoint action of an exponential: `out = Ad*_(exp xi) mu = exp(ad*_xi) mu`.
+    fn coadjoint_action(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
+        generic::coadjoint_action(self, xi, mu, out);
+    }
+    /// The dual of the right-trivialised tangent of exp: `out = phi1(ad*_xi) mu`, `phi1(z) = (e^z - 1)/z`.
+    fn dexp_dual(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
+        generic::dexp_dual(self, xi, mu, out);
+    }
+    /// The same with its derivative in xi: `slope_ij = d(phi1(ad*_xi) mu)_i/dxi^j`.
+    fn dexp_dual_slope(
+        &self,
+        xi: &Self::State,
+        mu: &Self::State,
+        out: &mut Self::State,
+        slope: &mut Self::Jacobian,
+    ) {
+        generic::dexp_dual_slope(self, xi, mu, out, slope);
+    }
 }
 
 /// A system that also exists over dual numbers, so that running it there differentiates it.

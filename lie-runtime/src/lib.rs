@@ -74,8 +74,8 @@ pub use lie_core::{
     IntegrablePoisson, LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson,
     Motion, ParameterError, ParameterFault, PieceFlows, Poisson, RealizedPoisson, Scalar,
     SeparablePoisson, Spectrum, SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown,
-    Widen, elimination, equation, generating, generic, generic_equations, lagrangian, matrix,
-    methods, newton, parameter, pieces, poisson, scalar, state, structure,
+    Widen, closed, elimination, equation, generating, generic, generic_equations, lagrangian,
+    matrix, methods, newton, parameter, pieces, poisson, scalar, state, structure,
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;

@@ -132,6 +132,18 @@ fn of_algebra<P: LiePoisson<f64>>(
         state(fused, &nudged(&coordinates, errors)),
     );
     let eta = state(fused, &random.numbers(fused.dimension()));
+    fused.coadjoint_action(&xi, &mu, &mut vector[0]);
+    generic::coadjoint_action(reference, &other, &nu, &mut vector[1]);
+    let [left, right] = [&vector[0], &vector[1]].map(State::as_slice);
+    errors.compare("coadjoint_action", left, right);
+    fused.dexp_dual(&xi, &mu, &mut vector[0]);
+    generic::dexp_dual(reference, &other, &nu, &mut vector[1]);
+    let [left, right] = [&vector[0], &vector[1]].map(State::as_slice);
+    errors.compare("dexp_dual", left, right);
+    let [left, right] = &mut matrix;
+    fused.dexp_dual_slope(&xi, &mu, &mut vector[0], left);
+    generic::dexp_dual_slope(reference, &other, &nu, &mut vector[1], right);
+    errors.compare("dexp_dual_slope", &entries(left), &entries(right));
     fused.ad_star(&xi, &mu, &mut vector[0]);
     generic::ad_star(reference, &other, &nu, &mut vector[1]);
     errors.compare("ad_star", vector[0].as_slice(), vector[1].as_slice());

@@ -3,6 +3,7 @@
 mod cayley;
 mod coadjoint;
 mod discrete_gradient;
+mod exponential;
 mod field;
 mod generating;
 mod kernel;

@@ -3,6 +3,7 @@
 use super::Realization;
 use crate::algebra::{Representation, TripleEntry};
 use crate::model::{self, Descent, Discrete, Energy, Hamiltonian, Lagrangian, Model};
+use crate::structure::exponential::Exponential;
 use crate::structure::group::Group;
 use crate::structure::inertia::Body;
 use crate::structure::integrable::{self, Motion};
@@ -55,6 +56,8 @@ pub struct Source {
     pub motion: Option<Motion>,
     /// The closed form of `exp(s ad*_(e_i))` for each basis element, where a method needs them.
     pub actions: Option<Vec<Option<Vec<OneParameter>>>>,
+    /// Functions of `ad*_x` in closed form, where a method needs them and the algebra has one.
+    pub exponential: Option<Exponential>,
 }
 
 impl Source {
@@ -82,6 +85,7 @@ impl Source {
             body: None,
             motion: None,
             actions: None,
+            exponential: None,
         }
     }
 

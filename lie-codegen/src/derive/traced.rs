@@ -3,6 +3,7 @@
 use lie_core::generic::{self, DiscreteGradientStep, SecondKind};
 
 use super::generating::MOST_SCHEDULED;
+use super::tape::Tangents;
 use super::{Generating, Kernel, Source};
 use crate::methods::{Gradient, Retraction};
 use crate::structure::inertia::Body;
@@ -86,6 +87,22 @@ impl Source {
         trace::kernels(self, &formulas, |system, h| {
             trace::step(generic::CayleyMidpoint::new(system, h))
         })
+    }
+
+    /// Residual, Jacobian and result of the retraction method with the exponential; `None` where that has no closed
+    /// form, or derivatives swell.
+    pub fn exp_kernels(&mut self) -> Option<Vec<Kernel>> {
+        self.exponential.as_ref()?;
+        let formulas = Formulas {
+            residual: "`r = m - phi1(ad*_x) mu`, `x = h grad H(m)`",
+            linearize: "`r = m - phi1(ad*_x) mu`, `x = h grad H(m)`, and `dr/dm`",
+            result: "`mu1 = exp(ad*_x) mu`",
+        };
+        let size = self.graph.size();
+        let kernels = trace::kernels(self, &formulas, |system, h| {
+            trace::step(generic::ExpMidpoint::new(system, h)).deriving(Tangents::Inline)
+        });
+        kernels.filter(|_| self.graph.size() - size <= MOST_SCHEDULED)
     }
 
     /// The equation of the generating-function method in coordinates of the second kind; `None`

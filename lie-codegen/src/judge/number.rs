@@ -115,6 +115,9 @@ impl Number for Rounded {
             Function::Sinh => x.cosh(),
             Function::Cosh => x.sinh(),
             Function::Tanh => 1.0 - value * value,
+            Function::Stumpff(_) | Function::Phi(_) => {
+                function.slope_of_closed(x).unwrap_or(f64::NAN)
+            }
             Function::Atan2 => f64::NAN,
         };
         Self::of(value, slope.abs() * self.error + value.abs())
@@ -213,7 +216,8 @@ impl<T: Number> Number for Jet<T> {
             Function::Sinh => x.call(Function::Cosh),
             Function::Cosh => x.call(Function::Sinh),
             Function::Tanh => one.sub(&at.mul(&at)),
-            Function::Atan2 => T::rounded(f64::NAN, 0.0),
+            // not in the grammar
+            Function::Stumpff(_) | Function::Phi(_) | Function::Atan2 => T::rounded(f64::NAN, 0.0),
         };
         self.chain(at, &slope)
     }

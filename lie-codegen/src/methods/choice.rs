@@ -306,6 +306,35 @@ impl Choice {
         self.options().iter().any(|(name, _)| *name == "rtol")
     }
 
+    /// Whether its steps act by exponentials of elements that are not known beforehand.
+    pub fn follows_exponentials(&self) -> bool {
+        match self.solved() {
+            Self::LieMidpoint(retraction)
+            | Self::Variational(_, retraction)
+            | Self::DiscreteEulerPoincare(retraction)
+            | Self::Generating(_, retraction) => *retraction == Retraction::Exp,
+            Self::LieEuler
+            | Self::Rkmk(_)
+            | Self::CrouchGrossman3
+            | Self::CommutatorFree4
+            | Self::EulerArnold2
+            | Self::OrbitEnergy(_) => true,
+            _ => false,
+        }
+    }
+
+    /// Whether its generic equation needs the derivative of `phi1(ad*_x) mu` in x.
+    pub fn follows_slopes(&self) -> bool {
+        match self.solved() {
+            Self::Variational(2, retraction) | Self::DiscreteEulerPoincare(retraction) => {
+                *retraction == Retraction::Exp
+            }
+            Self::Generating(order, retraction) => *order > 2 && *retraction == Retraction::Exp,
+            Self::EulerArnold2 => true,
+            _ => false,
+        }
+    }
+
     /// The methods whose equations this one solves: itself, or the base of a composition.
     pub fn solved(&self) -> &Self {
         match self {

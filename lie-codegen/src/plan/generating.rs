@@ -45,7 +45,8 @@ impl Planner<'_> {
     /// The equations of generating-function methods that are asked for; the names of the others go
     /// to the generic ones.
     pub(super) fn generating(&mut self, generic: &mut Vec<String>) {
-        generic.push("generating2".to_owned());
+        let choice = Choice::Generating(2, Retraction::Exp);
+        self.method(generic, choice, "generating2", Self::exp);
         for (order, named) in [(4, FOUR), (6, SIX)] {
             let choice = Choice::Generating(order, Retraction::Exp);
             let kind = Generating::First(Retraction::Exp, order);

@@ -11,7 +11,7 @@ use super::{Parameter, Plan};
 use crate::derive::Source;
 use crate::methods::Choice;
 use crate::model::Model;
-use crate::structure::separable;
+use crate::structure::{exponential, separable};
 
 /// The plan of a checked system with fused code for these methods; all others run on the generic forms.
 pub fn plan(model: &Model, choices: &[Choice]) -> Plan {
@@ -71,6 +71,10 @@ impl<'a> Planner<'a> {
         let mut chosen = solved.clone();
         if chosen.any(|choice| *choice == Choice::GeneratingSecondKind2) {
             source.actions = model.bracket.algebra().map(separable::actions);
+        }
+        if choices.is_empty() || choices.iter().any(|c| c.solved().follows_exponentials()) {
+            let algebra = model.bracket.algebra();
+            source.exponential = algebra.and_then(|a| exponential::closed_form(&a.exact));
         }
         Self {
             model,

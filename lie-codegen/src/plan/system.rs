@@ -22,6 +22,8 @@ pub struct System {
     pub poisson: Vec<Function>,
     /// The kernels of `LiePoisson`, of a Lie algebra.
     pub algebra: Vec<Function>,
+    /// Those of them that give functions of `ad*_xi` in closed form, where there is one.
+    pub exponential: Vec<Function>,
     /// The kernel of `CayleyPoisson`, where the representation is closed under the triple product.
     pub triple: Option<Function>,
     /// The kernels of `LagrangianPoisson`, of a system by its Lagrangian.
@@ -59,6 +61,7 @@ impl System {
         self.poisson
             .iter()
             .chain(&self.algebra)
+            .chain(&self.exponential)
             .chain(&self.triple)
             .chain(gradients)
             .chain(&self.lagrangian)
@@ -88,6 +91,9 @@ impl Planner<'_> {
             }
         }
         let casimirs = self.casimir_gradients(&gradients);
+        let slopes = self.methods.is_empty() || self.methods.iter().any(Choice::follows_slopes);
+        let exponential = self.source.exponential_kernels(slopes);
+        let exponential = self.functions(&exponential);
         let lagrangian = self.source.lagrangian_kernels().unwrap_or_default();
         let lagrangian = self.functions(&lagrangian);
         let discrete = self.source.discrete_kernels().unwrap_or_default();
@@ -103,6 +109,7 @@ impl Planner<'_> {
             derivatives,
             poisson,
             algebra,
+            exponential,
             triple,
             lagrangian,
             discrete: self.functions(&discrete),

@@ -6,10 +6,11 @@ use quote::{format_ident, quote};
 
 use super::Printer;
 use super::function::Owner;
-use super::names::ident;
+use super::names::{ident, index};
 use crate::exact::Rational;
 use crate::plan::{Code, Constant};
 use crate::schedule;
+use crate::symbolic::Function;
 
 type Operation = schedule::Operation<Constant>;
 type Value = schedule::Value<Constant>;
@@ -55,6 +56,7 @@ impl Printer<'_> {
         let mut texts: Vec<Text> = Vec::with_capacity(program.operations.len());
         let mut statements = TokenStream::new();
         let mut locals = 0;
+        let mut families = Families::of(program);
         for (position, operation) in program.operations.iter().enumerate() {
             let mut text = {
                 let mut get = |value: &Value| match value {
@@ -65,7 +67,18 @@ impl Printer<'_> {
                         length: 0,
                     },
                 };
-                write(operation, &mut get)
+                match families.member(operation, &mut get) {
+                    Some((tokens, declared)) => {
+                        statements.extend(declared);
+                        texts.push(Text {
+                            tokens,
+                            binding: Binding::Atom,
+                            length: 0,
+                        });
+                        continue;
+                    }
+                    None => write(operation, &mut get),
+                }
             };
             if uses[position] > 1 || (inner[position] && text.length > LONGEST) {
                 let name: Ident = format_ident!("_t{locals}");
@@ -105,6 +118,75 @@ impl Printer<'_> {
                 quote! { #name }
             }
         }
+    }
+}
+
+/// Functions of closed forms that have the same argument, which are computed together.
+struct Families(Vec<Family>);
+
+struct Family {
+    argument: Value,
+    of_stumpff: bool,
+    first: u8,
+    last: u8,
+    written: bool,
+}
+
+/// The family and the index of a function of closed forms, with its argument.
+fn of_closed_form(operation: &Operation) -> Option<(bool, u8, &Value)> {
+    match operation {
+        Operation::Call(Function::Stumpff(k), arguments) => Some((true, *k, &arguments[0])),
+        Operation::Call(Function::Phi(k), arguments) => Some((false, *k, &arguments[0])),
+        _ => None,
+    }
+}
+
+impl Families {
+    fn of(program: &Code) -> Self {
+        let mut families = Self(Vec::new());
+        for (of_stumpff, k, argument) in program.operations.iter().filter_map(of_closed_form) {
+            match families.position(of_stumpff, argument) {
+                Some(position) => {
+                    let family = &mut families.0[position];
+                    (family.first, family.last) = (family.first.min(k), family.last.max(k));
+                }
+                None => families.0.push(Family {
+                    argument: argument.clone(),
+                    of_stumpff,
+                    first: k,
+                    last: k,
+                    written: false,
+                }),
+            }
+        }
+        families
+    }
+
+    fn position(&self, of_stumpff: bool, argument: &Value) -> Option<usize> {
+        let mut families = self.0.iter();
+        families.position(|f| f.of_stumpff == of_stumpff && f.argument == *argument)
+    }
+
+    /// The name of a member, and the statement that computes its family if it is the first one.
+    fn member(
+        &mut self,
+        operation: &Operation,
+        get: &mut dyn FnMut(&Value) -> Text,
+    ) -> Option<(TokenStream, Option<TokenStream>)> {
+        let (of_stumpff, k, argument) = of_closed_form(operation)?;
+        let position = self.position(of_stumpff, argument)?;
+        let family = &mut self.0[position];
+        let name = |k: u8| format_ident!("_f{position}_{k}");
+        let declared = (!std::mem::replace(&mut family.written, true)).then(|| {
+            let function = ident(if of_stumpff { "stumpff" } else { "phi" });
+            let names = (family.first..=family.last).map(name);
+            let first = index(family.first.into());
+            let count = index(usize::from(family.last - family.first) + 1);
+            let argument = get(argument).tokens;
+            quote! { let [#(#names),*] = ::lie_runtime::closed::#function::<S, #first, #count>(#argument); }
+        });
+        let name = name(k);
+        Some((quote! { #name }, declared))
     }
 }
 

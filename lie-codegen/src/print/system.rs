@@ -29,7 +29,22 @@ impl Printer<'_> {
         let system = self.system_name();
         let n = index(self.plan.dimension());
         let facts = self.facts();
-        let algebra = self.trait_of("LiePoisson", &plan.algebra, None);
+        let closed = (!plan.exponential.is_empty()).then(|| {
+            let methods = plan.exponential.iter().map(|f| self.system_method(f, None));
+            let slope = plan.exponential.iter().any(|f| f.name == "dexp_dual_slope");
+            quote! {
+                fn has_closed_exponential(&self) -> bool {
+                    true
+                }
+
+                fn has_closed_slope(&self) -> bool {
+                    #slope
+                }
+
+                #(#methods)*
+            }
+        });
+        let algebra = self.trait_of("LiePoisson", &plan.algebra, closed);
         let spectrum = self.spectrum();
         let cayley = self.trait_of("CayleyPoisson", plan.triple.as_slice(), spectrum);
         quote! {

@@ -112,6 +112,9 @@ impl Rounded {
             Function::Sinh => libm::cosh(x),
             Function::Cosh => libm::sinh(x),
             Function::Tanh => 1.0 - value * value,
+            Function::Stumpff(_) | Function::Phi(_) => {
+                function.slope_of_closed(x).unwrap_or(f64::NAN)
+            }
             Function::Atan2 => {
                 let [y, x] = [arguments[0], arguments[1]];
                 let square = y.value * y.value + x.value * x.value;

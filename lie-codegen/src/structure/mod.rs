@@ -1,5 +1,6 @@
 //! What a system has beyond the algebra and H: structure that some methods need.
 
+pub mod exponential;
 pub mod group;
 pub mod inertia;
 pub mod integrable;

@@ -146,6 +146,18 @@ impl Graph {
                 let tangent = self.pow(value, &two);
                 self.sub(one, tangent)
             }
+            Function::Stumpff(k) => {
+                let [next, second] = [k + 1, k + 2].map(|k| self.call(Function::Stumpff(k), &[x]));
+                let half = |n: i64| Rational::new(n, 2).unwrap_or(Rational::ONE);
+                self.linear(&[(second, half(k.into())), (next, half(-1))])
+            }
+            Function::Phi(k) => {
+                let next = self.call(Function::Phi(k + 1), &[x]);
+                self.linear(&[
+                    (value, Rational::ONE),
+                    (next, Rational::from(-i64::from(k))),
+                ])
+            }
             Function::Atan2 => unreachable!("atan2 has two arguments and its own rule"),
         }
     }

@@ -1,20 +1,36 @@
-//! The elementary functions of the grammar. A square root is the power 1/2, not a function here.
+//! The elementary functions of the grammar, and those that closed forms of the exponential are made of. A square root
+//! is the power 1/2, not a function here.
+
+use lie_core::closed;
 
 macro_rules! functions {
     ($($name:ident $text:literal $arity:literal),+ $(,)?) => {
         /// An elementary function.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum Function { $(#[doc = concat!("`", $text, "`")] $name),+ }
+        pub enum Function {
+            $(#[doc = concat!("`", $text, "`")] $name,)+
+            /// The Stumpff function `S_k(w) = sum_n (-w)^n/(2n + k)!`; not in the grammar.
+            Stumpff(u8),
+            /// `phi_k(z) = sum_n z^n/(n + k)!`; not in the grammar.
+            Phi(u8),
+        }
         impl Function {
-            /// Every function.
+            /// Every function of the grammar.
             pub const ALL: &'static [Function] = &[$(Function::$name),+];
             /// Its name in the grammar, and in generated code.
             pub fn name(self) -> &'static str {
-                match self { $(Function::$name => $text),+ }
+                match self {
+                    $(Function::$name => $text,)+
+                    Function::Stumpff(k) => STUMPFF[usize::from(k)],
+                    Function::Phi(k) => PHI[usize::from(k)],
+                }
             }
             /// The number of its arguments.
             pub fn arity(self) -> usize {
-                match self { $(Function::$name => $arity),+ }
+                match self {
+                    $(Function::$name => $arity,)+
+                    Function::Stumpff(_) | Function::Phi(_) => 1,
+                }
             }
         }
     };
@@ -24,7 +40,31 @@ functions! {
     Atan "atan" 1, Sinh "sinh" 1, Cosh "cosh" 1, Tanh "tanh" 1, Atan2 "atan2" 2,
 }
 
+/// The names of the functions of closed forms.
+const STUMPFF: [&str; closed::MOST_FUNCTIONS] = [
+    "S0", "S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "S10", "S11", "S12", "S13",
+];
+const PHI: [&str; closed::MOST_FUNCTIONS] = [
+    "phi0", "phi1", "phi2", "phi3", "phi4", "phi5", "phi6", "phi7", "phi8", "phi9", "phi10",
+    "phi11", "phi12", "phi13",
+];
+
 impl Function {
+    /// The slope of a function of closed forms.
+    pub fn slope_of_closed(self, x: f64) -> Option<f64> {
+        match self {
+            Function::Stumpff(k) => {
+                let of = |k: u8| closed::stumpff_of(k.into(), x);
+                Some(0.5 * (f64::from(k) * of(k + 2) - of(k + 1)))
+            }
+            Function::Phi(k) => {
+                let of = |k: u8| closed::phi_of(k.into(), x);
+                Some(of(k) - f64::from(k) * of(k + 1))
+            }
+            _ => None,
+        }
+    }
+
     /// The function of that name; `sqrt` is none of them.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|f| f.name() == name)
@@ -47,6 +87,8 @@ impl Function {
             Function::Cosh => libm::cosh(x),
             Function::Tanh => libm::tanh(x),
             Function::Atan2 => libm::atan2(x, arguments[1]),
+            Function::Stumpff(k) => closed::stumpff_of(k.into(), x),
+            Function::Phi(k) => closed::phi_of(k.into(), x),
         }
     }
 }

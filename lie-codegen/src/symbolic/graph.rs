@@ -288,6 +288,10 @@ impl Graph {
                     Some(Rational::ZERO)
                 }
                 Function::Log | Function::Acos if value.is_one() => Some(Rational::ZERO),
+                Function::Stumpff(k) | Function::Phi(k) if value.is_zero() => {
+                    let factorial: i64 = (1..=i64::from(k)).product();
+                    Rational::new(1, factorial)
+                }
                 _ => None,
             };
             if let Some(value) = folded {

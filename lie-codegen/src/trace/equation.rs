@@ -35,6 +35,8 @@ pub struct Step {
     guess: Option<(Vec<ExprId>, &'static str)>,
     /// The argument that holds what is given from outside.
     given: &'static str,
+    /// What becomes of the derivatives of definitions, if it is known which takes fewer operations.
+    tangents: Option<Tangents>,
 }
 
 /// The state before the step.
@@ -70,6 +72,7 @@ impl Step {
             result: None,
             guess: None,
             given: "",
+            tangents: None,
         }
     }
 
@@ -97,6 +100,15 @@ impl Step {
         let row = |i| columns.clone().map(|j| matrix.get(i, j).0).collect();
         Self {
             rows: Some(columns.clone().map(row).collect()),
+            ..self
+        }
+    }
+
+    /// The same step with derivatives of its definitions of one kind, which need not be compared.
+    #[must_use]
+    pub(crate) fn deriving(self, tangents: Tangents) -> Self {
+        Self {
+            tangents: Some(tangents),
             ..self
         }
     }
@@ -187,7 +199,7 @@ pub fn kernels(
         .filter(|end| *end != source.block(Block::Unknown));
     let (rows, slopes) = match step.rows {
         Some(rows) => (rows, tape.clone()),
-        None => differentiated(source, step.of_residual, &step.residual),
+        None => differentiated(source, step.of_residual, &step.residual, step.tangents),
     };
     let graph = &source.graph;
     let residual = Kernel::vector(
@@ -222,8 +234,13 @@ fn differentiated(
     source: &mut Source,
     mut tape: Tape,
     residual: &[ExprId],
+    tangents: Option<Tangents>,
 ) -> (Vec<Vec<ExprId>>, Tape) {
     let unknown = source.symbols(Block::Unknown);
+    if let Some(tangents) = tangents {
+        let rows = tape.jacobian_in(source, residual, &unknown, tangents);
+        return (rows, tape);
+    }
     let is_long = tape.definitions().len() > LONG * unknown.len();
     let preferred = if is_long {
         Tangents::Named

@@ -45,6 +45,7 @@ pub struct SymbolicSystem {
     planes: Vec<Plane>,
     moments: Vec<Sym>,
     closed: Option<Closed>,
+    exponential: bool,
 }
 
 impl SymbolicSystem {
@@ -65,6 +66,7 @@ impl SymbolicSystem {
                 .collect(),
             moments: moments.iter().map(|moment| Sym(*moment)).collect(),
             closed: None,
+            exponential: source.exponential.is_some(),
         }
     }
 
@@ -187,6 +189,24 @@ impl LiePoisson<Sym> for SymbolicSystem {
         let rows = with(|s| s.source.ad_star_matrix_of(&xi));
         self.matrix(rows.concat().into_iter().map(Sym).collect(), out);
     }
+    fn has_closed_exponential(&self) -> bool {
+        self.exponential
+    }
+    fn coadjoint_action(&self, xi: &State, mu: &State, out: &mut State) {
+        write(closed_function(xi, mu, 0), out);
+    }
+    fn dexp_dual(&self, xi: &State, mu: &State, out: &mut State) {
+        write(closed_function(xi, mu, 1), out);
+    }
+}
+
+/// `f_k(ad*_x) m` in closed form.
+fn closed_function(x: &[Sym], m: &[Sym], k: usize) -> Vec<ExprId> {
+    let (x, m) = (ids(x), ids(m));
+    with(|Session { source, tape, .. }| {
+        let x = tape.define_all(source, &x);
+        source.closed_function(tape, (&x, &m), k)
+    })
 }
 
 impl CayleyPoisson<Sym> for SymbolicSystem {

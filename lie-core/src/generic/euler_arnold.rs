@@ -50,7 +50,7 @@ pub struct EulerArnoldHalf<'a, S: Scalar, P: CotangentPoisson<S>> {
     /// (0, h dH/da)
     force: P::State,
     hessian: P::Jacobian,
-    series: DexpSlope<P::State, S>,
+    series: DexpSlope<P::State, P::Jacobian, S>,
     /// `phi1(ad*_direction)` of the start.
     sum: P::State,
     columns: [P::State; 4],
@@ -72,7 +72,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
             direction: zero.clone(),
             force: zero.clone(),
             hessian: system.zero_jacobian(),
-            series: DexpSlope::new(&zero),
+            series: DexpSlope::new(&zero, system.zero_jacobian()),
             sum: zero.clone(),
             columns: core::array::from_fn(|_| zero.clone()),
         }
@@ -115,7 +115,7 @@ impl<'a, S: Scalar, P: CotangentPoisson<S>> EulerArnoldHalf<'a, S, P> {
     /// Sets the sum.
     fn momentum(&mut self) {
         let (system, series) = (self.system, &mut self.series);
-        series.evaluate(system, &self.direction, &self.start, &mut self.sum);
+        series.linearize(system, &self.direction, &self.start, &mut self.sum);
     }
 
     /// First half: sets direction, force and start for the momentum m.

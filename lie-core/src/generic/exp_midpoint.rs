@@ -28,7 +28,7 @@ pub struct ExpRetraction<'a, S: Scalar, P: LiePoisson<S>, G> {
     base: P::State,
     direction: P::State,
     sum: P::State,
-    series: DexpSlope<P::State, S>,
+    series: DexpSlope<P::State, P::Jacobian, S>,
     hessian: P::Jacobian,
     columns: [P::State; 2],
 }
@@ -59,16 +59,14 @@ where
             base: zero.clone(),
             direction: zero.clone(),
             sum: zero.clone(),
-            series: DexpSlope::new(&zero),
+            series: DexpSlope::new(&zero, system.zero_jacobian()),
             hessian: system.zero_jacobian(),
             columns: core::array::from_fn(|_| zero.clone()),
         }
     }
 
-    /// Computes the residual for the direction.
-    fn evaluate(&mut self, unknown: &P::State, residual: &mut P::State) {
-        self.series
-            .evaluate(self.system, &self.direction, &self.base, &mut self.sum);
+    /// Computes the residual from the sum.
+    fn subtract(&self, unknown: &P::State, residual: &mut P::State) {
         for (index, out) in residual.as_mut_slice().iter_mut().enumerate() {
             *out = unknown.as_slice()[index] - self.sum.as_slice()[index];
         }
@@ -105,13 +103,17 @@ where
 
     fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
         self.function.gradient(unknown, &mut self.direction);
-        self.evaluate(unknown, residual);
+        self.series
+            .evaluate(self.system, &self.direction, &self.base, &mut self.sum);
+        self.subtract(unknown, residual);
     }
 
     fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
         self.function
             .linearize(unknown, &mut self.direction, &mut self.hessian);
-        self.evaluate(unknown, residual);
+        self.series
+            .linearize(self.system, &self.direction, &self.base, &mut self.sum);
+        self.subtract(unknown, residual);
         let [along, total] = &mut self.columns;
         for column in 0..self.system.dimension() {
             for (row, entry) in along.as_mut_slice().iter_mut().enumerate() {

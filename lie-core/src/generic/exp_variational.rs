@@ -29,7 +29,7 @@ pub struct ExpVariational<'a, S: Scalar, P: LiePoisson<S>, L = LagrangianOfStep<
     base: P::State,
     start: P::State,
     weight: P::Jacobian,
-    series: DexpSlope<P::State, S>,
+    series: DexpSlope<P::State, P::Jacobian, S>,
     curvature: P::Jacobian,
     columns: [P::State; 3],
 }
@@ -67,10 +67,18 @@ where
             base: zero.clone(),
             start: zero.clone(),
             weight: system.zero_jacobian(),
-            series: DexpSlope::new(&zero),
+            series: DexpSlope::new(&zero, system.zero_jacobian()),
             curvature: system.zero_jacobian(),
             columns: core::array::from_fn(|_| zero.clone()),
         }
+    }
+
+    /// The residual from the sum in `columns[1]`.
+    fn weigh(&mut self, unknown: &P::State, residual: &mut P::State) {
+        let [slope, sum, _] = &mut self.columns;
+        self.l_d.slope(unknown, slope);
+        slope.axpy(-S::one(), sum);
+        multiply(&self.weight, slope, residual);
     }
 }
 
@@ -106,15 +114,15 @@ where
     }
 
     fn residual(&mut self, unknown: &P::State, residual: &mut P::State) {
-        let [slope, sum, _] = &mut self.columns;
-        self.l_d.slope(unknown, slope);
+        let [_, sum, _] = &mut self.columns;
         self.series.evaluate(self.system, unknown, &self.base, sum);
-        slope.axpy(-S::one(), sum);
-        multiply(&self.weight, slope, residual);
+        self.weigh(unknown, residual);
     }
 
     fn linearize(&mut self, unknown: &P::State, residual: &mut P::State, matrix: &mut P::Jacobian) {
-        self.residual(unknown, residual);
+        let [_, sum, _] = &mut self.columns;
+        self.series.linearize(self.system, unknown, &self.base, sum);
+        self.weigh(unknown, residual);
         self.l_d.curvature(unknown, &mut self.curvature);
         let [unit, total, out] = &mut self.columns;
         for column in 0..self.system.dimension() {

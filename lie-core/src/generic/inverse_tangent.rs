@@ -22,7 +22,12 @@ pub fn dexp_inverse_dual<S: Scalar, P: LiePoisson<S>>(
     for k in 0..system.dimension() {
         unit.fill(S::zero());
         unit.as_mut_slice()[k] = S::one();
-        dexp_dual_in(system, x, &unit, &mut column, &mut scratch, |_, _| ());
+        match system.has_closed_exponential() {
+            true => system.dexp_dual(x, &unit, &mut column),
+            false => {
+                dexp_dual_in(system, x, &unit, &mut column, &mut scratch, |_, _| ());
+            }
+        }
         for (row, &entry) in column.as_slice().iter().enumerate() {
             matrix.set(row, k, entry);
         }

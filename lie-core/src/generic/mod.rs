@@ -46,6 +46,7 @@ pub(crate) use chart::invertible_along;
 pub use chart::{CAYLEY_POLE, cayley_chart, cayley_chart_of_step};
 pub use cohen_hairer::CohenHairerStep;
 pub use coordinate_flows::{CoordinateFlows, piece_direction};
+pub use dexp_slope::dexp_dual_slope;
 pub use discrete_body::DiscreteBody;
 pub use discrete_gradient::{
     DiscreteGradient, GonzalezGradient, ItohAbeGradient, MeanValueGradient, inverse_length,

@@ -116,11 +116,25 @@ pub fn coadjoint_action<S: Scalar, P: LiePoisson<S>>(
     mu: &P::State,
     out: &mut P::State,
 ) {
-    coadjoint_action_in(system, x, mu, out, &mut Scratch::new(&system.zero_state()));
+    by_series(system, x, mu, out, &mut Scratch::new(&system.zero_state()));
 }
 
-/// [`coadjoint_action`] in space of the caller's.
+/// The closed form where the system has one, else [`coadjoint_action`] in space of the caller's.
 pub(crate) fn coadjoint_action_in<S: Scalar, P: LiePoisson<S>>(
+    system: &P,
+    x: &P::State,
+    mu: &P::State,
+    out: &mut P::State,
+    scratch: &mut Scratch<P::State>,
+) {
+    if system.has_closed_exponential() {
+        system.coadjoint_action(x, mu, out);
+        return;
+    }
+    by_series(system, x, mu, out, scratch);
+}
+
+fn by_series<S: Scalar, P: LiePoisson<S>>(
     system: &P,
     x: &P::State,
     mu: &P::State,
@@ -174,6 +188,51 @@ pub fn dexp_dual<S: Scalar, P: LiePoisson<S>>(
     dexp_dual_in(system, x, mu, out, &mut scratch, |_, _| ());
 }
 
+/// `phi1(ad*_x) mu` along x in parts: with `y(0) = 0` and `y' = ad*_x y + mu` it is y(1), and a step of length s is
+/// `y -> exp(s ad*_x) y + s phi1(s ad*_x) mu`. Only where the series at x itself cancels.
+#[cold]
+fn dexp_dual_in_parts<S: Scalar, P: LiePoisson<S>>(
+    system: &P,
+    x: &P::State,
+    mu: &P::State,
+    out: &mut P::State,
+    scratch: &mut Scratch<P::State>,
+    settled: S::Mask,
+) {
+    let (mut settled, mut parts) = (settled, S::one());
+    let mut argument = x.clone();
+    let mut increment = out.clone();
+    for _ in 0..MAX_HALVINGS {
+        for entry in argument.as_mut_slice() {
+            *entry = S::select(settled, *entry, *entry * S::ratio(1.0, 2.0));
+        }
+        parts = S::select(settled, parts, parts + parts);
+        settled = sum(system, &argument, mu, 1, &mut scratch.terms, |_, _| ()).settled;
+        increment.assign_where(S::Mask::splat(true), &scratch.terms.sum);
+        if settled.all() {
+            break;
+        }
+    }
+    let not_a_number = S::zero() / S::zero();
+    for entry in increment.as_mut_slice() {
+        *entry = S::select(settled, *entry / parts, not_a_number);
+    }
+    // the first step is the increment itself
+    out.copy_from(&increment);
+    let mut remaining = S::select(settled, parts - S::one(), S::zero());
+    let mut moved = out.clone();
+    loop {
+        let open = S::zero().less(remaining);
+        if !open.any() {
+            return;
+        }
+        by_series(system, &argument, &*out, &mut moved, scratch);
+        moved.axpy(S::one(), &increment);
+        out.assign_where(open, &moved);
+        remaining -= S::one();
+    }
+}
+
 /// [`dexp_dual`] in space of the caller's, with every term shown to `keep`; returns the index of
 /// the last term added in each lane.
 pub(crate) fn dexp_dual_in<S: Scalar, P: LiePoisson<S>>(
@@ -186,5 +245,8 @@ pub(crate) fn dexp_dual_in<S: Scalar, P: LiePoisson<S>>(
 ) -> S {
     let outcome = sum(system, x, mu, 1, &mut scratch.terms, keep);
     out.copy_from(&scratch.terms.sum);
+    if !outcome.settled.all() {
+        dexp_dual_in_parts(system, x, mu, out, scratch, outcome.settled);
+    }
     outcome.last
 }

@@ -240,6 +240,7 @@ fn call(function: Function, x: &Ball, second: Option<&Ball>) -> Option<Ball> {
             sine.div(&cosine, precision)
         }
         Function::Atan2 => x.atan2(second?, precision),
+        Function::Stumpff(_) | Function::Phi(_) => None,
     }
 }
 

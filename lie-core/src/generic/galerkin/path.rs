@@ -59,7 +59,11 @@ impl<S: Scalar, V: State<S>, const STAGES: usize> Path<S, V, STAGES> {
         }
         let [sum, ..] = &mut self.columns;
         let end = &controls.0[STAGES - 1];
-        dexp_dual_in(system, end, mu, sum, &mut self.scratch, |_, _| ());
+        if system.has_closed_exponential() {
+            system.dexp_dual(end, mu, sum);
+        } else {
+            dexp_dual_in(system, end, mu, sum, &mut self.scratch, |_, _| ());
+        }
         out.0[STAGES - 1].axpy(-S::one(), sum);
     }
 

@@ -1,0 +1,225 @@
+//! The entire functions of which closed forms of the exponential are made, with all digits for every argument.
+//!
+//! Where the minimal polynomial of `ad_x` is `z^a (z^2 + w)^b`, with w a quadratic form in x, functions of `ad_x` are
+//! polynomials in it whose coefficients are Stumpff functions of w, for any sign of w:
+//!
+//! ```math
+//! S_k(w) = \sum_n \frac{(-w)^n}{(2n + k)!}, \qquad S_k = \frac1{k!} - w\, S_{k+2}, \qquad
+//! S_k' = \tfrac12 (k\, S_{k+2} - S_{k+1})
+//! ```
+//!
+//! `$S_0 = \cos\sqrt w$`, `$S_1 = \sin\sqrt w/\sqrt w$`, `$S_2 = (1 - \cos\sqrt w)/w$`, and with hyperbolic functions of
+//! `$\sqrt{-w}$` where w is negative. Where it is `z^a (z - l)^b`, they are
+//!
+//! ```math
+//! \varphi_k(z) = \sum_n \frac{z^n}{(n + k)!}, \qquad \varphi_k = \frac1{k!} + z\, \varphi_{k+1}, \qquad
+//! \varphi_k' = \varphi_k - k\, \varphi_{k+1}
+//! ```
+//!
+//! Both recurrences lose digits upwards beside 0, where the functions themselves have removable singularities, and none
+//! downwards: the last functions asked for are summed there, and beyond, the first ones are elementary.
+//!
+//! Reference: E. L. Stiefel, G. Scheifele, "Linear and Regular Celestial Mechanics", Springer 1971, section 11,
+//! [doi:10.1007/978-3-642-65027-7](https://doi.org/10.1007/978-3-642-65027-7).
+#![cfg_attr(doc, doc = include_str!("../docs/katex.html"))]
+
+use crate::scalar::{Mask, Scalar};
+
+/// The largest `FIRST + COUNT` of the functions here.
+pub const MOST_FUNCTIONS: usize = 14;
+/// Sums begin no lower: the recurrence is cheaper than more terms.
+const LOWEST: usize = 4;
+/// Within this distance of 0 few terms are enough, and no function is called.
+const NEAR: f64 = 1.0;
+/// Terms of Stumpff functions from `S_4` on for `|w| <= 1`: the first that is left out is below an eighth of a unit in the
+/// last place of the sum, and of its first two derivatives.
+const STUMPFF_TERMS: usize = 10;
+/// Up to here they are summed; beyond, the upward recurrence loses no more than two bits.
+const STUMPFF_FAR: f64 = 16.0;
+const STUMPFF_FAR_TERMS: usize = 17;
+/// The same of `phi_k`.
+const PHI_TERMS: usize = 19;
+const PHI_FAR: f64 = 4.0;
+const PHI_FAR_TERMS: usize = 32;
+
+/// `1/n!`
+const INVERSE_FACTORIALS: [f64; 52] = {
+    let mut values = [1.0; 52];
+    let mut factorial = 1.0;
+    let mut n = 1;
+    while n < values.len() {
+        factorial *= n as f64;
+        values[n] = 1.0 / factorial;
+        n += 1;
+    }
+    values
+};
+
+#[inline(always)]
+fn inverse_factorial<S: Scalar>(n: usize) -> S {
+    S::from_f64(INVERSE_FACTORIALS[n])
+}
+
+/// Stumpff functions with `x = -w` from the sums of the last two down: `S_k = 1/k! + x S_(k + 2)`.
+#[inline(always)]
+fn stumpff_downwards<S: Scalar, const FIRST: usize, const COUNT: usize, const TERMS: usize>(
+    x: S,
+) -> [S; COUNT] {
+    const { assert!(FIRST + COUNT <= MOST_FUNCTIONS) };
+    let mut out = [S::zero(); COUNT];
+    let mut k = if FIRST + COUNT > LOWEST + 2 {
+        FIRST + COUNT - 1
+    } else {
+        LOWEST + 1
+    };
+    // S_k and S_(k - 1)
+    let mut this = inverse_factorial::<S>(k + 2 * (TERMS - 1));
+    let mut before = inverse_factorial::<S>(k - 1 + 2 * (TERMS - 1));
+    let mut n = TERMS - 1;
+    while n > 0 {
+        n -= 1;
+        this = this * x + inverse_factorial(k + 2 * n);
+        before = before * x + inverse_factorial(k - 1 + 2 * n);
+    }
+    loop {
+        if k < FIRST + COUNT {
+            out[k - FIRST] = this;
+        }
+        if k == FIRST {
+            return out;
+        }
+        if k >= FIRST + 2 {
+            (this, before) = (before, inverse_factorial::<S>(k - 2) + x * this);
+        } else {
+            this = before;
+        }
+        k -= 1;
+    }
+}
+
+/// The functions `phi_k` from the sum of the last one down: `phi_k = 1/k! + z phi_(k + 1)`.
+#[inline(always)]
+fn phi_downwards<S: Scalar, const FIRST: usize, const COUNT: usize, const TERMS: usize>(
+    z: S,
+) -> [S; COUNT] {
+    const { assert!(FIRST + COUNT <= MOST_FUNCTIONS) };
+    let mut out = [S::zero(); COUNT];
+    let mut k = if FIRST + COUNT > LOWEST + 1 {
+        FIRST + COUNT - 1
+    } else {
+        LOWEST
+    };
+    let mut this = inverse_factorial::<S>(k + TERMS - 1);
+    let mut n = TERMS - 1;
+    while n > 0 {
+        n -= 1;
+        this = this * z + inverse_factorial(k + n);
+    }
+    loop {
+        if k < FIRST + COUNT {
+            out[k - FIRST] = this;
+        }
+        if k == FIRST {
+            return out;
+        }
+        k -= 1;
+        this = inverse_factorial::<S>(k) + z * this;
+    }
+}
+
+/// Fills functions from the first ones up: `f_(k + stride) = (f_k - 1/k!)/x`.
+#[inline(always)]
+fn upwards<S: Scalar, const FIRST: usize, const COUNT: usize>(x: S, first: &[S]) -> [S; COUNT] {
+    let mut all = [S::zero(); MOST_FUNCTIONS];
+    let stride = first.len();
+    all[..stride].copy_from_slice(first);
+    for k in 0..FIRST + COUNT - stride.min(FIRST + COUNT) {
+        all[k + stride] = (all[k] - inverse_factorial(k)) / x;
+    }
+    core::array::from_fn(|index| all[FIRST + index])
+}
+
+#[inline(always)]
+fn select<S: Scalar, const COUNT: usize>(
+    mask: S::Mask,
+    yes: [S; COUNT],
+    no: [S; COUNT],
+) -> [S; COUNT] {
+    core::array::from_fn(|k| S::select(mask, yes[k], no[k]))
+}
+
+/// The Stumpff functions `S_k(w)`, k from `FIRST` on.
+///
+/// ```
+/// use lie_core::closed::stumpff;
+/// let [sine, versine] = stumpff::<f64, 1, 2>(0.25);
+/// assert!((sine - 0.5_f64.sin() / 0.5).abs() < 1e-15);
+/// assert!((versine - (1.0 - 0.5_f64.cos()) / 0.25).abs() < 1e-15);
+/// ```
+#[inline]
+pub fn stumpff<S: Scalar, const FIRST: usize, const COUNT: usize>(w: S) -> [S; COUNT] {
+    let near = w.abs().less_equal(S::from_f64(NEAR));
+    let values = stumpff_downwards::<S, FIRST, COUNT, STUMPFF_TERMS>(-w);
+    if near.all() {
+        return values;
+    }
+    select(near, values, far_stumpff::<S, FIRST, COUNT>(w))
+}
+
+#[cold]
+#[inline(never)]
+fn far_stumpff<S: Scalar, const FIRST: usize, const COUNT: usize>(w: S) -> [S; COUNT] {
+    let summed = w.abs().less_equal(S::from_f64(STUMPFF_FAR));
+    let values = stumpff_downwards::<S, FIRST, COUNT, STUMPFF_FAR_TERMS>(-w);
+    if summed.all() {
+        return values;
+    }
+    let negative = w.less(S::zero());
+    let angle = S::select(negative, -w, w).sqrt();
+    let mut first = [angle.cos(), angle.sin() / angle];
+    if negative.any() {
+        first = select(negative, [angle.cosh(), angle.sinh() / angle], first);
+    }
+    select(summed, values, upwards::<S, FIRST, COUNT>(-w, &first))
+}
+
+/// The functions `phi_k(z)`, k from `FIRST` on: `phi_0 = e^z`, `phi_1 = (e^z - 1)/z`.
+///
+/// ```
+/// use lie_core::closed::phi;
+/// let [first] = phi::<f64, 1, 1>(1e-9);
+/// assert!((first - (1.0 + 0.5e-9)).abs() < 1e-15);
+/// ```
+#[inline]
+pub fn phi<S: Scalar, const FIRST: usize, const COUNT: usize>(z: S) -> [S; COUNT] {
+    let near = z.abs().less_equal(S::from_f64(NEAR));
+    let values = phi_downwards::<S, FIRST, COUNT, PHI_TERMS>(z);
+    if near.all() {
+        return values;
+    }
+    select(near, values, far_phi::<S, FIRST, COUNT>(z))
+}
+
+#[cold]
+#[inline(never)]
+fn far_phi<S: Scalar, const FIRST: usize, const COUNT: usize>(z: S) -> [S; COUNT] {
+    let summed = z.abs().less_equal(S::from_f64(PHI_FAR));
+    let values = phi_downwards::<S, FIRST, COUNT, PHI_FAR_TERMS>(z);
+    if summed.all() {
+        return values;
+    }
+    select(summed, values, upwards::<S, FIRST, COUNT>(z, &[z.exp()]))
+}
+
+/// One Stumpff function in double precision; `k` must be below [`MOST_FUNCTIONS`].
+pub fn stumpff_of(k: usize, w: f64) -> f64 {
+    stumpff::<f64, 0, MOST_FUNCTIONS>(w)[k]
+}
+
+/// One function `phi_k` in double precision; `k` must be below [`MOST_FUNCTIONS`].
+pub fn phi_of(k: usize, z: f64) -> f64 {
+    phi::<f64, 0, MOST_FUNCTIONS>(z)[k]
+}
+
+#[cfg(test)]
+mod tests;
