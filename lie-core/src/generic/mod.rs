@@ -25,6 +25,7 @@ mod matrix_stages;
 mod midpoint;
 mod orbit_energy;
 mod pair;
+mod power_series;
 mod quadrature;
 mod quaternion_stages;
 mod realized;
@@ -67,6 +68,7 @@ pub use kernels::{
 pub use matrix_stages::MatrixStages;
 pub use midpoint::Midpoint;
 pub use orbit_energy::OrbitEnergyStep;
+pub use power_series::PowerSeries;
 pub use quadrature::{MAX_NODES, Quadrature};
 pub use quaternion_stages::QuaternionStages;
 pub use quaternion_stages::product as quaternion_product;

@@ -37,6 +37,7 @@ pub mod collective;
 pub mod commutator_free;
 pub mod compose;
 pub mod crouch_grossman;
+mod development;
 pub mod discrete_euler_poincare;
 pub mod dopri5;
 pub mod euler_arnold;
@@ -63,6 +64,7 @@ mod spinors;
 pub mod splitting;
 mod stage_parallel;
 mod stepper;
+pub mod taylor;
 pub mod tensor;
 pub mod variational;
 
@@ -104,6 +106,7 @@ pub use stage_parallel::StageParallelStepper;
 pub use stepper::{
     FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper,
 };
+pub use taylor::{Taylor, TaylorStepper};
 pub use tensor::{
     AlongGradient, MeanTensor, MidpointTensor, PoissonTensor, TensorFacts, WithTensor,
 };
