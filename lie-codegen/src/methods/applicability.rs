@@ -91,6 +91,7 @@ fn needs_algebra(choice: &Choice) -> bool {
             | Choice::CohenHairer(_)
             | Choice::Rk4
             | Choice::Dopri5
+            | Choice::Taylor
     )
 }
 

@@ -56,6 +56,10 @@ pub enum Choice {
     Rk4,
     /// `dopri5`; its tolerances are arguments of the program.
     Dopri5,
+    /// `taylor`; its tolerance is an argument of the program.
+    Taylor,
+    /// `lie-taylor`; its tolerance is an argument of the program.
+    LieTaylor,
 }
 
 /// Why an id is no method that can be used: message and remedy.
@@ -198,6 +202,8 @@ impl Choice {
             "cohen-hairer6" => Self::CohenHairer(6),
             "rk4" => Self::Rk4,
             "dopri5" => Self::Dopri5,
+            "taylor" => Self::Taylor,
+            "lie-taylor" => Self::LieTaylor,
             _ => {
                 let order: usize = find(id)?.id.strip_prefix("gauss")?.parse().ok()?;
                 Self::Gauss(order / 2)
@@ -267,6 +273,8 @@ impl Choice {
             Self::CohenHairer(order) => format!("cohen-hairer{order}"),
             Self::Rk4 => "rk4".into(),
             Self::Dopri5 => "dopri5".into(),
+            Self::Taylor => "taylor".into(),
+            Self::LieTaylor => "lie-taylor".into(),
         }
     }
 

@@ -116,6 +116,14 @@ impl Choice {
                 let dopri5 = named("Dopri5");
                 quote! { #dopri5 { rtol: tolerances.rtol, atol: tolerances.atol } }
             }
+            Self::Taylor | Self::LieTaylor => {
+                let taylor = named(if *self == Self::Taylor {
+                    "Taylor"
+                } else {
+                    "LieTaylor"
+                });
+                quote! { #taylor::with_tolerance(tolerances.rtol) }
+            }
         }
     }
 }

@@ -8,11 +8,8 @@ use super::Printer;
 use super::function::Owner;
 use super::names::ident;
 use crate::exact::Rational;
-use crate::plan::{Code, Constant};
-use crate::schedule;
-
-type Operation = schedule::Operation<Constant>;
-type Value = schedule::Value<Constant>;
+use crate::plan::Constant;
+use crate::schedule::{Operation, Program, Value};
 
 /// An expression with more operations than this is bound to a local even if it is used once.
 const LONGEST: usize = 16;
@@ -34,10 +31,10 @@ struct Text {
 
 impl Printer<'_> {
     /// The statements of a program and the tokens of its results.
-    pub(super) fn program(
+    pub(super) fn program<P>(
         &self,
-        program: &Code,
-        leaf: &dyn Fn(&Value) -> TokenStream,
+        program: &Program<P>,
+        leaf: &dyn Fn(&Value<P>) -> TokenStream,
     ) -> (TokenStream, Vec<TokenStream>) {
         let mut uses = vec![0usize; program.operations.len()];
         let mut inner = vec![false; program.operations.len()];
@@ -57,7 +54,7 @@ impl Printer<'_> {
         let mut locals = 0;
         for (position, operation) in program.operations.iter().enumerate() {
             let mut text = {
-                let mut get = |value: &Value| match value {
+                let mut get = |value: &Value<P>| match value {
                     Value::Temporary(i) => texts[*i].clone(),
                     other => Text {
                         tokens: leaf(other),
@@ -92,7 +89,7 @@ impl Printer<'_> {
     }
 
     /// The tokens of a value that is not a temporary.
-    pub(super) fn value(&self, value: &Value, owner: Owner<'_>) -> TokenStream {
+    pub(super) fn value(&self, value: &Value<Constant>, owner: Owner<'_>) -> TokenStream {
         match value {
             Value::Symbol(symbol) => {
                 let name = self.local(*symbol);
@@ -108,17 +105,18 @@ impl Printer<'_> {
     }
 }
 
-fn write(operation: &Operation, get: &mut dyn FnMut(&Value) -> Text) -> Text {
-    let mut infix = |a: &Value, b: &Value, sign: TokenStream, binding: Binding, right: Binding| {
-        let (a, b) = (get(a), get(b));
-        let length = a.length + b.length + 1;
-        let (left, right) = (enclose(&a, binding), enclose(&b, right));
-        Text {
-            tokens: quote! { #left #sign #right },
-            binding,
-            length,
-        }
-    };
+fn write<P>(operation: &Operation<P>, get: &mut dyn FnMut(&Value<P>) -> Text) -> Text {
+    let mut infix =
+        |a: &Value<P>, b: &Value<P>, sign: TokenStream, binding: Binding, right: Binding| {
+            let (a, b) = (get(a), get(b));
+            let length = a.length + b.length + 1;
+            let (left, right) = (enclose(&a, binding), enclose(&b, right));
+            Text {
+                tokens: quote! { #left #sign #right },
+                binding,
+                length,
+            }
+        };
     match operation {
         Operation::Add(a, b) => infix(a, b, quote!(+), Binding::Sum, Binding::Product),
         Operation::Sub(a, b) => infix(a, b, quote!(-), Binding::Sum, Binding::Product),
