@@ -15,12 +15,19 @@ pub const MOST_ORDERS: usize = 40;
 pub trait Recurrence<S: Scalar> {
     /// The state of the system.
     type State: State<S>;
+    /// What one order hands to the next; it is passed on by value, so that it stays in registers.
+    type Carry;
 
     /// Begins anew at a state: `field = f_0`, the field there.
-    fn begin(&mut self, mu: &Self::State, field: &mut Self::State);
-    /// `field = f_k` for the next k, from the coefficient `mu_k`; k is 1 after [`Recurrence::begin`], and below
-    /// [`MOST_ORDERS`].
-    fn advance(&mut self, coefficient: &Self::State, field: &mut Self::State);
+    fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry;
+    /// `field = f_k` from the coefficient `mu_k`, for k = 1, 2, … in turn, below [`MOST_ORDERS`].
+    fn advance(
+        &mut self,
+        k: usize,
+        carry: Self::Carry,
+        coefficient: &Self::State,
+        field: &mut Self::State,
+    ) -> Self::Carry;
 }
 
 /// The Taylor coefficients of the gradient of H beside those of the field.
@@ -82,9 +89,6 @@ pub struct Sums<S: Scalar, const PAIRS: usize, const GROUPS: usize> {
     right: [[S::Wide; GROUPS]; MOST_ORDERS],
     /// u_1 and v_1.
     first: ([S; PAIRS], [S; PAIRS]),
-    rest: [S; PAIRS],
-    /// The order of the coefficients that come next.
-    order: usize,
 }
 
 impl<S: Scalar, const PAIRS: usize, const GROUPS: usize> Default for Sums<S, PAIRS, GROUPS> {
@@ -95,75 +99,80 @@ impl<S: Scalar, const PAIRS: usize, const GROUPS: usize> Default for Sums<S, PAI
             left: zeros,
             right: zeros,
             first: (none, none),
-            rest: none,
-            order: 1,
         }
     }
 }
 
 impl<S: Scalar, const PAIRS: usize, const GROUPS: usize> Sums<S, PAIRS, GROUPS> {
-    /// Begins anew, at order 1.
+    /// What the sums of order 1 have beside the terms with coefficients of order 1: nothing.
     #[inline(always)]
-    pub fn begin(&mut self) {
-        self.order = 1;
-        self.rest = [S::zero(); PAIRS];
+    pub fn begin(&self) -> [S; PAIRS] {
+        [S::zero(); PAIRS]
     }
 
-    /// The order of the coefficients that come next.
+    /// Takes the coefficients u_k and v_k, and returns the sums of the next order without their first and last terms:
+    /// `sum_(0<j<=k) u_j v_(k+1-j)`.
     #[inline(always)]
-    pub fn order(&self) -> usize {
-        self.order
-    }
-
-    /// The sums of the order that comes next without their first and last terms: `sum_(0<j<k) u_j v_(k-j)`.
-    #[inline(always)]
-    pub fn rest(&self) -> [S; PAIRS] {
-        self.rest
-    }
-
-    /// Takes the coefficients u_k and v_k of the next order, and prepares the sums of the one after it.
-    #[inline(always)]
-    pub fn push(&mut self, left: [S; PAIRS], right: [S; PAIRS]) {
-        let k = self.order;
+    pub fn push(&mut self, k: usize, left: [S; PAIRS], right: [S; PAIRS]) -> [S; PAIRS] {
         for group in 0..GROUPS {
             self.left[k][group] = gathered(&left, group);
             self.right[k][group] = gathered(&right, group);
         }
-        self.order = k + 1;
         if k == 1 {
             self.first = (left, right);
-            self.rest = core::array::from_fn(|m| left[m] * right[m]);
-            return;
+            return core::array::from_fn(|m| left[m] * right[m]);
         }
         // the terms with the newest coefficients one by one: the others do not wait for them
         let (first_left, first_right) = &self.first;
-        let newest: [S; PAIRS] =
+        let mut rest: [S; PAIRS] =
             core::array::from_fn(|m| first_left[m] * right[m] + left[m] * first_right[m]);
-        for group in 0..GROUPS {
-            let inner = S::scatter(self.inner(k + 1, group));
-            for (m, &sum) in inner.iter().enumerate() {
-                if let Some(rest) = self.rest.get_mut(8 * group + m) {
-                    *rest = newest[8 * group + m] + sum;
+        let mut add = |group: usize, sums: S::Wide| {
+            for (m, sum) in S::scatter(sums).into_iter().enumerate() {
+                if 8 * group + m < PAIRS {
+                    rest[8 * group + m] += sum;
                 }
             }
+        };
+        // as many chains of additions as there are registers for
+        let mut group = 0;
+        while group + 4 <= GROUPS {
+            let sums = self.inner::<4>(k + 1, group);
+            (0..4).for_each(|g| add(group + g, sums[g]));
+            group += 4;
         }
+        if group + 2 <= GROUPS {
+            let sums = self.inner::<2>(k + 1, group);
+            (0..2).for_each(|g| add(group + g, sums[g]));
+            group += 2;
+        }
+        if group < GROUPS {
+            let [sums] = self.inner::<1>(k + 1, group);
+            add(group, sums);
+        }
+        rest
     }
 
-    /// `sum_(2 <= j <= k-2) u_j v_(k-j)` in two chains.
+    /// `sum_(2 <= j <= k-2) u_j v_(k-j)` of a block of groups, the even and the odd j in chains of their own.
     #[inline(always)]
-    fn inner(&self, k: usize, group: usize) -> S::Wide {
-        let zero = S::zero().widen();
-        let (mut even, mut odd) = (zero, zero);
-        let mut j = 2;
-        while j + 3 <= k {
-            even += self.left[j][group] * self.right[k - j][group];
-            odd += self.left[j + 1][group] * self.right[k - j - 1][group];
-            j += 2;
+    fn inner<const BLOCK: usize>(&self, k: usize, first: usize) -> [S::Wide; BLOCK] {
+        let last = k.saturating_sub(1).max(2);
+        let (left, right) = (&self.left[2..last], &self.right[2..last]);
+        let mut even = [S::zero().widen(); BLOCK];
+        let mut odd = even;
+        let add = |sums: &mut [S::Wide; BLOCK], u: &[S::Wide; GROUPS], v: &[S::Wide; GROUPS]| {
+            for (g, sum) in sums.iter_mut().enumerate() {
+                *sum += u[first + g] * v[first + g];
+            }
+        };
+        let (lefts, rights) = (left.chunks_exact(2), right.rchunks_exact(2));
+        if let ([u], [v]) = (lefts.remainder(), rights.remainder()) {
+            add(&mut even, u, v);
         }
-        if j + 2 <= k {
-            even += self.left[j][group] * self.right[k - j][group];
+        for (u, v) in lefts.zip(rights) {
+            add(&mut even, &u[0], &v[1]);
+            add(&mut odd, &u[1], &v[0]);
         }
-        even + odd
+        core::array::from_fn(|g| even[g] + odd[g])
     }
 }
 

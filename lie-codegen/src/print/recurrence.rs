@@ -61,6 +61,7 @@ impl Printer<'_> {
             #[allow(non_snake_case, clippy::many_single_char_names)]
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::Recurrence<S> for #name<'_, S> {
                 type State = #state;
+                type Carry = [S; #pairs];
 
                 #methods
             }
@@ -117,13 +118,9 @@ impl Printer<'_> {
             let mut values = recurrence.advance.values();
             values.any(|value| *value == Value::Prepared(quantity))
         };
-        let order = reads(Quantity::Order)
-            .then(|| quote! { let _order = S::from_f64(self.sums.order() as f64); });
+        let order = reads(Quantity::Order).then(|| quote! { let _order = S::from_f64(_k as f64); });
         let inverse = reads(Quantity::InverseOrder)
-            .then(|| quote! { let _inverse_order = S::ratio(1.0, self.sums.order() as f64); });
-        let rest = (recurrence.pairs > 0).then(|| quote! { let _rest = self.sums.rest(); });
-        let push =
-            (recurrence.pairs > 0).then(|| quote! { self.sums.push([#(#left),*], [#(#right),*]); });
+            .then(|| quote! { let _inverse_order = S::ratio(1.0, _k as f64); });
         let keep = (recurrence.kept > 0).then(|| quote! { self.kept = [#(#kept),*]; });
         let reads_mu = recurrence.begin.values().any(is_coordinate);
         let reads_row = recurrence.advance.values().any(is_coordinate);
@@ -135,24 +132,29 @@ impl Printer<'_> {
         quote! {
             #[doc = #counts_of_begin]
             #[inline]
-            fn begin(&mut self, #mu: &Self::State, #field: &mut Self::State) {
+            fn begin(&mut self, #mu: &Self::State, #field: &mut Self::State) -> Self::Carry {
                 #unpack_mu
                 #begin
-                self.sums.begin();
                 #keep
                 #of_begin
+                self.sums.begin()
             }
 
             #[doc = #counts_of_advance]
             #[inline]
-            fn advance(&mut self, #coefficient: &Self::State, #field: &mut Self::State) {
+            fn advance(
+                &mut self,
+                _k: usize,
+                _rest: Self::Carry,
+                #coefficient: &Self::State,
+                #field: &mut Self::State,
+            ) -> Self::Carry {
                 #unpack_row
-                #rest
                 #order
                 #inverse
                 #advance
                 #of_advance
-                #push
+                self.sums.push(_k, [#(#left),*], [#(#right),*])
             }
         }
     }

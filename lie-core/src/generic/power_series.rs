@@ -2,7 +2,7 @@
 //! beginning for each order.
 
 use crate::poisson::Poisson;
-use crate::recurrence::{Expand, GradientRecurrence, MOST_ORDERS, Recurrence};
+use crate::recurrence::{Expand, GradientRecurrence, Recurrence};
 use crate::scalar::{Scalar, Truncated};
 use crate::state::State;
 
@@ -13,8 +13,6 @@ pub struct PowerSeries<S: Scalar, P: Expand<S>> {
     series: <P::Expanded as Poisson<Truncated<S>>>::State,
     out: <P::Expanded as Poisson<Truncated<S>>>::State,
     gradient: P::State,
-    /// The coefficients of the next order come.
-    order: usize,
 }
 
 impl<S: Scalar, P: Expand<S>> PowerSeries<S, P> {
@@ -27,13 +25,11 @@ impl<S: Scalar, P: Expand<S>> PowerSeries<S, P> {
             series,
             system: expanded,
             gradient: system.zero_state(),
-            order: 0,
         }
     }
 
     /// Takes a coefficient of the state and computes one of field and gradient.
-    fn next(&mut self, coefficient: &P::State, field: &mut P::State) {
-        let k = self.order;
+    fn next(&mut self, k: usize, coefficient: &P::State, field: &mut P::State) {
         let coordinates = self.series.as_mut_slice().iter_mut();
         for (series, &next) in coordinates.zip(coefficient.as_slice()) {
             let known = *series;
@@ -43,7 +39,6 @@ impl<S: Scalar, P: Expand<S>> PowerSeries<S, P> {
         take(k, &self.out, field);
         self.system.gradient(&self.series, &mut self.out);
         take(k, &self.out, &mut self.gradient);
-        self.order = k + 1;
     }
 }
 
@@ -56,15 +51,14 @@ fn take<S: Scalar, W: State<Truncated<S>>, V: State<S>>(k: usize, series: &W, ou
 
 impl<S: Scalar, P: Expand<S>> Recurrence<S> for PowerSeries<S, P> {
     type State = P::State;
+    type Carry = ();
 
     fn begin(&mut self, mu: &P::State, field: &mut P::State) {
-        self.order = 0;
-        self.next(mu, field);
+        self.next(0, mu, field);
     }
 
-    fn advance(&mut self, coefficient: &P::State, field: &mut P::State) {
-        debug_assert!(self.order < MOST_ORDERS);
-        self.next(coefficient, field);
+    fn advance(&mut self, k: usize, _carry: (), coefficient: &P::State, field: &mut P::State) {
+        self.next(k, coefficient, field);
     }
 }
 

@@ -10,7 +10,7 @@ use crate::state::State;
 
 /// The order over `-ln(tolerance)`. One half makes the work of sums that cost the square of the order least; the more of the
 /// work goes with the order itself, the larger the best value.
-const ORDER: f64 = 0.5;
+const ORDER: f64 = 0.9;
 
 /// The coefficients of a series: rows beyond the order are 0, four of them at least.
 pub(super) type Rows<V> = [V; MOST_ORDERS + 5];

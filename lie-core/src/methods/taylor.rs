@@ -100,11 +100,18 @@ impl<S: Scalar, P: Series<S>> Method<S, P> for Taylor {
             rows: core::array::from_fn(|_| zero.clone()),
             place: S::zero(),
             reach: S::zero(),
-            field: zero.clone(),
-            coefficient: zero.clone(),
+            scratch: Some((zero.clone(), zero.clone())),
             current: zero.clone(),
             point: zero,
         }
+    }
+}
+
+/// `out = factor * state`
+#[inline(always)]
+fn multiply<S: Scalar, V: State<S>>(state: &V, factor: S, out: &mut V) {
+    for (out, &entry) in out.as_mut_slice().iter_mut().zip(state.as_slice()) {
+        *out = entry * factor;
     }
 }
 
@@ -122,33 +129,41 @@ pub struct TaylorStepper<'a, S: Scalar, P: Series<S> + 'a> {
     /// Where on its series the current state lies, and how far the series is used.
     place: S,
     reach: S,
-    field: P::State,
-    coefficient: P::State,
+    /// A coefficient of the field, and one of the state.
+    scratch: Option<(P::State, P::State)>,
     current: P::State,
     point: P::State,
 }
 
 impl<'a, S: Scalar, P: Series<S>> TaylorStepper<'a, S, P> {
-    /// Develops the series at the current state in some lanes. False in those where it is not finite.
-    fn develop(&mut self, lanes: S::Mask) -> S::Mask {
+    /// Computes the coefficients of the series at the current state, and takes them in some lanes.
+    #[inline(always)]
+    fn expand(&mut self, lanes: S::Mask) {
         let all = lanes.all();
-        let order = self.pace.order;
         let take = |row: &mut P::State, from: &P::State| match all {
             true => row.copy_from(from),
             false => row.assign_where(lanes, from),
         };
+        // taken out, so that they are in registers
+        let Some((mut field, mut coefficient)) = self.scratch.take() else {
+            return;
+        };
         take(&mut self.rows[0], &self.current);
-        self.recurrence.begin(&self.current, &mut self.field);
-        for k in 1..=order {
-            let entries = self.coefficient.as_mut_slice().iter_mut();
-            for (entry, &field) in entries.zip(self.field.as_slice()) {
-                *entry = field * self.inverses[k];
-            }
-            take(&mut self.rows[k], &self.coefficient);
-            if k < order {
-                self.recurrence.advance(&self.coefficient, &mut self.field);
-            }
+        let mut carry = self.recurrence.begin(&self.current, &mut field);
+        for k in 1..self.pace.order {
+            multiply(&field, self.inverses[k], &mut coefficient);
+            carry = self.recurrence.advance(k, carry, &coefficient, &mut field);
+            take(&mut self.rows[k], &coefficient);
         }
+        let last = self.pace.order;
+        multiply(&field, self.inverses[last], &mut coefficient);
+        take(&mut self.rows[last], &coefficient);
+        self.scratch = Some((field, coefficient));
+    }
+
+    /// Develops the series at the current state in some lanes. False in those where it is not finite.
+    fn develop(&mut self, lanes: S::Mask) -> S::Mask {
+        self.expand(lanes);
         let mut reach = S::zero();
         for lane in 0..S::LANES {
             let length = self.pace.reach::<S, _>(&self.rows, lane);
@@ -168,14 +183,17 @@ impl<'a, S: Scalar, P: Series<S>> TaylorStepper<'a, S, P> {
         sink: &mut K,
     ) {
         let tableau = gauss_tableau::<S, NODES>();
+        let Some((point, xi)) = &mut self.scratch else {
+            return;
+        };
         let step = self.sign * size;
         for (index, &node) in tableau.c.iter().enumerate() {
             let time = self.sign * from + node * step;
-            sum(&self.rows, self.pace.order, time, &mut self.field);
-            direction(self.system, step, &self.field, &mut self.coefficient);
-            clear(&mut self.coefficient, !accepted);
+            sum(&self.rows, self.pace.order, time, point);
+            direction(self.system, step, point, xi);
+            clear(xi, !accepted);
             let count = NODES;
-            sink.push_velocity(RungeKutta::Gauss, Stage { index, count }, &self.coefficient);
+            sink.push_velocity(RungeKutta::Gauss, Stage { index, count }, xi);
         }
     }
 }
