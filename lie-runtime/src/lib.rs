@@ -97,10 +97,10 @@ pub mod prelude {
         Collective8, Collective12, Collective16, CommutatorFree4, Compose4, Compose6, Compose8,
         CrouchGrossman3, DiscreteEulerPoincare, Dopri5, EulerArnold2, Generating2, Generating4,
         Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4,
-        Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue, Method, MoserVeselov, OrbitEnergy,
-        Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint, Splitting1, Splitting2,
-        Splitting4, Splitting6, Splitting8, Stepper, Taylor, Variational2, Variational4,
-        Variational6,
+        Isospectral6, ItohAbe, LieEuler, LieMidpoint, LieTaylor, MeanValue, Method, MoserVeselov,
+        OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint, Splitting1,
+        Splitting2, Splitting4, Splitting6, Splitting8, Stepper, Taylor, Variational2,
+        Variational4, Variational6,
     };
     pub use crate::newton::{Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]

@@ -6,8 +6,8 @@ use lie_core::methods::{
     DiscreteEulerPoincare, Dopri5, EulerArnold2, Exp, Facts, Gauss4, Gauss6, Gauss8, Gauss10,
     Gauss12, Gauss14, Gauss16, Generating2, Generating4, Generating6, GeneratingSecondKind2,
     Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6, ItohAbe, LieEuler,
-    LieMidpoint, MeanValue, MoserVeselov, OrbitEnergy, Preserves, Representation, Rk4, Rkmk2,
-    Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6,
+    LieMidpoint, LieTaylor, MeanValue, MoserVeselov, OrbitEnergy, Preserves, Representation, Rk4,
+    Rkmk2, Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint, Splitting1, Splitting2, Splitting4, Splitting6,
     Splitting8, Taylor, Variational2, Variational4, Variational6,
 };
 
@@ -97,6 +97,7 @@ catalogue! {
     Rk4: "classical Runge–Kutta method (control)", ANY, "Kutta (1901)";
     Dopri5: "Dormand–Prince pair with step control (control)", ANY, "Dormand, Prince (1980), 10.1016/0771-050X(80)90013-3";
     Taylor: "Taylor series, order and step from a tolerance", EXPRESSION, JZ;
+    LieTaylor: "Taylor series in the algebra, order and step from a tolerance", "any Lie algebra, a Hamiltonian with an expression", JZ;
     LieEuler: "Lie–Euler", ALGEBRA, MK;
     Rkmk2: "Runge–Kutta–Munthe-Kaas", ALGEBRA, MK;
     Rkmk3: "Runge–Kutta–Munthe-Kaas", ALGEBRA, MK;

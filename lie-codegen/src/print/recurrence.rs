@@ -131,7 +131,7 @@ impl Printer<'_> {
         );
         quote! {
             #[doc = #counts_of_begin]
-            #[inline]
+            #[inline(always)]
             fn begin(&mut self, #mu: &Self::State, #field: &mut Self::State) -> Self::Carry {
                 #unpack_mu
                 #begin
@@ -141,7 +141,7 @@ impl Printer<'_> {
             }
 
             #[doc = #counts_of_advance]
-            #[inline]
+            #[inline(always)]
             fn advance(
                 &mut self,
                 _k: usize,

@@ -8,10 +8,6 @@ use crate::recurrence::MOST_ORDERS;
 use crate::scalar::{Scalar, largest};
 use crate::state::State;
 
-/// The order over `-ln(tolerance)`. One half makes the work of sums that cost the square of the order least; the more of the
-/// work goes with the order itself, the larger the best value.
-const ORDER: f64 = 0.9;
-
 /// The coefficients of a series: rows beyond the order are 0, four of them at least.
 pub(super) type Rows<V> = [V; MOST_ORDERS + 5];
 
@@ -24,11 +20,11 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// By a tolerance per step relative to the state, at least round-off: the order p is `1 - ln(tolerance)/2` rounded up,
-    /// and a series is used as far as its term of order p stays below the tolerance.
-    pub(super) fn of_tolerance<S: Scalar>(tolerance: f64) -> Self {
+    /// By a tolerance per step relative to the state, at least round-off: the order p is `1 - ratio ln(tolerance)`, and a
+    /// series is used as far as its term of order p stays below the tolerance.
+    pub(super) fn of_tolerance<S: Scalar>(tolerance: f64, ratio: f64) -> Self {
         let tolerance = tolerance.clamp(largest(S::epsilon()), 0.1);
-        let order = 1.0 - ORDER * core::f64::consts::LN_2 * log2(tolerance);
+        let order = 1.0 - ratio * core::f64::consts::LN_2 * log2(tolerance);
         let order = (order as usize + 1).clamp(2, MOST_ORDERS);
         let part = exp2((log2(tolerance) - 1.0 / core::f64::consts::LN_2) / order as f64);
         Self {
@@ -38,9 +34,20 @@ impl Pace {
     }
 
     /// Of an order, one series for each step of the grid.
-    pub(super) fn of_order(order: u32) -> Self {
-        let order = (order as usize).clamp(1, MOST_ORDERS);
+    pub(super) fn of_order(order: usize) -> Self {
+        let order = order.clamp(1, MOST_ORDERS);
         Self { order, part: None }
+    }
+
+    /// [`Pace::reach`] in every lane.
+    #[inline(always)]
+    pub(super) fn reach_of_lanes<S: Scalar, V: State<S>>(&self, rows: &Rows<V>) -> S {
+        let mut reach = S::zero();
+        for lane in 0..S::LANES {
+            let length = self.reach(rows, lane);
+            reach = reach.with_lane(lane, S::Lane::from_f64(length));
+        }
+        reach
     }
 
     /// How far the series is used in one lane; not a number where a coefficient is not finite.
@@ -89,6 +96,24 @@ impl Pace {
             order -= 1;
         }
         f64::INFINITY
+    }
+}
+
+/// `out = factor * state`
+#[inline(always)]
+pub(super) fn multiply<S: Scalar, V: State<S>>(state: &V, factor: S, out: &mut V) {
+    for (out, &entry) in out.as_mut_slice().iter_mut().zip(state.as_slice()) {
+        *out = entry * factor;
+    }
+}
+
+/// Takes a row over in some lanes; `all` says that these are all lanes.
+#[inline(always)]
+pub(super) fn take<S: Scalar, V: State<S>>(row: &mut V, from: &V, lanes: S::Mask, all: bool) {
+    if all {
+        row.copy_from(from);
+    } else {
+        row.assign_where(lanes, from);
     }
 }
 
@@ -159,10 +184,11 @@ mod tests {
 
     #[test]
     fn orders_follow_tolerances() {
-        let order = |tolerance| Pace::of_tolerance::<f64>(tolerance).order;
+        let order = |tolerance| Pace::of_tolerance::<f64>(tolerance, 0.5).order;
         assert_eq!([1e-3, 1e-6, 1e-9, 1e-12].map(order), [5, 8, 12, 15]);
         // below round-off there is nothing to gain
         assert_eq!(order(1e-300), order(f64::EPSILON));
+        assert_eq!(Pace::of_tolerance::<f32>(1e-15, 0.5).order, 9);
         assert_eq!(Pace::of_order(7).order, 7);
     }
 
@@ -172,7 +198,7 @@ mod tests {
 
     #[test]
     fn the_reach_is_the_part_of_the_radius_that_the_tolerance_allows() {
-        let pace = Pace::of_tolerance::<f64>(1e-12);
+        let pace = Pace::of_tolerance::<f64>(1e-12, 0.5);
         // 1/(1 - t/3), beside a coordinate that is large and a polynomial
         let geometric = rows(
             |k| [3_f64.powi(-(k as i32)), if k < 2 { 1e9 } else { 0.0 }],

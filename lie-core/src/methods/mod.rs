@@ -27,6 +27,8 @@
 //! and [`CommutatorFree4`] for any Lie algebra; [`Splitting`] for a Hamiltonian that is a sum of functions
 //! of one coordinate each. [`Compose`] makes methods of order 4, 6 and 8 of any symmetric one of order 2.
 //!
+//! By Taylor series, with order and step from a tolerance: [`Taylor`] of the solution itself, [`LieTaylor`] in the algebra.
+//!
 //! [`Rk4`] and [`Dopri5`] keep no structure: they are there to compare with. What a method keeps is data,
 //! see [`Facts`].
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
@@ -52,6 +54,7 @@ pub mod isospectral;
 pub mod itoh_abe;
 pub mod lie_euler;
 pub mod lie_midpoint;
+pub mod lie_taylor;
 pub mod mean_value;
 pub mod midpoint;
 pub mod moser_veselov;
@@ -59,6 +62,7 @@ pub mod orbit_energy;
 mod realized;
 pub mod rk4;
 pub mod rkmk;
+mod series_stepper;
 pub mod spherical_midpoint;
 mod spinors;
 pub mod splitting;
@@ -90,6 +94,7 @@ pub use isospectral::{Isospectral, Isospectral2, Isospectral4, Isospectral6};
 pub use itoh_abe::ItohAbe;
 pub use lie_euler::{LieEuler, LieEulerStepper};
 pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
+pub use lie_taylor::{LieTaylor, LieTaylorDevelopment};
 pub use mean_value::MeanValue;
 pub use midpoint::ImplicitMidpoint;
 pub use moser_veselov::{MoserVeselov, MoserVeselovStepper};
@@ -97,6 +102,7 @@ pub use orbit_energy::OrbitEnergy;
 pub use realized::RealizedStepper;
 pub use rk4::{Rk4, Rk4Stepper};
 pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
+pub use series_stepper::{Development, SeriesStepper};
 pub use spherical_midpoint::SphericalMidpoint;
 pub use spinors::SpinorStepper;
 pub use splitting::{
@@ -106,7 +112,7 @@ pub use stage_parallel::StageParallelStepper;
 pub use stepper::{
     FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper,
 };
-pub use taylor::{Taylor, TaylorStepper};
+pub use taylor::{Taylor, TaylorDevelopment};
 pub use tensor::{
     AlongGradient, MeanTensor, MidpointTensor, PoissonTensor, TensorFacts, WithTensor,
 };
