@@ -11,6 +11,9 @@ use crate::state::State;
 /// The largest order that is computed.
 pub const MOST_ORDERS: usize = 40;
 
+/// Groups of sums that go along the orders together: as many as there are registers for.
+const TOGETHER: usize = 4;
+
 /// The Taylor coefficients of a vector field along its solution. It keeps those found so far, and allocates nothing.
 pub trait Recurrence<S: Scalar> {
     /// The state of the system.
@@ -122,34 +125,18 @@ impl<S: Scalar, const PAIRS: usize, const GROUPS: usize> Sums<S, PAIRS, GROUPS> 
             self.first = (left, right);
             return core::array::from_fn(|m| left[m] * right[m]);
         }
+        let sums: [S::Wide; GROUPS] = if GROUPS <= TOGETHER {
+            self.inner::<GROUPS>(k + 1, 0)
+        } else {
+            core::array::from_fn(|group| self.inner::<1>(k + 1, group)[0])
+        };
+        let sums = sums.map(S::scatter);
         // the terms with the newest coefficients one by one: the others do not wait for them
         let (first_left, first_right) = &self.first;
-        let mut rest: [S; PAIRS] =
-            core::array::from_fn(|m| first_left[m] * right[m] + left[m] * first_right[m]);
-        let mut add = |group: usize, sums: S::Wide| {
-            for (m, sum) in S::scatter(sums).into_iter().enumerate() {
-                if 8 * group + m < PAIRS {
-                    rest[8 * group + m] += sum;
-                }
-            }
-        };
-        // as many chains of additions as there are registers for
-        let mut group = 0;
-        while group + 4 <= GROUPS {
-            let sums = self.inner::<4>(k + 1, group);
-            (0..4).for_each(|g| add(group + g, sums[g]));
-            group += 4;
-        }
-        if group + 2 <= GROUPS {
-            let sums = self.inner::<2>(k + 1, group);
-            (0..2).for_each(|g| add(group + g, sums[g]));
-            group += 2;
-        }
-        if group < GROUPS {
-            let [sums] = self.inner::<1>(k + 1, group);
-            add(group, sums);
-        }
-        rest
+        core::array::from_fn(|m| {
+            let newest = first_left[m] * right[m] + left[m] * first_right[m];
+            newest + sums[m / 8][m % 8]
+        })
     }
 
     /// `sum_(2 <= j <= k-2) u_j v_(k-j)` of a block of groups, the even and the odd j in chains of their own.
