@@ -57,6 +57,16 @@ impl Choice {
         }
     }
 
+    /// The value of a method that is a type with a default.
+    pub(crate) fn at_defaults(&self) -> TokenStream {
+        let name = match self {
+            Self::Taylor => named("Taylor"),
+            Self::LieTaylor => named("LieTaylor"),
+            other => return other.constructor(),
+        };
+        quote! { <#name as ::core::default::Default>::default() }
+    }
+
     /// The value of the method in the runtime, as Rust; `tolerances` is in scope.
     pub fn constructor(&self) -> TokenStream {
         match self {

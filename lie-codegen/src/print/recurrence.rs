@@ -38,6 +38,7 @@ impl Printer<'_> {
         quote! {
             #[doc = #doc]
             #[derive(Clone, Debug)]
+            #[allow(dead_code)]
             #visibility struct #name<'a, S: ::lie_runtime::Scalar> {
                 system: &'a #system<S>,
                 kept: [S; #kept],
