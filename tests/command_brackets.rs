@@ -54,6 +54,7 @@ fn ranks_casimirs_and_methods() {
             "gauss16",
             "rk4",
             "dopri5",
+            "taylor",
             "compose4",
             "compose6",
             "compose8",

@@ -40,6 +40,8 @@ METHODS = [
     ("lie-midpoint --retraction cayley", SPIN, []),
     ("rk4", SPIN, ["methods/rk4.rs"]),
     ("dopri5", SPIN, ["methods/dopri5.rs"]),
+    ("taylor", SPIN, ["methods/taylor.rs", "recurrence.rs"]),
+    ("lie-taylor", SPIN, ["methods/lie_taylor.rs"]),
     ("lie-euler", SPIN, ["methods/lie_euler.rs", "methods/explicit.rs"]),
     ("rkmk2", SPIN, ["methods/rkmk.rs#MIDPOINT", "methods/rkmk.rs#act|correct|step"]),
     ("rkmk3", SPIN, ["methods/rkmk.rs#KUTTA", "methods/rkmk.rs#act|correct|step"]),

@@ -18,8 +18,9 @@
 /// `moser_veselov_n` (needs [`crate::InertiaPoisson`]); `variational` (`variational2`, `variational4`,
 /// `variational6`; need [`crate::LagrangianPoisson`], the last two also over [`crate::Lift::Lifted`]) and
 /// `variational_cayley` (needs [`crate::CayleyPoisson`] too); `discrete` and `discrete_cayley` (need
-/// [`crate::DiscreteLagrangianPoisson`]). And `splitting` implements
-/// [`crate::SeparablePoisson`], for a Hamiltonian that is a sum of functions of one coordinate each.
+/// [`crate::DiscreteLagrangianPoisson`]). `splitting` implements
+/// [`crate::SeparablePoisson`], for a Hamiltonian that is a sum of functions of one coordinate each; `taylor` and
+/// `lie_taylor` implement [`crate::Series`] and [`crate::GradientSeries`] (need [`crate::Expand`]).
 #[macro_export]
 macro_rules! generic_equations {
     ($generics:tt $system:ty, $scalar:ty: $($equation:ident),* $(,)?) => {
@@ -54,6 +55,22 @@ macro_rules! generic_equations {
             @impl $generics $system, $scalar, [LieMidpoint<$crate::methods::Cayley>],
             $crate::generic::CayleyMidpoint<'a, $scalar, Self>
         );
+    };
+    (@taylor [$($generics:tt)*] $system:ty, $scalar:ty) => {
+        impl<$($generics)*> $crate::Series<$scalar> for $system {
+            type Recurrence<'a> = $crate::generic::PowerSeries<$scalar, Self> where Self: 'a;
+            fn series(&self) -> Self::Recurrence<'_> {
+                $crate::generic::PowerSeries::new(self)
+            }
+        }
+    };
+    (@lie_taylor [$($generics:tt)*] $system:ty, $scalar:ty) => {
+        impl<$($generics)*> $crate::GradientSeries<$scalar> for $system {
+            type Recurrence<'a> = $crate::generic::PowerSeries<$scalar, Self> where Self: 'a;
+            fn gradient_series(&self) -> Self::Recurrence<'_> {
+                $crate::generic::PowerSeries::new(self)
+            }
+        }
     };
     (@isospectral2 $generics:tt $system:ty, $scalar:ty) => {
         $crate::generic_equations!(@stages $generics $system, $scalar, 1);

@@ -21,6 +21,7 @@ pub mod newton;
 pub mod parameter;
 pub mod pieces;
 pub mod poisson;
+pub mod recurrence;
 pub mod scalar;
 #[cfg(feature = "sources")]
 pub mod sources;
@@ -36,6 +37,7 @@ pub use matrix::{SquareMatrix, StageMatrix};
 pub use parameter::{ParameterError, ParameterFault};
 pub use pieces::{PieceFlows, SeparablePoisson};
 pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson, Widen};
+pub use recurrence::{Expand, GradientRecurrence, GradientSeries, Recurrence, Series};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 pub use structure::{

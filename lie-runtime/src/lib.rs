@@ -70,12 +70,13 @@ mod test_systems;
 
 pub use lie_core::{
     CayleyPoisson, ClosedRealization, CotangentPoisson, DiscreteLagrangian,
-    DiscreteLagrangianPoisson, Dual, Equation, GeneratingFunction, Group, Implicit, InertiaPoisson,
-    IntegrablePoisson, LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson,
-    Motion, ParameterError, ParameterFault, PieceFlows, Poisson, RealizedPoisson, Scalar,
-    SeparablePoisson, Spectrum, SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown,
-    Widen, closed, elimination, equation, generating, generic, generic_equations, lagrangian,
-    matrix, methods, newton, parameter, pieces, poisson, scalar, state, structure,
+    DiscreteLagrangianPoisson, Dual, Equation, Expand, GeneratingFunction, GradientRecurrence,
+    GradientSeries, Group, Implicit, InertiaPoisson, IntegrablePoisson, LagrangianPoisson,
+    LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson, Motion, ParameterError, ParameterFault,
+    PieceFlows, Poisson, RealizedPoisson, Recurrence, Scalar, SeparablePoisson, Series, Spectrum,
+    SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown, Widen, closed, elimination,
+    equation, generating, generic, generic_equations, lagrangian, matrix, methods, newton,
+    parameter, pieces, poisson, recurrence, scalar, state, structure,
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
@@ -97,9 +98,10 @@ pub mod prelude {
         Collective12, Collective16, CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3,
         DiscreteEulerPoincare, Dopri5, EulerArnold2, Exact, Generating2, Generating4, Generating6,
         GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4,
-        Isospectral6, ItohAbe, LieEuler, LieMidpoint, MeanValue, Method, MoserVeselov, OrbitEnergy,
-        Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint, Splitting1, Splitting2,
-        Splitting4, Splitting6, Splitting8, Stepper, Variational2, Variational4, Variational6,
+        Isospectral6, ItohAbe, LieEuler, LieMidpoint, LieTaylor, MeanValue, Method, MoserVeselov,
+        OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint, Splitting1,
+        Splitting2, Splitting4, Splitting6, Splitting8, Stepper, Taylor, Variational2,
+        Variational4, Variational6,
     };
     pub use crate::newton::{Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]

@@ -1,7 +1,7 @@
 //! Which methods have fused code here.
 
 /// Every family of methods with fused code; of `lie-midpoint` both retractions where they apply.
-pub const METHODS: [&str; 17] = [
+pub const METHODS: [&str; 19] = [
     "midpoint",
     "gauss4",
     "gauss6",
@@ -19,6 +19,8 @@ pub const METHODS: [&str; 17] = [
     "collective6",
     "spherical-midpoint",
     "moser-veselov",
+    "taylor",
+    "lie-taylor",
 ];
 
 /// Methods whose code is much, for some systems.

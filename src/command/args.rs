@@ -130,8 +130,8 @@ pub struct Run {
     /// The method, see `lie methods`
     #[arg(long, value_name = "ID")]
     pub method: Option<String>,
-    /// Step size; negative to go backwards. dopri5 chooses its own steps, but lands on every multiple of
-    /// this: none of its steps is longer
+    /// Step size; negative to go backwards. dopri5, taylor and lie-taylor choose their own steps, but land on every
+    /// multiple of this
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub step: Option<String>,
     /// Relative error at the end, in place of --step: chooses a constant step, and without --method the method too
@@ -157,7 +157,7 @@ pub struct Run {
     /// Writes the group element beside mu, from the identity on: matrix, or quaternion for rotations
     #[arg(long, value_name = "CHART")]
     pub group: Option<String>,
-    /// Relative tolerance of dopri5 (default 1e-6)
+    /// Relative tolerance of dopri5 (default 1e-6), taylor and lie-taylor (default 1e-15)
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     pub rtol: Option<String>,
     /// Absolute tolerance of dopri5 (default 1e-9)

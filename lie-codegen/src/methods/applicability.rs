@@ -41,11 +41,23 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
         Choice::Collective(order, Lift::Spec) => realization(model, *order),
         Choice::Collective(order, Lift::Hopf) => spins::refusal(model, Some(*order)),
         Choice::Exact => integrable::refusal(model),
+        Choice::Taylor | Choice::LieTaylor => expression(model),
         Choice::EulerArnold2 => cotangent(model),
         Choice::SphericalMidpoint => spins::refusal(model, None),
         Choice::MoserVeselov => inertia::refusal(model),
         _ => None,
     }
+}
+
+/// Why solutions are not developed into series.
+fn expression(model: &Model) -> Option<(String, String)> {
+    model.energy.expression().is_none().then(|| {
+        (
+            "it differentiates an expression of H, and H is a Legendre transform by iteration"
+                .into(),
+            "use `gauss16`, or `rkmk6`, which need the velocity alone".into(),
+        )
+    })
 }
 
 /// Why a method for Lagrangians does not apply.
@@ -92,6 +104,7 @@ fn needs_algebra(choice: &Choice) -> bool {
             | Choice::CohenHairer(_)
             | Choice::Rk4
             | Choice::Dopri5
+            | Choice::Taylor
     )
 }
 

@@ -58,6 +58,10 @@ pub enum Choice {
     Rk4,
     /// `dopri5`; its tolerances are arguments of the program.
     Dopri5,
+    /// `taylor`; its tolerance is an argument of the program.
+    Taylor,
+    /// `lie-taylor`; its tolerance is an argument of the program.
+    LieTaylor,
 }
 
 /// Why an id is no method that can be used: message and remedy.
@@ -198,6 +202,8 @@ impl Choice {
             "exact" => Self::Exact,
             "rk4" => Self::Rk4,
             "dopri5" => Self::Dopri5,
+            "taylor" => Self::Taylor,
+            "lie-taylor" => Self::LieTaylor,
             _ => {
                 let id = find(id)?.id;
                 if let Some(order) = id.strip_prefix("cohen-hairer") {
@@ -272,6 +278,8 @@ impl Choice {
             Self::Exact => "exact".into(),
             Self::Rk4 => "rk4".into(),
             Self::Dopri5 => "dopri5".into(),
+            Self::Taylor => "taylor".into(),
+            Self::LieTaylor => "lie-taylor".into(),
         }
     }
 

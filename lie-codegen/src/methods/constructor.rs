@@ -57,6 +57,16 @@ impl Choice {
         }
     }
 
+    /// The value of a method that is a type with a default.
+    pub(crate) fn at_defaults(&self) -> TokenStream {
+        let name = match self {
+            Self::Taylor => named("Taylor"),
+            Self::LieTaylor => named("LieTaylor"),
+            other => return other.constructor(),
+        };
+        quote! { <#name as ::core::default::Default>::default() }
+    }
+
     /// The value of the method in the runtime, as Rust; `tolerances` is in scope.
     pub fn constructor(&self) -> TokenStream {
         match self {
@@ -116,6 +126,14 @@ impl Choice {
             Self::Dopri5 => {
                 let dopri5 = named("Dopri5");
                 quote! { #dopri5 { rtol: tolerances.rtol, atol: tolerances.atol } }
+            }
+            Self::Taylor | Self::LieTaylor => {
+                let taylor = named(if *self == Self::Taylor {
+                    "Taylor"
+                } else {
+                    "LieTaylor"
+                });
+                quote! { #taylor::with_tolerance(tolerances.rtol) }
             }
         }
     }

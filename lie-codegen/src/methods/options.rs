@@ -238,6 +238,7 @@ impl Choice {
                 options
             }
             Self::Dopri5 => vec![("rtol", "1e-6"), ("atol", "1e-9")],
+            Self::Taylor | Self::LieTaylor => vec![("rtol", "1e-15")],
             _ => Vec::new(),
         }
     }

@@ -72,6 +72,11 @@ impl Planner<'_> {
         self.code(program, &mut Table::default())
     }
 
+    /// A constant of the system.
+    pub(super) fn constant_of_system(&mut self, id: ExprId) -> Constant {
+        self.constant(id, &mut Table::default())
+    }
+
     fn constant(&mut self, id: ExprId, step: &mut Table) -> Constant {
         match self.source.graph.node(id) {
             Node::Pi => return Constant::Pi,

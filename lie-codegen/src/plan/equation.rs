@@ -3,6 +3,7 @@
 use super::constants::Constants;
 use super::elimination::Elimination;
 use super::function::Function;
+use super::recurrence::Recurrence;
 use crate::methods::{self, Choice, Lift};
 use crate::schedule::Counts;
 
@@ -21,6 +22,8 @@ pub enum Item {
     Method(Method, Solver),
     /// The collective methods over the representation with so many stages: their steps are those of the isospectral ones.
     Collective(usize),
+    /// The Taylor coefficients of field and gradient.
+    Recurrence(Box<Recurrence>),
 }
 
 /// A method whose step solves an equation.
@@ -239,7 +242,9 @@ impl Item {
                     function.linearize.as_ref(),
                 )
             }
-            Self::Sparse(_) | Self::Method(..) | Self::Collective(_) => (&[][..], None, None),
+            Self::Sparse(_) | Self::Method(..) | Self::Collective(_) | Self::Recurrence(_) => {
+                (&[][..], None, None)
+            }
         };
         list.iter().chain(gradient).chain(linearize)
     }
@@ -249,6 +254,14 @@ impl Item {
         match self {
             Self::Sparse(sparse) => Some((sparse.label.clone(), sparse.elimination.counts())),
             _ => None,
+        }
+    }
+
+    /// The labels and the operation counts of a recurrence.
+    pub fn recurrence(&self) -> Vec<(String, Counts)> {
+        match self {
+            Self::Recurrence(recurrence) => recurrence.counts().into(),
+            _ => Vec::new(),
         }
     }
 }

@@ -17,6 +17,7 @@ mod names;
 mod own;
 mod pattern;
 mod planner;
+mod recurrence;
 mod splitting;
 mod steps;
 mod structure;
@@ -32,6 +33,7 @@ pub use function::Function;
 pub use names::Names;
 pub use own::Own;
 pub use planner::{plan, plan_with};
+pub use recurrence::Recurrence;
 pub use splitting::{Flow, Splitting};
 pub use structure::{Group, Inertia, Realization, Representation, Spectrum, Spins, Structure};
 pub use system::{Casimir, Energy, System};
@@ -90,6 +92,7 @@ impl Plan {
         for item in &self.items {
             counts.extend(item.functions().map(counted));
             counts.extend(item.elimination());
+            counts.extend(item.recurrence());
         }
         let flows = self.splitting.iter().flat_map(|splitting| &splitting.flows);
         counts.extend(flows.filter_map(|flow| flow.function.as_ref()).map(counted));

@@ -88,7 +88,24 @@ impl Planner<'_> {
             self.collective(&mut generic);
         }
         self.lagrangian(&mut generic);
+        self.series(&mut generic);
         generic
+    }
+
+    /// The Taylor series.
+    fn series(&mut self, generic: &mut Vec<String>) {
+        let mut methods = vec![(Choice::Taylor, "taylor")];
+        if self.source.is_lie() {
+            methods.push((Choice::LieTaylor, "lie_taylor"));
+        }
+        for (choice, key) in methods {
+            if self.asked(&choice) {
+                let recurrence = self.recurrence(choice == Choice::LieTaylor);
+                self.items.push(Item::Recurrence(Box::new(recurrence)));
+            } else {
+                generic.push(key.to_owned());
+            }
+        }
     }
 
     /// Whether another method that is asked for runs on the equation of the Cayley map.

@@ -3,8 +3,9 @@
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
-use super::{Code, Constants, Fused, Generating, Item, Method, Partner, Plan, Solver};
+use super::{Constants, Fused, Generating, Item, Method, Partner, Plan, Recurrence, Solver};
 use super::{Energy, Function, Spectrum, Structure};
+use crate::schedule::Program;
 use crate::structure::integrable::Motion;
 
 /// The width of the column of labels.
@@ -149,10 +150,25 @@ impl fmt::Display for Item {
                 writeln!(f, "\n{}: {counts}", sparse.label)
             }
             Self::Method(method, solver) => writeln!(f, "{method} -> {solver}"),
+            Self::Recurrence(recurrence) => write!(f, "{recurrence}"),
             Self::Collective(stages) => {
                 writeln!(f, "collective{} -> the same", 2 * stages)
             }
         }
+    }
+}
+
+impl fmt::Display for Recurrence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        section(f, &format!("Taylor coefficients for {}", self.label()))?;
+        let [(of_begin, _), (of_advance, _)] = self.counts();
+        line(f, &of_begin, &self.begin)?;
+        line(f, &of_advance, &self.advance)?;
+        writeln!(
+            f,
+            "    {} sums of products, {} values of order 0 kept",
+            self.pairs, self.kept
+        )
     }
 }
 
@@ -237,7 +253,11 @@ fn constants(f: &mut fmt::Formatter<'_>, title: &str, constants: &Constants) -> 
 }
 
 /// A label with the operation counts and the digest of its program.
-fn line(f: &mut fmt::Formatter<'_>, label: &str, program: &Code) -> fmt::Result {
+fn line<P: fmt::Debug>(
+    f: &mut fmt::Formatter<'_>,
+    label: &str,
+    program: &Program<P>,
+) -> fmt::Result {
     writeln!(
         f,
         "  {label:LABEL$} {} #{:08x}",
@@ -247,7 +267,7 @@ fn line(f: &mut fmt::Formatter<'_>, label: &str, program: &Code) -> fmt::Result 
 }
 
 /// A digest of the operations, the same on every machine.
-fn digest(program: &Code) -> u32 {
+fn digest<P: fmt::Debug>(program: &Program<P>) -> u32 {
     let mut hasher = Fnv(0xcbf2_9ce4_8422_2325);
     format!("{program:?}").hash(&mut hasher);
     let value = hasher.finish();

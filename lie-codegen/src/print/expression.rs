@@ -8,12 +8,9 @@ use super::Printer;
 use super::function::Owner;
 use super::names::{ident, index};
 use crate::exact::Rational;
-use crate::plan::{Code, Constant};
-use crate::schedule;
+use crate::plan::Constant;
+use crate::schedule::{Operation, Program, Value};
 use crate::symbolic::Function;
-
-type Operation = schedule::Operation<Constant>;
-type Value = schedule::Value<Constant>;
 
 /// An expression with more operations than this is bound to a local even if it is used once.
 const LONGEST: usize = 16;
@@ -35,10 +32,10 @@ struct Text {
 
 impl Printer<'_> {
     /// The statements of a program and the tokens of its results.
-    pub(super) fn program(
+    pub(super) fn program<P: Clone + PartialEq>(
         &self,
-        program: &Code,
-        leaf: &dyn Fn(&Value) -> TokenStream,
+        program: &Program<P>,
+        leaf: &dyn Fn(&Value<P>) -> TokenStream,
     ) -> (TokenStream, Vec<TokenStream>) {
         let mut uses = vec![0usize; program.operations.len()];
         let mut inner = vec![false; program.operations.len()];
@@ -59,7 +56,7 @@ impl Printer<'_> {
         let mut families = Families::of(program);
         for (position, operation) in program.operations.iter().enumerate() {
             let mut text = {
-                let mut get = |value: &Value| match value {
+                let mut get = |value: &Value<P>| match value {
                     Value::Temporary(i) => texts[*i].clone(),
                     other => Text {
                         tokens: leaf(other),
@@ -105,7 +102,7 @@ impl Printer<'_> {
     }
 
     /// The tokens of a value that is not a temporary.
-    pub(super) fn value(&self, value: &Value, owner: Owner<'_>) -> TokenStream {
+    pub(super) fn value(&self, value: &Value<Constant>, owner: Owner<'_>) -> TokenStream {
         match value {
             Value::Symbol(symbol) => {
                 let name = self.local(*symbol);
@@ -122,10 +119,10 @@ impl Printer<'_> {
 }
 
 /// Functions of closed forms that have the same argument, which are computed together.
-struct Families(Vec<Family>);
+struct Families<P>(Vec<Family<P>>);
 
-struct Family {
-    argument: Value,
+struct Family<P> {
+    argument: Value<P>,
     of_stumpff: bool,
     first: u8,
     last: u8,
@@ -133,7 +130,7 @@ struct Family {
 }
 
 /// The family and the index of a function of closed forms, with its argument.
-fn of_closed_form(operation: &Operation) -> Option<(bool, u8, &Value)> {
+fn of_closed_form<P>(operation: &Operation<P>) -> Option<(bool, u8, &Value<P>)> {
     match operation {
         Operation::Call(Function::Stumpff(k), arguments) => Some((true, *k, &arguments[0])),
         Operation::Call(Function::Phi(k), arguments) => Some((false, *k, &arguments[0])),
@@ -141,8 +138,8 @@ fn of_closed_form(operation: &Operation) -> Option<(bool, u8, &Value)> {
     }
 }
 
-impl Families {
-    fn of(program: &Code) -> Self {
+impl<P: Clone + PartialEq> Families<P> {
+    fn of(program: &Program<P>) -> Self {
         let mut families = Self(Vec::new());
         for (of_stumpff, k, argument) in program.operations.iter().filter_map(of_closed_form) {
             match families.position(of_stumpff, argument) {
@@ -162,7 +159,7 @@ impl Families {
         families
     }
 
-    fn position(&self, of_stumpff: bool, argument: &Value) -> Option<usize> {
+    fn position(&self, of_stumpff: bool, argument: &Value<P>) -> Option<usize> {
         let mut families = self.0.iter();
         families.position(|f| f.of_stumpff == of_stumpff && f.argument == *argument)
     }
@@ -170,8 +167,8 @@ impl Families {
     /// The name of a member, and the statement that computes its family if it is the first one.
     fn member(
         &mut self,
-        operation: &Operation,
-        get: &mut dyn FnMut(&Value) -> Text,
+        operation: &Operation<P>,
+        get: &mut dyn FnMut(&Value<P>) -> Text,
     ) -> Option<(TokenStream, Option<TokenStream>)> {
         let (of_stumpff, k, argument) = of_closed_form(operation)?;
         let position = self.position(of_stumpff, argument)?;
@@ -190,17 +187,18 @@ impl Families {
     }
 }
 
-fn write(operation: &Operation, get: &mut dyn FnMut(&Value) -> Text) -> Text {
-    let mut infix = |a: &Value, b: &Value, sign: TokenStream, binding: Binding, right: Binding| {
-        let (a, b) = (get(a), get(b));
-        let length = a.length + b.length + 1;
-        let (left, right) = (enclose(&a, binding), enclose(&b, right));
-        Text {
-            tokens: quote! { #left #sign #right },
-            binding,
-            length,
-        }
-    };
+fn write<P>(operation: &Operation<P>, get: &mut dyn FnMut(&Value<P>) -> Text) -> Text {
+    let mut infix =
+        |a: &Value<P>, b: &Value<P>, sign: TokenStream, binding: Binding, right: Binding| {
+            let (a, b) = (get(a), get(b));
+            let length = a.length + b.length + 1;
+            let (left, right) = (enclose(&a, binding), enclose(&b, right));
+            Text {
+                tokens: quote! { #left #sign #right },
+                binding,
+                length,
+            }
+        };
     match operation {
         Operation::Add(a, b) => infix(a, b, quote!(+), Binding::Sum, Binding::Product),
         Operation::Sub(a, b) => infix(a, b, quote!(-), Binding::Sum, Binding::Product),

@@ -12,6 +12,7 @@ mod names;
 mod parameters;
 mod partner;
 mod realization;
+mod recurrence;
 mod runtime;
 mod splitting;
 mod structure;
@@ -81,6 +82,7 @@ impl Printer<'_> {
             Item::Generating(function) => self.generating(function),
             Item::Method(method, solver) => self.method(method, solver),
             Item::Collective(stages) => self.collective(*stages),
+            Item::Recurrence(recurrence) => self.recurrence(recurrence),
         }
     }
 

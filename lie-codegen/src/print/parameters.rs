@@ -254,6 +254,14 @@ impl Printer<'_> {
                     self._over(S::widen)
                 }
             }
+
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::Expand<S> for #system<S> {
+                type Expanded = #system<::lie_runtime::scalar::Truncated<S>>;
+
+                fn expand(&self) -> Self::Expanded {
+                    self._over(::lie_runtime::scalar::Truncated::constant_of)
+                }
+            }
         }
     }
 }

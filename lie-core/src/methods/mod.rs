@@ -27,6 +27,8 @@
 //! and [`CommutatorFree4`] for any Lie algebra; [`Splitting`] for a Hamiltonian that is a sum of functions
 //! of one coordinate each. [`Compose`] makes methods of order 4, 6 and 8 of any symmetric one of order 2.
 //!
+//! By Taylor series, with order and step from a tolerance: [`Taylor`] of the solution itself, [`LieTaylor`] in the algebra.
+//!
 //! [`Rk4`] and [`Dopri5`] keep no structure: they are there to compare with. What a method keeps is data,
 //! see [`Facts`].
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
@@ -37,6 +39,7 @@ pub mod collective;
 pub mod commutator_free;
 pub mod compose;
 pub mod crouch_grossman;
+mod development;
 pub mod discrete_euler_poincare;
 pub mod dopri5;
 pub mod euler_arnold;
@@ -52,6 +55,7 @@ pub mod isospectral;
 pub mod itoh_abe;
 pub mod lie_euler;
 pub mod lie_midpoint;
+pub mod lie_taylor;
 pub mod mean_value;
 pub mod midpoint;
 pub mod moser_veselov;
@@ -59,11 +63,13 @@ pub mod orbit_energy;
 mod realized;
 pub mod rk4;
 pub mod rkmk;
+mod series_stepper;
 pub mod spherical_midpoint;
 mod spinors;
 pub mod splitting;
 mod stage_parallel;
 mod stepper;
+pub mod taylor;
 pub mod tensor;
 pub mod variational;
 
@@ -93,6 +99,7 @@ pub use isospectral::{Isospectral, Isospectral2, Isospectral4, Isospectral6};
 pub use itoh_abe::ItohAbe;
 pub use lie_euler::{LieEuler, LieEulerStepper};
 pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
+pub use lie_taylor::{LieTaylor, LieTaylorDevelopment};
 pub use mean_value::MeanValue;
 pub use midpoint::ImplicitMidpoint;
 pub use moser_veselov::{MoserVeselov, MoserVeselovStepper};
@@ -100,6 +107,7 @@ pub use orbit_energy::OrbitEnergy;
 pub use realized::RealizedStepper;
 pub use rk4::{Rk4, Rk4Stepper};
 pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
+pub use series_stepper::{Development, SeriesStepper};
 pub use spherical_midpoint::SphericalMidpoint;
 pub use spinors::SpinorStepper;
 pub use splitting::{
@@ -109,6 +117,7 @@ pub use stage_parallel::{Field, Slopes, StageParallelStepper};
 pub use stepper::{
     FactorSink, Method, Retraction, RungeKutta, Stage, StepFailure, StepReport, Stepper,
 };
+pub use taylor::{Taylor, TaylorDevelopment};
 pub use tensor::{
     AlongGradient, MeanTensor, MidpointTensor, PoissonTensor, TensorFacts, WithTensor,
 };

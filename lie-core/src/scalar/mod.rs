@@ -13,12 +13,14 @@ mod mask;
 mod pack;
 #[cfg(feature = "lanes")]
 mod registers;
+mod truncated;
 
 pub use dual::Dual;
 #[cfg(feature = "lanes")]
 pub use lanes::{F32x8, F64x4, F64x8, Mask32x8, Mask64x4, Mask64x8};
 pub use mask::Mask;
 pub use pack::{Pack, PackMask};
+pub use truncated::Truncated;
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};

@@ -9,10 +9,16 @@ use super::Planner;
 use crate::command::method;
 use crate::message::Message;
 
+/// The relative tolerance of methods by series, unless another is given.
+const SERIES: f64 = 1e-15;
+
 impl Planner<'_> {
     pub(super) fn tolerances(&mut self, choice: &Choice) -> Tolerances {
         let flags = self.flags;
         let mut tolerances = Tolerances::default();
+        if matches!(choice, Choice::Taylor | Choice::LieTaylor) {
+            tolerances.rtol = SERIES;
+        }
         let tolerance = "give a tolerance such as 1e-9";
         for (flag, value, place) in [
             ("--rtol", &flags.rtol, &mut tolerances.rtol),
@@ -22,7 +28,11 @@ impl Planner<'_> {
                 continue;
             };
             if !method::takes(choice, name(flag)) {
-                let text = format!("`{}` is an option of dopri5 alone", name(flag));
+                let of = match flag {
+                    "--rtol" => "dopri5, taylor and lie-taylor",
+                    _ => "dopri5",
+                };
+                let text = format!("`{}` is an option of {of} alone", name(flag));
                 let help = "add `--method dopri5`, or leave it out";
                 self.out_of_place(value.is_some(), given.wrong(text).help(help));
                 continue;

@@ -49,7 +49,12 @@ impl Planner<'_> {
     pub(super) fn has_constant_steps(&mut self, method: &Choice, given: &Given) {
         if method.is_adaptive() {
             let text = format!("{} chooses its own steps", method.id());
-            let help = "give `--rtol` and `--atol` with `--step`, or take another method";
+            let help = match method {
+                Choice::Dopri5 => {
+                    "give `--rtol` and `--atol` with `--step`, or take another method"
+                }
+                _ => "give `--rtol` with `--step`, or take another method",
+            };
             self.mistakes.push(given.wrong(text).help(help));
         }
     }

@@ -1,0 +1,299 @@
+//! Truncated power series: Taylor coefficients of everything that is computed, by the plain rules.
+
+use super::{Pack, Scalar};
+use crate::recurrence::MOST_ORDERS;
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// `sum_k terms_k t^k`, k below a length. What has one term is a constant; of anything else the terms from the length on
+/// are not known, and all numbers of a computation that are not constants have the same length.
+///
+/// Masks and comparisons look at the constant term, so that a computation over series takes the branches of one over
+/// numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Truncated<S> {
+    terms: [S; MOST_ORDERS + 1],
+    length: usize,
+}
+
+impl<S: Scalar> Default for Truncated<S> {
+    fn default() -> Self {
+        Self::constant_of(S::zero())
+    }
+}
+
+impl<S: Scalar> Truncated<S> {
+    /// A constant.
+    pub fn constant_of(value: S) -> Self {
+        Self::of(1, |_| value)
+    }
+
+    /// The series with these coefficients, at least one and at most [`MOST_ORDERS`] + 1.
+    pub fn of(length: usize, coefficient: impl Fn(usize) -> S) -> Self {
+        let mut terms = [S::zero(); MOST_ORDERS + 1];
+        for (k, term) in terms[..length].iter_mut().enumerate() {
+            *term = coefficient(k);
+        }
+        Self { terms, length }
+    }
+
+    /// The coefficient of `t^k`, 0 beyond those that there are.
+    pub fn coefficient(&self, k: usize) -> S {
+        self.terms[k]
+    }
+
+    /// The series whose coefficients follow from those before them, from its constant term.
+    fn recursive(length: usize, first: S, next: impl Fn(&[S], usize) -> S) -> Self {
+        let mut series = Self::of(length, |_| S::zero());
+        series.terms[0] = first;
+        for k in 1..length {
+            series.terms[k] = next(&series.terms[..k], k);
+        }
+        series
+    }
+
+    /// `t d/dt`.
+    fn slope(&self) -> Self {
+        Self::of(self.length, |k| S::from_f64(k as f64) * self.terms[k])
+    }
+
+    /// The series with a constant term whose `t d/dt` is given.
+    fn integral(first: S, slope: &Self) -> Self {
+        Self::of(slope.length, |k| match k {
+            0 => first,
+            _ => slope.terms[k] / S::from_f64(k as f64),
+        })
+    }
+
+    /// Two series y, z with `y' = a z x'` and `z' = b y x'`: sines and cosines.
+    fn pair(&self, first: S, second: S, [a, b]: [f64; 2]) -> (Self, Self) {
+        let slope = self.slope();
+        let mut y = Self::of(self.length, |_| first);
+        let mut z = Self::of(self.length, |_| second);
+        for k in 1..self.length {
+            let (mut of_y, mut of_z) = (S::zero(), S::zero());
+            for j in 1..=k {
+                of_y += slope.terms[j] * z.terms[k - j];
+                of_z += slope.terms[j] * y.terms[k - j];
+            }
+            let k_inverse = S::ratio(1.0, k as f64);
+            y.terms[k] = S::from_f64(a) * of_y * k_inverse;
+            z.terms[k] = S::from_f64(b) * of_z * k_inverse;
+        }
+        (y, z)
+    }
+}
+
+/// `sum_(1 <= j <= k) u_j v_(k-j)`, as far as v goes.
+fn sum<S: Scalar>(u: &[S], v: &[S], k: usize) -> S {
+    let mut sum = S::zero();
+    for j in 1..=k.min(u.len() - 1) {
+        if let Some(&other) = v.get(k - j) {
+            sum += u[j] * other;
+        }
+    }
+    sum
+}
+
+impl<S: Scalar> Add for Truncated<S> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let length = self.length.max(other.length);
+        Self::of(length, |k| self.terms[k] + other.terms[k])
+    }
+}
+
+impl<S: Scalar> Sub for Truncated<S> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        let length = self.length.max(other.length);
+        Self::of(length, |k| self.terms[k] - other.terms[k])
+    }
+}
+
+impl<S: Scalar> Mul for Truncated<S> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let (u, v) = (&self.terms[..self.length], &other.terms[..other.length]);
+        Self::of(self.length.max(other.length), |k| {
+            let first = v.get(k).map_or(S::zero(), |&v| u[0] * v);
+            first + sum(u, v, k)
+        })
+    }
+}
+
+impl<S: Scalar> Div for Truncated<S> {
+    type Output = Self;
+    /// `q_0 = u_0/v_0`, `q_k = (u_k - sum_(0<j<=k) v_j q_(k-j))/v_0`
+    fn div(self, other: Self) -> Self {
+        let length = self.length.max(other.length);
+        let v = &other.terms[..other.length];
+        Self::recursive(length, self.terms[0] / v[0], |q, k| {
+            (self.terms[k] - sum(v, q, k)) / v[0]
+        })
+    }
+}
+
+impl<S: Scalar> Neg for Truncated<S> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::of(self.length, |k| -self.terms[k])
+    }
+}
+
+macro_rules! assign {
+    ($($trait:ident $assign:ident $method:ident),*) => {$(
+        impl<S: Scalar> $trait for Truncated<S> {
+            fn $assign(&mut self, other: Self) {
+                *self = self.$method(other);
+            }
+        }
+    )*};
+}
+assign!(AddAssign add_assign add, SubAssign sub_assign sub, MulAssign mul_assign mul, DivAssign div_assign div);
+
+impl<S: Scalar> Scalar for Truncated<S> {
+    type Lane = Truncated<S::Lane>;
+    type Mask = S::Mask;
+    type Wide = Pack<Self>;
+    const LANES: usize = S::LANES;
+    const DERIVATIVES: u32 = S::DERIVATIVES;
+
+    fn zero() -> Self {
+        Self::constant_of(S::zero())
+    }
+    fn one() -> Self {
+        Self::constant_of(S::one())
+    }
+    fn ratio(numerator: f64, denominator: f64) -> Self {
+        Self::constant_of(S::ratio(numerator, denominator))
+    }
+    fn constant(high: f64, low: f64) -> Self {
+        Self::constant_of(S::constant(high, low))
+    }
+    fn from_f64(value: f64) -> Self {
+        Self::constant_of(S::from_f64(value))
+    }
+    fn epsilon() -> Self {
+        Self::constant_of(S::epsilon())
+    }
+    fn splat(lane: Self::Lane) -> Self {
+        Self::of(lane.length, |k| S::splat(lane.terms[k]))
+    }
+    fn lane(self, index: usize) -> Self::Lane {
+        Truncated::of(self.length, |k| self.terms[k].lane(index))
+    }
+    fn with_lane(self, index: usize, lane: Self::Lane) -> Self {
+        let length = self.length.max(lane.length);
+        Self::of(length, |k| self.terms[k].with_lane(index, lane.terms[k]))
+    }
+    fn to_f64(self) -> f64 {
+        self.terms[0].to_f64()
+    }
+    fn gather(numbers: [Self; 8]) -> Pack<Self> {
+        Pack(numbers)
+    }
+    fn scatter(wide: Pack<Self>) -> [Self; 8] {
+        wide.0
+    }
+    fn abs(self) -> Self {
+        Self::select(self.terms[0].less(S::zero()), -self, self)
+    }
+    /// `y^2 = x`: `y_k = (x_k - sum_(0<j<k) y_j y_(k-j))/(2 y_0)`
+    fn sqrt(self) -> Self {
+        let root = self.terms[0].sqrt();
+        Self::recursive(self.length, root, |y, k| {
+            (self.terms[k] - sum(y, y, k)) / (root + root)
+        })
+    }
+    fn exp(self) -> Self {
+        let slope = self.slope();
+        let slope = &slope.terms[..self.length];
+        Self::recursive(self.length, self.terms[0].exp(), |y, k| {
+            sum(slope, y, k) / S::from_f64(k as f64)
+        })
+    }
+    fn log(self) -> Self {
+        Self::integral(self.terms[0].log(), &(self.slope() / self))
+    }
+    fn sin(self) -> Self {
+        let (sin, cos) = (self.terms[0].sin(), self.terms[0].cos());
+        self.pair(sin, cos, [1.0, -1.0]).0
+    }
+    fn cos(self) -> Self {
+        let (sin, cos) = (self.terms[0].sin(), self.terms[0].cos());
+        self.pair(sin, cos, [1.0, -1.0]).1
+    }
+    fn tan(self) -> Self {
+        let quotient = self.sin() / self.cos();
+        Self::of(self.length, |k| match k {
+            0 => self.terms[0].tan(),
+            _ => quotient.terms[k],
+        })
+    }
+    fn asin(self) -> Self {
+        let slope = self.slope() / (Self::one() - self * self).sqrt();
+        Self::integral(self.terms[0].asin(), &slope)
+    }
+    fn acos(self) -> Self {
+        let slope = self.slope() / (Self::one() - self * self).sqrt();
+        Self::integral(self.terms[0].acos(), &-slope)
+    }
+    fn atan(self) -> Self {
+        let slope = self.slope() / (Self::one() + self * self);
+        Self::integral(self.terms[0].atan(), &slope)
+    }
+    fn sinh(self) -> Self {
+        let (sinh, cosh) = (self.terms[0].sinh(), self.terms[0].cosh());
+        self.pair(sinh, cosh, [1.0, 1.0]).0
+    }
+    fn cosh(self) -> Self {
+        let (sinh, cosh) = (self.terms[0].sinh(), self.terms[0].cosh());
+        self.pair(sinh, cosh, [1.0, 1.0]).1
+    }
+    fn tanh(self) -> Self {
+        let quotient = self.sinh() / self.cosh();
+        Self::of(self.length, |k| match k {
+            0 => self.terms[0].tanh(),
+            _ => quotient.terms[k],
+        })
+    }
+    fn atan2(self, x: Self) -> Self {
+        let slope = (x * self.slope() - self * x.slope()) / (x * x + self * self);
+        Self::integral(self.terms[0].atan2(x.terms[0]), &slope)
+    }
+    /// `x y' = c y x'` for a constant c: `y_k = sum_(0<j<=k) (c j - (k - j)) x_j y_(k-j) / (k x_0)`; `exp(c log x)` else.
+    fn powf(self, exponent: Self) -> Self {
+        if exponent.length > 1 {
+            return (exponent * self.log()).exp();
+        }
+        let (c, x) = (exponent.terms[0], &self.terms);
+        Self::recursive(self.length, x[0].powf(c), |y, k| {
+            let mut sum = S::zero();
+            for j in 1..=k {
+                let weight = c * S::from_f64(j as f64) - S::from_f64((k - j) as f64);
+                sum += weight * x[j] * y[k - j];
+            }
+            sum / (S::from_f64(k as f64) * x[0])
+        })
+    }
+    fn max(self, other: Self) -> Self {
+        let (one, two) = (self.terms[0], other.terms[0]);
+        let first = two.less_equal(one) | !one.less_equal(one);
+        Self::select(first, self, other)
+    }
+    fn less(self, other: Self) -> S::Mask {
+        self.terms[0].less(other.terms[0])
+    }
+    fn less_equal(self, other: Self) -> S::Mask {
+        self.terms[0].less_equal(other.terms[0])
+    }
+    fn finite(self) -> S::Mask {
+        self.terms[..self.length]
+            .iter()
+            .fold(self.terms[0].finite(), |all, term| all & term.finite())
+    }
+    fn select(mask: S::Mask, yes: Self, no: Self) -> Self {
+        let length = yes.length.max(no.length);
+        Self::of(length, |k| S::select(mask, yes.terms[k], no.terms[k]))
+    }
+}
