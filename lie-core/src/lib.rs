@@ -38,6 +38,6 @@ pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson, Widen};
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 pub use structure::{
-    ClosedRealization, CotangentPoisson, Group, InertiaPoisson, MatrixGroup, MatrixPoisson,
-    RealizedPoisson, Spectrum, SpinPoisson,
+    ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson, Group, InertiaPoisson,
+    MatrixGroup, MatrixPoisson, RealizedPoisson, Spectrum, SpinPoisson, VectorPoisson,
 };

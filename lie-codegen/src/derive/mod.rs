@@ -8,6 +8,7 @@ mod generating;
 mod kernel;
 mod lagrangian;
 mod leaner;
+mod lifts;
 mod poisson;
 mod realization;
 mod second_kind;

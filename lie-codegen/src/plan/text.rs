@@ -5,6 +5,7 @@ use std::hash::{Hash, Hasher};
 
 use super::{Code, Constants, Fused, Generating, Item, Method, Partner, Plan, Solver};
 use super::{Energy, Function, Spectrum, Structure};
+use crate::structure::lifts::Smallest;
 
 /// The width of the column of labels.
 const LABEL: usize = 34;
@@ -98,6 +99,22 @@ impl fmt::Display for Structure {
         }
         if let Some(spins) = &self.spins {
             writeln!(f, "spins {:?}", spins.coordinates)?;
+        }
+        if let Some(vectors) = &self.vectors {
+            let places = |vector: &[(usize, _); 3]| vector.each_ref().map(|(k, _)| *k);
+            let found: Vec<[usize; 3]> = vectors.vectors.iter().map(places).collect();
+            writeln!(f, "rotations {:?}, vectors {found:?}", vectors.rotation)?;
+        }
+        if let Some(smallest) = &self.smallest {
+            let space = match smallest {
+                Smallest::Hopf => "T*R^2 for each spin",
+                Smallest::Quaternion => "T*H",
+                Smallest::Representation => "columns of the representation",
+            };
+            writeln!(f, "smallest linear space over it: {space}")?;
+        }
+        for function in self.flows() {
+            write!(f, "{function}")?;
         }
         if let Some(inertia) = &self.inertia {
             writeln!(f, "free rigid body, planes {:?}", inertia.planes)?;

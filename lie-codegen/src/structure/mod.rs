@@ -2,8 +2,10 @@
 
 pub mod group;
 pub mod inertia;
+pub mod lifts;
 pub mod matrices;
 pub mod one_parameter;
 pub mod separable;
 pub mod spectrum;
 pub mod spins;
+pub mod vectors;

@@ -7,6 +7,7 @@ mod cayley_midpoint;
 mod cayley_variational;
 mod chart;
 mod cohen_hairer;
+mod columns;
 mod coordinate_flows;
 mod dexp_slope;
 mod discrete_body;
@@ -21,12 +22,14 @@ mod gauss;
 mod generating;
 mod inverse_tangent;
 mod kernels;
+mod lifts;
 mod matrix_stages;
 mod midpoint;
 mod orbit_energy;
 mod pair;
 mod quadrature;
 mod quaternion_stages;
+mod quaternions;
 mod realized;
 mod rotation;
 mod second_kind;
@@ -43,6 +46,7 @@ pub use cayley_variational::CayleyVariational;
 pub(crate) use chart::invertible_along;
 pub use chart::{CAYLEY_POLE, cayley_chart, cayley_chart_of_step};
 pub use cohen_hairer::CohenHairerStep;
+pub use columns::{columns_of, flow_of_columns, flow_over_columns, momentum_of_columns};
 pub use coordinate_flows::{CoordinateFlows, piece_direction};
 pub use discrete_body::DiscreteBody;
 pub use discrete_gradient::{
@@ -64,18 +68,22 @@ pub use kernels::{
     ad_star, ad_star_matrix, euler_poincare, hessian_by_duals, jacobian, jacobian_by_duals,
     linearize, multiply, poisson_slope, vector_field,
 };
+pub use lifts::LinearLift;
 pub use matrix_stages::MatrixStages;
 pub use midpoint::Midpoint;
 pub use orbit_energy::OrbitEnergyStep;
 pub use quadrature::{MAX_NODES, Quadrature};
 pub use quaternion_stages::QuaternionStages;
 pub use quaternion_stages::product as quaternion_product;
+pub use quaternions::{
+    QuaternionPoint, flow_of_quaternions, flow_over_quaternions, quaternion_of, vectors_of,
+};
 pub use realized::{Canonical, Lifting};
 pub use second_kind::{Actions, SecondKind, SeriesActions};
 pub(crate) use series::{Scratch, coadjoint_action_in};
 pub use series::{coadjoint_action, dexp_dual};
 pub use spherical::{Spherical, sphere_ratio, sphere_ratios};
-pub use spinors::{flow_of_spinors, spinors_of, spins_of};
+pub use spinors::{flow_of_spinors, flow_over_spins, spinors_of, spins_of};
 pub use stage_momenta::{StageMap, StageMomenta};
 pub use stage_parallel::{Iterated, StageParallel};
 pub use tableau::{MOST_STAGES, Tableau, gauss_ahead, gauss_entry, gauss_tableau, gauss_weight};

@@ -51,6 +51,7 @@ pub mod isospectral;
 pub mod itoh_abe;
 pub mod lie_euler;
 pub mod lie_midpoint;
+mod lifted;
 pub mod mean_value;
 pub mod midpoint;
 pub mod moser_veselov;
@@ -59,7 +60,6 @@ mod realized;
 pub mod rk4;
 pub mod rkmk;
 pub mod spherical_midpoint;
-mod spinors;
 pub mod splitting;
 mod stage_parallel;
 mod stepper;
@@ -69,8 +69,9 @@ pub mod variational;
 pub use coefficients::Scheme;
 pub use cohen_hairer::{CohenHairer, CohenHairer2, CohenHairer4, CohenHairer6};
 pub use collective::{
-    Collective, Collective2, Collective4, Collective6, Collective8, Collective12, Collective16,
-    Given, Hopf, ParallelCollective, Reduced, Representation,
+    Collective, Collective2, Collective4, Collective6, Collective8, Collective10, Collective12,
+    Collective14, Collective16, Given, Hopf, ParallelCollective, Quaternion, Reduced,
+    Representation, Smallest,
 };
 pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
 pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};
@@ -84,10 +85,14 @@ pub use generating::{Generating, Generating2, Generating4, Generating6};
 pub use generating_second_kind::GeneratingSecondKind2;
 pub use gonzalez::Gonzalez;
 pub use implicit::ImplicitStepper;
-pub use isospectral::{Isospectral, Isospectral2, Isospectral4, Isospectral6};
+pub use isospectral::{
+    Isospectral, Isospectral2, Isospectral4, Isospectral6, Isospectral8, Isospectral10,
+    Isospectral12, Isospectral14, Isospectral16, ParallelIsospectral,
+};
 pub use itoh_abe::ItohAbe;
 pub use lie_euler::{LieEuler, LieEulerStepper};
 pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
+pub use lifted::{LiftedStepper, StageLift};
 pub use mean_value::MeanValue;
 pub use midpoint::ImplicitMidpoint;
 pub use moser_veselov::{MoserVeselov, MoserVeselovStepper};
@@ -96,7 +101,6 @@ pub use realized::RealizedStepper;
 pub use rk4::{Rk4, Rk4Stepper};
 pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
 pub use spherical_midpoint::SphericalMidpoint;
-pub use spinors::SpinorStepper;
 pub use splitting::{
     Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, SplittingStepper,
 };
