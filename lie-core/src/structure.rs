@@ -221,10 +221,19 @@ pub trait VectorPoisson<S: Scalar>: LiePoisson<S> {
     type Labels: State<S>;
     /// Labels, all 0.
     fn zero_labels(&self) -> Self::Labels;
-    /// The canonical flow of `H o J` on `T*H`; see
-    /// [`flow_over_quaternions`](crate::generic::flow_over_quaternions).
+    /// Points of `T*H`: a quaternion, then its momentum, the real parts first.
+    type Quaternions: State<S>;
+    /// A point, all coordinates 0.
+    fn zero_quaternions(&self) -> Self::Quaternions;
+    /// The canonical flow of `(H - C) o J` on `T*H`, C any function of Casimirs; see
+    /// [`flow_over_quaternions`](crate::generic::flow_over_quaternions), for which C is 0.
     #[inline]
-    fn quaternion_flow(&self, labels: &Self::Labels, point: &[S; 8], out: &mut [S; 8]) {
+    fn quaternion_flow(
+        &self,
+        labels: &Self::Labels,
+        point: &Self::Quaternions,
+        out: &mut Self::Quaternions,
+    ) {
         flow_over_quaternions(self, labels, point, out);
     }
 }

@@ -71,10 +71,9 @@ impl Source {
         let (labels, symbols) = (places(8, labels), places(0, 8));
         let flow = self.in_gauge(|source| {
             values(source, |system| {
-                let mut point: [Sym; 8] = core::array::from_fn(|k| Sym::of(symbols[k]));
-                let start = point;
-                flow_over_quaternions(system, &syms(&labels), &start, &mut point);
-                point.to_vec()
+                let mut out = syms(&symbols);
+                flow_over_quaternions(system, &syms(&labels), &syms(&symbols), &mut out);
+                out
             })
         })?;
         let formula =

@@ -91,7 +91,7 @@ impl Printer<'_> {
             count => 3 * count,
         });
         let flow = vectors.flow.as_ref();
-        let flow = flow.map(|f| self.flow_on(f, &quote! { [S; 8] }, 8));
+        let flow = flow.map(|f| self.flow_on(f, &quote! { Self::Quaternions }, 8));
         Some(quote! {
             #[allow(non_snake_case, clippy::many_single_char_names)]
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::VectorPoisson<S> for #system<S> {
@@ -109,10 +109,16 @@ impl Printer<'_> {
                     #scale
                 }
 
-                type Labels = [S; #labels];
+                type Labels = ::lie_runtime::__private::SVector<S, #labels>;
 
                 fn zero_labels(&self) -> Self::Labels {
-                    [S::zero(); #labels]
+                    Self::Labels::repeat(S::zero())
+                }
+
+                type Quaternions = ::lie_runtime::__private::SVector<S, 8>;
+
+                fn zero_quaternions(&self) -> Self::Quaternions {
+                    Self::Quaternions::repeat(S::zero())
                 }
 
                 #flow

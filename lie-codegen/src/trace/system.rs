@@ -352,6 +352,10 @@ impl VectorPoisson<Sym> for SymbolicSystem {
         found.map_or_else(Sym::default, |found| found.scale)
     }
     type Labels = State;
+    type Quaternions = State;
+    fn zero_quaternions(&self) -> State {
+        vec![Sym::default(); 8]
+    }
     fn zero_labels(&self) -> State {
         let count = match self.vectors().len() {
             1 => 1,

@@ -75,9 +75,7 @@ pub use orbit_energy::OrbitEnergyStep;
 pub use quadrature::{MAX_NODES, Quadrature};
 pub use quaternion_stages::QuaternionStages;
 pub use quaternion_stages::product as quaternion_product;
-pub use quaternions::{
-    QuaternionPoint, flow_of_quaternions, flow_over_quaternions, quaternion_of, vectors_of,
-};
+pub use quaternions::{flow_of_quaternions, flow_over_quaternions, quaternion_of, vectors_of};
 pub use realized::{Canonical, Lifting};
 pub use second_kind::{Actions, SecondKind, SeriesActions};
 pub(crate) use series::{Scratch, coadjoint_action_in};

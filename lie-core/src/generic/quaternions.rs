@@ -7,13 +7,19 @@ use crate::scalar::Scalar;
 use crate::state::State;
 use crate::structure::VectorPoisson;
 
-/// A quaternion q, then its momentum P, the real parts first.
-pub type QuaternionPoint<S> = [S; 8];
-
 /// The two parts of a point.
 #[inline(always)]
-fn parts<S: Scalar>([q0, q1, q2, q3, p0, p1, p2, p3]: &QuaternionPoint<S>) -> [[S; 4]; 2] {
-    [[*q0, *q1, *q2, *q3], [*p0, *p1, *p2, *p3]]
+fn parts<S: Scalar>(point: &impl State<S>) -> [[S; 4]; 2] {
+    let z = point.as_slice();
+    [[z[0], z[1], z[2], z[3]], [z[4], z[5], z[6], z[7]]]
+}
+
+/// Writes the two parts of a point.
+#[inline(always)]
+fn write<S: Scalar>(q: [S; 4], p: [S; 4], out: &mut impl State<S>) {
+    for (entry, value) in out.as_mut_slice().iter_mut().zip(q.into_iter().chain(p)) {
+        *entry = value;
+    }
 }
 
 /// `a q` for the label a of a vector: three entries of it, or for a single vector its length in direction k.
@@ -41,7 +47,7 @@ fn momentum<S: Scalar>(q: &[S; 4], m: &[S; 4]) -> [S; 3] {
 pub fn vectors_of<S: Scalar, P: VectorPoisson<S> + ?Sized>(
     system: &P,
     labels: &P::Labels,
-    point: &QuaternionPoint<S>,
+    point: &P::Quaternions,
     out: &mut P::State,
 ) {
     let ([q, p], out) = (parts(point), out.as_mut_slice());
@@ -63,9 +69,9 @@ pub fn vectors_of<S: Scalar, P: VectorPoisson<S> + ?Sized>(
 pub fn flow_of_quaternions<S: Scalar, P: VectorPoisson<S> + ?Sized>(
     system: &P,
     labels: &P::Labels,
-    point: &QuaternionPoint<S>,
+    point: &P::Quaternions,
     gradient: &P::State,
-    out: &mut QuaternionPoint<S>,
+    out: &mut P::Quaternions,
 ) {
     let ([q, p], gradient) = (parts(point), gradient.as_slice());
     let (scale, zero) = (system.scale(), S::zero());
@@ -81,9 +87,7 @@ pub fn flow_of_quaternions<S: Scalar, P: VectorPoisson<S> + ?Sized>(
         let force = product(turned, [zero, x, y, z]);
         second = core::array::from_fn(|k| second[k] + force[k]);
     }
-    for (entry, value) in out.iter_mut().zip(first.into_iter().chain(second)) {
-        *entry = value;
-    }
+    write(first, second, out);
 }
 
 /// The canonical flow of `H o J` at a point.
@@ -91,8 +95,8 @@ pub fn flow_of_quaternions<S: Scalar, P: VectorPoisson<S> + ?Sized>(
 pub fn flow_over_quaternions<S: Scalar, P: VectorPoisson<S> + ?Sized>(
     system: &P,
     labels: &P::Labels,
-    point: &QuaternionPoint<S>,
-    out: &mut QuaternionPoint<S>,
+    point: &P::Quaternions,
+    out: &mut P::Quaternions,
 ) {
     let (mut momenta, mut gradient) = (system.zero_state(), system.zero_state());
     vectors_of(system, labels, point, &mut momenta);
@@ -106,7 +110,7 @@ pub fn quaternion_of<S: Scalar, P: VectorPoisson<S>>(
     system: &P,
     mu: &P::State,
     labels: &mut P::Labels,
-    point: &mut QuaternionPoint<S>,
+    point: &mut P::Quaternions,
 ) {
     let (one, zero) = (S::one(), S::zero());
     let mu = mu.as_slice();
@@ -127,9 +131,7 @@ pub fn quaternion_of<S: Scalar, P: VectorPoisson<S>>(
     }
     let [a, b, c] = system.rotation().map(|k| mu[k]);
     let momentum = product(q, [zero, a, b, c]);
-    for (entry, value) in point.iter_mut().zip(q.into_iter().chain(momentum)) {
-        *entry = value;
-    }
+    write(q, momentum, point);
 }
 
 /// A unit quaternion and a length with `v = length conj(q) k q`.
@@ -156,12 +158,12 @@ fn turn_to<S: Scalar>(v: [S; 3]) -> ([S; 4], S) {
 
 /// The fibre over a state is moved by `P -> P + s q`, in which P drifts: P is kept orthogonal to q.
 impl<S: Scalar, P: VectorPoisson<S>> LinearLift<S, P> for Quaternion {
-    type Point = QuaternionPoint<S>;
+    type Point = P::Quaternions;
     type Labels = P::Labels;
     const GROWS: bool = false;
 
-    fn zero_point(_system: &P) -> QuaternionPoint<S> {
-        [S::zero(); 8]
+    fn zero_point(system: &P) -> P::Quaternions {
+        system.zero_quaternions()
     }
 
     fn zero_labels(system: &P) -> P::Labels {
@@ -169,35 +171,30 @@ impl<S: Scalar, P: VectorPoisson<S>> LinearLift<S, P> for Quaternion {
     }
 
     #[inline]
-    fn lift(system: &P, mu: &P::State, labels: &mut P::Labels, point: &mut QuaternionPoint<S>) {
+    fn lift(system: &P, mu: &P::State, labels: &mut P::Labels, point: &mut P::Quaternions) {
         quaternion_of(system, mu, labels, point);
     }
 
     #[inline(always)]
-    fn project(system: &P, labels: &P::Labels, point: &QuaternionPoint<S>, mu: &mut P::State) {
+    fn project(system: &P, labels: &P::Labels, point: &P::Quaternions, mu: &mut P::State) {
         vectors_of(system, labels, point, mu);
     }
 
     #[inline(always)]
-    fn flow(
-        system: &P,
-        labels: &P::Labels,
-        point: &QuaternionPoint<S>,
-        out: &mut QuaternionPoint<S>,
-    ) {
+    fn flow(system: &P, labels: &P::Labels, point: &P::Quaternions, out: &mut P::Quaternions) {
         system.quaternion_flow(labels, point, out);
     }
 
     #[inline(always)]
-    fn settle(_system: &P, point: &mut QuaternionPoint<S>, slopes: &mut [S::Wide]) {
+    fn settle(_system: &P, point: &mut P::Quaternions, slopes: &mut [S::Wide]) {
         let [q, p] = parts(point);
         let along = (q[0] * p[0] + q[1] * p[1]) + (q[2] * p[2] + q[3] * p[3]);
         let square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
         let shear = along / square;
         let wide = shear.widen();
+        write(q, core::array::from_fn(|k| p[k] - shear * q[k]), point);
         for k in 0..4 {
-            point[k + 4] = p[k] - shear * q[k];
-            slopes[k + 4] -= wide * slopes[k];
+            slopes[k + 4] = slopes[k + 4] - wide * slopes[k];
         }
     }
 }
