@@ -5,7 +5,6 @@ use std::hash::{Hash, Hasher};
 
 use super::{Code, Constants, Fused, Generating, Item, Method, Partner, Plan, Solver};
 use super::{Energy, Function, Spectrum, Structure};
-use crate::structure::lifts::Smallest;
 
 /// The width of the column of labels.
 const LABEL: usize = 34;
@@ -106,11 +105,7 @@ impl fmt::Display for Structure {
             writeln!(f, "rotations {:?}, vectors {found:?}", vectors.rotation)?;
         }
         if let Some(smallest) = &self.smallest {
-            let space = match smallest {
-                Smallest::Hopf => "T*R^2 for each spin",
-                Smallest::Quaternion => "T*H",
-                Smallest::Representation => "columns of the representation",
-            };
+            let space = smallest.description();
             writeln!(f, "smallest linear space over it: {space}")?;
         }
         for function in self.flows() {

@@ -17,6 +17,17 @@ pub enum Smallest {
     Representation,
 }
 
+impl Smallest {
+    /// The space in words.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Hopf => "T*R^2 for each spin",
+            Self::Quaternion => "T*H, H the quaternions",
+            Self::Representation => "columns of the representation",
+        }
+    }
+}
+
 /// The smallest space, if there is one.
 pub fn smallest(model: &Model) -> Option<Smallest> {
     if spins::spins(model).is_some() {

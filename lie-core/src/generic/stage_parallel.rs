@@ -141,6 +141,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     fn iterate_map(&mut self, base: &[S], mut field: impl FnMut(&V, &mut V)) -> Iterated<S> {
         let bound = self.size(base) * S::epsilon() * S::from_f64(STAGNATION);
         let wide_bound = bound.widen();
+        let enough = S::epsilon() * S::ratio(1.0, 4.0);
         let [mut ended, mut settled, mut ready] = [S::Mask::splat(false); 3];
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
         let [mut first, mut change] = [S::Wide::zero(); 2];
@@ -166,7 +167,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 settled = settled | new;
             }
             let count = S::from_f64(f64::from(iterations));
-            let by_rate = left.less_equal(S::epsilon());
+            let by_rate = left.less_equal(enough);
             let by_count = S::one().less_equal(left) & self.taken.less_equal(count);
             ready = ready | (settled & !ended & (by_rate | by_count));
             self.taken = S::select(ready & !ended, count, self.taken);
