@@ -144,12 +144,12 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         let enough = S::epsilon() * S::ratio(1.0, 4.0);
         let [mut ended, mut settled, mut ready] = [S::Mask::splat(false); 3];
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
-        let [mut first, mut change] = [S::Wide::zero(); 2];
+        let [mut first, mut earlier, mut before, mut change] = [S::Wide::zero(); 4];
         let [mut left, mut rate] = [S::one(); 2];
         while iterations < self.options.max_iterations && !ended.all() {
             self.set_points(base);
             field(&self.point, &mut self.next);
-            let before = change;
+            (earlier, before) = (before, change);
             change = self.replace(ended);
             iterations += 1;
             if iterations == 1 {
@@ -160,8 +160,12 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 let size = most::<S>(change);
                 let new = size.less_equal(bound) & !settled;
                 if iterations > 1 {
-                    let before = most::<S>(before);
-                    rate = S::select(new, size / before, rate);
+                    // single updates may shrink by much less than those around them
+                    let last = match iterations {
+                        2 => size / most::<S>(before),
+                        _ => (size / most::<S>(earlier)).sqrt(),
+                    };
+                    rate = S::select(new, last, rate);
                     left = S::select(new, size / most::<S>(first), left);
                 }
                 settled = settled | new;

@@ -30,6 +30,23 @@
 //!   \mu_1 = \mu + \sum_i b_i\, \mathrm{ad}^*_{x_i} m_i
 //!   ```
 //!
+//! * [`Collective16::quaternion`](ParallelCollective::quaternion) and its kin lift so(3)* with vectors `Gamma_a` that
+//!   commute, se(3)* for a single one, to `T*H`, H the quaternions:
+//!
+//!   ```math
+//!   J(q, P) = \bigl(\Pi = \mathrm{Im}(\bar q P),\; \Gamma_a = \bar q\, a\, q\bigr), \qquad
+//!   q' = q w, \quad P' = P w + c \sum_a (a q)\, \chi_a, \quad w = \tfrac{c}{2} \Omega
+//!   ```
+//!
+//!   with the derivatives Omega of H by Pi and `chi_a` by `Gamma_a`, and imaginary labels a that are constant: a single one is
+//!   `|Gamma| k`, several are the vectors themselves at a step where q = 1. Gauss methods keep `|q|`, and commute with
+//!   `q -> g q, P -> g P` and with `P -> P + s q`, by which two points over a state differ; after each step P is made
+//!   orthogonal to q, along which it would drift.
+//!
+//! From order 8 on the stages are evaluated together on the points, and two things are chosen so that the iteration is short:
+//! from H the compiler takes a multiple of a quadratic Casimir where its gradient loses terms by that, which moves other points over the
+//! same states; and over a representation V it takes as few columns and rows, points of `T*V^r`, as determine the momentum.
+//!
 //! * [`Collective4::given`](Collective::given) and its kin lift to the points of a realization that the declaration
 //!   gives ([`RealizedPoisson`](crate::RealizedPoisson)). Points over mu are found by a Gauss–Newton iteration. The
 //!   step does not depend on which point it is where the components of J are of degree at most two and the
