@@ -618,7 +618,7 @@ fn steps_are_poisson_maps() {
         &vectors,
         &Collective16::quaternion(),
         &mu,
-        &[0.1, 0.5, 1.2],
+        &[0.1, 0.4, 0.8],
         3e-14,
     );
     let body = Body::<Dual<f64>>::default().system().expect("parameters");
@@ -626,7 +626,7 @@ fn steps_are_poisson_maps() {
         &body,
         &Collective16::hopf(),
         &[0.7, 0.4, 1.1],
-        &[0.1, 1.0, 2.4],
+        &[0.1, 0.6, 1.2],
         3e-14,
     );
     let sl2 = Sl2Quadratic::<Dual<f64>>::default()
@@ -636,7 +636,7 @@ fn steps_are_poisson_maps() {
         &sl2,
         &Isospectral8::new(),
         &[0.3, 0.5, 0.4],
-        &[0.1, 0.5],
+        &[0.1, 0.3],
         1e-14,
     );
 
@@ -704,15 +704,16 @@ fn orbits_are_kept_and_the_energy_does_not_drift() {
     }
     const GROWTH: f64 = 5.0;
     let top = Top::new().system().expect("parameters");
-    let start = state(&top, &TOP);
+    // swinging below the fixed point
+    let start = state(&top, &[0.2, -0.1, 0.8, 0.2, 0.1, -1.0]);
     let body = ManakovTop::new().system().expect("parameters");
     let su3 = Su3Quadratic::new().system().expect("parameters");
     for growth in [
         check(&top, &Collective8::quaternion(), &start, 0.5, 20_000),
-        check(&top, &Collective16::quaternion(), &start, 1.1, 5_000),
+        check(&top, &Collective16::quaternion(), &start, 2.2, 5_000),
         check(&top, &Isospectral8::new(), &start, 0.4, 10_000),
         check(&body, &Collective8::smallest(), &some(&body), 0.3, 5_000),
-        check(&su3, &Isospectral8::new(), &some(&su3), 0.2, 2_000),
+        check(&su3, &Isospectral8::new(), &some(&su3), 0.4, 2_000),
     ] {
         assert!(growth < GROWTH, "{growth}");
     }

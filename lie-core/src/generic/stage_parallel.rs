@@ -144,12 +144,13 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         let enough = S::epsilon() * S::ratio(1.0, 4.0);
         let [mut ended, mut settled, mut ready] = [S::Mask::splat(false); 3];
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
-        let [mut first, mut earlier, mut before, mut change] = [S::Wide::zero(); 4];
+        let [mut first, mut before, mut change] = [S::Wide::zero(); 3];
         let [mut left, mut rate] = [S::one(); 2];
         while iterations < self.options.max_iterations && !ended.all() {
             self.set_points(base);
             field(&self.point, &mut self.next);
-            (earlier, before) = (before, change);
+            let earlier = before;
+            before = change;
             change = self.replace(ended);
             iterations += 1;
             if iterations == 1 {
