@@ -41,6 +41,7 @@ pub use recurrence::{Expand, GradientRecurrence, GradientSeries, Recurrence, Ser
 pub use scalar::{Dual, Mask, Scalar};
 pub use state::{Stages, State, Unknown};
 pub use structure::{
-    ClosedRealization, CotangentPoisson, Group, InertiaPoisson, IntegrablePoisson, MatrixGroup,
-    MatrixPoisson, Motion, RealizedPoisson, Spectrum, SpinPoisson,
+    ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson, Group, InertiaPoisson,
+    IntegrablePoisson, MatrixGroup, MatrixPoisson, Motion, RealizedPoisson, Spectrum, SpinPoisson,
+    VectorPoisson,
 };

@@ -1,6 +1,7 @@
 //! Structure that some algebras and Hamiltonians have and some methods need: a matrix representation,
 //! factors so(3), the inertia of a rigid body in n dimensions.
 
+use crate::generic::{LinearLift, flow_over_columns, flow_over_quaternions, flow_over_spins};
 use crate::matrix::SquareMatrix;
 use crate::poisson::{LiePoisson, Poisson};
 use crate::scalar::Scalar;
@@ -148,6 +149,37 @@ pub trait MatrixPoisson<S: Scalar>: LiePoisson<S> {
     fn zero_matrix(&self) -> Self::Matrix;
 }
 
+/// Columns of a representation over which a state is lifted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Columns<'a> {
+    /// Which columns `x_j` of the unit matrix.
+    pub indices: &'a [u16],
+    /// The rows `y_j = sum_k mu_k y_j^k` beside them, with `mu_k = sum_j y_j rho(e_k) x_j`: for each k entries in row j.
+    pub covectors: &'a [&'a [Entry]],
+}
+
+/// A system whose representation carries a reduction of `T*V^r` to g*: with as few columns as determine the momentum, and what
+/// commutes with the representation.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no matrix representation over the scalar `{S}` that carries this method",
+    note = "declare `matrices` whose closure under (abc + cba)/2 adds only matrices that commute with them, or use `LieMidpoint::exp()`"
+)]
+pub trait ColumnPoisson<S: Scalar>: MatrixPoisson<S> {
+    /// The columns, then the rows.
+    type Columns: State<S>;
+    /// Columns and rows, all 0.
+    fn zero_columns(&self) -> Self::Columns;
+    /// The size of the matrices.
+    fn representation_size(&self) -> usize;
+    /// The columns.
+    fn columns(&self) -> Columns<'_>;
+    /// The canonical flow of `H o J`; see [`flow_over_columns`](crate::generic::flow_over_columns).
+    #[inline]
+    fn column_flow(&self, point: &Self::Columns, out: &mut Self::Columns) {
+        flow_over_columns(self, point, out);
+    }
+}
+
 /// A Lie–Poisson system on a direct sum of algebras so(3): each coordinate belongs to one spin, a triple
 /// (i, j, k) with `[e_i, e_j] = c e_k` and its cyclic permutations.
 #[diagnostic::on_unimplemented(
@@ -163,6 +195,58 @@ pub trait SpinPoisson<S: Scalar>: LiePoisson<S> {
     type Spinors: State<S>;
     /// Points of the right size, all coordinates 0.
     fn zero_spinors(&self) -> Self::Spinors;
+    /// The canonical flow of `(H - C) o J` at points, C any function of Casimirs; see
+    /// [`flow_over_spins`](crate::generic::flow_over_spins), for which C is 0.
+    #[inline]
+    fn spinor_flow(&self, point: &Self::Spinors, out: &mut Self::Spinors) {
+        flow_over_spins(self, point, out);
+    }
+}
+
+/// A Lie–Poisson system on the semidirect product of so(3) with some vectors, which commute: se(3) with one of them. With
+/// the rotations `J_i` and the vectors `V_j`, in coordinates that may be scaled, `[J_1, J_2] = c J_3`,
+/// `[J_1, V_2] = c V_3` and its cyclic permutations.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a system of a rotation group with vectors over the scalar `{S}`",
+    note = "the method needs so(3) with vectors that commute, such as se(3), with [J1, J2] = c J3, [J1, P2] = c P3 and cyclic permutations"
+)]
+pub trait VectorPoisson<S: Scalar>: LiePoisson<S> {
+    /// The coordinates of the rotations.
+    fn rotation(&self) -> [usize; 3];
+    /// The components of each vector: in the row of an entry the coordinate, which is its value times the component.
+    fn vectors(&self) -> &[[Entry; 3]];
+    /// The constant c.
+    fn scale(&self) -> S;
+    /// What distinguishes orbits: the length of a single vector, or three coordinates for each of several.
+    type Labels: State<S>;
+    /// Labels, all 0.
+    fn zero_labels(&self) -> Self::Labels;
+    /// Points of `T*H`: a quaternion, then its momentum, the real parts first.
+    type Quaternions: State<S>;
+    /// A point, all coordinates 0.
+    fn zero_quaternions(&self) -> Self::Quaternions;
+    /// The canonical flow of `(H - C) o J` on `T*H`, C any function of Casimirs; see
+    /// [`flow_over_quaternions`](crate::generic::flow_over_quaternions), for which C is 0.
+    #[inline]
+    fn quaternion_flow(
+        &self,
+        labels: &Self::Labels,
+        point: &Self::Quaternions,
+        out: &mut Self::Quaternions,
+    ) {
+        flow_over_quaternions(self, labels, point, out);
+    }
+}
+
+/// A system over which there is a linear symplectic space that carries collective methods: the smallest of those that the
+/// compiler knows.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no linear symplectic space over the scalar `{S}` that carries collective methods",
+    note = "declare `matrices` whose closure under (abc + cba)/2 adds only matrices that commute with them, or use `LieMidpoint::exp()`"
+)]
+pub trait CollectivePoisson<S: Scalar>: LiePoisson<S> + Sized {
+    /// The space.
+    type Lift: LinearLift<S, Self>;
 }
 
 /// How the flow of a system is known in closed form.

@@ -69,14 +69,15 @@ pub mod sources;
 mod test_systems;
 
 pub use lie_core::{
-    CayleyPoisson, ClosedRealization, CotangentPoisson, DiscreteLagrangian,
-    DiscreteLagrangianPoisson, Dual, Equation, Expand, GeneratingFunction, GradientRecurrence,
-    GradientSeries, Group, Implicit, InertiaPoisson, IntegrablePoisson, LagrangianPoisson,
-    LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson, Motion, ParameterError, ParameterFault,
-    PieceFlows, Poisson, RealizedPoisson, Recurrence, Scalar, SeparablePoisson, Series, Spectrum,
-    SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown, Widen, closed, elimination,
-    equation, generating, generic, generic_equations, lagrangian, matrix, methods, newton,
-    parameter, pieces, poisson, recurrence, scalar, state, structure,
+    CayleyPoisson, ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson,
+    DiscreteLagrangian, DiscreteLagrangianPoisson, Dual, Equation, Expand, GeneratingFunction,
+    GradientRecurrence, GradientSeries, Group, Implicit, InertiaPoisson, IntegrablePoisson,
+    LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson, Motion, ParameterError,
+    ParameterFault, PieceFlows, Poisson, RealizedPoisson, Recurrence, Scalar, SeparablePoisson,
+    Series, Spectrum, SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown,
+    VectorPoisson, Widen, closed, elimination, equation, generating, generic, generic_equations,
+    lagrangian, matrix, methods, newton, parameter, pieces, poisson, recurrence, scalar, state,
+    structure,
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
@@ -95,15 +96,16 @@ pub mod prelude {
     pub use crate::methods::{
         CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10, CohenHairer12,
         CohenHairer14, CohenHairer16, Collective2, Collective4, Collective6, Collective8,
-        Collective12, Collective16, CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3,
-        DiscreteEulerPoincare, Dopri5, EulerArnold2, Exact, Generating2, Generating4, Generating6,
-        GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4,
-        Isospectral6, ItohAbe, LieEuler, LieMidpoint, LieTaylor, MeanValue, Method, MoserVeselov,
-        OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint, Splitting1,
-        Splitting2, Splitting4, Splitting6, Splitting8, Stepper, Taylor, Variational2,
+        Collective10, Collective12, Collective14, Collective16, CommutatorFree4, Compose4,
+        Compose6, Compose8, CrouchGrossman3, DiscreteEulerPoincare, Dopri5, EulerArnold2, Exact,
+        Generating2, Generating4, Generating6, GeneratingSecondKind2, Gonzalez, ImplicitMidpoint,
+        Isospectral2, Isospectral4, Isospectral6, Isospectral8, Isospectral10, Isospectral12,
+        Isospectral14, Isospectral16, ItohAbe, LieEuler, LieMidpoint, LieTaylor, MeanValue, Method,
+        MoserVeselov, OrbitEnergy, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, Scheme, SphericalMidpoint,
+        Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, Stepper, Taylor, Variational2,
         Variational4, Variational6,
     };
-    pub use crate::newton::{Iteration, NewtonOptions};
+    pub use crate::newton::{Convergence, Iteration, NewtonOptions};
     #[cfg(feature = "lanes")]
     pub use crate::scalar::{F32x8, F64x4, F64x8};
     pub use crate::{
@@ -130,8 +132,9 @@ pub mod __private_0_1 {
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};
     pub use crate::structure::{
-        CotangentPoisson, Entry, Group, InertiaPoisson, MatrixGroup, MatrixPoisson, Motion, Plane,
-        Representation, Spectrum, SpinPoisson,
+        CollectivePoisson, ColumnPoisson, Columns, CotangentPoisson, Entry, Group, InertiaPoisson,
+        MatrixGroup, MatrixPoisson, Motion, Plane, Representation, Spectrum, SpinPoisson,
+        VectorPoisson,
     };
     pub use core::marker::PhantomData;
     pub use nalgebra::{SMatrix, SVector};

@@ -200,6 +200,10 @@ pub struct SolverOptions {
     /// chosen automatically; simplified 200, fixed-point 500)
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub max_iterations: Option<String>,
+    /// What has converged where stages that are evaluated together end, as in gauss16: state, or map (its derivative too, so
+    /// that a Poisson map is one to round-off; default of collective and isospectral methods)
+    #[arg(long, value_name = "NAME")]
+    pub converge: Option<String>,
 }
 
 /// The options by which a method is chosen, see `lie methods`.

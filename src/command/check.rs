@@ -6,6 +6,7 @@ use std::path::Path;
 use lie_codegen::compile;
 use lie_codegen::methods::{Choice, applicability, refusal};
 use lie_codegen::model::Model;
+use lie_codegen::structure::lifts;
 use serde_json::{Value, json};
 
 use super::run::plan::plan;
@@ -183,6 +184,13 @@ impl Report {
         let also: Vec<&str> = also.map(|(label, _)| label.as_str()).collect();
         if !also.is_empty() {
             list(text, "  and with options: ", &also)?;
+        }
+        if let Some(smallest) = lifts::smallest(model) {
+            writeln!(
+                text,
+                "  collective methods from order 8 on go over {}",
+                smallest.description()
+            )?;
         }
         // what has the same reason stands together
         let mut refused: Vec<(&str, Vec<&str>)> = Vec::new();

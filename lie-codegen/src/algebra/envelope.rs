@@ -12,13 +12,35 @@ use crate::exact::matrix::solve;
 use crate::exact::span::{NoSpan, Span};
 use crate::exact::{Budget, Exhausted, Rational};
 
-/// The dual matrices by rows, `None` where there are none; `closed` says that the span is closed under
-/// triple products.
+/// Work allowed to leave columns out.
+const WORK: u64 = 20_000_000;
+
+/// Columns of the unit matrix from which a method on `T*V^r` may start, r as small as that allows, and beside them rows
+/// whose matrix is dual.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Columns {
+    /// Which columns, ascending.
+    pub indices: Vec<usize>,
+    /// `y_j^k` with `sum_j y_j^k e x_j` equal to 1 for the k-th matrix e and 0 for the others and what commutes with them:
+    /// for each k the rows in the order of the columns.
+    pub covectors: Vec<Vec<Vec<Rational>>>,
+}
+
+/// What a representation pairs with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Duals {
+    /// The dual matrices by rows.
+    pub matrices: Vec<Vec<Vec<Rational>>>,
+    /// The same with few columns.
+    pub columns: Columns,
+}
+
+/// The dual matrices, `None` where there are none; `closed` says that the span is closed under triple products.
 pub(super) fn dual(
     matrices: &[SparseMatrix],
     closed: bool,
     budget: &Budget,
-) -> Result<Option<Vec<Vec<Vec<Rational>>>>, Exhausted> {
+) -> Result<Option<Duals>, Exhausted> {
     let basis = if closed {
         matrices.to_vec()
     } else {
@@ -29,6 +51,47 @@ pub(super) fn dual(
     };
     let flat: Vec<Vec<Rational>> = basis.iter().map(SparseMatrix::flat).collect();
     let size = basis[0].rows().len();
+    let Some(all) = paired(&flat, matrices.len(), size, budget)? else {
+        return Ok(None);
+    };
+    // as many columns are left out as leave the matrices independent
+    let mut kept = vec![true; size];
+    let mut covectors = all.clone();
+    let budget = &Budget::new(WORK);
+    for column in (0..size).rev() {
+        kept[column] = false;
+        let restricted = flat.iter().map(|matrix| {
+            let entries = matrix.iter().enumerate();
+            let entries = entries.map(|(place, entry)| match kept[place % size] {
+                true => entry.clone(),
+                false => Rational::ZERO,
+            });
+            entries.collect()
+        });
+        let restricted: Vec<Vec<Rational>> = restricted.collect();
+        match paired(&restricted, matrices.len(), size, budget) {
+            Ok(Some(found)) => covectors = found,
+            // more columns than are needed do as well
+            Ok(None) | Err(Exhausted) => kept[column] = true,
+        }
+    }
+    let indices: Vec<usize> = (0..size).filter(|&column| kept[column]).collect();
+    for covector in &mut covectors {
+        *covector = indices.iter().map(|&row| covector[row].clone()).collect();
+    }
+    Ok(Some(Duals {
+        matrices: all,
+        columns: Columns { indices, covectors },
+    }))
+}
+
+/// The dual matrices of the first so many of some matrices, combinations of their transposes; `None` where they are dependent.
+fn paired(
+    flat: &[Vec<Rational>],
+    count: usize,
+    size: usize,
+    budget: &Budget,
+) -> Result<Option<Vec<Vec<Vec<Rational>>>>, Exhausted> {
     budget.spend((flat.len() * flat.len() * size * size) as u64)?;
     // D^k = sum_b c_b basis_b^T has tr(D^k basis_a) = sum_b c_b (basis_b . basis_a)
     let gram: Vec<Vec<Rational>> = flat
@@ -42,14 +105,14 @@ pub(super) fn dual(
         Err(NoSpan::Exhausted) => return Err(Exhausted),
     };
     let mut duals = Vec::new();
-    for k in 0..matrices.len() {
+    for k in 0..count {
         let unit = |a: usize| Rational::from(i64::from(a == k));
         let unit: Vec<Rational> = (0..flat.len()).map(unit).collect();
         let Some(coefficients) = inverse.coordinates(&unit, budget)? else {
             return Ok(None);
         };
         let mut rows = vec![vec![Rational::ZERO; size]; size];
-        for (coefficient, matrix) in coefficients.iter().zip(&flat) {
+        for (coefficient, matrix) in coefficients.iter().zip(flat) {
             for (position, entry) in matrix.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
                 let place = &mut rows[position % size][position / size];
                 *place = &*place + &(coefficient * entry);

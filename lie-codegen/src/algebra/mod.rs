@@ -21,6 +21,7 @@ pub(crate) mod known;
 mod tests;
 
 pub use constants::StructureConstants;
+pub use envelope::Columns;
 pub use linear::rational;
 pub use representation::{Representation, TripleEntry};
 pub use scope::Scope;

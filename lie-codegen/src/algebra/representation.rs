@@ -1,5 +1,6 @@
 //! Matrix representations: `rho(e_i) rho(e_j) - rho(e_j) rho(e_i) = sum_k C_ij^k rho(e_k)`.
 
+use super::envelope::Columns;
 use super::linear::rational;
 use super::sparse::SparseMatrix;
 use super::{Scope, StructureConstants, envelope, triple};
@@ -15,7 +16,7 @@ const MAX_ENTRIES: usize = 4_000_000;
 pub type TripleEntry = (usize, usize, usize, usize, Rational);
 
 /// The triple product and the dual matrices of a [`Representation`].
-type Closures = (Option<Vec<TripleEntry>>, Option<Vec<Vec<Vec<Rational>>>>);
+type Closures = (Option<Vec<TripleEntry>>, Option<envelope::Duals>);
 
 /// A matrix representation of the algebra.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +33,8 @@ pub struct Representation {
     /// `(abc + cba)/2` adds only matrices that commute with those of the representation; they pair to
     /// zero with the latter. Otherwise, and for dependent matrices, `None`.
     pub dual: Option<Vec<Vec<Vec<Rational>>>>,
+    /// Columns that suffice for them, where there are dual matrices.
+    pub columns: Option<Columns>,
 }
 
 /// The matrices as they were read, one for each basis element.
@@ -274,7 +277,8 @@ impl Matrices<'_> {
             dimension: self.dimension,
             matrices,
             triple,
-            dual,
+            columns: dual.as_ref().map(|dual| dual.columns.clone()),
+            dual: dual.map(|dual| dual.matrices),
         })
     }
 

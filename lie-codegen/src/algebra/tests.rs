@@ -277,6 +277,16 @@ fn dual_matrices_exist_where_the_method_stays_on_the_orbit() {
         }
         sum
     };
+    // the rows beside the columns, all others 0
+    let in_full = |columns: &Columns, k: usize| {
+        let covector = &columns.covectors[k];
+        let size = covector[0].len();
+        let row = |j: usize| match columns.indices.iter().position(|&index| index == j) {
+            Some(place) => covector[place].clone(),
+            None => vec![Rational::ZERO; size],
+        };
+        (0..size).map(row).collect::<Vec<_>>()
+    };
     for matrices in [
         known::so(4),
         known::sl2(),
@@ -288,9 +298,11 @@ fn dual_matrices_exist_where_the_method_stays_on_the_orbit() {
     ] {
         let matrices = known::rationals(&matrices);
         let dual = dual(&matrices).expect("it carries the method");
-        for (k, left) in dual.iter().enumerate() {
+        for (k, left) in dual.matrices.iter().enumerate() {
             for (l, right) in matrices.iter().enumerate() {
-                assert_eq!(trace(left, right), Rational::from(i64::from(k == l)));
+                let unit = Rational::from(i64::from(k == l));
+                assert_eq!(trace(left, right), unit);
+                assert_eq!(trace(&in_full(&dual.columns, k), right), unit);
             }
         }
     }
@@ -302,9 +314,18 @@ fn dual_matrices_exist_where_the_method_stays_on_the_orbit() {
         unit[k][k + size / 2] = Rational::MINUS_ONE;
         unit[k + size / 2][k] = Rational::ONE;
     }
-    for matrix in dual(&su3).expect("su(3)") {
-        assert!(trace(&matrix, &unit).is_zero());
+    let found = dual(&su3).expect("su(3)");
+    for (k, matrix) in found.matrices.iter().enumerate() {
+        assert!(trace(matrix, &unit).is_zero());
+        assert!(trace(&in_full(&found.columns, k), &unit).is_zero());
     }
+    assert_eq!(found.columns.indices.len(), 3, "one complex column each");
+    let of = |matrices: &[Vec<Vec<i64>>]| {
+        let found = dual(&known::rationals(matrices)).expect("it carries the method");
+        found.columns.indices
+    };
+    assert_eq!(of(&known::so(4)), [0, 1, 2]);
+    assert_eq!(of(&known::se3()), [0, 1, 3]);
     // the adjoint representation of su(3) closes to more
     let constants = known::from_matrices(&known::su(3));
     assert_eq!(dual(&known::adjoint(8, &constants)), None);

@@ -9,6 +9,7 @@ mod generating;
 mod kernel;
 mod lagrangian;
 mod leaner;
+mod lifts;
 mod poisson;
 mod realization;
 mod recurrence;

@@ -10,7 +10,8 @@ use crate::structure::integrable::{self, Motion};
 use crate::structure::one_parameter::Block as OneParameter;
 use crate::structure::separable::Piece;
 use crate::structure::spins::Spin;
-use crate::structure::{group, inertia, separable, spins};
+use crate::structure::vectors::Vectors;
+use crate::structure::{group, inertia, lifts, separable, spins, vectors};
 use crate::symbolic::{ExprId, Graph};
 
 /// What the Poisson matrix is made of.
@@ -50,6 +51,10 @@ pub struct Source {
     pub group: Option<Group>,
     /// The summands of a direct sum of algebras so(3).
     pub spins: Option<Vec<Spin>>,
+    /// The parts of so(3) with vectors.
+    pub vectors: Option<Vectors>,
+    /// H without a function of Casimirs, where that makes it shorter on a space over g*.
+    pub gauged: Option<ExprId>,
     /// The free rigid body that the system is.
     pub body: Option<Body>,
     /// The form of the flow, where it is known.
@@ -82,6 +87,8 @@ impl Source {
             realization: None,
             matrices: None,
             spins: None,
+            vectors: None,
+            gauged: None,
             body: None,
             motion: None,
             actions: None,
@@ -112,6 +119,7 @@ impl Source {
         };
         let mut graph = general.graph;
         let body = inertia::body(model, &mut graph).ok();
+        let gauged = lifts::gauge(model, &mut graph);
         let representation = algebra.representation.as_ref();
         let configuration = model.configuration.as_ref();
         Source {
@@ -124,6 +132,8 @@ impl Source {
             matrices: representation.filter(|r| r.dual.is_some()).cloned(),
             spins: spins::spins(model),
             motion: integrable::motion(model),
+            vectors: vectors::vectors(model),
+            gauged,
             body,
             ..general
         }

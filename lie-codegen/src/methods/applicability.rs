@@ -3,7 +3,7 @@
 use super::{CATALOGUE, Choice, Lift, Retraction, Tensor};
 use crate::diagnostic::Kind;
 use crate::model::{Bracket, Descent, Discrete, Model};
-use crate::structure::{inertia, integrable, matrices, separable, spins};
+use crate::structure::{inertia, integrable, lifts, matrices, separable, spins, vectors};
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
 pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
@@ -42,6 +42,8 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
         Choice::Collective(order, Lift::Hopf) => spins::refusal(model, Some(*order)),
         Choice::Exact => integrable::refusal(model),
         Choice::Taylor | Choice::LieTaylor => expression(model),
+        Choice::Collective(order, Lift::Quaternion) => vectors::refusal(model, *order),
+        Choice::Collective(order, Lift::Smallest) => lifts::refusal(model, *order),
         Choice::EulerArnold2 => cotangent(model),
         Choice::SphericalMidpoint => spins::refusal(model, None),
         Choice::MoserVeselov => inertia::refusal(model),

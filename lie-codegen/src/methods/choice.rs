@@ -35,9 +35,9 @@ pub enum Choice {
     Generating(u32, Retraction),
     /// `generating-second-kind2`
     GeneratingSecondKind2,
-    /// `collective2`, `collective4`, `collective6`
+    /// `collective2` to `collective16`
     Collective(u32, Lift),
-    /// `isospectral2`, `isospectral4`, `isospectral6`
+    /// `isospectral2` to `isospectral16`
     Isospectral(u32),
     /// `euler-arnold2`
     EulerArnold2,
@@ -182,12 +182,19 @@ impl Choice {
             "collective2" => Self::Collective(2, Lift::Representation),
             "collective4" => Self::Collective(4, Lift::Representation),
             "collective6" => Self::Collective(6, Lift::Representation),
-            "collective8" => Self::Collective(8, Lift::Hopf),
-            "collective12" => Self::Collective(12, Lift::Hopf),
-            "collective16" => Self::Collective(16, Lift::Hopf),
+            "collective8" => Self::Collective(8, Lift::Smallest),
+            "collective10" => Self::Collective(10, Lift::Smallest),
+            "collective12" => Self::Collective(12, Lift::Smallest),
+            "collective14" => Self::Collective(14, Lift::Smallest),
+            "collective16" => Self::Collective(16, Lift::Smallest),
             "isospectral2" => Self::Isospectral(2),
             "isospectral4" => Self::Isospectral(4),
             "isospectral6" => Self::Isospectral(6),
+            "isospectral8" => Self::Isospectral(8),
+            "isospectral10" => Self::Isospectral(10),
+            "isospectral12" => Self::Isospectral(12),
+            "isospectral14" => Self::Isospectral(14),
+            "isospectral16" => Self::Isospectral(16),
             "euler-arnold2" => Self::EulerArnold2,
             "spherical-midpoint" => Self::SphericalMidpoint,
             "splitting1" => splitting(1),

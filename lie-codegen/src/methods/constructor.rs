@@ -99,6 +99,8 @@ impl Choice {
                     Lift::Representation => format_ident!("representation"),
                     Lift::Hopf => format_ident!("hopf"),
                     Lift::Spec => format_ident!("given"),
+                    Lift::Quaternion => format_ident!("quaternion"),
+                    Lift::Smallest => format_ident!("smallest"),
                 };
                 quote! { #collective::#lift() }
             }

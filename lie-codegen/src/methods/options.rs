@@ -54,6 +54,10 @@ named! {
         Hopf = "hopf",
         /// The points of the declared realization.
         Spec = "spec",
+        /// `T*H`, H the quaternions, for so(3) with vectors.
+        Quaternion = "quaternion",
+        /// The smallest linear space that there is.
+        Smallest = "smallest",
     }
 }
 
@@ -153,9 +157,19 @@ fn pick<T: Copy + PartialEq>(
 }
 
 impl Lift {
-    /// Those of the collective method of an order: from order 8 on the stages are evaluated together over the Hopf map.
+    /// Those of the collective method of an order: from order 8 on the stages are evaluated together on the points of a linear
+    /// space, the smallest one unless another is asked for.
     pub fn of_collective(order: u32) -> &'static [Self] {
-        if order > 6 { &[Self::Hopf] } else { Self::ALL }
+        if order > 6 {
+            &[
+                Self::Smallest,
+                Self::Hopf,
+                Self::Quaternion,
+                Self::Representation,
+            ]
+        } else {
+            &[Self::Representation, Self::Hopf, Self::Spec]
+        }
     }
 }
 

@@ -2,14 +2,15 @@
 
 use lie_core::methods::{
     CohenHairer2, CohenHairer4, CohenHairer6, CohenHairer8, CohenHairer10, CohenHairer12,
-    CohenHairer14, CohenHairer16, Collective2, Collective4, Collective6, Collective8, Collective12,
-    Collective16, CommutatorFree4, Compose4, Compose6, Compose8, CrouchGrossman3,
-    DiscreteEulerPoincare, Dopri5, EulerArnold2, Exact, Exp, Facts, Gauss4, Gauss6, Gauss8,
-    Gauss10, Gauss12, Gauss14, Gauss16, Generating2, Generating4, Generating6,
+    CohenHairer14, CohenHairer16, Collective2, Collective4, Collective6, Collective8, Collective10,
+    Collective12, Collective14, Collective16, CommutatorFree4, Compose4, Compose6, Compose8,
+    CrouchGrossman3, DiscreteEulerPoincare, Dopri5, EulerArnold2, Exact, Exp, Facts, Gauss4,
+    Gauss6, Gauss8, Gauss10, Gauss12, Gauss14, Gauss16, Generating2, Generating4, Generating6,
     GeneratingSecondKind2, Gonzalez, ImplicitMidpoint, Isospectral2, Isospectral4, Isospectral6,
-    ItohAbe, LieEuler, LieMidpoint, LieTaylor, MeanValue, MoserVeselov, OrbitEnergy, Preserves,
-    Representation, Rk4, Rkmk2, Rkmk3, Rkmk4, Rkmk6, SphericalMidpoint, Splitting1, Splitting2,
-    Splitting4, Splitting6, Splitting8, Taylor, Variational2, Variational4, Variational6,
+    Isospectral8, Isospectral10, Isospectral12, Isospectral14, Isospectral16, ItohAbe, LieEuler,
+    LieMidpoint, LieTaylor, MeanValue, MoserVeselov, OrbitEnergy, Preserves, Representation, Rk4,
+    Rkmk2, Rkmk3, Rkmk4, Rkmk6, Smallest, SphericalMidpoint, Splitting1, Splitting2, Splitting4,
+    Splitting6, Splitting8, Taylor, Variational2, Variational4, Variational6,
 };
 
 use super::Method;
@@ -23,6 +24,7 @@ const REDUCTIVE: &str =
     "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const COLLECTIVE: &str = "a matrix representation closed under (abc + cba)/2, up to matrices that commute with it; with --lift hopf a direct sum of algebras so(3)";
 
+const LINEAR: &str = "a direct sum of algebras so(3) (hopf), so(3) with vectors such as se(3) (quaternion), else a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const SPINS: &str = "a direct sum of algebras so(3)";
 const EXPRESSION: &str = "a Hamiltonian with an expression";
 const SUM: &str = "H = sum f_i(x_i), each term of one coordinate";
@@ -122,12 +124,19 @@ catalogue! {
     Collective2<Representation>: "collective symplectic", COLLECTIVE, COLL;
     Collective4<Representation>: "collective symplectic", COLLECTIVE, COLL;
     Collective6<Representation>: "collective symplectic", COLLECTIVE, COLL;
-    Collective8: "stage-parallel collective symplectic", SPINS, COLL;
-    Collective12: "stage-parallel collective symplectic", SPINS, COLL;
-    Collective16: "stage-parallel collective symplectic", SPINS, COLL;
+    Collective8<Smallest>: "stage-parallel collective symplectic", LINEAR, COLL;
+    Collective10<Smallest>: "stage-parallel collective symplectic", LINEAR, COLL;
+    Collective12<Smallest>: "stage-parallel collective symplectic", LINEAR, COLL;
+    Collective14<Smallest>: "stage-parallel collective symplectic", LINEAR, COLL;
+    Collective16<Smallest>: "stage-parallel collective symplectic", LINEAR, COLL;
     Isospectral2: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
     Isospectral4: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
     Isospectral6: "isospectral symplectic Runge–Kutta", REDUCTIVE, MODIN;
+    Isospectral8: "stage-parallel isospectral Runge–Kutta", REDUCTIVE, MODIN;
+    Isospectral10: "stage-parallel isospectral Runge–Kutta", REDUCTIVE, MODIN;
+    Isospectral12: "stage-parallel isospectral Runge–Kutta", REDUCTIVE, MODIN;
+    Isospectral14: "stage-parallel isospectral Runge–Kutta", REDUCTIVE, MODIN;
+    Isospectral16: "stage-parallel isospectral Runge–Kutta", REDUCTIVE, MODIN;
     SphericalMidpoint: "spherical midpoint", SPINS, MMV;
     Splitting1: "Lie–Trotter splitting", SUM, MCL;
     Splitting2: "Strang splitting", SUM, MCL;
@@ -151,7 +160,7 @@ catalogue! {
 }
 
 /// Ids that are kept for later and have no row in the table yet.
-pub const RESERVED: &[&str] = &["isospectral8", "isospectral16"];
+pub const RESERVED: &[&str] = &[];
 
 #[cfg(test)]
 mod tests {

@@ -75,7 +75,7 @@ impl Planner<'_> {
             Lift::Representation => ("Isospectral", "isospectral"),
             Lift::Hopf => ("Hopf", "collective --lift hopf"),
             // its equation is that of the canonical system, without a fused form
-            Lift::Spec => return None,
+            Lift::Spec | Lift::Quaternion | Lift::Smallest => return None,
         };
         let order = 2 * stages;
         let (suffix, label) = (format!("{suffix}{order}"), format!("{label}{order}"));

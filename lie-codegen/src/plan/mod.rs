@@ -13,6 +13,7 @@ mod energy;
 mod equation;
 mod function;
 mod generating;
+mod lifts;
 mod names;
 mod own;
 mod pattern;
@@ -35,7 +36,9 @@ pub use own::Own;
 pub use planner::{plan, plan_with};
 pub use recurrence::Recurrence;
 pub use splitting::{Flow, Splitting};
-pub use structure::{Group, Inertia, Realization, Representation, Spectrum, Spins, Structure};
+pub use structure::{
+    Group, Inertia, Realization, Representation, Spectrum, Spins, Structure, Vectors,
+};
 pub use system::{Casimir, Energy, System};
 
 use crate::schedule::Counts;
@@ -88,7 +91,8 @@ impl Plan {
         let realization = self.structure.realization.iter();
         let realized = realization.flat_map(|realization| &realization.functions);
         let counted = |function: &Function| (function.label.clone(), function.program.counts);
-        let mut counts: Vec<_> = system.chain(realized).map(counted).collect();
+        let lifted = self.structure.flows();
+        let mut counts: Vec<_> = system.chain(realized).chain(lifted).map(counted).collect();
         for item in &self.items {
             counts.extend(item.functions().map(counted));
             counts.extend(item.elimination());

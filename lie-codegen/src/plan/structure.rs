@@ -3,11 +3,15 @@
 use super::constants::Code;
 use super::function::Function;
 use super::planner::Planner;
+use crate::algebra::Columns;
 use crate::derive::Kernel;
 use crate::exact::Rational;
+use crate::methods::Lift;
 use crate::structure::inertia::Body;
 use crate::structure::integrable::Motion;
+use crate::structure::lifts::{self, Smallest};
 use crate::structure::spectrum;
+use crate::structure::vectors::Component;
 use crate::symbolic::ExprId;
 
 /// Matrices by rows.
@@ -24,6 +28,10 @@ pub struct Structure {
     pub spins: Option<Spins>,
     /// The form of the flow, where it is known.
     pub motion: Option<Motion>,
+    /// The parts of so(3) with vectors.
+    pub vectors: Option<Vectors>,
+    /// The smallest linear symplectic space over the system.
+    pub smallest: Option<Smallest>,
     /// The inertia of a free rigid body in four dimensions or more.
     pub inertia: Option<Inertia>,
     /// The number of momenta of a system on `T*G`, which are its first coordinates.
@@ -60,6 +68,10 @@ pub struct Representation {
     pub skew: bool,
     /// What is known of the eigenvalues.
     pub spectrum: Spectrum,
+    /// The columns from which methods on points start.
+    pub columns: Option<Columns>,
+    /// The flow of columns, where a method that is asked for needs it.
+    pub flow: Option<Function>,
 }
 
 /// What is known of the eigenvalues of all elements of a representation.
@@ -78,6 +90,21 @@ pub struct Spins {
     pub coordinates: Vec<[usize; 3]>,
     /// The constant of the bracket of each.
     pub scales: Vec<Code>,
+    /// The flow of their points, where a method that is asked for needs it.
+    pub flow: Option<Function>,
+}
+
+/// The parts of so(3) with vectors.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Vectors {
+    /// The coordinates of the rotations.
+    pub rotation: [usize; 3],
+    /// The components of each vector.
+    pub vectors: Vec<[Component; 3]>,
+    /// The constant of the bracket.
+    pub scale: Code,
+    /// The flow of their points, where a method that is asked for needs it.
+    pub flow: Option<Function>,
 }
 
 /// The inertia of a free rigid body.
@@ -109,11 +136,14 @@ impl Planner<'_> {
     pub(super) fn structure(&mut self) -> Structure {
         let spins = self.spins();
         let inertia = self.inertia();
+        let vectors = self.vectors();
         Structure {
             group: self.group(),
             representation: self.representation(),
             spins,
             motion: self.source.motion,
+            vectors,
+            smallest: lifts::smallest(self.model),
             inertia,
             momenta: self.source.momenta,
             realization: self.realization(),
@@ -131,7 +161,8 @@ impl Planner<'_> {
         })
     }
 
-    fn representation(&self) -> Option<Representation> {
+    fn representation(&mut self) -> Option<Representation> {
+        let flow = self.flow_on(Lift::Representation);
         let representation = self.source.matrices.as_ref()?;
         let dual = representation.dual.as_ref()?;
         let mut all = representation.matrices.iter().chain(dual);
@@ -140,6 +171,8 @@ impl Planner<'_> {
             matrices: representation.matrices.clone(),
             dual: dual.clone(),
             skew: all.all(|matrix| is_skew(matrix)),
+            columns: representation.columns.clone(),
+            flow,
             spectrum: match spectrum::spectrum(&representation.matrices) {
                 spectrum::Spectrum::Imaginary => Spectrum::Imaginary,
                 spectrum::Spectrum::Bounded(weights) => {
@@ -154,6 +187,7 @@ impl Planner<'_> {
         Some(Spins {
             coordinates: spins.iter().map(|spin| spin.coordinates).collect(),
             scales: spins.iter().map(|spin| self.value(spin.scale)).collect(),
+            flow: self.flow_on(Lift::Hopf),
         })
     }
 
@@ -182,7 +216,7 @@ impl Planner<'_> {
     }
 
     /// The program of one value that depends on the parameters alone.
-    fn value(&mut self, value: ExprId) -> Code {
+    pub(super) fn value(&mut self, value: ExprId) -> Code {
         let kernel = Kernel::scalar("", "", Vec::new(), value);
         let program = kernel.program(&mut self.source.graph);
         self.code_of_system(&program)

@@ -108,6 +108,18 @@ impl fmt::Display for Structure {
             };
             writeln!(f, "flow in closed form: {motion}")?;
         }
+        if let Some(vectors) = &self.vectors {
+            let places = |vector: &[(usize, _); 3]| vector.each_ref().map(|(k, _)| *k);
+            let found: Vec<[usize; 3]> = vectors.vectors.iter().map(places).collect();
+            writeln!(f, "rotations {:?}, vectors {found:?}", vectors.rotation)?;
+        }
+        if let Some(smallest) = &self.smallest {
+            let space = smallest.description();
+            writeln!(f, "smallest linear space over it: {space}")?;
+        }
+        for function in self.flows() {
+            write!(f, "{function}")?;
+        }
         if let Some(inertia) = &self.inertia {
             writeln!(f, "free rigid body, planes {:?}", inertia.planes)?;
         }

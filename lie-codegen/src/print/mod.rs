@@ -7,6 +7,7 @@ mod equation;
 mod expression;
 mod function;
 mod gradient;
+mod lifts;
 mod method;
 mod names;
 mod parameters;

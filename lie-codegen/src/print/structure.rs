@@ -19,7 +19,8 @@ impl Printer<'_> {
         let integrable = self.integrable_poisson();
         let cotangent = self.cotangent_poisson();
         let group = self.matrix_group();
-        quote! { #group #matrices #spins #integrable #inertia #cotangent }
+        let (vectors, collective) = (self.vector_poisson(), self.collective_poisson());
+        quote! { #group #matrices #spins #integrable #vectors #collective #inertia #cotangent }
     }
 
     fn matrix_poisson(&self) -> Option<TokenStream> {
@@ -29,6 +30,7 @@ impl Printer<'_> {
         let matrices = representation.matrices.iter().map(|matrix| entries(matrix));
         let dual = representation.dual.iter().map(|matrix| entries(matrix));
         let spectrum = self.spectrum();
+        let columns = self.column_poisson();
         Some(quote! {
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for #system<S> {
                 type Matrix = ::lie_runtime::__private::SMatrix<S, #size, #size>;
@@ -48,6 +50,7 @@ impl Printer<'_> {
                     Self::Matrix::repeat(S::zero())
                 }
             }
+            #columns
         })
     }
 
@@ -122,8 +125,12 @@ impl Printer<'_> {
             quote! { [#(#triple),*] }
         });
         let (argument, value) = self.chosen("spin", &spins.scales);
-        let coordinates = index(4 * spins.scales.len());
+        let size = 4 * spins.scales.len();
+        let flow = spins.flow.as_ref();
+        let flow = flow.map(|f| self.flow_on(f, &quote! { Self::Spinors }, size));
+        let coordinates = index(size);
         Some(quote! {
+            #[allow(non_snake_case, clippy::many_single_char_names)]
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for #system<S> {
                 fn spins(&self) -> &[[usize; 3]] {
                     &[#(#triples),*]
@@ -139,6 +146,8 @@ impl Printer<'_> {
                 fn zero_spinors(&self) -> Self::Spinors {
                     ::lie_runtime::__private::SVector::from_element(S::zero())
                 }
+
+                #flow
             }
         })
     }
@@ -229,21 +238,26 @@ impl Printer<'_> {
     }
 }
 
+/// An entry of a matrix.
+pub(super) fn entry(row: usize, column: usize, value: &Rational) -> TokenStream {
+    let (i, j) = (index(row), index(column));
+    let high = value.to_f64();
+    let low = Rational::from_f64(high).map_or(0.0, |high| (value - &high).to_f64());
+    let exact = low == 0.0;
+    let (high, low) = (Literal::f64_unsuffixed(high), Literal::f64_unsuffixed(low));
+    if exact {
+        quote! { ::lie_runtime::__private::Entry::new(#i, #j, #high) }
+    } else {
+        quote! { ::lie_runtime::__private::Entry::parts(#i, #j, #high, #low) }
+    }
+}
+
 /// The nonzero entries of a matrix.
-fn entries(matrix: &[Vec<Rational>]) -> TokenStream {
+pub(super) fn entries(matrix: &[Vec<Rational>]) -> TokenStream {
     let mut tokens = Vec::new();
     for (i, row) in matrix.iter().enumerate() {
-        for (j, entry) in row.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
-            let (i, j) = (index(i), index(j));
-            let high = entry.to_f64();
-            let low = Rational::from_f64(high).map_or(0.0, |high| (entry - &high).to_f64());
-            let exact = low == 0.0;
-            let (high, low) = (Literal::f64_unsuffixed(high), Literal::f64_unsuffixed(low));
-            tokens.push(if exact {
-                quote! { ::lie_runtime::__private::Entry::new(#i, #j, #high) }
-            } else {
-                quote! { ::lie_runtime::__private::Entry::parts(#i, #j, #high, #low) }
-            });
+        for (j, value) in row.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
+            tokens.push(entry(i, j, value));
         }
     }
     quote! { &[#(#tokens),*] }

@@ -8,6 +8,7 @@ pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
     let nearest = |also: &str| {
         let remedy = match order {
             2 => "use `lie-midpoint`, which works for every Lie algebra".to_owned(),
+            8.. => super::lifts::nearest(model, order),
             order => {
                 format!("use `compose{order}(lie-midpoint)`, which works for every Lie algebra")
             }
@@ -20,7 +21,7 @@ pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
             let hopf = format!(", or `collective{order} --lift hopf`");
             Some((
                 "it needs a matrix representation, and the algebra declares no `matrices`".into(),
-                nearest(if spins { &hopf } else { "" }),
+                nearest(if spins && order < 8 { &hopf } else { "" }),
             ))
         }
         Some(representation) if representation.dual.is_none() => Some((

@@ -71,9 +71,7 @@ pub fn refusal(model: &Model, hopf: Option<u32>) -> Option<(String, String)> {
         Some(order) if order <= 6 && super::matrices::refusal(model, order).is_none() => {
             format!("use `collective{order}` with `--lift representation`")
         }
-        Some(order) if order > 8 => {
-            "use `compose8(lie-midpoint)`, or `gauss16`, which is not a Poisson map but keeps quadratic Casimirs".into()
-        }
+        Some(order) if order >= 8 => super::lifts::nearest(model, order),
         Some(order) if order > 2 => {
             format!("use `compose{order}(lie-midpoint)`, which works for every Lie algebra")
         }

@@ -186,6 +186,26 @@ fn traced(
     Some((step, session.tape, given))
 }
 
+/// What a computation gives, without definitions of its own. `None` where it depends on comparisons.
+pub(crate) fn values(
+    source: &mut Source,
+    run: impl FnOnce(&SymbolicSystem) -> Vec<Sym>,
+) -> Option<Vec<ExprId>> {
+    let first = Block::COUNT * source.dimension;
+    let taken = std::mem::replace(source, Source::empty(crate::symbolic::Graph::new()));
+    let system = SymbolicSystem::of(&taken);
+    let session = Session {
+        tape: Tape::new(&taken, first),
+        source: taken,
+        given: 0,
+        branched: false,
+    };
+    let (values, session) = within(session, || run(&system));
+    *source = session.source;
+    let plain = !session.branched && session.given == 0 && session.tape.definitions().is_empty();
+    plain.then(|| expressions(values))
+}
+
 /// The kernels of a method: residual, residual with its Jacobian, and where the trace has them the start of the
 /// iteration and the state at the end, unless that is the unknown. `None` where the equation depends on comparisons.
 pub fn kernels(

@@ -10,7 +10,7 @@ mod sym;
 mod system;
 
 pub use equation::{Formulas, Step, kernels, step};
-pub(crate) use equation::{linearized, whole};
+pub(crate) use equation::{linearized, values, whole};
 pub use sym::Sym;
 pub use system::{Square, SymbolicSystem};
 pub(crate) use system::{SymbolicActions, SymbolicFunction, SymbolicGradient};

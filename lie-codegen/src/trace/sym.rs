@@ -47,7 +47,7 @@ pub(super) fn with<T>(use_it: impl FnOnce(&mut Session) -> T) -> T {
 pub struct Sym(pub(super) ExprId);
 
 impl Sym {
-    pub(super) fn of(symbol: Symbol) -> Self {
+    pub(crate) fn of(symbol: Symbol) -> Self {
         Self(with(|s| s.source.graph.symbol(symbol)))
     }
 

@@ -2,17 +2,19 @@
 //! itself an expression.
 
 use lie_core::generic::{Actions, DiscreteGradient};
-use lie_core::structure::Plane;
+use lie_core::structure::{Entry, Plane};
 use lie_core::{
     CayleyPoisson, GeneratingFunction, InertiaPoisson, LiePoisson, Poisson, SpinPoisson,
-    SquareMatrix,
+    SquareMatrix, VectorPoisson,
 };
 
 use super::sym::{Session, Sym, with};
 use crate::derive::{
     Block, Closed, Definitions, Generating, Slope, Source, moved, slope, symmetric,
 };
+use crate::exact::Rational;
 use crate::structure::inertia::Body;
+use crate::structure::vectors::{Component, Vectors};
 use crate::symbolic::{ExprId, Symbol};
 
 /// A square matrix of expressions, row by row.
@@ -36,6 +38,30 @@ impl SquareMatrix<Sym> for Square {
 
 type State = Vec<Sym>;
 
+/// so(3) with vectors.
+#[derive(Clone, Debug)]
+struct SymbolicVectors {
+    rotation: [usize; 3],
+    vectors: Vec<[Entry; 3]>,
+    scale: Sym,
+}
+
+impl SymbolicVectors {
+    fn of(vectors: &Vectors) -> Self {
+        let entry = |(k, factor): &Component| {
+            let high = factor.to_f64();
+            let low = Rational::from_f64(high).map_or(0.0, |high| (factor - &high).to_f64());
+            Entry::parts(*k as u16, 0, high, low)
+        };
+        let vector = |components: &[Component; 3]| components.each_ref().map(entry);
+        Self {
+            rotation: vectors.rotation,
+            vectors: vectors.vectors.iter().map(vector).collect(),
+            scale: Sym(vectors.scale),
+        }
+    }
+}
+
 /// The system of the trace that runs.
 #[derive(Clone, Debug)]
 pub struct SymbolicSystem {
@@ -44,6 +70,7 @@ pub struct SymbolicSystem {
     scales: Vec<Sym>,
     planes: Vec<Plane>,
     moments: Vec<Sym>,
+    vectors: Option<SymbolicVectors>,
     closed: Option<Closed>,
     exponential: bool,
 }
@@ -65,6 +92,7 @@ impl SymbolicSystem {
                 .map(|&(from, to)| Plane::new(from as u16, to as u16))
                 .collect(),
             moments: moments.iter().map(|moment| Sym(*moment)).collect(),
+            vectors: source.vectors.as_ref().map(SymbolicVectors::of),
             closed: None,
             exponential: source.exponential.is_some(),
         }
@@ -328,6 +356,32 @@ impl SpinPoisson<Sym> for SymbolicSystem {
     type Spinors = State;
     fn zero_spinors(&self) -> State {
         vec![<Sym as lie_core::Scalar>::zero(); 4 * self.spins.len()]
+    }
+}
+
+impl VectorPoisson<Sym> for SymbolicSystem {
+    fn rotation(&self) -> [usize; 3] {
+        self.vectors.as_ref().map_or([0; 3], |found| found.rotation)
+    }
+    fn vectors(&self) -> &[[Entry; 3]] {
+        let found = self.vectors.as_ref();
+        found.map_or(&[], |found| found.vectors.as_slice())
+    }
+    fn scale(&self) -> Sym {
+        let found = self.vectors.as_ref();
+        found.map_or_else(Sym::default, |found| found.scale)
+    }
+    type Labels = State;
+    type Quaternions = State;
+    fn zero_quaternions(&self) -> State {
+        vec![Sym::default(); 8]
+    }
+    fn zero_labels(&self) -> State {
+        let count = match self.vectors().len() {
+            1 => 1,
+            count => 3 * count,
+        };
+        vec![Sym::default(); count]
     }
 }
 

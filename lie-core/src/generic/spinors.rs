@@ -1,5 +1,7 @@
 //! The Hopf map: points of `T*R^2` over each spin.
 
+use super::lifts::LinearLift;
+use crate::methods::Hopf;
 use crate::scalar::Scalar;
 use crate::state::State;
 use crate::structure::SpinPoisson;
@@ -7,7 +9,11 @@ use crate::structure::SpinPoisson;
 /// `J(q, p) = (2 q1 q2 + 2 p1 p2, 2 q2 p1 - 2 q1 p2, q1^2 + p1^2 - q2^2 - p2^2)/4` of the point `(q1, q2, p1, p2)` of each
 /// spin.
 #[inline(always)]
-pub fn spins_of<S: Scalar, P: SpinPoisson<S>>(system: &P, point: &P::Spinors, out: &mut P::State) {
+pub fn spins_of<S: Scalar, P: SpinPoisson<S> + ?Sized>(
+    system: &P,
+    point: &P::Spinors,
+    out: &mut P::State,
+) {
     let (half, quarter) = (S::ratio(1.0, 2.0), S::ratio(1.0, 4.0));
     let (points, out) = (point.as_slice(), out.as_mut_slice());
     for (z, spin) in points.chunks_exact(4).zip(system.spins()) {
@@ -19,7 +25,7 @@ pub fn spins_of<S: Scalar, P: SpinPoisson<S>>(system: &P, point: &P::Spinors, ou
 
 /// The canonical flow of `H o J` at a point, of which `gradient` is that of H at J: over it lies `c m x grad H`.
 #[inline(always)]
-pub fn flow_of_spinors<S: Scalar, P: SpinPoisson<S>>(
+pub fn flow_of_spinors<S: Scalar, P: SpinPoisson<S> + ?Sized>(
     system: &P,
     point: &P::Spinors,
     gradient: &P::State,
@@ -36,6 +42,19 @@ pub fn flow_of_spinors<S: Scalar, P: SpinPoisson<S>>(
         flow[2] = (z[3] * b - z[1] * a) - z[0] * c;
         flow[3] = (z[1] * c - z[0] * a) - z[2] * b;
     }
+}
+
+/// The canonical flow of `H o J` at a point.
+#[inline(always)]
+pub fn flow_over_spins<S: Scalar, P: SpinPoisson<S> + ?Sized>(
+    system: &P,
+    point: &P::Spinors,
+    out: &mut P::Spinors,
+) {
+    let (mut momenta, mut gradient) = (system.zero_state(), system.zero_state());
+    spins_of(system, point, &mut momenta);
+    system.gradient(&momenta, &mut gradient);
+    flow_of_spinors(system, point, &gradient, out);
 }
 
 /// A point over a state: that with `p1 = 0` where the third component of a spin is not negative, else that with
@@ -63,5 +82,35 @@ pub fn spinors_of<S: Scalar, P: SpinPoisson<S>>(system: &P, mu: &P::State, out: 
         for (entry, part) in z.iter_mut().zip(parts) {
             *entry = S::select(resting, zero, part);
         }
+    }
+}
+
+/// The fibre is turned by a unit complex number for each spin, which leaves the norm of points as it is: there are no labels.
+impl<S: Scalar, P: SpinPoisson<S>> LinearLift<S, P> for Hopf {
+    type Point = P::Spinors;
+    type Labels = [S; 0];
+    const GROWS: bool = false;
+
+    fn zero_point(system: &P) -> P::Spinors {
+        system.zero_spinors()
+    }
+
+    fn zero_labels(_system: &P) -> [S; 0] {
+        []
+    }
+
+    #[inline]
+    fn lift(system: &P, mu: &P::State, _labels: &mut [S; 0], point: &mut P::Spinors) {
+        spinors_of(system, mu, point);
+    }
+
+    #[inline(always)]
+    fn project(system: &P, _labels: &[S; 0], point: &P::Spinors, mu: &mut P::State) {
+        spins_of(system, point, mu);
+    }
+
+    #[inline(always)]
+    fn flow(system: &P, _labels: &[S; 0], point: &P::Spinors, out: &mut P::Spinors) {
+        system.spinor_flow(point, out);
     }
 }

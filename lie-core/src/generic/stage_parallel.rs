@@ -3,7 +3,7 @@
 use core::array::from_fn;
 
 use super::tableau::{gauss_ahead, gauss_entry, gauss_weight};
-use crate::newton::NewtonOptions;
+use crate::newton::{Convergence, NewtonOptions};
 use crate::scalar::{Mask, Scalar, largest};
 use crate::state::{Stages, State};
 
@@ -34,6 +34,8 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
     point: V,
     next: V,
     options: NewtonOptions,
+    /// How many iterations the map of the last step took, in each lane.
+    taken: S,
 }
 
 /// How an iteration ended.
@@ -67,6 +69,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             point: zero.clone(),
             next: zero,
             options: *options,
+            taken: S::zero(),
         }
     }
 
@@ -76,6 +79,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             let old = S::scatter(*slopes);
             *slopes = S::gather(old.map(|old| S::select(mask, entry, old)));
         }
+        self.taken = S::select(mask, S::zero(), self.taken);
     }
 
     /// Starts from the polynomial of the last step.
@@ -86,11 +90,19 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         }
     }
 
-    /// Iterates from a base until the error of the increments is below the tolerance of the options, or updates have
-    /// shrunk to round-off. Sizes are sums of magnitudes. `field` takes the slopes and the points at the stages and gives
-    /// the next slopes.
+    /// Iterates from a base until what the options say has converged. Sizes are sums of magnitudes. `field` takes the slopes
+    /// and the points at the stages and gives the next slopes.
     #[inline(always)]
-    pub fn iterate(&mut self, base: &[S], mut field: impl FnMut(&V, &V, &mut V)) -> Iterated<S> {
+    pub fn iterate(&mut self, base: &[S], field: impl FnMut(&V, &V, &mut V)) -> Iterated<S> {
+        match self.options.convergence {
+            Convergence::Map => self.iterate_map(base, field),
+            Convergence::State | Convergence::Claimed => self.iterate_state(base, field),
+        }
+    }
+
+    /// Until the error of the increments is below the tolerance of the options, or updates have shrunk to round-off.
+    #[inline(always)]
+    fn iterate_state(&mut self, base: &[S], mut field: impl FnMut(&V, &V, &mut V)) -> Iterated<S> {
         let ending = Ending::new(self.size(base), &self.options);
         let [mut ended, mut converged] = [S::Mask::splat(false); 2];
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
@@ -117,6 +129,65 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             iterations,
             residual: largest(most::<S>(change) * self.step.abs()),
             converged,
+        }
+    }
+
+    /// Until the derivative of the increments by the base has converged too.
+    ///
+    /// With the start frozen, that derivative starts from nothing, and iterates by the same contraction as an error of
+    /// the state. So by how much the updates have shrunk since the first one, they say how much of the derivative is left. Where
+    /// they reach round-off before it, the last rate is taken to go on; a start at round-off shows no rate, and takes as
+    /// many iterations as the step before.
+    #[inline(always)]
+    fn iterate_map(&mut self, base: &[S], mut field: impl FnMut(&V, &V, &mut V)) -> Iterated<S> {
+        let bound = self.size(base) * S::epsilon() * S::from_f64(STAGNATION);
+        let wide_bound = bound.widen();
+        let enough = S::epsilon() * S::ratio(1.0, 4.0);
+        let [mut ended, mut settled, mut ready] = [S::Mask::splat(false); 3];
+        let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
+        let [mut first, mut before, mut change] = [S::Wide::zero(); 3];
+        let [mut left, mut rate] = [S::one(); 2];
+        while iterations < self.options.max_iterations && !ended.all() {
+            self.set_points(base);
+            field(&self.slopes, &self.point, &mut self.next);
+            let earlier = before;
+            before = change;
+            change = self.replace(ended);
+            iterations += 1;
+            if iterations == 1 {
+                first = change;
+            }
+            left *= rate;
+            if !settled.all() && is_below::<S>(change, wide_bound) {
+                let size = most::<S>(change);
+                let new = size.less_equal(bound) & !settled;
+                if iterations > 1 {
+                    // single updates may shrink by much less than those around them
+                    let last = match iterations {
+                        2 => size / most::<S>(before),
+                        _ => (size / most::<S>(earlier)).sqrt(),
+                    };
+                    rate = S::select(new, last, rate);
+                    left = S::select(new, size / most::<S>(first), left);
+                }
+                settled = settled | new;
+            }
+            let count = S::from_f64(f64::from(iterations));
+            let by_rate = left.less_equal(enough);
+            let by_count = S::one().less_equal(left) & self.taken.less_equal(count);
+            ready = ready | (settled & !ended & (by_rate | by_count));
+            self.taken = S::select(ready & !ended, count, self.taken);
+            ended = ended | ready;
+            if iterations % REVIEW == 0 {
+                let size = most::<S>(change);
+                ended = ended | (!settled & !size.less(mark * S::ratio(1.0, 2.0)));
+                mark = size;
+            }
+        }
+        Iterated {
+            iterations,
+            residual: largest(most::<S>(change) * self.step.abs()),
+            converged: ready,
         }
     }
 
@@ -167,6 +238,11 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             let [a, b, c, d, e, f, g, h] = S::scatter(self.weights * *slopes);
             *y += tree(&[a, b, c, d]) + tree(&[e, f, g, h]);
         }
+    }
+
+    /// The slopes at the stages, to be changed where the base is.
+    pub fn slopes_mut(&mut self) -> &mut V {
+        &mut self.slopes
     }
 
     /// The slopes and the points of the stages, of a step from the base.
@@ -225,12 +301,7 @@ impl<S: Scalar> Ending<S> {
     /// Whether a change is so small that the iteration may have ended in some lane.
     #[inline(always)]
     fn may_be(&self, change: S::Wide) -> bool {
-        let small = change.less_equal(self.wide_bound);
-        if S::LANES == 1 {
-            small.all()
-        } else {
-            small.any()
-        }
+        is_below::<S>(change, self.wide_bound)
     }
 
     /// The lanes in which it has: with the ratio r of the last two changes as the rate, the last one times `r/(1 - r)` is
@@ -245,6 +316,17 @@ impl<S: Scalar> Ending<S> {
         let small = left.less_equal(self.goal * (before - change));
         let settled = change.less_equal(self.round_off);
         change.less_equal(self.bound) & ((shrinks & small) | (!shrinks & settled))
+    }
+}
+
+/// Whether eight numbers are below others, in some lane; of a number without lanes, all eight.
+#[inline(always)]
+fn is_below<S: Scalar>(numbers: S::Wide, bound: S::Wide) -> bool {
+    let below = numbers.less_equal(bound);
+    if S::LANES == 1 {
+        below.all()
+    } else {
+        below.any()
     }
 }
 

@@ -30,6 +30,23 @@
 //!   \mu_1 = \mu + \sum_i b_i\, \mathrm{ad}^*_{x_i} m_i
 //!   ```
 //!
+//! * [`Collective16::quaternion`](ParallelCollective::quaternion) and its kin lift so(3)* with vectors `Gamma_a` that
+//!   commute, se(3)* for a single one, to `T*H`, H the quaternions:
+//!
+//!   ```math
+//!   J(q, P) = \bigl(\Pi = \mathrm{Im}(\bar q P),\; \Gamma_a = \bar q\, a\, q\bigr), \qquad
+//!   q' = q w, \quad P' = P w + c \sum_a (a q)\, \chi_a, \quad w = \tfrac{c}{2} \Omega
+//!   ```
+//!
+//!   with the derivatives Omega of H by Pi and `chi_a` by `Gamma_a`, and imaginary labels a that are constant: a single one is
+//!   `|Gamma| k`, several are the vectors themselves at a step where q = 1. Gauss methods keep `|q|`, and commute with
+//!   `q -> g q, P -> g P` and with `P -> P + s q`, by which two points over a state differ; after each step P is made
+//!   orthogonal to q, along which it would drift.
+//!
+//! From order 8 on the stages are evaluated together on the points, and two things are chosen so that the iteration is short:
+//! from H the compiler takes a multiple of a quadratic Casimir where its gradient loses terms by that, which moves other points over the
+//! same states; and over a representation V it takes as few columns and rows, points of `T*V^r`, as determine the momentum.
+//!
 //! * [`Collective4::given`](Collective::given) and its kin lift to the points of a realization that the declaration
 //!   gives ([`RealizedPoisson`](crate::RealizedPoisson)). Points over mu are found by a Gauss–Newton iteration. The
 //!   step does not depend on which point it is where the components of J are of degree at most two and the
@@ -51,14 +68,14 @@
 
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;
+use super::lifted::{LiftedStepper, StageLift};
 use super::realized::RealizedStepper;
-use super::spinors::SpinorStepper;
 use super::stepper::Method;
 use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
-use crate::poisson::Widen;
+use crate::poisson::{LiePoisson, Widen};
 use crate::scalar::Scalar;
-use crate::structure::{ClosedRealization, SpinPoisson};
+use crate::structure::ClosedRealization;
 
 /// The lift to `T*V` of the declared representation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,6 +84,14 @@ pub struct Representation;
 /// The lift of so(3)* by the Hopf map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Hopf;
+
+/// The lift of so(3)* with vectors, of se(3)* for one, to `T*H`, H the quaternions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Quaternion;
+
+/// The smallest lift of a system: the Hopf map, else quaternions, else the declared representation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Smallest;
 
 /// The lift to the points of the declared realization.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -120,31 +145,64 @@ impl<L, const STAGES: usize> Facts for Collective<L, STAGES> {
     const PRESERVES: Preserves = Preserves::POISSON;
 }
 
-/// The collective Gauss method over the Hopf map with four to eight stages, which are evaluated together on the points of
-/// `T*R^2` themselves, by fixed-point iteration from the continued polynomial of the last step (see
-/// [`StageParallel`](crate::generic::StageParallel)); see the [module's text](self). A step on which that does not contract is
-/// refused.
+/// The collective Gauss method with four to eight stages, which are evaluated together on the points of the space L themselves,
+/// by fixed-point iteration from the continued polynomial of the last step (see
+/// [`StageParallel`](crate::generic::StageParallel)); see the [module's text](self). It goes on until the derivative of the
+/// step has converged too ([`Convergence::Map`](crate::newton::Convergence::Map)), so that the executed map is a Poisson map
+/// to round-off. A step on which that does not contract is refused.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ParallelCollective<const STAGES: usize>(());
+pub struct ParallelCollective<L, const STAGES: usize> {
+    lift: L,
+}
 
 /// Order 8.
-pub type Collective8 = ParallelCollective<4>;
+pub type Collective8<L> = ParallelCollective<L, 4>;
+/// Order 10.
+pub type Collective10<L> = ParallelCollective<L, 5>;
 /// Order 12.
-pub type Collective12 = ParallelCollective<6>;
+pub type Collective12<L> = ParallelCollective<L, 6>;
+/// Order 14.
+pub type Collective14<L> = ParallelCollective<L, 7>;
 /// Order 16.
-pub type Collective16 = ParallelCollective<8>;
+pub type Collective16<L> = ParallelCollective<L, 8>;
 
-impl<const STAGES: usize> ParallelCollective<STAGES> {
+impl<const STAGES: usize> ParallelCollective<Hopf, STAGES> {
     /// Over so(3)* by the Hopf map.
     pub const fn hopf() -> Self {
-        Self(())
+        Self { lift: Hopf }
     }
 }
 
-impl<const STAGES: usize> Facts for ParallelCollective<STAGES> {
+impl<const STAGES: usize> ParallelCollective<Smallest, STAGES> {
+    /// Over the smallest space that there is: by the Hopf map for sums of so(3), by quaternions for so(3) with vectors, else
+    /// the columns of the declared representation.
+    pub const fn smallest() -> Self {
+        Self { lift: Smallest }
+    }
+}
+
+impl<const STAGES: usize> ParallelCollective<Quaternion, STAGES> {
+    /// Over so(3)* with vectors by quaternions.
+    pub const fn quaternion() -> Self {
+        Self { lift: Quaternion }
+    }
+}
+
+impl<const STAGES: usize> ParallelCollective<Representation, STAGES> {
+    /// Over the declared representation.
+    pub const fn representation() -> Self {
+        Self {
+            lift: Representation,
+        }
+    }
+}
+
+impl<L, const STAGES: usize> Facts for ParallelCollective<L, STAGES> {
     const ID: &'static str = match STAGES {
         4 => "collective8",
+        5 => "collective10",
         6 => "collective12",
+        7 => "collective14",
         _ => "collective16",
     };
     const ORDER: u32 = 2 * STAGES as u32;
@@ -154,19 +212,20 @@ impl<const STAGES: usize> Facts for ParallelCollective<STAGES> {
     const PRESERVES: Preserves = Preserves::POISSON;
 }
 
-impl<S, P, const STAGES: usize> Method<S, P> for ParallelCollective<STAGES>
+impl<S, P, L, const STAGES: usize> Method<S, P> for ParallelCollective<L, STAGES>
 where
     S: Scalar,
-    P: SpinPoisson<S> + Widen<S>,
-    P::Widened: SpinPoisson<S::Wide>,
+    P: LiePoisson<S> + Widen<S>,
+    P::Widened: LiePoisson<S::Wide>,
+    L: StageLift<S, P>,
 {
     type Stepper<'a>
-        = SpinorStepper<'a, S, P, STAGES>
+        = LiftedStepper<'a, S, P, L, STAGES>
     where
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
-        SpinorStepper::new(system, h, newton)
+        LiftedStepper::new(system, h, newton)
     }
 }
 

@@ -37,12 +37,16 @@
 //! [doi:10.1088/0951-7715/27/6/1525](https://doi.org/10.1088/0951-7715/27/6/1525).
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+use super::collective::Representation;
 use super::facts::{Facts, Preserves};
 use super::implicit::ImplicitStepper;
+use super::lifted::LiftedStepper;
 use super::stepper::Method;
 use crate::equation::Implicit;
 use crate::newton::NewtonOptions;
+use crate::poisson::Widen;
 use crate::scalar::Scalar;
+use crate::structure::ColumnPoisson;
 
 /// The isospectral Gauss method with 1, 2 or 3 stages; see the [module's text](self).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -82,5 +86,60 @@ impl<S: Scalar, P: Implicit<S, Self>, const STAGES: usize> Method<S, P> for Isos
 
     fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
         ImplicitStepper::new(system.equation(self, h), system.zero_state(), newton)
+    }
+}
+
+/// The isospectral Gauss method with four to eight stages, which are evaluated together: in columns `x_j` and rows `y_j`,
+/// which the stages move by `x_j' = -rho(xi) x_j` and `y_j' = y_j rho(xi)`, with as few columns as determine the momentum. It
+/// is [`ParallelCollective`](super::ParallelCollective) over the declared representation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ParallelIsospectral<const STAGES: usize>;
+
+/// Order 8.
+pub type Isospectral8 = ParallelIsospectral<4>;
+/// Order 10.
+pub type Isospectral10 = ParallelIsospectral<5>;
+/// Order 12.
+pub type Isospectral12 = ParallelIsospectral<6>;
+/// Order 14.
+pub type Isospectral14 = ParallelIsospectral<7>;
+/// Order 16.
+pub type Isospectral16 = ParallelIsospectral<8>;
+
+impl<const STAGES: usize> ParallelIsospectral<STAGES> {
+    /// In the declared representation.
+    pub const fn new() -> Self {
+        Self
+    }
+}
+
+impl<const STAGES: usize> Facts for ParallelIsospectral<STAGES> {
+    const ID: &'static str = match STAGES {
+        4 => "isospectral8",
+        5 => "isospectral10",
+        6 => "isospectral12",
+        7 => "isospectral14",
+        _ => "isospectral16",
+    };
+    const ORDER: u32 = 2 * STAGES as u32;
+    const SYMMETRIC: bool = true;
+    const EXPLICIT: bool = false;
+    const FIXED_POINT: bool = true;
+    const PRESERVES: Preserves = Preserves::POISSON;
+}
+
+impl<S, P, const STAGES: usize> Method<S, P> for ParallelIsospectral<STAGES>
+where
+    S: Scalar,
+    P: ColumnPoisson<S> + Widen<S>,
+    P::Widened: ColumnPoisson<S::Wide>,
+{
+    type Stepper<'a>
+        = LiftedStepper<'a, S, P, Representation, STAGES>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, newton: &NewtonOptions) -> Self::Stepper<'a> {
+        LiftedStepper::new(system, h, newton)
     }
 }

@@ -17,6 +17,7 @@
 //! | [`CohenHairer`] | collocation with mean gradients, `$s$` stages | `$2s$` |
 //! | [`Isospectral2`], [`Isospectral4`], [`Isospectral6`] | Gauss on `T*V` of a representation V, reduced to g*; also [`Collective`] | 2, 4, 6 |
 //! | [`Collective::hopf`] | Gauss on `T*R^2` by the Hopf map, reduced to so(3)* | 2, 4, 6 |
+//! | [`ParallelCollective`], [`ParallelIsospectral`] | Gauss on the points of such spaces, of `T*H` for so(3) with vectors | 8, 10, …, 16 |
 //! | [`SphericalMidpoint`] | `$\mu_1 = \mu + h f(w)$`, w the midpoint on the sphere of each spin | 2 |
 //! | [`Variational2`], [`Variational4`], [`Variational6`] | `$F^+(g) = \mu, \quad \mu_1 = F^-(g)$` of a discrete Lagrangian `$l_d(g)$` | 2, 4, 6 |
 //! | [`DiscreteEulerPoincare`] | the same with a declared `$l_d$` | at least 1 |
@@ -56,6 +57,7 @@ pub mod itoh_abe;
 pub mod lie_euler;
 pub mod lie_midpoint;
 pub mod lie_taylor;
+mod lifted;
 pub mod mean_value;
 pub mod midpoint;
 pub mod moser_veselov;
@@ -65,7 +67,6 @@ pub mod rk4;
 pub mod rkmk;
 mod series_stepper;
 pub mod spherical_midpoint;
-mod spinors;
 pub mod splitting;
 mod stage_parallel;
 mod stepper;
@@ -79,8 +80,9 @@ pub use cohen_hairer::{
     CohenHairer12, CohenHairer14, CohenHairer16, MeanField,
 };
 pub use collective::{
-    Collective, Collective2, Collective4, Collective6, Collective8, Collective12, Collective16,
-    Given, Hopf, ParallelCollective, Reduced, Representation,
+    Collective, Collective2, Collective4, Collective6, Collective8, Collective10, Collective12,
+    Collective14, Collective16, Given, Hopf, ParallelCollective, Quaternion, Reduced,
+    Representation, Smallest,
 };
 pub use commutator_free::{CommutatorFree4, CommutatorFreeStepper};
 pub use compose::{Compose, Compose4, Compose6, Compose8, ComposeStepper};
@@ -95,11 +97,15 @@ pub use generating::{Generating, Generating2, Generating4, Generating6};
 pub use generating_second_kind::GeneratingSecondKind2;
 pub use gonzalez::Gonzalez;
 pub use implicit::ImplicitStepper;
-pub use isospectral::{Isospectral, Isospectral2, Isospectral4, Isospectral6};
+pub use isospectral::{
+    Isospectral, Isospectral2, Isospectral4, Isospectral6, Isospectral8, Isospectral10,
+    Isospectral12, Isospectral14, Isospectral16, ParallelIsospectral,
+};
 pub use itoh_abe::ItohAbe;
 pub use lie_euler::{LieEuler, LieEulerStepper};
 pub use lie_midpoint::{Cayley, Exp, LieMidpoint};
 pub use lie_taylor::{LieTaylor, LieTaylorDevelopment};
+pub use lifted::{LiftedStepper, StageLift};
 pub use mean_value::MeanValue;
 pub use midpoint::ImplicitMidpoint;
 pub use moser_veselov::{MoserVeselov, MoserVeselovStepper};
@@ -109,7 +115,6 @@ pub use rk4::{Rk4, Rk4Stepper};
 pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
 pub use series_stepper::{Development, SeriesStepper};
 pub use spherical_midpoint::SphericalMidpoint;
-pub use spinors::SpinorStepper;
 pub use splitting::{
     Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, SplittingStepper,
 };

@@ -14,6 +14,6 @@ mod trial;
 mod update;
 
 pub use dense::inverse_pivots_are_safe;
-pub use options::{Iteration, NewtonOptions};
+pub use options::{Convergence, Iteration, NewtonOptions};
 pub use report::{Failure, FailureReason, NewtonReport};
 pub use solver::Newton;

@@ -19,6 +19,23 @@ pub enum Iteration {
     FixedPoint,
 }
 
+/// What has converged where an iteration of stages that are evaluated together ends.
+///
+/// From a good start the state comes to rest earlier than its derivative by the state before the step, which starts from
+/// nothing: the executed step then is the exact one to round-off, its derivative is not. Methods that evaluate their stages
+/// one after the other end by the state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Convergence {
+    /// What the method claims: the map of a method that claims to be a Poisson map, else the state.
+    #[default]
+    Claimed,
+    /// The state, to the tolerance.
+    State,
+    /// The state and its derivative, both to round-off: what the exact step preserves, a Poisson bracket for one, the
+    /// executed step preserves to round-off. Does not look at the tolerance.
+    Map,
+}
+
 /// Options of the solver behind implicit methods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonOptions {
@@ -31,6 +48,8 @@ pub struct NewtonOptions {
     pub tolerance: f64,
     /// The number of iterations after which a step has failed; of an automatic choice, those of Newton's method.
     pub max_iterations: u32,
+    /// What has converged where an iteration ends, of methods that evaluate their stages together.
+    pub convergence: Convergence,
 }
 
 impl Default for NewtonOptions {
@@ -39,6 +58,7 @@ impl Default for NewtonOptions {
             iteration: Iteration::Automatic,
             tolerance: 1.0 / 1024.0,
             max_iterations: 50,
+            convergence: Convergence::Claimed,
         }
     }
 }
@@ -50,6 +70,15 @@ impl NewtonOptions {
             iteration: Iteration::Newton,
             ..Self::default()
         }
+    }
+
+    /// For a method that claims to be a Poisson map, where nothing else is asked for.
+    #[must_use]
+    pub(crate) fn for_a_poisson_map(mut self) -> Self {
+        if self.convergence == Convergence::Claimed {
+            self.convergence = Convergence::Map;
+        }
+        self
     }
 
     /// Simplified Newton, with room for its slower convergence.

@@ -11,7 +11,7 @@ pub mod number;
 
 use crate::session;
 use lie_runtime::driver::{Chosen, Options, Pace, Save, Stats};
-use lie_runtime::newton::{Iteration, NewtonOptions};
+use lie_runtime::newton::{Convergence, Iteration, NewtonOptions};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -56,6 +56,15 @@ enum IterationInWords {
     FixedPoint,
 }
 
+/// [`Convergence`] in words.
+#[derive(Deserialize, Serialize)]
+#[serde(remote = "Convergence", rename_all = "kebab-case")]
+enum ConvergenceInWords {
+    Claimed,
+    State,
+    Map,
+}
+
 /// [`Pace`] in words.
 #[derive(Deserialize, Serialize)]
 #[serde(remote = "Pace", rename_all = "kebab-case")]
@@ -73,6 +82,8 @@ struct NewtonFields {
     #[serde(with = "number")]
     tolerance: f64,
     max_iterations: u32,
+    #[serde(with = "ConvergenceInWords")]
+    convergence: Convergence,
 }
 
 /// Where a system starts.

@@ -2,7 +2,7 @@
 
 use lie_codegen::compile::with_options;
 use lie_codegen::diagnostic::Kind;
-use lie_codegen::methods::{CATALOGUE, Choice, Method, refusal};
+use lie_codegen::methods::{CATALOGUE, Choice, Lift, Method, refusal};
 use lie_codegen::model::Model;
 
 use crate::command::method;
@@ -61,6 +61,10 @@ pub fn all(model: &Model) -> Vec<Choice> {
         .filter_map(|method| Choice::from_id(method.id).ok())
         .collect();
     let mut all = with_options(model, &plain);
+    // from order 8 on the smallest space is one of those that may be asked for, and another one is that of isospectral methods
+    all.retain(
+        |choice| !matches!(choice, Choice::Collective(8.., lift) if *lift != Lift::Smallest),
+    );
     // Lie–Poisson bases first: what they keep, compositions keep
     let mut bases: Vec<Choice> = all
         .iter()

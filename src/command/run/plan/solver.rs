@@ -2,7 +2,7 @@
 
 use lie_codegen::methods::Choice;
 use lie_program::protocol::Tolerances;
-use lie_runtime::newton::NewtonOptions;
+use lie_runtime::newton::{Convergence, NewtonOptions};
 
 use super::super::values::Given;
 use super::Planner;
@@ -69,6 +69,7 @@ impl Planner<'_> {
             ("--iteration", &flags.iteration),
             ("--newton-tolerance", &flags.newton_tolerance),
             ("--max-iterations", &flags.max_iterations),
+            ("--converge", &flags.converge),
         ] {
             let Some(given) = self.given(flag, value.as_ref()) else {
                 continue;
@@ -81,9 +82,20 @@ impl Planner<'_> {
                 self.out_of_place(value.is_some(), given.wrong(text).help(help));
                 continue;
             }
+            let together = solved.is_some_and(|method| method.fixed_point);
+            if flag == "--converge" && !together {
+                let id = choice.id();
+                let text = format!(
+                    "`converge` is an option of methods that evaluate their stages together, and {id} does not"
+                );
+                let help = "leave it out, or take a method such as `--method gauss16`";
+                self.out_of_place(value.is_some(), given.wrong(text).help(help));
+                continue;
+            }
             let set = match flag {
                 "--iteration" => iteration(&given).map(|found| options = found),
                 "--newton-tolerance" => tolerance(&given).map(|found| options.tolerance = found),
+                "--converge" => convergence(&given).map(|found| options.convergence = found),
                 _ => count(&given).map(|found| options.max_iterations = found),
             };
             self.keep(set);
@@ -106,6 +118,17 @@ fn iteration(given: &Given) -> Result<NewtonOptions, Message> {
         other => {
             let message = given.wrong(format!("unknown iteration `{other}`"));
             Err(message.help("write `automatic`, `newton`, `simplified` or `fixed-point`"))
+        }
+    }
+}
+
+fn convergence(given: &Given) -> Result<Convergence, Message> {
+    match given.text.trim() {
+        "state" => Ok(Convergence::State),
+        "map" => Ok(Convergence::Map),
+        other => {
+            let message = given.wrong(format!("`{other}` is nothing that converges"));
+            Err(message.help("write `state` or `map`"))
         }
     }
 }

@@ -1,0 +1,143 @@
+//! The impls of traits for the linear spaces of collective methods.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::Printer;
+use super::names::{ident, index};
+use super::structure::{entries, entry};
+use crate::plan::Function;
+use crate::structure::lifts::Smallest;
+
+impl Printer<'_> {
+    pub(super) fn column_poisson(&self) -> Option<TokenStream> {
+        let representation = self.plan.structure.representation.as_ref()?;
+        let columns = representation.columns.as_ref()?;
+        let system = self.system_name();
+        let size = representation.size;
+        let count = 2 * size * columns.indices.len();
+        let flow = representation.flow.as_ref();
+        let flow = flow.map(|f| self.flow_on(f, &quote! { Self::Columns }, count));
+        let indices = columns.indices.iter().map(|k| index(*k));
+        let covectors = columns.covectors.iter().map(|matrix| entries(matrix));
+        let (count, size) = (index(count), index(size));
+        Some(quote! {
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::ColumnPoisson<S> for #system<S> {
+                type Columns = ::lie_runtime::__private::SVector<S, #count>;
+
+                fn zero_columns(&self) -> Self::Columns {
+                    Self::Columns::repeat(S::zero())
+                }
+
+                fn representation_size(&self) -> usize {
+                    #size
+                }
+
+                fn columns(&self) -> ::lie_runtime::__private::Columns<'_> {
+                    const COLUMNS: ::lie_runtime::__private::Columns = ::lie_runtime::__private::Columns {
+                        indices: &[#(#indices),*],
+                        covectors: &[#(#covectors),*],
+                    };
+                    COLUMNS
+                }
+
+                #flow
+            }
+        })
+    }
+
+    /// The flow of points on a linear space.
+    pub(super) fn flow_on(
+        &self,
+        function: &Function,
+        point: &TokenStream,
+        size: usize,
+    ) -> TokenStream {
+        let docs = self.docs(function);
+        let name = ident(function.name);
+        let arguments = function.arguments.iter().map(|a| {
+            let name = self.argument_if(a.name, function.reads(a));
+            if a.name == "point" {
+                quote! { #name: &#point }
+            } else {
+                quote! { #name: &Self::Labels }
+            }
+        });
+        let body = self.system_body(function, &["out"], Some(size));
+        let out = self.argument("out");
+        quote! {
+            #docs
+            #[inline]
+            fn #name(&self #(, #arguments)*, #out: &mut #point) {
+                #body
+            }
+        }
+    }
+
+    pub(super) fn vector_poisson(&self) -> Option<TokenStream> {
+        let vectors = self.plan.structure.vectors.as_ref()?;
+        let system = self.system_name();
+        let rotation = vectors.rotation.map(index);
+        let triples = vectors.vectors.iter().map(|components| {
+            let components = components
+                .each_ref()
+                .map(|(k, factor)| entry(*k, 0, factor));
+            quote! { [#(#components),*] }
+        });
+        let scale = self.value_of(&vectors.scale);
+        let labels = index(match vectors.vectors.len() {
+            1 => 1,
+            count => 3 * count,
+        });
+        let flow = vectors.flow.as_ref();
+        let flow = flow.map(|f| self.flow_on(f, &quote! { Self::Quaternions }, 8));
+        Some(quote! {
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::VectorPoisson<S> for #system<S> {
+                fn rotation(&self) -> [usize; 3] {
+                    [#(#rotation),*]
+                }
+
+                fn vectors(&self) -> &[[::lie_runtime::__private::Entry; 3]] {
+                    const VECTORS: &[[::lie_runtime::__private::Entry; 3]] = &[#(#triples),*];
+                    VECTORS
+                }
+
+                #[inline]
+                fn scale(&self) -> S {
+                    #scale
+                }
+
+                type Labels = ::lie_runtime::__private::SVector<S, #labels>;
+
+                fn zero_labels(&self) -> Self::Labels {
+                    Self::Labels::repeat(S::zero())
+                }
+
+                type Quaternions = ::lie_runtime::__private::SVector<S, 8>;
+
+                fn zero_quaternions(&self) -> Self::Quaternions {
+                    Self::Quaternions::repeat(S::zero())
+                }
+
+                #flow
+            }
+        })
+    }
+
+    /// Which space collective methods go over where none is asked for.
+    pub(super) fn collective_poisson(&self) -> Option<TokenStream> {
+        let system = self.system_name();
+        let lift = ident(match self.plan.structure.smallest? {
+            Smallest::Hopf => "Hopf",
+            Smallest::Quaternion => "Quaternion",
+            Smallest::Representation => "Representation",
+        });
+        Some(quote! {
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::CollectivePoisson<S> for #system<S> {
+                type Lift = ::lie_runtime::methods::#lift;
+            }
+        })
+    }
+}

@@ -1,0 +1,197 @@
+//! Which linear symplectic space collective methods go over, where none is asked for, and what they take from H.
+
+use crate::exact::Rational;
+use crate::model::Model;
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+use super::{matrices, spins, vectors};
+
+/// The smallest space over a system that carries collective methods.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Smallest {
+    /// `T*R^2` for each spin.
+    Hopf,
+    /// `T*H` for a rotation group with vectors.
+    Quaternion,
+    /// `T*V^r` of the representation.
+    Representation,
+}
+
+impl Smallest {
+    /// The space in words.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Hopf => "T*R^2 for each spin",
+            Self::Quaternion => "T*H, H the quaternions",
+            Self::Representation => "columns of the representation",
+        }
+    }
+}
+
+/// The smallest space, if there is one.
+pub fn smallest(model: &Model) -> Option<Smallest> {
+    if spins::spins(model).is_some() {
+        Some(Smallest::Hopf)
+    } else if vectors::vectors(model).is_some() {
+        Some(Smallest::Quaternion)
+    } else {
+        let representation = model.bracket.representation()?;
+        representation.columns.as_ref()?;
+        Some(Smallest::Representation)
+    }
+}
+
+/// Why collective methods of an order have no space to go over, with the nearest method that does without.
+pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
+    if smallest(model).is_some() {
+        return None;
+    }
+    let reason = match (&model.configuration, model.bracket.representation()) {
+        (Some(configuration), _) => configuration.refusal().to_owned(),
+        (None, None) => "it needs a direct sum of algebras so(3), or so(3) with vectors that commute, in a basis with \
+             [e1, e2] = c e3 and its cyclic permutations, or a matrix representation, and the algebra declares no `matrices`"
+            .into(),
+        (None, Some(_)) => return matrices::refusal(model, order),
+    };
+    Some((reason, nearest(model, order)))
+}
+
+/// What to use instead of a collective method of an order whose space there is not.
+pub(super) fn nearest(model: &Model, order: u32) -> String {
+    match smallest(model) {
+        Some(_) => format!("use `collective{order}` without `--lift`: it takes the smallest space that there is"),
+        None if order > 8 => {
+            "use `compose8(lie-midpoint)`, or `gauss16`, which is not a Poisson map but keeps quadratic Casimirs".into()
+        }
+        None => format!("use `compose{order}(lie-midpoint)`, which works for every Lie algebra"),
+    }
+}
+
+/// A quadratic Casimir `sum_i a_i b_i`, by its factors in the arena.
+type Pairing = Vec<(ExprId, ExprId)>;
+
+/// H without a function of Casimirs, as short as that makes its gradient: `None` where nothing is to be removed.
+///
+/// It moves the same states, but another point over them: the field on the space is shorter, and its motion slower. The
+/// multiple of each quadratic Casimir is the coefficient of one of its terms in H. Of those that remove most, it is that
+/// which leaves the others smallest at the default parameters.
+pub fn gauge(model: &Model, graph: &mut Graph) -> Option<ExprId> {
+    let hamiltonian = model.energy.expression()?.value;
+    let n = model.dimension();
+    let start = graph.normal(hamiltonian);
+    let mut value = start;
+    for pairing in pairings(model, graph) {
+        let slopes: Vec<ExprId> = pairing
+            .iter()
+            .map(|pair| coefficient(graph, value, *pair))
+            .collect();
+        let mut best = (terms_of(graph, value, n), f64::INFINITY, value);
+        for &slope in &slopes {
+            let Some(at_default) = constant(model, graph, slope) else {
+                continue;
+            };
+            let terms: Vec<ExprId> = pairing
+                .iter()
+                .map(|(a, b)| graph.product(&[slope, *a, *b]))
+                .collect();
+            let casimir = graph.sum(&terms);
+            let factor = if pairing[0].0 == pairing[0].1 { 2 } else { 1 };
+            let casimir = graph.scale(casimir, &Rational::new(1, factor)?);
+            let candidate = graph.sub(value, casimir);
+            let candidate = graph.normal(candidate);
+            let spread = slopes
+                .iter()
+                .filter_map(|other| constant(model, graph, *other));
+            let spread = spread
+                .map(|other| (other - at_default).abs())
+                .fold(0.0, f64::max);
+            let size = terms_of(graph, candidate, n);
+            if size < best.0 || (size == best.0 && best.2 != value && spread < best.1) {
+                best = (size, spread, candidate);
+            }
+        }
+        value = best.2;
+    }
+    (value != start).then_some(value)
+}
+
+/// The quadratic Casimirs that are known: squares of spins, products of vectors, and the momentum along a single one.
+fn pairings(model: &Model, graph: &mut Graph) -> Vec<Pairing> {
+    let symbol = |graph: &mut Graph, k: usize| graph.symbol(Symbol::Coordinate(k));
+    if let Some(spins) = spins::spins(model) {
+        let pairs = spins.iter().map(|spin| {
+            let pair = |k: &usize| {
+                let x = symbol(graph, *k);
+                (x, x)
+            };
+            spin.coordinates.iter().map(pair).collect()
+        });
+        return pairs.collect();
+    }
+    let Some(found) = vectors::vectors(model) else {
+        return Vec::new();
+    };
+    let mut rows: Vec<Vec<ExprId>> = Vec::new();
+    for vector in &found.vectors {
+        let component = |(k, factor): &vectors::Component| {
+            let x = graph.symbol(Symbol::Coordinate(*k));
+            graph.scale(x, &(Rational::ONE / factor.clone()))
+        };
+        rows.push(vector.iter().map(component).collect());
+    }
+    let mut all = Vec::new();
+    for (a, first) in rows.iter().enumerate() {
+        for second in &rows[a..] {
+            all.push(first.iter().copied().zip(second.iter().copied()).collect());
+        }
+    }
+    if let [vector] = rows.as_slice() {
+        let rotation = found.rotation.map(|k| symbol(graph, k));
+        all.push(rotation.into_iter().zip(vector.iter().copied()).collect());
+    }
+    all
+}
+
+/// The second derivative of a function by two coordinates or multiples of them, each 1 in these.
+fn coefficient(graph: &mut Graph, value: ExprId, (a, b): (ExprId, ExprId)) -> ExprId {
+    let mut slope = value;
+    for factor in [a, b] {
+        let (scale, base) = graph.coefficient(factor);
+        let found = graph.symbols(base).into_iter().next();
+        let Some(symbol) = found else {
+            return graph.integer(0);
+        };
+        slope = graph.derivative(slope, symbol);
+        slope = graph.scale(slope, &(Rational::ONE / scale));
+    }
+    slope
+}
+
+/// The value of an expression at the default parameters, where it depends on parameters alone and is finite and not 0.
+fn constant(model: &Model, graph: &Graph, id: ExprId) -> Option<f64> {
+    let symbols = graph.symbols(id);
+    let alone = symbols
+        .iter()
+        .all(|symbol| matches!(symbol, Symbol::Parameter(_)));
+    let value = || {
+        graph.evaluate(id, &|symbol| match symbol {
+            Symbol::Parameter(k) => model.parameters[k].default_value,
+            _ => f64::NAN,
+        })
+    };
+    alone.then(value).filter(|value| value.is_finite())
+}
+
+/// How many second derivatives of a function do not vanish.
+fn terms_of(graph: &mut Graph, value: ExprId, dimension: usize) -> usize {
+    let mut count = 0;
+    for i in 0..dimension {
+        let slope = graph.derivative(value, Symbol::Coordinate(i));
+        for j in 0..=i {
+            let second = graph.derivative(slope, Symbol::Coordinate(j));
+            let second = graph.normal(second);
+            count += usize::from(!graph.is_zero(second));
+        }
+    }
+    count
+}

@@ -1,0 +1,131 @@
+//! Points of `T*V^r` over a matrix representation V.
+
+use super::lifts::LinearLift;
+use crate::methods::Representation;
+use crate::scalar::Scalar;
+use crate::state::State;
+use crate::structure::ColumnPoisson;
+
+/// The momentum `mu_k = sum_j y_j rho(e_k) x_j` of columns `x_j` and rows `y_j`.
+#[inline(always)]
+pub fn momentum_of_columns<S: Scalar, P: ColumnPoisson<S> + ?Sized>(
+    system: &P,
+    point: &P::Columns,
+    out: &mut P::State,
+) {
+    let size = system.representation_size();
+    let (columns, rows) = halves(point.as_slice());
+    let matrices = system.representation().matrices;
+    for (out, matrix) in out.as_mut_slice().iter_mut().zip(matrices) {
+        let mut sum = S::zero();
+        for entry in *matrix {
+            let (a, b) = entry.place();
+            let pairs = columns.chunks_exact(size).zip(rows.chunks_exact(size));
+            let products = pairs.map(|(x, y)| y[a] * x[b]);
+            sum += entry.value::<S>() * products.fold(S::zero(), |sum, term| sum + term);
+        }
+        *out = sum;
+    }
+}
+
+/// The canonical flow of `H o J` at a point, of which `xi` is the gradient of H at J: `x_j' = -rho(xi) x_j`,
+/// `y_j' = y_j rho(xi)`.
+#[inline(always)]
+pub fn flow_of_columns<S: Scalar, P: ColumnPoisson<S> + ?Sized>(
+    system: &P,
+    point: &P::Columns,
+    xi: &P::State,
+    out: &mut P::Columns,
+) {
+    let size = system.representation_size();
+    out.fill(S::zero());
+    let (columns, rows) = halves(point.as_slice());
+    let middle = columns.len();
+    let (out_columns, out_rows) = out.as_mut_slice().split_at_mut(middle);
+    let matrices = system.representation().matrices;
+    for (&xi, matrix) in xi.as_slice().iter().zip(matrices) {
+        for entry in *matrix {
+            let (a, b) = entry.place();
+            let value = entry.value::<S>() * xi;
+            let pairs = out_columns.chunks_exact_mut(size);
+            for (out, x) in pairs.zip(columns.chunks_exact(size)) {
+                out[a] -= value * x[b];
+            }
+            let pairs = out_rows.chunks_exact_mut(size);
+            for (out, y) in pairs.zip(rows.chunks_exact(size)) {
+                out[b] += value * y[a];
+            }
+        }
+    }
+}
+
+/// The canonical flow of `H o J` at a point.
+#[inline(always)]
+pub fn flow_over_columns<S: Scalar, P: ColumnPoisson<S> + ?Sized>(
+    system: &P,
+    point: &P::Columns,
+    out: &mut P::Columns,
+) {
+    let (mut momenta, mut gradient) = (system.zero_state(), system.zero_state());
+    momentum_of_columns(system, point, &mut momenta);
+    system.gradient(&momenta, &mut gradient);
+    flow_of_columns(system, point, &gradient, out);
+}
+
+/// The point over a state: columns of the unit matrix, and rows that are linear in mu.
+pub fn columns_of<S: Scalar, P: ColumnPoisson<S>>(
+    system: &P,
+    mu: &P::State,
+    point: &mut P::Columns,
+) {
+    let (size, table) = (system.representation_size(), system.columns());
+    point.fill(S::zero());
+    let (columns, rows) = point
+        .as_mut_slice()
+        .split_at_mut(size * table.indices.len());
+    for (column, &index) in columns.chunks_exact_mut(size).zip(table.indices) {
+        column[usize::from(index)] = S::one();
+    }
+    for (&mu, covector) in mu.as_slice().iter().zip(table.covectors) {
+        for entry in *covector {
+            let (j, a) = entry.place();
+            rows[size * j + a] += entry.value::<S>() * mu;
+        }
+    }
+}
+
+/// The columns and the rows, one after the other.
+#[inline(always)]
+fn halves<S>(point: &[S]) -> (&[S], &[S]) {
+    point.split_at(point.len() / 2)
+}
+
+/// Over a group that is not compact, points become large.
+impl<S: Scalar, P: ColumnPoisson<S>> LinearLift<S, P> for Representation {
+    type Point = P::Columns;
+    type Labels = [S; 0];
+    const GROWS: bool = true;
+
+    fn zero_point(system: &P) -> P::Columns {
+        system.zero_columns()
+    }
+
+    fn zero_labels(_system: &P) -> [S; 0] {
+        []
+    }
+
+    #[inline]
+    fn lift(system: &P, mu: &P::State, _labels: &mut [S; 0], point: &mut P::Columns) {
+        columns_of(system, mu, point);
+    }
+
+    #[inline(always)]
+    fn project(system: &P, _labels: &[S; 0], point: &P::Columns, mu: &mut P::State) {
+        momentum_of_columns(system, point, mu);
+    }
+
+    #[inline(always)]
+    fn flow(system: &P, _labels: &[S; 0], point: &P::Columns, out: &mut P::Columns) {
+        system.column_flow(point, out);
+    }
+}

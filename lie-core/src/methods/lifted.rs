@@ -1,0 +1,205 @@
+//! The stepper of collective methods whose stages are evaluated together.
+
+use super::stage_parallel::{give, same};
+use super::stepper::{FactorSink, StepFailure, StepReport, Stepper};
+use crate::generic::{LinearLift, StageParallel};
+use crate::newton::{FailureReason, NewtonOptions};
+use crate::poisson::{LiePoisson, Poisson, Widen};
+use crate::scalar::{Mask, Scalar};
+use crate::state::{State, Unknown};
+
+/// Points this many times as large as one that is chosen over the state are chosen anew.
+const GROWTH: f64 = 2.0;
+
+type Wide<S, P> = <P as Widen<S>>::Widened;
+type WideState<S, P> = <Wide<S, P> as Poisson<<S as Scalar>::Wide>>::State;
+type WidePoint<S, P, L> = <L as LinearLift<<S as Scalar>::Wide, Wide<S, P>>>::Point;
+type WideLabels<S, P, L> = <L as LinearLift<<S as Scalar>::Wide, Wide<S, P>>>::Labels;
+
+/// A lift of a system and of the same system over eight numbers at once.
+pub trait StageLift<S, P>: LinearLift<S, P> + LinearLift<S::Wide, P::Widened>
+where
+    S: Scalar,
+    P: LiePoisson<S> + Widen<S>,
+    P::Widened: LiePoisson<S::Wide>,
+{
+}
+
+impl<S, P, L> StageLift<S, P> for L
+where
+    S: Scalar,
+    P: LiePoisson<S> + Widen<S>,
+    P::Widened: LiePoisson<S::Wide>,
+    L: LinearLift<S, P> + LinearLift<S::Wide, P::Widened>,
+{
+}
+
+/// Lifts a state to a linear symplectic space over g*, makes a Gauss step of `H o J` with all stages in one register, and
+/// takes J of its end.
+///
+/// The point is kept from step to step where the state is the one that the last step led to; the step depends on the state
+/// alone, because moving the point over its state commutes with it.
+pub struct LiftedStepper<'a, S, P, L, const STAGES: usize>
+where
+    S: Scalar,
+    P: LiePoisson<S> + Widen<S>,
+    P::Widened: LiePoisson<S::Wide>,
+    L: StageLift<S, P>,
+{
+    system: &'a P,
+    wide: P::Widened,
+    step: S,
+    stages: StageParallel<S, WidePoint<S, P, L>, STAGES>,
+    point: <L as LinearLift<S, P>>::Point,
+    base: <L as LinearLift<S, P>>::Point,
+    labels: <L as LinearLift<S, P>>::Labels,
+    wide_labels: WideLabels<S, P, L>,
+    /// How large the point was when it was chosen.
+    size: S,
+    end: P::State,
+    next: P::State,
+    follows: S::Mask,
+}
+
+impl<'a, S, P, L, const STAGES: usize> LiftedStepper<'a, S, P, L, STAGES>
+where
+    S: Scalar,
+    P: LiePoisson<S> + Widen<S>,
+    P::Widened: LiePoisson<S::Wide>,
+    L: StageLift<S, P>,
+{
+    pub(super) fn new(system: &'a P, h: S, newton: &NewtonOptions) -> Self {
+        let wide = system.widen();
+        let newton = newton.for_a_poisson_map();
+        let point = <L as LinearLift<S, P>>::zero_point(system);
+        Self {
+            stages: StageParallel::new(h, L::zero_point(&wide), &newton),
+            base: point.clone(),
+            point,
+            labels: <L as LinearLift<S, P>>::zero_labels(system),
+            wide_labels: L::zero_labels(&wide),
+            size: S::zero(),
+            end: system.zero_state(),
+            next: system.zero_state(),
+            follows: S::Mask::splat(false),
+            wide,
+            step: h,
+            system,
+        }
+    }
+
+    /// A point over the state, in the lanes of a mask, and its slope for stages that start alike.
+    #[inline(never)]
+    fn start(&mut self, mu: &P::State, fresh: S::Mask) {
+        let system = self.system;
+        let mut point = <L as LinearLift<S, P>>::zero_point(system);
+        let mut labels = <L as LinearLift<S, P>>::zero_labels(system);
+        <L as LinearLift<S, P>>::lift(system, mu, &mut labels, &mut point);
+        self.point.assign_where(fresh, &point);
+        self.labels.assign_where(fresh, &labels);
+        let entries = self.wide_labels.as_mut_slice().iter_mut();
+        for (wide, label) in entries.zip(self.labels.as_slice()) {
+            *wide = label.widen();
+        }
+        if <L as LinearLift<S, P>>::GROWS {
+            self.size = S::select(fresh, point.max_norm(), self.size);
+        }
+        <L as LinearLift<S, P>>::flow(system, &self.labels, &self.point, &mut point);
+        self.stages.start_with(fresh, point.as_slice());
+    }
+
+    /// Moves the point over the state at which a step has ended.
+    #[inline(always)]
+    fn settle(&mut self) {
+        let slopes = self.stages.slopes_mut().as_mut_slice();
+        <L as LinearLift<S, P>>::settle(self.system, &mut self.point, slopes);
+    }
+
+    /// The lanes whose point has become large.
+    #[inline(always)]
+    fn grown(&self) -> S::Mask {
+        if <L as LinearLift<S, P>>::GROWS {
+            !self
+                .point
+                .max_norm()
+                .less_equal(self.size * S::from_f64(GROWTH))
+        } else {
+            S::Mask::splat(false)
+        }
+    }
+
+    /// Gives away `h grad H` at the stages of the last step.
+    fn give_velocities<K: FactorSink<P::State>>(&mut self, failed: S::Mask, sink: &mut K) {
+        let (_, points) = self.stages.stages(self.base.as_slice());
+        let mut momenta: WideState<S, P> = self.wide.zero_state();
+        let mut gradient: WideState<S, P> = self.wide.zero_state();
+        L::project(&self.wide, &self.wide_labels, points, &mut momenta);
+        self.wide.gradient(&momenta, &mut gradient);
+        let xi = self.system.zero_state();
+        give::<S, _, _, _, STAGES>(self.step, &gradient, xi, failed, sink);
+    }
+}
+
+impl<S, P, L, const STAGES: usize> Stepper<S> for LiftedStepper<'_, S, P, L, STAGES>
+where
+    S: Scalar,
+    P: LiePoisson<S> + Widen<S>,
+    P::Widened: LiePoisson<S::Wide>,
+    L: StageLift<S, P>,
+{
+    type State = P::State;
+
+    fn step<K: FactorSink<P::State>>(
+        &mut self,
+        mu: &mut P::State,
+        sink: &mut K,
+    ) -> Result<StepReport, StepFailure> {
+        let follows = self.follows & same(&self.end, mu);
+        if follows.any() {
+            self.stages.go_on();
+        }
+        if !follows.all() {
+            self.start(mu, !follows);
+        }
+        let (wide, labels) = (&self.wide, &self.wide_labels);
+        let solved = self
+            .stages
+            .iterate(self.point.as_slice(), |_, points, slopes| {
+                L::flow(wide, labels, points, slopes);
+            });
+        self.base.copy_from(&self.point);
+        self.stages.advance(self.point.as_mut_slice());
+        <L as LinearLift<S, P>>::project(self.system, &self.labels, &self.point, &mut self.next);
+        let report = StepReport {
+            evaluations: solved.iterations + u32::from(!follows.all()),
+            iterations: solved.iterations,
+            residual: solved.residual,
+            substeps: 1,
+            ..StepReport::default()
+        };
+        let finite = self.next.finite();
+        let good = solved.converged & finite;
+        if K::ACTIVE && good.any() {
+            self.give_velocities(!good, sink);
+        }
+        self.settle();
+        mu.assign_where(good, &self.next);
+        self.end.copy_from(mu);
+        self.follows = good & !self.grown();
+        if good.all() {
+            return Ok(report);
+        }
+        let first = 1 << (!good).bits().trailing_zeros();
+        let reason = if (!solved.converged).bits() & first == 0 {
+            FailureReason::NotFinite
+        } else {
+            FailureReason::NotConverged
+        };
+        let lanes = (!good).bits();
+        Err(StepFailure {
+            reason,
+            lanes,
+            report,
+        })
+    }
+}
