@@ -16,45 +16,47 @@ use vectors::Reference;
 
 lie_poisson! {
     /// A body whose axes are not those of the basis.
-    system Oblique {
-        algebra: basis(e1, e2, e3);
-        brackets { [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
-        state(x, y, z);
-        hamiltonian: 0.7*x^2 + 0.4*y^2 + 0.55*z^2 + 0.15*x*y - 0.2*y*z + 0.1*x*z;
+    system Oblique;
+    algebra {
+        basis e1, e2, e3;
+        [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2;
     }
+    state x, y, z;
+    hamiltonian = 0.7*x^2 + 0.4*y^2 + 0.55*z^2 + 0.15*x*y - 0.2*y*z + 0.1*x*z;
 }
 
 lie_poisson! {
     /// Two bodies that do not know of each other, the second with another bracket.
-    system Pair {
-        algebra: basis(e1, e2, e3, f1, f2, f3);
-        brackets {
-            [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2;
-            [f1, f2] = -2*f3; [f2, f3] = -2*f1; [f3, f1] = -2*f2;
-        }
-        state(x, y, z, u, v, w);
-        hamiltonian: x^2 + y^2/2 + z^2/3 + u^2/4 + v*w;
+    system Pair;
+    algebra {
+        basis e1, e2, e3, f1, f2, f3;
+        [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2;
+        [f1, f2] = -2*f3; [f2, f3] = -2*f1; [f3, f1] = -2*f2;
     }
+    state x, y, z, u, v, w;
+    hamiltonian = x^2 + y^2/2 + z^2/3 + u^2/4 + v*w;
 }
 
 lie_poisson! {
     /// A velocity that does not change.
-    system Linear {
-        algebra: basis(J, P1, P2);
-        brackets { [J, P1] = P2; [J, P2] = -P1; }
-        state(m, p, q);
-        hamiltonian: 0.3*p - 0.2*q + 1.1*m;
+    system Linear;
+    algebra {
+        basis J, P1, P2;
+        [J, P1] = P2; [J, P2] = -P1;
     }
+    state m, p, q;
+    hamiltonian = 0.3*p - 0.2*q + 1.1*m;
 }
 
 lie_poisson! {
     /// A function of coordinates that commute.
-    system Commuting {
-        algebra: basis(J, P1, P2);
-        brackets { [J, P1] = P2; [J, P2] = -P1; }
-        state(m, p, q);
-        hamiltonian: sin(p) + p*q^2;
+    system Commuting;
+    algebra {
+        basis J, P1, P2;
+        [J, P1] = P2; [J, P2] = -P1;
     }
+    state m, p, q;
+    hamiltonian = sin(p) + p*q^2;
 }
 
 fn walk<P: Poisson<f64>>(

@@ -162,6 +162,7 @@ fn rows_are_time_state_energy() {
         steps: 4,
         evaluations: 16,
         newton: 0,
+        fixed_point: 0,
         accepted: 4,
         rejected: 0,
     };

@@ -470,7 +470,7 @@ where
             .map(|s| f64::scatter(*s))
             .collect();
         let base = point.clone();
-        let solved = stages.iterate(base.as_slice(), |points, slopes| {
+        let solved = stages.iterate(base.as_slice(), |_, points, slopes| {
             <L as LinearLift<W, P::Widened>>::flow(&wide, &wide_labels, points, slopes);
         });
         assert!(solved.converged);
@@ -494,7 +494,7 @@ where
                     .enumerate()
                     .map(|(k, &x)| Dual::new(x, f64::from(u8::from(k == direction))))
                     .collect();
-                let solved = stages.iterate(&end.clone(), |points, slopes| {
+                let solved = stages.iterate(&end.clone(), |_, points, slopes| {
                     <L as LinearLift<X, D::Widened>>::flow(
                         &wide_dual,
                         &dual_labels,

@@ -347,6 +347,11 @@ impl Lowering {
             Function::Tan | Function::Tanh => self.tangent(function, u),
             Function::Asin | Function::Acos | Function::Atan => self.arc(function, u),
             Function::Atan2 => self.angle(u, &arguments[1]),
+            Function::Stumpff(_) | Function::Phi(_) => {
+                unreachable!(
+                    "functions of closed forms of the exponential stand in no vector field"
+                )
+            }
         }
     }
 

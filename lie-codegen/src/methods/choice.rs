@@ -1,7 +1,6 @@
 //! A method with its options, as asked for.
 
 use super::options::{Gradient, Lift, OptionError, Retraction, Scheme, Tensor};
-use super::table::RESERVED;
 use super::{CATALOGUE, find};
 use crate::suggest::did_you_mean;
 
@@ -77,13 +76,12 @@ impl Choice {
     /// The method of an id, its options at their defaults.
     ///
     /// # Errors
-    /// An id that is unknown, or whose method is not built yet.
+    /// An id that is unknown.
     pub fn from_id(id: &str) -> Result<Self, Unusable> {
         let id = id.trim();
         if let Some((outer, base)) = id.strip_suffix(')').and_then(|id| id.split_once('(')) {
             return Self::composed(id, outer.trim(), base.trim());
         }
-        let entry = find(id);
         if let Some(choice) = Self::plain(id) {
             return Ok(choice);
         }
@@ -92,9 +90,6 @@ impl Choice {
                 message: format!("`{id}` needs the method that it composes"),
                 help: format!("write for example `{id}(lie-midpoint)`"),
             });
-        }
-        if entry.is_some() || RESERVED.contains(&id) {
-            return Err(not_built(id));
         }
         if let Some((id, option)) = id.split_once(" --") {
             return Err(Unusable {
@@ -356,12 +351,5 @@ impl Choice {
             Self::Compose(_, _, base) => base,
             other => other,
         }
-    }
-}
-
-fn not_built(id: &str) -> Unusable {
-    Unusable {
-        message: format!("the method `{id}` is not built yet"),
-        help: "`lie methods` lists those that are built".into(),
     }
 }

@@ -159,12 +159,9 @@ catalogue! {
     EulerArnold2: "symplectic method on T*G", "a system on T*G: a group element is declared", BRM;
 }
 
-/// Ids that are kept for later and have no row in the table yet.
-pub const RESERVED: &[&str] = &[];
-
 #[cfg(test)]
 mod tests {
-    use super::{CATALOGUE, RESERVED};
+    use super::CATALOGUE;
     use crate::methods::Choice;
 
     #[test]
@@ -176,7 +173,6 @@ mod tests {
                 "{} twice",
                 method.id
             );
-            assert!(!RESERVED.contains(&method.id), "{}", method.id);
             let id = if method.id.starts_with("compose") {
                 format!("{}(midpoint)", method.id)
             } else {
