@@ -169,3 +169,42 @@ fn failures_say_why_and_leave_the_state_alone() {
     let reason = failure(&Nonpolynomial, &strict, &newton, 0.1, &BODY);
     assert_eq!(reason, FailureReason::StepTooSmall);
 }
+
+/// Where updates shrink fast no Jacobian is computed; where they do not, the step is that of Newton's method to the last
+/// bit, and so are the next ones.
+#[test]
+fn the_automatic_choice_solves_what_newton_solves() {
+    let top = HeavyTop::default();
+    let steps = |options: &NewtonOptions, h: f64| {
+        let mut mu = state(&top, &START);
+        let mut stepper = Gauss6.stepper(&top, h, options);
+        let reports: Option<Vec<StepReport>> = (0..20)
+            .map(|_| stepper.step(&mut mu, &mut ()).ok())
+            .collect();
+        (mu, reports)
+    };
+    let solved = |options: &NewtonOptions, h: f64| {
+        let (mu, reports) = steps(options, h);
+        (mu, reports.expect("the steps converge"))
+    };
+    let (automatic, newton) = (NewtonOptions::default(), NewtonOptions::newton());
+
+    let (mu, reports) = solved(&automatic, 0.05);
+    assert!(distance(&mu, &solved(&newton, 0.05).0) < 1e-14);
+    for report in &reports {
+        assert_eq!((report.factorizations, report.pivoted), (0, 0));
+        assert_eq!(report.fixed_point, report.iterations);
+    }
+
+    let long = 2.0;
+    assert!(steps(&NewtonOptions::fixed_point(), long).1.is_none());
+    let (mu, reports) = solved(&automatic, long);
+    let (expected, by_newton) = solved(&newton, long);
+    assert_eq!(mu.as_slice(), expected.as_slice());
+    let tries: Vec<usize> = (0..20).filter(|&k| reports[k].fixed_point > 0).collect();
+    assert_eq!(tries, [0, 16]);
+    for (report, newton) in reports.iter().zip(&by_newton) {
+        assert_eq!(report.iterations, report.fixed_point + newton.iterations);
+        assert_eq!(report.factorizations, newton.factorizations);
+    }
+}
