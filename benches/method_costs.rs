@@ -265,7 +265,8 @@ fn main() {
          its compilation (processor time, opt-level 3, one codegen unit, after the runtime; a loop of steps included;\n\
          of the default options only). *Fused* and *generic* are instructions per step at h = 0.05\n\
          from the initial state of the declaration, counted by callgrind, with the fused form and with the generic\n\
-         form on the generated kernels; a method without a fused form has the second column only. *Iterations* are Newton's, per step.\n",
+         form on the generated kernels; a method without a fused form has the second column only. *Iterations* are the solver's, per step, with or without\n\
+         a Jacobian, as the automatic choice has it.\n",
         tell("date", "+%Y-%m-%d"),
         tell("rustc", "--version"),
     );

@@ -30,7 +30,7 @@ pub(super) fn finding<P: Lift<f64>>(
     method: &dyn AnyMethod<f64, P>,
     plain: &PlainSteps,
 ) -> Finding {
-    let newton = NewtonOptions::default();
+    let newton = NewtonOptions::newton();
     let fused = |mu: &P::State, h: f64, nudge: f64| {
         let (mut end, mut iterations) = (mu.clone(), 0);
         for entry in end.as_mut_slice() {

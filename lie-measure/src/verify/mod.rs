@@ -149,7 +149,7 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
             Some(Box::new(move |start, h, steps| {
                 let mut mu = system.zero_state();
                 mu.as_mut_slice().copy_from_slice(start);
-                let mut stepper = method.any_stepper(&system, h, &NewtonOptions::default());
+                let mut stepper = method.any_stepper(&system, h, &NewtonOptions::newton());
                 let mut iterations = 0;
                 for _ in 0..steps {
                     iterations += stepper.step(&mut mu)?.iterations;
