@@ -188,9 +188,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         }
         report.residual = largest(residual);
         if active.any() {
-            let growing = convergence.growing();
-            record(&mut failed, active & growing, FailureReason::Diverged);
-            record(&mut failed, active & !growing, FailureReason::NotConverged);
+            leave(&mut failed, active, convergence.growing());
         }
         failed
     }
@@ -234,6 +232,13 @@ fn refuse<M: Mask>(failed: &mut Option<(FailureReason, u64)>, active: M, singula
     record(failed, active & singular, FailureReason::Singular);
     let infinite = active & !singular & !sound;
     record(failed, infinite, FailureReason::NotFinite);
+}
+
+/// Lanes whose updates did not shrink to the tolerance, or grew.
+#[cold]
+fn leave<M: Mask>(failed: &mut Option<(FailureReason, u64)>, active: M, growing: M) {
+    record(failed, active & growing, FailureReason::Diverged);
+    record(failed, active & !growing, FailureReason::NotConverged);
 }
 
 /// Adds lanes to the failed ones; the reason is that of the lowest lane.

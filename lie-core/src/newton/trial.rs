@@ -99,7 +99,7 @@ impl<S: Scalar> Bound<S> {
         };
         self.count += 1;
         if self.count <= 2 {
-            return S::Mask::splat(true);
+            return update.finite();
         }
         (update.less_equal(self.size) | settled) & S::Mask::splat(self.count < MOST)
     }
