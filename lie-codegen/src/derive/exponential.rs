@@ -17,6 +17,9 @@ use crate::symbolic::{ExprId, Function, Symbol};
 /// A combination of the functions of one argument, by their indices.
 type Combination = Vec<(u8, Rational)>;
 
+/// A weight and the vector that it multiplies.
+type Term = (ExprId, Vec<ExprId>);
+
 /// Which functions a factor needs.
 #[derive(Clone, Copy)]
 enum Family {
@@ -117,73 +120,112 @@ impl Source {
         for i in &summand.coordinates {
             vector[*i] = m[*i];
         }
-        let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); self.dimension];
-        let mut add = |source: &mut Self, weight: ExprId, vector: &[ExprId]| {
-            for (terms, entry) in terms.iter_mut().zip(vector) {
-                terms.push(source.graph.mul(weight, *entry));
-            }
-        };
-        let apply = |source: &mut Self, tape: &mut Tape, vector: &[ExprId]| {
-            let moved = source.ad_star_of(x, vector);
-            tape.define_all(source, &moved)
-        };
+        let mut terms = Vec::new();
         for j in 1..summand.nilpotent {
-            vector = apply(self, tape, &vector);
+            vector = self.moved_by(tape, x, &vector);
             let weight = self.graph.number(inverse_factorial(j + k));
-            add(self, weight, &vector);
+            terms.push((weight, vector.clone()));
+        }
+        if !matches!(summand.factor, Factor::None) {
+            vector = self.moved_by(tape, x, &vector);
         }
         let first = (summand.nilpotent + k) as u8;
-        let supports = &summand.supports;
         match &summand.factor {
             Factor::None => {}
-            Factor::Linear(form, power) => {
-                vector = apply(self, tape, &vector);
-                let terms: Vec<ExprId> =
-                    form.iter().map(|(i, c)| self.scaled(c, &[x[*i]])).collect();
-                let root = self.graph.sum(&terms);
+            Factor::Linear(form, _) => {
+                let form = form.iter().map(|(i, c)| self.scaled(c, &[x[*i]]));
+                let form: Vec<ExprId> = form.collect();
+                let root = self.graph.sum(&form);
                 let root = tape.define(self, root);
-                let mut weight = vec![(first, Rational::ONE)];
-                for i in 0..*power {
-                    let value = self.combination(Family::Phi, &weight, root, &inverse_factorial(i));
-                    add(self, value, &vector);
-                    if i + 1 < *power {
-                        let moved = self.ad_star_of(x, &vector);
-                        let root = (root, &Rational::MINUS_ONE);
-                        vector = self.shifted(tape, (&moved, &vector), root, &supports[i + 1]);
-                        weight = Family::Phi.derivative(&weight);
-                    }
-                }
+                self.about_root(
+                    tape,
+                    (x, vector),
+                    (root, first),
+                    &summand.supports,
+                    &mut terms,
+                );
             }
-            Factor::Quadratic(form, power) => {
-                vector = apply(self, tape, &vector);
-                let terms = form.iter().map(|(i, j, c)| self.scaled(c, &[x[*i], x[*j]]));
-                let terms: Vec<ExprId> = terms.collect();
-                let square = self.graph.sum(&terms);
+            Factor::Quadratic(form, _) => {
+                let form = form.iter().map(|(i, j, c)| self.scaled(c, &[x[*i], x[*j]]));
+                let form: Vec<ExprId> = form.collect();
+                let square = self.graph.sum(&form);
                 let square = tape.define(self, square);
-                let mut even = vec![(first, Rational::ONE)];
-                let mut odd = vec![(first + 1, Rational::ONE)];
-                for i in 0..*power {
-                    let sign = Rational::from(if i % 2 == 0 { 1 } else { -1 });
-                    let scale = &inverse_factorial(i) * &sign;
-                    let value = self.combination(Family::Stumpff, &even, square, &scale);
-                    add(self, value, &vector);
-                    let next = apply(self, tape, &vector);
-                    let value = self.combination(Family::Stumpff, &odd, square, &scale);
-                    add(self, value, &next);
-                    if i + 1 < *power {
-                        let moved = self.ad_star_of(x, &next);
-                        let square = (square, &Rational::ONE);
-                        vector = self.shifted(tape, (&moved, &vector), square, &supports[i + 1]);
-                        even = Family::Stumpff.derivative(&even);
-                        odd = Family::Stumpff.derivative(&odd);
-                    }
-                }
+                self.about_pair(
+                    tape,
+                    (x, vector),
+                    (square, first),
+                    &summand.supports,
+                    &mut terms,
+                );
             }
         }
-        terms
-            .into_iter()
-            .map(|terms| self.graph.sum(&terms))
+        let entries = 0..self.dimension;
+        entries
+            .map(|row| {
+                let terms = terms.iter();
+                let terms: Vec<ExprId> = terms
+                    .map(|(weight, vector)| self.graph.mul(*weight, vector[row]))
+                    .collect();
+                self.graph.sum(&terms)
+            })
             .collect()
+    }
+
+    /// `ad*_x` of a vector, each entry a quantity.
+    fn moved_by(&mut self, tape: &mut Tape, x: &[ExprId], vector: &[ExprId]) -> Vec<ExprId> {
+        let moved = self.ad_star_of(x, vector);
+        tape.define_all(self, &moved)
+    }
+
+    /// `phi_m(A) v = sum_i phi_m^(i)(l)/i! (A - l)^i v`
+    fn about_root(
+        &mut self,
+        tape: &mut Tape,
+        (x, mut vector): (&[ExprId], Vec<ExprId>),
+        (root, first): (ExprId, u8),
+        supports: &[Vec<usize>],
+        terms: &mut Vec<Term>,
+    ) {
+        let mut weight = vec![(first, Rational::ONE)];
+        for i in 0..supports.len() {
+            let value = self.combination(Family::Phi, &weight, root, &inverse_factorial(i));
+            terms.push((value, vector.clone()));
+            if let Some(support) = supports.get(i + 1) {
+                let moved = self.ad_star_of(x, &vector);
+                let root = (root, &Rational::MINUS_ONE);
+                vector = self.shifted(tape, (&moved, &vector), root, support);
+                weight = Family::Phi.derivative(&weight);
+            }
+        }
+    }
+
+    /// `f_m(A) v = sum_i (-1)^i/i! (S_m^(i)(w) + S_(m + 1)^(i)(w) A) (A^2 + w)^i v`
+    fn about_pair(
+        &mut self,
+        tape: &mut Tape,
+        (x, mut vector): (&[ExprId], Vec<ExprId>),
+        (square, first): (ExprId, u8),
+        supports: &[Vec<usize>],
+        terms: &mut Vec<Term>,
+    ) {
+        let mut even = vec![(first, Rational::ONE)];
+        let mut odd = vec![(first + 1, Rational::ONE)];
+        for i in 0..supports.len() {
+            let sign = Rational::from(if i.is_multiple_of(2) { 1 } else { -1 });
+            let scale = &inverse_factorial(i) * &sign;
+            let value = self.combination(Family::Stumpff, &even, square, &scale);
+            terms.push((value, vector.clone()));
+            let next = self.moved_by(tape, x, &vector);
+            let value = self.combination(Family::Stumpff, &odd, square, &scale);
+            terms.push((value, next.clone()));
+            if let Some(support) = supports.get(i + 1) {
+                let moved = self.ad_star_of(x, &next);
+                let square = (square, &Rational::ONE);
+                vector = self.shifted(tape, (&moved, &vector), square, support);
+                even = Family::Stumpff.derivative(&even);
+                odd = Family::Stumpff.derivative(&odd);
+            }
+        }
     }
 
     /// A coefficient times entries of x.

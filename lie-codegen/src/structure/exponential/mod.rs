@@ -109,6 +109,8 @@ fn summand(operator: &Operator, budget: &Budget) -> Result<Option<Summand>, Exha
     let Some(Factors { nilpotent, shape }) = factors(operator) else {
         return Ok(None);
     };
+    // x commutes with itself, so that 0 is a root; where it is none of this part, another factor z does no harm
+    let nilpotent = nilpotent.max(1);
     let power = match shape {
         Shape::None => 0,
         Shape::Linear { power, .. } => power,

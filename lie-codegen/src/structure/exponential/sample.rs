@@ -47,7 +47,7 @@ pub(super) fn factors(operator: &Operator) -> Option<Factors> {
     }
     let size = places.len();
     let is_even = rest.iter().skip(1).step_by(2).all(|c| c.is_zero());
-    let shape = if degree % 2 == 0 && is_even {
+    let shape = if degree.is_multiple_of(2) && is_even {
         let even: Vec<Residue> = rest.iter().copied().step_by(2).collect();
         let power = degree / 2;
         let root = power_of_binomial(&even)?;
