@@ -174,7 +174,9 @@ fn order<D: Declared>(
         let mu = run(&D::declared::<f64>(), method, D::initial(), h, steps);
         (h.ln(), distance(mu.as_slice(), end).ln())
     };
-    let points: Vec<(f64, f64)> = steps.iter().map(point).collect();
+    let clear = |p: &(f64, f64)| (2e-13_f64.ln()..1e-3_f64.ln()).contains(&p.1);
+    let points: Vec<(f64, f64)> = steps.iter().map(point).filter(clear).collect();
+    assert!(points.len() >= 3, "{points:?}");
     let mean =
         |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
     let (x, y) = (mean(|p| p.0), mean(|p| p.1));
@@ -186,15 +188,10 @@ fn order<D: Declared>(
 fn fixed_orders_are_slopes() {
     for p in [2, 3, 5, 8] {
         let claimed = f64::from(p);
-        let steps: &[u32] = if p < 4 {
-            &[400, 600, 800]
-        } else {
-            &[60, 80, 100, 120]
-        };
-        let tops: &[u32] = if p < 4 {
-            &[1000, 1500, 2000]
-        } else {
-            &[200, 240, 280]
+        let (steps, tops): (&[u32], &[u32]) = match p {
+            2 | 3 => (&[400, 600, 800], &[1000, 1500, 2000]),
+            5 => (&[60, 80, 100, 120], &[200, 240, 280]),
+            _ => (&[16, 20, 24, 30, 36, 44], &[60, 70, 80, 95, 110, 130]),
         };
         for slope in [
             order::<NonpolynomialSpin>(&Taylor::of_order(p), "2", steps),
@@ -202,9 +199,9 @@ fn fixed_orders_are_slopes() {
             order::<NonpolynomialSpin>(&LieTaylor::of_order(p), "2", steps),
             order::<HeavyTop>(&LieTaylor::of_order(p), "10", tops),
         ] {
-            // one more is possible, one less is not
+            // the next order may still show at large steps; one less may not
             assert!(
-                slope > claimed - 0.2 && slope < claimed + 0.5,
+                slope > claimed - 0.2 && slope < claimed + 1.2,
                 "{p}: {slope}"
             );
         }
