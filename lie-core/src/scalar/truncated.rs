@@ -83,12 +83,12 @@ impl<S: Scalar> Truncated<S> {
     }
 }
 
-/// `sum_(1 <= j <= k) u_j v_(k-j)`, as far as v goes.
+/// `sum_(1 <= j <= k) u_j v_(k-j)`, as far as u and v go.
 fn sum<S: Scalar>(u: &[S], v: &[S], k: usize) -> S {
     let mut sum = S::zero();
-    for j in 1..=k.min(u.len() - 1) {
+    for (j, &factor) in u.iter().enumerate().take(k + 1).skip(1) {
         if let Some(&other) = v.get(k - j) {
-            sum += u[j] * other;
+            sum += factor * other;
         }
     }
     sum
@@ -123,6 +123,7 @@ impl<S: Scalar> Mul for Truncated<S> {
 
 impl<S: Scalar> Div for Truncated<S> {
     type Output = Self;
+    #[allow(clippy::suspicious_arithmetic_impl)]
     /// `q_0 = u_0/v_0`, `q_k = (u_k - sum_(0<j<=k) v_j q_(k-j))/v_0`
     fn div(self, other: Self) -> Self {
         let length = self.length.max(other.length);
