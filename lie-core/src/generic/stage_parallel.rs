@@ -36,8 +36,6 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
     options: NewtonOptions,
     /// How many iterations the map of the last step took, in each lane.
     taken: S,
-    /// After how many of them updates had reached round-off.
-    seen: S,
 }
 
 /// How an iteration ended.
@@ -72,7 +70,6 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             next: zero,
             options: *options,
             taken: S::zero(),
-            seen: S::zero(),
         }
     }
 
@@ -83,7 +80,6 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             *slopes = S::gather(old.map(|old| S::select(mask, entry, old)));
         }
         self.taken = S::select(mask, S::zero(), self.taken);
-        self.seen = S::select(mask, S::zero(), self.seen);
     }
 
     /// Starts from the polynomial of the last step.
@@ -146,7 +142,6 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         let bound = self.size(base) * S::epsilon() * S::from_f64(STAGNATION);
         let wide_bound = bound.widen();
         let enough = S::epsilon() * S::ratio(1.0, 4.0);
-        let three = S::ratio(3.0, 1.0);
         let [mut ended, mut settled, mut ready] = [S::Mask::splat(false); 3];
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
         let [mut first, mut before, mut change] = [S::Wide::zero(); 3];
@@ -154,30 +149,17 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         while iterations < self.options.max_iterations && !ended.all() {
             self.set_points(base);
             field(&self.point, &mut self.next);
-            iterations += 1;
-            let count = S::from_f64(f64::from(iterations));
-            // until shortly before updates reached round-off in the last step, nothing is looked at but the first one
-            let near = self.seen.less_equal(count + three);
-            if !near.any() && iterations > 1 {
-                self.slopes.copy_from(&self.next);
-                continue;
-            }
             let earlier = before;
             before = change;
             change = self.replace(ended);
+            iterations += 1;
             if iterations == 1 {
                 first = change;
             }
             left *= rate;
             if !settled.all() && is_below::<S>(change, wide_bound) {
                 let size = most::<S>(change);
-                let new = size.less_equal(bound) & near & !settled;
-                // those that are there earlier are seen in the next step
-                let early = new & !self.seen.less_equal(count + S::one());
-                let sooner = (self.seen - three - S::one()).max(S::zero());
-                self.seen = S::select(early, sooner, S::select(new, count, self.seen));
-                let new = new & !early;
-                settled = settled | early;
+                let new = size.less_equal(bound) & !settled;
                 if iterations > 1 {
                     // single updates may shrink by much less than those around them
                     let last = match iterations {
@@ -189,6 +171,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 }
                 settled = settled | new;
             }
+            let count = S::from_f64(f64::from(iterations));
             let by_rate = left.less_equal(enough);
             let by_count = S::one().less_equal(left) & self.taken.less_equal(count);
             ready = ready | (settled & !ended & (by_rate | by_count));
