@@ -12,6 +12,9 @@ const REVIEW: u32 = 8;
 /// Updates up to this many units of round-off that no longer shrink are round-off themselves.
 const STAGNATION: f64 = 256.0;
 
+/// A start that is no better than the field at the state is improved by so many half iterations.
+const APPROACH: u32 = 12;
+
 /// The stages of a step of Gauss collocation for `y' = f(y)`, all in one number of type [`Scalar::Wide`].
 ///
 /// With the slopes `F_i = f(Y_i)` the iteration is `F_i <- f(y + h sum_j a_ij F_j)`: one evaluation of the field on
@@ -80,6 +83,22 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             *slopes = S::gather(old.map(|old| S::select(mask, entry, old)));
         }
         self.taken = S::select(mask, S::zero(), self.taken);
+    }
+
+    /// Takes half of the way that the iteration would go, several times, in the lanes of a mask: where it contracts at all, that
+    /// leads from a bad start to a good one.
+    pub fn approach(&mut self, mask: S::Mask, base: &[S], mut field: impl FnMut(&V, &mut V)) {
+        let half = S::ratio(1.0, 2.0);
+        for _ in 0..APPROACH {
+            self.set_points(base);
+            field(&self.point, &mut self.next);
+            let slopes = self.slopes.as_mut_slice().iter_mut();
+            for (slope, &next) in slopes.zip(self.next.as_slice()) {
+                let (old, new) = (S::scatter(*slope), S::scatter(next));
+                let middle = |i: usize| half * (old[i] + new[i]);
+                *slope = S::gather(from_fn(|i| S::select(mask, middle(i), old[i])));
+            }
+        }
     }
 
     /// Starts from the polynomial of the last step.

@@ -106,6 +106,11 @@ where
         }
         <L as LinearLift<S, P>>::flow(system, &self.labels, &self.point, &mut point);
         self.stages.start_with(fresh, point.as_slice());
+        let (wide, labels) = (&self.wide, &self.wide_labels);
+        let base = self.point.as_slice();
+        self.stages.approach(fresh, base, |points, slopes| {
+            L::flow(wide, labels, points, slopes);
+        });
     }
 
     /// Moves the point over the state at which a step has ended.
