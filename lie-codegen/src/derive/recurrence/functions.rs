@@ -19,7 +19,9 @@ impl Lowering {
             Function::Asin | Function::Acos | Function::Atan => self.arc(function, u),
             Function::Atan2 => self.angle(u, &arguments[1]),
             Function::Stumpff(_) | Function::Phi(_) => {
-                unreachable!("functions of closed forms of the exponential stand in no vector field")
+                unreachable!(
+                    "functions of closed forms of the exponential stand in no vector field"
+                )
             }
         }
     }
