@@ -198,7 +198,11 @@ fn the_automatic_choice_solves_what_newton_solves() {
 
     let long = 2.0;
     let slow = |reports: Vec<StepReport>| reports.iter().any(|report| report.iterations > 30);
-    assert!(steps(&NewtonOptions::fixed_point(), long).1.is_none_or(slow));
+    assert!(
+        steps(&NewtonOptions::fixed_point(), long)
+            .1
+            .is_none_or(slow)
+    );
     let (mu, reports) = solved(&automatic, long);
     let (expected, by_newton) = solved(&newton, long);
     assert_eq!(mu.as_slice(), expected.as_slice());
