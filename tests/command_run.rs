@@ -324,9 +324,10 @@ fn the_first_row_of_every_spec_is_its_initial_state() {
 fn iterations(run: &Run) -> f64 {
     let (before, _) = run
         .stderr
-        .split_once(" Newton iterations")
+        .split_once(" iterations per step")
         .expect("a summary");
-    let number = before.rsplit(' ').next().unwrap_or_default();
+    // before the word for their kind
+    let number = before.rsplit(' ').nth(1).unwrap_or_default();
     number.parse().expect("a number")
 }
 
