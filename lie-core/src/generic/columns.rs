@@ -8,7 +8,7 @@ use crate::structure::ColumnPoisson;
 
 /// The momentum `mu_k = sum_j y_j rho(e_k) x_j` of columns `x_j` and rows `y_j`.
 #[inline(always)]
-pub fn momentum_of_columns<S: Scalar, P: ColumnPoisson<S> + ?Sized>(
+pub fn momentum_of_columns<S: Scalar, P: ColumnPoisson<S>>(
     system: &P,
     point: &P::Columns,
     out: &mut P::State,
@@ -31,7 +31,7 @@ pub fn momentum_of_columns<S: Scalar, P: ColumnPoisson<S> + ?Sized>(
 /// The canonical flow of `H o J` at a point, of which `xi` is the gradient of H at J: `x_j' = -rho(xi) x_j`,
 /// `y_j' = y_j rho(xi)`.
 #[inline(always)]
-pub fn flow_of_columns<S: Scalar, P: ColumnPoisson<S> + ?Sized>(
+pub fn flow_of_columns<S: Scalar, P: ColumnPoisson<S>>(
     system: &P,
     point: &P::Columns,
     xi: &P::State,
@@ -61,7 +61,7 @@ pub fn flow_of_columns<S: Scalar, P: ColumnPoisson<S> + ?Sized>(
 
 /// The canonical flow of `H o J` at a point.
 #[inline(always)]
-pub fn flow_over_columns<S: Scalar, P: ColumnPoisson<S> + ?Sized>(
+pub fn flow_over_columns<S: Scalar, P: ColumnPoisson<S>>(
     system: &P,
     point: &P::Columns,
     out: &mut P::Columns,

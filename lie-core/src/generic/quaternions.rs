@@ -44,7 +44,7 @@ fn momentum<S: Scalar>(q: &[S; 4], m: &[S; 4]) -> [S; 3] {
 
 /// The state `Pi = Im(conj(q) P)`, `Gamma_a = conj(q) a q` under a point.
 #[inline(always)]
-pub fn vectors_of<S: Scalar, P: VectorPoisson<S> + ?Sized>(
+pub fn vectors_of<S: Scalar, P: VectorPoisson<S>>(
     system: &P,
     labels: &P::Labels,
     point: &P::Quaternions,
@@ -66,7 +66,7 @@ pub fn vectors_of<S: Scalar, P: VectorPoisson<S> + ?Sized>(
 /// The canonical flow of `H o J` at a point, of which `gradient` is that of H at J: with `w = c Omega/2`,
 /// `q' = q w`, `P' = P w + c sum (a q) chi_a`, where Omega and the `chi_a` are the derivatives of H by Pi and the vectors.
 #[inline(always)]
-pub fn flow_of_quaternions<S: Scalar, P: VectorPoisson<S> + ?Sized>(
+pub fn flow_of_quaternions<S: Scalar, P: VectorPoisson<S>>(
     system: &P,
     labels: &P::Labels,
     point: &P::Quaternions,
@@ -92,7 +92,7 @@ pub fn flow_of_quaternions<S: Scalar, P: VectorPoisson<S> + ?Sized>(
 
 /// The canonical flow of `H o J` at a point.
 #[inline(always)]
-pub fn flow_over_quaternions<S: Scalar, P: VectorPoisson<S> + ?Sized>(
+pub fn flow_over_quaternions<S: Scalar, P: VectorPoisson<S>>(
     system: &P,
     labels: &P::Labels,
     point: &P::Quaternions,
@@ -194,7 +194,8 @@ impl<S: Scalar, P: VectorPoisson<S>> LinearLift<S, P> for Quaternion {
         let wide = shear.widen();
         write(q, core::array::from_fn(|k| p[k] - shear * q[k]), point);
         for k in 0..4 {
-            slopes[k + 4] = slopes[k + 4] - wide * slopes[k];
+            let along = wide * slopes[k];
+            slopes[k + 4] -= along;
         }
     }
 }

@@ -9,11 +9,7 @@ use crate::structure::SpinPoisson;
 /// `J(q, p) = (2 q1 q2 + 2 p1 p2, 2 q2 p1 - 2 q1 p2, q1^2 + p1^2 - q2^2 - p2^2)/4` of the point `(q1, q2, p1, p2)` of each
 /// spin.
 #[inline(always)]
-pub fn spins_of<S: Scalar, P: SpinPoisson<S> + ?Sized>(
-    system: &P,
-    point: &P::Spinors,
-    out: &mut P::State,
-) {
+pub fn spins_of<S: Scalar, P: SpinPoisson<S>>(system: &P, point: &P::Spinors, out: &mut P::State) {
     let (half, quarter) = (S::ratio(1.0, 2.0), S::ratio(1.0, 4.0));
     let (points, out) = (point.as_slice(), out.as_mut_slice());
     for (z, spin) in points.chunks_exact(4).zip(system.spins()) {
@@ -25,7 +21,7 @@ pub fn spins_of<S: Scalar, P: SpinPoisson<S> + ?Sized>(
 
 /// The canonical flow of `H o J` at a point, of which `gradient` is that of H at J: over it lies `c m x grad H`.
 #[inline(always)]
-pub fn flow_of_spinors<S: Scalar, P: SpinPoisson<S> + ?Sized>(
+pub fn flow_of_spinors<S: Scalar, P: SpinPoisson<S>>(
     system: &P,
     point: &P::Spinors,
     gradient: &P::State,
@@ -46,7 +42,7 @@ pub fn flow_of_spinors<S: Scalar, P: SpinPoisson<S> + ?Sized>(
 
 /// The canonical flow of `H o J` at a point.
 #[inline(always)]
-pub fn flow_over_spins<S: Scalar, P: SpinPoisson<S> + ?Sized>(
+pub fn flow_over_spins<S: Scalar, P: SpinPoisson<S>>(
     system: &P,
     point: &P::Spinors,
     out: &mut P::Spinors,
