@@ -424,6 +424,13 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Widen<S> for LotkaVolterraSystem<S
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Expand<S> for LotkaVolterraSystem<S> {
+    type Expanded = LotkaVolterraSystem<::lie_runtime::scalar::Truncated<S>>;
+    fn expand(&self) -> Self::Expanded {
+        self._over(::lie_runtime::scalar::Truncated::constant_of)
+    }
+}
+
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
 #[derive(Clone, Debug)]
 #[allow(non_snake_case)]
@@ -621,6 +628,10 @@ for LotkaVolterraMidpoint<'_, S> {
         residual[0] = _b0;
         residual[1] = _b1;
         residual[2] = _b2;
+    }
+
+    fn jacobian_cost(&self) -> f64 {
+        213.0 / 96.0
     }
 
     fn velocity(
@@ -1187,5 +1198,96 @@ for LotkaVolterraSystem<S> {
         ::lie_runtime::__private_0_1::Eliminated::new(
             ::lie_runtime::generic::CohenHairerStep::new(self, h),
         )
+    }
+}
+
+/// Taylor coefficients for `taylor`, order by order: 7 sums of products.
+#[derive(Clone, Debug)]
+#[allow(dead_code)]
+pub struct LotkaVolterraTaylor<'a, S: ::lie_runtime::Scalar> {
+    system: &'a LotkaVolterraSystem<S>,
+    kept: [S; 12],
+    sums: ::lie_runtime::recurrence::Sums<S, 7, 1>,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> LotkaVolterraTaylor<'a, S> {
+    /// The recurrence of a system.
+    #[must_use]
+    pub fn new(system: &'a LotkaVolterraSystem<S>) -> Self {
+        Self {
+            system,
+            kept: [S::zero(); 12],
+            sums: ::core::default::Default::default(),
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Recurrence<S>
+for LotkaVolterraTaylor<'_, S> {
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
+    type Carry = [S; 7];
+    /// 6 additions, 8 multiplications, 4 divisions.
+    #[inline(always)]
+    fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry {
+        let [[y1, y2, y3]] = mu.data.0;
+        let _t0 = self.system.nu / y2;
+        let _t1 = S::one() + _t0;
+        let _t2 = y2 * _t1;
+        let _t3 = self.system.mu / y3;
+        let _t4 = self.system.a + _t3;
+        let _t5 = y3 * _t4;
+        let _t6 = self.system.inverse_a_b * _t2 - self.system.inverse_a * _t5;
+        let _t7 = y1 + _t5;
+        let _t8 = self.system.b * y1 + _t2;
+        self.kept = [
+            _t0,
+            S::one() / y2,
+            y2,
+            _t1,
+            _t3,
+            S::one() / y3,
+            y3,
+            _t4,
+            y1,
+            _t6,
+            _t7,
+            _t8,
+        ];
+        field[0] = -(y1 * _t6);
+        field[1] = y2 * _t7;
+        field[2] = y3 * _t8;
+        self.sums.begin()
+    }
+
+    /// 18 additions, 17 multiplications.
+    #[inline(always)]
+    fn advance(
+        &mut self,
+        _k: usize,
+        _rest: Self::Carry,
+        coefficient: &Self::State,
+        field: &mut Self::State,
+    ) -> Self::Carry {
+        let [[y1, y2, y3]] = coefficient.data.0;
+        let _t0 = (-(y2 * self.kept[0]) - _rest[0]) * self.kept[1];
+        let _t1 = self.kept[2] * _t0 + y2 * self.kept[3] + _rest[1];
+        let _t2 = (-(y3 * self.kept[4]) - _rest[2]) * self.kept[5];
+        let _t3 = self.kept[6] * _t2 + y3 * self.kept[7] + _rest[3];
+        let _t4 = self.system.inverse_a_b * _t1 - self.system.inverse_a * _t3;
+        let _t5 = y1 + _t3;
+        let _t6 = self.system.b * y1 + _t1;
+        field[0] = -(self.kept[8] * _t4 + y1 * self.kept[9] + _rest[4]);
+        field[1] = self.kept[2] * _t5 + y2 * self.kept[10] + _rest[5];
+        field[2] = self.kept[6] * _t6 + y3 * self.kept[11] + _rest[6];
+        self.sums
+            .push(_k, [y2, y2, y3, y3, y1, y2, y3], [_t0, _t0, _t2, _t2, _t4, _t5, _t6])
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Series<S> for LotkaVolterraSystem<S> {
+    type Recurrence<'a> = LotkaVolterraTaylor<'a, S> where Self: 'a;
+    fn series(&self) -> Self::Recurrence<'_> {
+        LotkaVolterraTaylor::new(self)
     }
 }

@@ -66,6 +66,8 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _t3 = S::one() / self.I1;
         let _t4 = S::one() / self.I2;
         let _t5 = S::one() / self.I3;
+        let _t6 = _t4 - _t5;
+        let _t7 = _t3 - _t4;
         let _c0 = _t0;
         let _c1 = _t1;
         let _c2 = _t2;
@@ -75,15 +77,17 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
         let _c6 = _t3;
         let _c7 = _t4;
         let _c8 = _t5;
-        let _c9 = _t5 - _t4;
+        let _c9 = -_t6;
         let _c10 = _t3 - _t5;
-        let _c11 = _t4 - _t3;
+        let _c11 = -_t7;
         let _c12 = -_t4;
         let _c13 = -_t5;
         let _c14 = -_t3;
         let _c15 = -_t1;
         let _c16 = -_t2;
         let _c17 = -_t0;
+        let _c18 = _t6;
+        let _c19 = _t7;
         ::lie_runtime::__private_0_1::all_finite(
             &[
                 (_c0, "mgl", "mgl*c1"),
@@ -104,6 +108,8 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
                 (_c15, "mgl", "-mgl*c2"),
                 (_c16, "mgl", "-mgl*c3"),
                 (_c17, "mgl", "-mgl*c1"),
+                (_c18, "I2", "1/I2 - 1/I3"),
+                (_c19, "I1", "1/I1 - 1/I2"),
             ],
         )?;
         ::core::result::Result::Ok(HeavyTopSystem {
@@ -126,6 +132,8 @@ impl<S: ::lie_runtime::Scalar> HeavyTop<S> {
             minus_mgl_c2: _c15,
             minus_mgl_c3: _c16,
             minus_mgl_c1: _c17,
+            _k18: _c18,
+            _k19: _c19,
         })
     }
 
@@ -184,6 +192,10 @@ pub struct HeavyTopSystem<S = f64> {
     minus_mgl_c3: S,
     /// `-mgl*c1`
     minus_mgl_c1: S,
+    /// `1/I2 - 1/I3`
+    _k18: S,
+    /// `1/I1 - 1/I2`
+    _k19: S,
 }
 
 impl<S> HeavyTopSystem<S> {
@@ -532,6 +544,113 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for HeavyTopSystem<S
         out[(5, 3)] = _xi_J2;
         out[(5, 4)] = _t2;
     }
+
+    fn has_closed_exponential(&self) -> bool {
+        true
+    }
+
+    fn has_closed_slope(&self) -> bool {
+        false
+    }
+
+    /// `Ad*_(exp xi) mu = exp(ad*_xi) mu`
+    ///
+    /// 61 additions, 81 multiplications, 4 function calls.
+    #[inline]
+    fn coadjoint_action(
+        &self,
+        xi: &Self::State,
+        mu: &Self::State,
+        out: &mut Self::State,
+    ) {
+        let [[_xi_J1, _xi_J2, _xi_J3, _xi_P1, _xi_P2, _xi_P3]] = xi.data.0;
+        let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
+        let _t0 = m2 * _xi_J3 - m3 * _xi_J2 - g3 * _xi_P2 + g2 * _xi_P3;
+        let _t1 = _xi_J1 * _xi_J1 + _xi_J2 * _xi_J2 + _xi_J3 * _xi_J3;
+        let [_f0_1, _f0_2, _f0_3, _f0_4] = ::lie_runtime::closed::stumpff::<
+            S,
+            1,
+            4,
+        >(_t1);
+        let _t2 = m1 * _xi_J2 - m2 * _xi_J1 - g2 * _xi_P1 + g1 * _xi_P2;
+        let _t3 = m3 * _xi_J1 - m1 * _xi_J3 + g3 * _xi_P1 - g1 * _xi_P3;
+        let _t4 = g1 * _xi_J2 - g2 * _xi_J1;
+        let _t5 = g3 * _xi_J1 - g1 * _xi_J3;
+        let _t6 = _xi_J3 * _t3 - _xi_J2 * _t2 - _xi_P2 * _t4 + _xi_P3 * _t5;
+        let _t7 = g2 * _xi_J3 - g3 * _xi_J2;
+        let _t8 = _xi_J2 * _t0 - _xi_J1 * _t3 - _xi_P1 * _t5 + _xi_P2 * _t7;
+        let _t9 = _xi_J1 * _t2 - _xi_J3 * _t0 + _xi_P1 * _t4 - _xi_P3 * _t7;
+        let _t10 = _xi_J2 * _t7 - _xi_J1 * _t5;
+        let _t11 = _xi_J1 * _t4 - _xi_J3 * _t7;
+        let _t12 = _xi_J3 * _t9 - _xi_J2 * _t8 - _xi_P2 * _t10 + _xi_P3 * _t11
+            + _t0 * _t1;
+        let _t13 = (_f0_2 - _f0_3) * S::from_f64(0.5);
+        let _t14 = _xi_J3 * _t5 - _xi_J2 * _t4;
+        let _t15 = _xi_J2 * _t6 - _xi_J1 * _t9 - _xi_P1 * _t11 + _xi_P2 * _t14
+            + _t2 * _t1;
+        let _t16 = _xi_J1 * _t8 - _xi_J3 * _t6 + _xi_P1 * _t10 - _xi_P3 * _t14
+            + _t3 * _t1;
+        let _t17 = (_f0_3 - _f0_4 * S::from_f64(2.0)) * S::from_f64(0.5);
+        out[0] = m1
+            + (_t0 * _f0_1 + _t6 * _f0_2 + _t12 * _t13
+                + (_xi_J3 * _t16 - _xi_J2 * _t15) * _t17);
+        out[1] = m2
+            + (_t3 * _f0_1 + _t9 * _f0_2 + _t16 * _t13
+                + (_xi_J1 * _t15 - _xi_J3 * _t12) * _t17);
+        out[2] = m3
+            + (_t2 * _f0_1 + _t8 * _f0_2 + _t15 * _t13
+                + (_xi_J2 * _t12 - _xi_J1 * _t16) * _t17);
+        out[3] = g1 + (_t7 * _f0_1 + _t14 * _f0_2);
+        out[4] = g2 + (_t5 * _f0_1 + _t11 * _f0_2);
+        out[5] = g3 + (_t4 * _f0_1 + _t10 * _f0_2);
+    }
+
+    /// `phi1(ad*_xi) mu`, `phi1(z) = (e^z - 1)/z`
+    ///
+    /// 61 additions, 82 multiplications, 4 function calls.
+    #[inline]
+    fn dexp_dual(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
+        let [[_xi_J1, _xi_J2, _xi_J3, _xi_P1, _xi_P2, _xi_P3]] = xi.data.0;
+        let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
+        let _t0 = m2 * _xi_J3 - m3 * _xi_J2 - g3 * _xi_P2 + g2 * _xi_P3;
+        let _t1 = _xi_J1 * _xi_J1 + _xi_J2 * _xi_J2 + _xi_J3 * _xi_J3;
+        let [_f0_2, _f0_3, _f0_4, _f0_5] = ::lie_runtime::closed::stumpff::<
+            S,
+            2,
+            4,
+        >(_t1);
+        let _t2 = m1 * _xi_J2 - m2 * _xi_J1 - g2 * _xi_P1 + g1 * _xi_P2;
+        let _t3 = m3 * _xi_J1 - m1 * _xi_J3 + g3 * _xi_P1 - g1 * _xi_P3;
+        let _t4 = g1 * _xi_J2 - g2 * _xi_J1;
+        let _t5 = g3 * _xi_J1 - g1 * _xi_J3;
+        let _t6 = _xi_J3 * _t3 - _xi_J2 * _t2 - _xi_P2 * _t4 + _xi_P3 * _t5;
+        let _t7 = g2 * _xi_J3 - g3 * _xi_J2;
+        let _t8 = _xi_J2 * _t0 - _xi_J1 * _t3 - _xi_P1 * _t5 + _xi_P2 * _t7;
+        let _t9 = _xi_J1 * _t2 - _xi_J3 * _t0 + _xi_P1 * _t4 - _xi_P3 * _t7;
+        let _t10 = _xi_J2 * _t7 - _xi_J1 * _t5;
+        let _t11 = _xi_J1 * _t4 - _xi_J3 * _t7;
+        let _t12 = _xi_J3 * _t9 - _xi_J2 * _t8 - _xi_P2 * _t10 + _xi_P3 * _t11
+            + _t0 * _t1;
+        let _t13 = (_f0_3 - _f0_4 * S::from_f64(2.0)) * S::from_f64(0.5);
+        let _t14 = _xi_J3 * _t5 - _xi_J2 * _t4;
+        let _t15 = _xi_J2 * _t6 - _xi_J1 * _t9 - _xi_P1 * _t11 + _xi_P2 * _t14
+            + _t2 * _t1;
+        let _t16 = _xi_J1 * _t8 - _xi_J3 * _t6 + _xi_P1 * _t10 - _xi_P3 * _t14
+            + _t3 * _t1;
+        let _t17 = (_f0_4 - _f0_5 * S::from_f64(3.0)) * S::from_f64(0.5);
+        out[0] = m1
+            + (_t0 * _f0_2 + _t6 * _f0_3 + _t12 * _t13
+                + (_xi_J3 * _t16 - _xi_J2 * _t15) * _t17);
+        out[1] = m2
+            + (_t3 * _f0_2 + _t9 * _f0_3 + _t16 * _t13
+                + (_xi_J1 * _t15 - _xi_J3 * _t12) * _t17);
+        out[2] = m3
+            + (_t2 * _f0_2 + _t8 * _f0_3 + _t15 * _t13
+                + (_xi_J2 * _t12 - _xi_J1 * _t16) * _t17);
+        out[3] = g1 + (_t7 * _f0_2 + _t14 * _f0_3);
+        out[4] = g2 + (_t5 * _f0_2 + _t11 * _f0_3);
+        out[5] = g3 + (_t4 * _f0_2 + _t10 * _f0_3);
+    }
 }
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
@@ -609,6 +728,8 @@ impl<S: ::lie_runtime::Scalar> HeavyTopSystem<S> {
             minus_mgl_c2: _constant(self.minus_mgl_c2),
             minus_mgl_c3: _constant(self.minus_mgl_c3),
             minus_mgl_c1: _constant(self.minus_mgl_c1),
+            _k18: _constant(self._k18),
+            _k19: _constant(self._k19),
         }
     }
 }
@@ -624,6 +745,13 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Widen<S> for HeavyTopSystem<S> {
     type Widened = HeavyTopSystem<S::Wide>;
     fn widen(&self) -> Self::Widened {
         self._over(S::widen)
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Expand<S> for HeavyTopSystem<S> {
+    type Expanded = HeavyTopSystem<::lie_runtime::scalar::Truncated<S>>;
+    fn expand(&self) -> Self::Expanded {
+        self._over(::lie_runtime::scalar::Truncated::constant_of)
     }
 }
 
@@ -706,6 +834,74 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixPoisson<S> for HeavyTopSyste
     fn zero_matrix(&self) -> Self::Matrix {
         Self::Matrix::repeat(S::zero())
     }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::ColumnPoisson<S> for HeavyTopSystem<S> {
+    type Columns = ::lie_runtime::__private_0_1::SVector<S, 24>;
+    fn zero_columns(&self) -> Self::Columns {
+        Self::Columns::repeat(S::zero())
+    }
+
+    fn representation_size(&self) -> usize {
+        4
+    }
+
+    fn columns(&self) -> ::lie_runtime::__private_0_1::Columns<'_> {
+        const COLUMNS: ::lie_runtime::__private_0_1::Columns = ::lie_runtime::__private_0_1::Columns {
+            indices: &[0, 1, 3],
+            covectors: &[
+                &[::lie_runtime::__private_0_1::Entry::new(1, 2, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(0, 2, -1.0)],
+                &[
+                    ::lie_runtime::__private_0_1::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 0, -0.5),
+                ],
+                &[::lie_runtime::__private_0_1::Entry::new(2, 0, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(2, 1, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(2, 2, 1.0)],
+            ],
+        };
+        COLUMNS
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::VectorPoisson<S> for HeavyTopSystem<S> {
+    fn rotation(&self) -> [usize; 3] {
+        [0, 1, 2]
+    }
+
+    fn vectors(&self) -> &[[::lie_runtime::__private_0_1::Entry; 3]] {
+        const VECTORS: &[[::lie_runtime::__private_0_1::Entry; 3]] = &[
+            [
+                ::lie_runtime::__private_0_1::Entry::new(3, 0, 1.0),
+                ::lie_runtime::__private_0_1::Entry::new(4, 0, 1.0),
+                ::lie_runtime::__private_0_1::Entry::new(5, 0, 1.0),
+            ],
+        ];
+        VECTORS
+    }
+
+    #[inline]
+    fn scale(&self) -> S {
+        S::one()
+    }
+
+    type Labels = ::lie_runtime::__private_0_1::SVector<S, 1>;
+    fn zero_labels(&self) -> Self::Labels {
+        Self::Labels::repeat(S::zero())
+    }
+
+    type Quaternions = ::lie_runtime::__private_0_1::SVector<S, 8>;
+    fn zero_quaternions(&self) -> Self::Quaternions {
+        Self::Quaternions::repeat(S::zero())
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::CollectivePoisson<S>
+for HeavyTopSystem<S> {
+    type Lift = ::lie_runtime::methods::Quaternion;
 }
 
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
@@ -1066,6 +1262,10 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopMidpoint<'
         residual[3] = _b3;
         residual[4] = _b4;
         residual[5] = _b5;
+    }
+
+    fn jacobian_cost(&self) -> f64 {
+        512.0 / 145.0
     }
 
     fn velocity(
@@ -1682,6 +1882,10 @@ for HeavyTopCayleyMidpoint<'_, S> {
         residual[5] = _b5;
     }
 
+    fn jacobian_cost(&self) -> f64 {
+        630.0 / 160.0
+    }
+
     fn group_factor(
         &mut self,
         unknown: &Self::State,
@@ -1709,6 +1913,510 @@ impl<
         h: S,
     ) -> Self::Equation<'a> {
         HeavyTopCayleyMidpoint::new(self, h)
+    }
+}
+
+/// The retraction method with the exponential, unknown the momentum `m` at the midpoint:
+/// `m - phi1(ad*_x) mu = 0` with `x = h grad H(m)`, `phi1(z) = (e^z - 1)/z`, then `mu1 = exp(ad*_x) mu`.
+#[derive(Clone, Debug)]
+#[allow(non_snake_case)]
+pub struct HeavyTopExpMidpoint<'a, S: ::lie_runtime::Scalar> {
+    system: &'a HeavyTopSystem<S>,
+    base: ::lie_runtime::__private_0_1::SVector<S, 6>,
+    h: S,
+    /// `h/I2`
+    h_over_I2: S,
+    /// `h/I3`
+    h_over_I3: S,
+    /// `mgl*c2*h`
+    mgl_c2_h: S,
+    /// `mgl*c3*h`
+    mgl_c3_h: S,
+    /// `h/I1`
+    h_over_I1: S,
+    /// `mgl*c1*h`
+    mgl_c1_h: S,
+    /// `mgl*c3*h^2/I1`
+    _h6: S,
+    /// `mgl*c2*h^2/I1`
+    _h7: S,
+    /// `h/(2*I1)`
+    h_over_2_I1: S,
+    /// `mgl*c1*h^2/I1`
+    _h9: S,
+    /// `2*h/I1`
+    _h10: S,
+    /// `mgl*c2*h^2/I2`
+    _h11: S,
+    /// `h/(2*I2)`
+    h_over_2_I2: S,
+    /// `mgl*c3*h^2/I2`
+    _h13: S,
+    /// `mgl*c1*h^2/I2`
+    _h14: S,
+    /// `2*h/I2`
+    _h15: S,
+    /// `mgl*c3*h^2/I3`
+    _h16: S,
+    /// `h/(2*I3)`
+    h_over_2_I3: S,
+    /// `mgl*c2*h^2/I3`
+    _h18: S,
+    /// `mgl*c1*h^2/I3`
+    _h19: S,
+    /// `2*h/I3`
+    _h20: S,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> HeavyTopExpMidpoint<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
+    #[must_use]
+    pub fn new(system: &'a HeavyTopSystem<S>, h: S) -> Self {
+        let _t0 = S::one() / system._parameters.I2;
+        let _t1 = h * _t0;
+        let _t2 = S::one() / system._parameters.I3;
+        let _t3 = h * _t2;
+        let _t4 = system._parameters.mgl * h;
+        let _t5 = S::one() / system._parameters.I1;
+        let _t6 = h * _t5;
+        let _t7 = h * _t4;
+        let _t8 = system._parameters.c3 * _t7;
+        let _t9 = system._parameters.c2 * _t7;
+        let _t10 = system._parameters.c1 * _t7;
+        Self {
+            system,
+            base: ::lie_runtime::Poisson::zero_state(system),
+            h,
+            h_over_I2: _t1,
+            h_over_I3: _t3,
+            mgl_c2_h: system._parameters.c2 * _t4,
+            mgl_c3_h: system._parameters.c3 * _t4,
+            h_over_I1: _t6,
+            mgl_c1_h: system._parameters.c1 * _t4,
+            _h6: _t5 * _t8,
+            _h7: _t5 * _t9,
+            h_over_2_I1: _t6 * S::from_f64(0.5),
+            _h9: _t5 * _t10,
+            _h10: _t6 * S::from_f64(2.0),
+            _h11: _t0 * _t9,
+            h_over_2_I2: _t1 * S::from_f64(0.5),
+            _h13: _t0 * _t8,
+            _h14: _t0 * _t10,
+            _h15: _t1 * S::from_f64(2.0),
+            _h16: _t2 * _t8,
+            h_over_2_I3: _t3 * S::from_f64(0.5),
+            _h18: _t2 * _t9,
+            _h19: _t2 * _t10,
+            _h20: _t3 * S::from_f64(2.0),
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for HeavyTopExpMidpoint<'_, S> {
+    type State = ::lie_runtime::__private_0_1::SVector<S, 6>;
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 6, 6>;
+    fn zero_unknown(&self) -> Self::Unknown {
+        Self::State::repeat(S::zero())
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+
+    #[inline]
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
+    }
+
+    /// `r = m - phi1(ad*_x) mu`, `x = h grad H(m)`
+    ///
+    /// 67 additions, 85 multiplications, 4 function calls.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
+        let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
+        let _t0 = _u_m2 * self.h_over_I2;
+        let _t1 = _u_m3 * self.h_over_I3;
+        let _t2 = m2 * _t1 - m3 * _t0 - g3 * self.mgl_c2_h + g2 * self.mgl_c3_h;
+        let _t3 = _u_m1 * self.h_over_I1;
+        let _t4 = _t3 * _t3 + _t0 * _t0 + _t1 * _t1;
+        let [_f0_2, _f0_3, _f0_4, _f0_5] = ::lie_runtime::closed::stumpff::<
+            S,
+            2,
+            4,
+        >(_t4);
+        let _t5 = m1 * _t0 - m2 * _t3 - g2 * self.mgl_c1_h + g1 * self.mgl_c2_h;
+        let _t6 = m3 * _t3 - m1 * _t1 + g3 * self.mgl_c1_h - g1 * self.mgl_c3_h;
+        let _t7 = g1 * _t0 - g2 * _t3;
+        let _t8 = g3 * _t3 - g1 * _t1;
+        let _t9 = _t1 * _t6 - _t0 * _t5 - _t7 * self.mgl_c2_h + _t8 * self.mgl_c3_h;
+        let _t10 = g2 * _t1 - g3 * _t0;
+        let _t11 = _t0 * _t2 - _t3 * _t6 - _t8 * self.mgl_c1_h + _t10 * self.mgl_c2_h;
+        let _t12 = _t3 * _t5 - _t1 * _t2 + _t7 * self.mgl_c1_h - _t10 * self.mgl_c3_h;
+        let _t13 = _t0 * _t10 - _t3 * _t8;
+        let _t14 = _t3 * _t7 - _t1 * _t10;
+        let _t15 = _t1 * _t12 - _t0 * _t11 - _t13 * self.mgl_c2_h + _t14 * self.mgl_c3_h
+            + _t2 * _t4;
+        let _t16 = (_f0_3 - _f0_4 * S::from_f64(2.0)) * S::from_f64(0.5);
+        let _t17 = _t1 * _t8 - _t0 * _t7;
+        let _t18 = _t0 * _t9 - _t3 * _t12 - _t14 * self.mgl_c1_h + _t17 * self.mgl_c2_h
+            + _t5 * _t4;
+        let _t19 = _t3 * _t11 - _t1 * _t9 + _t13 * self.mgl_c1_h - _t17 * self.mgl_c3_h
+            + _t6 * _t4;
+        let _t20 = (_f0_4 - _f0_5 * S::from_f64(3.0)) * S::from_f64(0.5);
+        residual[0] = _u_m1 - m1
+            - (_t2 * _f0_2 + _t9 * _f0_3 + _t15 * _t16
+                + (_t1 * _t19 - _t0 * _t18) * _t20);
+        residual[1] = _u_m2 - m2
+            - (_t6 * _f0_2 + _t12 * _f0_3 + _t19 * _t16
+                + (_t3 * _t18 - _t1 * _t15) * _t20);
+        residual[2] = _u_m3 - m3
+            - (_t5 * _f0_2 + _t11 * _f0_3 + _t18 * _t16
+                + (_t0 * _t15 - _t3 * _t19) * _t20);
+        residual[3] = _u_g1 - g1 - (_t10 * _f0_2 + _t17 * _f0_3);
+        residual[4] = _u_g2 - g2 - (_t8 * _f0_2 + _t14 * _f0_3);
+        residual[5] = _u_g3 - g3 - (_t7 * _f0_2 + _t13 * _f0_3);
+    }
+
+    /// `r = m - phi1(ad*_x) mu`, `x = h grad H(m)`, and `dr/dm`
+    ///
+    /// 227 additions, 318 multiplications, 6 function calls.
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::State,
+        residual: &mut Self::State,
+        matrix: &mut Self::Matrix,
+    ) {
+        let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
+        let [[_u_m1, _u_m2, _u_m3, _u_g1, _u_g2, _u_g3]] = unknown.data.0;
+        let _t0 = _u_m2 * self.h_over_I2;
+        let _t1 = m3 * _t0;
+        let _t2 = _u_m3 * self.h_over_I3;
+        let _t3 = m2 * _t2;
+        let _t4 = _t3 - _t1 - g3 * self.mgl_c2_h + g2 * self.mgl_c3_h;
+        let _t5 = _u_m1 * self.h_over_I1;
+        let _t6 = _t5 * _t5 + _t0 * _t0 + _t2 * _t2;
+        let [_f0_2, _f0_3, _f0_4, _f0_5, _f0_6, _f0_7] = ::lie_runtime::closed::stumpff::<
+            S,
+            2,
+            6,
+        >(_t6);
+        let _t7 = m2 * _t5;
+        let _t8 = m1 * _t0;
+        let _t9 = _t8 - _t7 - g2 * self.mgl_c1_h + g1 * self.mgl_c2_h;
+        let _t10 = m3 * _t5;
+        let _t11 = m1 * _t2;
+        let _t12 = _t10 - _t11 + g3 * self.mgl_c1_h - g1 * self.mgl_c3_h;
+        let _t13 = g2 * _t5;
+        let _t14 = g1 * _t0;
+        let _t15 = _t14 - _t13;
+        let _t16 = g3 * _t5;
+        let _t17 = g1 * _t2;
+        let _t18 = _t16 - _t17;
+        let _t19 = _t2 * _t12 - _t0 * _t9 - _t15 * self.mgl_c2_h + _t18 * self.mgl_c3_h;
+        let _t20 = g3 * _t0;
+        let _t21 = g2 * _t2;
+        let _t22 = _t21 - _t20;
+        let _t23 = _t0 * _t4 - _t5 * _t12 - _t18 * self.mgl_c1_h + _t22 * self.mgl_c2_h;
+        let _t24 = _t5 * _t9 - _t2 * _t4 + _t15 * self.mgl_c1_h - _t22 * self.mgl_c3_h;
+        let _t25 = _t0 * _t22 - _t5 * _t18;
+        let _t26 = _t5 * _t15 - _t2 * _t22;
+        let _t27 = _t2 * _t24 - _t0 * _t23 - _t25 * self.mgl_c2_h + _t26 * self.mgl_c3_h
+            + _t4 * _t6;
+        let _t28 = _f0_3 - _f0_4 * S::from_f64(2.0);
+        let _t29 = _t2 * _t18 - _t0 * _t15;
+        let _t30 = _t0 * _t19 - _t5 * _t24 - _t26 * self.mgl_c1_h + _t29 * self.mgl_c2_h
+            + _t9 * _t6;
+        let _t31 = _t5 * _t23 - _t2 * _t19 + _t25 * self.mgl_c1_h - _t29 * self.mgl_c3_h
+            + _t12 * _t6;
+        let _t32 = _t2 * _t31 - _t0 * _t30;
+        let _t33 = _f0_4 - _f0_5 * S::from_f64(3.0);
+        let _t34 = _t5 * _t30 - _t2 * _t27;
+        let _t35 = _t0 * _t27 - _t5 * _t31;
+        let _t36 = m3 * _t2;
+        let _t37 = m2 * _t0;
+        let _t38 = g3 * self._h6 + g2 * self._h7 + self.h_over_I1 * (_t36 + _t37);
+        let _t39 = _f0_4 - _f0_5 * S::from_f64(5.0) + _f0_6 * S::from_f64(8.0);
+        let _t40 = _f0_5 - _f0_6 * S::from_f64(7.0) + _f0_7 * S::from_f64(15.0);
+        let _t41 = _t27 * _t39 + _t32 * _t40
+            + S::from_f64(2.0) * (_t4 * _t28 + _t19 * _t33);
+        let _t42 = _t5 * self.h_over_2_I1;
+        let _t43 = g2 * self._h9 - self.h_over_I1 * (_t9 - _t7);
+        let _t44 = g3 * self._h9 + self.h_over_I1 * (_t12 + _t10);
+        let _t45 = _t15 - _t13;
+        let _t46 = self.h_over_I1 * self.mgl_c3_h;
+        let _t47 = _t18 + _t16;
+        let _t48 = self.h_over_I1 * self.mgl_c2_h;
+        let _t49 = _t5 * self._h10;
+        let _t50 = _t2 * _t43 - _t0 * _t44 - _t45 * _t46 - _t47 * _t48 - _t4 * _t49;
+        let _t51 = g3 * _t2;
+        let _t52 = g2 * _t0;
+        let _t53 = _t51 + _t52;
+        let _t54 = self.h_over_I1 * self.mgl_c1_h;
+        let _t55 = _t23 + m3 * _t6;
+        let _t56 = _t2 * _t38 + _t5 * _t44 + _t53 * _t46 + _t47 * _t54 - _t12 * _t49
+            - self.h_over_I1 * _t55;
+        let _t57 = _t24 + m2 * _t6;
+        let _t58 = _t0 * _t38 + _t5 * _t43 + _t53 * _t48 - _t45 * _t54 + _t9 * _t49
+            - self.h_over_I1 * _t57;
+        let _t59 = m3 * _f0_2;
+        let _t60 = g1 * self._h11 + self.h_over_I2 * (_t9 + _t8);
+        let _t61 = _t0 * self.h_over_2_I2;
+        let _t62 = m1 * _t5;
+        let _t63 = g3 * self._h13 + g1 * self._h14 + self.h_over_I2 * (_t36 + _t62);
+        let _t64 = g3 * self._h11 - self.h_over_I2 * (_t4 - _t1);
+        let _t65 = g1 * _t5;
+        let _t66 = _t51 + _t65;
+        let _t67 = self.h_over_I2 * self.mgl_c3_h;
+        let _t68 = _t22 - _t20;
+        let _t69 = self.h_over_I2 * self.mgl_c2_h;
+        let _t70 = _t0 * self._h15;
+        let _t71 = _t2 * _t63 + _t0 * _t64 + _t66 * _t67 - _t68 * _t69 + _t4 * _t70
+            - self.h_over_I2 * _t55;
+        let _t72 = _t15 + _t14;
+        let _t73 = self.h_over_I2 * self.mgl_c1_h;
+        let _t74 = _t2 * _t60 - _t5 * _t64 + _t72 * _t67 + _t68 * _t73 + _t12 * _t70;
+        let _t75 = _t19 + m1 * _t6;
+        let _t76 = _t0 * _t60 + _t5 * _t63 + _t72 * _t69 + _t66 * _t73 - _t9 * _t70
+            - self.h_over_I2 * _t75;
+        let _t77 = m2 * _f0_2;
+        let _t78 = g1 * self._h16 - self.h_over_I3 * (_t12 - _t11);
+        let _t79 = _t2 * self.h_over_2_I3;
+        let _t80 = g2 * self._h16 + self.h_over_I3 * (_t4 + _t3);
+        let _t81 = g2 * self._h18 + g1 * self._h19 + self.h_over_I3 * (_t37 + _t62);
+        let _t82 = _t22 + _t21;
+        let _t83 = self.h_over_I3 * self.mgl_c3_h;
+        let _t84 = _t52 + _t65;
+        let _t85 = self.h_over_I3 * self.mgl_c2_h;
+        let _t86 = _t2 * self._h20;
+        let _t87 = _t2 * _t80 + _t0 * _t81 + _t82 * _t83 + _t84 * _t85 - _t4 * _t86
+            - self.h_over_I3 * _t57;
+        let _t88 = _t18 - _t17;
+        let _t89 = self.h_over_I3 * self.mgl_c1_h;
+        let _t90 = _t2 * _t78 + _t5 * _t81 - _t88 * _t83 + _t84 * _t89 + _t12 * _t86
+            - self.h_over_I3 * _t75;
+        let _t91 = _t0 * _t78 - _t5 * _t80 - _t88 * _t85 - _t82 * _t89 - _t9 * _t86;
+        let _t92 = _t31 * _t39 + _t34 * _t40
+            + S::from_f64(2.0) * (_t12 * _t28 + _t24 * _t33);
+        let _t93 = m1 * _f0_2;
+        let _t94 = _t30 * _t39 + _t35 * _t40
+            + S::from_f64(2.0) * (_t9 * _t28 + _t23 * _t33);
+        let _t95 = _t22 * _t28 + _t29 * _t33;
+        let _t96 = self.h_over_I1 * _f0_3;
+        let _t97 = self.h_over_I2 * _f0_3;
+        let _t98 = g3 * _f0_2;
+        let _t99 = self.h_over_I3 * _f0_3;
+        let _t100 = g2 * _f0_2;
+        let _t101 = _t18 * _t28 + _t26 * _t33;
+        let _t102 = g1 * _f0_2;
+        let _t103 = _t15 * _t28 + _t25 * _t33;
+        residual[0] = _u_m1 - m1
+            - (_t4 * _f0_2 + _t19 * _f0_3
+                + (_t27 * _t28 + _t32 * _t33) * S::from_f64(0.5));
+        residual[1] = _u_m2 - m2
+            - (_t12 * _f0_2 + _t24 * _f0_3
+                + S::from_f64(0.5) * (_t31 * _t28 + _t34 * _t33));
+        residual[2] = _u_m3 - m3
+            - (_t9 * _f0_2 + _t23 * _f0_3
+                + S::from_f64(0.5) * (_t30 * _t28 + _t35 * _t33));
+        residual[3] = _u_g1 - g1 - (_t22 * _f0_2 + _t29 * _f0_3);
+        residual[4] = _u_g2 - g2 - (_t18 * _f0_2 + _t26 * _f0_3);
+        residual[5] = _u_g3 - g3 - (_t15 * _f0_2 + _t25 * _f0_3);
+        matrix[(0, 0)] = S::one() - _f0_3 * _t38 + _t41 * _t42
+            + S::from_f64(0.5) * (_t28 * _t50 + _t33 * (_t2 * _t56 + _t0 * _t58));
+        matrix[(0, 1)] = self.h_over_I2 * _t59 + _f0_3 * _t60 + _t41 * _t61
+            - S::from_f64(0.5)
+                * (_t28 * _t71
+                    - _t33 * (_t30 * self.h_over_I2 - _t2 * _t74 - _t0 * _t76));
+        matrix[(0, 2)] = _f0_3 * _t78 - self.h_over_I3 * _t77 + _t41 * _t79
+            + S::from_f64(0.5)
+                * (_t28 * _t87
+                    - _t33 * (_t31 * self.h_over_I3 + _t2 * _t90 + _t0 * _t91));
+        matrix[(1, 0)] = _f0_3 * _t43 - self.h_over_I1 * _t59 + _t92 * _t42
+            + S::from_f64(0.5)
+                * (_t28 * _t56
+                    - _t33 * (_t30 * self.h_over_I1 + _t2 * _t50 + _t5 * _t58));
+        matrix[(1, 1)] = S::one() - _f0_3 * _t63 + _t92 * _t61
+            - S::from_f64(0.5) * (_t28 * _t74 - _t33 * (_t2 * _t71 + _t5 * _t76));
+        matrix[(1, 2)] = self.h_over_I3 * _t93 + _f0_3 * _t80 + _t92 * _t79
+            - S::from_f64(0.5)
+                * (_t28 * _t90
+                    - _t33 * (_t27 * self.h_over_I3 - _t2 * _t87 + _t5 * _t91));
+        matrix[(2, 0)] = self.h_over_I1 * _t77 + _f0_3 * _t44 + _t94 * _t42
+            - S::from_f64(0.5)
+                * (_t28 * _t58
+                    - _t33 * (_t31 * self.h_over_I1 + _t0 * _t50 - _t5 * _t56));
+        matrix[(2, 1)] = _f0_3 * _t64 - self.h_over_I2 * _t93 + _t94 * _t61
+            + S::from_f64(0.5)
+                * (_t28 * _t76
+                    - _t33 * (_t27 * self.h_over_I2 + _t0 * _t71 - _t5 * _t74));
+        matrix[(2, 2)] = S::one() - _f0_3 * _t81 + _t94 * _t79
+            + S::from_f64(0.5) * (_t28 * _t91 + _t33 * (_t0 * _t87 + _t5 * _t90));
+        matrix[(3, 0)] = _t5 * self.h_over_I1 * _t95 - _t53 * _t96;
+        matrix[(3, 1)] = _t72 * _t97 + self.h_over_I2 * (_t98 + _t0 * _t95);
+        matrix[(3, 2)] = -(_t88 * _t99) - self.h_over_I3 * (_t100 - _t2 * _t95);
+        matrix[(3, 3)] = S::one();
+        matrix[(4, 0)] = -(_t45 * _t96) - self.h_over_I1 * (_t98 - _t5 * _t101);
+        matrix[(4, 1)] = _t0 * self.h_over_I2 * _t101 - _t66 * _t97;
+        matrix[(4, 2)] = _t82 * _t99 + self.h_over_I3 * (_t102 + _t2 * _t101);
+        matrix[(4, 4)] = S::one();
+        matrix[(5, 0)] = _t47 * _t96 + self.h_over_I1 * (_t100 + _t5 * _t103);
+        matrix[(5, 1)] = -(_t68 * _t97) - self.h_over_I2 * (_t102 - _t0 * _t103);
+        matrix[(5, 2)] = _t2 * self.h_over_I3 * _t103 - _t84 * _t99;
+        matrix[(5, 5)] = S::one();
+    }
+
+    /// `mu1 = exp(ad*_x) mu`
+    ///
+    /// 61 additions, 84 multiplications, 4 function calls.
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        let [[m1, m2, m3, g1, g2, g3]] = self.base.data.0;
+        let [[_u_m1, _u_m2, _u_m3, _, _, _]] = unknown.data.0;
+        let _t0 = _u_m2 * self.h_over_I2;
+        let _t1 = _u_m3 * self.h_over_I3;
+        let _t2 = m2 * _t1 - m3 * _t0 - g3 * self.mgl_c2_h + g2 * self.mgl_c3_h;
+        let _t3 = _u_m1 * self.h_over_I1;
+        let _t4 = _t3 * _t3 + _t0 * _t0 + _t1 * _t1;
+        let [_f0_1, _f0_2, _f0_3, _f0_4] = ::lie_runtime::closed::stumpff::<
+            S,
+            1,
+            4,
+        >(_t4);
+        let _t5 = m1 * _t0 - m2 * _t3 - g2 * self.mgl_c1_h + g1 * self.mgl_c2_h;
+        let _t6 = m3 * _t3 - m1 * _t1 + g3 * self.mgl_c1_h - g1 * self.mgl_c3_h;
+        let _t7 = g1 * _t0 - g2 * _t3;
+        let _t8 = g3 * _t3 - g1 * _t1;
+        let _t9 = _t1 * _t6 - _t0 * _t5 - _t7 * self.mgl_c2_h + _t8 * self.mgl_c3_h;
+        let _t10 = g2 * _t1 - g3 * _t0;
+        let _t11 = _t0 * _t2 - _t3 * _t6 - _t8 * self.mgl_c1_h + _t10 * self.mgl_c2_h;
+        let _t12 = _t3 * _t5 - _t1 * _t2 + _t7 * self.mgl_c1_h - _t10 * self.mgl_c3_h;
+        let _t13 = _t0 * _t10 - _t3 * _t8;
+        let _t14 = _t3 * _t7 - _t1 * _t10;
+        let _t15 = _t1 * _t12 - _t0 * _t11 - _t13 * self.mgl_c2_h + _t14 * self.mgl_c3_h
+            + _t2 * _t4;
+        let _t16 = (_f0_2 - _f0_3) * S::from_f64(0.5);
+        let _t17 = _t1 * _t8 - _t0 * _t7;
+        let _t18 = _t0 * _t9 - _t3 * _t12 - _t14 * self.mgl_c1_h + _t17 * self.mgl_c2_h
+            + _t5 * _t4;
+        let _t19 = _t3 * _t11 - _t1 * _t9 + _t13 * self.mgl_c1_h - _t17 * self.mgl_c3_h
+            + _t6 * _t4;
+        let _t20 = (_f0_3 - _f0_4 * S::from_f64(2.0)) * S::from_f64(0.5);
+        mu[0] = m1
+            + (_t2 * _f0_1 + _t9 * _f0_2 + _t15 * _t16
+                + (_t1 * _t19 - _t0 * _t18) * _t20);
+        mu[1] = m2
+            + (_t6 * _f0_1 + _t12 * _f0_2 + _t19 * _t16
+                + (_t3 * _t18 - _t1 * _t15) * _t20);
+        mu[2] = m3
+            + (_t5 * _f0_1 + _t11 * _f0_2 + _t18 * _t16
+                + (_t0 * _t15 - _t3 * _t19) * _t20);
+        mu[3] = g1 + (_t10 * _f0_1 + _t17 * _f0_2);
+        mu[4] = g2 + (_t8 * _f0_1 + _t14 * _f0_2);
+        mu[5] = g3 + (_t7 * _f0_1 + _t13 * _f0_2);
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::from_f64(0.5), &field);
+    }
+
+    /// Sparse elimination in the order [3, 4, 5, 0, 1, 2], 0 entries of fill-in: 26 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix[(0, 2)];
+        let _a1_2 = matrix[(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a2_0 = matrix[(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix[(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix[(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_2 = S::one() / _a2_2;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        matrix[(1, 2)] = _a1_2;
+        matrix[(2, 0)] = _a2_0;
+        matrix[(2, 1)] = _a2_1;
+        matrix[(2, 2)] = _a2_2;
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        let _b3 = residual[3];
+        let _b4 = residual[4];
+        let _b5 = residual[5];
+        let _b0 = residual[0];
+        let _b1 = residual[1] - factors[(1, 0)] * _b0;
+        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+        let _b2 = _b2 * factors[(2, 2)];
+        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
+            * factors[(0, 0)];
+        let _b5 = _b5 - factors[(5, 0)] * _b0 - factors[(5, 1)] * _b1
+            - factors[(5, 2)] * _b2;
+        let _b4 = _b4 - factors[(4, 0)] * _b0 - factors[(4, 1)] * _b1
+            - factors[(4, 2)] * _b2;
+        let _b3 = _b3 - factors[(3, 0)] * _b0 - factors[(3, 1)] * _b1
+            - factors[(3, 2)] * _b2;
+        residual[0] = _b0;
+        residual[1] = _b1;
+        residual[2] = _b2;
+        residual[3] = _b3;
+        residual[4] = _b4;
+        residual[5] = _b5;
+    }
+
+    fn jacobian_cost(&self) -> f64 {
+        958.0 / 349.0
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::State,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        let mut equation = ::lie_runtime::generic::ExpMidpoint::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for HeavyTopSystem<S> {
+    type Equation<'a> = HeavyTopExpMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        HeavyTopExpMidpoint::new(self, h)
     }
 }
 
@@ -2405,8 +3113,202 @@ for HeavyTopSystem<S> {
 ::lie_runtime::generic_equations!(
     @ collective[S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S, 3
 );
+/// Taylor coefficients for `taylor`, order by order: 9 sums of products.
+#[derive(Clone, Debug)]
+#[allow(dead_code)]
+pub struct HeavyTopTaylor<'a, S: ::lie_runtime::Scalar> {
+    system: &'a HeavyTopSystem<S>,
+    kept: [S; 9],
+    sums: ::lie_runtime::recurrence::Sums<S, 9, 2>,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> HeavyTopTaylor<'a, S> {
+    /// The recurrence of a system.
+    #[must_use]
+    pub fn new(system: &'a HeavyTopSystem<S>) -> Self {
+        Self {
+            system,
+            kept: [S::zero(); 9],
+            sums: ::core::default::Default::default(),
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Recurrence<S> for HeavyTopTaylor<'_, S> {
+    type State = ::lie_runtime::__private_0_1::SVector<S, 6>;
+    type Carry = [S; 9];
+    /// 9 additions, 21 multiplications.
+    #[inline(always)]
+    fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry {
+        let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
+        let _t0 = m2 * self.system.inverse_I2;
+        let _t1 = m3 * self.system.inverse_I3;
+        let _t2 = m1 * self.system.inverse_I1;
+        self.kept = [m2, m3, m1, g3, _t0, g2, _t1, _t2, g1];
+        field[0] = g2 * self.system.mgl_c3 - g3 * self.system.mgl_c2
+            - m2 * m3 * self.system._k18;
+        field[1] = g3 * self.system.mgl_c1 - g1 * self.system.mgl_c3
+            + m1 * m3 * self.system._k10;
+        field[2] = g1 * self.system.mgl_c2 - g2 * self.system.mgl_c1
+            - m1 * m2 * self.system._k19;
+        field[3] = g2 * _t1 - g3 * _t0;
+        field[4] = g3 * _t2 - g1 * _t1;
+        field[5] = g1 * _t0 - g2 * _t2;
+        self.sums.begin()
+    }
+
+    /// 27 additions, 30 multiplications.
+    #[inline(always)]
+    fn advance(
+        &mut self,
+        _k: usize,
+        _rest: Self::Carry,
+        coefficient: &Self::State,
+        field: &mut Self::State,
+    ) -> Self::Carry {
+        let [[m1, m2, m3, g1, g2, g3]] = coefficient.data.0;
+        let _t0 = self.system.inverse_I2 * m2;
+        let _t1 = self.system.inverse_I3 * m3;
+        let _t2 = self.system.inverse_I1 * m1;
+        field[0] = self.system.mgl_c3 * g2 - self.system.mgl_c2 * g3
+            - self.system._k18 * (self.kept[0] * m3 + m2 * self.kept[1] + _rest[0]);
+        field[1] = self.system.mgl_c1 * g3 - self.system.mgl_c3 * g1
+            + self.system._k10 * (self.kept[2] * m3 + m1 * self.kept[1] + _rest[1]);
+        field[2] = self.system.mgl_c2 * g1 - self.system.mgl_c1 * g2
+            - self.system._k19 * (self.kept[2] * m2 + m1 * self.kept[0] + _rest[2]);
+        field[3] = self.kept[5] * _t1 + g2 * self.kept[6] + _rest[4]
+            - (self.kept[3] * _t0 + g3 * self.kept[4] + _rest[3]);
+        field[4] = self.kept[3] * _t2 + g3 * self.kept[7] + _rest[5]
+            - (self.kept[8] * _t1 + g1 * self.kept[6] + _rest[6]);
+        field[5] = self.kept[8] * _t0 + g1 * self.kept[4] + _rest[8]
+            - (self.kept[5] * _t2 + g2 * self.kept[7] + _rest[7]);
+        self.sums
+            .push(
+                _k,
+                [m2, m1, m1, g3, g2, g3, g1, g2, g1],
+                [m3, m3, m2, _t0, _t1, _t2, _t1, _t2, _t0],
+            )
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Series<S> for HeavyTopSystem<S> {
+    type Recurrence<'a> = HeavyTopTaylor<'a, S> where Self: 'a;
+    fn series(&self) -> Self::Recurrence<'_> {
+        HeavyTopTaylor::new(self)
+    }
+}
+
+/// Taylor coefficients for `lie-taylor`, order by order: 9 sums of products.
+#[derive(Clone, Debug)]
+#[allow(dead_code)]
+pub struct HeavyTopLieTaylor<'a, S: ::lie_runtime::Scalar> {
+    system: &'a HeavyTopSystem<S>,
+    kept: [S; 9],
+    sums: ::lie_runtime::recurrence::Sums<S, 9, 2>,
+    gradient: ::lie_runtime::__private_0_1::SVector<S, 6>,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> HeavyTopLieTaylor<'a, S> {
+    /// The recurrence of a system.
+    #[must_use]
+    pub fn new(system: &'a HeavyTopSystem<S>) -> Self {
+        Self {
+            system,
+            kept: [S::zero(); 9],
+            sums: ::core::default::Default::default(),
+            gradient: ::lie_runtime::Poisson::zero_state(system),
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Recurrence<S>
+for HeavyTopLieTaylor<'_, S> {
+    type State = ::lie_runtime::__private_0_1::SVector<S, 6>;
+    type Carry = [S; 9];
+    /// 9 additions, 21 multiplications.
+    #[inline(always)]
+    fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry {
+        let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
+        let _t0 = m2 * self.system.inverse_I2;
+        let _t1 = m3 * self.system.inverse_I3;
+        let _t2 = m1 * self.system.inverse_I1;
+        self.kept = [m2, m3, m1, g3, _t0, g2, _t1, _t2, g1];
+        field[0] = g2 * self.system.mgl_c3 - g3 * self.system.mgl_c2
+            - m2 * m3 * self.system._k18;
+        field[1] = g3 * self.system.mgl_c1 - g1 * self.system.mgl_c3
+            + m1 * m3 * self.system._k10;
+        field[2] = g1 * self.system.mgl_c2 - g2 * self.system.mgl_c1
+            - m1 * m2 * self.system._k19;
+        field[3] = g2 * _t1 - g3 * _t0;
+        field[4] = g3 * _t2 - g1 * _t1;
+        field[5] = g1 * _t0 - g2 * _t2;
+        self.gradient[0] = _t2;
+        self.gradient[1] = _t0;
+        self.gradient[2] = _t1;
+        self.gradient[3] = self.system.mgl_c1;
+        self.gradient[4] = self.system.mgl_c2;
+        self.gradient[5] = self.system.mgl_c3;
+        self.sums.begin()
+    }
+
+    /// 27 additions, 30 multiplications.
+    #[inline(always)]
+    fn advance(
+        &mut self,
+        _k: usize,
+        _rest: Self::Carry,
+        coefficient: &Self::State,
+        field: &mut Self::State,
+    ) -> Self::Carry {
+        let [[m1, m2, m3, g1, g2, g3]] = coefficient.data.0;
+        let _t0 = self.system.inverse_I2 * m2;
+        let _t1 = self.system.inverse_I3 * m3;
+        let _t2 = self.system.inverse_I1 * m1;
+        field[0] = self.system.mgl_c3 * g2 - self.system.mgl_c2 * g3
+            - self.system._k18 * (self.kept[0] * m3 + m2 * self.kept[1] + _rest[0]);
+        field[1] = self.system.mgl_c1 * g3 - self.system.mgl_c3 * g1
+            + self.system._k10 * (self.kept[2] * m3 + m1 * self.kept[1] + _rest[1]);
+        field[2] = self.system.mgl_c2 * g1 - self.system.mgl_c1 * g2
+            - self.system._k19 * (self.kept[2] * m2 + m1 * self.kept[0] + _rest[2]);
+        field[3] = self.kept[5] * _t1 + g2 * self.kept[6] + _rest[4]
+            - (self.kept[3] * _t0 + g3 * self.kept[4] + _rest[3]);
+        field[4] = self.kept[3] * _t2 + g3 * self.kept[7] + _rest[5]
+            - (self.kept[8] * _t1 + g1 * self.kept[6] + _rest[6]);
+        field[5] = self.kept[8] * _t0 + g1 * self.kept[4] + _rest[8]
+            - (self.kept[5] * _t2 + g2 * self.kept[7] + _rest[7]);
+        self.gradient[0] = _t2;
+        self.gradient[1] = _t0;
+        self.gradient[2] = _t1;
+        self.gradient[3] = S::zero();
+        self.gradient[4] = S::zero();
+        self.gradient[5] = S::zero();
+        self.sums
+            .push(
+                _k,
+                [m2, m1, m1, g3, g2, g3, g1, g2, g1],
+                [m3, m3, m2, _t0, _t1, _t2, _t1, _t2, _t0],
+            )
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::GradientRecurrence<S>
+for HeavyTopLieTaylor<'_, S> {
+    fn gradient(&self) -> &Self::State {
+        &self.gradient
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::GradientSeries<S> for HeavyTopSystem<S> {
+    type Recurrence<'a> = HeavyTopLieTaylor<'a, S> where Self: 'a;
+    fn gradient_series(&self) -> Self::Recurrence<'_> {
+        HeavyTopLieTaylor::new(self)
+    }
+}
+
 ::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : exp, generating2, generating4,
+    [S : ::lie_runtime::Scalar] HeavyTopSystem < S >, S : generating2, generating4,
     generating6, second_kind, generating2_cayley, generating4_cayley, isospectral2_cayley
 );
 /// The flows of the pieces of H in `m1`, `m2`, `m3`, `g1`, `g2`, `g3`.

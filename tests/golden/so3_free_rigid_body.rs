@@ -359,6 +359,53 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::LiePoisson<S> for FreeRigidBodySys
         out[(2, 0)] = _xi_e2;
         out[(2, 1)] = -_xi_e1;
     }
+
+    fn has_closed_exponential(&self) -> bool {
+        true
+    }
+
+    fn has_closed_slope(&self) -> bool {
+        false
+    }
+
+    /// `Ad*_(exp xi) mu = exp(ad*_xi) mu`
+    ///
+    /// 14 additions, 21 multiplications, 2 function calls.
+    #[inline]
+    fn coadjoint_action(
+        &self,
+        xi: &Self::State,
+        mu: &Self::State,
+        out: &mut Self::State,
+    ) {
+        let [[_xi_e1, _xi_e2, _xi_e3]] = xi.data.0;
+        let [[x, y, z]] = mu.data.0;
+        let _t0 = y * _xi_e3 - z * _xi_e2;
+        let _t1 = _xi_e1 * _xi_e1 + _xi_e2 * _xi_e2 + _xi_e3 * _xi_e3;
+        let [_f0_1, _f0_2] = ::lie_runtime::closed::stumpff::<S, 1, 2>(_t1);
+        let _t2 = x * _xi_e2 - y * _xi_e1;
+        let _t3 = z * _xi_e1 - x * _xi_e3;
+        out[0] = x + (_t0 * _f0_1 + (_xi_e3 * _t3 - _xi_e2 * _t2) * _f0_2);
+        out[1] = y + (_t3 * _f0_1 + (_xi_e1 * _t2 - _xi_e3 * _t0) * _f0_2);
+        out[2] = z + (_t2 * _f0_1 + (_xi_e2 * _t0 - _xi_e1 * _t3) * _f0_2);
+    }
+
+    /// `phi1(ad*_xi) mu`, `phi1(z) = (e^z - 1)/z`
+    ///
+    /// 14 additions, 21 multiplications, 2 function calls.
+    #[inline]
+    fn dexp_dual(&self, xi: &Self::State, mu: &Self::State, out: &mut Self::State) {
+        let [[_xi_e1, _xi_e2, _xi_e3]] = xi.data.0;
+        let [[x, y, z]] = mu.data.0;
+        let _t0 = y * _xi_e3 - z * _xi_e2;
+        let _t1 = _xi_e1 * _xi_e1 + _xi_e2 * _xi_e2 + _xi_e3 * _xi_e3;
+        let [_f0_2, _f0_3] = ::lie_runtime::closed::stumpff::<S, 2, 2>(_t1);
+        let _t2 = x * _xi_e2 - y * _xi_e1;
+        let _t3 = z * _xi_e1 - x * _xi_e3;
+        out[0] = x + (_t0 * _f0_2 + (_xi_e3 * _t3 - _xi_e2 * _t2) * _f0_3);
+        out[1] = y + (_t3 * _f0_2 + (_xi_e1 * _t2 - _xi_e3 * _t0) * _f0_3);
+        out[2] = z + (_t2 * _f0_2 + (_xi_e2 * _t0 - _xi_e1 * _t3) * _f0_3);
+    }
 }
 
 #[allow(non_snake_case, clippy::many_single_char_names)]
@@ -435,6 +482,13 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Widen<S> for FreeRigidBodySystem<S
     }
 }
 
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Expand<S> for FreeRigidBodySystem<S> {
+    type Expanded = FreeRigidBodySystem<::lie_runtime::scalar::Truncated<S>>;
+    fn expand(&self) -> Self::Expanded {
+        self._over(::lie_runtime::scalar::Truncated::constant_of)
+    }
+}
+
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::MatrixGroup<S> for FreeRigidBodySystem<S> {
     fn group(&self) -> ::lie_runtime::__private_0_1::Group<'_> {
         const GROUP: ::lie_runtime::__private_0_1::Group = ::lie_runtime::__private_0_1::Group {
@@ -508,6 +562,35 @@ for FreeRigidBodySystem<S> {
     }
 }
 
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::ColumnPoisson<S>
+for FreeRigidBodySystem<S> {
+    type Columns = ::lie_runtime::__private_0_1::SVector<S, 12>;
+    fn zero_columns(&self) -> Self::Columns {
+        Self::Columns::repeat(S::zero())
+    }
+
+    fn representation_size(&self) -> usize {
+        3
+    }
+
+    fn columns(&self) -> ::lie_runtime::__private_0_1::Columns<'_> {
+        const COLUMNS: ::lie_runtime::__private_0_1::Columns = ::lie_runtime::__private_0_1::Columns {
+            indices: &[0, 1],
+            covectors: &[
+                &[::lie_runtime::__private_0_1::Entry::new(1, 2, 1.0)],
+                &[::lie_runtime::__private_0_1::Entry::new(0, 2, -1.0)],
+                &[
+                    ::lie_runtime::__private_0_1::Entry::new(0, 1, 0.5),
+                    ::lie_runtime::__private_0_1::Entry::new(1, 0, -0.5),
+                ],
+            ],
+        };
+        COLUMNS
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
 impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for FreeRigidBodySystem<S> {
     fn spins(&self) -> &[[usize; 3]] {
         &[[0, 1, 2]]
@@ -522,6 +605,26 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::SpinPoisson<S> for FreeRigidBodySy
     fn zero_spinors(&self) -> Self::Spinors {
         ::lie_runtime::__private_0_1::SVector::from_element(S::zero())
     }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::IntegrablePoisson<S>
+for FreeRigidBodySystem<S> {
+    fn motion(&self) -> ::lie_runtime::__private_0_1::Motion {
+        ::lie_runtime::__private_0_1::Motion::Bodies
+    }
+
+    fn bodies(&self) -> &[[usize; 3]] {
+        ::lie_runtime::SpinPoisson::<S>::spins(self)
+    }
+
+    fn body_scale(&self, body: usize) -> S {
+        ::lie_runtime::SpinPoisson::<S>::scale(self, body)
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::CollectivePoisson<S>
+for FreeRigidBodySystem<S> {
+    type Lift = ::lie_runtime::methods::Hopf;
 }
 
 /// The Poisson midpoint rule, unknown `u = mu1`: `u - mu - h f((mu + u)/2) = 0`.
@@ -680,6 +783,10 @@ for FreeRigidBodyMidpoint<'_, S> {
         residual[0] = _b0;
         residual[1] = _b1;
         residual[2] = _b2;
+    }
+
+    fn jacobian_cost(&self) -> f64 {
+        170.0 / 76.0
     }
 
     fn velocity(
@@ -1585,6 +1692,10 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
         residual[2] = _b2;
     }
 
+    fn jacobian_cost(&self) -> f64 {
+        218.0 / 87.0
+    }
+
     fn group_factor(
         &mut self,
         unknown: &Self::State,
@@ -1612,6 +1723,245 @@ impl<
         h: S,
     ) -> Self::Equation<'a> {
         FreeRigidBodyCayleyMidpoint::new(self, h)
+    }
+}
+
+/// The retraction method with the exponential, unknown the momentum `m` at the midpoint:
+/// `m - phi1(ad*_x) mu = 0` with `x = h grad H(m)`, `phi1(z) = (e^z - 1)/z`, then `mu1 = exp(ad*_x) mu`.
+#[derive(Clone, Debug)]
+#[allow(non_snake_case)]
+pub struct FreeRigidBodyExpMidpoint<'a, S: ::lie_runtime::Scalar> {
+    system: &'a FreeRigidBodySystem<S>,
+    base: ::lie_runtime::__private_0_1::SVector<S, 3>,
+    h: S,
+    /// `h/I2`
+    h_over_I2: S,
+    /// `h/I3`
+    h_over_I3: S,
+    /// `h/I1`
+    h_over_I1: S,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyExpMidpoint<'a, S> {
+    /// The equation of a step of size h; what depends on h alone is computed here, once.
+    #[must_use]
+    pub fn new(system: &'a FreeRigidBodySystem<S>, h: S) -> Self {
+        Self {
+            system,
+            base: ::lie_runtime::Poisson::zero_state(system),
+            h,
+            h_over_I2: h / system._parameters.I2,
+            h_over_I3: h / system._parameters.I3,
+            h_over_I1: h / system._parameters.I1,
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S>
+for FreeRigidBodyExpMidpoint<'_, S> {
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
+    type Unknown = Self::State;
+    type Matrix = ::lie_runtime::__private_0_1::SMatrix<S, 3, 3>;
+    fn zero_unknown(&self) -> Self::Unknown {
+        Self::State::repeat(S::zero())
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        Self::Matrix::repeat(S::zero())
+    }
+
+    #[inline]
+    fn set_base(&mut self, mu: &Self::State) {
+        self.base = *mu;
+    }
+
+    /// `r = m - phi1(ad*_x) mu`, `x = h grad H(m)`
+    ///
+    /// 17 additions, 24 multiplications, 2 function calls.
+    #[inline]
+    fn residual(&mut self, unknown: &Self::State, residual: &mut Self::State) {
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = _u_y * self.h_over_I2;
+        let _t1 = _u_z * self.h_over_I3;
+        let _t2 = y * _t1 - z * _t0;
+        let _t3 = _u_x * self.h_over_I1;
+        let _t4 = _t3 * _t3 + _t0 * _t0 + _t1 * _t1;
+        let [_f0_2, _f0_3] = ::lie_runtime::closed::stumpff::<S, 2, 2>(_t4);
+        let _t5 = x * _t0 - y * _t3;
+        let _t6 = z * _t3 - x * _t1;
+        residual[0] = _u_x - x - (_t2 * _f0_2 + (_t1 * _t6 - _t0 * _t5) * _f0_3);
+        residual[1] = _u_y - y - (_t6 * _f0_2 + (_t3 * _t5 - _t1 * _t2) * _f0_3);
+        residual[2] = _u_z - z - (_t5 * _f0_2 + (_t0 * _t2 - _t3 * _t6) * _f0_3);
+    }
+
+    /// `r = m - phi1(ad*_x) mu`, `x = h grad H(m)`, and `dr/dm`
+    ///
+    /// 52 additions, 68 multiplications, 4 function calls.
+    #[inline]
+    fn linearize(
+        &mut self,
+        unknown: &Self::State,
+        residual: &mut Self::State,
+        matrix: &mut Self::Matrix,
+    ) {
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = _u_y * self.h_over_I2;
+        let _t1 = z * _t0;
+        let _t2 = _u_z * self.h_over_I3;
+        let _t3 = y * _t2;
+        let _t4 = _t3 - _t1;
+        let _t5 = _u_x * self.h_over_I1;
+        let _t6 = _t5 * _t5 + _t0 * _t0 + _t2 * _t2;
+        let [_f0_2, _f0_3, _f0_4, _f0_5] = ::lie_runtime::closed::stumpff::<
+            S,
+            2,
+            4,
+        >(_t6);
+        let _t7 = y * _t5;
+        let _t8 = x * _t0;
+        let _t9 = _t8 - _t7;
+        let _t10 = z * _t5;
+        let _t11 = x * _t2;
+        let _t12 = _t10 - _t11;
+        let _t13 = _t2 * _t12 - _t0 * _t9;
+        let _t14 = _t5 * _t9 - _t2 * _t4;
+        let _t15 = _t0 * _t4 - _t5 * _t12;
+        let _t16 = _f0_3 - _f0_4 * S::from_f64(2.0);
+        let _t17 = _f0_4 - _f0_5 * S::from_f64(3.0);
+        let _t18 = _t4 * _t16 + _t13 * _t17;
+        let _t19 = z * _t2;
+        let _t20 = y * _t0;
+        let _t21 = self.h_over_I1 * _f0_3;
+        let _t22 = self.h_over_I2 * _f0_3;
+        let _t23 = z * _f0_2;
+        let _t24 = self.h_over_I3 * _f0_3;
+        let _t25 = y * _f0_2;
+        let _t26 = _t12 * _t16 + _t14 * _t17;
+        let _t27 = x * _t5;
+        let _t28 = x * _f0_2;
+        let _t29 = _t9 * _t16 + _t15 * _t17;
+        residual[0] = _u_x - x - (_t4 * _f0_2 + _t13 * _f0_3);
+        residual[1] = _u_y - y - (_t12 * _f0_2 + _t14 * _f0_3);
+        residual[2] = _u_z - z - (_t9 * _f0_2 + _t15 * _f0_3);
+        matrix[(0, 0)] = S::one() + _t5 * self.h_over_I1 * _t18 - (_t19 + _t20) * _t21;
+        matrix[(0, 1)] = (_t9 + _t8) * _t22 + self.h_over_I2 * (_t23 + _t0 * _t18);
+        matrix[(0, 2)] = -((_t12 - _t11) * _t24) - self.h_over_I3 * (_t25 - _t2 * _t18);
+        matrix[(1, 0)] = -((_t9 - _t7) * _t21) - self.h_over_I1 * (_t23 - _t5 * _t26);
+        matrix[(1, 1)] = S::one() + _t0 * self.h_over_I2 * _t26 - (_t19 + _t27) * _t22;
+        matrix[(1, 2)] = (_t4 + _t3) * _t24 + self.h_over_I3 * (_t28 + _t2 * _t26);
+        matrix[(2, 0)] = (_t12 + _t10) * _t21 + self.h_over_I1 * (_t25 + _t5 * _t29);
+        matrix[(2, 1)] = -((_t4 - _t1) * _t22) - self.h_over_I2 * (_t28 - _t0 * _t29);
+        matrix[(2, 2)] = S::one() + _t2 * self.h_over_I3 * _t29 - (_t20 + _t27) * _t24;
+    }
+
+    /// `mu1 = exp(ad*_x) mu`
+    ///
+    /// 14 additions, 24 multiplications, 2 function calls.
+    #[inline]
+    fn result(&mut self, unknown: &Self::State, mu: &mut Self::State) {
+        let [[x, y, z]] = self.base.data.0;
+        let [[_u_x, _u_y, _u_z]] = unknown.data.0;
+        let _t0 = _u_y * self.h_over_I2;
+        let _t1 = _u_z * self.h_over_I3;
+        let _t2 = y * _t1 - z * _t0;
+        let _t3 = _u_x * self.h_over_I1;
+        let _t4 = _t3 * _t3 + _t0 * _t0 + _t1 * _t1;
+        let [_f0_1, _f0_2] = ::lie_runtime::closed::stumpff::<S, 1, 2>(_t4);
+        let _t5 = x * _t0 - y * _t3;
+        let _t6 = z * _t3 - x * _t1;
+        mu[0] = x + (_t2 * _f0_1 + (_t1 * _t6 - _t0 * _t5) * _f0_2);
+        mu[1] = y + (_t6 * _f0_1 + (_t3 * _t5 - _t1 * _t2) * _f0_2);
+        mu[2] = z + (_t5 * _f0_1 + (_t0 * _t2 - _t3 * _t6) * _f0_2);
+    }
+
+    #[inline]
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let mut field = self.base;
+        ::lie_runtime::Poisson::vector_field(self.system, &self.base, &mut field);
+        *unknown = self.base;
+        ::lie_runtime::State::axpy(unknown, self.h * S::from_f64(0.5), &field);
+    }
+
+    /// Sparse elimination in the order [0, 1, 2], 0 entries of fill-in: 17 multiplications with the solution.
+    #[inline]
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        let _a0_0 = matrix[(0, 0)];
+        let _a0_0 = S::one() / _a0_0;
+        let _a1_0 = matrix[(1, 0)];
+        let _a1_0 = _a1_0 * _a0_0;
+        let _a0_1 = matrix[(0, 1)];
+        let _a1_1 = matrix[(1, 1)];
+        let _a1_1 = _a1_1 - _a1_0 * _a0_1;
+        let _a0_2 = matrix[(0, 2)];
+        let _a1_2 = matrix[(1, 2)];
+        let _a1_2 = _a1_2 - _a1_0 * _a0_2;
+        let _a2_0 = matrix[(2, 0)];
+        let _a2_0 = _a2_0 * _a0_0;
+        let _a2_1 = matrix[(2, 1)];
+        let _a2_1 = _a2_1 - _a2_0 * _a0_1;
+        let _a2_2 = matrix[(2, 2)];
+        let _a2_2 = _a2_2 - _a2_0 * _a0_2;
+        let _a1_1 = S::one() / _a1_1;
+        let _a2_1 = _a2_1 * _a1_1;
+        let _a2_2 = _a2_2 - _a2_1 * _a1_2;
+        let _a2_2 = S::one() / _a2_2;
+        matrix[(0, 0)] = _a0_0;
+        matrix[(1, 0)] = _a1_0;
+        matrix[(1, 1)] = _a1_1;
+        matrix[(1, 2)] = _a1_2;
+        matrix[(2, 0)] = _a2_0;
+        matrix[(2, 1)] = _a2_1;
+        matrix[(2, 2)] = _a2_2;
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+        )
+    }
+
+    #[inline]
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        let _b0 = residual[0];
+        let _b1 = residual[1] - factors[(1, 0)] * _b0;
+        let _b2 = residual[2] - factors[(2, 0)] * _b0 - factors[(2, 1)] * _b1;
+        let _b2 = _b2 * factors[(2, 2)];
+        let _b1 = (_b1 - factors[(1, 2)] * _b2) * factors[(1, 1)];
+        let _b0 = (_b0 - factors[(0, 1)] * _b1 - factors[(0, 2)] * _b2)
+            * factors[(0, 0)];
+        residual[0] = _b0;
+        residual[1] = _b1;
+        residual[2] = _b2;
+    }
+
+    fn jacobian_cost(&self) -> f64 {
+        381.0 / 152.0
+    }
+
+    fn group_factor(
+        &mut self,
+        unknown: &Self::State,
+        xi: &mut Self::State,
+    ) -> ::core::option::Option<::lie_runtime::methods::Retraction> {
+        let mut equation = ::lie_runtime::generic::ExpMidpoint::new(self.system, self.h);
+        ::lie_runtime::Equation::set_base(&mut equation, &self.base);
+        ::lie_runtime::Equation::group_factor(&mut equation, unknown, xi)
+    }
+}
+
+impl<
+    S: ::lie_runtime::Scalar,
+> ::lie_runtime::Implicit<
+    S,
+    ::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+> for FreeRigidBodySystem<S> {
+    type Equation<'a> = FreeRigidBodyExpMidpoint<'a, S> where Self: 'a;
+    fn equation<'a>(
+        &'a self,
+        _method: &::lie_runtime::methods::LieMidpoint<::lie_runtime::methods::Exp>,
+        h: S,
+    ) -> Self::Equation<'a> {
+        FreeRigidBodyExpMidpoint::new(self, h)
     }
 }
 
@@ -2327,6 +2677,10 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
         residual[2] = _b2;
     }
 
+    fn jacobian_cost(&self) -> f64 {
+        220.0 / 79.0
+    }
+
     fn group_factor(
         &mut self,
         unknown: &Self::State,
@@ -2426,9 +2780,9 @@ for FreeRigidBodyMoserVeselov<'_, S> {
         let _t1 = _u_y * self.h_over_2_I2;
         let _t2 = _u_z * self.h_over_2_I3;
         let _t3 = (S::one() - _t0 * _t0 - _t1 * _t1 - _t2 * _t2).sqrt();
-        residual[0] = _u_x * _t3 - x + _u_y * _u_z * self._h3;
-        residual[1] = _u_y * _t3 - y - _u_x * _u_z * self._h4;
-        residual[2] = _u_z * _t3 - z + _u_x * _u_y * self._h5;
+        residual[0] = _t3 * _u_x - x + _u_y * _u_z * self._h3;
+        residual[1] = _t3 * _u_y - y - _u_x * _u_z * self._h4;
+        residual[2] = _t3 * _u_z - z + _u_x * _u_y * self._h5;
     }
 
     /// `r = q0 u - (h/2) f(u) - mu`, and `dr/du = q0 - u (v^T V)/q0 - (h/2) Df(u)`, `V = (c h/2) H''`
@@ -2451,21 +2805,21 @@ for FreeRigidBodyMoserVeselov<'_, S> {
         let _t5 = _u_x * self._h4;
         let _t6 = _u_x * self._h5;
         let _t7 = S::one() / _t3;
-        let _t8 = _t0 * self.h_over_2_I1 * _t7;
-        let _t9 = _t1 * self.h_over_2_I2 * _t7;
-        let _t10 = _t2 * self.h_over_2_I3 * _t7;
-        residual[0] = _u_x * _t3 - x + _u_z * _t4;
-        residual[1] = _u_y * _t3 - y - _u_z * _t5;
-        residual[2] = _u_z * _t3 - z + _u_y * _t6;
-        matrix[(0, 0)] = _t3 - _u_x * _t8;
-        matrix[(0, 1)] = _u_z * self._h3 - _u_x * _t9;
-        matrix[(0, 2)] = _t4 - _u_x * _t10;
-        matrix[(1, 0)] = -(_u_y * _t8) - _u_z * self._h4;
-        matrix[(1, 1)] = _t3 - _u_y * _t9;
-        matrix[(1, 2)] = -(_u_y * _t10) - _t5;
-        matrix[(2, 0)] = _u_y * self._h5 - _u_z * _t8;
-        matrix[(2, 1)] = _t6 - _u_z * _t9;
-        matrix[(2, 2)] = _t3 - _u_z * _t10;
+        let _t8 = _t0 * _t7 * self.h_over_2_I1;
+        let _t9 = _t1 * _t7 * self.h_over_2_I2;
+        let _t10 = _t2 * _t7 * self.h_over_2_I3;
+        residual[0] = _t3 * _u_x - x + _u_z * _t4;
+        residual[1] = _t3 * _u_y - y - _u_z * _t5;
+        residual[2] = _t3 * _u_z - z + _u_y * _t6;
+        matrix[(0, 0)] = _t3 - _t8 * _u_x;
+        matrix[(0, 1)] = _u_z * self._h3 - _t9 * _u_x;
+        matrix[(0, 2)] = _t4 - _t10 * _u_x;
+        matrix[(1, 0)] = -(_t8 * _u_y) - _u_z * self._h4;
+        matrix[(1, 1)] = _t3 - _t9 * _u_y;
+        matrix[(1, 2)] = -(_t10 * _u_y) - _t5;
+        matrix[(2, 0)] = _u_y * self._h5 - _t8 * _u_z;
+        matrix[(2, 1)] = _t6 - _t9 * _u_z;
+        matrix[(2, 2)] = _t3 - _t10 * _u_z;
     }
 
     #[inline]
@@ -2532,6 +2886,10 @@ for FreeRigidBodyMoserVeselov<'_, S> {
         residual[2] = _b2;
     }
 
+    fn jacobian_cost(&self) -> f64 {
+        244.0 / 110.0
+    }
+
     fn group_factor(
         &mut self,
         unknown: &Self::State,
@@ -2557,9 +2915,147 @@ for FreeRigidBodySystem<S> {
     }
 }
 
+/// Taylor coefficients for `taylor`, order by order: 3 sums of products.
+#[derive(Clone, Debug)]
+#[allow(dead_code)]
+pub struct FreeRigidBodyTaylor<'a, S: ::lie_runtime::Scalar> {
+    system: &'a FreeRigidBodySystem<S>,
+    kept: [S; 3],
+    sums: ::lie_runtime::recurrence::Sums<S, 3, 1>,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyTaylor<'a, S> {
+    /// The recurrence of a system.
+    #[must_use]
+    pub fn new(system: &'a FreeRigidBodySystem<S>) -> Self {
+        Self {
+            system,
+            kept: [S::zero(); 3],
+            sums: ::core::default::Default::default(),
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Recurrence<S>
+for FreeRigidBodyTaylor<'_, S> {
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
+    type Carry = [S; 3];
+    /// 6 multiplications.
+    #[inline(always)]
+    fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry {
+        let [[x, y, z]] = mu.data.0;
+        self.kept = [y, z, x];
+        field[0] = y * z * self.system._k6;
+        field[1] = x * z * self.system._k7;
+        field[2] = x * y * self.system._k8;
+        self.sums.begin()
+    }
+
+    /// 6 additions, 9 multiplications.
+    #[inline(always)]
+    fn advance(
+        &mut self,
+        _k: usize,
+        _rest: Self::Carry,
+        coefficient: &Self::State,
+        field: &mut Self::State,
+    ) -> Self::Carry {
+        let [[x, y, z]] = coefficient.data.0;
+        field[0] = self.system._k6 * (self.kept[0] * z + y * self.kept[1] + _rest[0]);
+        field[1] = self.system._k7 * (self.kept[2] * z + x * self.kept[1] + _rest[1]);
+        field[2] = self.system._k8 * (self.kept[2] * y + x * self.kept[0] + _rest[2]);
+        self.sums.push(_k, [y, x, x], [z, z, y])
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Series<S> for FreeRigidBodySystem<S> {
+    type Recurrence<'a> = FreeRigidBodyTaylor<'a, S> where Self: 'a;
+    fn series(&self) -> Self::Recurrence<'_> {
+        FreeRigidBodyTaylor::new(self)
+    }
+}
+
+/// Taylor coefficients for `lie-taylor`, order by order: 3 sums of products.
+#[derive(Clone, Debug)]
+#[allow(dead_code)]
+pub struct FreeRigidBodyLieTaylor<'a, S: ::lie_runtime::Scalar> {
+    system: &'a FreeRigidBodySystem<S>,
+    kept: [S; 3],
+    sums: ::lie_runtime::recurrence::Sums<S, 3, 1>,
+    gradient: ::lie_runtime::__private_0_1::SVector<S, 3>,
+}
+
+impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyLieTaylor<'a, S> {
+    /// The recurrence of a system.
+    #[must_use]
+    pub fn new(system: &'a FreeRigidBodySystem<S>) -> Self {
+        Self {
+            system,
+            kept: [S::zero(); 3],
+            sums: ::core::default::Default::default(),
+            gradient: ::lie_runtime::Poisson::zero_state(system),
+        }
+    }
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::Recurrence<S>
+for FreeRigidBodyLieTaylor<'_, S> {
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
+    type Carry = [S; 3];
+    /// 9 multiplications.
+    #[inline(always)]
+    fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry {
+        let [[x, y, z]] = mu.data.0;
+        self.kept = [y, z, x];
+        field[0] = y * z * self.system._k6;
+        field[1] = x * z * self.system._k7;
+        field[2] = x * y * self.system._k8;
+        self.gradient[0] = x * self.system.inverse_I1;
+        self.gradient[1] = y * self.system.inverse_I2;
+        self.gradient[2] = z * self.system.inverse_I3;
+        self.sums.begin()
+    }
+
+    /// 6 additions, 12 multiplications.
+    #[inline(always)]
+    fn advance(
+        &mut self,
+        _k: usize,
+        _rest: Self::Carry,
+        coefficient: &Self::State,
+        field: &mut Self::State,
+    ) -> Self::Carry {
+        let [[x, y, z]] = coefficient.data.0;
+        field[0] = self.system._k6 * (self.kept[0] * z + y * self.kept[1] + _rest[0]);
+        field[1] = self.system._k7 * (self.kept[2] * z + x * self.kept[1] + _rest[1]);
+        field[2] = self.system._k8 * (self.kept[2] * y + x * self.kept[0] + _rest[2]);
+        self.gradient[0] = self.system.inverse_I1 * x;
+        self.gradient[1] = self.system.inverse_I2 * y;
+        self.gradient[2] = self.system.inverse_I3 * z;
+        self.sums.push(_k, [y, x, x], [z, z, y])
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::GradientRecurrence<S>
+for FreeRigidBodyLieTaylor<'_, S> {
+    fn gradient(&self) -> &Self::State {
+        &self.gradient
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::GradientSeries<S>
+for FreeRigidBodySystem<S> {
+    type Recurrence<'a> = FreeRigidBodyLieTaylor<'a, S> where Self: 'a;
+    fn gradient_series(&self) -> Self::Recurrence<'_> {
+        FreeRigidBodyLieTaylor::new(self)
+    }
+}
+
 ::lie_runtime::generic_equations!(
-    [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : exp, generating2,
-    generating4, generating6, second_kind, generating2_cayley, generating4_cayley,
+    [S : ::lie_runtime::Scalar] FreeRigidBodySystem < S >, S : generating2, generating4,
+    generating6, second_kind, generating2_cayley, generating4_cayley,
     isospectral2_cayley, isospectral6, hopf2, hopf6
 );
 /// The flows of the pieces of H in `x`, `y`, `z`.
