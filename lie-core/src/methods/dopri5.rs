@@ -91,6 +91,7 @@ impl Facts for Dopri5 {
     const ORDER: u32 = 5;
     const SYMMETRIC: bool = false;
     const EXPLICIT: bool = true;
+    const OWN_STEPS: bool = true;
     const PRESERVES: Preserves = Preserves::LINEAR;
 }
 

@@ -83,6 +83,8 @@ pub trait Facts {
     const EXPLICIT: bool;
     /// Whether a step is solved by fixed-point iteration, where each digit costs the same.
     const FIXED_POINT: bool = false;
+    /// Whether a step is made of steps that the method chooses itself.
+    const OWN_STEPS: bool = false;
     /// What is kept.
     const PRESERVES: Preserves;
 }

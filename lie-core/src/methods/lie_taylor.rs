@@ -82,6 +82,7 @@ impl Facts for LieTaylor {
     const ORDER: u32 = 15;
     const SYMMETRIC: bool = false;
     const EXPLICIT: bool = true;
+    const OWN_STEPS: bool = true;
     const PRESERVES: Preserves = Preserves::ORBIT;
 }
 

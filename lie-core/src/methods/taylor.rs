@@ -74,6 +74,7 @@ impl Facts for Taylor {
     const ORDER: u32 = 33;
     const SYMMETRIC: bool = false;
     const EXPLICIT: bool = true;
+    const OWN_STEPS: bool = true;
     const PRESERVES: Preserves = Preserves::LINEAR;
 }
 

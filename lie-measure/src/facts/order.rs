@@ -135,6 +135,19 @@ fn noise<P: Lift<f64>>(
     largest
 }
 
+/// Numbers of steps over the span. Beyond order 12 those between come too: there are few steps between the largest that is
+/// solved and round-off.
+fn ladder(order: u32) -> Vec<u64> {
+    let mut steps = STEPS.to_vec();
+    if order > 12 {
+        let pairs = STEPS.iter().zip(&STEPS[1..]);
+        steps.extend(pairs.map(|(few, many)| ((few * many) as f64).sqrt().round() as u64));
+        steps.sort_unstable();
+        steps.dedup();
+    }
+    steps
+}
+
 /// Errors over steps of a fixed size, the largest over the states, and the size of round-off in them.
 fn by_step<P: Lift<f64>>(
     system: &P,
@@ -145,7 +158,7 @@ fn by_step<P: Lift<f64>>(
 ) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
     let mut below = 0;
-    for steps in STEPS {
+    for steps in ladder(method.claims().order) {
         let h = exact.span / steps as f64;
         if let Some((error, _)) = error(system, ground, exact, method, h, steps) {
             points.push((h.abs(), error));

@@ -66,7 +66,8 @@ pub fn least_tolerance<S: Scalar>() -> f64 {
     ROUND_OFF * largest(S::epsilon())
 }
 
-/// The constant step with which a method keeps a tolerance.
+/// The constant step with which a method keeps a tolerance; of a method that chooses its own steps, with a tolerance of
+/// its own, the mean of these at the start of the span.
 ///
 /// # Errors
 /// [`OptionError`] for a tolerance that is no number between round-off and 1, a span that is not finite, or a method whose
@@ -92,8 +93,13 @@ pub fn choose<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         span: span.abs(),
         tolerance,
     };
-    let (size, error) = trial.run_in(span)?;
-    let steps = count(span, (span.abs() / (SAFETY * size)).ceil().max(1.0));
+    let (size, error) = if M::OWN_STEPS {
+        (trial.own_steps(span)?, tolerance)
+    } else {
+        let (size, error) = trial.run_in(span)?;
+        (SAFETY * size, error)
+    };
+    let steps = count(span, (span.abs() / size).ceil().max(1.0));
     let step = if span == 0.0 { 1.0 } else { span / steps };
     Ok(Chosen {
         tolerance,
@@ -220,6 +226,25 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
             })),
             None => OptionError::NoStep(self.tolerance).into(),
         })
+    }
+
+    /// The mean of the steps that a method chooses itself, from the start on.
+    fn own_steps(&self, span: f64) -> Result<f64, IntegrateError> {
+        let system = &self.problem.system;
+        let mut size = self.first(&self.problem.mu0);
+        loop {
+            let mut mu = self.problem.mu0.clone();
+            let h = S::from_f64(size * span.signum());
+            let mut stepper = self.method.stepper(system, h, &self.newton);
+            match stepper.step(&mut mu, &mut ()) {
+                Ok(report) if report.substeps >= ESTIMATES || size >= self.span => {
+                    return Ok(size / f64::from(report.substeps.max(1)));
+                }
+                Ok(_) => size = (4.0 * size).min(self.span),
+                // the run itself says where it ends
+                Err(_) => return Ok(size),
+            }
+        }
     }
 
     /// A size of step to begin with, from those of state and field.

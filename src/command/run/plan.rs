@@ -70,9 +70,10 @@ pub fn plan(spec: &Spec, flags: &args::Run) -> Result<Plan, Vec<Message>> {
     let times = planner.times(pace.as_ref());
     let solved = method.as_ref();
     if let (Some(method), Some((Pace::Tolerance(_), given))) = (solved, &pace) {
-        planner.has_constant_steps(method, given);
+        planner.takes_tolerance(method, given);
     }
-    let tolerances = solved.map(|method| planner.tolerances(method));
+    let overall = pace.as_ref().map(|(pace, _)| *pace);
+    let tolerances = solved.map(|method| planner.tolerances(method, overall));
     let newton = solved.map(|method| planner.newton(method));
     let chart = planner.chart();
     let start = planner.start();

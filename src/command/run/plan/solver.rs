@@ -2,6 +2,7 @@
 
 use lie_codegen::methods::Choice;
 use lie_program::protocol::Tolerances;
+use lie_runtime::driver::Pace;
 use lie_runtime::newton::{Convergence, NewtonOptions};
 
 use super::super::values::Given;
@@ -11,13 +12,18 @@ use crate::message::Message;
 
 /// The relative tolerance of methods by series, unless another is given.
 const SERIES: f64 = 1e-15;
+/// Their tolerance as a part of one for the end of the run. A digit costs them little.
+const PER_STEP: f64 = 0.01;
 
 impl Planner<'_> {
-    pub(super) fn tolerances(&mut self, choice: &Choice) -> Tolerances {
+    pub(super) fn tolerances(&mut self, choice: &Choice, pace: Option<Pace>) -> Tolerances {
         let flags = self.flags;
         let mut tolerances = Tolerances::default();
         if matches!(choice, Choice::Taylor | Choice::LieTaylor) {
-            tolerances.rtol = SERIES;
+            tolerances.rtol = match pace {
+                Some(Pace::Tolerance(overall)) => (PER_STEP * overall).max(SERIES),
+                _ => SERIES,
+            };
         }
         let tolerance = "give a tolerance such as 1e-9";
         for (flag, value, place) in [

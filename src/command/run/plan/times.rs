@@ -45,16 +45,11 @@ impl Planner<'_> {
         Some((Pace::Tolerance(tolerance), given))
     }
 
-    /// A method that adapts its own steps has no constant step to choose.
-    pub(super) fn has_constant_steps(&mut self, method: &Choice, given: &Given) {
-        if method.is_adaptive() {
+    /// dopri5 has tolerances of its own, and no constant step to choose.
+    pub(super) fn takes_tolerance(&mut self, method: &Choice, given: &Given) {
+        if *method == Choice::Dopri5 {
             let text = format!("{} chooses its own steps", method.id());
-            let help = match method {
-                Choice::Dopri5 => {
-                    "give `--rtol` and `--atol` with `--step`, or take another method"
-                }
-                _ => "give `--rtol` with `--step`, or take another method",
-            };
+            let help = "give `--rtol` and `--atol` with `--step`, or take another method";
             self.mistakes.push(given.wrong(text).help(help));
         }
     }
