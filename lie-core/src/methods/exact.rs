@@ -64,8 +64,7 @@ pub struct ExactStepper<'a, S: Scalar, P: IntegrablePoisson<S>> {
     axes: [P::State; 3],
     /// The rates of Euler's equations in them.
     rates: P::State,
-    /// S, C and D of each body at the step, and the state in its axes.
-    functions: P::State,
+    /// The state in the axes of each body. It goes from step to step, so that the rounding of the axes does not add up.
     place: P::State,
     /// Where the last step ended, in the lanes in which one did.
     end: P::State,
@@ -81,7 +80,6 @@ impl<'a, S: Scalar, P: IntegrablePoisson<S>> ExactStepper<'a, S, P> {
             step: h,
             axes: core::array::from_fn(|_| zero.clone()),
             rates: zero.clone(),
-            functions: zero.clone(),
             place: zero.clone(),
             end: zero.clone(),
             follows: S::Mask::splat(false),
@@ -115,7 +113,7 @@ impl<'a, S: Scalar, P: IntegrablePoisson<S>> ExactStepper<'a, S, P> {
         core::array::from_fn(|row| body.map(|k| self.axes[row].as_slice()[k]))
     }
 
-    /// Moves the bodies; the functions of a step that follows another are those of that one.
+    /// Moves the bodies.
     fn move_bodies(&mut self, mu: &P::State) {
         let follows = self.follows & same(&self.end, mu);
         for index in 0..self.system.bodies().len() {
@@ -125,16 +123,10 @@ impl<'a, S: Scalar, P: IntegrablePoisson<S>> ExactStepper<'a, S, P> {
                 let [x, y, z] = body.map(|k| mu.as_slice()[k]);
                 (axis[0] * x + axis[1] * y) + axis[2] * z
             });
-            let [old, rates, mut functions] =
-                [&self.place, &self.rates, &self.functions].map(|v| at(v.as_slice(), &body));
+            let [old, rates] = [&self.place, &self.rates].map(|v| at(v.as_slice(), &body));
             let y = core::array::from_fn(|i| S::select(follows, old[i], fresh[i]));
             let motion = FreeBody::new(rates, y);
-            if !follows.all() {
-                let new = motion.functions(self.step);
-                functions = core::array::from_fn(|i| S::select(follows, functions[i], new[i]));
-                put(self.functions.as_mut_slice(), &body, functions);
-            }
-            let moved = motion.moved(y, functions);
+            let moved = motion.moved(y, motion.functions(self.step));
             put(self.place.as_mut_slice(), &body, moved);
             put(self.next.as_mut_slice(), &body, back(&axes, moved));
         }

@@ -67,7 +67,7 @@ fn measured<P: Lift<f64>>(
             None => by_step(system, ground, exact, method, floor),
         };
         let mut above: Vec<(f64, f64)> = measured.iter().filter(|p| p.1 > floor).copied().collect();
-        if adaptive.is_none() && slope(tail(&above)) < bound {
+        if adaptive.is_none() && slope(tail(&above, order)) < bound {
             // a method may amplify round-off, as differences divided by small increments do
             above.retain(|&(h, error)| error > NOISE * noise(system, ground, exact, method, h));
         }
@@ -86,7 +86,7 @@ fn measured<P: Lift<f64>>(
         return Finding::at_least("order", true, f64::INFINITY, claim, bound)
             .note("exact to round-off".to_owned());
     }
-    if best.len() < LEAST && largest < NEGLIGIBLE {
+    if is_short(&best) && largest < NEGLIGIBLE {
         return Finding::at_least("order", true, f64::INFINITY, claim, bound).note(format!(
             "at round-off from the largest step on, {largest:.1e}"
         ));
@@ -95,7 +95,7 @@ fn measured<P: Lift<f64>>(
         return Finding::at_least("order", true, f64::NAN, claim, bound)
             .note("too few steps between failure and round-off".to_owned());
     }
-    let last = tail(&best);
+    let last = tail(&best, order);
     let note = format!("errors {:.1e} to {:.1e}", last[0].1, last[last.len() - 1].1);
     Finding::at_least("order", true, slope(last), claim, bound)
         .at(last[0].0)
@@ -103,8 +103,13 @@ fn measured<P: Lift<f64>>(
 }
 
 /// The points of the slope: those of the smallest steps.
-fn tail(points: &[(f64, f64)]) -> &[(f64, f64)] {
-    &points[points.len().saturating_sub(POINTS)..]
+fn tail(points: &[(f64, f64)], order: u32) -> &[(f64, f64)] {
+    let count = if is_dense(order) {
+        2 * POINTS - 1
+    } else {
+        POINTS
+    };
+    &points[points.len().saturating_sub(count)..]
 }
 
 /// How much the end of a run moves when its start moves by a few units of round-off, relative to the state.
@@ -135,11 +140,25 @@ fn noise<P: Lift<f64>>(
     largest
 }
 
-/// Numbers of steps over the span. Beyond order 12 those between come too: there are few steps between the largest that is
+/// Whether the points lie too near each other for a slope that round-off does not spoil: within three factors of the fourth
+/// root of 2.
+fn is_short(points: &[(f64, f64)]) -> bool {
+    let (Some(first), Some(last)) = (points.first(), points.last()) else {
+        return true;
+    };
+    points.len() < LEAST || first.0 < 1.65 * last.0
+}
+
+/// Whether the numbers of steps go by factors of about the eighth root of 2.
+fn is_dense(order: u32) -> bool {
+    order > 8
+}
+
+/// Numbers of steps over the span. Beyond order 8 those between come too: there are few steps between the largest that is
 /// solved and round-off.
 fn ladder(order: u32) -> Vec<u64> {
     let mut steps = STEPS.to_vec();
-    if order > 12 {
+    if is_dense(order) {
         let pairs = STEPS.iter().zip(&STEPS[1..]);
         steps.extend(pairs.map(|(few, many)| ((few * many) as f64).sqrt().round() as u64));
         steps.sort_unstable();
