@@ -129,7 +129,7 @@ fn a_step_is_the_flow() {
     check(
         &Commuting::default().system().unwrap(),
         &[0.9, -0.4, 0.7],
-        5e-14,
+        2e-13,
     );
 }
 
