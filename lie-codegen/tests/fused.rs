@@ -45,7 +45,7 @@ fn what_is_asked_for_is_planned() {
         (Gauss(3), Gauss(3), 1),
         (LieMidpoint(Cayley), LieMidpoint(Cayley), 1),
         (LieMidpoint(Exp), LieMidpoint(Exp), 1),
-        (Generating(2, Exp), LieMidpoint(Exp), 1),
+        (Generating(2, Exp), Generating(2, Exp), 1),
         (Generating(2, Cayley), LieMidpoint(Cayley), 1),
         (Isospectral(2), LieMidpoint(Cayley), 1),
         (Collective(2, Lift::Representation), LieMidpoint(Cayley), 1),

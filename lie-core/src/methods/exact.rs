@@ -8,7 +8,7 @@
 //! - **constant velocities**: H is linear, or the coordinates that it contains commute. Then `$\nabla H$` is constant along
 //!   each solution, and `$\mu(h) = \mathrm{Ad}^*_{\exp(h \nabla H)}\, \mu$`.
 //!
-//! The state is exact at any step, to round-off times the number of turns; the energy, the orbit and the Poisson structure are those of the flow. The
+//! The state is exact at any step, to round-off times the number of steps and turns; the energy, the orbit and the Poisson structure are those of the flow. The
 //! group element of a body moves by Gauss collocation with eight stages on the exact velocities, of order 16, which is the
 //! order stated here; with constant velocities it is exact too.
 //!
