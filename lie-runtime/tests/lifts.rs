@@ -407,26 +407,14 @@ fn written_flows_are_the_generic_ones() {
         }
     }
     use lie_runtime::generic::{flow_over_columns, flow_over_quaternions, flow_over_spins};
-    check::<Quaternion, _>(
-        &top,
-        |s, l, p, out| flow_over_quaternions(s, l, p, out),
-        false,
-    );
+    check::<Quaternion, _>(&top, flow_over_quaternions, false);
     check::<Representation, _>(&top, |s, _, p, out| flow_over_columns(s, p, out), false);
     let beside = Beside::new().system().expect("parameters");
-    check::<Quaternion, _>(
-        &beside,
-        |s, l, p, out| flow_over_quaternions(s, l, p, out),
-        false,
-    );
+    check::<Quaternion, _>(&beside, flow_over_quaternions, false);
     let body = Body::new().system().expect("parameters");
     check::<Hopf, _>(&body, |s, _, p, out| flow_over_spins(s, p, out), true);
     let vectors = Vectors::new().system().expect("parameters");
-    check::<Quaternion, _>(
-        &vectors,
-        |s, l, p, out| flow_over_quaternions(s, l, p, out),
-        false,
-    );
+    check::<Quaternion, _>(&vectors, flow_over_quaternions, false);
 }
 
 /// How far the executed steps of a walk are from symplectic maps of the points, with the start of each iteration frozen: for each
@@ -481,8 +469,9 @@ where
                 convergence: Convergence::State,
                 ..*options
             };
+            // by columns
             let mut derivative = vec![vec![0.0; size]; size];
-            for direction in 0..size {
+            for (direction, column) in derivative.iter_mut().enumerate() {
                 let zero = <L as LinearLift<X, D::Widened>>::zero_point(&wide_dual);
                 let step = Dual::constant_of(h);
                 let mut stages = StageParallel::<Dual<f64>, _, 8>::new(step, zero, &exactly);
@@ -504,15 +493,15 @@ where
                 });
                 assert!(solved.iterations <= exactly.max_iterations);
                 stages.advance(&mut end);
-                for (row, x) in end.iter().enumerate() {
-                    derivative[row][direction] = x.derivative;
+                for (entry, x) in column.iter_mut().zip(&end) {
+                    *entry = x.derivative;
                 }
             }
             for a in 0..size {
                 for b in 0..size {
                     let pairs = (0..half).map(|k| {
-                        derivative[k][a] * derivative[k + half][b]
-                            - derivative[k + half][a] * derivative[k][b]
+                        derivative[a][k] * derivative[b][k + half]
+                            - derivative[a][k + half] * derivative[b][k]
                     });
                     let expected =
                         f64::from(u8::from(b == a + half)) - f64::from(u8::from(a == b + half));

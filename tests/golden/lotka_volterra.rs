@@ -1228,6 +1228,7 @@ for LotkaVolterraTaylor<'_, S> {
     type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
     type Carry = [S; 7];
     /// 6 additions, 8 multiplications, 4 divisions.
+    #[allow(clippy::possible_missing_comma)]
     #[inline(always)]
     fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry {
         let [[y1, y2, y3]] = mu.data.0;
@@ -1261,6 +1262,7 @@ for LotkaVolterraTaylor<'_, S> {
     }
 
     /// 18 additions, 17 multiplications.
+    #[allow(clippy::possible_missing_comma)]
     #[inline(always)]
     fn advance(
         &mut self,

@@ -3139,6 +3139,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Recurrence<S> for HeavyTopTaylor<'
     type State = ::lie_runtime::__private_0_1::SVector<S, 6>;
     type Carry = [S; 9];
     /// 9 additions, 21 multiplications.
+    #[allow(clippy::possible_missing_comma)]
     #[inline(always)]
     fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
@@ -3159,6 +3160,7 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Recurrence<S> for HeavyTopTaylor<'
     }
 
     /// 27 additions, 30 multiplications.
+    #[allow(clippy::possible_missing_comma)]
     #[inline(always)]
     fn advance(
         &mut self,
@@ -3228,6 +3230,7 @@ for HeavyTopLieTaylor<'_, S> {
     type State = ::lie_runtime::__private_0_1::SVector<S, 6>;
     type Carry = [S; 9];
     /// 9 additions, 21 multiplications.
+    #[allow(clippy::possible_missing_comma)]
     #[inline(always)]
     fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry {
         let [[m1, m2, m3, g1, g2, g3]] = mu.data.0;
@@ -3254,6 +3257,7 @@ for HeavyTopLieTaylor<'_, S> {
     }
 
     /// 27 additions, 30 multiplications.
+    #[allow(clippy::possible_missing_comma)]
     #[inline(always)]
     fn advance(
         &mut self,

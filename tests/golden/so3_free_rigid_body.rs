@@ -2942,6 +2942,7 @@ for FreeRigidBodyTaylor<'_, S> {
     type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
     type Carry = [S; 3];
     /// 6 multiplications.
+    #[allow(clippy::possible_missing_comma)]
     #[inline(always)]
     fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry {
         let [[x, y, z]] = mu.data.0;
@@ -2953,6 +2954,7 @@ for FreeRigidBodyTaylor<'_, S> {
     }
 
     /// 6 additions, 9 multiplications.
+    #[allow(clippy::possible_missing_comma)]
     #[inline(always)]
     fn advance(
         &mut self,
@@ -3005,6 +3007,7 @@ for FreeRigidBodyLieTaylor<'_, S> {
     type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
     type Carry = [S; 3];
     /// 9 multiplications.
+    #[allow(clippy::possible_missing_comma)]
     #[inline(always)]
     fn begin(&mut self, mu: &Self::State, field: &mut Self::State) -> Self::Carry {
         let [[x, y, z]] = mu.data.0;
@@ -3019,6 +3022,7 @@ for FreeRigidBodyLieTaylor<'_, S> {
     }
 
     /// 6 additions, 12 multiplications.
+    #[allow(clippy::possible_missing_comma)]
     #[inline(always)]
     fn advance(
         &mut self,

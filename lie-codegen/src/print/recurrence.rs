@@ -132,6 +132,7 @@ impl Printer<'_> {
         );
         quote! {
             #[doc = #counts_of_begin]
+            #[allow(clippy::possible_missing_comma)]
             #[inline(always)]
             fn begin(&mut self, #mu: &Self::State, #field: &mut Self::State) -> Self::Carry {
                 #unpack_mu
@@ -142,6 +143,7 @@ impl Printer<'_> {
             }
 
             #[doc = #counts_of_advance]
+            #[allow(clippy::possible_missing_comma)]
             #[inline(always)]
             fn advance(
                 &mut self,

@@ -156,12 +156,10 @@ pub fn principal_axes<S: Scalar>(mut matrix: [[S; 3]; 3]) -> ([[S; 3]; 3], [S; 3
         let (low, high) = (values[p], values[q]);
         values[p] = S::select(wrong, high, low);
         values[q] = S::select(wrong, low, high);
-        for k in 0..3 {
-            // the sign keeps the frame right-handed
-            let (low, high) = (axes[p][k], axes[q][k]);
-            axes[p][k] = S::select(wrong, high, low);
-            axes[q][k] = S::select(wrong, -low, high);
-        }
+        // the sign keeps the frame right-handed
+        let (low, high) = (axes[p], axes[q]);
+        axes[p] = core::array::from_fn(|k| S::select(wrong, high[k], low[k]));
+        axes[q] = core::array::from_fn(|k| S::select(wrong, -low[k], high[k]));
     }
     (axes, values)
 }
@@ -178,12 +176,14 @@ fn rotate<S: Scalar>(matrix: &mut [[S; 3]; 3], axes: &mut [[S; 3]; 3], p: usize,
     let cosine = one / (tangent * tangent + one).sqrt();
     let sine = tangent * cosine;
     let turn = |low: S, high: S| [cosine * low - sine * high, sine * low + cosine * high];
-    for k in 0..3 {
-        [axes[p][k], axes[q][k]] = turn(axes[p][k], axes[q][k]);
-        [matrix[k][p], matrix[k][q]] = turn(matrix[k][p], matrix[k][q]);
+    for row in matrix.iter_mut() {
+        [row[p], row[q]] = turn(row[p], row[q]);
     }
-    for k in 0..3 {
-        [matrix[p][k], matrix[q][k]] = turn(matrix[p][k], matrix[q][k]);
+    for square in [matrix, axes] {
+        let (low, high) = (square[p], square[q]);
+        for k in 0..3 {
+            [square[p][k], square[q][k]] = turn(low[k], high[k]);
+        }
     }
 }
 

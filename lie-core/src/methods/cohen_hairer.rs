@@ -125,9 +125,12 @@ macro_rules! stage_parallel {
 by_newton!(1 2 3);
 stage_parallel!(4 5 6 7 8);
 
+/// A matrix of the system over eight numbers.
+type WideMatrix<S, P> = <<P as Widen<S>>::Widened as Poisson<<S as Scalar>::Wide>>::Jacobian;
+
 /// `F_i = Pi(Y_i) g_i` with the means `g_i` of the gradient.
 pub struct MeanField<'a, S: Scalar, P: Widen<S>, const STAGES: usize> {
-    means: MeanGradients<S, WideState<S, P>, <P::Widened as Poisson<S::Wide>>::Jacobian, STAGES>,
+    means: MeanGradients<S, WideState<S, P>, WideMatrix<S, P>, STAGES>,
     equation: CohenHairerStep<'a, S, P, STAGES>,
     increments: Stages<P::State, STAGES>,
 }

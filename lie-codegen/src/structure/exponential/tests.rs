@@ -1,7 +1,10 @@
 use super::*;
 
-/// The algebra with these brackets: i, j and the coefficients of `[e_i, e_j]`.
-fn algebra(n: usize, brackets: &[(usize, usize, &[(usize, i64)])]) -> StructureConstants<Fraction> {
+/// i, j and the coefficients of `[e_i, e_j]`.
+type Bracket<'a> = (usize, usize, &'a [(usize, i64)]);
+
+/// The algebra with these brackets.
+fn algebra(n: usize, brackets: &[Bracket<'_>]) -> StructureConstants<Fraction> {
     let mut entries = Vec::new();
     for (i, j, value) in brackets {
         let (low, high, sign) = if i < j { (*i, *j, 1) } else { (*j, *i, -1) };
