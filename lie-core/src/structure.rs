@@ -173,7 +173,7 @@ pub trait ColumnPoisson<S: Scalar>: MatrixPoisson<S> {
     fn representation_size(&self) -> usize;
     /// The columns.
     fn columns(&self) -> Columns<'_>;
-    /// The canonical flow of `H o J`; see [`flow_over_columns`](crate::generic::flow_over_columns).
+    /// The canonical flow of `H o J`; see [`flow_over_columns`].
     #[inline]
     fn column_flow(&self, point: &Self::Columns, out: &mut Self::Columns) {
         flow_over_columns(self, point, out);
@@ -196,7 +196,7 @@ pub trait SpinPoisson<S: Scalar>: LiePoisson<S> {
     /// Points of the right size, all coordinates 0.
     fn zero_spinors(&self) -> Self::Spinors;
     /// The canonical flow of `(H - C) o J` at points, C any function of Casimirs; see
-    /// [`flow_over_spins`](crate::generic::flow_over_spins), for which C is 0.
+    /// [`flow_over_spins`], for which C is 0.
     #[inline]
     fn spinor_flow(&self, point: &Self::Spinors, out: &mut Self::Spinors) {
         flow_over_spins(self, point, out);
@@ -226,7 +226,7 @@ pub trait VectorPoisson<S: Scalar>: LiePoisson<S> {
     /// A point, all coordinates 0.
     fn zero_quaternions(&self) -> Self::Quaternions;
     /// The canonical flow of `(H - C) o J` on `T*H`, C any function of Casimirs; see
-    /// [`flow_over_quaternions`](crate::generic::flow_over_quaternions), for which C is 0.
+    /// [`flow_over_quaternions`], for which C is 0.
     #[inline]
     fn quaternion_flow(
         &self,

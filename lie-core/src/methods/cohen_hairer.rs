@@ -23,8 +23,8 @@
 //! the quadrature, in blocks of eight. A step on which that does not contract is solved by Newton's iteration like those
 //! of fewer stages.
 //!
-//! Needs: gradient and Hessian of H, the Poisson matrix; any [`Poisson`](crate::Poisson) system, and
-//! [`Widen`](crate::Widen) from four stages on.
+//! Needs: gradient and Hessian of H, the Poisson matrix; any [`Poisson`] system, and
+//! [`Widen`] from four stages on.
 //!
 //! Reference: D. Cohen, E. Hairer, "Linear energy-preserving integrators for Poisson systems", BIT
 //! Numerical Mathematics 51 (2011) 91–101,

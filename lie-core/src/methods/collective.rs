@@ -59,7 +59,7 @@
 //! depends on the point. That J generates symplectic maps, with which Gauss methods commute, is not enough: there
 //! need not be enough of them to move one point over mu to any other.
 //!
-//! Needs: see [`MatrixPoisson`](crate::MatrixPoisson) and [`SpinPoisson`]; gradient
+//! Needs: see [`MatrixPoisson`](crate::MatrixPoisson) and [`SpinPoisson`](crate::SpinPoisson); gradient
 //! and Hessian of H.
 //!
 //! References: R. I. McLachlan, K. Modin, O. Verdier, "Collective symplectic integrators", Nonlinearity 27

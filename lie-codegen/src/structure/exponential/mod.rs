@@ -1,13 +1,13 @@
 //! Closed forms of functions of `ad*_x` for a general element x, by its minimal polynomial.
 //!
-//! The algebra is taken apart into ideals ([`ideals`]). In each the minimal polynomial of `A = ad*_x` over the rational
+//! The algebra is taken apart into ideals (`ideals`). In each the minimal polynomial of `A = ad*_x` over the rational
 //! functions of x is looked for in one of the forms
 //!
 //! * `z^a`: functions of A are polynomials;
 //! * `z^a (z - l)^b`, l a linear form in x: combinations of `phi_k(l)`;
 //! * `z^a (z^2 + w)^b`, w a quadratic form in x: combinations of Stumpff functions of w, for any sign of w.
 //!
-//! Its exponents are read off at one random point modulo a prime ([`sample`]). The traces of A and `A^2` give the form
+//! Its exponents are read off at one random point modulo a prime (`sample`). The traces of A and `A^2` give the form
 //! exactly, and that the polynomial annihilates A is proven over the rational functions. A wrong guess modulo the prime costs a
 //! closed form, never a digit.
 
