@@ -1,4 +1,4 @@
-//! A method of another release, and one that never was.
+//! A method that there is none of.
 
 use lie_runtime::prelude::*;
 
@@ -9,7 +9,7 @@ lie_poisson! {
     parameters { I1 = 2; I2 = 1; I3 = 2/3; }
     hamiltonian = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3);
     casimir C = x^2 + y^2 + z^2;
-    methods = [lie-midpoint, taylor, leap-frog];
+    methods = [lie-midpoint, leap-frog];
 }
 
 // Whoever uses the type hears of nothing else.
