@@ -261,7 +261,7 @@ pub enum Motion {
 /// A Lie–Poisson system whose flow is known in closed form. The compiler decides it.
 #[diagnostic::on_unimplemented(
     message = "no closed form of the flow of `{Self}` is known",
-    note = "`lie check` says for which systems there is one; `Gauss16` with `Options::tolerance` errs little more"
+    note = "`lie check` says for which systems there is one; `Gauss16` with `Options::tolerance` applies to every system"
 )]
 pub trait IntegrablePoisson<S: Scalar>: LiePoisson<S> {
     /// The form.

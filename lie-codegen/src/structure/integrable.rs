@@ -84,7 +84,7 @@ pub fn refusal(model: &Model) -> Option<(String, String)> {
         let reason = "no closed form of the flow is known: it is for a direct sum of algebras so(3) in a basis with \
                       [e1, e2] = c e3 and its cyclic permutations and a quadratic form H that does not couple them, and for H \
                       that is linear or contains only coordinates that commute";
-        let help = "use `gauss16` with `--tol 1e-12`, which errs little more";
+        let help = "use `gauss16` with `--tol 1e-12`";
         (reason.into(), help.into())
     })
 }

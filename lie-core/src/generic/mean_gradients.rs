@@ -3,9 +3,9 @@
 use core::array::from_fn;
 
 use super::cohen_hairer::lagrange;
+use super::diagonals::{diagonals, product};
 use super::kernels::multiply;
 use super::quadrature::{MAX_NODES, Quadrature};
-use super::stage_parallel::{diagonals, product};
 use super::tableau::gauss_tableau;
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;

@@ -10,6 +10,7 @@ mod cohen_hairer;
 mod columns;
 mod coordinate_flows;
 mod dexp_slope;
+mod diagonals;
 mod discrete_body;
 mod discrete_gradient;
 mod discrete_gradient_step;

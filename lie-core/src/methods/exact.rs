@@ -119,10 +119,7 @@ impl<'a, S: Scalar, P: IntegrablePoisson<S>> ExactStepper<'a, S, P> {
         for index in 0..self.system.bodies().len() {
             let body = self.system.bodies()[index];
             let axes = self.axes_of(&body);
-            let fresh = axes.map(|axis| {
-                let [x, y, z] = body.map(|k| mu.as_slice()[k]);
-                (axis[0] * x + axis[1] * y) + axis[2] * z
-            });
+            let fresh = into(&axes, at(mu.as_slice(), &body));
             let [old, rates] = [&self.place, &self.rates].map(|v| at(v.as_slice(), &body));
             let y = core::array::from_fn(|i| S::select(follows, old[i], fresh[i]));
             let motion = FreeBody::new(rates, y);
@@ -141,10 +138,7 @@ impl<'a, S: Scalar, P: IntegrablePoisson<S>> ExactStepper<'a, S, P> {
             for index in 0..self.system.bodies().len() {
                 let body = self.system.bodies()[index];
                 let axes = self.axes_of(&body);
-                let y = axes.map(|axis| {
-                    let [x, y, z] = body.map(|k| mu.as_slice()[k]);
-                    (axis[0] * x + axis[1] * y) + axis[2] * z
-                });
+                let y = into(&axes, at(mu.as_slice(), &body));
                 let motion = FreeBody::new(at(self.rates.as_slice(), &body), y);
                 let functions = motion.widen().functions(times);
                 let functions = functions.map(|wide| S::scatter(wide)[node]);
@@ -173,6 +167,11 @@ fn put<S: Copy>(state: &mut [S], body: &[usize; 3], values: [S; 3]) {
     for (&k, value) in body.iter().zip(values) {
         state[k] = value;
     }
+}
+
+/// From the basis to the principal axes.
+fn into<S: Scalar>(axes: &[[S; 3]; 3], [x, y, z]: [S; 3]) -> [S; 3] {
+    axes.map(|axis| (axis[0] * x + axis[1] * y) + axis[2] * z)
 }
 
 /// From the principal axes to the basis.
