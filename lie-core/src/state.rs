@@ -107,6 +107,8 @@ pub trait State<S: Scalar>: Unknown<S> {
     fn copy_from(&mut self, other: &Self) {
         self.as_mut_slice().copy_from_slice(other.as_slice());
     }
+    /// Moves the coordinates out, to be given back, without allocating; which ones are left is not specified.
+    fn take(&mut self) -> Self;
     /// Sets every coordinate.
     #[inline]
     fn fill(&mut self, value: S) {
@@ -122,7 +124,7 @@ pub trait State<S: Scalar>: Unknown<S> {
 }
 
 macro_rules! one_part {
-    ($type:ty, [$($generics:tt)*], $slice:expr, $slice_mut:expr) => {
+    ($type:ty, [$($generics:tt)*], $slice:expr, $slice_mut:expr, $take:expr) => {
         impl<S: Scalar, $($generics)*> Unknown<S> for $type {
             #[inline(always)]
             fn parts(&self) -> usize {
@@ -147,19 +149,24 @@ macro_rules! one_part {
             fn as_mut_slice(&mut self) -> &mut [S] {
                 $slice_mut(self)
             }
+            #[inline(always)]
+            fn take(&mut self) -> Self {
+                $take(self)
+            }
         }
     };
 }
 
 #[cfg(any(feature = "nalgebra", test))]
-one_part!(SVector<S, N>, [const N: usize], SVector::as_slice, SVector::as_mut_slice);
-one_part!([S; N], [const N: usize], <[S; N]>::as_slice, <[S; N]>::as_mut_slice);
+one_part!(SVector<S, N>, [const N: usize], SVector::as_slice, SVector::as_mut_slice, |state: &mut Self| *state);
+one_part!([S; N], [const N: usize], <[S; N]>::as_slice, <[S; N]>::as_mut_slice, |state: &mut Self| *state);
 #[cfg(feature = "std")]
 one_part!(
     std::vec::Vec<S>,
     [],
     std::vec::Vec::as_slice,
-    std::vec::Vec::as_mut_slice
+    std::vec::Vec::as_mut_slice,
+    core::mem::take
 );
 
 /// The unknowns of a method with several stages, one part per stage.

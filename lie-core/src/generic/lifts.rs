@@ -29,7 +29,7 @@ pub trait LinearLift<S: Scalar, P: LiePoisson<S>> {
     /// The canonical flow of `H o J` at a point, up to directions in which J does not change.
     fn flow(system: &P, labels: &Self::Labels, point: &Self::Point, out: &mut Self::Point);
     /// Moves a point over its state to where it is small, and the slopes of the step that led there with it.
-    fn settle(_system: &P, _point: &mut Self::Point, _slopes: &mut [S::Wide]) {}
+    fn settle(_system: &P, _point: &mut Self::Point, _slopes: &mut Self::Point) {}
 }
 
 /// The lift of a system that has one of its own.
@@ -62,7 +62,7 @@ impl<S: Scalar, P: CollectivePoisson<S>> LinearLift<S, P> for Smallest {
     }
 
     #[inline(always)]
-    fn settle(system: &P, point: &mut Self::Point, slopes: &mut [S::Wide]) {
+    fn settle(system: &P, point: &mut Self::Point, slopes: &mut Self::Point) {
         P::Lift::settle(system, point, slopes);
     }
 }

@@ -3,7 +3,8 @@
 use core::array::from_fn;
 
 use super::cohen_hairer::lagrange;
-use super::diagonals::{diagonals, product};
+use super::diagonals::{diagonals, product, product_from};
+use super::stage_parallel::At;
 use super::kernels::multiply;
 use super::quadrature::{MAX_NODES, Quadrature};
 use super::tableau::gauss_tableau;
@@ -66,21 +67,22 @@ where
         }
     }
 
-    /// The means at all stages, of a step from the base whose slopes and points at the stages are given.
+    /// The means at all stages of a step.
     #[inline(always)]
-    pub fn means<W>(&mut self, wide: &W, base: &[S], slopes: &V, points: &V) -> &V
+    pub fn means<W>(&mut self, wide: &W, at: &At<'_, V>) -> &V
     where
         W: Poisson<S::Wide, State = V, Jacobian = M>,
     {
         let Some(blocks) = &self.blocks else {
-            wide.gradient(points, &mut self.means);
+            wide.gradient(at.points, &mut self.means);
             return &self.means;
         };
         self.means.fill(S::Wide::zero());
         for block in &blocks[..self.count] {
-            let entries = self.point.as_mut_slice().iter_mut().zip(base);
-            for ((point, y), slopes) in entries.zip(slopes.as_slice()) {
-                *point = y.widen() + product::<S, BLOCK>(&block.curve, *slopes);
+            let entries = self.point.as_mut_slice().iter_mut();
+            let lines = at.base.as_slice().iter().zip(at.slopes.as_slice());
+            for (point, (y, slopes)) in entries.zip(lines) {
+                *point = product_from::<S, BLOCK>(*y, &block.curve, *slopes);
             }
             wide.gradient(&self.point, &mut self.gradient);
             let means = self.means.as_mut_slice().iter_mut();
@@ -91,18 +93,18 @@ where
         &self.means
     }
 
-    /// The slopes `Pi(Y_i) g_i` at all stages, of a step from the base with slopes and points `Y_i`.
+    /// The slopes `Pi(Y_i) g_i` at all stages of a step.
     #[inline(always)]
-    pub fn slopes<W>(&mut self, wide: &W, base: &[S], slopes: &V, points: &V, out: &mut V)
+    pub fn slopes<W>(&mut self, wide: &W, at: &At<'_, V>, out: &mut V)
     where
         W: Poisson<S::Wide, State = V, Jacobian = M>,
     {
         if self.blocks.is_none() {
-            wide.vector_field(points, out);
+            wide.vector_field(at.points, out);
             return;
         }
-        self.means(wide, base, slopes, points);
-        wide.poisson_matrix(points, &mut self.matrix);
+        self.means(wide, at);
+        wide.poisson_matrix(at.points, &mut self.matrix);
         multiply(&self.matrix, &self.means, out);
     }
 }

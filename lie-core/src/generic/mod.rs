@@ -91,6 +91,6 @@ pub use series::{coadjoint_action, dexp_dual};
 pub use spherical::{Spherical, sphere_ratio, sphere_ratios};
 pub use spinors::{flow_of_spinors, flow_over_spins, spinors_of, spins_of};
 pub use stage_momenta::{StageMap, StageMomenta};
-pub use stage_parallel::{Iterated, StageParallel};
+pub use stage_parallel::{At, Iterated, StageParallel};
 pub use tableau::{MOST_STAGES, Tableau, gauss_ahead, gauss_entry, gauss_tableau, gauss_weight};
 pub use tensor::{MeanTensor, MidpointTensor, PoissonTensor, TensorFacts};

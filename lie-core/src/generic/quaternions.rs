@@ -186,16 +186,13 @@ impl<S: Scalar, P: VectorPoisson<S>> LinearLift<S, P> for Quaternion {
     }
 
     #[inline(always)]
-    fn settle(_system: &P, point: &mut P::Quaternions, slopes: &mut [S::Wide]) {
+    fn settle(_system: &P, point: &mut P::Quaternions, slopes: &mut P::Quaternions) {
         let [q, p] = parts(point);
         let along = (q[0] * p[0] + q[1] * p[1]) + (q[2] * p[2] + q[3] * p[3]);
         let square = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
         let shear = along / square;
-        let wide = shear.widen();
         write(q, core::array::from_fn(|k| p[k] - shear * q[k]), point);
-        for k in 0..4 {
-            let along = wide * slopes[k];
-            slopes[k + 4] -= along;
-        }
+        let [f, g] = parts(slopes);
+        write(f, core::array::from_fn(|k| g[k] - shear * f[k]), slopes);
     }
 }

@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use super::diagonals::{diagonals, product, tree};
+use super::diagonals::{diagonals, product, product_from, total};
 use super::tableau::{gauss_ahead, gauss_entry, gauss_weight};
 use crate::newton::{Convergence, NewtonOptions};
 use crate::scalar::{Mask, Scalar, largest};
@@ -13,6 +13,12 @@ const REVIEW: u32 = 8;
 /// Updates up to this many units of round-off that no longer shrink are round-off themselves.
 const STAGNATION: f64 = 256.0;
 
+/// Where no rate is known, a change counts as what is left after it.
+const UNKNOWN: (f64, f64) = (1.0, 2.0);
+
+/// A rate that was seen in another step is not trusted below this.
+const TRUSTED: f64 = 1.0 / 16.0;
+
 /// A start that is no better than the field at the state is improved by so many half iterations.
 const APPROACH: u32 = 12;
 
@@ -20,12 +26,13 @@ const APPROACH: u32 = 12;
 ///
 /// With the slopes `F_i = f(Y_i)` the iteration is `F_i <- f(y + h sum_j a_ij F_j)`: one evaluation of the field on
 /// all stages and one product with the tableau. It starts from the polynomial of the step before, continued; without
-/// one, from `f(y)`. It converges linearly, by a factor proportional to h.
+/// one, from `f(y)`. It converges linearly, by a factor proportional to h. How many iterations a step takes changes
+/// little from step to step, so most of them are made without a look at the changes.
 #[derive(Clone, Debug)]
 pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
-    /// The diagonals of h A.
+    /// h A.
     tableau: [S::Wide; 8],
-    /// Those of the matrix that continues the polynomial of a step.
+    /// The matrix that continues the polynomial of a step.
     ahead: [S::Wide; 8],
     /// `h b_i` in place i.
     weights: S::Wide,
@@ -33,13 +40,30 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
     inside: S::Wide,
     step: S,
     /// `1/|h|`
-    rate: S,
+    per_step: S,
+    /// y, the same in all places.
+    base: V,
     slopes: V,
     point: V,
     next: V,
     options: NewtonOptions,
+    /// How many iterations of a step need no look, in each lane.
+    quiet: S,
+    /// The factor by which changes shrank at the end of a step.
+    rate: S,
     /// How many iterations the map of the last step took, in each lane.
     taken: S,
+}
+
+/// The stages of a step: its base, which is the same in all places, the slopes, and the points of the stages.
+#[derive(Debug)]
+pub struct At<'a, V> {
+    /// y
+    pub base: &'a V,
+    /// `F_i`
+    pub slopes: &'a V,
+    /// `Y_i = y + h sum_j a_ij F_j`
+    pub points: &'a V,
 }
 
 /// How an iteration ended.
@@ -47,7 +71,7 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
 pub struct Iterated<S: Scalar> {
     /// Evaluations of the field on all stages.
     pub iterations: u32,
-    /// The size of the last update of `h F`.
+    /// The size of the last update of `h F` that was looked at.
     pub residual: f64,
     /// The lanes that have converged.
     pub converged: S::Mask,
@@ -68,31 +92,42 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             })),
             inside: S::gather(from_fn(|i| if i < STAGES { S::one() } else { S::zero() })),
             step: h,
-            rate: S::one() / h.abs(),
+            per_step: S::one() / h.abs(),
+            base: zero.clone(),
             slopes: zero.clone(),
             point: zero.clone(),
             next: zero,
             options: *options,
+            quiet: S::zero(),
+            rate: S::ratio(UNKNOWN.0, UNKNOWN.1),
             taken: S::zero(),
         }
     }
 
-    /// Starts from a slope that is the same at all stages, in the lanes of a mask.
-    pub fn start_with(&mut self, mask: S::Mask, slope: &[S]) {
+    /// Starts from a base, with a slope that is the same at all stages, in the lanes of a mask.
+    pub fn start(&mut self, mask: S::Mask, base: &[S], slope: &[S]) {
+        self.set_base(mask, base);
         for (slopes, &entry) in self.slopes.as_mut_slice().iter_mut().zip(slope) {
             let old = S::scatter(*slopes);
             *slopes = S::gather(old.map(|old| S::select(mask, entry, old)));
         }
-        self.taken = S::select(mask, S::zero(), self.taken);
+        self.forget(mask);
+    }
+
+    /// Sets the base of the next step in the lanes of a mask.
+    pub fn set_base(&mut self, mask: S::Mask, base: &[S]) {
+        for (wide, &entry) in self.base.as_mut_slice().iter_mut().zip(base) {
+            let [old, ..] = S::scatter(*wide);
+            *wide = S::select(mask, entry, old).widen();
+        }
     }
 
     /// Takes half of the way that the iteration would go, several times, in the lanes of a mask: where it contracts at all, that
     /// leads from a bad start to a good one.
-    pub fn approach(&mut self, mask: S::Mask, base: &[S], mut field: impl FnMut(&V, &mut V)) {
+    pub fn approach(&mut self, mask: S::Mask, mut field: impl FnMut(At<'_, V>, &mut V)) {
         let half = S::ratio(1.0, 2.0);
         for _ in 0..APPROACH {
-            self.set_points(base);
-            field(&self.point, &mut self.next);
+            self.evaluate(&mut field);
             let slopes = self.slopes.as_mut_slice().iter_mut();
             for (slope, &next) in slopes.zip(self.next.as_slice()) {
                 let (old, new) = (S::scatter(*slope), S::scatter(next));
@@ -110,46 +145,54 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         }
     }
 
-    /// Iterates from a base until what the options say has converged. Sizes are sums of magnitudes. `field` takes the slopes
-    /// and the points at the stages and gives the next slopes.
+    /// Iterates until what the options say has converged. Sizes are sums of magnitudes. `field` gives the next slopes.
     #[inline(always)]
-    pub fn iterate(&mut self, base: &[S], field: impl FnMut(&V, &V, &mut V)) -> Iterated<S> {
+    pub fn iterate(&mut self, field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
         match self.options.convergence {
-            Convergence::Map => self.iterate_map(base, field),
-            Convergence::State | Convergence::Claimed => self.iterate_state(base, field),
+            Convergence::Map => self.iterate_map(field),
+            Convergence::State | Convergence::Claimed => self.iterate_state(field),
         }
     }
 
     /// Until the error of the increments is below the tolerance of the options, or updates have shrunk to round-off.
     #[inline(always)]
-    fn iterate_state(&mut self, base: &[S], mut field: impl FnMut(&V, &V, &mut V)) -> Iterated<S> {
-        let ending = Ending::new(self.size(base), &self.options);
+    fn iterate_state(&mut self, mut field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
+        let ending = Ending::new(self.size(), self.rate, &self.options);
         let [mut ended, mut converged] = [S::Mask::splat(false); 2];
-        let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
+        let (mut iterations, mut mark) = (self.blind(0, &mut field), S::from_f64(f64::MAX));
         let mut change = S::Wide::zero();
         while iterations < self.options.max_iterations && !ended.all() {
-            self.set_points(base);
-            field(&self.slopes, &self.point, &mut self.next);
+            self.evaluate(&mut field);
             let before = change;
             change = self.replace(ended);
             iterations += 1;
-            if ending.may_be(change) {
-                let size = most::<S>(change);
-                let before = (iterations > 1).then(|| most::<S>(before));
-                converged = converged | (ending.reached(before, size) & !ended);
-                ended = ended | converged;
+            let count = S::from_f64(f64::from(iterations));
+            let open = self.quiet.less(count) & !ended;
+            let first = (count - self.quiet).less_equal(S::one());
+            let bound = S::select(first, ending.at_once, ending.bound);
+            let mut reached = are_below::<S>(change, bound) & open;
+            let doubtful = reached & !first;
+            if doubtful.any() {
+                let (before, size) = (most::<S>(before), most::<S>(change));
+                let (shrinks, enough) = ending.reached(before, size);
+                self.rate = S::select(doubtful & shrinks & enough, size / before, self.rate);
+                reached = reached & (first | enough);
             }
-            if iterations % REVIEW == 0 {
+            if reached.any() {
+                // the second look should be the one that is enough
+                let fewer = (self.quiet - S::one()).max(S::zero());
+                let quiet = S::select(first, fewer, count - S::ratio(2.0, 1.0));
+                self.quiet = S::select(reached, quiet, self.quiet);
+                converged = converged | reached;
+                ended = ended | reached;
+            }
+            if iterations.is_multiple_of(REVIEW) {
                 let size = most::<S>(change);
-                ended = ended | !size.less(mark * S::ratio(1.0, 2.0));
-                mark = size;
+                ended = ended | (open & !size.less(mark * S::ratio(1.0, 2.0)));
+                mark = S::select(open, size, mark);
             }
         }
-        Iterated {
-            iterations,
-            residual: largest(most::<S>(change) * self.step.abs()),
-            converged,
-        }
+        self.end(iterations, change, converged)
     }
 
     /// Until the derivative of the increments by the base has converged too.
@@ -159,73 +202,146 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// they reach round-off before it, the last rate is taken to go on; a start at round-off shows no rate, and takes as
     /// many iterations as the step before.
     #[inline(always)]
-    fn iterate_map(&mut self, base: &[S], mut field: impl FnMut(&V, &V, &mut V)) -> Iterated<S> {
-        let bound = self.size(base) * S::epsilon() * S::from_f64(STAGNATION);
-        let wide_bound = bound.widen();
+    fn iterate_map(&mut self, mut field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
+        let bound = self.size() * S::epsilon() * S::from_f64(STAGNATION);
         let enough = S::epsilon() * S::ratio(1.0, 4.0);
         let [mut ended, mut settled, mut ready] = [S::Mask::splat(false); 3];
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
-        let [mut first, mut before, mut change] = [S::Wide::zero(); 3];
+        let [mut first, mut earlier, mut before, mut change] = [S::Wide::zero(); 4];
         let [mut left, mut rate] = [S::one(); 2];
         while iterations < self.options.max_iterations && !ended.all() {
-            self.set_points(base);
-            field(&self.slopes, &self.point, &mut self.next);
-            let earlier = before;
-            before = change;
-            change = self.replace(ended);
-            iterations += 1;
-            if iterations == 1 {
-                first = change;
+            self.evaluate(&mut field);
+            if settled.all() {
+                self.take_over(ended);
+            } else {
+                earlier = before;
+                before = change;
+                change = self.replace(ended);
             }
+            iterations += 1;
+            let count = S::from_f64(f64::from(iterations));
+            let open = (self.quiet.less(count) | count.less_equal(S::one())) & !ended;
             left *= rate;
-            if !settled.all() && is_below::<S>(change, wide_bound) {
-                let size = most::<S>(change);
-                let new = size.less_equal(bound) & !settled;
+            let new = are_below::<S>(change, bound) & open & !settled;
+            if new.any() {
                 if iterations > 1 {
-                    // single updates may shrink by much less than those around them
-                    let last = match iterations {
-                        2 => size / most::<S>(before),
-                        _ => (size / most::<S>(earlier)).sqrt(),
-                    };
+                    let [size, before, earlier] = [change, before, earlier].map(most::<S>);
+                    let last = self.seen(new, count, [size, before, earlier]);
                     rate = S::select(new, last, rate);
                     left = S::select(new, size / most::<S>(first), left);
                 }
                 settled = settled | new;
             }
-            let count = S::from_f64(f64::from(iterations));
             let by_rate = left.less_equal(enough);
             let by_count = S::one().less_equal(left) & self.taken.less_equal(count);
-            ready = ready | (settled & !ended & (by_rate | by_count));
+            ready = ready | (settled & open & (by_rate | by_count));
             self.taken = S::select(ready & !ended, count, self.taken);
             ended = ended | ready;
-            if iterations % REVIEW == 0 {
+            if iterations.is_multiple_of(REVIEW) {
                 let size = most::<S>(change);
-                ended = ended | (!settled & !size.less(mark * S::ratio(1.0, 2.0)));
-                mark = size;
+                let active = open & !settled;
+                ended = ended | (active & !size.less(mark * S::ratio(1.0, 2.0)));
+                mark = S::select(active, size, mark);
             }
+            if iterations == 1 {
+                first = change;
+                if !ended.any() {
+                    iterations = self.blind(1, &mut field);
+                }
+            }
+        }
+        self.end(iterations, change, ready)
+    }
+
+    /// The rate at which changes shrink that have just reached round-off, from the last three of them: single ones may
+    /// shrink by much less than those around them. The third look of a step should be the one that sees it.
+    #[inline(always)]
+    fn seen(&mut self, new: S::Mask, count: S, [size, before, earlier]: [S; 3]) -> S {
+        let looks = count - self.quiet;
+        let [one, two, three] = [1.0, 2.0, 3.0].map(|k| S::ratio(k, 1.0));
+        let rate = S::select(looks.less(three), size / before, (size / earlier).sqrt());
+        let rate = S::select(looks.less(two), self.rate, rate);
+        let quiet = S::select(looks.less(three), self.quiet - one, count - three);
+        self.quiet = S::select(new, quiet.max(S::zero()), self.quiet);
+        self.rate = S::select(new, rate, self.rate);
+        rate
+    }
+
+    /// Iterates without a look at the changes up to where some lane needs one; the number of iterations, of which `done`
+    /// were made before.
+    #[inline(always)]
+    fn blind(&mut self, done: u32, field: &mut impl FnMut(At<'_, V>, &mut V)) -> u32 {
+        let quiet = (1..S::LANES).fold(self.quiet.lane(0).to_f64(), |least, lane| {
+            least.min(self.quiet.lane(lane).to_f64())
+        });
+        let quiet = (quiet as u32).min(self.options.max_iterations);
+        // by value, so that they can stay in registers
+        let (mut slopes, mut points) = (self.slopes.take(), self.point.take());
+        let mut next = self.next.take();
+        for _ in done..quiet {
+            points_at::<S, V, STAGES>(&self.tableau, &self.base, &slopes, &mut points);
+            let at = At {
+                base: &self.base,
+                slopes: &slopes,
+                points: &points,
+            };
+            field(at, &mut next);
+            slopes.copy_from(&next);
+        }
+        (self.slopes, self.point, self.next) = (slopes, points, next);
+        quiet.max(done)
+    }
+
+    /// Evaluates the field at the points of the stages.
+    #[inline(always)]
+    fn evaluate(&mut self, field: &mut impl FnMut(At<'_, V>, &mut V)) {
+        points_at::<S, V, STAGES>(&self.tableau, &self.base, &self.slopes, &mut self.point);
+        let at = At {
+            base: &self.base,
+            slopes: &self.slopes,
+            points: &self.point,
+        };
+        field(at, &mut self.next);
+    }
+
+    /// What is reported of an iteration; the next one expects nothing in the lanes that have not converged.
+    #[inline(always)]
+    fn end(&mut self, iterations: u32, change: S::Wide, converged: S::Mask) -> Iterated<S> {
+        if !converged.all() {
+            self.forget(!converged);
         }
         Iterated {
             iterations,
             residual: largest(most::<S>(change) * self.step.abs()),
-            converged: ready,
+            converged,
         }
+    }
+
+    /// Expects nothing of the next step in some lanes.
+    fn forget(&mut self, lanes: S::Mask) {
+        self.quiet = S::select(lanes, S::zero(), self.quiet);
+        self.rate = S::select(lanes, S::ratio(UNKNOWN.0, UNKNOWN.1), self.rate);
+        self.taken = S::select(lanes, S::zero(), self.taken);
     }
 
     /// The size of the slopes against which changes are measured: that of the base over h, or of the slopes themselves.
     #[inline(always)]
-    fn size(&self, base: &[S]) -> S {
-        let scale = base.iter().fold(S::zero(), |sum, y| sum + y.magnitude());
+    fn size(&self) -> S {
+        let bases = self.base.as_slice().iter();
+        let bases = bases.fold(S::Wide::zero(), |sum, y| sum + y.magnitude());
         let slopes = self.slopes.as_slice().iter();
         let slopes = slopes.fold(S::Wide::zero(), |sum, f| sum + f.magnitude());
-        (scale * self.rate).max(most::<S>(slopes))
+        let [base, ..] = S::scatter(bases);
+        (base * self.per_step).max(most::<S>(slopes))
     }
 
-    /// Sets the points `y + h A F`.
+    /// Takes over the next slopes but in the lanes that have ended.
     #[inline(always)]
-    fn set_points(&mut self, base: &[S]) {
-        let entries = self.point.as_mut_slice().iter_mut().zip(base);
-        for ((point, y), slopes) in entries.zip(self.slopes.as_slice()) {
-            *point = y.widen() + product::<S, STAGES>(&self.tableau, *slopes);
+    fn take_over(&mut self, ended: S::Mask) {
+        if S::LANES == 1 {
+            self.slopes.copy_from(&self.next);
+        } else {
+            self.replace(ended);
         }
     }
 
@@ -251,24 +367,38 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         }
     }
 
-    /// Adds the increment of the step to the base.
+    /// Moves the base to the end of the step.
     #[inline(always)]
-    pub fn advance(&self, base: &mut [S]) {
-        for (y, slopes) in base.iter_mut().zip(self.slopes.as_slice()) {
-            let [a, b, c, d, e, f, g, h] = S::scatter(self.weights * *slopes);
-            *y += tree(&[a, b, c, d]) + tree(&[e, f, g, h]);
+    pub fn advance(&mut self) {
+        for (y, slopes) in self.base.as_mut_slice().iter_mut().zip(self.slopes.as_slice()) {
+            *y += total::<S>(self.weights * *slopes);
         }
     }
 
-    /// The slopes at the stages, to be changed where the base is.
-    pub fn slopes_mut(&mut self) -> &mut V {
-        &mut self.slopes
+    /// Writes the base, in one place of its numbers.
+    #[inline(always)]
+    pub fn base_into(&self, out: &mut [S]) {
+        for (out, wide) in out.iter_mut().zip(self.base.as_slice()) {
+            let [y, ..] = S::scatter(*wide);
+            *out = y;
+        }
     }
 
-    /// The slopes and the points of the stages, of a step from the base.
-    pub fn stages(&mut self, base: &[S]) -> (&V, &V) {
-        self.set_points(base);
-        (&self.slopes, &self.point)
+    /// The base and the slopes of the last step, to be changed together.
+    #[inline(always)]
+    pub fn base_and_slopes(&mut self) -> (&mut V, &mut V) {
+        (&mut self.base, &mut self.slopes)
+    }
+
+    /// The stages of a step with the slopes of the last one from a base, which is set.
+    pub fn stages(&mut self, base: &[S]) -> At<'_, V> {
+        self.set_base(S::Mask::splat(true), base);
+        points_at::<S, V, STAGES>(&self.tableau, &self.base, &self.slopes, &mut self.point);
+        At {
+            base: &self.base,
+            slopes: &self.slopes,
+            points: &self.point,
+        }
     }
 
     /// The increments `h F_i` of the stages.
@@ -293,66 +423,79 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     }
 }
 
+/// The points `y + h A F`.
+#[inline(always)]
+fn points_at<S: Scalar, V: State<S::Wide>, const STAGES: usize>(
+    tableau: &[S::Wide; 8],
+    base: &V,
+    slopes: &V,
+    points: &mut V,
+) {
+    let entries = points.as_mut_slice().iter_mut().zip(base.as_slice());
+    for ((point, y), slopes) in entries.zip(slopes.as_slice()) {
+        *point = product_from::<S, STAGES>(*y, tableau, *slopes);
+    }
+}
+
 /// When an iteration has ended, in changes of the slopes.
 struct Ending<S: Scalar> {
     /// What may be left.
     goal: S,
+    /// A first change up to this leaves that little, by the rate of the step before.
+    at_once: S,
     /// Changes up to this are round-off if they no longer shrink.
     round_off: S,
     /// Changes above this are not looked at.
     bound: S,
-    wide_bound: S::Wide,
 }
 
 impl<S: Scalar> Ending<S> {
     /// For slopes of which a part of round-off is `epsilon` times the size.
     #[inline(always)]
-    fn new(size: S, options: &NewtonOptions) -> Self {
+    fn new(size: S, rate: S, options: &NewtonOptions) -> Self {
         let unit = S::epsilon() * size;
-        let bound = unit * S::from_f64(STAGNATION.max(16.0 * options.tolerance));
+        let goal = unit * S::from_f64(options.tolerance);
+        let rate = rate.max(S::from_f64(TRUSTED));
         Self {
-            goal: unit * S::from_f64(options.tolerance),
+            goal,
+            at_once: goal * ((S::one() - rate) / rate),
             round_off: unit * S::from_f64(STAGNATION),
-            bound,
-            wide_bound: bound.widen(),
+            bound: unit * S::from_f64(STAGNATION.max(16.0 * options.tolerance)),
         }
     }
 
-    /// Whether a change is so small that the iteration may have ended in some lane.
+    /// The lanes in which changes shrink, and those in which it has ended: with the ratio r of the last two changes as the
+    /// rate, the last one times `r/(1 - r)` is left.
     #[inline(always)]
-    fn may_be(&self, change: S::Wide) -> bool {
-        is_below::<S>(change, self.wide_bound)
-    }
-
-    /// The lanes in which it has: with the ratio r of the last two changes as the rate, the last one times `r/(1 - r)` is
-    /// left. One change alone says no rate.
-    #[inline(always)]
-    fn reached(&self, before: Option<S>, change: S) -> S::Mask {
-        let Some(before) = before else {
-            return change.less_equal(self.goal);
-        };
+    fn reached(&self, before: S, change: S) -> (S::Mask, S::Mask) {
         let shrinks = (change + change).less(before);
         let left = change * change;
         let small = left.less_equal(self.goal * (before - change));
         let settled = change.less_equal(self.round_off);
-        change.less_equal(self.bound) & ((shrinks & small) | (!shrinks & settled))
+        (shrinks, (shrinks & small) | (!shrinks & settled))
     }
 }
 
-/// Whether eight numbers are below others, in some lane; of a number without lanes, all eight.
+/// The lanes in which eight numbers are all below a bound.
 #[inline(always)]
-fn is_below<S: Scalar>(numbers: S::Wide, bound: S::Wide) -> bool {
-    let below = numbers.less_equal(bound);
+fn are_below<S: Scalar>(numbers: S::Wide, bound: S) -> S::Mask {
     if S::LANES == 1 {
-        below.all()
-    } else {
-        below.any()
+        return S::Mask::splat(numbers.less_equal(bound.widen()).all());
     }
+    let all = S::Mask::splat(true);
+    let numbers = S::scatter(numbers).into_iter();
+    numbers.fold(all, |below, number| below & number.less_equal(bound))
 }
 
 /// The largest of eight numbers.
 #[inline(always)]
 fn most<S: Scalar>(wide: S::Wide) -> S {
+    if S::LANES == 1 {
+        let pairs = wide.max(S::exchange::<1>(wide));
+        let fours = pairs.max(S::exchange::<2>(pairs));
+        let [most, ..] = S::scatter(fours.max(S::exchange::<4>(fours)));
+        return most;
+    }
     let [a, b, c, d, e, f, g, h] = S::scatter(wide);
     S::max(S::max(a.max(b), c.max(d)), S::max(e.max(f), g.max(h)))
 }

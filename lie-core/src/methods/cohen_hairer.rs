@@ -34,10 +34,10 @@
 use super::facts::{Facts, Preserves};
 use super::gauss::BY_NEWTON;
 use super::implicit::ImplicitStepper;
-use super::stage_parallel::{At, Slopes, StageParallelStepper, WideState};
+use super::stage_parallel::{Slopes, StageParallelStepper, WideState};
 use super::stepper::Method;
 use crate::equation::{Equation as _, Implicit};
-use crate::generic::{CohenHairerStep, MeanGradients};
+use crate::generic::{At, CohenHairerStep, MeanGradients};
 use crate::newton::NewtonOptions;
 use crate::poisson::{Poisson, Widen};
 use crate::scalar::{Mask as _, Scalar};
@@ -154,18 +154,22 @@ impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAG
     }
 
     #[inline(always)]
-    fn next(&mut self, wide: &P::Widened, base: &[S], at: At<'_, S, P>, out: &mut WideState<S, P>) {
-        self.means.slopes(wide, base, at.0, at.1, out);
+    fn next(
+        &mut self,
+        wide: &P::Widened,
+        at: At<'_, WideState<S, P>>,
+        out: &mut WideState<S, P>,
+    ) {
+        self.means.slopes(wide, &at, out);
     }
 
     fn directions(
         &mut self,
         wide: &P::Widened,
-        base: &[S],
-        at: At<'_, S, P>,
+        at: At<'_, WideState<S, P>>,
         out: &mut WideState<S, P>,
     ) {
-        out.clone_from(self.means.means(wide, base, at.0, at.1));
+        out.clone_from(self.means.means(wide, &at));
     }
 
     fn resolved(

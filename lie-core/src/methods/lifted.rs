@@ -50,12 +50,13 @@ where
     wide: P::Widened,
     step: S,
     stages: StageParallel<S, WidePoint<S, P, L>, STAGES>,
+    /// A point over the state at which the last chain of steps began.
     point: <L as LinearLift<S, P>>::Point,
-    base: <L as LinearLift<S, P>>::Point,
     labels: <L as LinearLift<S, P>>::Labels,
     wide_labels: WideLabels<S, P, L>,
     /// How large the point was when it was chosen.
     size: S,
+    momenta: WideState<S, P>,
     end: P::State,
     next: P::State,
     follows: S::Mask,
@@ -74,11 +75,11 @@ where
         let point = <L as LinearLift<S, P>>::zero_point(system);
         Self {
             stages: StageParallel::new(h, L::zero_point(&wide), &newton),
-            base: point.clone(),
             point,
             labels: <L as LinearLift<S, P>>::zero_labels(system),
             wide_labels: L::zero_labels(&wide),
             size: S::zero(),
+            momenta: wide.zero_state(),
             end: system.zero_state(),
             next: system.zero_state(),
             follows: S::Mask::splat(false),
@@ -105,25 +106,26 @@ where
             self.size = S::select(fresh, point.max_norm(), self.size);
         }
         <L as LinearLift<S, P>>::flow(system, &self.labels, &self.point, &mut point);
-        self.stages.start_with(fresh, point.as_slice());
+        self.stages
+            .start(fresh, self.point.as_slice(), point.as_slice());
         let (wide, labels) = (&self.wide, &self.wide_labels);
-        let base = self.point.as_slice();
-        self.stages.approach(fresh, base, |points, slopes| {
-            L::flow(wide, labels, points, slopes);
+        self.stages.approach(fresh, |at, slopes| {
+            L::flow(wide, labels, at.points, slopes);
         });
     }
 
     /// Moves the point over the state at which a step has ended.
     #[inline(always)]
     fn settle(&mut self) {
-        let slopes = self.stages.slopes_mut().as_mut_slice();
-        <L as LinearLift<S, P>>::settle(self.system, &mut self.point, slopes);
+        let (point, slopes) = self.stages.base_and_slopes();
+        <L as LinearLift<S::Wide, P::Widened>>::settle(&self.wide, point, slopes);
     }
 
     /// The lanes whose point has become large.
     #[inline(always)]
-    fn grown(&self) -> S::Mask {
+    fn grown(&mut self) -> S::Mask {
         if <L as LinearLift<S, P>>::GROWS {
+            self.stages.base_into(self.point.as_mut_slice());
             !self
                 .point
                 .max_norm()
@@ -133,13 +135,16 @@ where
         }
     }
 
-    /// Gives away `h grad H` at the stages of the last step.
+    /// Gives away `h grad H` at the stages of the last step, which began at `self.point`.
     fn give_velocities<K: FactorSink<P::State>>(&mut self, failed: S::Mask, sink: &mut K) {
-        let (_, points) = self.stages.stages(self.base.as_slice());
-        let mut momenta: WideState<S, P> = self.wide.zero_state();
+        let mut end = self.point.clone();
+        self.stages.base_into(end.as_mut_slice());
+        let at = self.stages.stages(self.point.as_slice());
         let mut gradient: WideState<S, P> = self.wide.zero_state();
-        L::project(&self.wide, &self.wide_labels, points, &mut momenta);
-        self.wide.gradient(&momenta, &mut gradient);
+        L::project(&self.wide, &self.wide_labels, at.points, &mut self.momenta);
+        self.wide.gradient(&self.momenta, &mut gradient);
+        self.stages
+            .set_base(S::Mask::splat(true), end.as_slice());
         let xi = self.system.zero_state();
         give::<S, _, _, _, STAGES>(self.step, &gradient, xi, failed, sink);
     }
@@ -167,14 +172,20 @@ where
             self.start(mu, !follows);
         }
         let (wide, labels) = (&self.wide, &self.wide_labels);
-        let solved = self
-            .stages
-            .iterate(self.point.as_slice(), |_, points, slopes| {
-                L::flow(wide, labels, points, slopes);
-            });
-        self.base.copy_from(&self.point);
-        self.stages.advance(self.point.as_mut_slice());
-        <L as LinearLift<S, P>>::project(self.system, &self.labels, &self.point, &mut self.next);
+        let solved = self.stages.iterate(|at, slopes| {
+            L::flow(wide, labels, at.points, slopes);
+        });
+        if K::ACTIVE {
+            self.stages.base_into(self.point.as_mut_slice());
+        }
+        self.stages.advance();
+        let (point, _) = self.stages.base_and_slopes();
+        L::project(wide, labels, point, &mut self.momenta);
+        let entries = self.next.as_mut_slice().iter_mut();
+        for (next, wide) in entries.zip(self.momenta.as_slice()) {
+            let [entry, ..] = S::scatter(*wide);
+            *next = entry;
+        }
         let report = StepReport {
             evaluations: solved.iterations + u32::from(!follows.all()),
             iterations: solved.iterations,

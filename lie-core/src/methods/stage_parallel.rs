@@ -3,7 +3,7 @@
 use super::implicit::{ImplicitStepper, clear};
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
-use crate::generic::{Gauss, StageParallel};
+use crate::generic::{At, Gauss, StageParallel};
 use crate::newton::{FailureReason, Iteration, NewtonOptions};
 use crate::poisson::{Poisson, Widen};
 use crate::scalar::{Mask, Scalar};
@@ -26,15 +26,19 @@ pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize>: Sized {
     /// The equation of a step of size h.
     fn equation(system: &'a P, h: S) -> Self::Equation;
 
-    /// The next slopes, from the last ones and the points at the stages of a step from the base.
-    fn next(&mut self, wide: &P::Widened, base: &[S], at: At<'_, S, P>, out: &mut WideState<S, P>);
+    /// The next slopes, from the stages of a step.
+    fn next(
+        &mut self,
+        wide: &P::Widened,
+        at: At<'_, WideState<S, P>>,
+        out: &mut WideState<S, P>,
+    );
 
     /// The directions in the algebra at the stages: `grad H`, or a mean of it.
     fn directions(
         &mut self,
         wide: &P::Widened,
-        base: &[S],
-        at: At<'_, S, P>,
+        at: At<'_, WideState<S, P>>,
         out: &mut WideState<S, P>,
     );
 
@@ -48,9 +52,6 @@ pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize>: Sized {
         S::Mask::splat(true)
     }
 }
-
-/// The slopes and the points at all stages.
-pub type At<'a, S, P> = (&'a WideState<S, P>, &'a WideState<S, P>);
 
 /// `F_i = f(Y_i)`: Gauss collocation.
 #[derive(Clone, Copy, Debug)]
@@ -71,21 +72,19 @@ impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAG
     fn next(
         &mut self,
         wide: &P::Widened,
-        _base: &[S],
-        at: At<'_, S, P>,
+        at: At<'_, WideState<S, P>>,
         out: &mut WideState<S, P>,
     ) {
-        wide.vector_field(at.1, out);
+        wide.vector_field(at.points, out);
     }
 
     fn directions(
         &mut self,
         wide: &P::Widened,
-        _base: &[S],
-        at: At<'_, S, P>,
+        at: At<'_, WideState<S, P>>,
         out: &mut WideState<S, P>,
     ) {
-        wide.gradient(at.1, out);
+        wide.gradient(at.points, out);
     }
 }
 
@@ -163,6 +162,7 @@ where
         let unknown = stepper.unknown();
         self.stages
             .set_increments_where(left, |stage, k| unknown.0[stage].as_slice()[k]);
+        self.stages.set_base(left, end.as_slice());
         failure
             .map(|failure| StepFailure {
                 lanes: failure.lanes & left.bits(),
@@ -171,7 +171,7 @@ where
             .filter(|failure| failure.lanes != 0)
     }
 
-    /// Gives away h times the directions at the stages of the step from `base`.
+    /// Gives away h times the directions at the stages of the step from `base` to the next state.
     fn give_velocities<K: FactorSink<P::State>>(
         &mut self,
         base: &P::State,
@@ -179,8 +179,10 @@ where
         sink: &mut K,
     ) {
         let at = self.stages.stages(base.as_slice());
-        let out = &mut self.wide_scratch;
-        self.rule.directions(&self.wide, base.as_slice(), at, out);
+        self.rule
+            .directions(&self.wide, at, &mut self.wide_scratch);
+        self.stages
+            .set_base(S::Mask::splat(true), self.next.as_slice());
         let xi = self.system.zero_state();
         give::<S, _, _, _, STAGES>(self.step, &self.wide_scratch, xi, failed, sink);
     }
@@ -205,14 +207,13 @@ where
         }
         if !follows.all() {
             self.system.vector_field(mu, &mut self.next);
-            self.stages.start_with(!follows, self.next.as_slice());
+            self.stages
+                .start(!follows, mu.as_slice(), self.next.as_slice());
         }
-        let (wide, rule, base) = (&self.wide, &mut self.rule, mu.as_slice());
-        let solved = self.stages.iterate(base, |slopes, points, next| {
-            rule.next(wide, base, (slopes, points), next);
-        });
-        self.next.copy_from(mu);
-        self.stages.advance(self.next.as_mut_slice());
+        let (wide, rule) = (&self.wide, &mut self.rule);
+        let solved = self.stages.iterate(|at, next| rule.next(wide, at, next));
+        self.stages.advance();
+        self.stages.base_into(self.next.as_mut_slice());
         let mut report = StepReport {
             evaluations: solved.iterations + u32::from(!follows.all()),
             iterations: solved.iterations,
