@@ -4,9 +4,9 @@ use core::array::from_fn;
 
 use super::cohen_hairer::lagrange;
 use super::diagonals::{diagonals, product, product_from};
-use super::stage_parallel::At;
 use super::kernels::multiply;
 use super::quadrature::{MAX_NODES, Quadrature};
+use super::stage_parallel::At;
 use super::tableau::gauss_tableau;
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;

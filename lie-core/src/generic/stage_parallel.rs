@@ -159,7 +159,8 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     fn iterate_state(&mut self, mut field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
         let ending = Ending::new(self.size(), self.rate, &self.options);
         let [mut ended, mut converged] = [S::Mask::splat(false); 2];
-        let (mut iterations, mut mark) = (self.blind(0, &mut field), S::from_f64(f64::MAX));
+        let (mut iterations, mut mark) = (self.least_quiet(), S::from_f64(f64::MAX));
+        self.blind(iterations, &mut field);
         let mut change = S::Wide::zero();
         while iterations < self.options.max_iterations && !ended.all() {
             self.evaluate(&mut field);
@@ -179,10 +180,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 reached = reached & (first | enough);
             }
             if reached.any() {
-                // the second look should be the one that is enough
-                let fewer = (self.quiet - S::one()).max(S::zero());
-                let quiet = S::select(first, fewer, count - S::ratio(2.0, 1.0));
-                self.quiet = S::select(reached, quiet, self.quiet);
+                self.expect(reached, first, count);
                 converged = converged | reached;
                 ended = ended | reached;
             }
@@ -204,20 +202,15 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     #[inline(always)]
     fn iterate_map(&mut self, mut field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
         let bound = self.size() * S::epsilon() * S::from_f64(STAGNATION);
-        let enough = S::epsilon() * S::ratio(1.0, 4.0);
         let [mut ended, mut settled, mut ready] = [S::Mask::splat(false); 3];
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
-        let [mut first, mut earlier, mut before, mut change] = [S::Wide::zero(); 4];
+        let [mut first, mut before, mut change] = [S::Wide::zero(); 3];
         let [mut left, mut rate] = [S::one(); 2];
         while iterations < self.options.max_iterations && !ended.all() {
             self.evaluate(&mut field);
-            if settled.all() {
-                self.take_over(ended);
-            } else {
-                earlier = before;
-                before = change;
-                change = self.replace(ended);
-            }
+            let earlier = before;
+            before = change;
+            change = self.replace(ended);
             iterations += 1;
             let count = S::from_f64(f64::from(iterations));
             let open = (self.quiet.less(count) | count.less_equal(S::one())) & !ended;
@@ -232,9 +225,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 }
                 settled = settled | new;
             }
-            let by_rate = left.less_equal(enough);
-            let by_count = S::one().less_equal(left) & self.taken.less_equal(count);
-            ready = ready | (settled & open & (by_rate | by_count));
+            ready = ready | (settled & open & self.derived(left, count));
             self.taken = S::select(ready & !ended, count, self.taken);
             ended = ended | ready;
             if iterations.is_multiple_of(REVIEW) {
@@ -246,11 +237,32 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             if iterations == 1 {
                 first = change;
                 if !ended.any() {
-                    iterations = self.blind(1, &mut field);
+                    iterations = self.least_quiet().max(1);
+                    self.blind(iterations - 1, &mut field);
                 }
+            } else if settled.all() && !ended.any() {
+                // nothing is to be seen before some lane is ready
+                let now = iterations;
+                while iterations < self.options.max_iterations && !ready.any() {
+                    iterations += 1;
+                    left *= rate;
+                    let count = S::from_f64(f64::from(iterations));
+                    ready = self.derived(left, count);
+                    self.taken = S::select(ready, count, self.taken);
+                }
+                ended = ready;
+                self.blind(iterations - now, &mut field);
             }
         }
         self.end(iterations, change, ready)
+    }
+
+    /// All iterations of the next step but the last two need no look; if the first look was enough, it comes earlier.
+    #[inline(always)]
+    fn expect(&mut self, reached: S::Mask, first: S::Mask, count: S) {
+        let [one, two] = [1.0, 2.0].map(|k| S::ratio(k, 1.0));
+        let quiet = S::select(first, self.quiet - one, count - two);
+        self.quiet = S::select(reached, quiet.max(S::zero()), self.quiet);
     }
 
     /// The rate at which changes shrink that have just reached round-off, from the last three of them: single ones may
@@ -267,18 +279,29 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         rate
     }
 
-    /// Iterates without a look at the changes up to where some lane needs one; the number of iterations, of which `done`
-    /// were made before.
+    /// The lanes in which nothing is left of the derivative, after so many iterations.
     #[inline(always)]
-    fn blind(&mut self, done: u32, field: &mut impl FnMut(At<'_, V>, &mut V)) -> u32 {
+    fn derived(&self, left: S, count: S) -> S::Mask {
+        let by_rate = left.less_equal(S::epsilon() * S::ratio(1.0, 4.0));
+        by_rate | (S::one().less_equal(left) & self.taken.less_equal(count))
+    }
+
+    /// How many iterations need no look in any lane.
+    #[inline(always)]
+    fn least_quiet(&self) -> u32 {
         let quiet = (1..S::LANES).fold(self.quiet.lane(0).to_f64(), |least, lane| {
             least.min(self.quiet.lane(lane).to_f64())
         });
-        let quiet = (quiet as u32).min(self.options.max_iterations);
+        (quiet as u32).min(self.options.max_iterations)
+    }
+
+    /// Iterates so many times without a look at the changes.
+    #[inline(always)]
+    fn blind(&mut self, count: u32, field: &mut impl FnMut(At<'_, V>, &mut V)) {
         // by value, so that they can stay in registers
         let (mut slopes, mut points) = (self.slopes.take(), self.point.take());
         let mut next = self.next.take();
-        for _ in done..quiet {
+        for _ in 0..count {
             points_at::<S, V, STAGES>(&self.tableau, &self.base, &slopes, &mut points);
             let at = At {
                 base: &self.base,
@@ -289,7 +312,6 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             slopes.copy_from(&next);
         }
         (self.slopes, self.point, self.next) = (slopes, points, next);
-        quiet.max(done)
     }
 
     /// Evaluates the field at the points of the stages.
@@ -335,16 +357,6 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         (base * self.per_step).max(most::<S>(slopes))
     }
 
-    /// Takes over the next slopes but in the lanes that have ended.
-    #[inline(always)]
-    fn take_over(&mut self, ended: S::Mask) {
-        if S::LANES == 1 {
-            self.slopes.copy_from(&self.next);
-        } else {
-            self.replace(ended);
-        }
-    }
-
     /// Takes over the next slopes but in the lanes that have ended; the sum of all changes at each stage.
     #[inline(always)]
     fn replace(&mut self, ended: S::Mask) -> S::Wide {
@@ -370,7 +382,12 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// Moves the base to the end of the step.
     #[inline(always)]
     pub fn advance(&mut self) {
-        for (y, slopes) in self.base.as_mut_slice().iter_mut().zip(self.slopes.as_slice()) {
+        for (y, slopes) in self
+            .base
+            .as_mut_slice()
+            .iter_mut()
+            .zip(self.slopes.as_slice())
+        {
             *y += total::<S>(self.weights * *slopes);
         }
     }

@@ -154,12 +154,7 @@ impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAG
     }
 
     #[inline(always)]
-    fn next(
-        &mut self,
-        wide: &P::Widened,
-        at: At<'_, WideState<S, P>>,
-        out: &mut WideState<S, P>,
-    ) {
+    fn next(&mut self, wide: &P::Widened, at: At<'_, WideState<S, P>>, out: &mut WideState<S, P>) {
         self.means.slopes(wide, &at, out);
     }
 

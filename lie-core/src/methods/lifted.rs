@@ -143,8 +143,7 @@ where
         let mut gradient: WideState<S, P> = self.wide.zero_state();
         L::project(&self.wide, &self.wide_labels, at.points, &mut self.momenta);
         self.wide.gradient(&self.momenta, &mut gradient);
-        self.stages
-            .set_base(S::Mask::splat(true), end.as_slice());
+        self.stages.set_base(S::Mask::splat(true), end.as_slice());
         let xi = self.system.zero_state();
         give::<S, _, _, _, STAGES>(self.step, &gradient, xi, failed, sink);
     }

@@ -27,12 +27,7 @@ pub trait Slopes<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize>: Sized {
     fn equation(system: &'a P, h: S) -> Self::Equation;
 
     /// The next slopes, from the stages of a step.
-    fn next(
-        &mut self,
-        wide: &P::Widened,
-        at: At<'_, WideState<S, P>>,
-        out: &mut WideState<S, P>,
-    );
+    fn next(&mut self, wide: &P::Widened, at: At<'_, WideState<S, P>>, out: &mut WideState<S, P>);
 
     /// The directions in the algebra at the stages: `grad H`, or a mean of it.
     fn directions(
@@ -69,12 +64,7 @@ impl<'a, S: Scalar, P: Widen<S> + 'a, const STAGES: usize> Slopes<'a, S, P, STAG
     }
 
     #[inline(always)]
-    fn next(
-        &mut self,
-        wide: &P::Widened,
-        at: At<'_, WideState<S, P>>,
-        out: &mut WideState<S, P>,
-    ) {
+    fn next(&mut self, wide: &P::Widened, at: At<'_, WideState<S, P>>, out: &mut WideState<S, P>) {
         wide.vector_field(at.points, out);
     }
 
@@ -179,8 +169,7 @@ where
         sink: &mut K,
     ) {
         let at = self.stages.stages(base.as_slice());
-        self.rule
-            .directions(&self.wide, at, &mut self.wide_scratch);
+        self.rule.directions(&self.wide, at, &mut self.wide_scratch);
         self.stages
             .set_base(S::Mask::splat(true), self.next.as_slice());
         let xi = self.system.zero_state();
