@@ -43,9 +43,7 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
     per_step: S,
     /// y, the same in all places.
     base: V,
-    slopes: V,
-    point: V,
-    next: V,
+    work: Work<V>,
     options: NewtonOptions,
     /// How many iterations of a step need no look, in each lane.
     quiet: S,
@@ -53,6 +51,14 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
     rate: S,
     /// How many iterations the map of the last step took, in each lane.
     taken: S,
+}
+
+/// What an iteration writes.
+#[derive(Clone, Debug)]
+struct Work<V> {
+    slopes: V,
+    points: V,
+    next: V,
 }
 
 /// The stages of a step: its base, which is the same in all places, the slopes, and the points of the stages.
@@ -94,9 +100,11 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             step: h,
             per_step: S::one() / h.abs(),
             base: zero.clone(),
-            slopes: zero.clone(),
-            point: zero.clone(),
-            next: zero,
+            work: Work {
+                slopes: zero.clone(),
+                points: zero.clone(),
+                next: zero,
+            },
             options: *options,
             quiet: S::zero(),
             rate: S::ratio(UNKNOWN.0, UNKNOWN.1),
@@ -107,7 +115,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// Starts from a base, with a slope that is the same at all stages, in the lanes of a mask.
     pub fn start(&mut self, mask: S::Mask, base: &[S], slope: &[S]) {
         self.set_base(mask, base);
-        for (slopes, &entry) in self.slopes.as_mut_slice().iter_mut().zip(slope) {
+        for (slopes, &entry) in self.work.slopes.as_mut_slice().iter_mut().zip(slope) {
             let old = S::scatter(*slopes);
             *slopes = S::gather(old.map(|old| S::select(mask, entry, old)));
         }
@@ -127,9 +135,10 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     pub fn approach(&mut self, mask: S::Mask, mut field: impl FnMut(At<'_, V>, &mut V)) {
         let half = S::ratio(1.0, 2.0);
         for _ in 0..APPROACH {
-            self.evaluate(&mut field);
-            let slopes = self.slopes.as_mut_slice().iter_mut();
-            for (slope, &next) in slopes.zip(self.next.as_slice()) {
+            self.work
+                .evaluate::<S, STAGES>(&self.tableau, &self.base, &mut field);
+            let slopes = self.work.slopes.as_mut_slice().iter_mut();
+            for (slope, &next) in slopes.zip(self.work.next.as_slice()) {
                 let (old, new) = (S::scatter(*slope), S::scatter(next));
                 let middle = |i: usize| half * (old[i] + new[i]);
                 *slope = S::gather(from_fn(|i| S::select(mask, middle(i), old[i])));
@@ -140,7 +149,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// Starts from the polynomial of the last step.
     #[inline(always)]
     pub fn go_on(&mut self) {
-        for slopes in self.slopes.as_mut_slice() {
+        for slopes in self.work.slopes.as_mut_slice() {
             *slopes = product::<S, STAGES>(&self.ahead, *slopes);
         }
     }
@@ -158,14 +167,15 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     #[inline(always)]
     fn iterate_state(&mut self, mut field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
         let ending = Ending::new(self.size(), self.rate, &self.options);
+        // by value, so that it can stay in registers
+        let mut work = self.work.take::<S>();
         let [mut ended, mut converged] = [S::Mask::splat(false); 2];
         let (mut iterations, mut mark) = (self.least_quiet(), S::from_f64(f64::MAX));
-        self.blind(iterations, &mut field);
+        self.blind(&mut work, iterations, &mut field);
         let mut change = S::Wide::zero();
         while iterations < self.options.max_iterations && !ended.all() {
-            self.evaluate(&mut field);
             let before = change;
-            change = self.replace(ended);
+            change = self.look(&mut work, ended, &mut field);
             iterations += 1;
             let count = S::from_f64(f64::from(iterations));
             let open = self.quiet.less(count) & !ended;
@@ -190,6 +200,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 mark = S::select(open, size, mark);
             }
         }
+        self.work = work;
         self.end(iterations, change, converged)
     }
 
@@ -202,15 +213,15 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     #[inline(always)]
     fn iterate_map(&mut self, mut field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
         let bound = self.size() * S::epsilon() * S::from_f64(STAGNATION);
+        let mut work = self.work.take::<S>();
         let [mut ended, mut settled, mut ready] = [S::Mask::splat(false); 3];
         let (mut iterations, mut mark) = (0, S::from_f64(f64::MAX));
         let [mut first, mut before, mut change] = [S::Wide::zero(); 3];
         let [mut left, mut rate] = [S::one(); 2];
         while iterations < self.options.max_iterations && !ended.all() {
-            self.evaluate(&mut field);
             let earlier = before;
             before = change;
-            change = self.replace(ended);
+            change = self.look(&mut work, ended, &mut field);
             iterations += 1;
             let count = S::from_f64(f64::from(iterations));
             let open = (self.quiet.less(count) | count.less_equal(S::one())) & !ended;
@@ -238,7 +249,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 first = change;
                 if !ended.any() {
                     iterations = self.least_quiet().max(1);
-                    self.blind(iterations - 1, &mut field);
+                    self.blind(&mut work, iterations - 1, &mut field);
                 }
             } else if settled.all() && !ended.any() {
                 // nothing is to be seen before some lane is ready
@@ -251,9 +262,10 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                     self.taken = S::select(ready, count, self.taken);
                 }
                 ended = ready;
-                self.blind(iterations - now, &mut field);
+                self.blind(&mut work, iterations - now, &mut field);
             }
         }
+        self.work = work;
         self.end(iterations, change, ready)
     }
 
@@ -295,35 +307,31 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         (quiet as u32).min(self.options.max_iterations)
     }
 
-    /// Iterates so many times without a look at the changes.
+    /// Iterates once; the changes. The lanes that have ended keep their slopes.
     #[inline(always)]
-    fn blind(&mut self, count: u32, field: &mut impl FnMut(At<'_, V>, &mut V)) {
-        // by value, so that they can stay in registers
-        let (mut slopes, mut points) = (self.slopes.take(), self.point.take());
-        let mut next = self.next.take();
-        for _ in 0..count {
-            points_at::<S, V, STAGES>(&self.tableau, &self.base, &slopes, &mut points);
-            let at = At {
-                base: &self.base,
-                slopes: &slopes,
-                points: &points,
-            };
-            field(at, &mut next);
-            slopes.copy_from(&next);
+    fn look(
+        &self,
+        work: &mut Work<V>,
+        ended: S::Mask,
+        field: &mut impl FnMut(At<'_, V>, &mut V),
+    ) -> S::Wide {
+        work.evaluate::<S, STAGES>(&self.tableau, &self.base, field);
+        let change = work.replace::<S>(ended);
+        // places without a stage do not count
+        if STAGES < 8 {
+            change * self.inside
+        } else {
+            change
         }
-        (self.slopes, self.point, self.next) = (slopes, points, next);
     }
 
-    /// Evaluates the field at the points of the stages.
+    /// Iterates so many times without a look at the changes.
     #[inline(always)]
-    fn evaluate(&mut self, field: &mut impl FnMut(At<'_, V>, &mut V)) {
-        points_at::<S, V, STAGES>(&self.tableau, &self.base, &self.slopes, &mut self.point);
-        let at = At {
-            base: &self.base,
-            slopes: &self.slopes,
-            points: &self.point,
-        };
-        field(at, &mut self.next);
+    fn blind(&self, work: &mut Work<V>, count: u32, field: &mut impl FnMut(At<'_, V>, &mut V)) {
+        for _ in 0..count {
+            work.evaluate::<S, STAGES>(&self.tableau, &self.base, field);
+            work.slopes.copy_from(&work.next);
+        }
     }
 
     /// What is reported of an iteration; the next one expects nothing in the lanes that have not converged.
@@ -351,32 +359,10 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     fn size(&self) -> S {
         let bases = self.base.as_slice().iter();
         let bases = bases.fold(S::Wide::zero(), |sum, y| sum + y.magnitude());
-        let slopes = self.slopes.as_slice().iter();
+        let slopes = self.work.slopes.as_slice().iter();
         let slopes = slopes.fold(S::Wide::zero(), |sum, f| sum + f.magnitude());
         let [base, ..] = S::scatter(bases);
         (base * self.per_step).max(most::<S>(slopes))
-    }
-
-    /// Takes over the next slopes but in the lanes that have ended; the sum of all changes at each stage.
-    #[inline(always)]
-    fn replace(&mut self, ended: S::Mask) -> S::Wide {
-        let mut change = S::Wide::zero();
-        let slopes = self.slopes.as_mut_slice().iter_mut();
-        for (slope, &next) in slopes.zip(self.next.as_slice()) {
-            change += (next - *slope).magnitude();
-            *slope = if S::LANES == 1 {
-                next
-            } else {
-                let (old, new) = (S::scatter(*slope), S::scatter(next));
-                S::gather(from_fn(|i| S::select(ended, old[i], new[i])))
-            };
-        }
-        // places without a stage do not count
-        if STAGES < 8 {
-            change * self.inside
-        } else {
-            change
-        }
     }
 
     /// Moves the base to the end of the step.
@@ -386,7 +372,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             .base
             .as_mut_slice()
             .iter_mut()
-            .zip(self.slopes.as_slice())
+            .zip(self.work.slopes.as_slice())
         {
             *y += total::<S>(self.weights * *slopes);
         }
@@ -404,23 +390,23 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     /// The base and the slopes of the last step, to be changed together.
     #[inline(always)]
     pub fn base_and_slopes(&mut self) -> (&mut V, &mut V) {
-        (&mut self.base, &mut self.slopes)
+        (&mut self.base, &mut self.work.slopes)
     }
 
     /// The stages of a step with the slopes of the last one from a base, which is set.
     pub fn stages(&mut self, base: &[S]) -> At<'_, V> {
         self.set_base(S::Mask::splat(true), base);
-        points_at::<S, V, STAGES>(&self.tableau, &self.base, &self.slopes, &mut self.point);
+        self.work.set_points::<S, STAGES>(&self.tableau, &self.base);
         At {
             base: &self.base,
-            slopes: &self.slopes,
-            points: &self.point,
+            slopes: &self.work.slopes,
+            points: &self.work.points,
         }
     }
 
     /// The increments `h F_i` of the stages.
     pub fn increments<U: State<S>>(&self, out: &mut Stages<U, STAGES>) {
-        for (k, &slopes) in self.slopes.as_slice().iter().enumerate() {
+        for (k, &slopes) in self.work.slopes.as_slice().iter().enumerate() {
             let entries = S::scatter(slopes);
             for (out, &entry) in out.0.iter_mut().zip(&entries) {
                 out.as_mut_slice()[k] = self.step * entry;
@@ -430,7 +416,7 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
 
     /// Replaces the slopes by given increments `h F_i` divided by h, in the lanes of a mask.
     pub fn set_increments_where(&mut self, mask: S::Mask, increment: impl Fn(usize, usize) -> S) {
-        for (k, slopes) in self.slopes.as_mut_slice().iter_mut().enumerate() {
+        for (k, slopes) in self.work.slopes.as_mut_slice().iter_mut().enumerate() {
             let mut entries = S::scatter(*slopes);
             for (i, entry) in entries.iter_mut().enumerate().take(STAGES) {
                 *entry = S::select(mask, increment(i, k) / self.step, *entry);
@@ -440,17 +426,69 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     }
 }
 
-/// The points `y + h A F`.
-#[inline(always)]
-fn points_at<S: Scalar, V: State<S::Wide>, const STAGES: usize>(
-    tableau: &[S::Wide; 8],
-    base: &V,
-    slopes: &V,
-    points: &mut V,
-) {
-    let entries = points.as_mut_slice().iter_mut().zip(base.as_slice());
-    for ((point, y), slopes) in entries.zip(slopes.as_slice()) {
-        *point = product_from::<S, STAGES>(*y, tableau, *slopes);
+impl<V> Work<V> {
+    /// Moves it out, to be given back.
+    #[inline(always)]
+    fn take<S: Scalar>(&mut self) -> Self
+    where
+        V: State<S::Wide>,
+    {
+        Self {
+            slopes: self.slopes.take(),
+            points: self.points.take(),
+            next: self.next.take(),
+        }
+    }
+
+    /// The points `y + h A F`.
+    #[inline(always)]
+    fn set_points<S: Scalar, const STAGES: usize>(&mut self, tableau: &[S::Wide; 8], base: &V)
+    where
+        V: State<S::Wide>,
+    {
+        let entries = self.points.as_mut_slice().iter_mut().zip(base.as_slice());
+        for ((point, y), slopes) in entries.zip(self.slopes.as_slice()) {
+            *point = product_from::<S, STAGES>(*y, tableau, *slopes);
+        }
+    }
+
+    /// Evaluates the field at the points of the stages.
+    #[inline(always)]
+    fn evaluate<S: Scalar, const STAGES: usize>(
+        &mut self,
+        tableau: &[S::Wide; 8],
+        base: &V,
+        field: &mut impl FnMut(At<'_, V>, &mut V),
+    ) where
+        V: State<S::Wide>,
+    {
+        self.set_points::<S, STAGES>(tableau, base);
+        let at = At {
+            base,
+            slopes: &self.slopes,
+            points: &self.points,
+        };
+        field(at, &mut self.next);
+    }
+
+    /// Takes over the next slopes but in the lanes that have ended; the sum of all changes at each stage.
+    #[inline(always)]
+    fn replace<S: Scalar>(&mut self, ended: S::Mask) -> S::Wide
+    where
+        V: State<S::Wide>,
+    {
+        let mut change = S::Wide::zero();
+        let slopes = self.slopes.as_mut_slice().iter_mut();
+        for (slope, &next) in slopes.zip(self.next.as_slice()) {
+            change += (next - *slope).magnitude();
+            *slope = if S::LANES == 1 {
+                next
+            } else {
+                let (old, new) = (S::scatter(*slope), S::scatter(next));
+                S::gather(from_fn(|i| S::select(ended, old[i], new[i])))
+            };
+        }
+        change
     }
 }
 
