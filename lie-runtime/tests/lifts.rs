@@ -444,22 +444,22 @@ where
     let mut stages = StageParallel::<f64, _, 8>::new(h, zero, options);
     let mut slope = point.clone();
     <L as LinearLift<f64, P>>::flow(system, &labels, &point, &mut slope);
-    stages.start_with(true, slope.as_slice());
+    stages.start(true, point.as_slice(), slope.as_slice());
     let size = point.as_slice().len();
     let (half, mut worst) = (size / 2, 0.0_f64);
     for step in 0..24 {
         if step > 0 {
             stages.go_on();
         }
-        let start: Vec<[f64; 8]> = stages
-            .slopes_mut()
+        let (base, slopes) = stages.base_and_slopes();
+        let base: Vec<f64> = base
             .as_slice()
             .iter()
-            .map(|s| f64::scatter(*s))
+            .map(|y| f64::scatter(*y)[0])
             .collect();
-        let base = point.clone();
-        let solved = stages.iterate(base.as_slice(), |_, points, slopes| {
-            <L as LinearLift<W, P::Widened>>::flow(&wide, &wide_labels, points, slopes);
+        let start: Vec<[f64; 8]> = slopes.as_slice().iter().map(|s| f64::scatter(*s)).collect();
+        let solved = stages.iterate(|at, slopes| {
+            <L as LinearLift<W, P::Widened>>::flow(&wide, &wide_labels, at.points, slopes);
         });
         assert!(solved.converged);
         if step % 6 == 5 {
@@ -478,21 +478,22 @@ where
                 stages
                     .set_increments_where(true, |stage, k| Dual::constant_of(h * start[k][stage]));
                 let mut end: Vec<Dual<f64>> = base
-                    .as_slice()
                     .iter()
                     .enumerate()
                     .map(|(k, &x)| Dual::new(x, f64::from(u8::from(k == direction))))
                     .collect();
-                let solved = stages.iterate(&end.clone(), |_, points, slopes| {
+                stages.set_base(true, &end);
+                let solved = stages.iterate(|at, slopes| {
                     <L as LinearLift<X, D::Widened>>::flow(
                         &wide_dual,
                         &dual_labels,
-                        points,
+                        at.points,
                         slopes,
                     );
                 });
                 assert!(solved.iterations <= exactly.max_iterations);
-                stages.advance(&mut end);
+                stages.advance();
+                stages.base_into(&mut end);
                 for (entry, x) in column.iter_mut().zip(&end) {
                     *entry = x.derivative;
                 }
@@ -509,8 +510,9 @@ where
                 }
             }
         }
-        stages.advance(point.as_mut_slice());
-        <L as LinearLift<f64, P>>::settle(system, &mut point, stages.slopes_mut().as_mut_slice());
+        stages.advance();
+        let (base, slopes) = stages.base_and_slopes();
+        <L as LinearLift<W, P::Widened>>::settle(&wide, base, slopes);
     }
     worst
 }
