@@ -72,10 +72,9 @@ fn measured<P: Lift<f64>>(
             above.retain(|&(h, error)| error > NOISE * noise(system, ground, exact, method, h));
         }
         exact_everywhere &= measured.len() >= 3 && above.is_empty();
-        for (_, error) in &measured {
-            largest = largest.max(*error);
-        }
-        if above.len() > best.len() {
+        if above.len() > best.len() || largest.is_nan() {
+            let errors = measured.iter().map(|(_, error)| *error);
+            largest = errors.fold(f64::NAN, f64::max);
             best = above;
         }
         if best.len() >= LEAST {
