@@ -1,0 +1,71 @@
+"""heyoka: Taylor's method, compiled at run time, with the recurrences of the right-hand side in `cases.json`.
+
+Install: python3 -m pip install heyoka
+"""
+
+import json
+import re
+import sys
+from pathlib import Path
+
+import heyoka as hy
+import numpy as np
+
+from server import serve
+
+CASES = json.loads((Path(__file__).parent / "cases.json").read_text())
+
+
+def field(case, number=float):
+    """The right-hand side as pairs of variable and expression; `number` makes a constant of a literal."""
+    given = CASES[case]
+    names = [f"y{k}" for k in range(len(given["initial"]))]
+    values = dict(zip(names, hy.make_vars(*names)))
+    values.update(cos=hy.cos, exp=hy.exp, rsqrt=lambda x: x ** number(-0.5), number=number)
+    for line in given["field"]:
+        left, right = line.split(" = ")
+        right = re.sub(r"(?<![\w.])\d+\.\d*", lambda text: f"number({text.group()})", right)
+        values[left] = eval(right, values)
+    return [(values[name], values["d" + name[1:]]) for name in names]
+
+
+def prepare(trials):
+    case, quick = trials.request["case"], trials.request.get("quick")
+    given = CASES[case]
+    start, until = np.array(given["initial"]), given["until"]
+    equations = field(case)
+    for k in range(8, 63, 4 if quick else 1):
+        tolerance = 10.0 ** (-0.25 * k)
+        for accurate in [False, True] if tolerance < 1e-15 else [False]:
+            integrator = hy.taylor_adaptive(equations, start, tol=tolerance, high_accuracy=accurate)
+
+            def run(integrator=integrator):
+                integrator.time = 0.0
+                integrator.state[:] = start
+                steps = integrator.propagate_until(until)[3]
+                return integrator.state, steps
+
+            name = "taylor, high accuracy" if accurate else "taylor"
+            trials.add("heyoka", name, f"tol {tolerance:.1e}", run)
+
+
+def reference(case, digits):
+    """The state at the end of the span, in extended precision."""
+    given = CASES[case]
+    bits = int(digits * 3.33) + 10
+    number = lambda value: hy.real(value, bits)
+    constant = lambda value: hy.expression(number(value))
+    # constants are the doubles that everybody computes with; what is derived from them is not rounded
+    equations = field(case, constant)
+    start = [number(value) for value in given["initial"]]
+    integrator = hy.taylor_adaptive(
+        equations, start, fp_type=hy.real, prec=bits, tol=number(10.0 ** -digits))
+    integrator.propagate_until(number(given["until"]))
+    return [float(value) for value in integrator.state]
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        print(json.dumps({case: reference(case, int(sys.argv[1])) for case in CASES}))
+    else:
+        serve(prepare)

@@ -1,0 +1,124 @@
+"""Tables of the results of `run`.
+
+    python3 tables.py RESULTS.json [--page ../../docs/peers.md]
+"""
+
+import argparse
+import json
+import re
+from pathlib import Path
+
+OURS = "lie-poisson"
+PICKED = "gauss16"
+"""What `lie run --tol` picks."""
+
+
+def integrates(row):
+    """The closed form is no integrator."""
+    return not row["method"].startswith("exact")
+
+
+def fastest(rows, target):
+    good = [row for row in rows if row["error"] <= target]
+    return min(good, key=lambda row: row["seconds"], default=None)
+
+
+def microseconds(seconds):
+    value = seconds * 1e6
+    return f"{value:.2g}" if value < 1 else f"{value:.3g}" if value < 1000 else f"{value:,.0f}"
+
+
+def short(target):
+    return f"{target:.0e}".replace("e-0", "e-")
+
+
+def cell(row, base):
+    if row is None:
+        return "–"
+    ratio = row["seconds"] / base["seconds"] if base else float("nan")
+    return f"{microseconds(row['seconds'])} ({ratio:.2f})"
+
+
+def table(case, targets):
+    """Microseconds and, in brackets, the ratio to heyoka, else to our fastest."""
+    rows = case["rows"]
+    heyoka = [row for row in rows if row["peer"] == "heyoka"]
+    ours = [row for row in rows if row["peer"] == OURS]
+    base = [fastest(heyoka or ours, target) for target in targets]
+    lines = []
+
+    def line(name, chosen, mark=""):
+        found = [fastest(chosen, target) for target in targets]
+        if any(found):
+            cells = " | ".join(cell(row, b) for row, b in zip(found, base))
+            lines.append((name, f"| {mark}{name}{mark} | {cells} |"))
+
+    line("lie-poisson, the fastest", [row for row in ours if integrates(row)], "**")
+    picked = [row for row in ours if row["method"] == PICKED and row["by"] == "tolerance"]
+    line("lie-poisson, `--tol` alone", picked, "**")
+    peers = sorted({row["peer"] for row in rows} - {OURS})
+    for peer in peers:
+        line(peer, [row for row in rows if row["peer"] == peer])
+    for name in sorted({(row["method"], row["by"]) for row in ours}):
+        chosen = [row for row in ours if (row["method"], row["by"]) == name]
+        line(f"`{name[0]}`" + (" by `--tol`" if name[1] == "tolerance" else ""), chosen)
+    head = " | ".join(short(target) for target in targets)
+    rule = "---|" * (len(targets) + 1)
+    return "\n".join([f"| microseconds to an error of | {head} |", f"|{rule}"] + [text for _, text in lines])
+
+
+def settings(case, targets):
+    """How the fastest of each peer came about."""
+    lines = ["| error | who | method | setting | steps | error | energy | Casimirs | spread |", "|" + "---|" * 9]
+    for target in targets:
+        for peer in sorted({row["peer"] for row in case["rows"]}, key=lambda p: (p != OURS, p)):
+            row = fastest([row for row in case["rows"] if row["peer"] == peer and integrates(row)], target)
+            if row:
+                drift = row["drift"] or [None, None]
+                energy, casimirs = (f"{value:.0e}" if value is not None else "" for value in drift)
+                lines.append(f"| {short(target)} | {peer} | {row['method']} | {row['setting']} | {row['steps']} | "
+                             f"{row['error']:.1e} | {energy} | {casimirs} | {row['spread']:.2f} |")
+    return "\n".join(lines)
+
+
+def markdown(results):
+    parts = [head(results)]
+    for name, case in results["cases"].items():
+        parts.append(f"## {name}: {case['title']}, to t = {case['until']:g}\n\n{table(case, results['targets'])}\n\n"
+                     f"{settings(case, results['targets'])}\n")
+    return "\n".join(parts)
+
+
+def head(results):
+    machine = results["machine"]
+    return (f"{machine['processor']}, {machine['rustc']}, {machine['compiler']}; {results['rounds']} rounds, "
+            f"{results['minutes']:.0f} minutes\n")
+
+
+def into_page(page, results):
+    """Puts each table between the marks of its place."""
+    text = page.read_text()
+    blocks = {"machine": head(results).strip()}
+    for name, case in results["cases"].items():
+        blocks[f"table {name}"] = table(case, results["targets"])
+        blocks[f"settings {name}"] = settings(case, results["targets"])
+    for name, block in blocks.items():
+        mark = re.escape(f"<!-- {name} -->")
+        text = re.sub(rf"({mark}\n).*?(\n<!-- end -->)", lambda found: found[1] + block + found[2], text, flags=re.S)
+    page.write_text(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("results")
+    parser.add_argument("--page")
+    options = parser.parse_args()
+    results = json.loads(Path(options.results).read_text())
+    if options.page:
+        into_page(Path(options.page), results)
+    else:
+        print(markdown(results))
+
+
+if __name__ == "__main__":
+    main()
