@@ -53,14 +53,12 @@ fn by_ode_solvers<'a, const N: usize>(
                     Some(Outcome { steps })
                 };
                 let setting = format!("tol {tolerance:.1e}");
-                trials.add(
-                    "ode_solvers",
-                    $name,
-                    "tolerance",
-                    setting,
-                    Box::new(run),
-                    None,
-                );
+                if trials
+                    .add_peer("ode_solvers", $name, setting, Box::new(run))
+                    .is_break()
+                {
+                    break;
+                }
             }
         };
     }
@@ -98,7 +96,12 @@ fn by_differential_equations<'a, const N: usize>(
         };
         let setting = format!("tol {tolerance:.1e}");
         let peer = "differential-equations";
-        trials.add(peer, "dop853", "tolerance", setting, Box::new(run), None);
+        if trials
+            .add_peer(peer, "dop853", setting, Box::new(run))
+            .is_break()
+        {
+            break;
+        }
     }
 }
 
@@ -132,13 +135,11 @@ fn by_diffsol<'a, const N: usize>(
             Some(Outcome { steps })
         };
         let setting = format!("tol {tolerance:.1e}");
-        trials.add(
-            "diffsol",
-            "tsit45",
-            "tolerance",
-            setting,
-            Box::new(run),
-            None,
-        );
+        if trials
+            .add_peer("diffsol", "tsit45", setting, Box::new(run))
+            .is_break()
+        {
+            break;
+        }
     }
 }

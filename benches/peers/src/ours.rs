@@ -13,6 +13,9 @@ const PEER: &str = "lie-poisson";
 /// The part of `--tol` that is the tolerance of a Taylor series, as in `lie run`.
 const PER_STEP: f64 = 0.01;
 
+/// A larger error says that the steps are too large for anything.
+const HOPELESS: f64 = 0.1;
+
 /// Where the state goes at the end of a run.
 struct End<'e>(&'e mut [f64]);
 
@@ -125,18 +128,25 @@ impl<'a, P: Poisson<f64>> Ours<'_, 'a, P> {
     ) {
         let span = self.problem.span.1 - self.problem.span.0;
         let ratio = if self.quick { ratio.powi(3) } else { ratio };
+        // where the first solver came to something: larger steps are hopeless for the others too
+        let mut begin = 0_u64;
         for solver in solvers {
             let (mut floor, mut best) = (0, f64::INFINITY);
-            for steps in self.ladder(ratio) {
+            let from = begin;
+            for steps in self.ladder(ratio).filter(|&steps| steps >= from) {
                 let options = Options::new(span / steps as f64).newton(*solver);
                 let mut setting = format!("{steps} steps");
                 if solver.convergence == Convergence::State && solver.tolerance >= 1.0 {
                     setting += &format!(", solver {:.0e} eps", solver.tolerance);
                 }
-                let Some(tried) = self.add(label, method, "setting", setting, options) else {
+                let tried = self.add(label, method, "setting", setting, options);
+                let Some(tried) = tried.filter(|tried| tried.error < HOPELESS) else {
                     continue;
                 };
-                floor += u32::from(tried.error < 1e-1 && tried.error > 0.7 * best);
+                if begin == 0 {
+                    begin = steps;
+                }
+                floor += u32::from(tried.error > 0.7 * best);
                 best = best.min(tried.error);
                 if floor >= 6 || tried.seconds > self.trials.budget || tried.error < 1e-14 {
                     break;

@@ -2,6 +2,7 @@
 
 use crate::clock::{Spent, spent, times};
 use serde::Serialize;
+use std::ops::ControlFlow;
 
 /// What a run led to.
 pub struct Outcome {
@@ -86,6 +87,20 @@ impl<'a> Trials<'a> {
             });
         }
         Some(Tried { error, seconds })
+    }
+
+    /// The same of a peer, which takes a tolerance; whether a smaller one is out of the question.
+    pub fn add_peer(
+        &mut self,
+        peer: &'static str,
+        method: &str,
+        setting: String,
+        run: Run<'a>,
+    ) -> ControlFlow<()> {
+        match self.add(peer, method, "tolerance", setting, run, None) {
+            Some(tried) if tried.seconds > self.budget => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        }
     }
 
     /// Keeps of every method the settings that were fastest to an error.
