@@ -1,9 +1,9 @@
 //! The cases: which system, which methods.
 
 use crate::Case;
-use crate::crates;
 use crate::ours::{Ours, solvers, to_round_off};
-use crate::trial::Trials;
+use crate::trial::{Trials, euclidean};
+use crate::{chain, crates};
 use lie_runtime::driver::Problem;
 use lie_runtime::methods::*;
 use lie_runtime::newton::NewtonOptions;
@@ -41,7 +41,9 @@ fn rsqrt(x: f64) -> f64 {
 /// What `cases.json` says of a case.
 #[derive(Deserialize)]
 struct Given {
+    #[serde(default)]
     parameters: Vec<f64>,
+    #[serde(default)]
     initial: Vec<f64>,
     until: f64,
 }
@@ -117,11 +119,11 @@ macro_rules! collective {
 }
 
 macro_rules! splittings {
-    ($ours:ident) => {
+    ($ours:ident, $ratio:expr) => {
         let default = [NewtonOptions::default()];
-        $ours.by_steps("splitting4", Splitting4::new(), COARSE, &default);
-        $ours.by_steps("splitting6", Splitting6::new(), COARSE, &default);
-        $ours.by_steps("splitting8", Splitting8::new(), COARSE, &default);
+        $ours.by_steps("splitting4", Splitting4::new(), $ratio, &default);
+        $ours.by_steps("splitting6", Splitting6::new(), $ratio, &default);
+        $ours.by_steps("splitting8", Splitting8::new(), $ratio, &default);
     };
 }
 
@@ -132,6 +134,7 @@ macro_rules! case {
         same_field(&problem, fields::$module);
         let mut trials = Trials {
             reference: &$case.reference,
+            distance: euclidean,
             all: Vec::new(),
             budget: $case.budget,
         };
@@ -144,6 +147,43 @@ macro_rules! case {
         crates::measure(&mut trials, fields::$module, start, $given.until, $case.quick);
         $then(&mut trials);
     }};
+}
+
+/// The chain of spins. States and the reference are in its order.
+fn with_chain(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
+    let given = case.initial.as_ref().expect("an initial state");
+    let start = chain::state(given);
+    let reference = chain::state(&case.reference);
+    let until = Given::of("D").until;
+    let problem = Problem::new(
+        chain::Chain::new(given.len() / 3),
+        start.clone(),
+        (0.0, until),
+    );
+    let mut trials = Trials {
+        reference: &reference,
+        distance: chain::distance,
+        all: Vec::new(),
+        budget: case.budget,
+    };
+    let mut ours = Ours {
+        problem: &problem,
+        trials: &mut trials,
+        quick: case.quick,
+    };
+    let (all, default) = (solvers(case.quick), [NewtonOptions::default()]);
+    ours.by_tolerance("gauss16", Gauss16, default[0]);
+    ours.by_steps("gauss16", Gauss16, FINE, &all);
+    ours.by_steps("gauss12", Gauss12, FINE, &all);
+    ours.by_steps("gauss8", Gauss8, FINE, &all);
+    ours.by_tolerance("rk4", Rk4, default[0]);
+    ours.by_steps("rk4", Rk4, COARSE, &default);
+    splittings!(ours, FINE);
+    ours.by_tolerance("splitting4", Splitting4::new(), default[0]);
+    ours.by_tolerance("splitting6", Splitting6::new(), default[0]);
+    ours.by_tolerance("splitting8", Splitting8::new(), default[0]);
+    crates::measure_large(&mut trials, chain::field::<f64>, &start, until, case.quick);
+    then(&mut trials);
 }
 
 /// Tries everything on a case, and shows what came of it.
@@ -160,7 +200,7 @@ pub fn with(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
             case!(case, then, given, 3, so3_free_rigid_body, system, ours, {
                 common!(ours, quick);
                 collective!(ours, quick, "collective16 hopf", Collective16::hopf());
-                splittings!(ours);
+                splittings!(ours, COARSE);
                 ours.with_steps("exact, the end alone", Exact, 1);
                 ours.with_steps("exact, at 1,000 steps", Exact, 1000);
             });
@@ -177,7 +217,7 @@ pub fn with(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
                     "collective16 quaternion",
                     Collective16::quaternion()
                 );
-                splittings!(ours);
+                splittings!(ours, COARSE);
             });
         }
         "N" => {
@@ -214,6 +254,7 @@ pub fn with(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
                 );
             });
         }
+        "D" => with_chain(case, then),
         other => panic!("there is no case {other}"),
     }
 }

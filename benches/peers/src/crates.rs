@@ -23,6 +23,41 @@ pub fn measure<'a, const N: usize>(
     by_diffsol(trials, field, start, until, quick);
 }
 
+/// Runs those that take long vectors.
+pub fn measure_large<'a>(
+    trials: &mut Trials<'a>,
+    field: impl Fn(&[f64], &mut [f64]) + Copy + 'a,
+    start: &'a [f64],
+    until: f64,
+    quick: bool,
+) {
+    use ode_solvers::{DVector, Dop853, OutputType, System};
+    struct Wrapped<F>(F);
+    impl<F: Fn(&[f64], &mut [f64])> System<f64, DVector<f64>> for Wrapped<F> {
+        fn system(&self, _x: f64, y: &DVector<f64>, dy: &mut DVector<f64>) {
+            self.0(y.as_slice(), dy.as_mut_slice());
+        }
+    }
+    for tolerance in tolerances(quick) {
+        let run = move |end: &mut [f64]| {
+            let (system, y) = (Wrapped(field), DVector::from_column_slice(start));
+            let mut solver = Dop853::new(system, 0.0, until, until, y, tolerance, tolerance);
+            solver.set_output(OutputType::Sparse);
+            let stats = solver.integrate().ok()?;
+            end.copy_from_slice(solver.y_out().last()?.as_slice());
+            let steps = u64::from(stats.accepted_steps);
+            Some(Outcome { steps })
+        };
+        let setting = format!("tol {tolerance:.1e}");
+        if trials
+            .add_peer("ode_solvers", "Dop853", setting, Box::new(run))
+            .is_break()
+        {
+            break;
+        }
+    }
+}
+
 fn by_ode_solvers<'a, const N: usize>(
     trials: &mut Trials<'a>,
     field: impl Fn(&[f64], &mut [f64]) + Copy + 'a,

@@ -5,6 +5,7 @@
 //! Rounds of several programs can so take turns; `run` does that.
 
 mod cases;
+mod chain;
 mod clock;
 mod crates;
 mod ours;
@@ -26,6 +27,8 @@ enum Request {
 #[derive(Deserialize)]
 struct Case {
     case: String,
+    /// The initial state, where `cases.json` has none.
+    initial: Option<Vec<f64>>,
     reference: Vec<f64>,
     /// Errors that settings are kept for.
     targets: Vec<f64>,

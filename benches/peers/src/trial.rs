@@ -38,9 +38,17 @@ pub struct Trial<'a> {
     pub drifts: Option<Drifts<'a>>,
 }
 
+/// The distance of two states.
+pub fn euclidean(one: &[f64], other: &[f64]) -> f64 {
+    let pairs = one.iter().zip(other);
+    pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}
+
 /// The trials of a case.
 pub struct Trials<'a> {
     pub reference: &'a [f64],
+    /// How far a state is from it.
+    pub distance: fn(&[f64], &[f64]) -> f64,
     pub all: Vec<Trial<'a>>,
     /// Seconds that a run may take.
     pub budget: f64,
@@ -68,8 +76,7 @@ impl<'a> Trials<'a> {
             }
         }
         let steps = outcome?.steps;
-        let pairs = end.iter().zip(self.reference);
-        let error = pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+        let error = (self.distance)(&end, self.reference);
         if error.is_finite() {
             self.all.push(Trial {
                 row: Row {
