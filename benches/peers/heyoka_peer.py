@@ -55,7 +55,32 @@ def prepare_chain(trials):
         trials.add("heyoka", "taylor, compact mode", f"tol {tolerance:.1e}", run)
 
 
+def prepare_ensemble(trials):
+    """Case C, eight bodies at a time."""
+    from ensemble import equations
+
+    quick, until, lanes = trials.request.get("quick"), CASES["C"]["until"], 8
+    start = np.array(trials.request["initial"]).reshape(-1, 3)
+    groups = [np.ascontiguousarray(start[k : k + lanes].T) for k in range(0, len(start), lanes)]
+    ends = np.empty_like(start)
+    for k in range(16, 60, 8 if quick else 2):
+        tolerance = 10.0 ** (-0.25 * k)
+        integrator = hy.taylor_adaptive_batch(equations(), np.zeros((3, lanes)), tol=tolerance)
+
+        def run(integrator=integrator):
+            for index, group in enumerate(groups):
+                integrator.set_time(0.0)
+                integrator.state[:] = group
+                integrator.propagate_until(until)
+                ends[index * lanes : (index + 1) * lanes] = integrator.state.T
+            return ends.ravel(), 0
+
+        trials.add("heyoka", "taylor, 8 at a time", f"tol {tolerance:.1e}", run)
+
+
 def prepare(trials):
+    if trials.request["case"] == "C":
+        return prepare_ensemble(trials)
     if trials.request["case"] == "D":
         return prepare_chain(trials)
     case, quick = trials.request["case"], trials.request.get("quick")

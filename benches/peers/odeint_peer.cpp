@@ -2,7 +2,7 @@
 // `run` writes to systems.hpp. Answers the requests that server.py describes, in the plainest form: a line
 // `case NAME KEEP BUDGET TARGET...` and a line `round`.
 //
-//     g++ -O3 -march=native -std=c++17 -I FOLDER_OF_SYSTEMS odeint_peer.cpp -o odeint_peer
+//     g++ -O3 -march=native -std=gnu++17 -I FOLDER_OF_SYSTEMS odeint_peer.cpp -o odeint_peer
 
 #include <time.h>
 

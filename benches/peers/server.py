@@ -18,10 +18,10 @@ def spent(times, work):
     return processor * 1e-9 / times, wall * 1e-9 / times
 
 
-def distance(one, other, spins):
-    """The distance of two states, of spins the largest one of a spin."""
+def distance(one, other, many):
+    """The distance of two states, of many spins or bodies the largest one."""
     squares = [(float(a) - float(b)) ** 2 for a, b in zip(one, other)]
-    size = 3 if spins else len(squares)
+    size = 3 if many else len(squares)
     return max(sum(squares[k : k + size]) for k in range(0, len(squares), size)) ** 0.5
 
 
@@ -43,7 +43,7 @@ class Trials:
         if outcome is None:
             return least
         end, steps = outcome
-        error = distance(end, self.request["reference"], self.request["case"] == "D")
+        error = distance(end, self.request["reference"], self.request["case"] in "CD")
         row = {"peer": peer, "method": method, "by": "tolerance", "setting": setting,
                "error": error, "steps": int(steps), "drift": drifts and drifts(), "first": least}
         if error == error:

@@ -84,8 +84,8 @@ def settings(case, targets):
 def markdown(results):
     parts = [head(results)]
     for name, case in results["cases"].items():
-        parts.append(f"## {name}: {case['title']}, to t = {case['until']:g}\n\n{table(case, results['targets'])}\n\n"
-                     f"{settings(case, results['targets'])}\n")
+        parts.append(f"## {name}: {case['title']}, to t = {case['until']:g}\n\n{table(case, case['targets'])}\n\n"
+                     f"{settings(case, case['targets'])}\n")
     return "\n".join(parts)
 
 
@@ -100,11 +100,11 @@ def into_page(page, results):
     text = page.read_text()
     blocks = {"machine": head(results).strip()}
     for name, case in results["cases"].items():
-        blocks[f"table {name}"] = table(case, results["targets"])
-        blocks[f"settings {name}"] = settings(case, results["targets"])
+        blocks[f"table {name}"] = table(case, case["targets"])
+        blocks[f"settings {name}"] = settings(case, case["targets"])
     for name, block in blocks.items():
         mark = re.escape(f"<!-- {name} -->")
-        text = re.sub(rf"({mark}\n).*?(\n<!-- end -->)", lambda found: found[1] + block + found[2], text, flags=re.S)
+        text = re.sub(rf"({mark}\n).*?(<!-- end -->)", lambda found: f"{found[1]}\n{block}\n\n{found[2]}", text, flags=re.S)
     page.write_text(text)
 
 

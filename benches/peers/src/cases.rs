@@ -3,7 +3,7 @@
 use crate::Case;
 use crate::ours::{Ours, solvers, to_round_off};
 use crate::trial::{Trials, euclidean};
-use crate::{chain, crates};
+use crate::{chain, crates, ensemble};
 use lie_runtime::driver::Problem;
 use lie_runtime::methods::*;
 use lie_runtime::newton::NewtonOptions;
@@ -12,7 +12,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 
 /// The systems as lie-poisson generates them.
-mod systems {
+pub mod systems {
     #![allow(missing_docs, dead_code, unused_imports, clippy::all)]
     include!(concat!(env!("OUT_DIR"), "/systems.rs"));
 }
@@ -186,6 +186,25 @@ fn with_chain(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
     then(&mut trials);
 }
 
+/// Many bodies.
+fn with_ensemble(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
+    let given = Given::of("C");
+    let start = case.initial.as_ref().expect("initial states");
+    let groups = ensemble::groups(Given::array(&given.parameters), start, given.until);
+    let mut trials = Trials {
+        reference: &case.reference,
+        distance: ensemble::distance,
+        all: Vec::new(),
+        budget: case.budget,
+    };
+    let mut ours = ensemble::Ensemble {
+        groups: &groups,
+        trials: &mut trials,
+    };
+    ours.measure(given.until, case.quick);
+    then(&mut trials);
+}
+
 /// Tries everything on a case, and shows what came of it.
 pub fn with(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
     use systems::*;
@@ -254,6 +273,7 @@ pub fn with(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
                 );
             });
         }
+        "C" => with_ensemble(case, then),
         "D" => with_chain(case, then),
         other => panic!("there is no case {other}"),
     }

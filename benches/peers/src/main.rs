@@ -8,6 +8,7 @@ mod cases;
 mod chain;
 mod clock;
 mod crates;
+mod ensemble;
 mod ours;
 mod trial;
 

@@ -8,7 +8,7 @@ use lie_runtime::newton::{Convergence, NewtonOptions};
 use lie_runtime::{GradientSeries, LiePoisson, Poisson, Series, State, Unknown, Widen};
 use std::ops::ControlFlow;
 
-const PEER: &str = "lie-poisson";
+pub const PEER: &str = "lie-poisson";
 
 /// The part of `--tol` that is the tolerance of a Taylor series, as in `lie run`.
 const PER_STEP: f64 = 0.01;
@@ -113,8 +113,10 @@ impl<'a, P: Poisson<f64>> Ours<'_, 'a, P> {
         problem.system.vector_field(&problem.mu0, &mut field);
         let span = problem.span.1 - problem.span.0;
         let first = (0.2 * span * field.max_norm() / problem.mu0.max_norm()).max(4.0);
+        let mut last = 0;
         (0..400)
             .map(move |k| (first * ratio.powi(k)).round() as u64)
+            .filter(move |&steps| steps != std::mem::replace(&mut last, steps))
             .take_while(|&steps| steps < 10_000_000)
     }
 
@@ -146,7 +148,11 @@ impl<'a, P: Poisson<f64>> Ours<'_, 'a, P> {
                 if begin == 0 {
                     begin = steps;
                 }
-                floor += u32::from(tried.error > 0.7 * best);
+                floor = if tried.error > 0.7 * best {
+                    floor + 1
+                } else {
+                    0
+                };
                 best = best.min(tried.error);
                 if floor >= 6 || tried.seconds > self.trials.budget || tried.error < 1e-14 {
                     break;
