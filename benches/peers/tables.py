@@ -67,6 +67,35 @@ def table(case, targets):
     return "\n".join([f"| microseconds to an error of | {head} |", f"|{rule}"] + [text for _, text in lines])
 
 
+CRATES = ("ode_solvers", "differential-equations", "diffsol")
+
+
+def summary(results):
+    """How many times longer others take than lie-poisson, and than it by `--tol` alone and as a Poisson map to round-off."""
+    lines = ["| case | error | lie-poisson, µs | heyoka | Boost.odeint | the best of three crates | SciPy | heyoka to `--tol` alone | "
+             "heyoka to a Poisson map to round-off |", "|" + "---|" * 9]
+    for name, case in results["cases"].items():
+        rows = case["rows"]
+        ours = [row for row in rows if row["peer"] == OURS and integrates(row)]
+        of = lambda *peers: [row for row in rows if row["peer"] in peers]
+        picked = [row for row in ours if row["method"] == PICKED and row["by"] == "tolerance"]
+        poisson = [row for row in ours if row["method"].endswith("converge map") or row["method"].startswith("splitting")]
+        for target in case["targets"]:
+            best, heyoka = fastest(ours, target), of("heyoka")
+            if best is None:
+                continue
+
+            def times(others, mine):
+                other, own = fastest(others, target), fastest(mine, target)
+                return f"{other['seconds'] / own['seconds']:.2g}" if other and own else "–"
+
+            cells = [times(heyoka, ours), times(of("Boost.odeint"), ours), times(of(*CRATES), ours),
+                     times(of("SciPy"), ours), times(heyoka, picked), times(heyoka, poisson)]
+            lines.append(f"| {name} | {short(target)} | {microseconds(best['seconds'])} `{best['method']}` | "
+                         + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
 def settings(case, targets):
     """How the fastest of each peer came about."""
     lines = ["| error | who | method | setting | steps | error | energy | Casimirs | spread |", "|" + "---|" * 9]
@@ -82,7 +111,7 @@ def settings(case, targets):
 
 
 def markdown(results):
-    parts = [head(results)]
+    parts = [head(results), summary(results) + "\n"]
     for name, case in results["cases"].items():
         parts.append(f"## {name}: {case['title']}, to t = {case['until']:g}\n\n{table(case, case['targets'])}\n\n"
                      f"{settings(case, case['targets'])}\n")
@@ -98,7 +127,7 @@ def head(results):
 def into_page(page, results):
     """Puts each table between the marks of its place."""
     text = page.read_text()
-    blocks = {"machine": head(results).strip()}
+    blocks = {"machine": head(results).strip(), "summary": summary(results)}
     for name, case in results["cases"].items():
         blocks[f"table {name}"] = table(case, case["targets"])
         blocks[f"settings {name}"] = settings(case, case["targets"])

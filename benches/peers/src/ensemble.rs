@@ -7,7 +7,7 @@ use lie_runtime::driver::{Observer, Options, Problem, Save, integrate};
 use lie_runtime::methods::{Exact, Gauss16, Method, Rk4, Taylor};
 use lie_runtime::newton::{Convergence, NewtonOptions};
 use lie_runtime::scalar::F64x8;
-use lie_runtime::{Poisson, Scalar, State};
+use lie_runtime::{Poisson, Scalar};
 use std::ops::ControlFlow;
 
 type System = crate::cases::systems::so3_free_rigid_body::FreeRigidBodySystem<F64x8>;

@@ -133,7 +133,7 @@ impl<'a, P: Poisson<f64>> Ours<'_, 'a, P> {
         // where the first solver came to something: larger steps are hopeless for the others too
         let mut begin = 0_u64;
         for solver in solvers {
-            let (mut floor, mut best) = (0, f64::INFINITY);
+            let (mut floor, mut best, mut before) = (0, f64::INFINITY, f64::INFINITY);
             let from = begin;
             for steps in self.ladder(ratio).filter(|&steps| steps >= from) {
                 let options = Options::new(span / steps as f64).newton(*solver);
@@ -154,7 +154,10 @@ impl<'a, P: Poisson<f64>> Ours<'_, 'a, P> {
                     0
                 };
                 best = best.min(tried.error);
-                if floor >= 6 || tried.seconds > self.trials.budget || tried.error < 1e-14 {
+                // large steps may take longer than smaller ones, where they are hard to solve
+                let long = tried.seconds > self.trials.budget && tried.seconds > before;
+                before = tried.seconds;
+                if floor >= 6 || long || tried.error < 1e-14 {
                     break;
                 }
             }

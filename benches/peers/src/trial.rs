@@ -4,6 +4,9 @@ use crate::clock::{Spent, spent, times};
 use serde::Serialize;
 use std::ops::ControlFlow;
 
+/// What takes longer, in seconds, is tried once; else three times.
+const ONCE: f64 = 5e-3;
+
 /// What a run led to.
 pub struct Outcome {
     pub steps: u64,
@@ -71,7 +74,7 @@ impl<'a> Trials<'a> {
         for _ in 0..3 {
             let first = spent(1, || outcome = run(&mut end));
             seconds = seconds.min(first.processor);
-            if outcome.is_none() || seconds > self.budget {
+            if outcome.is_none() || seconds > ONCE {
                 break;
             }
         }
