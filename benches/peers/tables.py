@@ -87,7 +87,10 @@ def summary(results):
 
             def times(others, mine):
                 other, own = fastest(others, target), fastest(mine, target)
-                return f"{other['seconds'] / own['seconds']:.2g}" if other and own else "–"
+                if not (other and own):
+                    return "–"
+                ratio = other["seconds"] / own["seconds"]
+                return f"{ratio:.2g}" if ratio < 100 else f"{round(ratio, -1):.0f}"
 
             cells = [times(heyoka, ours), times(of("Boost.odeint"), ours), times(of(*CRATES), ours),
                      times(of("SciPy"), ours), times(heyoka, picked), times(heyoka, poisson)]
