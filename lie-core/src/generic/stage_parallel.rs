@@ -179,7 +179,9 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             iterations += 1;
             let count = S::from_f64(f64::from(iterations));
             let open = self.quiet.less(count) & !ended;
-            let first = (count - self.quiet).less_equal(S::one());
+            let looks = count - self.quiet;
+            let first = looks.less_equal(S::one());
+            let mut early = first;
             let bound = S::select(first, ending.at_once, ending.bound);
             let mut reached = are_below::<S>(change, bound) & open;
             let doubtful = reached & !first;
@@ -188,9 +190,10 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
                 let (shrinks, enough) = ending.reached(before, size);
                 self.rate = S::select(doubtful & shrinks & enough, size / before, self.rate);
                 reached = reached & (first | enough);
+                early = early | (!shrinks & looks.less_equal(S::ratio(2.0, 1.0)));
             }
             if reached.any() {
-                self.expect(reached, first, count);
+                self.expect(reached, early, count);
                 converged = converged | reached;
                 ended = ended | reached;
             }
@@ -269,11 +272,12 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
         self.end(iterations, change, ready)
     }
 
-    /// All iterations of the next step but the last two need no look; if the first look was enough, it comes earlier.
+    /// All iterations of the next step but the last two need no look. Where the first look was enough, or the second one saw
+    /// nothing but round-off, it comes earlier.
     #[inline(always)]
-    fn expect(&mut self, reached: S::Mask, first: S::Mask, count: S) {
+    fn expect(&mut self, reached: S::Mask, early: S::Mask, count: S) {
         let [one, two] = [1.0, 2.0].map(|k| S::ratio(k, 1.0));
-        let quiet = S::select(first, self.quiet - one, count - two);
+        let quiet = S::select(early, self.quiet - one, count - two);
         self.quiet = S::select(reached, quiet.max(S::zero()), self.quiet);
     }
 
