@@ -2,6 +2,9 @@
 //! those of the others without: generated code is long and optimising all of it takes longer than
 //! running it.
 
+pub mod drawn;
+pub mod measured;
+
 use lie_runtime::Poisson;
 use lie_runtime::diagnostics::{Drift, DriftMonitor};
 use lie_runtime::driver::integrate;
