@@ -118,12 +118,13 @@ impl Way {
 
 fn run<M: Method<f64, Drawn>>(member: &Member, method: M, tolerance: f64) -> Outcome {
     let problem = Problem::new(member.system.clone(), member.start.clone(), (0.0, member.span));
-    let options = Options::tolerance(tolerance).save(Save::Ends);
+    let options = Options::tolerance(tolerance).save(Save::Ends).assessed();
     match solve(&problem, method, &options) {
         Ok(solution) => {
             let end = solution.mu.last().expect("the end is saved");
             let error = off(end, &member.end);
-            let warned = solution.chosen.is_some_and(|chosen| chosen.at_round_off);
+            let assessed = solution.assessed.expect("it was asked for");
+            let warned = assessed.missed();
             let stats = solution.stats;
             Outcome::Done {
                 error: if error.is_nan() { f64::INFINITY } else { error },

@@ -1,5 +1,6 @@
 //! From a problem to a solution: the loop over the time grid, what is saved, and observers.
 
+mod assess;
 mod error;
 mod grid;
 mod group_matrix;
@@ -11,12 +12,13 @@ pub mod reconstruction;
 mod solution;
 mod solve;
 mod stats;
+mod watch;
 
 pub use error::{SolveError, StepError};
 pub use grid::{Grid, Place};
 pub use observer::{EveryStep, Motion, Observer, Progress, Recorder};
 pub use options::{OptionError, Options, Pace, Save};
-pub use pace::Chosen;
+pub use pace::{Assessed, Chosen};
 pub use problem::Problem;
 pub use reconstruction::{Chart, Reconstruction};
 pub use solution::Solution;

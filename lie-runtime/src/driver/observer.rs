@@ -1,6 +1,6 @@
 //! Observers of a run.
 
-use super::pace::Chosen;
+use super::pace::{Assessed, Chosen};
 use super::solution::Solution;
 use crate::methods::{FactorSink, Retraction, RungeKutta, Stage};
 use crate::poisson::Poisson;
@@ -29,6 +29,15 @@ pub trait Observer<S: Scalar, P: Poisson<S>> {
     /// Sees the step that was chosen, before all else, where the options give a tolerance.
     fn chosen(&mut self, chosen: &Chosen) {
         let _ = chosen;
+    }
+    /// Sees that steps are made in several parts from here on: the error of single steps has become larger than the tolerance
+    /// allows.
+    fn divided(&mut self, progress: Progress, parts: u32) {
+        let _ = (progress, parts);
+    }
+    /// Sees the error at the end, after all else, where the options ask for it.
+    fn assessed(&mut self, assessed: &Assessed) {
+        let _ = assessed;
     }
     /// Sees the state before the first step.
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
@@ -113,6 +122,12 @@ impl<S: Scalar, P: Poisson<S>, O: Observer<S, P>> Observer<S, P> for &mut O {
     fn chosen(&mut self, chosen: &Chosen) {
         (**self).chosen(chosen);
     }
+    fn divided(&mut self, progress: Progress, parts: u32) {
+        (**self).divided(progress, parts);
+    }
+    fn assessed(&mut self, assessed: &Assessed) {
+        (**self).assessed(assessed);
+    }
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         (**self).start(system, progress, mu);
     }
@@ -143,6 +158,14 @@ impl<S: Scalar, P: Poisson<S>, A: Observer<S, P>, B: Observer<S, P>> Observer<S,
     fn chosen(&mut self, chosen: &Chosen) {
         self.0.chosen(chosen);
         self.1.chosen(chosen);
+    }
+    fn divided(&mut self, progress: Progress, parts: u32) {
+        self.0.divided(progress, parts);
+        self.1.divided(progress, parts);
+    }
+    fn assessed(&mut self, assessed: &Assessed) {
+        self.0.assessed(assessed);
+        self.1.assessed(assessed);
     }
     fn start(&mut self, system: &P, progress: Progress, mu: &P::State) {
         self.0.start(system, progress, mu);
@@ -192,6 +215,14 @@ impl<S: Scalar, V> Recorder<S, V> {
 impl<S: Scalar, P: Poisson<S>> Observer<S, P> for Recorder<S, P::State> {
     fn chosen(&mut self, chosen: &Chosen) {
         self.solution.chosen = Some(*chosen);
+    }
+
+    fn divided(&mut self, _progress: Progress, parts: u32) {
+        self.solution.parts = parts;
+    }
+
+    fn assessed(&mut self, assessed: &Assessed) {
+        self.solution.assessed = Some(*assessed);
     }
 
     fn row(&mut self, system: &P, time: f64, mu: &P::State) -> ControlFlow<()> {

@@ -5,8 +5,9 @@
 //!
 //! The error e of a step of h is that against two steps of h/2, times `2^p/(2^p - 1)`, p the order: h is chosen so that
 //! `e(h) |T|/h`, the sum over all steps of a span T, is the tolerance. It is relative to the size of the state, in the
-//! maximum norm. The first eight steps decide: where the motion becomes faster later, or errors of single steps grow on their
-//! way, as near unstable motion, the error at the end is larger.
+//! maximum norm. The first five steps decide. Where the motion becomes faster later, a step is
+//! divided during the run (see the module `watch`); where errors of single steps grow on their way, as near unstable motion, the
+//! error at the end is larger, which a second run tells ([`Options::assessed`]).
 //!
 //! Reference: E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd edition, Springer
 //! 1993, section II.4, [doi:10.1007/978-3-540-78862-1](https://doi.org/10.1007/978-3-540-78862-1).
@@ -16,6 +17,7 @@ use super::options::{OptionError, Options, Pace};
 use super::problem::Problem;
 use super::solve::IntegrateError;
 use super::stats::Stats;
+use super::watch::{Gauge, Guard, Watch};
 use crate::methods::{Method, StepFailure, Stepper};
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
@@ -35,8 +37,27 @@ pub struct Chosen {
     pub at_round_off: bool,
 }
 
+/// Times the tolerance that an error at the end may be without a warning.
+const MISSED: f64 = 30.0;
+
+/// What is known of the error at the end of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assessed {
+    /// The tolerance that was asked for.
+    pub tolerance: f64,
+    /// The error at the end relative to the state, by a second run; none where that failed or would take too many steps.
+    pub error: Option<f64>,
+}
+
+impl Assessed {
+    /// Whether the error is more than 30 times the tolerance, or cannot be told.
+    pub fn missed(&self) -> bool {
+        self.error.is_none_or(|error| !(error <= MISSED * self.tolerance))
+    }
+}
+
 /// Steps whose estimates decide.
-const ESTIMATES: u32 = 8;
+const ESTIMATES: u32 = 5;
 /// Attempts at a step, in all.
 const ATTEMPTS: u32 = 200;
 /// Errors of steps below so many units of round-off are round-off.
@@ -46,17 +67,33 @@ const SOLVER: f64 = 0.05;
 /// How much of the step that the estimates allow is taken.
 const SAFETY: f64 = 0.95;
 
+/// How a step was chosen, what tries others, and what looks after it.
+pub(super) struct Settled<'a, S: Scalar, P: Poisson<S>, M> {
+    pub(super) chosen: Chosen,
+    pub(super) trial: Trial<'a, S, P, M>,
+    /// None of methods that choose their own steps.
+    pub(super) watch: Option<Watch<S, P>>,
+}
+
+impl<'a, S: Scalar, P: Poisson<S>, M> Settled<'a, S, P, M> {
+    /// What looks after the run.
+    pub(super) fn guard(self) -> Option<Guard<'a, S, P, M>> {
+        let trial = self.trial;
+        self.watch.map(|watch| Guard { watch, trial })
+    }
+}
+
 /// The step of a run, and how it was chosen if it was.
-pub(super) fn settle<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
-    problem: &Problem<S, P>,
-    method: &M,
+pub(super) fn settle<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    problem: &'a Problem<S, P>,
+    method: &'a M,
     options: &Options,
-) -> Result<(f64, Option<Chosen>), IntegrateError> {
+) -> Result<(f64, Option<Settled<'a, S, P, M>>), IntegrateError> {
     match options.pace {
         Pace::Step(step) => Ok((step, None)),
         Pace::Tolerance(tolerance) => {
-            let chosen = choose(problem, method, tolerance, &options.newton)?;
-            Ok((chosen.step, Some(chosen)))
+            let settled = chosen_by(problem, method, tolerance, &options.newton)?;
+            Ok((settled.chosen.step, Some(settled)))
         }
     }
 }
@@ -78,6 +115,15 @@ pub fn choose<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     tolerance: f64,
     newton: &NewtonOptions,
 ) -> Result<Chosen, IntegrateError> {
+    Ok(chosen_by(problem, method, tolerance, newton)?.chosen)
+}
+
+fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    problem: &'a Problem<S, P>,
+    method: &'a M,
+    tolerance: f64,
+    newton: &NewtonOptions,
+) -> Result<Settled<'a, S, P, M>, IntegrateError> {
     let (start, end) = problem.span;
     let span = end - start;
     if !(least_tolerance::<S>()..1.0).contains(&tolerance) {
@@ -93,19 +139,27 @@ pub fn choose<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
         span: span.abs(),
         tolerance,
     };
-    let (size, error) = if M::OWN_STEPS {
-        (trial.own_steps(span)?, tolerance)
+    let (size, error, seen) = if M::OWN_STEPS {
+        (trial.own_steps(span)?, tolerance, None)
     } else {
-        let (size, error) = trial.run_in(span)?;
-        (SAFETY * size, error)
+        let (size, estimates, gauge) = trial.run_in(span)?;
+        let seen = (gauge, estimates.seen, estimates.part);
+        (SAFETY * size, estimates.worst, Some(seen))
     };
     let steps = count(span, (span.abs() / size).ceil().max(1.0));
     let step = if span == 0.0 { 1.0 } else { span / steps };
-    Ok(Chosen {
+    let chosen = Chosen {
         tolerance,
         step,
         error,
         at_round_off: tolerance / steps < least_tolerance::<S>(),
+    };
+    let zero = || problem.system.zero_state();
+    let watch = seen.map(|(gauge, seen, part)| Watch::new(gauge, seen, part, &chosen, zero()));
+    Ok(Settled {
+        chosen,
+        trial,
+        watch,
     })
 }
 
@@ -117,7 +171,7 @@ fn count(span: f64, least: f64) -> f64 {
 }
 
 /// Steps that are tried.
-struct Trial<'a, S: Scalar, P: Poisson<S>, M> {
+pub(super) struct Trial<'a, S: Scalar, P: Poisson<S>, M> {
     problem: &'a Problem<S, P>,
     method: &'a M,
     newton: NewtonOptions,
@@ -133,6 +187,10 @@ struct Estimates {
     allowed: f64,
     /// The largest error of a step.
     worst: f64,
+    /// The largest error relative to what it may be.
+    part: f64,
+    /// The largest number of the gauge.
+    seen: f64,
 }
 
 impl Estimates {
@@ -140,12 +198,14 @@ impl Estimates {
         count: 0,
         allowed: f64::INFINITY,
         worst: 0.0,
+        part: 0.0,
+        seen: 0.0,
     };
 }
 
 impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
     /// The error that a step of a size may have.
-    fn target(&self, h: f64) -> f64 {
+    pub(super) fn target(&self, h: f64) -> f64 {
         let part = if self.span > 0.0 {
             (h / self.span).min(1.0)
         } else {
@@ -168,10 +228,13 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
         }
     }
 
-    /// The size of step that the estimates of a run-in allow, and the largest error in it.
-    fn run_in(&self, span: f64) -> Result<(f64, f64), IntegrateError> {
+    /// The size of step that the estimates of a run-in allow, and what they are.
+    fn run_in(&self, span: f64) -> Result<(f64, Estimates, Gauge<S, P>), IntegrateError> {
         let mut mu = self.problem.mu0.clone();
         let mut followed = self.problem.system.following(&mu);
+        let system = followed.as_ref().unwrap_or(&self.problem.system);
+        let mut gauge = Gauge::new(system, &mu, M::ORDER);
+        let start = gauge.at(system, &mu);
         let mut h = self.first(&mu);
         let (mut reached, mut estimates) = (0.0, Estimates::NONE);
         let (mut ceiling, mut shrunk, mut failure) = (f64::INFINITY, false, None);
@@ -180,7 +243,8 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
             let cut = estimates.count > 0 && h > self.span - reached;
             if estimates.count >= ESTIMATES || reached >= self.span || cut {
                 let allowed = estimates.allowed.min(ceiling).min(self.span);
-                return Ok((allowed.max(f64::MIN_POSITIVE), estimates.worst));
+                estimates.seen = estimates.seen.max(start);
+                return Ok((allowed.max(f64::MIN_POSITIVE), estimates, gauge));
             }
             let system = followed.as_ref().unwrap_or(&self.problem.system);
             h = h.min(self.span - reached);
@@ -201,8 +265,8 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
                 (shrunk, estimates) = (true, Estimates::NONE);
                 continue;
             }
-            // grow first, and count where the step is about that which stays
-            if ratio > 1.2 && !shrunk && estimates.count < 2 && reached + h < self.span {
+            // grow first, at the start: a step that its error allowed has to be allowed there too
+            if ratio > 1.2 && !shrunk && estimates.count == 0 && reached + h < self.span {
                 h *= ratio.min(2.0);
                 estimates = Estimates::NONE;
                 continue;
@@ -212,6 +276,8 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
             estimates.count += 1;
             estimates.allowed = estimates.allowed.min(h * ratio.min(2.0));
             estimates.worst = estimates.worst.max(error);
+            estimates.part = estimates.part.max(error / target);
+            estimates.seen = estimates.seen.max(gauge.at(system, &mu));
             if let Some(next) = system.following(&mu) {
                 followed = Some(next);
             }
@@ -260,7 +326,12 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
     }
 
     /// The error of a step of h, relative to the state, and the state after two steps of h/2.
-    fn estimate(&self, system: &P, mu: &P::State, h: f64) -> Result<(f64, P::State), StepFailure> {
+    pub(super) fn estimate(
+        &self,
+        system: &P,
+        mu: &P::State,
+        h: f64,
+    ) -> Result<(f64, P::State), StepFailure> {
         let newton = self.newton_of(h.abs());
         let steps = |h: f64, count: u32| {
             let mut stepper = self.method.stepper(system, S::from_f64(h), &newton);

@@ -1,6 +1,6 @@
 //! What a run has saved.
 
-use super::pace::Chosen;
+use super::pace::{Assessed, Chosen};
 use super::stats::{Stats, Status};
 use crate::diagnostics::{Drift, InvariantDrift};
 use crate::poisson::Poisson;
@@ -23,6 +23,10 @@ pub struct Solution<S, V> {
     pub stats: Stats,
     /// The step that was chosen, where the options gave a tolerance.
     pub chosen: Option<Chosen>,
+    /// In how many parts the last steps were made: 1 but where a chosen step had to be divided.
+    pub parts: u32,
+    /// The error at the end, where the options asked for it.
+    pub assessed: Option<Assessed>,
     /// How the run ended.
     pub status: Status,
     /// The names of the coordinates.
@@ -46,6 +50,8 @@ impl<S, V> Solution<S, V> {
             casimirs: Vec::new(),
             stats: Stats::default(),
             chosen: None,
+            parts: 1,
+            assessed: None,
             status: Status::Finished,
             coordinates: coordinates.collect(),
             casimir_names: casimirs.collect(),

@@ -1,18 +1,21 @@
 //! The loop over the grid.
 
+use super::assess::Ended;
 use super::error::{SolveError, StepError};
-use super::grid::{Grid, Place};
+use super::grid::{Grid, Place, Rows};
 use super::observer::{Observer, Progress, Recorder, Shown};
-use super::options::{OptionError, Options};
-use super::pace::settle;
+use super::options::{OptionError, Options, Save};
+use super::pace::{Assessed, Settled, settle};
 use super::problem::Problem;
 use super::solution::Solution;
 use super::stats::{Stats, Status};
+use super::watch::{Guard, divided};
 use crate::methods::{Method, StepFailure, StepReport, Stepper};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
+use core::iter::Peekable;
 use thiserror::Error;
 
 /// A run without a recorder that could not start or failed.
@@ -97,78 +100,195 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     options: &Options,
     observer: &mut impl Observer<S, P>,
 ) -> Result<(Stats, Status), IntegrateError> {
-    let (step, chosen) = settle(problem, &method, options)?;
-    let newton = options.newton;
-    if let Some(chosen) = &chosen {
-        observer.chosen(chosen);
+    let (step, settled) = settle(problem, &method, options)?;
+    if let Some(settled) = &settled {
+        observer.chosen(&settled.chosen);
     }
     let grid = Grid::new(problem.span, step)?;
-    let mut rows = grid.rows(&options.save)?.peekable();
-    let mut course = Course {
-        grid: &grid,
-        method: &method,
-        newton,
-        stats: Stats::default(),
-        index: 0,
-    };
-    let mut mu = problem.mu0.clone();
-    let mut between = mu.clone();
-    let mut followed = problem.system.following(&mu);
-    let system = followed.as_ref().unwrap_or(&problem.system);
-    check_start(system, &mu).map_err(|failure| course.failed(failure))?;
-    observer.start(system, course.progress(), &mu);
-    // once, and again with each branch of the system that has to be followed
-    loop {
-        let system = followed.as_ref().unwrap_or(&problem.system);
-        let mut stepper = method.stepper(system, S::from_f64(step), &newton);
-        let next = loop {
-            while let Some(row) = rows.next_if(|row| row.place.index() == course.index) {
-                let looked = match row.place {
-                    Place::On(_) => observer.row(system, row.time, &mu),
-                    Place::After(_, rest) => {
-                        between.copy_from(&mu);
-                        course.off_grid(system, rest, &mu, &mut between, observer)?;
-                        let looked = observer.row(system, row.time, &between);
-                        observer.return_to_grid();
-                        looked
-                    }
-                };
-                if looked.is_break() {
-                    return Ok((course.stats, Status::Stopped));
-                }
-            }
-            if course.index == grid.steps() {
-                return Ok((course.stats, Status::Finished));
-            }
-            match stepper.step(&mut mu, &mut Shown::to(observer, system)) {
-                Ok(report) => course.arrived(system, &mu, report)?,
-                Err(failure) => return Err(course.stopped(system, failure, step, &mu)),
-            }
-            course.index += 1;
-            let looked = observer.step(system, course.progress(), &mu);
-            if looked.is_break() {
-                return Ok((course.stats, Status::Stopped));
-            }
-            if let Some(next) = system.following(&mu) {
-                break next;
-            }
+    let mut course = Course::new(&grid, &method, options.newton, step);
+    course.divides = settled.is_some() && !M::OWN_STEPS && S::LANES == 1;
+    let tolerance = settled.as_ref().map(|settled| settled.chosen.tolerance);
+    let guard = settled.and_then(Settled::guard);
+    let (system, mu) = (&problem.system, problem.mu0.clone());
+    let (end, status) = course.run(system, mu, guard, &options.save, observer)?;
+    if let (Some(tolerance), true, Status::Finished) = (tolerance, options.assess, status) {
+        let ended = Ended {
+            problem,
+            method: &method,
+            newton: options.newton,
+            tolerance,
+            steps: grid.steps() as f64 * f64::from(course.parts),
+            end: &end,
         };
-        drop(stepper);
-        followed = Some(next);
+        let error = ended.error();
+        observer.assessed(&Assessed { tolerance, error });
     }
+    Ok((course.stats, status))
+}
+
+/// Why a stepper was left.
+enum Left<P> {
+    /// The run is at its end, or was ended.
+    Over(Status),
+    /// The system has another branch.
+    Branch(P),
+    /// Steps have another size.
+    Divided,
 }
 
 /// How far a run has come.
-struct Course<'r, M> {
+pub(super) struct Course<'r, M> {
     grid: &'r Grid,
     method: &'r M,
     newton: NewtonOptions,
     stats: Stats,
     /// Steps done.
     index: u64,
+    /// The step of the grid.
+    step: f64,
+    /// In so many parts each is made.
+    parts: u32,
+    /// Parts done of the step that is being made.
+    done: u32,
+    /// Whether a step may be divided.
+    divides: bool,
 }
 
-impl<M> Course<'_, M> {
+impl<'r, M> Course<'r, M> {
+    /// At the start of a grid, with its whole steps.
+    pub(super) fn new(grid: &'r Grid, method: &'r M, newton: NewtonOptions, step: f64) -> Self {
+        Self {
+            grid,
+            method,
+            newton,
+            stats: Stats::default(),
+            index: 0,
+            step,
+            parts: 1,
+            done: 0,
+            divides: false,
+        }
+    }
+
+    /// Goes along the grid; the state at its end.
+    pub(super) fn run<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        mut mu: P::State,
+        mut guard: Option<Guard<'_, S, P, M>>,
+        save: &Save,
+        observer: &mut impl Observer<S, P>,
+    ) -> Result<(P::State, Status), IntegrateError>
+    where
+        M: Method<S, P>,
+    {
+        let mut rows = self.grid.rows(save)?.peekable();
+        let mut between = mu.clone();
+        let first = system;
+        let mut followed = system.following(&mu);
+        let system = followed.as_ref().unwrap_or(first);
+        check_start(system, &mu).map_err(|failure| self.failed(failure))?;
+        observer.start(system, self.progress(), &mu);
+        // once, and again with each branch of the system that has to be followed, and each size of steps
+        loop {
+            let system = followed.as_ref().unwrap_or(first);
+            let mut states = (&mut mu, &mut between);
+            match self.go(system, &mut states, &mut rows, &mut guard, observer)? {
+                Left::Over(status) => return Ok((mu, status)),
+                Left::Branch(next) => followed = Some(next),
+                Left::Divided => {}
+            }
+        }
+    }
+
+    /// Goes on with one system and one size of steps.
+    #[inline(always)]
+    fn go<S: Scalar, P: Poisson<S>, O: Observer<S, P>>(
+        &mut self,
+        system: &P,
+        (mu, between): &mut (&mut P::State, &mut P::State),
+        rows: &mut Peekable<Rows<'_>>,
+        guard: &mut Option<Guard<'_, S, P, M>>,
+        observer: &mut O,
+    ) -> Result<Left<P>, IntegrateError>
+    where
+        M: Method<S, P>,
+    {
+        let size = S::from_f64(self.step / f64::from(self.parts));
+        let mut stepper = self.method.stepper(system, size, &self.newton);
+        loop {
+            while let Some(row) = rows.next_if(|row| row.place.index() == self.index && self.done == 0) {
+                let looked = match row.place {
+                    Place::On(_) => observer.row(system, row.time, mu),
+                    Place::After(_, rest) => {
+                        between.copy_from(mu);
+                        self.off_grid(system, rest, mu, between, observer)?;
+                        let looked = observer.row(system, row.time, between);
+                        observer.return_to_grid();
+                        looked
+                    }
+                };
+                if looked.is_break() {
+                    return Ok(Left::Over(Status::Stopped));
+                }
+            }
+            if self.index == self.grid.steps() {
+                return Ok(Left::Over(Status::Finished));
+            }
+            let watched = self.done == 0 && guard.as_mut().is_some_and(|guard| guard.begins(mu));
+            while self.done < self.parts {
+                match stepper.step(mu, &mut Shown::to(observer, system)) {
+                    Ok(report) => self.arrived(system, mu, report)?,
+                    Err(failure) => return self.divided(system, failure, mu),
+                }
+                self.done += 1;
+            }
+            self.done = 0;
+            if let Some(guard) = guard.as_mut().filter(|_| watched) {
+                let parts = guard.parts(system, (self.step, self.parts), mu);
+                if parts > self.parts {
+                    self.parts = parts;
+                    observer.divided(self.progress(), parts);
+                    // what has been shown of the motion on the group stays
+                    if !O::MOTION {
+                        mu.copy_from(guard.before());
+                        return Ok(Left::Divided);
+                    }
+                    stepper = self.method.stepper(system, S::from_f64(self.step / f64::from(parts)), &self.newton);
+                }
+            }
+            self.index += 1;
+            let looked = observer.step(system, self.progress(), mu);
+            if looked.is_break() {
+                return Ok(Left::Over(Status::Stopped));
+            }
+            if let Some(next) = system.following(mu) {
+                return Ok(Left::Branch(next));
+            }
+        }
+    }
+
+    /// Goes on in smaller steps after one that failed, where that may be.
+    #[cold]
+    fn divided<S: Scalar, P: Poisson<S>>(
+        &mut self,
+        system: &P,
+        failure: StepFailure,
+        mu: &P::State,
+    ) -> Result<Left<P>, IntegrateError>
+    where
+        M: Method<S, P>,
+    {
+        let Some(parts) = divided(self.parts).filter(|_| self.divides) else {
+            let size = self.step / f64::from(self.parts);
+            return Err(self.stopped(system, failure, size, mu));
+        };
+        self.stats.add_failure(&failure.report);
+        self.done *= parts / self.parts;
+        self.parts = parts;
+        Ok(Left::Divided)
+    }
+
     fn progress(&self) -> Progress {
         Progress {
             step: self.index,
@@ -234,13 +354,17 @@ impl<M> Course<'_, M> {
     where
         M: Method<S, P>,
     {
-        let rest_step = S::from_f64(rest);
+        let parts = (rest / self.step * f64::from(self.parts)).ceil().max(1.0);
+        let rest_step = S::from_f64(rest / parts);
         let mut shorter = self.method.stepper(system, rest_step, &self.newton);
         observer.leave_grid();
-        match shorter.step(between, &mut Shown::to(observer, system)) {
-            Ok(report) => Ok(self.arrived(system, between, report)?),
-            Err(failure) => Err(self.stopped(system, failure, rest, mu)),
+        for _ in 0..parts as u32 {
+            match shorter.step(between, &mut Shown::to(observer, system)) {
+                Ok(report) => self.arrived(system, between, report)?,
+                Err(failure) => return Err(self.stopped(system, failure, rest, mu)),
+            }
         }
+        Ok(())
     }
 }
 

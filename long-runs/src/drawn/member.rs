@@ -147,17 +147,19 @@ fn series(system: &Drawn, start: &[f64], span: f64) -> Option<(Vec<f64>, f64)> {
 
 /// The largest growth of changes at the start and at two later times.
 fn growth(system: &Drawn, start: &[f64], span: f64, end: &[f64], chance: &mut Chance) -> Option<f64> {
-    let options = Options::new(span / 64.0).save(Save::Ends);
     let ahead = |from: &[f64], time: f64| -> Option<Vec<f64>> {
         if time == 0.0 {
             return Some(from.to_vec());
         }
-        let method = Taylor::with_tolerance(1e-13);
+        let method = Dopri5 {
+            rtol: 1e-11,
+            atol: 1e-11 * size(start),
+        };
         let problem = Problem::new(system.clone(), from.to_vec(), (0.0, time));
-        let options = Options { ..options.clone() };
-        let options = Options::new(time / 64.0).save(options.save);
+        let options = Options::new(time).save(Save::Ends);
         solve(&problem, method, &options).ok()?.mu.pop()
     };
+    let end = &ahead(start, span).filter(|found| off(found, end) < 1e-4)?;
     let mut growth = 1.0_f64;
     for place in 0..PLACES {
         let time = span * place as f64 / PLACES as f64;

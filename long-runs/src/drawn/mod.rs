@@ -6,6 +6,7 @@
 pub mod algebra;
 pub mod energy;
 pub mod member;
+pub mod series;
 pub mod system;
 
 /// Numbers from a seed (splitmix64).

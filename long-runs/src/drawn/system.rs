@@ -208,7 +208,7 @@ impl<S: Scalar> Expand<S> for Drawn {
     }
 }
 
-lie_runtime::generic_equations!([S: Scalar] Drawn, S: midpoint, exp, splitting, taylor, lie_taylor);
+lie_runtime::generic_equations!([S: Scalar] Drawn, S: midpoint, exp, splitting);
 
 impl<S: Scalar> SpinPoisson<S> for Drawn {
     fn spins(&self) -> &[[usize; 3]] {

@@ -1,0 +1,192 @@
+//! What looks after the error of steps during a run whose step was chosen.
+//!
+//! The run-in knows the start alone: a motion may begin quietly and become fast. So the run watches a number that follows the
+//! error of a step and costs little, `s = |f| |Df|^p/|mu|`, p the order: where it exceeds what it was when errors were
+//! estimated last, by more than those errors leave room for, the error of the step just made is estimated again. A step whose
+//! error is ten times what it may be is made again in several parts, and so is every later one: the method is one
+//! map again from there on. A step that fails is divided too.
+
+use super::pace::{Chosen, Trial};
+use crate::matrix::SquareMatrix;
+use crate::methods::Method;
+use crate::poisson::Poisson;
+use crate::scalar::{Scalar, largest};
+use crate::state::{State, Unknown};
+
+/// The Jacobian is looked at up to so many coordinates: beyond, it costs more than a step may.
+const MOST_COORDINATES: usize = 12;
+/// An error is too large that is so many times what it may be.
+const TOO_LARGE: f64 = 10.0;
+/// By how much the watched number may grow before errors are estimated again: as much as they leave room for, within these.
+const ROOM: (f64, f64) = (4.0, 64.0);
+/// Steps are looked at once in so much of the time in which the motion changes.
+const LOOK: f64 = 0.5;
+/// Into so many parts a step is divided at most.
+const MOST_PARTS: u32 = 1 << 12;
+
+/// A number that follows the error of steps of an order.
+pub(super) struct Gauge<S: Scalar, P: Poisson<S>> {
+    order: i32,
+    /// The first `|Df|`, in units of which the others are.
+    unit: f64,
+    field: P::State,
+    jacobian: Option<P::Jacobian>,
+}
+
+impl<S: Scalar, P: Poisson<S>> Gauge<S, P> {
+    pub(super) fn new(system: &P, mu: &P::State, order: u32) -> Self {
+        let small = system.dimension() <= MOST_COORDINATES;
+        let mut gauge = Self {
+            order: order.max(1) as i32,
+            unit: 1.0,
+            field: system.zero_state(),
+            jacobian: small.then(|| system.zero_jacobian()),
+        };
+        let (_, rate) = gauge.speed_and_rate(system, mu);
+        if rate.is_finite() && rate > 0.0 {
+            gauge.unit = rate;
+        }
+        gauge
+    }
+
+    /// `|f|/|mu|`, and `|Df|` in the Frobenius norm.
+    fn speed_and_rate(&mut self, system: &P, mu: &P::State) -> (f64, f64) {
+        let Some(jacobian) = &mut self.jacobian else {
+            system.vector_field(mu, &mut self.field);
+            let speed = largest(self.field.max_norm() / mu.max_norm());
+            return (speed, speed);
+        };
+        system.linearize(mu, &mut self.field, jacobian);
+        let mut sum = S::zero();
+        let count = self.field.as_slice().len();
+        for row in 0..count {
+            for column in 0..count {
+                let entry = jacobian.get(row, column);
+                sum += entry * entry;
+            }
+        }
+        let speed = largest(self.field.max_norm() / mu.max_norm());
+        (speed, largest(sum.sqrt()))
+    }
+
+    /// The number at a state; not a number where the field is not.
+    #[inline(never)]
+    pub(super) fn at(&mut self, system: &P, mu: &P::State) -> f64 {
+        let (speed, rate) = self.speed_and_rate(system, mu);
+        speed * (rate / self.unit).powi(self.order)
+    }
+
+    /// How many steps of a size go between two looks.
+    fn interval(&self, h: f64) -> u32 {
+        (LOOK / (h * self.unit)).clamp(2.0, 1e6) as u32
+    }
+}
+
+/// What a run knows of the errors of its steps.
+pub(super) struct Watch<S: Scalar, P: Poisson<S>> {
+    gauge: Gauge<S, P>,
+    /// Up to this number nothing is estimated.
+    ceiling: f64,
+    interval: u32,
+    left: u32,
+    before: P::State,
+}
+
+/// How much the gauge may grow from where an error was found.
+fn room(target: f64, error: f64) -> f64 {
+    (0.8 * TOO_LARGE * target / error).clamp(ROOM.0, ROOM.1)
+}
+
+impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
+    /// From the largest number seen while steps were chosen, and the largest error of one relative to what it may be.
+    pub(super) fn new(
+        gauge: Gauge<S, P>,
+        seen: f64, part: f64, chosen: &Chosen, zero: P::State) -> Self {
+        let interval = gauge.interval(chosen.step.abs());
+        Self {
+            ceiling: seen * room(1.0, part),
+            gauge,
+            interval,
+            left: 1,
+            before: zero,
+        }
+    }
+
+    /// In how many parts the step of h after the state that was kept is to be made; `number` is that of the gauge at its end.
+    #[cold]
+    #[inline(never)]
+    fn needed<M: Method<S, P>>(
+        &mut self,
+        trial: &Trial<'_, S, P, M>,
+        system: &P,
+        (h, parts): (f64, u32),
+        number: f64,
+    ) -> u32 {
+        let order = f64::from(M::ORDER.max(1));
+        let (mut now, mut first) = (parts, true);
+        let number = number.max(self.gauge.at(system, &self.before));
+        loop {
+            let size = h / f64::from(now);
+            let target = trial.target(size.abs());
+            let bound = if first { TOO_LARGE } else { 3.0 };
+            let factor = match trial.estimate(system, &self.before, size) {
+                Ok((error, _)) if error <= bound * target => {
+                    self.ceiling = number * room(target, error);
+                    break;
+                }
+                Ok((error, _)) => (error / target).powf(1.0 / order).clamp(1.1, 8.0),
+                Err(_) => 2.0,
+            };
+            let next = (factor * f64::from(now)).ceil() as u32;
+            if next > MOST_PARTS {
+                self.ceiling = f64::INFINITY;
+                break;
+            }
+            (now, first) = (next, false);
+        }
+        self.interval = self.gauge.interval((h / f64::from(now)).abs());
+        now
+    }
+}
+
+/// A watch with what tries steps.
+pub(super) struct Guard<'a, S: Scalar, P: Poisson<S>, M> {
+    pub(super) watch: Watch<S, P>,
+    pub(super) trial: Trial<'a, S, P, M>,
+}
+
+impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Guard<'_, S, P, M> {
+    /// Whether the step to come is looked at; keeps the state before it if so.
+    #[inline(always)]
+    pub(super) fn begins(&mut self, mu: &P::State) -> bool {
+        let watch = &mut self.watch;
+        watch.left -= 1;
+        let due = watch.left == 0;
+        if due {
+            watch.left = watch.interval;
+            watch.before.copy_from(mu);
+        }
+        due
+    }
+
+    /// The state before the step.
+    pub(super) fn before(&self) -> &P::State {
+        &self.watch.before
+    }
+
+    /// In how many parts a step of h is to be made that was made in some and has ended at a state.
+    #[inline(always)]
+    pub(super) fn parts(&mut self, system: &P, (h, parts): (f64, u32), end: &P::State) -> u32 {
+        let number = self.watch.gauge.at(system, end);
+        // a number that is none says nothing
+        if number.is_nan() || number <= self.watch.ceiling {
+            return parts;
+        }
+        self.watch.needed(&self.trial, system, (h, parts), number)
+    }
+}
+
+/// In how many parts a step is made that failed in some; none where that is enough.
+pub(super) fn divided(parts: u32) -> Option<u32> {
+    (parts < MOST_PARTS).then_some(2 * parts)
+}
