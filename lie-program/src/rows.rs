@@ -3,7 +3,7 @@
 use crate::protocol::{Columns, End, Found};
 use crate::session::Session;
 use core::ops::ControlFlow;
-use lie_runtime::driver::{Chosen, Motion, Observer, Progress, Reconstruction};
+use lie_runtime::driver::{Assessed, Chosen, Motion, Observer, Progress, Reconstruction};
 use lie_runtime::{MatrixGroup, Poisson, State};
 use std::time::{Duration, Instant};
 
@@ -129,6 +129,16 @@ impl<P: Poisson<f64>> Observer<f64, P> for RowWriter<'_, '_> {
         self.session.of_run(Found::Chosen(chosen.into()), &[]);
     }
 
+    fn divided(&mut self, progress: Progress, parts: u32) {
+        let time = progress.time;
+        self.session.of_run(Found::Divided { parts, time }, &[]);
+    }
+
+    fn assessed(&mut self, assessed: &Assessed) {
+        let (error, missed) = (assessed.error.unwrap_or(f64::NAN), assessed.missed());
+        self.session.of_run(Found::Assessed { error, missed }, &[]);
+    }
+
     fn step(&mut self, _system: &P, progress: Progress, _mu: &P::State) -> ControlFlow<()> {
         if self.session.is_interrupted() {
             return ControlFlow::Break(());
@@ -157,6 +167,14 @@ impl<P: MatrixGroup<f64>> Observer<f64, P> for OnGroup<'_, '_, '_, P::State> {
 
     fn chosen(&mut self, chosen: &Chosen) {
         Observer::<f64, P>::chosen(self.rows, chosen);
+    }
+
+    fn divided(&mut self, progress: Progress, parts: u32) {
+        Observer::<f64, P>::divided(self.rows, progress, parts);
+    }
+
+    fn assessed(&mut self, assessed: &Assessed) {
+        Observer::<f64, P>::assessed(self.rows, assessed);
     }
 
     fn step(&mut self, system: &P, progress: Progress, mu: &P::State) -> ControlFlow<()> {

@@ -117,7 +117,11 @@ impl Way {
 }
 
 fn run<M: Method<f64, Drawn>>(member: &Member, method: M, tolerance: f64) -> Outcome {
-    let problem = Problem::new(member.system.clone(), member.start.clone(), (0.0, member.span));
+    let problem = Problem::new(
+        member.system.clone(),
+        member.start.clone(),
+        (0.0, member.span),
+    );
     let options = Options::tolerance(tolerance).save(Save::Ends).assessed();
     match solve(&problem, method, &options) {
         Ok(solution) => {

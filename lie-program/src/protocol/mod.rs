@@ -161,6 +161,7 @@ impl Run {
             pace: self.pace,
             save,
             newton: self.newton,
+            assess: matches!(self.pace, Pace::Tolerance(_)),
         }
     }
 }
@@ -196,6 +197,22 @@ pub struct Progress {
 pub enum Found {
     /// The step that was chosen from a tolerance, before all else.
     Chosen(Choice),
+    /// Steps are made in so many parts from a time on.
+    Divided {
+        /// The parts.
+        parts: u32,
+        /// The time.
+        #[serde(with = "number")]
+        time: f64,
+    },
+    /// The error at the end of a run with a tolerance, relative to the state, if it can be told.
+    Assessed {
+        /// The error; not a number where it cannot be told.
+        #[serde(with = "number")]
+        error: f64,
+        /// Whether it may be much larger than the tolerance.
+        missed: bool,
+    },
     /// What the numbers of the rows to come are.
     Columns(Columns),
     /// So many rows follow this line: little-endian float64, row by row. They come at least every 0.2 s while steps are

@@ -1,10 +1,11 @@
-//! The error at the end of a run, by a second one.
+//! The error at the end of a run, by a second one, and a step that keeps it.
 
 use super::grid::Grid;
 use super::observer::Observer;
-use super::options::Save;
+use super::options::{Options, Save};
+use super::pace::{Assessed, Chosen, count, settle};
 use super::problem::Problem;
-use super::solve::Course;
+use super::solve::{Course, IntegrateError};
 use crate::methods::Method;
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;
@@ -19,15 +20,91 @@ const SHORTER: f64 = 0.8;
 /// By which part of the tolerance it starts elsewhere, of a method that chooses its own steps.
 const CHANGE: f64 = 0.1;
 
+/// Times the tolerance that an error may be without another, shorter step, and that it should then be.
+const AIM: (f64, f64) = (10.0, 3.0);
+/// Steps that are tried.
+const ATTEMPTS: u32 = 3;
+/// By how much a step is shortened at most at once.
+const SHORTENED: f64 = 4.0;
+
+/// The step for a run, from the one that the start suggests, and what its error is.
+///
+/// Two runs with different steps that nobody sees tell the error at the end. Where that is more than ten times the tolerance,
+/// the step is shortened as much as the order says, and tried again.
+pub(super) fn assess<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    problem: &Problem<S, P>,
+    method: &M,
+    options: &Options,
+    first: &Chosen,
+) -> Result<(f64, Assessed), IntegrateError> {
+    let (tolerance, span) = (first.tolerance, problem.span.1 - problem.span.0);
+    let mut step = first.step;
+    let mut attempt = 0;
+    loop {
+        attempt += 1;
+        let error = error_of(problem, method, options, step);
+        let large = error.filter(|error| *error > AIM.0 * tolerance && !M::OWN_STEPS);
+        let assessed = Assessed { tolerance, error };
+        let Some(large) = large.filter(|_| attempt < ATTEMPTS) else {
+            return Ok((step, assessed));
+        };
+        let order = f64::from(M::ORDER.max(1));
+        let factor = (large / (AIM.1 * tolerance))
+            .powf(1.0 / order)
+            .min(SHORTENED);
+        let steps = count(span, (span / step * factor).ceil());
+        if steps > MOST_STEPS {
+            return Ok((step, assessed));
+        }
+        step = span / steps;
+    }
+}
+
+/// The error at the end of a run with steps of a size, if it can be told.
+fn error_of<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
+    problem: &Problem<S, P>,
+    method: &M,
+    options: &Options,
+    step: f64,
+) -> Option<f64> {
+    let grid = Grid::new(problem.span, step).ok()?;
+    if grid.steps() as f64 > MOST_STEPS {
+        return None;
+    }
+    let (_, settled) = settle(problem, method, options).ok()?;
+    let settled = settled?;
+    let tolerance = settled.chosen.tolerance;
+    let divides = Course::<M>::may_divide::<S, P>();
+    let mut course = Course::new(&grid, method, options.newton, step).dividing(divides);
+    let start = problem.mu0.clone();
+    let run = course.run(
+        &problem.system,
+        start,
+        settled.guard(),
+        &Save::Ends,
+        &mut (),
+    );
+    let (end, _) = run.ok()?;
+    let ended = Ended {
+        problem,
+        method,
+        newton: options.newton,
+        tolerance,
+        steps: grid.steps() as f64 * f64::from(course.parts()),
+        end: &end,
+    };
+    ended.error()
+}
+
 /// A run that has ended.
-pub(super) struct Ended<'a, S: Scalar, P: Poisson<S>, M> {
-    pub(super) problem: &'a Problem<S, P>,
-    pub(super) method: &'a M,
-    pub(super) newton: NewtonOptions,
-    pub(super) tolerance: f64,
+struct Ended<'a, S: Scalar, P: Poisson<S>, M> {
+    problem: &'a Problem<S, P>,
+    method: &'a M,
+    newton: NewtonOptions,
+    tolerance: f64,
     /// Steps, in the parts in which the last ones were made.
-    pub(super) steps: f64,
-    pub(super) end: &'a P::State,
+    steps: f64,
+    end: &'a P::State,
 }
 
 impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
@@ -35,7 +112,7 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
     ///
     /// Steps of four fifths leave `0.8^p` of the error, which is subtracted. Of a method that chooses its own steps
     /// a change of the start by a part of the tolerance has grown to it.
-    pub(super) fn error(&self) -> Option<f64> {
+    fn error(&self) -> Option<f64> {
         let (start, end) = self.problem.span;
         let mut mu = self.problem.mu0.clone();
         let (steps, left) = if M::OWN_STEPS {
@@ -54,7 +131,8 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Ended<'_, S, P, M> {
         let mut last = Last(mu.clone());
         let step = (end - start) / steps;
         let grid = Grid::new((start, end), step).ok()?;
-        let mut course = Course::new(&grid, self.method, self.newton, step);
+        let divides = Course::<M>::may_divide::<S, P>();
+        let mut course = Course::new(&grid, self.method, self.newton, step).dividing(divides);
         course
             .run(&self.problem.system, mu, None, &Save::Ends, &mut last)
             .ok()?;

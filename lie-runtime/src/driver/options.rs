@@ -34,7 +34,7 @@ pub struct Options {
     pub save: Save,
     /// The solver of implicit methods.
     pub newton: NewtonOptions,
-    /// Whether a second run tells the error at the end of one with a tolerance.
+    /// Whether the error at the end of a run with a tolerance is estimated, and its step shortened where it is too large.
     pub assess: bool,
 }
 
@@ -58,9 +58,10 @@ impl Options {
         }
     }
 
-    /// The same with a second run after one with a tolerance, which tells the error at the end: with steps of four fifths,
-    /// or for a method that chooses its own steps from a start that is changed by a tenth of the tolerance. It takes about as
-    /// long as the first, and is not made where it would take more than 200,000 steps.
+    /// The same with two runs before that with a tolerance that nobody sees, which tell the error at the end: one as it would
+    /// be, and one with steps of four fifths, or for a method that chooses its own steps from a start that is changed by a
+    /// tenth of the tolerance. A step with which the error is more than ten times the tolerance is shortened. They take about
+    /// twice as long as the run, and are not made where they would take more than 200,000 steps.
     #[must_use]
     pub fn assessed(self) -> Self {
         Self {

@@ -52,7 +52,8 @@ pub struct Assessed {
 impl Assessed {
     /// Whether the error is more than 30 times the tolerance, or cannot be told.
     pub fn missed(&self) -> bool {
-        self.error.is_none_or(|error| !(error <= MISSED * self.tolerance))
+        self.error
+            .is_none_or(|error| !(error <= MISSED * self.tolerance))
     }
 }
 
@@ -64,6 +65,8 @@ const ATTEMPTS: u32 = 200;
 const ROUND_OFF: f64 = 8.0;
 /// The part of the error of a step that its solver may have in the run-in.
 const SOLVER: f64 = 0.05;
+/// By how much steps are shortened at most so that the iteration contracts.
+const SLOWER: f64 = 16.0;
 /// How much of the step that the estimates allow is taken.
 const SAFETY: f64 = 0.95;
 
@@ -164,7 +167,7 @@ fn chosen_by<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
 }
 
 /// The least number of steps, from one on, whose last time is the end of the span to the last digit, if it is near.
-fn count(span: f64, least: f64) -> f64 {
+pub(super) fn count(span: f64, least: f64) -> f64 {
     let near = (0..16).map(|k| least + f64::from(k));
     let mut exact = near.filter(|steps| span / steps * steps == span);
     exact.next().unwrap_or(least)
@@ -177,6 +180,16 @@ pub(super) struct Trial<'a, S: Scalar, P: Poisson<S>, M> {
     newton: NewtonOptions,
     span: f64,
     tolerance: f64,
+}
+
+/// What a trial has found.
+pub(super) struct Found<V> {
+    /// The error of a step, relative to the state.
+    pub(super) error: f64,
+    /// The state after two steps of half the size.
+    end: V,
+    /// Whether the iteration without a Jacobian did not contract.
+    slow: bool,
 }
 
 /// What the estimates of a run-in have come to.
@@ -238,6 +251,7 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
         let mut h = self.first(&mu);
         let (mut reached, mut estimates) = (0.0, Estimates::NONE);
         let (mut ceiling, mut shrunk, mut failure) = (f64::INFINITY, false, None);
+        let mut contracting = 0.0_f64;
         for _ in 0..ATTEMPTS {
             // a step that the end cuts short says nothing of longer ones
             let cut = estimates.count > 0 && h > self.span - reached;
@@ -248,7 +262,14 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
             }
             let system = followed.as_ref().unwrap_or(&self.problem.system);
             h = h.min(self.span - reached);
-            let (error, end) = match self.estimate(system, &mu, h * span.signum()) {
+            let Found { error, end, .. } = match self.estimate(system, &mu, h * span.signum()) {
+                // where it does not contract, several shorter steps cost less
+                Ok(found) if found.slow && h > contracting => {
+                    contracting = f64::max(contracting, h / SLOWER);
+                    h *= 0.7;
+                    (ceiling, shrunk, estimates) = (h, true, Estimates::NONE);
+                    continue;
+                }
                 Ok(found) => found,
                 Err(failed) => {
                     failure = Some(failed);
@@ -331,13 +352,15 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
         system: &P,
         mu: &P::State,
         h: f64,
-    ) -> Result<(f64, P::State), StepFailure> {
+    ) -> Result<Found<P::State>, StepFailure> {
         let newton = self.newton_of(h.abs());
-        let steps = |h: f64, count: u32| {
+        let mut slow = false;
+        let mut steps = |h: f64, count: u32| {
             let mut stepper = self.method.stepper(system, S::from_f64(h), &newton);
             let mut end = mu.clone();
             for _ in 0..count {
-                stepper.step(&mut end, &mut ())?;
+                let report = stepper.step(&mut end, &mut ())?;
+                slow |= M::FIXED_POINT && report.factorizations > 0;
             }
             Ok(end)
         };
@@ -347,6 +370,10 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
         let resting = size.less_equal(S::zero());
         let error = S::select(resting, S::zero(), whole.max_norm() / size);
         let part = 1.0 - 0.5_f64.powi(M::ORDER as i32);
-        Ok((largest(error.max(S::epsilon())) / part, halves))
+        Ok(Found {
+            error: largest(error.max(S::epsilon())) / part,
+            end: halves,
+            slow,
+        })
     }
 }

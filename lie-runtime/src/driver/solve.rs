@@ -1,15 +1,15 @@
 //! The loop over the grid.
 
-use super::assess::Ended;
+use super::assess::assess;
 use super::error::{SolveError, StepError};
 use super::grid::{Grid, Place, Rows};
 use super::observer::{Observer, Progress, Recorder, Shown};
 use super::options::{OptionError, Options, Save};
-use super::pace::{Assessed, Settled, settle};
+use super::pace::{Settled, settle};
 use super::problem::Problem;
 use super::solution::Solution;
 use super::stats::{Stats, Status};
-use super::watch::{Guard, divided};
+use super::watch::{Guard, MOST_SLOW, SLOW_PARTS, divided};
 use crate::methods::{Method, StepFailure, StepReport, Stepper};
 use crate::newton::{FailureReason, NewtonOptions};
 use crate::poisson::Poisson;
@@ -100,28 +100,27 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     options: &Options,
     observer: &mut impl Observer<S, P>,
 ) -> Result<(Stats, Status), IntegrateError> {
-    let (step, settled) = settle(problem, &method, options)?;
+    let (mut step, mut settled) = settle(problem, &method, options)?;
+    let mut assessed = None;
+    if let (Some(first), true) = (&settled, options.assess) {
+        let (steps, found) = assess(problem, &method, options, &first.chosen)?;
+        assessed = Some(found);
+        step = steps;
+        if let Some(settled) = &mut settled {
+            settled.chosen.step = step;
+        }
+    }
     if let Some(settled) = &settled {
         observer.chosen(&settled.chosen);
     }
     let grid = Grid::new(problem.span, step)?;
-    let mut course = Course::new(&grid, &method, options.newton, step);
-    course.divides = settled.is_some() && !M::OWN_STEPS && S::LANES == 1;
-    let tolerance = settled.as_ref().map(|settled| settled.chosen.tolerance);
+    let divides = settled.is_some() && Course::<M>::may_divide::<S, P>();
+    let mut course = Course::new(&grid, &method, options.newton, step).dividing(divides);
     let guard = settled.and_then(Settled::guard);
     let (system, mu) = (&problem.system, problem.mu0.clone());
-    let (end, status) = course.run(system, mu, guard, &options.save, observer)?;
-    if let (Some(tolerance), true, Status::Finished) = (tolerance, options.assess, status) {
-        let ended = Ended {
-            problem,
-            method: &method,
-            newton: options.newton,
-            tolerance,
-            steps: grid.steps() as f64 * f64::from(course.parts),
-            end: &end,
-        };
-        let error = ended.error();
-        observer.assessed(&Assessed { tolerance, error });
+    let (_, status) = course.run(system, mu, guard, &options.save, observer)?;
+    if let Some(assessed) = &assessed {
+        observer.assessed(assessed);
     }
     Ok((course.stats, status))
 }
@@ -152,9 +151,30 @@ pub(super) struct Course<'r, M> {
     done: u32,
     /// Whether a step may be divided.
     divides: bool,
+    /// Jacobians that were factored, and steps since the last division for which some were.
+    slow: (u64, u32),
 }
 
 impl<'r, M> Course<'r, M> {
+    /// Whether steps of a method may be divided: of one trajectory, and those that it does not choose itself.
+    pub(super) fn may_divide<S: Scalar, P: Poisson<S>>() -> bool
+    where
+        M: Method<S, P>,
+    {
+        !M::OWN_STEPS && S::LANES == 1
+    }
+
+    /// In how many parts the last steps were made.
+    pub(super) fn parts(&self) -> u32 {
+        self.parts
+    }
+
+    /// Divides steps where need be.
+    pub(super) fn dividing(mut self, divides: bool) -> Self {
+        self.divides = divides;
+        self
+    }
+
     /// At the start of a grid, with its whole steps.
     pub(super) fn new(grid: &'r Grid, method: &'r M, newton: NewtonOptions, step: f64) -> Self {
         Self {
@@ -167,6 +187,7 @@ impl<'r, M> Course<'r, M> {
             parts: 1,
             done: 0,
             divides: false,
+            slow: (0, 0),
         }
     }
 
@@ -217,7 +238,9 @@ impl<'r, M> Course<'r, M> {
         let size = S::from_f64(self.step / f64::from(self.parts));
         let mut stepper = self.method.stepper(system, size, &self.newton);
         loop {
-            while let Some(row) = rows.next_if(|row| row.place.index() == self.index && self.done == 0) {
+            while let Some(row) =
+                rows.next_if(|row| row.place.index() == self.index && self.done == 0)
+            {
                 let looked = match row.place {
                     Place::On(_) => observer.row(system, row.time, mu),
                     Place::After(_, rest) => {
@@ -242,6 +265,9 @@ impl<'r, M> Course<'r, M> {
                     Err(failure) => return self.divided(system, failure, mu),
                 }
                 self.done += 1;
+                if M::FIXED_POINT && self.divides && self.is_slow() {
+                    return Ok(Left::Divided);
+                }
             }
             self.done = 0;
             if let Some(guard) = guard.as_mut().filter(|_| watched) {
@@ -254,7 +280,11 @@ impl<'r, M> Course<'r, M> {
                         mu.copy_from(guard.before());
                         return Ok(Left::Divided);
                     }
-                    stepper = self.method.stepper(system, S::from_f64(self.step / f64::from(parts)), &self.newton);
+                    stepper = self.method.stepper(
+                        system,
+                        S::from_f64(self.step / f64::from(parts)),
+                        &self.newton,
+                    );
                 }
             }
             self.index += 1;
@@ -266,6 +296,19 @@ impl<'r, M> Course<'r, M> {
                 return Ok(Left::Branch(next));
             }
         }
+    }
+
+    /// Divides the steps, where too many did not contract.
+    fn is_slow(&mut self) -> bool {
+        let slow = self.stats.factorizations > self.slow.0;
+        self.slow.0 = self.stats.factorizations;
+        self.slow.1 += u32::from(slow);
+        if self.slow.1 <= MOST_SLOW || self.parts >= SLOW_PARTS {
+            return false;
+        }
+        self.slow.1 = 0;
+        (self.parts, self.done) = (2 * self.parts, 2 * self.done);
+        true
     }
 
     /// Goes on in smaller steps after one that failed, where that may be.

@@ -3,7 +3,7 @@
 //! The run-in knows the start alone: a motion may begin quietly and become fast. So the run watches a number that follows the
 //! error of a step and costs little, `s = |f| |Df|^p/|mu|`, p the order: where it exceeds what it was when errors were
 //! estimated last, by more than those errors leave room for, the error of the step just made is estimated again. A step whose
-//! error is ten times what it may be is made again in several parts, and so is every later one: the method is one
+//! error is 30 times what it may be is made again in several parts, and so is every later one: the method is one
 //! map again from there on. A step that fails is divided too.
 
 use super::pace::{Chosen, Trial};
@@ -16,11 +16,11 @@ use crate::state::{State, Unknown};
 /// The Jacobian is looked at up to so many coordinates: beyond, it costs more than a step may.
 const MOST_COORDINATES: usize = 12;
 /// An error is too large that is so many times what it may be.
-const TOO_LARGE: f64 = 10.0;
+const TOO_LARGE: f64 = 30.0;
 /// By how much the watched number may grow before errors are estimated again: as much as they leave room for, within these.
 const ROOM: (f64, f64) = (4.0, 64.0);
 /// Steps are looked at once in so much of the time in which the motion changes.
-const LOOK: f64 = 0.5;
+const LOOK: f64 = 2.0;
 /// Into so many parts a step is divided at most.
 const MOST_PARTS: u32 = 1 << 12;
 
@@ -78,7 +78,7 @@ impl<S: Scalar, P: Poisson<S>> Gauge<S, P> {
 
     /// How many steps of a size go between two looks.
     fn interval(&self, h: f64) -> u32 {
-        (LOOK / (h * self.unit)).clamp(2.0, 1e6) as u32
+        (LOOK / (h * self.unit)).clamp(1.0, 1e6) as u32
     }
 }
 
@@ -94,14 +94,18 @@ pub(super) struct Watch<S: Scalar, P: Poisson<S>> {
 
 /// How much the gauge may grow from where an error was found.
 fn room(target: f64, error: f64) -> f64 {
-    (0.8 * TOO_LARGE * target / error).clamp(ROOM.0, ROOM.1)
+    (0.5 * TOO_LARGE * target / error).clamp(ROOM.0, ROOM.1)
 }
 
 impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
     /// From the largest number seen while steps were chosen, and the largest error of one relative to what it may be.
     pub(super) fn new(
         gauge: Gauge<S, P>,
-        seen: f64, part: f64, chosen: &Chosen, zero: P::State) -> Self {
+        seen: f64,
+        part: f64,
+        chosen: &Chosen,
+        zero: P::State,
+    ) -> Self {
         let interval = gauge.interval(chosen.step.abs());
         Self {
             ceiling: seen * room(1.0, part),
@@ -130,11 +134,11 @@ impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
             let target = trial.target(size.abs());
             let bound = if first { TOO_LARGE } else { 3.0 };
             let factor = match trial.estimate(system, &self.before, size) {
-                Ok((error, _)) if error <= bound * target => {
-                    self.ceiling = number * room(target, error);
+                Ok(found) if found.error <= bound * target => {
+                    self.ceiling = number * room(target, found.error);
                     break;
                 }
-                Ok((error, _)) => (error / target).powf(1.0 / order).clamp(1.1, 8.0),
+                Ok(found) => (found.error / target).powf(1.0 / order).clamp(1.1, 8.0),
                 Err(_) => 2.0,
             };
             let next = (factor * f64::from(now)).ceil() as u32;
@@ -185,6 +189,11 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Guard<'_, S, P, M> {
         self.watch.needed(&self.trial, system, (h, parts), number)
     }
 }
+
+/// Steps that Newton's iteration had to solve, after which they are divided: it costs more than several that contract.
+pub(super) const MOST_SLOW: u32 = 2;
+/// Into so many parts steps are divided at most in order to contract.
+pub(super) const SLOW_PARTS: u32 = 8;
 
 /// In how many parts a step is made that failed in some; none where that is enough.
 pub(super) fn divided(parts: u32) -> Option<u32> {

@@ -65,7 +65,8 @@ pub fn inverse(of: &Rows) -> Rows {
     let mut left = of.clone();
     let mut right = matrix(size, &(0..size).map(|i| (i, i, 1.0)).collect::<Vec<_>>());
     for column in 0..size {
-        let largest = |a: &usize, b: &usize| left[*a][column].abs().total_cmp(&left[*b][column].abs());
+        let largest =
+            |a: &usize, b: &usize| left[*a][column].abs().total_cmp(&left[*b][column].abs());
         let pivot = (column..size).max_by(largest).expect("there are rows");
         left.swap(column, pivot);
         right.swap(column, pivot);
@@ -89,7 +90,10 @@ impl Algebra {
     /// By a basis of matrices that is closed under brackets.
     fn new(name: &str, matrices: Vec<Rows>, space: Space) -> Self {
         let count = matrices.len();
-        let gram: Rows = matrices.iter().map(|a| matrices.iter().map(|b| pair(a, b)).collect()).collect();
+        let gram: Rows = matrices
+            .iter()
+            .map(|a| matrices.iter().map(|b| pair(a, b)).collect())
+            .collect();
         let gram = inverse(&gram);
         let mut constants = Vec::new();
         for i in 0..count {
@@ -102,11 +106,15 @@ impl Algebra {
                     if value.abs() > 1e-12 {
                         constants.push((i, j, k, value));
                     }
-                    for (rest, entry) in rest.iter_mut().flatten().zip(matrices[k].iter().flatten()) {
+                    for (rest, entry) in rest.iter_mut().flatten().zip(matrices[k].iter().flatten())
+                    {
                         *rest -= value * entry;
                     }
                 }
-                let off = rest.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+                let off = rest
+                    .iter()
+                    .flatten()
+                    .fold(0.0, |most: f64, x| most.max(x.abs()));
                 assert!(off < 1e-9, "{name}: [{i}, {j}] leaves the span by {off:e}");
             }
         }
@@ -142,7 +150,11 @@ impl Algebra {
             }
             _ => Space::None,
         };
-        Self::new(&format!("{} + {}", self.name, other.name), matrices.collect(), space)
+        Self::new(
+            &format!("{} + {}", self.name, other.name),
+            matrices.collect(),
+            space,
+        )
     }
 
     /// The same algebra in another basis, in which only its matrices carry a lift.
@@ -151,7 +163,11 @@ impl Algebra {
         let mut change = vec![vec![0.0; count]; count];
         for (i, row) in change.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                let diagonal = if i == j { chance.size_between(0.6, 1.6) } else { 0.0 };
+                let diagonal = if i == j {
+                    chance.size_between(0.6, 1.6)
+                } else {
+                    0.0
+                };
                 *entry = diagonal + 0.6 * chance.number() / (count as f64).sqrt();
             }
         }
@@ -165,8 +181,16 @@ impl Algebra {
             }
             sum
         };
-        let space = if self.space == Space::Columns { Space::Columns } else { Space::None };
-        Self::new(&format!("{}, another basis", self.name), change.iter().map(sum).collect(), space)
+        let space = if self.space == Space::Columns {
+            Space::Columns
+        } else {
+            Space::None
+        };
+        Self::new(
+            &format!("{}, another basis", self.name),
+            change.iter().map(sum).collect(),
+            space,
+        )
     }
 }
 
@@ -204,7 +228,11 @@ fn so4() -> Algebra {
 }
 
 fn sl2() -> Algebra {
-    let basis = [&[(0, 0, 1.0), (1, 1, -1.0)][..], &[(0, 1, 1.0)], &[(1, 0, 1.0)]];
+    let basis = [
+        &[(0, 0, 1.0), (1, 1, -1.0)][..],
+        &[(0, 1, 1.0)],
+        &[(1, 0, 1.0)],
+    ];
     let matrices = basis.map(|entries| matrix(2, entries)).to_vec();
     Algebra::new("sl(2)", matrices, Space::Columns)
 }
@@ -220,7 +248,11 @@ fn su3() -> Algebra {
         complex.push(vec![(i, j, -half, 0.0), (j, i, half, 0.0)]);
     }
     complex.push(vec![(0, 0, 0.0, -half), (1, 1, 0.0, half)]);
-    complex.push(vec![(0, 0, 0.0, -half * root), (1, 1, 0.0, -half * root), (2, 2, 0.0, root)]);
+    complex.push(vec![
+        (0, 0, 0.0, -half * root),
+        (1, 1, 0.0, -half * root),
+        (2, 2, 0.0, root),
+    ]);
     let real = |entries: &Vec<(usize, usize, f64, f64)>| {
         let mut places = Vec::new();
         for &(i, j, x, y) in entries {
@@ -239,15 +271,32 @@ fn other(name: &str, size: usize, basis: &[&[(usize, usize, f64)]]) -> Algebra {
 
 /// The algebras that members go through in turn.
 pub fn all() -> Vec<Algebra> {
-    let e2 = other("e(2)", 3, &[&[(0, 1, -1.0), (1, 0, 1.0)], &[(0, 2, 1.0)], &[(1, 2, 1.0)]]);
-    let heisenberg = other("heisenberg", 3, &[&[(0, 1, 1.0)], &[(1, 2, 1.0)], &[(0, 2, 1.0)]]);
+    let e2 = other(
+        "e(2)",
+        3,
+        &[&[(0, 1, -1.0), (1, 0, 1.0)], &[(0, 2, 1.0)], &[(1, 2, 1.0)]],
+    );
+    let heisenberg = other(
+        "heisenberg",
+        3,
+        &[&[(0, 1, 1.0)], &[(1, 2, 1.0)], &[(0, 2, 1.0)]],
+    );
     let plane = |name: &str, extra: &[&[(usize, usize, f64)]]| {
-        let mut basis: Vec<&[(usize, usize, f64)]> = vec![&[(0, 0, 1.0), (1, 1, -1.0)], &[(0, 1, 1.0)], &[(1, 0, 1.0)]];
+        let mut basis: Vec<&[(usize, usize, f64)]> =
+            vec![&[(0, 0, 1.0), (1, 1, -1.0)], &[(0, 1, 1.0)], &[(1, 0, 1.0)]];
         basis.extend(extra);
         basis.extend([&[(0, 2, 1.0)][..], &[(1, 2, 1.0)]]);
         other(name, 3, &basis)
     };
-    let solvable = other("solvable", 3, &[&[(0, 0, 1.0), (1, 1, -0.5), (0, 1, 0.3)], &[(0, 2, 1.0)], &[(1, 2, 1.0)]]);
+    let solvable = other(
+        "solvable",
+        3,
+        &[
+            &[(0, 0, 1.0), (1, 1, -0.5), (0, 1, 0.3)],
+            &[(0, 2, 1.0)],
+            &[(1, 2, 1.0)],
+        ],
+    );
     let aff1 = other("aff(1)", 2, &[&[(0, 0, 1.0)], &[(0, 1, 1.0)]]);
     let oscillator = other(
         "oscillator",

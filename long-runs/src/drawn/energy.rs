@@ -65,7 +65,12 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Quadratic, Self::Linear, Self::Quartic, Self::Nonpolynomial];
+    pub const ALL: [Self; 4] = [
+        Self::Quadratic,
+        Self::Linear,
+        Self::Quartic,
+        Self::Nonpolynomial,
+    ];
 }
 
 /// `b . mu + mu . Q mu/2 + sum of terms`
@@ -83,7 +88,13 @@ pub struct Energy {
 
 impl Energy {
     /// One of a kind, for states of a size.
-    pub fn draw(kind: Kind, dimension: usize, size: f64, separable: bool, chance: &mut Chance) -> Self {
+    pub fn draw(
+        kind: Kind,
+        dimension: usize,
+        size: f64,
+        separable: bool,
+        chance: &mut Chance,
+    ) -> Self {
         let mut energy = Self {
             linear: vec![0.0; dimension],
             quadratic: form(dimension, separable, chance),
@@ -157,7 +168,8 @@ impl Energy {
 
     /// The second derivatives, entry by entry.
     pub fn hessian<S: Scalar>(&self, mu: &[S], mut set: impl FnMut(usize, usize, S)) {
-        let curvature = |term: &Term| S::from_f64(term.factor) * term.shape.at(along(&term.direction, mu))[2];
+        let curvature =
+            |term: &Term| S::from_f64(term.factor) * term.shape.at(along(&term.direction, mu))[2];
         let curvatures: Vec<S> = self.terms.iter().map(curvature).collect();
         for (i, row) in self.quadratic.iter().enumerate() {
             for (j, &entry) in row.iter().enumerate() {
@@ -192,7 +204,11 @@ fn form(dimension: usize, diagonal: bool, chance: &mut Chance) -> Vec<Vec<f64>> 
     let values: Vec<f64> = (0..dimension)
         .map(|_| {
             let value = chance.size_between(0.2, 3.0);
-            if signs && chance.holds(0.3) { -value } else { value }
+            if signs && chance.holds(0.3) {
+                -value
+            } else {
+                value
+            }
         })
         .collect();
     let mut rows = vec![vec![0.0; dimension]; dimension];

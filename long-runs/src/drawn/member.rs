@@ -33,7 +33,10 @@ pub struct Member {
 
 /// The largest entry.
 pub fn size(mu: &[f64]) -> f64 {
-    mu.iter().fold(0.0, |most: f64, x| if x.is_nan() { *x } else { most.max(x.abs()) })
+    mu.iter().fold(
+        0.0,
+        |most: f64, x| if x.is_nan() { *x } else { most.max(x.abs()) },
+    )
 }
 
 /// The largest distance of two states relative to the second one.
@@ -65,7 +68,13 @@ impl Member {
         unreachable!("some drawing is kept")
     }
 
-    fn try_draw(seed: u64, algebra: &Algebra, kind: Kind, refused: u32, chance: &mut Chance) -> Option<Self> {
+    fn try_draw(
+        seed: u64,
+        algebra: &Algebra,
+        kind: Kind,
+        refused: u32,
+        chance: &mut Chance,
+    ) -> Option<Self> {
         let algebra = if chance.holds(0.5) {
             algebra.in_another_basis(chance)
         } else {
@@ -85,7 +94,10 @@ impl Member {
         let by_series = series(&system, &start, span)?;
         // round-off is measured against the largest state on the way
         let largest = by_series.1.max(size(&start));
-        if !(moved > 1e-3) || !(largest < LARGEST * size(&start)) || !(size(&end) > largest / LARGEST) {
+        if !(moved > 1e-3)
+            || !(largest < LARGEST * size(&start))
+            || !(size(&end) > largest / LARGEST)
+        {
             return None;
         }
         let growth = growth(&system, &start, span, &end, chance)?;
@@ -125,7 +137,11 @@ fn rate(system: &Drawn, mu: &Vec<f64>) -> Option<f64> {
     let mut field: Vec<f64> = Poisson::<f64>::zero_state(system);
     let mut jacobian: Square<f64> = Poisson::<f64>::zero_jacobian(system);
     system.linearize(mu, &mut field, &mut jacobian);
-    let rows = (0..mu.len()).map(|i| (0..mu.len()).map(|j| jacobian.get(i, j).powi(2)).sum::<f64>());
+    let rows = (0..mu.len()).map(|i| {
+        (0..mu.len())
+            .map(|j| jacobian.get(i, j).powi(2))
+            .sum::<f64>()
+    });
     let rate = rows.sum::<f64>().sqrt().max(size(&field) / size(mu));
     (rate.is_finite() && rate > 0.0).then_some(rate)
 }
@@ -146,7 +162,13 @@ fn series(system: &Drawn, start: &[f64], span: f64) -> Option<(Vec<f64>, f64)> {
 }
 
 /// The largest growth of changes at the start and at two later times.
-fn growth(system: &Drawn, start: &[f64], span: f64, end: &[f64], chance: &mut Chance) -> Option<f64> {
+fn growth(
+    system: &Drawn,
+    start: &[f64],
+    span: f64,
+    end: &[f64],
+    chance: &mut Chance,
+) -> Option<f64> {
     let ahead = |from: &[f64], time: f64| -> Option<Vec<f64>> {
         if time == 0.0 {
             return Some(from.to_vec());

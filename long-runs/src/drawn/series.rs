@@ -60,7 +60,11 @@ impl<S: Scalar> Chain<S> {
                 cosine
             }
             Shape::Exponential => {
-                let value = if k == 0 { x[0].exp() } else { integral(x, first, k) };
+                let value = if k == 0 {
+                    x[0].exp()
+                } else {
+                    integral(x, first, k)
+                };
                 first.push(value);
                 value
             }
@@ -83,7 +87,12 @@ impl<S: Scalar> Chain<S> {
 impl<S: Scalar> Coefficients<S> {
     fn new(system: &Drawn) -> Self {
         Self {
-            terms: system.energy.terms.iter().map(|_| Chain::default()).collect(),
+            terms: system
+                .energy
+                .terms
+                .iter()
+                .map(|_| Chain::default())
+                .collect(),
             system: system.clone(),
             state: Vec::new(),
             gradients: Vec::new(),
@@ -172,7 +181,9 @@ mod tests {
             rules.begin(&member.start, &mut fields[0]);
             let mut carry = plain.begin(&member.start, &mut fields[1]);
             for k in 1..12 {
-                let size = fields[1].iter().fold(1e-300_f64, |most, x| most.max(x.abs()));
+                let size = fields[1]
+                    .iter()
+                    .fold(1e-300_f64, |most, x| most.max(x.abs()));
                 for (one, other) in fields[0].iter().zip(&fields[1]) {
                     assert!((one - other).abs() < 1e-12 * size, "{number}, order {k}");
                 }

@@ -5,8 +5,8 @@ use super::energy::Energy;
 use lie_runtime::generic;
 use lie_runtime::structure::{Columns, Entry, Representation};
 use lie_runtime::{
-    ColumnPoisson, Expand, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar, SpinPoisson, SquareMatrix,
-    VectorPoisson, Widen,
+    ColumnPoisson, Expand, LiePoisson, Lift, MatrixPoisson, Poisson, Scalar, SpinPoisson,
+    SquareMatrix, VectorPoisson, Widen,
 };
 use std::sync::Arc;
 
@@ -65,7 +65,10 @@ impl Tables {
             let all = a.iter().flatten().zip(b.iter().flatten());
             all.map(|(x, y)| x * y).sum()
         };
-        let gram: Rows = matrices.iter().map(|a| matrices.iter().map(|b| gram(a, b)).collect()).collect();
+        let gram: Rows = matrices
+            .iter()
+            .map(|a| matrices.iter().map(|b| gram(a, b)).collect())
+            .collect();
         let weights = inverse(&gram);
         let dual = |k: usize| -> Rows {
             let mut sum = vec![vec![0.0; size]; size];

@@ -28,7 +28,7 @@ use crate::render;
 use bar::Bar;
 use outputs::Outputs;
 use plan::Plan;
-use reception::Reception;
+use reception::{Received, Reception};
 use summary::Drift;
 
 /// Runs a spec.
@@ -109,7 +109,7 @@ fn integrate(
             .map_err(|error| outputs::unwritable(path, &error))?;
     }
     if !flags.quiet && matches!(outcome, Outcome::Done) {
-        say_of_tolerance(plan, received.at_round_off);
+        say_of_tolerance(plan, received);
         let title = title(spec, plan, received.step);
         let adaptive = plan.method.is_adaptive();
         let (work, drift) = (&received.work, &received.drift);
@@ -148,7 +148,7 @@ fn title(spec: &Spec, plan: &Plan, step: f64) -> String {
 }
 
 /// Why the method is the one it is, and what the tolerance may miss.
-fn say_of_tolerance(plan: &Plan, at_round_off: bool) {
+fn say_of_tolerance(plan: &Plan, received: &Received) {
     if plan.picked {
         eprintln!(
             "{} was picked: it applies to every system, has order 16, and keeps quadratic Casimirs and a quadratic energy to \
@@ -156,8 +156,25 @@ fn say_of_tolerance(plan: &Plan, at_round_off: bool) {
             plan.method.id()
         );
     }
-    if at_round_off {
+    if received.at_round_off {
         eprintln!("the round-off of this many steps may exceed the tolerance");
+    }
+    if let Some((parts, time)) = received.divided {
+        eprintln!(
+            "from t = {time:.6} on each step was made in {parts} parts: the motion is faster there than at the start"
+        );
+    }
+    match received.assessed {
+        Some((error, true)) if error.is_nan() => {
+            eprintln!(
+                "warning: the error at the end is not known: telling it takes too many steps, or failed"
+            );
+        }
+        Some((error, true)) => eprintln!(
+            "warning: the error at the end is about {error:.1e} of the state, more than the tolerance: errors grow on this orbit, \
+             or the method cannot keep it"
+        ),
+        _ => {}
     }
 }
 

@@ -40,6 +40,10 @@ pub struct Received {
     pub step: f64,
     /// Whether round-off forbids the tolerance.
     pub at_round_off: bool,
+    /// In how many parts steps were made in the end, and from when on.
+    pub divided: Option<(u32, f64)>,
+    /// The error at the end, and whether it may be much larger than the tolerance.
+    pub assessed: Option<(f64, bool)>,
 }
 
 impl Reception {
@@ -90,6 +94,8 @@ impl Reception {
                 work: Work::default(),
                 step,
                 at_round_off: false,
+                divided: None,
+                assessed: None,
             },
             layout,
             places: Vec::new(),
@@ -134,6 +140,8 @@ impl Reception {
                 self.received.at_round_off = chosen.at_round_off;
                 self.begin()?;
             }
+            Found::Divided { parts, time } => self.received.divided = Some((parts, time)),
+            Found::Assessed { error, missed } => self.received.assessed = Some((error, missed)),
             Found::Columns(columns) => {
                 let places = self.layout.places(&columns).ok_or_else(|| {
                     let text = format!("these are not the columns of the system: {columns:?}");
