@@ -3,7 +3,9 @@
 //! running it.
 
 pub mod drawn;
+pub mod lifted;
 pub mod measured;
+pub mod page;
 
 use lie_runtime::Poisson;
 use lie_runtime::diagnostics::{Drift, DriftMonitor};

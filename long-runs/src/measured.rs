@@ -29,6 +29,74 @@ pub enum Way {
     Splitting4,
 }
 
+/// What a run has shown.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The number of the member.
+    pub number: u64,
+    /// The method.
+    pub way: Way,
+    /// The tolerance.
+    pub tolerance: f64,
+    /// Growth of changes and doubt of the reference, as the member has them.
+    pub growth: f64,
+    /// The same.
+    pub doubt: f64,
+    /// The error over the tolerance and whether the run warned; none of a run that was refused.
+    pub ratio: Option<(f64, bool)>,
+}
+
+impl Row {
+    /// A run of a member.
+    pub fn measure(member: &Member, way: Way, tolerance: f64, assessed: bool) -> Self {
+        let ratio = match way.run(member, tolerance, assessed) {
+            Outcome::Done { error, warned, .. } => Some((error / tolerance, warned)),
+            Outcome::Refused(_) => None,
+        };
+        Self {
+            number: member.seed,
+            way,
+            tolerance,
+            growth: member.growth,
+            doubt: member.doubt,
+            ratio,
+        }
+    }
+
+    /// A line of a file.
+    pub fn to_line(&self) -> String {
+        let (ratio, warned) = self.ratio.unwrap_or((f64::NAN, true));
+        let Self {
+            number,
+            tolerance,
+            growth,
+            doubt,
+            ..
+        } = self;
+        format!(
+            "{number} {} {tolerance:e} {growth:e} {doubt:e} {ratio:e} {warned}",
+            self.way.id()
+        )
+    }
+
+    /// From such a line.
+    pub fn from_line(line: &str) -> Option<Self> {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let [number, id, tolerance, growth, doubt, ratio, warned] = words[..] else {
+            return None;
+        };
+        let ratio: f64 = ratio.parse().ok()?;
+        Some(Self {
+            number: number.parse().ok()?,
+            way: Way::ALL.into_iter().find(|way| way.id() == id)?,
+            tolerance: tolerance.parse().ok()?,
+            growth: growth.parse().ok()?,
+            doubt: doubt.parse().ok()?,
+            ratio: (!ratio.is_nan()).then_some((ratio, warned == "true")),
+        })
+    }
+}
+
 /// How a run came out.
 #[derive(Clone, Debug)]
 pub enum Outcome {
@@ -95,9 +163,10 @@ impl Way {
     }
 
     /// Runs a member with a tolerance.
-    pub fn run(self, member: &Member, tolerance: f64) -> Outcome {
+    pub fn run(self, member: &Member, tolerance: f64, assessed: bool) -> Outcome {
+        let tolerance = (tolerance, assessed);
         // as the command does
-        let per_step = (0.01 * tolerance).max(1e-15);
+        let per_step = (0.01 * tolerance.0).max(1e-15);
         match self {
             Self::Gauss16 => run(member, Gauss16, tolerance),
             Self::Collective16 => match &member.system.algebra.space {
@@ -116,19 +185,23 @@ impl Way {
     }
 }
 
-fn run<M: Method<f64, Drawn>>(member: &Member, method: M, tolerance: f64) -> Outcome {
+fn run<M: Method<f64, Drawn>>(
+    member: &Member,
+    method: M,
+    (tolerance, assess): (f64, bool),
+) -> Outcome {
     let problem = Problem::new(
         member.system.clone(),
         member.start.clone(),
         (0.0, member.span),
     );
-    let options = Options::tolerance(tolerance).save(Save::Ends).assessed();
+    let options = Options::tolerance(tolerance).save(Save::Ends);
+    let options = if assess { options.assessed() } else { options };
     match solve(&problem, method, &options) {
         Ok(solution) => {
             let end = solution.mu.last().expect("the end is saved");
             let error = off(end, &member.end);
-            let assessed = solution.assessed.expect("it was asked for");
-            let warned = assessed.missed();
+            let warned = solution.assessed.is_some_and(|found| found.missed());
             let stats = solution.stats;
             Outcome::Done {
                 error: if error.is_nan() { f64::INFINITY } else { error },

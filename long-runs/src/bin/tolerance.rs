@@ -1,49 +1,94 @@
-//! trial
+//! Measures the error over the tolerance on 1,000 systems drawn by chance, and `collective16` over each lift; writes
+//! `docs/tolerance.md`.
+//!
+//! ```text
+//! cargo run --release -p long-runs --bin tolerance                     # all of it, some tens of minutes
+//! cargo run --release -p long-runs --bin tolerance -- rows 0 100       # rows of some members alone, to a file …
+//! cargo run --release -p long-runs --bin tolerance -- page ROWS LIBRARY   # … from which, and that of `plain`, the page is written
+//! ```
+//!
+//! `plain` in the place of `rows` runs without the assessment, as a library does unless it is asked for. Ids of methods may follow.
+
 use long_runs::drawn::member::Member;
-use long_runs::measured::{Outcome, Way};
+use long_runs::lifted::cases;
+use long_runs::measured::{Row, Way};
+use long_runs::page::{histogram, table};
+use std::fmt::Write as _;
+
+const MEMBERS: u64 = 1000;
+/// The time over which drift is measured.
+const SPAN: f64 = 1e5;
+
 fn main() {
-    let args: Vec<String> = std::env::args().collect();
-    let (from, to): (u64, u64) = (args[1].parse().unwrap(), args[2].parse().unwrap());
-    for number in from..to {
-        let clock = std::time::Instant::now();
-        let member = Member::draw(number);
-        println!(
-            "# {number} {} {:?} growth {:.1e} doubt {:.1e} refused {} span {:.2} {:.2}s",
-            member.system.algebra.name,
-            member.kind,
-            member.growth,
-            member.doubt,
-            member.refused,
-            member.span,
-            clock.elapsed().as_secs_f64()
-        );
-        for way in Way::ALL {
-            if !way.applies(&member) || (args.len() > 3 && !args[3..].iter().any(|a| a == way.id()))
-            {
-                continue;
-            }
-            for &tolerance in way.tolerances() {
-                let clock = std::time::Instant::now();
-                let outcome = way.run(&member, tolerance);
-                let time = clock.elapsed().as_secs_f64();
-                match outcome {
-                    Outcome::Done {
-                        error,
-                        warned,
-                        steps,
-                        evaluations,
-                    } => println!(
-                        "{number} {} {tolerance:e} ratio {:.3e} perg {:.3e} warned {warned} steps {steps} evals {evaluations} time {time:.4}",
-                        way.id(),
-                        error / tolerance,
-                        error / tolerance / member.growth
-                    ),
-                    Outcome::Refused(why) => println!(
-                        "{number} {} {tolerance:e} REFUSED {why} time {time:.4}",
-                        way.id()
-                    ),
-                }
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words[..] {
+        ["rows" | "plain", from, to, ..] => {
+            let number = |text: &str| text.parse().expect("the number of a member");
+            let assessed = words[0] == "rows";
+            for row in rows(number(from)..number(to), &words[3..], assessed) {
+                println!("{}", row.to_line());
             }
         }
+        ["page", commanded, plain] => write(&read(commanded), &read(plain)),
+        _ => {
+            let commanded: Vec<Row> = rows(0..MEMBERS, &[], true).collect();
+            let plain: Vec<Row> = rows(0..MEMBERS, &[], false).collect();
+            write(&commanded, &plain);
+        }
     }
+}
+
+fn rows(numbers: std::ops::Range<u64>, ids: &[&str], assessed: bool) -> impl Iterator<Item = Row> {
+    let chosen = |way: &Way| ids.is_empty() || ids.contains(&way.id());
+    let ways: Vec<Way> = Way::ALL.into_iter().filter(chosen).collect();
+    numbers.flat_map(move |number| {
+        let member = Member::draw(number);
+        let ways = ways.iter().filter(|way| way.applies(&member));
+        let runs = ways.flat_map(|way| way.tolerances().iter().map(|&tolerance| (*way, tolerance)));
+        runs.map(|(way, tolerance)| Row::measure(&member, way, tolerance, assessed))
+            .collect::<Vec<_>>()
+    })
+}
+
+fn read(path: &str) -> Vec<Row> {
+    let text = std::fs::read_to_string(path).expect("the rows can be read");
+    text.lines().filter_map(Row::from_line).collect()
+}
+
+fn write(commanded: &[Row], plain: &[Row]) {
+    let mut page = String::from(include_str!("tolerance.md"));
+    for (mark, text) in [
+        ("{commanded}", table(commanded)),
+        ("{plain}", table(plain)),
+        ("{histogram}", histogram(commanded, Way::Gauss16)),
+        ("{plain histogram}", histogram(plain, Way::Gauss16)),
+        ("{lifts}", lifts()),
+    ] {
+        page = page.replace(mark, text.trim_end());
+    }
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/tolerance.md");
+    std::fs::write(path, &page).expect("the page can be written");
+    println!("{page}");
+}
+
+fn lifts() -> String {
+    let mut text = String::from(
+        "| system, H | method | order by slope | Poisson defect | energy error, first tenth | last tenth | Casimir |\n|---|---|---|---|---|---|---|\n",
+    );
+    for case in cases() {
+        for (id, found) in [
+            ("collective16", case.collective(SPAN)),
+            ("gauss16", case.gauss(SPAN)),
+        ] {
+            let (first, last) = found.energy;
+            let _ = writeln!(
+                text,
+                "| {} | {id} | {:.1} | {:.0e} | {first:.0e} | {last:.0e} | {:.0e} |",
+                case.name, found.order, found.defect, found.casimir
+            );
+            eprintln!("{}: {id} {found:?}", case.name);
+        }
+    }
+    text
 }
