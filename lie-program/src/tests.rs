@@ -119,6 +119,7 @@ fn heard(code: u8, mut output: &[u8]) -> Heard {
                 })?;
             }
             Message::Found(Found::Work(work)) => heard.work = Some(work),
+            Message::Found(Found::Divided { .. } | Found::Assessed { .. }) => {}
             Message::Progress(_) => {}
             Message::End(end) => heard.end = Some(end),
         }
