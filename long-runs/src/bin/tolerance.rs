@@ -4,7 +4,7 @@
 //! ```text
 //! cargo run --release -p long-runs --bin tolerance                     # all of it, some tens of minutes
 //! cargo run --release -p long-runs --bin tolerance -- rows 0 100       # rows of some members alone, to a file …
-//! cargo run --release -p long-runs --bin tolerance -- page ROWS LIBRARY   # … from which, and that of `plain`, the page is written
+//! cargo run --release -p long-runs --bin tolerance -- page ROWS LIBRARY 1e5   # … from which, and that of `plain`, the page is written
 //! ```
 //!
 //! `plain` in the place of `rows` runs without the assessment, as a library does unless it is asked for. Ids of methods may follow.
@@ -30,11 +30,14 @@ fn main() {
                 println!("{}", row.to_line());
             }
         }
-        ["page", commanded, plain] => write(&read(commanded), &read(plain)),
+        ["page", commanded, plain, span] => {
+            let span = span.parse().expect("a time");
+            write(&read(commanded), &read(plain), span);
+        }
         _ => {
             let commanded: Vec<Row> = rows(0..MEMBERS, &[], true).collect();
             let plain: Vec<Row> = rows(0..MEMBERS, &[], false).collect();
-            write(&commanded, &plain);
+            write(&commanded, &plain, SPAN);
         }
     }
 }
@@ -56,14 +59,15 @@ fn read(path: &str) -> Vec<Row> {
     text.lines().filter_map(Row::from_line).collect()
 }
 
-fn write(commanded: &[Row], plain: &[Row]) {
+fn write(commanded: &[Row], plain: &[Row], span: f64) {
     let mut page = String::from(include_str!("tolerance.md"));
     for (mark, text) in [
         ("{commanded}", table(commanded)),
         ("{plain}", table(plain)),
         ("{histogram}", histogram(commanded, Way::Gauss16)),
         ("{plain histogram}", histogram(plain, Way::Gauss16)),
-        ("{lifts}", lifts()),
+        ("{span}", format!("{span:e}")),
+        ("{lifts}", lifts(span)),
     ] {
         page = page.replace(mark, text.trim_end());
     }
@@ -72,14 +76,14 @@ fn write(commanded: &[Row], plain: &[Row]) {
     println!("{page}");
 }
 
-fn lifts() -> String {
+fn lifts(span: f64) -> String {
     let mut text = String::from(
         "| system, H | method | order by slope | Poisson defect | energy error, first tenth | last tenth | Casimir |\n|---|---|---|---|---|---|---|\n",
     );
     for case in cases() {
         for (id, found) in [
-            ("collective16", case.collective(SPAN)),
-            ("gauss16", case.gauss(SPAN)),
+            ("collective16", case.collective(span)),
+            ("gauss16", case.gauss(span)),
         ] {
             let (first, last) = found.energy;
             let _ = writeln!(
