@@ -3,7 +3,7 @@
 use crate::drawn::Chance;
 use crate::drawn::algebra::{Algebra, Space, all};
 use crate::drawn::energy::{Energy, Kind};
-use crate::drawn::member::{off, size};
+use crate::drawn::member::{off, rate};
 use crate::drawn::system::Drawn;
 use lie_runtime::diagnostics::poisson_defect;
 use lie_runtime::methods::{Collective16 as OrderSixteen, Method};
@@ -16,7 +16,7 @@ pub struct Case {
     pub name: String,
     system: Drawn,
     start: Vec<f64>,
-    /// A step in which the motion turns by about one.
+    /// A step: two over the norm of the derivative of the field at the start.
     unit: f64,
 }
 
@@ -54,11 +54,10 @@ pub fn cases() -> Vec<Case> {
         let energy = Energy::draw(kind, algebra.dimension(), 1.0, false, &mut chance);
         let system = Drawn::new(Arc::new(algebra.clone()), energy);
         let start = chance.numbers(algebra.dimension());
-        let mut field: Vec<f64> = Poisson::<f64>::zero_state(&system);
-        system.vector_field(&start, &mut field);
+        let rate = rate(&system, &start).expect("it moves");
         Case {
             name: format!("{name}, {}", format!("{kind:?}").to_lowercase()),
-            unit: size(&start) / size(&field),
+            unit: 2.0 / rate,
             system,
             start,
         }

@@ -133,7 +133,7 @@ fn state(dimension: usize, scale: f64, chance: &mut Chance) -> Vec<f64> {
 }
 
 /// How fast the motion is: the velocity over the state, or the norm of the derivative of the field where that is larger.
-fn rate(system: &Drawn, mu: &Vec<f64>) -> Option<f64> {
+pub(crate) fn rate(system: &Drawn, mu: &Vec<f64>) -> Option<f64> {
     let mut field: Vec<f64> = Poisson::<f64>::zero_state(system);
     let mut jacobian: Square<f64> = Poisson::<f64>::zero_jacobian(system);
     system.linearize(mu, &mut field, &mut jacobian);
