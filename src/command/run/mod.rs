@@ -101,15 +101,15 @@ fn integrate(
             return Err(build::not_started(program, &error));
         }
     };
-    let received = reception.finish(word(&outcome)).map_err(lost)?;
-    let plot = received.plot.zip(outputs.plot);
+    let mut received = reception.finish(word(&outcome)).map_err(lost)?;
+    let plot = received.plot.take().zip(outputs.plot);
     if let Some(((plot, destination), path)) = plot.zip(flags.plot.as_ref()) {
         destination
             .replace(plot.to_svg().as_bytes())
             .map_err(|error| outputs::unwritable(path, &error))?;
     }
     if !flags.quiet && matches!(outcome, Outcome::Done) {
-        say_of_tolerance(plan, received);
+        say_of_tolerance(plan, &received);
         let title = title(spec, plan, received.step);
         let adaptive = plan.method.is_adaptive();
         let (work, drift) = (&received.work, &received.drift);
