@@ -2,7 +2,7 @@
 
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
-use crate::newton::{Failure, FailureReason, Newton, NewtonOptions, NewtonReport};
+use crate::newton::{Failure, FailureReason, Newton, NewtonOptions, NewtonReport, Predictor};
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
 
@@ -12,6 +12,9 @@ pub struct ImplicitStepper<S: Scalar, E: Equation<S>> {
     newton: Newton<S, E::Unknown, E::Matrix>,
     unknown: E::Unknown,
     next: E::State,
+    predictor: Predictor<S, E::Unknown>,
+    /// The state at the end of the last step.
+    last: E::State,
 }
 
 impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
@@ -22,7 +25,9 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         Self {
             equation,
             newton,
+            predictor: Predictor::new(&unknown),
             unknown,
+            last: zero.clone(),
             next: zero,
         }
     }
@@ -44,11 +49,21 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
     #[inline(always)]
     fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
         self.equation.set_base(mu);
-        self.equation.initial_guess(&mut self.unknown);
+        let attempts = self.newton.attempts();
+        let follows = equal(mu.as_slice(), self.last.as_slice());
+        let predicted = self.predictor.ready(follows) & attempts.any();
+        if predicted.all() {
+            self.unknown.assign_where(predicted, self.predictor.next());
+        } else {
+            self.equation.initial_guess(&mut self.unknown);
+            if predicted.any() {
+                self.unknown.assign_where(predicted, self.predictor.next());
+            }
+        }
         let scale = self.equation.scale(mu);
-        let solved = self
-            .newton
-            .solve(&mut self.equation, &mut self.unknown, scale);
+        let solved =
+            self.newton
+                .solve_trying(&mut self.equation, &mut self.unknown, scale, attempts);
         self.equation.result(&self.unknown, &mut self.next);
         let finite = self.next.finite();
         let charted = self.equation.within_chart(&self.unknown);
@@ -57,9 +72,29 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
             && (finite & charted & resolved).all()
         {
             mu.copy_from(&self.next);
+            self.remember(predicted);
             return Ok(StepReport::implicit(report));
         }
-        self.refuse(mu, solved, [finite, charted, resolved])
+        let outcome = self.refuse(mu, solved, [finite, charted, resolved]);
+        self.remember(predicted);
+        if let Err(failure) = &outcome {
+            self.predictor.forget(S::Mask::from_bits(failure.lanes));
+        }
+        outcome
+    }
+
+    /// Takes the solution for the next prediction.
+    #[inline(always)]
+    fn remember(&mut self, predicted: S::Mask) {
+        if !self.newton.is_automatic() {
+            return;
+        }
+        self.last.copy_from(&self.next);
+        self.predictor.take(&self.unknown);
+        let poor = predicted & self.newton.started_far();
+        if poor.any() {
+            self.predictor.rest(poor);
+        }
     }
 
     /// Takes over the step in the lanes where nothing is against it, and says what is in the others.
@@ -139,6 +174,19 @@ impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
         }
         outcome
     }
+}
+
+/// The lanes in which two states are equal.
+#[inline(always)]
+fn equal<S: Scalar>(one: &[S], other: &[S]) -> S::Mask {
+    if S::LANES == 1 {
+        return S::Mask::splat(one == other);
+    }
+    let mut equal = S::Mask::splat(true);
+    for (&one, &other) in one.iter().zip(other) {
+        equal = equal & one.less_equal(other) & other.less_equal(one);
+    }
+    equal
 }
 
 /// Sets the lanes of a mask to 0.

@@ -1,5 +1,5 @@
 //! Newton's iteration for implicit steps: the equation is [`crate::equation::Equation`], the loop
-//! [`Newton`], its stopping rule `convergence`, the choice between variants `trial`, the update of each variant `update`, elimination
+//! [`Newton`], its start `predictor`, its stopping rule `convergence`, the choice between variants `trial`, the update of each variant `update`, elimination
 //! [`dense`] and, for lanes with a small pivot, [`pivoted`]; [`exchanging`] is for matrices that are far
 //! from the identity.
 
@@ -8,6 +8,7 @@ pub mod dense;
 pub mod exchanging;
 mod options;
 pub mod pivoted;
+mod predictor;
 mod report;
 mod solver;
 mod trial;
@@ -15,5 +16,6 @@ mod update;
 
 pub use dense::inverse_pivots_are_safe;
 pub use options::{Convergence, Iteration, NewtonOptions};
+pub(crate) use predictor::Predictor;
 pub use report::{Failure, FailureReason, NewtonReport};
 pub use solver::Newton;

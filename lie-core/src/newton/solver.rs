@@ -19,8 +19,26 @@ use crate::state::Unknown;
 pub struct Newton<S: Scalar, U, M> {
     options: NewtonOptions,
     workspace: Workspace<S, U, M>,
-    trial: Trial<S>,
-    start: U,
+    fixed: Trial<S>,
+    chord: Trial<S>,
+    far: S::Mask,
+}
+
+/// The lanes in which cheaper iterations are tried before Newton's method.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Attempts<M> {
+    /// Those without a Jacobian.
+    fixed: M,
+    /// Those with the Jacobian of the start.
+    chord: M,
+}
+
+impl<M: Mask> Attempts<M> {
+    /// The lanes in which any is.
+    #[inline(always)]
+    pub(crate) fn any(&self) -> M {
+        self.fixed | self.chord
+    }
 }
 
 impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
@@ -33,12 +51,14 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         Self {
             options: *options,
             workspace,
-            trial: Trial::new(options, equation.jacobian_cost()),
-            start: equation.zero_unknown(),
+            fixed: Trial::of_fixed_point(options, equation.jacobian_cost()),
+            chord: Trial::of_one_jacobian(options),
+            far: S::Mask::splat(false),
         }
     }
 
-    /// Solves `r(u) = 0` from the unknown given.
+    /// Solves `r(u) = 0` from the unknown given. Where an automatic iteration leaves what it tried for Newton's method,
+    /// that starts from [`Equation::initial_guess`].
     ///
     /// `scale` is the size of the state; errors are measured relative to it and to the unknown.
     ///
@@ -54,33 +74,90 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     where
         E: Equation<S, Unknown = U, Matrix = M>,
     {
+        let attempts = self.attempts();
+        self.solve_trying(equation, unknown, scale, attempts)
+    }
+
+    /// What is tried in the next step, to be asked once for each.
+    #[inline(always)]
+    pub(crate) fn attempts(&mut self) -> Attempts<S::Mask> {
+        let fixed = self.fixed.lanes();
+        Attempts {
+            fixed,
+            chord: self.chord.lanes(),
+        }
+    }
+
+    /// Whether anything is tried at all.
+    pub(crate) fn is_automatic(&self) -> bool {
+        self.options.iteration == Iteration::Automatic
+    }
+
+    /// The lanes in which what was tried in the last step started far from the solution.
+    #[inline(always)]
+    pub(crate) fn started_far(&self) -> S::Mask {
+        self.far
+    }
+
+    /// [`Newton::solve`] with these attempts.
+    #[inline(always)]
+    pub(crate) fn solve_trying<E>(
+        &mut self,
+        equation: &mut E,
+        unknown: &mut U,
+        scale: S,
+        attempts: Attempts<S::Mask>,
+    ) -> Result<NewtonReport, Failure>
+    where
+        E: Equation<S, Unknown = U, Matrix = M>,
+    {
         let mut report = NewtonReport::default();
         let mut count = Count::default();
-        let mut iteration = self.options.iteration;
         let mut lanes = S::Mask::splat(true);
-        if iteration == Iteration::Automatic {
-            iteration = Iteration::Newton;
-            let trying = self.trial.lanes();
-            if trying.any() {
-                self.start.assign_where(lanes, unknown);
-                let solved = self.by_fixed_point(
-                    equation,
-                    unknown,
-                    scale,
-                    trying,
-                    (&mut report, &mut count),
-                );
-                if solved.all() {
-                    report.iterations = count.most();
-                    report.fixed_point = report.iterations;
-                    return Ok(report);
-                }
-                lanes = !solved;
-                self.trial.given_up(trying & lanes);
-                unknown.assign_where(lanes, &self.start);
+        if attempts.fixed.any() {
+            let counts = (&mut report, &mut count);
+            let solved = self.by_fixed_point(equation, unknown, scale, attempts.fixed, counts);
+            report.fixed_point = count.most();
+            lanes = !solved;
+            if lanes.any() {
+                let left = attempts.fixed & lanes;
+                give_up(&mut self.fixed, equation, unknown, left, &mut self.workspace);
             }
         }
-        report.fixed_point = count.most();
+        let trying = attempts.chord & lanes;
+        if trying.any() {
+            let counts = (&mut report, &mut count);
+            let solved = self.by_one_jacobian(equation, unknown, scale, trying, counts);
+            lanes = lanes & !solved;
+            if lanes.any() {
+                let left = trying & lanes;
+                give_up(&mut self.chord, equation, unknown, left, &mut self.workspace);
+            }
+        }
+        if lanes.any() {
+            return self.by_newton(equation, unknown, scale, lanes, (report, count));
+        }
+        report.iterations = count.most();
+        Ok(report)
+    }
+
+    /// Solves by the iteration of the options in the lanes of a mask, after what was tried.
+    #[inline(never)]
+    fn by_newton<E>(
+        &mut self,
+        equation: &mut E,
+        unknown: &mut U,
+        scale: S,
+        lanes: S::Mask,
+        (mut report, mut count): (NewtonReport, Count<S>),
+    ) -> Result<NewtonReport, Failure>
+    where
+        E: Equation<S, Unknown = U, Matrix = M>,
+    {
+        let iteration = match self.options.iteration {
+            Iteration::Automatic => Iteration::Newton,
+            chosen => chosen,
+        };
         let counts = (&mut report, &mut count);
         let failed = self.iterate(equation, unknown, scale, (iteration, lanes), counts);
         report.iterations = count.most();
@@ -95,6 +172,56 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
                 report,
             }),
         }
+    }
+
+    /// Iterates with the Jacobian of the start in the lanes of a mask, as long as that converges fast; returns those in
+    /// which it led to the solution.
+    #[inline(always)]
+    fn by_one_jacobian<E>(
+        &mut self,
+        equation: &mut E,
+        unknown: &mut U,
+        scale: S,
+        lanes: S::Mask,
+        (report, count): (&mut NewtonReport, &mut Count<S>),
+    ) -> S::Mask
+    where
+        E: Equation<S, Unknown = U, Matrix = M>,
+    {
+        let mut convergence = Convergence::new(Iteration::Simplified, self.options.tolerance);
+        let Workspace {
+            update, factors, ..
+        } = &mut self.workspace;
+        equation.linearize(unknown, update, factors);
+        let safe = equation.factor(factors);
+        report.factorizations += 1;
+        let mut residual = update.max_norm();
+        equation.solve(factors, update);
+        let mut step = update.max_norm();
+        unknown.subtract_where(lanes, update);
+        count.add(lanes);
+        let size = S::largest_magnitude(&[scale, unknown.max_norm()]);
+        self.far = is_far(step, size) & lanes | self.far & !lanes;
+        let mut solved = convergence.observe(step, size) & lanes & safe;
+        let mut active = lanes & safe & step.finite() & !solved;
+        for _ in 0..CHORDS {
+            if !active.any() {
+                break;
+            }
+            equation.residual(unknown, update);
+            residual = S::select(active, update.max_norm(), residual);
+            equation.solve(factors, update);
+            let before = step;
+            step = update.max_norm();
+            unknown.subtract_where(active, update);
+            count.add(active);
+            let converged = convergence.observe(step, size) & active;
+            solved = solved | converged;
+            let shrinking = step.less(before * S::from_f64(CHORD_RATE));
+            active = active & !converged & (shrinking | convergence.is_round_off(step, size));
+        }
+        report.residual = largest(S::select(solved, residual, S::zero()));
+        solved
     }
 
     /// Iterates without a Jacobian in the lanes of a mask, as long as that pays; returns those in which it led to the
@@ -112,7 +239,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         E: Equation<S, Unknown = U, Matrix = M>,
     {
         let mut convergence = Convergence::new(Iteration::FixedPoint, self.options.tolerance);
-        let mut bound = self.trial.bound();
+        let mut bound = self.fixed.bound();
         let mut active = lanes;
         let mut solved = S::Mask::splat(false);
         let mut residual = S::zero();
@@ -123,8 +250,12 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             let step = update.max_norm();
             residual = S::select(active, step, S::zero());
             unknown.subtract_where(active, update);
-            if count.add(active) % REVIEW == 1 {
+            let index = count.add(active);
+            if index % REVIEW == 1 {
                 size = S::largest_magnitude(&[scale, unknown.max_norm()]);
+                if index == 1 {
+                    self.far = is_far(step, size) & lanes | self.far & !lanes;
+                }
             }
             let converged = convergence.observe(step, size) & active;
             solved = solved | converged;
@@ -225,6 +356,37 @@ impl<S: Scalar> Count<S> {
 
 /// The unknown is measured with the first iteration, and again after so many.
 const REVIEW: u32 = 4;
+
+/// So many iterations follow the one with a Jacobian of its own, and their updates shrink by this factor at least.
+const CHORDS: u32 = 3;
+const CHORD_RATE: f64 = 1.0 / 64.0;
+
+/// A first update of this part of the unknown is large: guesses from the start of a step alone do not err more, unless
+/// the step is large.
+const FAR: f64 = 1.0 / 128.0;
+
+#[inline(always)]
+fn is_far<S: Scalar>(update: S, size: S) -> S::Mask {
+    (size * S::from_f64(FAR)).less(update)
+}
+
+/// Lanes in which what was tried did not pay: they start anew.
+#[cold]
+#[inline(never)]
+fn give_up<S: Scalar, E: Equation<S>>(
+    trial: &mut Trial<S>,
+    equation: &mut E,
+    unknown: &mut E::Unknown,
+    lanes: S::Mask,
+    workspace: &mut Workspace<S, E::Unknown, E::Matrix>,
+) {
+    if lanes.any() {
+        trial.given_up(lanes);
+        let start = workspace.spare();
+        equation.initial_guess(start);
+        unknown.assign_where(lanes, start);
+    }
+}
 
 /// Lanes that go on no longer: their matrix is singular, or their update not finite.
 #[cold]

@@ -1,4 +1,4 @@
-//! Whether iterations without a Jacobian are tried before those with one, lane by lane.
+//! Whether cheaper iterations are tried before Newton's method, lane by lane.
 
 use super::options::{Iteration, NewtonOptions};
 use crate::scalar::{Mask, Scalar};
@@ -17,8 +17,10 @@ const REST: [f64; 2] = [16.0, 1024.0];
 /// What is remembered from step to step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trial<S: Scalar> {
-    /// The factor by which updates must shrink; `None` where nothing is tried.
-    rate: Option<S>,
+    /// Whether anything is tried at all.
+    tried: bool,
+    /// The factor by which updates without a Jacobian must shrink.
+    rate: S,
     /// The lanes that are left to Newton's method.
     resting: S::Mask,
     /// For how many steps more, and how many the last time.
@@ -27,13 +29,23 @@ pub(super) struct Trial<S: Scalar> {
 }
 
 impl<S: Scalar> Trial<S> {
-    /// For an equation with this [`jacobian_cost`](crate::Equation::jacobian_cost).
-    pub(super) fn new(options: &NewtonOptions, cost: f64) -> Self {
+    /// Of iterations without a Jacobian, for an equation with this [`jacobian_cost`](crate::Equation::jacobian_cost).
+    pub(super) fn of_fixed_point(options: &NewtonOptions, cost: f64) -> Self {
         let most = NEWTON * cost;
-        let automatic = options.iteration == Iteration::Automatic;
-        let tried = automatic && most >= FEWEST && options.max_iterations > 1;
         Self {
-            rate: tried.then(|| S::from_f64(libm::exp2(-BITS / most))),
+            tried: options.iteration == Iteration::Automatic
+                && most >= FEWEST
+                && options.max_iterations > 1,
+            rate: S::from_f64(libm::exp2(-BITS / most)),
+            ..Self::of_one_jacobian(options)
+        }
+    }
+
+    /// Of iterations with the Jacobian of the start.
+    pub(super) fn of_one_jacobian(options: &NewtonOptions) -> Self {
+        Self {
+            tried: options.iteration == Iteration::Automatic && options.max_iterations > 1,
+            rate: S::zero(),
             resting: S::Mask::splat(false),
             left: S::zero(),
             rest: S::from_f64(0.5 * REST[0]),
@@ -43,7 +55,7 @@ impl<S: Scalar> Trial<S> {
     /// The lanes that try in this step.
     #[inline(always)]
     pub(super) fn lanes(&mut self) -> S::Mask {
-        if self.rate.is_none() {
+        if !self.tried {
             return S::Mask::splat(false);
         }
         if self.resting.any() {
@@ -73,7 +85,7 @@ impl<S: Scalar> Trial<S> {
     #[inline(always)]
     pub(super) fn bound(&self) -> Bound<S> {
         Bound {
-            rate: self.rate.unwrap_or(S::zero()),
+            rate: self.rate,
             size: S::zero(),
             count: 0,
         }
@@ -112,14 +124,14 @@ mod tests {
     #[test]
     fn cheap_jacobians_are_not_avoided() {
         let options = NewtonOptions::default();
-        assert!(!Trial::<f64>::new(&options, 2.0).lanes());
-        assert!(Trial::<f64>::new(&options, 3.3).lanes());
-        assert!(!Trial::<f64>::new(&NewtonOptions::newton(), 3.3).lanes());
+        assert!(!Trial::<f64>::of_fixed_point(&options, 2.0).lanes());
+        assert!(Trial::<f64>::of_fixed_point(&options, 3.3).lanes());
+        assert!(!Trial::<f64>::of_fixed_point(&NewtonOptions::newton(), 3.3).lanes());
     }
 
     #[test]
     fn rests_grow() {
-        let mut trial = Trial::<f64>::new(&NewtonOptions::default(), 10.0);
+        let mut trial = Trial::<f64>::of_fixed_point(&NewtonOptions::default(), 10.0);
         let mut rest = || {
             assert!(trial.lanes());
             trial.given_up(true);
@@ -132,7 +144,7 @@ mod tests {
 
     #[test]
     fn updates_must_shrink_by_the_rate() {
-        let trial = Trial::<f64>::new(&NewtonOptions::default(), 20.0 / NEWTON);
+        let trial = Trial::<f64>::of_fixed_point(&NewtonOptions::default(), 20.0 / NEWTON);
         let keeps = |rate: f64| {
             let mut bound = trial.bound();
             (0..8).all(|k| bound.keeps(1e-3 * rate.powi(k), false))
