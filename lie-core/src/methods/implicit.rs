@@ -24,8 +24,8 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         let unknown = equation.zero_unknown();
         Self {
             equation,
-            newton,
             predictor: Predictor::new(&unknown),
+            newton,
             unknown,
             last: zero.clone(),
             next: zero,
@@ -63,7 +63,7 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         let scale = self.equation.scale(mu);
         let solved =
             self.newton
-                .solve_trying(&mut self.equation, &mut self.unknown, scale, attempts);
+                .solve_trying(&mut self.equation, &mut self.unknown, scale, attempts, predicted);
         self.equation.result(&self.unknown, &mut self.next);
         let finite = self.next.finite();
         let charted = self.equation.within_chart(&self.unknown);

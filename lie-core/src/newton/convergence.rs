@@ -4,7 +4,7 @@ use super::options::Iteration;
 use crate::scalar::{Mask, Scalar};
 
 /// Updates up to this many units of round-off that no longer shrink are round-off themselves.
-const STAGNATION: f64 = 256.0;
+pub(super) const STAGNATION: f64 = 256.0;
 
 /// Follows the size of the updates of one solution.
 #[derive(Clone, Copy, Debug)]

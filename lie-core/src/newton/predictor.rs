@@ -4,14 +4,16 @@ use crate::scalar::{Mask, Scalar};
 use crate::state::Unknown;
 
 /// The polynomial goes through so many unknowns.
-const VALUES: usize = 6;
+const VALUES: usize = 8;
+/// After so many predictions a step starts from the guess of its equation, and shows how the iteration converges.
+const MOST: f64 = 64.0;
 /// So many steps start from the guess of their equation where a prediction was worse than that may be.
 const REST: f64 = 32.0;
 
 /// Predicts the unknown of a step by the polynomial through those of the last steps, all of one size.
 ///
 /// The polynomial is kept as backward differences: `d_0 = u`, `d_j <- d_(j-1) - d_j` with every new unknown, and the
-/// next one is about their sum. Its error is about `(h d/dt)^VALUES u`, as long as the unknown is a smooth function
+/// next one is about their sum. Its error is about `(h d/dt)^8 u`, as long as the unknown is a smooth function
 /// along the run. A prediction changes where an iteration starts, not the equation that is solved.
 #[derive(Clone, Debug)]
 pub(crate) struct Predictor<S, U> {
@@ -37,7 +39,20 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
         if !follows.all() {
             self.forget(!follows);
         }
-        S::from_f64(VALUES as f64).less_equal(self.age)
+        let ready = S::from_f64(VALUES as f64).less_equal(self.age);
+        if (ready & self.age.less(S::from_f64(VALUES as f64 + MOST))).all() {
+            return ready;
+        }
+        self.renew(ready)
+    }
+
+    /// Passes one prediction over where there were many.
+    #[cold]
+    fn renew(&mut self, ready: S::Mask) -> S::Mask {
+        let first = S::from_f64(VALUES as f64);
+        let due = (first + S::from_f64(MOST)).less_equal(self.age);
+        self.age = S::select(due, first - S::one(), self.age);
+        ready & !due
     }
 
     /// The prediction, in lanes where there is one.
@@ -53,17 +68,19 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
         for part in 0..unknown.parts() {
             let values = unknown.part(part);
             let next = self.next.part_mut(part);
-            for (index, (&value, next)) in values.iter().zip(next).enumerate() {
-                let mut difference = value;
-                let mut sum = S::zero();
-                for row in &mut self.differences {
-                    let row = &mut row.part_mut(part)[index];
-                    let before = *row;
-                    *row = difference;
-                    sum += difference;
-                    difference -= before;
-                }
-                *next = sum;
+            let count = values.len();
+            let mut rows = self.differences.each_mut().map(|row| row.part_mut(part));
+            let mut index = 0;
+            while index + 1 < count {
+                let pair = [values[index], values[index + 1]];
+                let [first, second] = update(&mut rows, index, pair);
+                next[index] = first;
+                next[index + 1] = second;
+                index += 2;
+            }
+            if index < count {
+                let [only] = update(&mut rows, index, [values[index]]);
+                next[index] = only;
             }
         }
     }
@@ -79,4 +96,26 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
     pub(crate) fn rest(&mut self, lanes: S::Mask) {
         self.age = S::select(lanes, S::from_f64(-REST), self.age);
     }
+}
+
+/// Takes entries from an index on, and returns the sums of their differences.
+#[inline(always)]
+fn update<S: Scalar, const N: usize>(
+    rows: &mut [&mut [S]; VALUES],
+    index: usize,
+    values: [S; N],
+) -> [S; N] {
+    let mut difference = values;
+    let mut sum = values;
+    for (order, row) in rows.iter_mut().enumerate() {
+        for i in 0..N {
+            let before = row[index + i];
+            row[index + i] = difference[i];
+            if order > 0 {
+                sum[i] += difference[i];
+            }
+            difference[i] -= before;
+        }
+    }
+    sum
 }

@@ -1,6 +1,6 @@
 //! The loop.
 
-use super::convergence::Convergence;
+use super::convergence::{Convergence, STAGNATION};
 use super::options::{Iteration, NewtonOptions};
 use super::report::{Failure, FailureReason, NewtonReport};
 use super::trial::Trial;
@@ -22,6 +22,9 @@ pub struct Newton<S: Scalar, U, M> {
     fixed: Trial<S>,
     chord: Trial<S>,
     far: S::Mask,
+    /// The error after an iteration of Newton's method is at most this times that before it squared, as shown by a step
+    /// that was solved from the guess of its equation.
+    curvature: S,
 }
 
 /// The lanes in which cheaper iterations are tried before Newton's method.
@@ -54,6 +57,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             fixed: Trial::of_fixed_point(options, equation.jacobian_cost()),
             chord: Trial::of_one_jacobian(options),
             far: S::Mask::splat(false),
+            curvature: S::from_f64(f64::INFINITY),
         }
     }
 
@@ -75,7 +79,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         E: Equation<S, Unknown = U, Matrix = M>,
     {
         let attempts = self.attempts();
-        self.solve_trying(equation, unknown, scale, attempts)
+        self.solve_trying(equation, unknown, scale, attempts, S::Mask::splat(false))
     }
 
     /// What is tried in the next step, to be asked once for each.
@@ -99,7 +103,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         self.far
     }
 
-    /// [`Newton::solve`] with these attempts.
+    /// [`Newton::solve`] with these attempts, from a prediction in the lanes of a mask.
     #[inline(always)]
     pub(crate) fn solve_trying<E>(
         &mut self,
@@ -107,6 +111,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         unknown: &mut U,
         scale: S,
         attempts: Attempts<S::Mask>,
+        predicted: S::Mask,
     ) -> Result<NewtonReport, Failure>
     where
         E: Equation<S, Unknown = U, Matrix = M>,
@@ -127,7 +132,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let trying = attempts.chord & lanes;
         if trying.any() {
             let counts = (&mut report, &mut count);
-            let solved = self.by_one_jacobian(equation, unknown, scale, trying, counts);
+            let solved = self.by_one_jacobian(equation, unknown, scale, (trying, predicted), counts);
             lanes = lanes & !solved;
             if lanes.any() {
                 let left = trying & lanes;
@@ -182,43 +187,55 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         equation: &mut E,
         unknown: &mut U,
         scale: S,
-        lanes: S::Mask,
+        (lanes, predicted): (S::Mask, S::Mask),
         (report, count): (&mut NewtonReport, &mut Count<S>),
     ) -> S::Mask
     where
         E: Equation<S, Unknown = U, Matrix = M>,
     {
-        let mut convergence = Convergence::new(Iteration::Simplified, self.options.tolerance);
         let Workspace {
             update, factors, ..
         } = &mut self.workspace;
         equation.linearize(unknown, update, factors);
+        let mut residual = update.max_norm();
         let safe = equation.factor(factors);
         report.factorizations += 1;
-        let mut residual = update.max_norm();
         equation.solve(factors, update);
-        let mut step = update.max_norm();
         unknown.subtract_where(lanes, update);
         count.add(lanes);
-        let size = S::largest_magnitude(&[scale, unknown.max_norm()]);
-        self.far = is_far(step, size) & lanes | self.far & !lanes;
-        let mut solved = convergence.observe(step, size) & lanes & safe;
-        let mut active = lanes & safe & step.finite() & !solved;
-        for _ in 0..CHORDS {
-            if !active.any() {
-                break;
+        let first = update.max_norm();
+        self.far = is_far(first, scale) & lanes | self.far & !lanes;
+        let sound = lanes & safe & first.finite();
+        let goal = S::from_f64(self.options.tolerance) * S::epsilon() * scale;
+        let left = self.curvature * first * first;
+        let mut solved = left.less_equal(goal) & predicted & sound;
+        let mut active = sound & !solved;
+        if active.any() {
+            let mut before = first;
+            let mut size = scale;
+            for index in 0..CHORDS {
+                equation.residual(unknown, update);
+                residual = S::select(active, update.max_norm(), residual);
+                equation.solve(factors, update);
+                unknown.subtract_where(active, update);
+                count.add(active);
+                let step = update.max_norm();
+                if index == 0 && !predicted.all() {
+                    let measured = curvature(first, step, scale);
+                    self.curvature = S::select(active & !predicted, measured, self.curvature);
+                }
+                let mut converged = ends(step, before, size, self.options.tolerance);
+                if !(converged | !active).all() {
+                    size = S::largest_magnitude(&[scale, unknown.max_norm()]);
+                    converged = converged | ends(step, before, size, self.options.tolerance);
+                }
+                solved = solved | converged & active;
+                active = active & !converged & step.less(before * S::from_f64(CHORD_RATE));
+                if !active.any() {
+                    break;
+                }
+                before = step;
             }
-            equation.residual(unknown, update);
-            residual = S::select(active, update.max_norm(), residual);
-            equation.solve(factors, update);
-            let before = step;
-            step = update.max_norm();
-            unknown.subtract_where(active, update);
-            count.add(active);
-            let converged = convergence.observe(step, size) & active;
-            solved = solved | converged;
-            let shrinking = step.less(before * S::from_f64(CHORD_RATE));
-            active = active & !converged & (shrinking | convergence.is_round_off(step, size));
         }
         report.residual = largest(S::select(solved, residual, S::zero()));
         solved
@@ -353,6 +370,30 @@ impl<S: Scalar> Count<S> {
         }
     }
 }
+
+/// The lanes in which an iteration with the Jacobian of its start has converged, by its last two updates.
+#[inline(always)]
+fn ends<S: Scalar>(update: S, before: S, size: S, tolerance: f64) -> S::Mask {
+    let round_off = S::epsilon() * size;
+    let rate = update / before;
+    let left = (update + update) * rate;
+    let shrinking = rate.less(S::ratio(1.0, 2.0));
+    shrinking & left.less_equal(S::from_f64(tolerance) * round_off)
+        | !shrinking & update.less_equal(S::from_f64(STAGNATION) * round_off)
+}
+
+/// A bound of c in `|e_1| <= c |e_0|^2`, the errors before and after an iteration of Newton's method, by the first two
+/// updates of a solution.
+#[inline(always)]
+fn curvature<S: Scalar>(first: S, second: S, size: S) -> S {
+    let noise = S::from_f64(CURVATURE_NOISE) * S::epsilon() * size;
+    S::from_f64(CURVATURE_SAFETY) * (second + noise) / (first * first)
+}
+
+/// The factor by which the error may exceed what a solution has shown, and the units of round-off that the second update
+/// may owe to rounding.
+const CURVATURE_SAFETY: f64 = 16.0;
+const CURVATURE_NOISE: f64 = 16.0;
 
 /// The unknown is measured with the first iteration, and again after so many.
 const REVIEW: u32 = 4;

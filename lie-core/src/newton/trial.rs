@@ -3,12 +3,12 @@
 use super::options::{Iteration, NewtonOptions};
 use crate::scalar::{Mask, Scalar};
 
-/// Newton's method takes so many iterations; the fixed point may cost as much.
-const NEWTON: f64 = 2.2;
+/// A step takes one iteration with a Jacobian and so many evaluations more; the fixed point may cost as much.
+const MORE: f64 = 2.5;
 /// The fixed point is not tried where it would have to end after fewer iterations.
-const FEWEST: f64 = 6.0;
+const FEWEST: f64 = 6.5;
 /// So many bits of the first update are to be gained.
-const BITS: f64 = 50.0;
+const BITS: f64 = 38.0;
 /// More iterations are never tried.
 const MOST: u32 = 128;
 /// The steps for which a lane is left to Newton's method when the fixed point did not pay: at first, and at most.
@@ -31,7 +31,7 @@ pub(super) struct Trial<S: Scalar> {
 impl<S: Scalar> Trial<S> {
     /// Of iterations without a Jacobian, for an equation with this [`jacobian_cost`](crate::Equation::jacobian_cost).
     pub(super) fn of_fixed_point(options: &NewtonOptions, cost: f64) -> Self {
-        let most = NEWTON * cost;
+        let most = cost + MORE;
         Self {
             tried: options.iteration == Iteration::Automatic
                 && most >= FEWEST
