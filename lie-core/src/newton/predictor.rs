@@ -4,7 +4,7 @@ use crate::scalar::{Mask, Scalar};
 use crate::state::Unknown;
 
 /// The polynomial goes through so many unknowns.
-const VALUES: usize = 8;
+const VALUES: usize = 10;
 /// After so many predictions a step starts from the guess of its equation, and shows how the iteration converges.
 const MOST: f64 = 64.0;
 /// So many steps start from the guess of their equation where a prediction was worse than that may be.
