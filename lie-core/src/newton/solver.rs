@@ -387,7 +387,7 @@ fn ends<S: Scalar>(update: S, before: S, size: S, tolerance: f64) -> S::Mask {
 #[inline(always)]
 fn curvature<S: Scalar>(first: S, second: S, size: S) -> S {
     let noise = S::from_f64(CURVATURE_NOISE) * S::epsilon() * size;
-    S::from_f64(CURVATURE_SAFETY) * (second + noise) / (first * first)
+    S::from_f64(CURVATURE_SAFETY) * ((second + noise) / first / first)
 }
 
 /// The factor by which the error may exceed what a solution has shown, and the units of round-off that the second update

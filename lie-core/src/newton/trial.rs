@@ -124,9 +124,9 @@ mod tests {
     #[test]
     fn cheap_jacobians_are_not_avoided() {
         let options = NewtonOptions::default();
-        assert!(!Trial::<f64>::of_fixed_point(&options, 2.0).lanes());
-        assert!(Trial::<f64>::of_fixed_point(&options, 3.3).lanes());
-        assert!(!Trial::<f64>::of_fixed_point(&NewtonOptions::newton(), 3.3).lanes());
+        assert!(!Trial::<f64>::of_fixed_point(&options, 3.3).lanes());
+        assert!(Trial::<f64>::of_fixed_point(&options, 5.0).lanes());
+        assert!(!Trial::<f64>::of_fixed_point(&NewtonOptions::newton(), 5.0).lanes());
     }
 
     #[test]
@@ -144,14 +144,14 @@ mod tests {
 
     #[test]
     fn updates_must_shrink_by_the_rate() {
-        let trial = Trial::<f64>::of_fixed_point(&NewtonOptions::default(), 20.0 / NEWTON);
+        let trial = Trial::<f64>::of_fixed_point(&NewtonOptions::default(), 20.0 - MORE);
         let keeps = |rate: f64| {
             let mut bound = trial.bound();
             (0..8).all(|k| bound.keeps(1e-3 * rate.powi(k), false))
         };
-        // 50 bits in 20 iterations
-        assert!(keeps(0.17));
-        assert!(!keeps(0.18));
+        // 38 bits in 20 iterations
+        assert!(keeps(0.26));
+        assert!(!keeps(0.28));
         assert!(!keeps(f64::NAN));
     }
 }
