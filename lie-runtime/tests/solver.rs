@@ -208,8 +208,17 @@ fn the_automatic_choice_solves_what_newton_solves() {
     assert_eq!(mu.as_slice(), expected.as_slice());
     let tries: Vec<usize> = (0..20).filter(|&k| reports[k].fixed_point > 0).collect();
     assert_eq!(tries, [0, 16]);
-    for (report, newton) in reports.iter().zip(&by_newton) {
-        assert_eq!(report.iterations, report.fixed_point + newton.iterations);
-        assert_eq!(report.factorizations, newton.factorizations);
+    for (k, (report, newton)) in reports.iter().zip(&by_newton).enumerate() {
+        // what is tried before: the fixed point, and one Jacobian with at most three iterations more
+        let tried = report.iterations - report.fixed_point - newton.iterations;
+        let jacobians = report.factorizations - newton.factorizations;
+        if tries.contains(&k) {
+            assert!(
+                (1..=4).contains(&tried) && jacobians == 1,
+                "{tried} {jacobians}"
+            );
+        } else {
+            assert_eq!((tried, jacobians), (0, 0));
+        }
     }
 }

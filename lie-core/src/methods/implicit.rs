@@ -61,9 +61,13 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
             }
         }
         let scale = self.equation.scale(mu);
-        let solved =
-            self.newton
-                .solve_trying(&mut self.equation, &mut self.unknown, scale, attempts, predicted);
+        let solved = self.newton.solve_trying(
+            &mut self.equation,
+            &mut self.unknown,
+            scale,
+            attempts,
+            predicted,
+        );
         self.equation.result(&self.unknown, &mut self.next);
         let finite = self.next.finite();
         let charted = self.equation.within_chart(&self.unknown);
@@ -72,11 +76,11 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
             && (finite & charted & resolved).all()
         {
             mu.copy_from(&self.next);
-            self.remember(predicted);
+            self.remember(scale, predicted);
             return Ok(StepReport::implicit(report));
         }
         let outcome = self.refuse(mu, solved, [finite, charted, resolved]);
-        self.remember(predicted);
+        self.remember(scale, predicted);
         if let Err(failure) = &outcome {
             self.predictor.forget(S::Mask::from_bits(failure.lanes));
         }
@@ -85,15 +89,18 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
 
     /// Takes the solution for the next prediction.
     #[inline(always)]
-    fn remember(&mut self, predicted: S::Mask) {
+    fn remember(&mut self, scale: S, predicted: S::Mask) {
         if !self.newton.is_automatic() {
             return;
         }
         self.last.copy_from(&self.next);
+        if !predicted.all() {
+            self.predictor.examine(&self.unknown, scale, predicted);
+        }
         self.predictor.take(&self.unknown);
-        let poor = predicted & self.newton.started_far();
-        if poor.any() {
-            self.predictor.rest(poor);
+        let far = self.newton.started_far();
+        if far.any() {
+            self.predictor.rest(far);
         }
     }
 

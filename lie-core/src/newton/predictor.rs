@@ -4,17 +4,26 @@ use crate::scalar::{Mask, Scalar};
 use crate::state::Unknown;
 
 /// The polynomial goes through so many unknowns.
-const VALUES: usize = 10;
+const VALUES: usize = 12;
+/// So many predictions must have been near the solution before the first one is used.
+const PROOFS: f64 = 2.0;
+/// A prediction farther from the solution than this part of the state is none: the unknown is not smooth along the run, or
+/// the step is large. Guesses from the start of a step alone do not err more.
+const FAR: f64 = 1.0 / 128.0;
 /// After so many predictions a step starts from the guess of its equation, and shows how the iteration converges.
 const MOST: f64 = 64.0;
 /// So many steps start from the guess of their equation where a prediction was worse than that may be.
 const REST: f64 = 32.0;
 
+/// From this age on predictions are used.
+const FIRST: f64 = VALUES as f64 + PROOFS;
+
 /// Predicts the unknown of a step by the polynomial through those of the last steps, all of one size.
 ///
 /// The polynomial is kept as backward differences: `d_0 = u`, `d_j <- d_(j-1) - d_j` with every new unknown, and the
-/// next one is about their sum. Its error is about `(h d/dt)^8 u`, as long as the unknown is a smooth function
-/// along the run. A prediction changes where an iteration starts, not the equation that is solved.
+/// next one is about their sum. Its error is about `(h d/dt)^12 u`, as long as the unknown is a smooth function
+/// along the run; where that shows not to be, nothing is predicted. A prediction changes where an iteration starts, not the
+/// equation that is solved.
 #[derive(Clone, Debug)]
 pub(crate) struct Predictor<S, U> {
     differences: [U; VALUES],
@@ -39,8 +48,8 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
         if !follows.all() {
             self.forget(!follows);
         }
-        let ready = S::from_f64(VALUES as f64).less_equal(self.age);
-        if (ready & self.age.less(S::from_f64(VALUES as f64 + MOST))).all() {
+        let ready = S::from_f64(FIRST).less_equal(self.age);
+        if (ready & self.age.less(S::from_f64(FIRST + MOST))).all() {
             return ready;
         }
         self.renew(ready)
@@ -49,9 +58,8 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
     /// Passes one prediction over where there were many.
     #[cold]
     fn renew(&mut self, ready: S::Mask) -> S::Mask {
-        let first = S::from_f64(VALUES as f64);
-        let due = (first + S::from_f64(MOST)).less_equal(self.age);
-        self.age = S::select(due, first - S::one(), self.age);
+        let due = S::from_f64(FIRST + MOST).less_equal(self.age);
+        self.age = S::select(due, S::from_f64(FIRST - 1.0), self.age);
         ready & !due
     }
 
@@ -59,6 +67,22 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
     #[inline(always)]
     pub(crate) fn next(&self) -> &U {
         &self.next
+    }
+
+    /// Forgets everything in the lanes, not among those of a mask, in which the prediction that was not used was far from
+    /// the unknown of a step.
+    #[cold]
+    pub(crate) fn examine(&mut self, unknown: &U, scale: S, used: S::Mask) {
+        let mut distance = S::zero();
+        for part in 0..unknown.parts() {
+            let pairs = unknown.part(part).iter().zip(self.next.part(part));
+            for (&unknown, &next) in pairs {
+                distance = S::largest_magnitude(&[distance, unknown - next]);
+            }
+        }
+        let due = S::from_f64(VALUES as f64).less_equal(self.age) & !used;
+        let near = !is_far(distance, scale) & distance.finite();
+        self.age = S::select(due & !near, S::zero(), self.age);
     }
 
     /// Takes the unknown of a step.
@@ -96,6 +120,12 @@ impl<S: Scalar, U: Unknown<S>> Predictor<S, U> {
     pub(crate) fn rest(&mut self, lanes: S::Mask) {
         self.age = S::select(lanes, S::from_f64(-REST), self.age);
     }
+}
+
+/// The lanes in which a start was far from a solution, by its first update.
+#[inline(always)]
+pub(super) fn is_far<S: Scalar>(update: S, scale: S) -> S::Mask {
+    (scale * S::from_f64(FAR)).less(update)
 }
 
 /// Takes entries from an index on, and returns the sums of their differences.

@@ -2,6 +2,7 @@
 
 use super::convergence::{Convergence, STAGNATION};
 use super::options::{Iteration, NewtonOptions};
+use super::predictor::is_far;
 use super::report::{Failure, FailureReason, NewtonReport};
 use super::trial::Trial;
 use super::update::{self, Workspace};
@@ -85,6 +86,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     /// What is tried in the next step, to be asked once for each.
     #[inline(always)]
     pub(crate) fn attempts(&mut self) -> Attempts<S::Mask> {
+        self.far = S::Mask::splat(false);
         let fixed = self.fixed.lanes();
         Attempts {
             fixed,
@@ -97,7 +99,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         self.options.iteration == Iteration::Automatic
     }
 
-    /// The lanes in which what was tried in the last step started far from the solution.
+    /// The lanes in which a prediction for the last step was far from the solution.
     #[inline(always)]
     pub(crate) fn started_far(&self) -> S::Mask {
         self.far
@@ -111,7 +113,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         unknown: &mut U,
         scale: S,
         attempts: Attempts<S::Mask>,
-        predicted: S::Mask,
+        mut predicted: S::Mask,
     ) -> Result<NewtonReport, Failure>
     where
         E: Equation<S, Unknown = U, Matrix = M>,
@@ -121,22 +123,29 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let mut lanes = S::Mask::splat(true);
         if attempts.fixed.any() {
             let counts = (&mut report, &mut count);
-            let solved = self.by_fixed_point(equation, unknown, scale, attempts.fixed, counts);
+            let trying = (attempts.fixed, predicted);
+            let solved = self.by_fixed_point(equation, unknown, scale, trying, counts);
             report.fixed_point = count.most();
             lanes = !solved;
             if lanes.any() {
                 let left = attempts.fixed & lanes;
-                give_up(&mut self.fixed, equation, unknown, left, &mut self.workspace);
+                let slow = left & !self.far;
+                restart(equation, unknown, left, &mut self.workspace);
+                predicted = predicted & !left;
+                self.fixed.given_up(slow);
             }
         }
         let trying = attempts.chord & lanes;
         if trying.any() {
             let counts = (&mut report, &mut count);
-            let solved = self.by_one_jacobian(equation, unknown, scale, (trying, predicted), counts);
+            let solved =
+                self.by_one_jacobian(equation, unknown, scale, (trying, predicted), counts);
             lanes = lanes & !solved;
             if lanes.any() {
                 let left = trying & lanes;
-                give_up(&mut self.chord, equation, unknown, left, &mut self.workspace);
+                let slow = left & !self.far;
+                restart(equation, unknown, left, &mut self.workspace);
+                self.chord.given_up(slow);
             }
         }
         if lanes.any() {
@@ -204,11 +213,13 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         unknown.subtract_where(lanes, update);
         count.add(lanes);
         let first = update.max_norm();
-        self.far = is_far(first, scale) & lanes | self.far & !lanes;
-        let sound = lanes & safe & first.finite();
-        let goal = S::from_f64(self.options.tolerance) * S::epsilon() * scale;
+        let far = is_far(first, scale) & lanes & predicted;
+        self.far = self.far | far;
+        let sound = lanes & safe & first.finite() & !far;
+        let round_off = S::epsilon() * scale;
         let left = self.curvature * first * first;
-        let mut solved = left.less_equal(goal) & predicted & sound;
+        let enough = left.less_equal(S::from_f64(self.options.tolerance) * round_off);
+        let mut solved = (enough & predicted | first.less_equal(round_off)) & sound;
         let mut active = sound & !solved;
         if active.any() {
             let mut before = first;
@@ -249,7 +260,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         equation: &mut E,
         unknown: &mut U,
         scale: S,
-        lanes: S::Mask,
+        (lanes, predicted): (S::Mask, S::Mask),
         (report, count): (&mut NewtonReport, &mut Count<S>),
     ) -> S::Mask
     where
@@ -271,7 +282,8 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             if index % REVIEW == 1 {
                 size = S::largest_magnitude(&[scale, unknown.max_norm()]);
                 if index == 1 {
-                    self.far = is_far(step, size) & lanes | self.far & !lanes;
+                    self.far = is_far(step, scale) & lanes & predicted;
+                    active = active & !self.far;
                 }
             }
             let converged = convergence.observe(step, size) & active;
@@ -402,31 +414,18 @@ const REVIEW: u32 = 4;
 const CHORDS: u32 = 3;
 const CHORD_RATE: f64 = 1.0 / 64.0;
 
-/// A first update of this part of the unknown is large: guesses from the start of a step alone do not err more, unless
-/// the step is large.
-const FAR: f64 = 1.0 / 128.0;
-
-#[inline(always)]
-fn is_far<S: Scalar>(update: S, size: S) -> S::Mask {
-    (size * S::from_f64(FAR)).less(update)
-}
-
-/// Lanes in which what was tried did not pay: they start anew.
+/// Lanes in which what was tried did not pay start anew.
 #[cold]
 #[inline(never)]
-fn give_up<S: Scalar, E: Equation<S>>(
-    trial: &mut Trial<S>,
+fn restart<S: Scalar, E: Equation<S>>(
     equation: &mut E,
     unknown: &mut E::Unknown,
     lanes: S::Mask,
     workspace: &mut Workspace<S, E::Unknown, E::Matrix>,
 ) {
-    if lanes.any() {
-        trial.given_up(lanes);
-        let start = workspace.spare();
-        equation.initial_guess(start);
-        unknown.assign_where(lanes, start);
-    }
+    let start = workspace.spare();
+    equation.initial_guess(start);
+    unknown.assign_where(lanes, start);
 }
 
 /// Lanes that go on no longer: their matrix is singular, or their update not finite.

@@ -73,6 +73,9 @@ impl<S: Scalar> Trial<S> {
     /// Takes the lanes whose updates did not shrink fast enough.
     #[cold]
     pub(super) fn given_up(&mut self, lanes: S::Mask) {
+        if !lanes.any() {
+            return;
+        }
         let [_, most] = REST.map(S::from_f64);
         let doubled = self.rest + self.rest;
         let doubled = S::select(doubled.less(most), doubled, most);
