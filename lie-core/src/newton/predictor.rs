@@ -149,3 +149,64 @@ fn update<S: Scalar, const N: usize>(
     }
     sum
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The first step with a prediction, of a sequence of unknowns near 1, and the errors of the predictions.
+    fn predictions(count: usize, unknown: impl Fn(usize) -> f64) -> (Option<usize>, f64) {
+        let mut predictor = Predictor::new(&[0.0]);
+        let (mut first, mut worst) = (None, 0.0);
+        for k in 0..count {
+            let value = [unknown(k)];
+            let ready = predictor.ready(k > 0);
+            if ready {
+                first.get_or_insert(k);
+                worst = f64::max(worst, (predictor.next()[0] - value[0]).abs());
+            } else {
+                predictor.examine(&value, 1.0, ready);
+            }
+            predictor.take(&value);
+        }
+        (first, worst)
+    }
+
+    #[test]
+    fn polynomials_are_continued() {
+        let polynomial = |k: usize| {
+            let t = k as f64 / 32.0;
+            1.0 + t * (0.5 - t * (0.3 + t * t * t))
+        };
+        let (first, worst) = predictions(60, polynomial);
+        assert_eq!(first, Some(FIRST as usize));
+        assert!(worst < 1e-11, "{worst:e}");
+        // the control: a frequency that ten values a period do not follow
+        let (_, worst) = predictions(60, |k| (0.6 * k as f64).sin());
+        assert!(worst > 1e-4, "{worst:e}");
+    }
+
+    #[test]
+    fn unknowns_of_two_kinds_are_not_predicted() {
+        let alternating = |k: usize| if k.is_multiple_of(2) { 1.0 } else { 0.2 };
+        assert_eq!(predictions(200, alternating), (None, 0.0));
+    }
+
+    #[test]
+    fn steps_that_do_not_follow_start_anew() {
+        let mut predictor = Predictor::new(&[0.0]);
+        let mut ready = |follows: bool| {
+            let ready = predictor.ready(follows);
+            predictor.examine(&[1.0], 1.0, ready);
+            predictor.take(&[1.0]);
+            ready
+        };
+        assert!(ready(true) || (0..40).any(|_| ready(true)));
+        assert!(!ready(false));
+        let wait = (0..40).position(|_| ready(true));
+        assert_eq!(wait, Some(FIRST as usize - 1));
+        // now and then one is passed over
+        let passed = (0..200).filter(|_| !ready(true)).count();
+        assert!((2..=4).contains(&passed), "{passed}");
+    }
+}

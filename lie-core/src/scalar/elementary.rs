@@ -7,7 +7,9 @@
 //! `k_cos.c`); the tangent is the quotient of S. Moshier's Cephes library (`tan.c`), with an error below 1.4 units in the
 //! last place: 17 operations instead of 40; up to 1/16 a polynomial of 12 operations, without a division.
 
-use super::{Mask, Scalar};
+#[cfg(any(feature = "lanes", test))]
+use super::Mask;
+use super::Scalar;
 
 /// Angles up to this are small: the double below pi/4.
 const SMALL: f64 = core::f64::consts::FRAC_PI_4;
@@ -78,6 +80,7 @@ pub(super) fn cos<S: Scalar>(x: S) -> S {
 }
 
 /// The tangent of a small angle.
+#[cfg(any(feature = "lanes", test))]
 #[inline(always)]
 pub(super) fn tan<S: Scalar>(x: S) -> S {
     let very = is_very_small(x);
