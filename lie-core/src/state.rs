@@ -68,11 +68,7 @@ pub trait Unknown<S: Scalar>: Clone {
                 sum += entry * S::zero();
             }
         }
-        if S::DERIVATIVES == 0 {
-            sum.less_equal(S::zero())
-        } else {
-            sum.finite()
-        }
+        sum.finite()
     }
     /// Takes the entries of `other` in the lanes of the mask and keeps its own in the rest.
     #[inline]
