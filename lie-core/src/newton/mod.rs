@@ -4,8 +4,10 @@
 //! from the identity.
 
 mod convergence;
+mod count;
 pub mod dense;
 pub mod exchanging;
+mod failed;
 mod options;
 pub mod pivoted;
 mod predictor;

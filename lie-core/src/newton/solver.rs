@@ -1,6 +1,8 @@
 //! The loop.
 
-use super::convergence::{Convergence, STAGNATION};
+use super::convergence::{Convergence, curvature, ends};
+use super::count::Count;
+use super::failed::{leave, refuse};
 use super::options::{Iteration, NewtonOptions};
 use super::predictor::is_far;
 use super::report::{Failure, FailureReason, NewtonReport};
@@ -354,59 +356,6 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     }
 }
 
-/// Iterations, lane by lane where there are several.
-#[derive(Default)]
-struct Count<S> {
-    all: u32,
-    lanes: S,
-}
-
-impl<S: Scalar> Count<S> {
-    /// Adds one in some lanes; returns their number in all.
-    #[inline(always)]
-    fn add(&mut self, active: S::Mask) -> u32 {
-        self.all += 1;
-        if S::LANES > 1 {
-            self.lanes += S::select(active, S::one(), S::zero());
-        }
-        self.all
-    }
-
-    /// That of the lane that took most.
-    #[inline(always)]
-    fn most(&self) -> u32 {
-        if S::LANES > 1 {
-            largest(self.lanes) as u32
-        } else {
-            self.all
-        }
-    }
-}
-
-/// The lanes in which an iteration with the Jacobian of its start has converged, by its last two updates.
-#[inline(always)]
-fn ends<S: Scalar>(update: S, before: S, size: S, tolerance: f64) -> S::Mask {
-    let round_off = S::epsilon() * size;
-    let rate = update / before;
-    let left = (update + update) * rate;
-    let shrinking = rate.less(S::ratio(1.0, 2.0));
-    shrinking & left.less_equal(S::from_f64(tolerance) * round_off)
-        | !shrinking & update.less_equal(S::from_f64(STAGNATION) * round_off)
-}
-
-/// A bound of c in `|e_1| <= c |e_0|^2`, the errors before and after an iteration of Newton's method, by the first two
-/// updates of a solution.
-#[inline(always)]
-fn curvature<S: Scalar>(first: S, second: S, size: S) -> S {
-    let noise = S::from_f64(CURVATURE_NOISE) * S::epsilon() * size;
-    S::from_f64(CURVATURE_SAFETY) * ((second + noise) / first / first)
-}
-
-/// The factor by which the error may exceed what a solution has shown, and the units of round-off that the second update
-/// may owe to rounding.
-const CURVATURE_SAFETY: f64 = 16.0;
-const CURVATURE_NOISE: f64 = 16.0;
-
 /// The unknown is measured with the first iteration, and again after so many.
 const REVIEW: u32 = 4;
 
@@ -426,66 +375,4 @@ fn restart<S: Scalar, E: Equation<S>>(
     let start = workspace.spare();
     equation.initial_guess(start);
     unknown.assign_where(lanes, start);
-}
-
-/// Lanes that go on no longer: their matrix is singular, or their update not finite.
-#[cold]
-fn refuse<M: Mask>(failed: &mut Option<(FailureReason, u64)>, active: M, singular: M, sound: M) {
-    record(failed, active & singular, FailureReason::Singular);
-    let infinite = active & !singular & !sound;
-    record(failed, infinite, FailureReason::NotFinite);
-}
-
-/// Lanes whose updates did not shrink to the tolerance, or grew.
-#[cold]
-fn leave<M: Mask>(failed: &mut Option<(FailureReason, u64)>, active: M, growing: M) {
-    record(failed, active & growing, FailureReason::Diverged);
-    record(failed, active & !growing, FailureReason::NotConverged);
-}
-
-/// Adds lanes to the failed ones; the reason is that of the lowest lane.
-fn record<M: Mask>(failed: &mut Option<(FailureReason, u64)>, lanes: M, reason: FailureReason) {
-    let bits = lanes.bits();
-    if bits == 0 {
-        return;
-    }
-    let (known, before) = failed.unwrap_or((reason, 0));
-    let reason = if bits.trailing_zeros() < before.trailing_zeros() {
-        reason
-    } else {
-        known
-    };
-    *failed = Some((reason, before | bits));
-}
-
-#[cfg(all(test, feature = "lanes"))]
-mod tests {
-    use super::*;
-    use crate::scalar::F64x4;
-
-    type Lanes = <F64x4 as Scalar>::Mask;
-
-    #[test]
-    fn the_reason_is_that_of_the_lowest_lane() {
-        let mut failed = None;
-        record(&mut failed, Lanes::from_bits(0), FailureReason::Diverged);
-        assert_eq!(failed, None);
-        record(
-            &mut failed,
-            Lanes::from_bits(0b1000),
-            FailureReason::Singular,
-        );
-        record(
-            &mut failed,
-            Lanes::from_bits(0b0010),
-            FailureReason::NotFinite,
-        );
-        assert_eq!(failed, Some((FailureReason::NotFinite, 0b1010)));
-        record(
-            &mut failed,
-            Lanes::from_bits(0b0100),
-            FailureReason::Diverged,
-        );
-        assert_eq!(failed, Some((FailureReason::NotFinite, 0b1110)));
-    }
 }
