@@ -150,6 +150,139 @@ fn a_reference_that_is_not_confirmed_stops_it() {
     assert!(!out.exists(), "nothing was measured");
 }
 
+/// The errors of one measure by method, from coarse to fine, with a further column; the runs begin with the same steps.
+fn errors(spec: &str, flags: &str, column: usize) -> BTreeMap<String, Vec<f64>> {
+    let folder = folder();
+    let out = folder.path().join("points.csv");
+    lie(&format!(
+        "bench specs/{spec}.json --budget 0.002 --quiet {flags} --out {}",
+        out.display()
+    ))
+    .ok();
+    let text = std::fs::read_to_string(out).expect("points");
+    let mut errors: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+    for line in text.lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let value = fields[column].parse().expect("a number");
+        errors.entry(fields[0].to_owned()).or_default().push(value);
+    }
+    errors
+}
+
+const NONPOLYNOMIAL: &str = "--methods midpoint,gauss4,rk4,dopri5 --until 2";
+const BODY: &str = "--methods midpoint,rk4,dopri5 --until 10";
+
+/// Where the halving of a step divides an error by 2^order.
+fn falls_by(errors: &[f64], order: i32) -> bool {
+    let ratio = errors[3] / errors[4];
+    (0.7..1.4).contains(&(ratio / 2_f64.powi(order)))
+}
+
+#[test]
+fn invariants_against_run_time() {
+    let casimirs = errors(
+        "so3_nonpolynomial",
+        &format!("{NONPOLYNOMIAL} --measure casimirs"),
+        3,
+    );
+    // both keep quadratic invariants at every step, the control at none
+    for method in ["midpoint", "gauss4"] {
+        assert!(casimirs[method][0] < 1e-14, "{method}: {casimirs:?}");
+    }
+    for method in ["rk4", "dopri5", "ode_solvers Dopri5", "ode_solvers Dop853"] {
+        assert!(casimirs[method][0] > 1e-8, "{method}: {casimirs:?}");
+    }
+    let energy = errors(
+        "so3_nonpolynomial",
+        &format!("{NONPOLYNOMIAL} --measure energy"),
+        3,
+    );
+    assert!(falls_by(&energy["midpoint"], 2), "{energy:?}");
+    assert!(falls_by(&energy["gauss4"], 4), "{energy:?}");
+    assert!(!falls_by(&energy["gauss4"], 2), "{energy:?}");
+}
+
+/// A span over which no reference solution is confirmed.
+#[test]
+fn invariants_need_no_reference() {
+    let bench = |measure: &str| {
+        lie(&format!(
+            "bench specs/so3_nonpolynomial.json --methods midpoint,gauss4,rk4,dopri5 --until 100000 --budget 0.001 \
+             --quiet --initial 6,-5,7 --measure {measure}"
+        ))
+    };
+    let run = bench("casimirs").ok();
+    assert!(
+        run.stdout.contains("drift of a Casimir") && !run.stdout.contains("reference"),
+        "{}",
+        run.stdout
+    );
+    assert_eq!(bench("phase").code, Some(1));
+}
+
+/// The midpoint rule keeps both invariants of a free rigid body: its orbit is exact, its time is not.
+#[test]
+fn the_phase_is_apart_from_the_orbit() {
+    let phase = errors("so3_free_rigid_body", &format!("{BODY} --measure phase"), 3);
+    let across = errors(
+        "so3_free_rigid_body",
+        &format!("{BODY} --measure phase"),
+        10,
+    );
+    let state = errors("so3_free_rigid_body", BODY, 3);
+    assert!(
+        across["midpoint"].iter().all(|&error| error < 1e-14),
+        "{across:?}"
+    );
+    assert!(across["rk4"][1] > 1e-6, "{across:?}");
+    assert!(falls_by(&phase["midpoint"], 2), "{phase:?}");
+    // what is wrong with the state is the time alone: their ratio is the speed, at every step
+    let speeds: Vec<f64> = (3..6)
+        .map(|k| state["midpoint"][k] / phase["midpoint"][k])
+        .collect();
+    assert!(
+        speeds.iter().all(|s| (s / speeds[2] - 1.0).abs() < 0.05),
+        "{speeds:?}"
+    );
+    assert!((0.01..2.0).contains(&speeds[2]), "{speeds:?}");
+}
+
+#[test]
+fn sections_are_apart_from_the_phase() {
+    let flags = format!("{BODY} --measure section --section x=0.1");
+    let section = errors("so3_free_rigid_body", &flags, 3);
+    let midpoint = &section["midpoint"];
+    assert!(
+        midpoint.len() > 2 && midpoint.iter().all(|&error| error < 1e-13),
+        "{section:?}"
+    );
+    let rk4 = &section["rk4"];
+    assert!(rk4[0] > 1e-6 && rk4[0] / rk4[2] > 100.0, "{section:?}");
+    let run = lie(&format!(
+        "bench specs/so3_free_rigid_body.json {flags} --budget 0.002 --quiet"
+    ))
+    .ok();
+    assert!(run.stdout.contains("x rises through 0.1"), "{}", run.stdout);
+}
+
+#[test]
+fn wrong_measures() {
+    let body = |rest: &str| {
+        lie(&format!(
+            "bench specs/so3_free_rigid_body.json {BODY} {rest}"
+        ))
+    };
+    body("--measure momentum").error("option", "command line: --measure");
+    body("--section x=0").error("option", "command line: --section");
+    body("--measure section --section x").error("option", "command line: --section");
+    body("--measure section --section X=0").error("option", "command line: --section");
+    body("--measure section --section x=1/0").error("number", "command line: --section");
+    let run = body("--measure section --section x=3").error("option", "command line: --section");
+    assert!(run.stderr.contains("does not pass 3"), "{}", run.stderr);
+    let run = lie("bench specs/canonical_pendulum.json --methods midpoint --measure casimirs");
+    run.error("option", "command line: --measure");
+}
+
 #[test]
 fn wrong_options() {
     let bench = |rest: &str| lie(&format!("bench specs/so3_free_rigid_body.json {rest}"));

@@ -300,6 +300,7 @@ pub struct Verify {
 #[derive(Args, Debug)]
 #[command(
     after_help = "Without --until, the end is taken from the spec's `run`, but is at most 20; without either it is 10.
+energy and casimirs need no reference solution: they can be measured over any span (--until 1e6 --budget 5).
 Exit codes: 0 done, 1 the reference solution was not confirmed, 2 invalid input, 130 Ctrl-C,
 143 SIGTERM, 129 SIGHUP."
 )]
@@ -312,12 +313,35 @@ pub struct Bench {
     /// Seconds that a single run may take
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     pub budget: Option<String>,
+    /// The error that is set against run time
+    #[arg(long, value_enum, default_value_t)]
+    pub measure: Sense,
+    /// The surface of `--measure section`: where this coordinate rises through this value; the middle of the
+    /// coordinate that moves most without it
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub section: Option<String>,
     /// Draws error against run time
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
     /// Writes every measured point as CSV
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
+}
+
+/// `--measure`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Sense {
+    /// Of the state at the end
+    #[default]
+    State,
+    /// The largest drift of the energy over the run
+    Energy,
+    /// The largest drift of a Casimir over the run
+    Casimirs,
+    /// The time by which the end is ahead of the exact solution, or behind
+    Phase,
+    /// The distance from the exact points on a surface of section
+    Section,
 }
 
 /// `lie stress`.

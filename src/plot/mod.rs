@@ -18,6 +18,7 @@
 //! ```
 
 mod bins;
+pub mod chart;
 mod draw;
 pub mod frontier;
 pub mod map;

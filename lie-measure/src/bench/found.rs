@@ -1,5 +1,6 @@
 //! What the program finds.
 
+use super::measure::Plane;
 use lie_program::protocol::number;
 use serde::{Deserialize, Serialize};
 
@@ -9,6 +10,13 @@ use serde::{Deserialize, Serialize};
 pub enum Found {
     /// The solution that others are compared with.
     Reference(Reference),
+    /// The surface of section, and how often the exact solution passes it.
+    Section {
+        /// The surface.
+        plane: Plane,
+        /// Passages.
+        passages: u64,
+    },
     /// What the seconds are.
     Clock(ClockKind),
     /// A run that came to its end.
@@ -79,9 +87,11 @@ pub struct Point {
     /// See `control`.
     #[serde(with = "number")]
     pub value: f64,
-    /// The relative error at the end.
+    /// The relative error at the end, or what else is measured.
     #[serde(with = "number")]
     pub error: f64,
+    /// Beside the error of the phase: the relative distance from the exact orbit.
+    pub across: Option<f64>,
     /// The least time of all rounds, by the clock.
     #[serde(with = "number")]
     pub seconds: f64,

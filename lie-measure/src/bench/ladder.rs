@@ -1,17 +1,21 @@
 //! A method at one accuracy after the other, until it is as good as the reference solution or takes too long.
 
+mod runs;
+
+use super::Entry;
 use super::found::{Accuracy, Found, Point};
+use super::measure::{Judge, Judged, Wanted};
 use super::timing::{Clock, Spent, summary};
-use super::{Entry, RunControl};
-use crate::facts::{rate, relative_error};
+use crate::facts::rate;
 use lie_program::protocol::End;
 use lie_program::session::Session;
-use lie_runtime::diagnostics::AnyMethod;
-use lie_runtime::newton::NewtonOptions;
-use lie_runtime::{Poisson, State};
+use lie_runtime::Poisson;
+use runs::{Run, by_control, by_pieces, by_steps};
 
 /// Rounds of timing; between two runs of one point all others run once.
 const ROUNDS: usize = 7;
+/// Rounds of a run that takes longer than so many seconds, which average over most of what disturbs.
+const LONG: (f64, usize) = (0.5, 2);
 /// A run that is timed is repeated until it lasts about so many seconds.
 const SAMPLE: f64 = 2e-3;
 
@@ -25,20 +29,17 @@ pub(super) struct Rung<'a> {
     run: Box<dyn Fn() + 'a>,
 }
 
-struct Run<V> {
-    end: V,
-    steps: u64,
-    evaluations: u64,
-    newton: u64,
-}
+/// Shows what is wanted of the run at an accuracy.
+type LookAt<'a, V> =
+    dyn Fn((f64, u64), &Wanted<'_>, &mut dyn FnMut(f64, &V)) -> Result<(), String> + 'a;
 
 /// What the runs of a method are compared with.
 pub(super) struct Ladder<'a, P: Poisson<f64>> {
     pub(super) system: &'a P,
     pub(super) mu: &'a P::State,
-    pub(super) exact: &'a P::State,
+    pub(super) judge: &'a Judge<P::State>,
     pub(super) until: f64,
-    /// The relative error of the reference solution.
+    /// The least error that says something.
     pub(super) floor: f64,
     /// Seconds that one run may take.
     pub(super) budget: f64,
@@ -56,14 +57,18 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
         let Self {
             system, mu, until, ..
         } = self;
+        let rate = rate(system, mu);
         match entry {
             Entry::Method(make) => {
-                let first = (until.abs() * rate(system, mu) / 6.0).ceil().max(2.0) as u64;
+                let first = (until.abs() * rate / 6.0).ceil().max(2.0) as u64;
                 let steps = (0..26).map(|k| first << k);
                 self.go(
                     Accuracy::Step,
                     steps.map(|steps| (until / steps as f64, steps)),
                     &move |(h, steps)| by_steps(system, &*make(), mu, h, steps),
+                    &|(h, steps), wanted, see| {
+                        runs::see_steps(system, &*make(), mu, (h, steps), wanted, see)
+                    },
                     session,
                     rungs,
                 );
@@ -71,14 +76,20 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
             Entry::Adaptive(make) => self.go(
                 Accuracy::Tolerance,
                 tolerances(),
-                &move |(tolerance, _)| by_steps(system, &*make(tolerance), mu, until, 1),
+                &move |(tolerance, _)| by_pieces(system, &*make(tolerance), mu, until, rate),
+                &|(tolerance, _), wanted, see| {
+                    runs::see_pieces(system, &*make(tolerance), mu, (until, rate), wanted, see)
+                },
                 session,
                 rungs,
             ),
             Entry::Control(run) => self.go(
                 Accuracy::Tolerance,
                 tolerances(),
-                &move |(tolerance, _)| by_control(system, run, mu, until, tolerance),
+                &move |(tolerance, _)| by_control(system, run, mu, (until, rate), tolerance, None),
+                &|(tolerance, _), wanted, see| {
+                    runs::see_control(system, run, mu, (until, rate), tolerance, wanted, see)
+                },
                 session,
                 rungs,
             ),
@@ -90,6 +101,7 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
         control: Accuracy,
         values: impl Iterator<Item = (f64, u64)>,
         run: &(impl Fn((f64, u64)) -> Result<Run<P::State>, String> + Clone + 'a),
+        look: &LookAt<'_, P::State>,
         session: &mut Session<'_>,
         rungs: &mut Vec<Rung<'a>>,
     ) {
@@ -97,10 +109,15 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
         let mut best = f64::INFINITY;
         for value in values {
             let (outcome, first) = self.clock.spent(|| run(value));
-            let error = match &outcome {
-                Ok(run) => relative_error(&run.end, self.exact),
-                Err(_) => f64::NAN,
-            };
+            let look =
+                |wanted: &Wanted<'_>, see: &mut dyn FnMut(f64, &P::State)| look(value, wanted, see);
+            let outcome = outcome.and_then(|run| {
+                let judged = self.judge.of(self.system, &run.end, &look)?;
+                Ok((run, judged))
+            });
+            let error = outcome
+                .as_ref()
+                .map_or(f64::NAN, |(_, judged)| judged.error);
             let stopped = |why: &str| Found::Stopped {
                 method: self.label.to_owned(),
                 control,
@@ -108,10 +125,10 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
                 why: why.to_owned(),
             };
             match outcome {
-                Ok(outcome) if error.is_finite() => {
+                Ok((outcome, judged)) if error.is_finite() => {
                     let run = run.clone();
                     rungs.push(Rung {
-                        point: self.point(control, value.0, error, &outcome),
+                        point: self.point(control, value.0, &judged, &outcome),
                         first,
                         samples: Vec::new(),
                         run: Box::new(move || {
@@ -132,12 +149,13 @@ impl<'a, P: Poisson<f64>> Ladder<'a, P> {
         }
     }
 
-    fn point(&self, control: Accuracy, value: f64, error: f64, run: &Run<P::State>) -> Point {
+    fn point(&self, control: Accuracy, value: f64, judged: &Judged, run: &Run<P::State>) -> Point {
         Point {
             method: self.label.to_owned(),
             control,
             value,
-            error,
+            error: judged.error,
+            across: judged.across,
             seconds: f64::NAN,
             median: f64::NAN,
             wall: f64::NAN,
@@ -153,45 +171,6 @@ fn tolerances() -> impl Iterator<Item = (f64, u64)> {
     (4..28).map(|k| (10_f64.powf(-0.5 * f64::from(k)), 0))
 }
 
-fn by_steps<P: Poisson<f64>>(
-    system: &P,
-    method: &dyn AnyMethod<f64, P>,
-    mu: &P::State,
-    h: f64,
-    steps: u64,
-) -> Result<Run<P::State>, String> {
-    let mut end = mu.clone();
-    let mut stepper = method.any_stepper(system, h, &NewtonOptions::default());
-    match stepper.advance(&mut end, steps) {
-        Ok(stats) => Ok(Run {
-            end,
-            steps: stats.accepted,
-            evaluations: stats.evaluations,
-            newton: stats.newton,
-        }),
-        Err((step, failure)) => Err(format!("step {}: {failure}", step + 1)),
-    }
-}
-
-fn by_control<P: Poisson<f64>>(
-    system: &P,
-    run: &RunControl<P>,
-    mu: &P::State,
-    until: f64,
-    tolerance: f64,
-) -> Result<Run<P::State>, String> {
-    let run = run(system, mu.as_slice(), until, tolerance);
-    let run = run.ok_or_else(|| "it gave up".to_owned())?;
-    let mut end = mu.clone();
-    end.as_mut_slice().copy_from_slice(&run.end);
-    Ok(Run {
-        end,
-        steps: run.steps,
-        evaluations: run.evaluations,
-        newton: 0,
-    })
-}
-
 /// Times every run, round after round, so that a slow moment of the machine does not fall on one method alone.
 ///
 /// # Errors
@@ -204,10 +183,13 @@ pub(super) fn time(
     let all = (rungs.len() * ROUNDS) as u64;
     let mut done = 0;
     session.stage(all / 3, all, "times")?;
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
         for rung in &mut *rungs {
             session.progress(all / 3 + done * 2 / 3, all)?;
             done += 1;
+            if rung.first.seconds > LONG.0 && round >= LONG.1 {
+                continue;
+            }
             let times = (SAMPLE / rung.first.seconds).ceil().clamp(1.0, 1e5) as u32;
             let ((), spent) = clock.spent(|| (0..times).for_each(|_| (rung.run)()));
             rung.samples.push(spent.over(f64::from(times)));

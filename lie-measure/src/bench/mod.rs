@@ -2,9 +2,11 @@
 
 mod found;
 mod ladder;
+mod measure;
 mod timing;
 
 pub use found::{Accuracy, ClockKind, Found, Point, Reference};
+pub use measure::{Measure, Plane};
 
 use crate::GRACE;
 use crate::facts::{rate, relative_error};
@@ -18,6 +20,7 @@ use lie_runtime::equation::Implicit;
 use lie_runtime::methods::{Gauss6, Method};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{ParameterError, Poisson, State, Unknown};
+use measure::{Judge, NoSection};
 use serde::{Deserialize, Serialize};
 use std::process::ExitCode;
 use timing::Clock;
@@ -32,6 +35,8 @@ pub struct Options {
     /// Seconds that one run may take.
     #[serde(with = "number")]
     pub budget: f64,
+    /// The error that is set against the time.
+    pub measure: Measure,
 }
 
 talk!(Options, Found);
@@ -47,13 +52,16 @@ pub struct ControlRun {
     pub steps: u64,
 }
 
-type RunControl<P> = Box<dyn Fn(&P, &[f64], f64, f64) -> Option<ControlRun>>;
+/// Takes the times and states of a run after every step.
+pub type Watch<'a> = &'a mut dyn FnMut(f64, &[f64]);
+
+type RunControl<P> = Box<dyn Fn(&P, &[f64], f64, f64, Option<Watch<'_>>) -> Option<ControlRun>>;
 
 /// An adaptive method from outside the catalogue, to compare with.
 pub struct Control<P> {
     /// Its name.
     pub label: &'static str,
-    /// A run from a state at time 0 to a time with both tolerances alike; none if it fails.
+    /// A run from a state at time 0 to a time with both tolerances alike, which may be watched; none if it fails.
     pub run: RunControl<P>,
 }
 
@@ -134,9 +142,8 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
     fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
         let request = request(line)?;
         let Built { system, mu } = self.blueprint.build(&request.start)?;
-        let Options { until, budget } = request.options;
-        session.stage(0, 1, "the reference solution")?;
-        let (exact, reliable) = confirmed(&system, &mu, until, session)?;
+        let Options { until, budget, .. } = request.options;
+        let (judge, floor) = judge(&system, &mu, &request.options, session)?;
         tell(session, Found::Clock(self.clock.kind()));
         let asked_for = |(label, entry): &&(&str, Entry<P>)| {
             matches!(entry, Entry::Control(_)) || request.methods.iter().any(|m| m == label)
@@ -149,12 +156,9 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
                 let ladder = Ladder {
                     system: &system,
                     mu: &mu,
-                    exact: &exact,
+                    judge: &judge,
                     until,
-                    floor: reliable
-                        .error
-                        .max(reliable.difference)
-                        .max(4.0 * f64::EPSILON),
+                    floor,
                     budget,
                     label,
                     clock: &self.clock,
@@ -170,6 +174,63 @@ impl<P: Implicit<f64, Gauss6> + 'static> Bench<P> {
         }
         ended
     }
+}
+
+/// What runs are compared with, and the least error that says something.
+fn judge<P: Implicit<f64, Gauss6>>(
+    system: &P,
+    mu: &P::State,
+    options: &Options,
+    session: &mut Session<'_>,
+) -> Result<(Judge<P::State>, f64), End> {
+    let Options { until, measure, .. } = *options;
+    if let Measure::Energy | Measure::Casimirs = measure {
+        let mut field = system.zero_state();
+        system.vector_field(mu, &mut field);
+        if field.max_norm() * until.abs() <= 4.0 * f64::EPSILON * mu.max_norm() {
+            let why = format!("the state does not move until t = {until:?}");
+            return Err(End::refused(Obstacle::Still, why));
+        }
+        let judge = Judge::drift(system, mu, measure == Measure::Casimirs);
+        let floor = judge.floor(system, 0.0);
+        return Ok((judge, floor));
+    }
+    session.stage(0, 1, "the reference solution")?;
+    let (exact, reliable) = confirmed(system, mu, until, session)?;
+    let rate = rate(system, mu);
+    let judge = match measure {
+        Measure::Phase => Judge::Phase { exact, rate },
+        Measure::Section(plane) => {
+            let section = measure::Section::new(system, mu, until, plane, rate);
+            let section = section.map_err(|why| no_section(system, until, &why))?;
+            tell(
+                session,
+                Found::Section {
+                    plane: section.plane(),
+                    passages: section.passages() as u64,
+                },
+            );
+            Judge::Section(section)
+        }
+        _ => Judge::State(exact),
+    };
+    let floor = judge.floor(system, reliable.error.max(reliable.difference));
+    Ok((judge, floor))
+}
+
+fn no_section<P: Poisson<f64>>(system: &P, until: f64, why: &NoSection) -> End {
+    let why = match why {
+        NoSection::NotPassed(place, value, (low, high)) => {
+            let name = system.coordinate(*place);
+            format!(
+                "{name} does not pass {value:?} upward until t = {until:?}: it goes from {low:.3e} to {high:.3e}"
+            )
+        }
+        NoSection::Unreachable => {
+            format!("its passages until t = {until:?} cannot be computed")
+        }
+    };
+    End::refused(Obstacle::Section, why)
 }
 
 /// The reference solution, which is told of.

@@ -362,6 +362,8 @@ pub enum Obstacle {
     Reference,
     /// Nothing moves.
     Still,
+    /// The surface on which solutions are compared.
+    Section,
 }
 
 /// Why an integration stopped early.

@@ -3,13 +3,13 @@
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::Purpose;
-use lie_measure::bench::{ClockKind, Found, Options, Point, Reference};
+use lie_measure::bench::{ClockKind, Found, Measure, Options, Plane, Point, Reference};
 use lie_poisson::plot::frontier::{Curve, Frontier};
 use lie_program::protocol::Obstacle;
 
 use super::quiet::{Quiet, percent, spread};
 use super::table::{self, short};
-use super::{Bed, Ended, bed, files, interrupted, list};
+use super::{Bed, Ended, bed, files, interrupted, list, sense};
 use crate::command::run::values::Given;
 use crate::command::{args, print};
 use crate::interrupt::Interrupt;
@@ -27,6 +27,8 @@ struct Results {
     /// Runs that did not come to their end, in words.
     stopped: Vec<String>,
     reference: Option<Reference>,
+    /// The surface of section, and how often it is passed.
+    section: Option<(Plane, u64)>,
     clock: ClockKind,
 }
 
@@ -34,6 +36,7 @@ impl Results {
     fn take(&mut self, found: Found) {
         match found {
             Found::Reference(reference) => self.reference = Some(reference),
+            Found::Section { plane, passages } => self.section = Some((plane, passages)),
             Found::Clock(clock) => self.clock = clock,
             Found::Point(point) => self.points.push(point),
             Found::Stopped {
@@ -59,13 +62,18 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     let budget = positive("--budget", arguments.budget.as_ref())?.unwrap_or(0.2);
     let bed = bed(flags, |spec| list::fewer(&spec.model))?;
     let until = until(arguments, &bed)?;
+    let measure = sense::measure(arguments, &bed)?;
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Bench, &interrupt)?;
     let mut results = Results::default();
-    let options = Options { until, budget };
-    let ended = bed.measure(flags, program, options, &interrupt, &mut |found| {
+    let options = Options {
+        until,
+        budget,
+        measure,
+    };
+    let ended = bed.measure(flags, program, &options, &interrupt, &mut |found| {
         results.take(found);
     })?;
     if let Ended::Refused(what, why) = &ended {
@@ -74,12 +82,16 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
         return Err(refused(&bed.spec.model.name, *what, why));
     }
     let points = &results.points;
-    let picture = || picture(&bed, until, points, results.reference);
+    let picture = || picture(&bed, &options, points, results.reference);
     let wanted = !points.is_empty();
-    files::write(out, arguments.out.as_deref(), wanted.then(|| csv(points)))?;
+    files::write(
+        out,
+        arguments.out.as_deref(),
+        wanted.then(|| csv(points, measure)),
+    )?;
     files::write(plot, arguments.plot.as_deref(), wanted.then(picture))?;
     let quiet = Quiet::of(points, results.clock);
-    print(&report(&bed, until, &results, &quiet))?;
+    print(&report(&bed, &options, &results, &quiet))?;
     if let (Some(warning), false) = (quiet.warning(), flags.quiet) {
         eprintln!("warning: {warning}");
     }
@@ -95,6 +107,11 @@ fn refused(system: &str, what: Obstacle, why: &str) -> Failure {
         let text = format!("nothing can be compared on {system}: {why}");
         let message = Message::new(Kind::Domain, text).at_option("--initial");
         let help = "give an initial state with `--initial` that is not an equilibrium";
+        return message.help(help).into();
+    }
+    if what == Obstacle::Section {
+        let message = Message::new(Kind::Option, why).at_option("--section");
+        let help = "give a coordinate and a value that it passes, such as the middle of its range, or a longer span with `--until`";
         return message.help(help).into();
     }
     let text = format!("the reference solution is not confirmed: {why}");
@@ -135,13 +152,17 @@ fn until(arguments: &args::Bench, bed: &Bed) -> Result<f64, Failure> {
     Ok(of_spec.map_or(10.0, |until: f64| until.clamp(-SPAN, SPAN)))
 }
 
-fn csv(points: &[Point]) -> String {
+fn csv(points: &[Point], measure: Measure) -> String {
     let mut text =
-        "method,control,value,error,seconds_per_unit_time,median_seconds_per_unit_time,wall_seconds_per_unit_time,steps,evaluations,newton\n"
+        "method,control,value,error,seconds_per_unit_time,median_seconds_per_unit_time,wall_seconds_per_unit_time,steps,evaluations,newton"
             .to_owned();
+    text.push_str(match measure {
+        Measure::Phase => ",across\n",
+        _ => "\n",
+    });
     for point in points {
         text.push_str(&format!(
-            "{},{},{:?},{:?},{:?},{:?},{:?},{},{},{}\n",
+            "{},{},{:?},{:?},{:?},{:?},{:?},{},{},{}",
             point.method,
             point.control.word(),
             point.value,
@@ -153,6 +174,10 @@ fn csv(points: &[Point]) -> String {
             point.evaluations,
             point.newton
         ));
+        if let Some(across) = point.across {
+            text.push_str(&format!(",{across:?}"));
+        }
+        text.push('\n');
     }
     text
 }
@@ -188,6 +213,8 @@ fn time_to(points: &[&Point], target: f64) -> Option<f64> {
 struct Line<'a> {
     times: Vec<Option<f64>>,
     least: f64,
+    /// The least error across the orbit, beside that of the phase.
+    across: Option<f64>,
     method: &'a str,
     order: String,
     spread: f64,
@@ -201,6 +228,7 @@ fn lines<'a>(bed: &Bed, points: &'a [Point]) -> Vec<Line<'a>> {
         Line {
             times: times.collect(),
             least: points.iter().map(|p| p.error).fold(f64::INFINITY, f64::min),
+            across: points.iter().filter_map(|p| p.across).reduce(f64::min),
             method,
             order,
             spread: spread(&points),
@@ -216,7 +244,7 @@ fn lines<'a>(bed: &Bed, points: &'a [Point]) -> Vec<Line<'a>> {
 }
 
 /// The table of these.
-fn cells(lines: &[Line<'_>]) -> Vec<Vec<String>> {
+fn cells(lines: &[Line<'_>], measure: Measure) -> Vec<Vec<String>> {
     let fastest: Vec<f64> = (0..TARGETS.len())
         .map(|k| {
             let times = lines.iter().filter_map(|line| line.times[k]);
@@ -225,7 +253,11 @@ fn cells(lines: &[Line<'_>]) -> Vec<Vec<String>> {
         .collect();
     let mut cells = vec![vec!["method".to_owned(), "order".to_owned()]];
     cells[0].extend(TARGETS.iter().map(|target| format!("to {target:.0e}")));
-    cells[0].extend(["least error", "spread"].map(str::to_owned));
+    cells[0].push(sense::least(measure).to_owned());
+    if measure == Measure::Phase {
+        cells[0].push("least across".to_owned());
+    }
+    cells[0].push("spread".to_owned());
     for line in lines {
         let mut row = vec![line.method.to_owned(), line.order.clone()];
         for (time, fastest) in line.times.iter().zip(&fastest) {
@@ -235,21 +267,50 @@ fn cells(lines: &[Line<'_>]) -> Vec<Vec<String>> {
                 None => "–".to_owned(),
             });
         }
-        row.extend([short(line.least), percent(line.spread)]);
+        row.push(short(line.least));
+        row.extend(line.across.map(short));
+        row.push(percent(line.spread));
         cells.push(row);
     }
     cells
 }
 
-fn report(bed: &Bed, until: f64, results: &Results, quiet: &Quiet) -> String {
-    let reference = results.reference;
+/// What errors are taken against, in a line or two.
+fn basis(bed: &Bed, results: &Results) -> String {
+    let mut text = match results.reference {
+        Some(Reference { error, difference }) => format!(
+            "reference: extrapolation, error about {}; differs from gauss6 by {}\n",
+            short(error),
+            short(difference)
+        ),
+        None => "largest over every step; of methods that show no steps over 32 times or more\n"
+            .to_owned(),
+    };
+    if let Some((Plane { coordinate, value }, passages)) = results.section {
+        let name = &bed.spec.model.coordinates[coordinate].text;
+        let times = match passages {
+            1 => "once".to_owned(),
+            _ => format!("{passages} times"),
+        };
+        let compared = match passages {
+            0..=32 => "",
+            _ => ", of which the last 32 count",
+        };
+        text.push_str(&format!(
+            "section: {name} rises through {value:.6}, {times}{compared}\n"
+        ));
+    }
+    text
+}
+
+fn report(bed: &Bed, options: &Options, results: &Results, quiet: &Quiet) -> String {
+    let Options { until, measure, .. } = *options;
     let mut text = format!(
-        "{}, to t = {until}: microseconds per unit of time to a relative error at the end\n\
-         reference: extrapolation, error about {}; differs from gauss6 by {}\n\n{}",
+        "{}, to t = {until}: microseconds per unit of time to {}\n{}\n{}",
         bed.spec.model.name,
-        short(reference.map_or(f64::NAN, |reference| reference.error)),
-        short(reference.map_or(f64::NAN, |reference| reference.difference)),
-        table::text(&cells(&lines(bed, &results.points))),
+        sense::head(measure),
+        basis(bed, results),
+        table::text(&cells(&lines(bed, &results.points), measure)),
     );
     text.push_str(&format!("\n* the fastest\n{}\n", quiet.text()));
     if !results.stopped.is_empty() {
@@ -298,7 +359,8 @@ fn class(choice: Option<&Choice>) -> String {
     words.to_owned()
 }
 
-fn picture(bed: &Bed, until: f64, points: &[Point], reference: Option<Reference>) -> String {
+fn picture(bed: &Bed, options: &Options, points: &[Point], reference: Option<Reference>) -> String {
+    let errors = sense::axis(options.measure, options.until);
     let curves = by_method(points).into_iter().map(|(method, points)| {
         let choice = bed.choices.iter().find(|choice| choice.label() == method);
         let control = class(choice) == "controls";
@@ -316,7 +378,7 @@ fn picture(bed: &Bed, until: f64, points: &[Point], reference: Option<Reference>
     Frontier {
         title: format!("{}: error against run time", bed.spec.model.name),
         subtitle: format!(
-            "relative error at t = {until} against run time per unit of time; bold: fastest in the panel at some error; band: \
+            "{errors} against run time per unit of time; bold: fastest in the panel at some error; band: \
              fastest of the catalogue"
         ),
         floor: reference.map_or(f64::NAN, |reference| reference.error.max(reference.difference)),

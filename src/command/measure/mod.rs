@@ -6,6 +6,7 @@ mod files;
 mod growth;
 mod list;
 mod quiet;
+mod sense;
 pub mod stress;
 mod table;
 pub mod verify;

@@ -102,6 +102,7 @@ mod tests {
             control: Accuracy::Step,
             value: 1.0,
             error: 1.0,
+            across: None,
             seconds,
             median,
             wall,

@@ -23,13 +23,17 @@ pub fn all<P: Poisson<f64>, const N: usize>() -> Vec<Control<P>> {
         ($label:literal, $method:ident) => {
             Control {
                 label: $label,
-                run: Box::new(|system: &P, start: &[f64], until, tolerance| {
+                run: Box::new(|system: &P, start: &[f64], until, tolerance, watch| {
                     let start = SVector::<f64, N>::from_column_slice(start);
                     let field = Field(system);
                     let mut solver =
                         $method::new(field, 0.0, until, until, start, tolerance, tolerance);
                     solver.set_output(OutputType::Sparse);
                     let stats = solver.integrate().ok()?;
+                    if let Some(watch) = watch {
+                        let seen = solver.x_out().iter().zip(solver.y_out());
+                        seen.for_each(|(&time, mu)| watch(time, mu.as_slice()));
+                    }
                     Some(ControlRun {
                         end: solver.y_out().last()?.as_slice().to_vec(),
                         evaluations: u64::from(stats.num_eval),

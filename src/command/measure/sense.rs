@@ -1,0 +1,107 @@
+//! The sense in which `lie bench` measures errors: from the flags, and in words.
+
+use lie_codegen::front::names::normalised;
+use lie_codegen::suggest::did_you_mean;
+use lie_measure::bench::{Measure, Plane};
+
+use super::Bed;
+use crate::command::args::{self, Sense};
+use crate::command::run::values::Given;
+use crate::message::{Failure, Message};
+
+/// What the flags ask for.
+///
+/// # Errors
+/// A surface without its measure, or that is none; Casimirs of a system that has none.
+pub fn measure(arguments: &args::Bench, bed: &Bed) -> Result<Measure, Failure> {
+    let plane = arguments.section.as_deref();
+    let plane = plane.map(|text| surface(text, bed)).transpose()?;
+    if plane.is_some() && arguments.measure != Sense::Section {
+        let text = "a surface says something with `--measure section` alone";
+        let message = Message::option("--section", text);
+        return Err(message
+            .help("add `--measure section`, or leave the surface out")
+            .into());
+    }
+    Ok(match arguments.measure {
+        Sense::State => Measure::State,
+        Sense::Energy => Measure::Energy,
+        Sense::Phase => Measure::Phase,
+        Sense::Section => Measure::Section(plane),
+        Sense::Casimirs => {
+            let model = &bed.spec.model;
+            if model.casimirs.iter().all(|casimir| casimir.multivalued) {
+                let text = format!("{} declares no Casimir with one branch", model.name);
+                let message = Message::option("--measure", text);
+                let help = "declare one in the spec, or measure `energy`";
+                return Err(message.help(help).into());
+            }
+            Measure::Casimirs
+        }
+    })
+}
+
+/// `NAME=VALUE`.
+fn surface(text: &str, bed: &Bed) -> Result<Plane, Message> {
+    let model = &bed.spec.model;
+    let shown = model.shown_coordinates();
+    let names = || shown.iter().map(|&i| model.coordinates[i].text.as_str());
+    let given = Given::flag("--section", text);
+    let Some(equals) = text.find('=') else {
+        let example = names().next().unwrap_or("x").to_owned();
+        let message = given.wrong(format!("`{text}` is not NAME=VALUE"));
+        return Err(message.help(format!("write it like `--section {example}=0`")));
+    };
+    let name = normalised(text[..equals].trim());
+    let place = names().position(|known| known == name.as_str());
+    let Some(place) = place else {
+        let message = given
+            .part(0..equals)
+            .wrong(format!("unknown coordinate `{name}`"));
+        return Err(message.help(match did_you_mean(name.as_str(), names()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!(
+                "the coordinates are {}",
+                names().collect::<Vec<_>>().join(", ")
+            ),
+        }));
+    };
+    Ok(Plane {
+        coordinate: shown[place],
+        value: given.part(equals + 1..text.len()).number()?,
+    })
+}
+
+/// What times are given to, in the head of the table.
+pub fn head(measure: Measure) -> &'static str {
+    match measure {
+        Measure::State => "a relative error at the end",
+        Measure::Energy => "a largest relative drift of the energy",
+        Measure::Casimirs => "a largest relative drift of a Casimir",
+        Measure::Phase => "a difference in time at the end",
+        Measure::Section(_) => "a relative distance on the surface of section",
+    }
+}
+
+/// The errors of the picture, in words.
+pub fn axis(measure: Measure, until: f64) -> String {
+    match measure {
+        Measure::State => format!("relative error at t = {until}"),
+        Measure::Energy => format!("largest relative drift of the energy to t = {until}"),
+        Measure::Casimirs => format!("largest relative drift of a Casimir to t = {until}"),
+        Measure::Phase => format!("difference in time at t = {until}"),
+        Measure::Section(_) => {
+            format!("relative distance on the surface of section to t = {until}")
+        }
+    }
+}
+
+/// The name of a method's least error.
+pub fn least(measure: Measure) -> &'static str {
+    match measure {
+        Measure::State => "least error",
+        Measure::Energy | Measure::Casimirs => "least drift",
+        Measure::Phase => "least",
+        Measure::Section(_) => "least distance",
+    }
+}

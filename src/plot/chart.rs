@@ -1,0 +1,288 @@
+//! Lines and dots in panels side by side, each axis linear or logarithmic.
+//!
+//! ```
+//! use lie_poisson::plot::chart::{Axis, Chart, Panel, Series};
+//! let panel = Panel {
+//!     title: "Energy".into(),
+//!     x: Axis::logarithmic("time"),
+//!     y: Axis::logarithmic("drift"),
+//!     series: vec![Series::line("rk4", 0, vec![(1e3, 1e-6), (1e4, 1e-5)])],
+//! };
+//! let picture = Chart { title: "Top".into(), subtitle: String::new(), panels: vec![panel], across: 3 };
+//! assert!(picture.to_svg().contains("rk4"));
+//! ```
+
+use super::svg::{FAINT, INK, Place, Svg};
+use super::ticks::Axis as Ticks;
+
+const PANEL: Place = (300.0, 260.0);
+const LEFT: f64 = 84.0;
+const STRIDE: Place = (396.0, 344.0);
+const HEAD: f64 = 102.0;
+const LINE: f64 = 17.0;
+
+/// Colours of series; the last ones of long lists repeat the first.
+const COLOURS: [&str; 14] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#332288", "#882255", "#44aa99",
+    "#999933", "#56b4e9", "#aa4466", "#117733", "#b8860b", "#7f3fbf",
+];
+
+/// How values are laid out along an axis.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// What it shows.
+    pub label: String,
+    /// Whether by logarithms.
+    pub logarithmic: bool,
+}
+
+impl Axis {
+    /// By values.
+    pub fn linear(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            logarithmic: false,
+        }
+    }
+
+    /// By logarithms; what is not positive is left out.
+    pub fn logarithmic(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            logarithmic: true,
+        }
+    }
+
+    fn value(&self, value: f64) -> Option<f64> {
+        let value = if self.logarithmic {
+            value.log10()
+        } else {
+            value
+        };
+        value.is_finite().then_some(value)
+    }
+}
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stroke {
+    /// A line with a mark at every point.
+    Line,
+    /// The same, dashed.
+    Dashed,
+    /// Dots alone.
+    Dots,
+    /// Pale dots behind the others.
+    Behind,
+}
+
+/// Points of one kind.
+#[derive(Clone, Debug)]
+pub struct Series {
+    /// Its name; series of one name and colour appear once in the legend.
+    pub name: String,
+    /// The number of its colour.
+    pub colour: usize,
+    /// How it is drawn.
+    pub stroke: Stroke,
+    /// The points.
+    pub points: Vec<(f64, f64)>,
+}
+
+impl Series {
+    /// A line.
+    pub fn line(name: impl Into<String>, colour: usize, points: Vec<(f64, f64)>) -> Self {
+        Self {
+            name: name.into(),
+            colour,
+            stroke: Stroke::Line,
+            points,
+        }
+    }
+
+    fn paint(&self) -> &'static str {
+        match self.stroke {
+            Stroke::Behind => "#c4c4c4",
+            _ => COLOURS[self.colour % COLOURS.len()],
+        }
+    }
+}
+
+/// A frame with series.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// Its title.
+    pub title: String,
+    /// The axis below.
+    pub x: Axis,
+    /// The axis at the left.
+    pub y: Axis,
+    /// What it shows.
+    pub series: Vec<Series>,
+}
+
+/// The picture.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// Its title.
+    pub title: String,
+    /// A second line.
+    pub subtitle: String,
+    /// The panels, row by row.
+    pub panels: Vec<Panel>,
+    /// Panels in a row.
+    pub across: usize,
+}
+
+/// Where a panel lies and what it goes through.
+struct Frame<'a> {
+    panel: &'a Panel,
+    corner: Place,
+    x: Ticks,
+    y: Ticks,
+}
+
+impl Chart {
+    /// The picture as SVG; names are explained below all panels.
+    pub fn to_svg(&self) -> String {
+        let across = self.across.max(1);
+        let mut svg = Svg::default();
+        for (place, panel) in self.panels.iter().enumerate() {
+            let (row, column) = (place / across, place % across);
+            let corner = (
+                LEFT + STRIDE.0 * column as f64,
+                HEAD + STRIDE.1 * row as f64,
+            );
+            Frame::new(panel, corner).draw(&mut svg);
+        }
+        let columns = self.panels.len().min(across);
+        let width = (STRIDE.0 * columns as f64).max(780.0);
+        let top = HEAD + STRIDE.1 * self.panels.len().div_ceil(across) as f64 - 18.0;
+        let rows = self.legend(&mut svg, top, width);
+        let height = top + LINE * rows as f64 + 10.0;
+        svg.page((width, height), &self.title, &self.subtitle)
+    }
+
+    fn legend(&self, svg: &mut Svg, top: f64, width: f64) -> usize {
+        let mut names: Vec<&Series> = Vec::new();
+        for series in self.panels.iter().flat_map(|panel| &panel.series) {
+            let known =
+                |other: &&Series| other.name == series.name && other.paint() == series.paint();
+            if !series.name.is_empty() && !names.iter().any(known) {
+                names.push(series);
+            }
+        }
+        let columns = ((width - 40.0) / 190.0).floor().max(1.0) as usize;
+        for (place, series) in names.iter().enumerate() {
+            let x = 24.0 + 190.0 * (place % columns) as f64;
+            let y = top + LINE * (place / columns) as f64;
+            mark(svg, series, &[(x, y - 4.0), (x + 22.0, y - 4.0)]);
+            svg.text(
+                (x + 29.0, y),
+                12.0,
+                &format!("fill=\"{INK}\""),
+                &series.name,
+            );
+        }
+        names.len().div_ceil(columns)
+    }
+}
+
+/// A line or dots at places.
+fn mark(svg: &mut Svg, series: &Series, places: &[Place]) {
+    let paint = series.paint();
+    let (radius, line) = match series.stroke {
+        Stroke::Line => (2.2, Some("")),
+        Stroke::Dashed => (2.2, Some("stroke-dasharray=\"5 3\"")),
+        Stroke::Dots | Stroke::Behind => (0.9, None),
+    };
+    if let Some(dashes) = line {
+        let stroke = format!("stroke=\"{paint}\" stroke-width=\"1.5\" {dashes}");
+        svg.polyline(places.iter().copied(), &stroke);
+    }
+    for &place in places {
+        svg.disc(place, radius, &format!("fill=\"{paint}\""));
+    }
+}
+
+impl<'a> Frame<'a> {
+    fn new(panel: &'a Panel, corner: Place) -> Self {
+        let axis = |axis: &Axis, of: fn(&(f64, f64)) -> f64| {
+            let points = panel.series.iter().flat_map(|series| &series.points);
+            let values = points.filter_map(|point| axis.value(of(point)));
+            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
+                (a.min(x), b.max(x))
+            });
+            let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
+            if axis.logarithmic {
+                Ticks::decades(low.floor(), high.ceil().max(low.floor() + 1.0), 8)
+            } else {
+                Ticks::linear(low, high, 5.0, 0.05)
+            }
+        };
+        Self {
+            panel,
+            corner,
+            x: axis(&panel.x, |p| p.0),
+            y: axis(&panel.y, |p| p.1),
+        }
+    }
+
+    fn place(&self, (x, y): (f64, f64)) -> Option<Place> {
+        let (x, y) = (self.panel.x.value(x)?, self.panel.y.value(y)?);
+        Some((
+            self.corner.0 + PANEL.0 * self.x.part(x),
+            self.corner.1 + PANEL.1 * (1.0 - self.y.part(y)),
+        ))
+    }
+
+    fn draw(&self, svg: &mut Svg) {
+        let (left, top) = self.corner;
+        let title = format!("font-weight=\"bold\" fill=\"{INK}\"");
+        svg.text((left, top - 9.0), 13.0, &title, &self.panel.title);
+        self.axes(svg);
+        let behind = |series: &&Series| series.stroke == Stroke::Behind;
+        let (back, front): (Vec<&Series>, Vec<&Series>) =
+            self.panel.series.iter().partition(behind);
+        for series in back.into_iter().chain(front) {
+            let places: Vec<Place> = series
+                .points
+                .iter()
+                .filter_map(|point| self.place(*point))
+                .collect();
+            mark(svg, series, &places);
+        }
+    }
+
+    fn axes(&self, svg: &mut Svg) {
+        let (left, top) = self.corner;
+        let (right, bottom) = (left + PANEL.0, top + PANEL.1);
+        let (grid, axis) = ("stroke=\"#eeeeee\"", "stroke=\"#777\"");
+        let anchored = |anchor: &str| format!("text-anchor=\"{anchor}\" fill=\"{INK}\"");
+        for &tick in &self.x.ticks {
+            let x = left + PANEL.0 * self.x.part(tick);
+            svg.line((x, top), (x, bottom), grid);
+            let at = (x, bottom + 16.0);
+            match self.panel.x.logarithmic {
+                true => svg.power_of_ten(at, 11.0, &anchored("middle"), tick.round() as i32),
+                false => svg.text(at, 11.0, &anchored("middle"), &self.x.label(tick)),
+            }
+        }
+        for &tick in &self.y.ticks {
+            let y = bottom - PANEL.1 * self.y.part(tick);
+            svg.line((left, y), (right, y), grid);
+            let at = (left - 6.0, y + 4.0);
+            match self.panel.y.logarithmic {
+                true => svg.power_of_ten(at, 11.0, &anchored("end"), tick.round() as i32),
+                false => svg.text(at, 11.0, &anchored("end"), &self.y.label(tick)),
+            }
+        }
+        svg.line((left, bottom), (right, bottom), axis);
+        svg.line((left, top), (left, bottom), axis);
+        let faint = format!("text-anchor=\"middle\" fill=\"{FAINT}\"");
+        let middle = (left + 0.5 * PANEL.0, bottom + 34.0);
+        svg.text(middle, 12.0, &faint, &self.panel.x.label);
+        let side = (left - 62.0, top + 0.5 * PANEL.1);
+        svg.turned_text(side, -90.0, 12.0, &faint, &self.panel.y.label);
+    }
+}
