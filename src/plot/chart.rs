@@ -156,7 +156,7 @@ impl Chart {
             Frame::new(panel, corner).draw(&mut svg);
         }
         let columns = self.panels.len().min(across);
-        let width = (STRIDE.0 * columns as f64).max(780.0);
+        let width = (STRIDE.0 * columns as f64).max(780.0) + 24.0;
         let top = HEAD + STRIDE.1 * self.panels.len().div_ceil(across) as f64 - 18.0;
         let rows = self.legend(&mut svg, top, width);
         let height = top + LINE * rows as f64 + 10.0;
@@ -191,17 +191,15 @@ impl Chart {
 /// A line or dots at places.
 fn mark(svg: &mut Svg, series: &Series, places: &[Place]) {
     let paint = series.paint();
-    let (radius, line) = match series.stroke {
-        Stroke::Line => (2.2, Some("")),
-        Stroke::Dashed => (2.2, Some("stroke-dasharray=\"5 3\"")),
-        Stroke::Dots | Stroke::Behind => (0.9, None),
+    let dashes = match series.stroke {
+        Stroke::Line => "",
+        Stroke::Dashed => "stroke-dasharray=\"5 3\"",
+        Stroke::Dots | Stroke::Behind => return svg.discs(places, 0.9, paint),
     };
-    if let Some(dashes) = line {
-        let stroke = format!("stroke=\"{paint}\" stroke-width=\"1.5\" {dashes}");
-        svg.polyline(places.iter().copied(), &stroke);
-    }
+    let stroke = format!("stroke=\"{paint}\" stroke-width=\"1.5\" {dashes}");
+    svg.polyline(places.iter().copied(), &stroke);
     for &place in places {
-        svg.disc(place, radius, &format!("fill=\"{paint}\""));
+        svg.disc(place, 2.2, &format!("fill=\"{paint}\""));
     }
 }
 

@@ -103,6 +103,19 @@ impl Svg {
         );
     }
 
+    /// Many discs of one colour.
+    pub fn discs(&mut self, places: &[Place], radius: f64, paint: &str) {
+        let dots: String = places
+            .iter()
+            .map(|(x, y)| format!("M{x:.1} {y:.1}h0"))
+            .collect();
+        let width = 2.0 * radius;
+        let _ = writeln!(
+            self.0,
+            "<path d=\"{dots}\" fill=\"none\" stroke=\"{paint}\" stroke-width=\"{width}\" stroke-linecap=\"round\"/>"
+        );
+    }
+
     /// A rectangle, with words for readers that point at it.
     pub fn rectangle(
         &mut self,

@@ -1,8 +1,10 @@
 //! The measurements of `docs/when_structure_pays.md`: one table on standard output, one picture to the file that is named.
 //!
 //! ```text
-//! cargo run --release -- drift-body|drift-top|section|chain FILE.svg
+//! cargo run --release -- drift-body|drift-top|section|chain FILE.svg [NAME]
 //! ```
+//!
+//! With a name only methods whose names contain it.
 
 mod chain;
 mod contest;
@@ -22,7 +24,7 @@ use systems::{Body, BodySystem, SpinChain, SpinChainSystem, Top, TopSystem};
 
 type Outcome = Result<(), Box<dyn Error>>;
 
-fn drift_body(file: &str) -> Outcome {
+fn drift_body(file: &str, name: &str) -> Outcome {
     let system = Body::new().system()?;
     let problem = Problem {
         system,
@@ -57,6 +59,7 @@ fn drift_body(file: &str) -> Outcome {
     ];
     entrants.extend(peers::solvers::<P, 3>());
     entrants.extend(peers::heyoka());
+    entrants.retain(|entrant| entrant.name.contains(name));
     drifts(
         "Free rigid body",
         &problem,
@@ -140,7 +143,7 @@ fn a_top(parameters: [f64; 7]) -> Result<TopSystem<f64>, Box<dyn Error>> {
     .system()?)
 }
 
-fn drift_top(file: &str) -> Outcome {
+fn drift_top(file: &str, name: &str) -> Outcome {
     let parameters = [2.0, 1.5, 1.0, 1.0, 1.0 / 3.0, 1.0 / 7.0, 1.0];
     let problem = Problem {
         system: a_top(parameters)?,
@@ -148,10 +151,12 @@ fn drift_top(file: &str) -> Outcome {
         delta: 10.0,
         outside: top_outside(parameters),
     };
+    let mut entrants = top_entrants();
+    entrants.retain(|entrant| entrant.name.contains(name));
     drifts(
         "Heavy top",
         &problem,
-        &top_entrants(),
+        &entrants,
         &Span {
             first: 3,
             last: 6,
@@ -163,7 +168,7 @@ fn drift_top(file: &str) -> Outcome {
     )
 }
 
-fn section(file: &str) -> Outcome {
+fn section(file: &str, name: &str) -> Outcome {
     let parameters = [1.0, 1.05, 1.5, 1.0, 0.05, 0.0, 1.0];
     let problem = Problem {
         system: a_top(parameters)?,
@@ -172,19 +177,20 @@ fn section(file: &str) -> Outcome {
         outside: top_outside(parameters),
     };
     let until = 3e5;
-    let entrants = top_entrants();
+    let mut entrants = top_entrants();
     let taylor = entrants
         .iter()
         .find(|entrant| entrant.name == "taylor")
         .ok_or("no reference")?;
     let exact = top::look(&problem, taylor, Setting::Tolerance(1e-16), until)?;
+    entrants.retain(|entrant| entrant.name.contains(name));
     let (text, picture) = top::report(&problem, &entrants, &exact, until, &[0.5e-6, 2e-6]);
     print!("{text}");
     std::fs::write(file, picture)?;
     Ok(())
 }
 
-fn spins(file: &str) -> Outcome {
+fn spins(file: &str, name: &str) -> Outcome {
     type P = SpinChainSystem<f64>;
     let start = chain::sample(0.6, 8, 2018);
     let mut state = SpinChain::new().system()?.zero_state();
@@ -214,6 +220,7 @@ fn spins(file: &str) -> Outcome {
     ];
     entrants.extend(peers::solvers::<P, 24>());
     entrants.extend(peers::heyoka());
+    entrants.retain(|entrant| entrant.name.contains(name));
     let (text, picture) = chain::report(&problem, &entrants, 2e5, &[3e-6, 10e-6]);
     print!("{text}");
     std::fs::write(file, picture)?;
@@ -222,12 +229,16 @@ fn spins(file: &str) -> Outcome {
 
 fn main() -> Outcome {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let mut words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let name = words.get(2).copied().unwrap_or_default().to_owned();
+    words.truncate(2);
     match words[..] {
-        ["drift-body", file] => drift_body(file),
-        ["drift-top", file] => drift_top(file),
-        ["section", file] => section(file),
-        ["chain", file] => spins(file),
-        _ => Err("usage: when-structure-pays drift-body|drift-top|section|chain FILE.svg".into()),
+        ["drift-body", file] => drift_body(file, &name),
+        ["drift-top", file] => drift_top(file, &name),
+        ["section", file] => section(file, &name),
+        ["chain", file] => spins(file, &name),
+        _ => Err(
+            "usage: when-structure-pays drift-body|drift-top|section|chain FILE.svg [NAME]".into(),
+        ),
     }
 }

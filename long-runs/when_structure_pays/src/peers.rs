@@ -6,8 +6,8 @@ use ode_solvers::{Dop853, Dopri5, OutputType, SVector, System};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Command, Stdio};
 
-/// Looks in one call of a solver.
-const LOOKS: f64 = 1000.0;
+/// The time of one call of a solver, which makes 100,000 steps at most.
+const TIME: f64 = 500.0;
 
 struct Field<'a, P>(&'a P);
 
@@ -34,7 +34,7 @@ macro_rules! solver {
                 let all = (until / delta).round();
                 let mut done = 0.0;
                 while done < all {
-                    let looks = f64::min(LOOKS, all - done);
+                    let looks = f64::min((TIME / delta).ceil(), all - done);
                     // the last point of its dense output is extrapolated if it is the end
                     let end = (looks + 0.25) * delta;
                     let field = Field(&problem.system);
