@@ -233,7 +233,7 @@ pub fn report<P: Poisson<f64>>(
             }
             rows.push(row);
         }
-        let cost = format!("at most {} µs", most * 1e6);
+        let cost = format!("at most {} µs", table::rounded(most * 1e6));
         text.push_str(&format!("{cost} of the processor for a unit of time:\n\n"));
         text.push_str(&table::text(&rows));
         text.push('\n');

@@ -86,7 +86,7 @@ pub fn measure<P: Poisson<f64>>(
                 continue;
             };
             // implicit steps that are too long are dear too
-            if cost > span.wide && (!all.is_empty() || cost > 8.0 * span.wide) {
+            if cost > span.wide && (!all.is_empty() || matches!(setting, Setting::Tolerance(_))) {
                 break;
             }
             if cost > span.wide {
@@ -161,7 +161,7 @@ pub fn table<P: Poisson<f64>>(
         }
         text.push_str(&format!(
             "at most {} µs of the processor for a unit of time:\n\n",
-            cost * 1e6
+            table::rounded(cost * 1e6)
         ));
         text.push_str(&table::text(&rows));
         text.push('\n');

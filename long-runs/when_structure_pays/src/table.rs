@@ -20,3 +20,8 @@ pub fn text(rows: &[Vec<String>]) -> String {
     }
     text
 }
+
+/// To three decimals, without what rounding adds.
+pub fn rounded(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3
+}

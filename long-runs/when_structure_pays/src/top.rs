@@ -187,7 +187,7 @@ pub fn dearest<P: Poisson<f64>>(
             continue;
         };
         // implicit steps that are too long are dear too
-        if cost > most && (best.is_some() || cost > 8.0 * most) {
+        if cost > most && (best.is_some() || matches!(setting, Setting::Tolerance(_))) {
             break;
         }
         if cost <= most {
@@ -234,7 +234,7 @@ pub fn report<P: Poisson<f64>>(
         }
         text.push_str(&format!(
             "at most {} µs of the processor for a unit of time:\n\n",
-            most * 1e6
+            table::rounded(most * 1e6)
         ));
         text.push_str(&table::text(&cells(&rows, exact, &curve)));
         text.push('\n');
