@@ -53,7 +53,7 @@ impl Assessed {
     /// Whether the error is more than 30 times the tolerance, or cannot be told.
     pub fn missed(&self) -> bool {
         self.error
-            .is_none_or(|error| !(error <= MISSED * self.tolerance))
+            .is_none_or(|error| error.is_nan() || error > MISSED * self.tolerance)
     }
 }
 
@@ -86,12 +86,15 @@ impl<'a, S: Scalar, P: Poisson<S>, M> Settled<'a, S, P, M> {
     }
 }
 
-/// The step of a run, and how it was chosen if it was.
+/// A step, and how it was chosen if it was.
+type Paced<'a, S, P, M> = (f64, Option<Settled<'a, S, P, M>>);
+
+/// The step of a run.
 pub(super) fn settle<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     problem: &'a Problem<S, P>,
     method: &'a M,
     options: &Options,
-) -> Result<(f64, Option<Settled<'a, S, P, M>>), IntegrateError> {
+) -> Result<Paced<'a, S, P, M>, IntegrateError> {
     match options.pace {
         Pace::Step(step) => Ok((step, None)),
         Pace::Tolerance(tolerance) => {
