@@ -228,14 +228,20 @@ fn form(dimension: usize, diagonal: bool, chance: &mut Chance) -> Vec<Vec<f64>> 
         for row in &mut rows {
             (row[i], row[j]) = (cos * row[i] - sin * row[j], sin * row[i] + cos * row[j]);
         }
-        for k in 0..dimension {
-            let (a, b) = (rows[i][k], rows[j][k]);
+        let pairs: Vec<(f64, f64)> = rows[i]
+            .iter()
+            .copied()
+            .zip(rows[j].iter().copied())
+            .collect();
+        for (k, (a, b)) in pairs.into_iter().enumerate() {
             (rows[i][k], rows[j][k]) = (cos * a - sin * b, sin * a + cos * b);
         }
     }
-    for i in 0..dimension {
-        for j in 0..i {
-            rows[i][j] = rows[j][i];
+    // the same digits on both sides
+    let upper = rows.clone();
+    for (i, row) in rows.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate().take(i) {
+            *entry = upper[j][i];
         }
     }
     rows

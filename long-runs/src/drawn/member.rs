@@ -94,10 +94,10 @@ impl Member {
         let by_series = series(&system, &start, span)?;
         // round-off is measured against the largest state on the way
         let largest = by_series.1.max(size(&start));
-        if !(moved > 1e-3)
-            || !(largest < LARGEST * size(&start))
-            || !(size(&end) > largest / LARGEST)
-        {
+        // what is no number is left out too
+        let sound =
+            moved > 1e-3 && largest < LARGEST * size(&start) && size(&end) > largest / LARGEST;
+        if !sound {
             return None;
         }
         let growth = growth(&system, &start, span, &end, chance)?;
@@ -154,7 +154,8 @@ fn series(system: &Drawn, start: &[f64], span: f64) -> Option<(Vec<f64>, f64)> {
     for _ in 0..200 {
         stepper.step(&mut mu, &mut ()).ok()?;
         largest = largest.max(size(&mu));
-        if !(largest < 1e3 * size(start)) {
+        let bounded = largest < 1e3 * size(start);
+        if !bounded {
             return None;
         }
     }
