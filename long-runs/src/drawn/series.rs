@@ -179,7 +179,7 @@ mod tests {
             let (mut rules, mut plain) = (Series::<f64>::series(system), PowerSeries::new(system));
             let mut fields: [Vec<f64>; 2] = [system.zero_state(), system.zero_state()];
             rules.begin(&member.start, &mut fields[0]);
-            let mut carry = plain.begin(&member.start, &mut fields[1]);
+            plain.begin(&member.start, &mut fields[1]);
             for k in 1..12 {
                 let size = fields[1]
                     .iter()
@@ -189,7 +189,7 @@ mod tests {
                 }
                 let next: Vec<f64> = fields[1].iter().map(|x| x / k as f64).collect();
                 rules.advance(k, (), &next, &mut fields[0]);
-                carry = plain.advance(k, carry, &next, &mut fields[1]);
+                plain.advance(k, (), &next, &mut fields[1]);
             }
         }
     }
