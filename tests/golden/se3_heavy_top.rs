@@ -1227,7 +1227,12 @@ impl<S: ::lie_runtime::Scalar> ::lie_runtime::Equation<S> for HeavyTopMidpoint<'
         matrix[(5, 4)] = _a5_4;
         matrix[(5, 5)] = _a5_5;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a1_1.abs() + _a2_2.abs() + _a3_3.abs() + _a4_4.abs() + _a5_5.abs(),
+            _a1_1
+                .abs()
+                .max(_a2_2.abs())
+                .max(_a3_3.abs())
+                .max(_a4_4.abs())
+                .max(_a5_5.abs()),
         )
     }
 
@@ -1838,8 +1843,13 @@ for HeavyTopCayleyMidpoint<'_, S> {
         matrix[(5, 4)] = _a5_4;
         matrix[(5, 5)] = _a5_5;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a1_1.abs() + _a2_2.abs() + _a3_3.abs() + _a4_4.abs()
-                + _a5_5.abs(),
+            _a0_0
+                .abs()
+                .max(_a1_1.abs())
+                .max(_a2_2.abs())
+                .max(_a3_3.abs())
+                .max(_a4_4.abs())
+                .max(_a5_5.abs()),
         )
     }
 
@@ -2349,7 +2359,7 @@ for HeavyTopExpMidpoint<'_, S> {
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
 
@@ -2459,8 +2469,13 @@ impl<
         matrix[(4, 4)] = _a4_4;
         matrix[(5, 5)] = _a5_5;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a3_3.abs() + _a4_4.abs() + _a5_5.abs() + _a0_0.abs() + _a1_1.abs()
-                + _a2_2.abs(),
+            _a3_3
+                .abs()
+                .max(_a4_4.abs())
+                .max(_a5_5.abs())
+                .max(_a0_0.abs())
+                .max(_a1_1.abs())
+                .max(_a2_2.abs()),
         )
     }
 
@@ -2850,9 +2865,19 @@ impl<
         matrix.0[1][1][(4, 4)] = _a10_10;
         matrix.0[1][1][(5, 5)] = _a11_11;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a3_3.abs() + _a4_4.abs() + _a5_5.abs() + _a9_9.abs() + _a10_10.abs()
-                + _a11_11.abs() + _a0_0.abs() + _a1_1.abs() + _a2_2.abs() + _a6_6.abs()
-                + _a7_7.abs() + _a8_8.abs(),
+            _a3_3
+                .abs()
+                .max(_a4_4.abs())
+                .max(_a5_5.abs())
+                .max(_a9_9.abs())
+                .max(_a10_10.abs())
+                .max(_a11_11.abs())
+                .max(_a0_0.abs())
+                .max(_a1_1.abs())
+                .max(_a2_2.abs())
+                .max(_a6_6.abs())
+                .max(_a7_7.abs())
+                .max(_a8_8.abs()),
         )
     }
 

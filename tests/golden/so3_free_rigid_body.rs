@@ -767,7 +767,9 @@ for FreeRigidBodyMidpoint<'_, S> {
         matrix[(1, 2)] = _a1_2;
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(_a1_1.abs() + _a2_2.abs())
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
+            _a1_1.abs().max(_a2_2.abs()),
+        )
     }
 
     #[inline]
@@ -959,8 +961,13 @@ impl<
         matrix.0[1][1][(2, 1)] = _a5_4;
         matrix.0[1][1][(2, 2)] = _a5_5;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a1_1.abs() + _a2_2.abs() + _a3_3.abs() + _a4_4.abs()
-                + _a5_5.abs(),
+            _a0_0
+                .abs()
+                .max(_a1_1.abs())
+                .max(_a2_2.abs())
+                .max(_a3_3.abs())
+                .max(_a4_4.abs())
+                .max(_a5_5.abs()),
         )
     }
 
@@ -1378,8 +1385,16 @@ impl<
         matrix.0[2][2][(2, 1)] = _a8_7;
         matrix.0[2][2][(2, 2)] = _a8_8;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a3_3.abs() + _a1_1.abs() + _a2_2.abs() + _a4_4.abs()
-                + _a5_5.abs() + _a6_6.abs() + _a7_7.abs() + _a8_8.abs(),
+            _a0_0
+                .abs()
+                .max(_a3_3.abs())
+                .max(_a1_1.abs())
+                .max(_a2_2.abs())
+                .max(_a4_4.abs())
+                .max(_a5_5.abs())
+                .max(_a6_6.abs())
+                .max(_a7_7.abs())
+                .max(_a8_8.abs()),
         )
     }
 
@@ -1659,7 +1674,7 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
 
@@ -1901,7 +1916,7 @@ for FreeRigidBodyExpMidpoint<'_, S> {
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
 
@@ -1990,7 +2005,7 @@ impl<
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
 
@@ -2358,8 +2373,13 @@ impl<
         matrix.0[1][1][(2, 1)] = _a5_4;
         matrix.0[1][1][(2, 2)] = _a5_5;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a1_1.abs() + _a2_2.abs() + _a3_3.abs() + _a4_4.abs()
-                + _a5_5.abs(),
+            _a0_0
+                .abs()
+                .max(_a1_1.abs())
+                .max(_a2_2.abs())
+                .max(_a3_3.abs())
+                .max(_a4_4.abs())
+                .max(_a5_5.abs()),
         )
     }
 
@@ -2639,7 +2659,7 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
 
@@ -2848,7 +2868,7 @@ for FreeRigidBodyMoserVeselov<'_, S> {
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
+            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
         )
     }
 

@@ -2,7 +2,7 @@
 
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
-use crate::newton::{Failure, FailureReason, Newton, NewtonOptions, NewtonReport, Predictor};
+use crate::newton::{Failure, FailureReason, Newton, NewtonOptions, NewtonReport};
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
 
@@ -12,9 +12,6 @@ pub struct ImplicitStepper<S: Scalar, E: Equation<S>> {
     newton: Newton<S, E::Unknown, E::Matrix>,
     unknown: E::Unknown,
     next: E::State,
-    predictor: Predictor<S, E::Unknown>,
-    /// The state at the end of the last step.
-    last: E::State,
 }
 
 impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
@@ -24,10 +21,8 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         let unknown = equation.zero_unknown();
         Self {
             equation,
-            predictor: Predictor::new(&unknown),
             newton,
             unknown,
-            last: zero.clone(),
             next: zero,
         }
     }
@@ -49,25 +44,11 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
     #[inline(always)]
     fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
         self.equation.set_base(mu);
-        let attempts = self.newton.attempts();
-        let follows = equal(mu.as_slice(), self.last.as_slice());
-        let predicted = self.predictor.ready(follows) & attempts.any();
-        if predicted.all() {
-            self.unknown.assign_where(predicted, self.predictor.next());
-        } else {
-            self.equation.initial_guess(&mut self.unknown);
-            if predicted.any() {
-                self.unknown.assign_where(predicted, self.predictor.next());
-            }
-        }
+        self.equation.initial_guess(&mut self.unknown);
         let scale = self.equation.scale(mu);
-        let solved = self.newton.solve_trying(
-            &mut self.equation,
-            &mut self.unknown,
-            scale,
-            attempts,
-            predicted,
-        );
+        let solved = self
+            .newton
+            .solve(&mut self.equation, &mut self.unknown, scale);
         self.equation.result(&self.unknown, &mut self.next);
         let finite = self.next.finite();
         let charted = self.equation.within_chart(&self.unknown);
@@ -76,32 +57,9 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
             && (finite & charted & resolved).all()
         {
             mu.copy_from(&self.next);
-            self.remember(scale, predicted);
             return Ok(StepReport::implicit(report));
         }
-        let outcome = self.refuse(mu, solved, [finite, charted, resolved]);
-        self.remember(scale, predicted);
-        if let Err(failure) = &outcome {
-            self.predictor.forget(S::Mask::from_bits(failure.lanes));
-        }
-        outcome
-    }
-
-    /// Takes the solution for the next prediction.
-    #[inline(always)]
-    fn remember(&mut self, scale: S, predicted: S::Mask) {
-        if !self.newton.is_automatic() {
-            return;
-        }
-        self.last.copy_from(&self.next);
-        if !predicted.all() {
-            self.predictor.examine(&self.unknown, scale, predicted);
-        }
-        self.predictor.take(&self.unknown);
-        let far = self.newton.started_far();
-        if far.any() {
-            self.predictor.rest(far);
-        }
+        self.refuse(mu, solved, [finite, charted, resolved])
     }
 
     /// Takes over the step in the lanes where nothing is against it, and says what is in the others.
@@ -181,19 +139,6 @@ impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
         }
         outcome
     }
-}
-
-/// The lanes in which two states are equal.
-#[inline(always)]
-fn equal<S: Scalar>(one: &[S], other: &[S]) -> S::Mask {
-    if S::LANES == 1 {
-        return S::Mask::splat(one == other);
-    }
-    let mut equal = S::Mask::splat(true);
-    for (&one, &other) in one.iter().zip(other) {
-        equal = equal & one.less_equal(other) & other.less_equal(one);
-    }
-    equal
 }
 
 /// Sets the lanes of a mask to 0.

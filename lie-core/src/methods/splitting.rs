@@ -225,14 +225,17 @@ impl<S: Scalar, F: PieceFlows<S>> SplittingStepper<S, F> {
             }
             return;
         }
-        let mut sweeps = self.sweeps[..self.count].iter();
-        let last = loop {
-            let Some(up) = sweeps.next() else { break 0 };
-            self.flows.ascend(up.turn, up.time, &mut self.next);
-            let Some(down) = sweeps.next() else {
-                break pieces - 1;
-            };
-            self.flows.descend(down.turn, down.time, &mut self.next);
+        for (index, sweep) in self.sweeps[..self.count].iter().enumerate() {
+            if index % 2 == 0 {
+                self.flows.ascend(sweep.turn, sweep.time, &mut self.next);
+            } else {
+                self.flows.descend(sweep.turn, sweep.time, &mut self.next);
+            }
+        }
+        let last = if self.count.is_multiple_of(2) {
+            0
+        } else {
+            pieces - 1
         };
         self.flows.flow(last, self.end, &mut self.next);
     }

@@ -74,30 +74,6 @@ impl<S: Scalar> Convergence<S> {
     }
 }
 
-/// The lanes in which an iteration with the Jacobian of its start has converged, by its last two updates.
-#[inline(always)]
-pub(super) fn ends<S: Scalar>(update: S, before: S, size: S, tolerance: f64) -> S::Mask {
-    let round_off = S::epsilon() * size;
-    let rate = update / before;
-    let left = (update + update) * rate;
-    let shrinking = rate.less(S::ratio(1.0, 2.0));
-    shrinking & left.less_equal(S::from_f64(tolerance) * round_off)
-        | !shrinking & update.less_equal(S::from_f64(STAGNATION) * round_off)
-}
-
-/// A bound of c in `|e_1| <= c |e_0|^2`, the errors before and after an iteration of Newton's method, by the first two
-/// updates of a solution.
-#[inline(always)]
-pub(super) fn curvature<S: Scalar>(first: S, second: S, size: S) -> S {
-    let noise = S::from_f64(CURVATURE_NOISE) * S::epsilon() * size;
-    S::from_f64(CURVATURE_SAFETY) * ((second + noise) / first / first)
-}
-
-/// The factor by which the error may exceed what a solution has shown, and the units of round-off that the second update
-/// may owe to rounding.
-const CURVATURE_SAFETY: f64 = 16.0;
-const CURVATURE_NOISE: f64 = 16.0;
-
 #[cfg(test)]
 mod tests {
     use super::super::options::NewtonOptions;

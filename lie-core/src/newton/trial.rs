@@ -1,14 +1,14 @@
-//! Whether cheaper iterations are tried before Newton's method, lane by lane.
+//! Whether iterations without a Jacobian are tried before those with one, lane by lane.
 
 use super::options::{Iteration, NewtonOptions};
 use crate::scalar::{Mask, Scalar};
 
-/// A step takes one iteration with a Jacobian and so many evaluations more; the fixed point may cost as much.
-const MORE: f64 = 2.5;
+/// Newton's method takes so many iterations; the fixed point may cost as much.
+const NEWTON: f64 = 2.2;
 /// The fixed point is not tried where it would have to end after fewer iterations.
-const FEWEST: f64 = 6.5;
+const FEWEST: f64 = 6.0;
 /// So many bits of the first update are to be gained.
-const BITS: f64 = 38.0;
+const BITS: f64 = 50.0;
 /// More iterations are never tried.
 const MOST: u32 = 128;
 /// The steps for which a lane is left to Newton's method when the fixed point did not pay: at first, and at most.
@@ -17,10 +17,8 @@ const REST: [f64; 2] = [16.0, 1024.0];
 /// What is remembered from step to step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trial<S: Scalar> {
-    /// Whether anything is tried at all.
-    tried: bool,
-    /// The factor by which updates without a Jacobian must shrink.
-    rate: S,
+    /// The factor by which updates must shrink; `None` where nothing is tried.
+    rate: Option<S>,
     /// The lanes that are left to Newton's method.
     resting: S::Mask,
     /// For how many steps more, and how many the last time.
@@ -29,23 +27,13 @@ pub(super) struct Trial<S: Scalar> {
 }
 
 impl<S: Scalar> Trial<S> {
-    /// Of iterations without a Jacobian, for an equation with this [`jacobian_cost`](crate::Equation::jacobian_cost).
-    pub(super) fn of_fixed_point(options: &NewtonOptions, cost: f64) -> Self {
-        let most = cost + MORE;
+    /// For an equation with this [`jacobian_cost`](crate::Equation::jacobian_cost).
+    pub(super) fn new(options: &NewtonOptions, cost: f64) -> Self {
+        let most = NEWTON * cost;
+        let automatic = options.iteration == Iteration::Automatic;
+        let tried = automatic && most >= FEWEST && options.max_iterations > 1;
         Self {
-            tried: options.iteration == Iteration::Automatic
-                && most >= FEWEST
-                && options.max_iterations > 1,
-            rate: S::from_f64(libm::exp2(-BITS / most)),
-            ..Self::of_one_jacobian(options)
-        }
-    }
-
-    /// Of iterations with the Jacobian of the start.
-    pub(super) fn of_one_jacobian(options: &NewtonOptions) -> Self {
-        Self {
-            tried: options.iteration == Iteration::Automatic && options.max_iterations > 1,
-            rate: S::zero(),
+            rate: tried.then(|| S::from_f64(libm::exp2(-BITS / most))),
             resting: S::Mask::splat(false),
             left: S::zero(),
             rest: S::from_f64(0.5 * REST[0]),
@@ -55,7 +43,7 @@ impl<S: Scalar> Trial<S> {
     /// The lanes that try in this step.
     #[inline(always)]
     pub(super) fn lanes(&mut self) -> S::Mask {
-        if !self.tried {
+        if self.rate.is_none() {
             return S::Mask::splat(false);
         }
         if self.resting.any() {
@@ -73,9 +61,6 @@ impl<S: Scalar> Trial<S> {
     /// Takes the lanes whose updates did not shrink fast enough.
     #[cold]
     pub(super) fn given_up(&mut self, lanes: S::Mask) {
-        if !lanes.any() {
-            return;
-        }
         let [_, most] = REST.map(S::from_f64);
         let doubled = self.rest + self.rest;
         let doubled = S::select(doubled.less(most), doubled, most);
@@ -88,7 +73,7 @@ impl<S: Scalar> Trial<S> {
     #[inline(always)]
     pub(super) fn bound(&self) -> Bound<S> {
         Bound {
-            rate: self.rate,
+            rate: self.rate.unwrap_or(S::zero()),
             size: S::zero(),
             count: 0,
         }
@@ -127,14 +112,14 @@ mod tests {
     #[test]
     fn cheap_jacobians_are_not_avoided() {
         let options = NewtonOptions::default();
-        assert!(!Trial::<f64>::of_fixed_point(&options, 3.3).lanes());
-        assert!(Trial::<f64>::of_fixed_point(&options, 5.0).lanes());
-        assert!(!Trial::<f64>::of_fixed_point(&NewtonOptions::newton(), 5.0).lanes());
+        assert!(!Trial::<f64>::new(&options, 2.0).lanes());
+        assert!(Trial::<f64>::new(&options, 3.3).lanes());
+        assert!(!Trial::<f64>::new(&NewtonOptions::newton(), 3.3).lanes());
     }
 
     #[test]
     fn rests_grow() {
-        let mut trial = Trial::<f64>::of_fixed_point(&NewtonOptions::default(), 10.0);
+        let mut trial = Trial::<f64>::new(&NewtonOptions::default(), 10.0);
         let mut rest = || {
             assert!(trial.lanes());
             trial.given_up(true);
@@ -147,14 +132,14 @@ mod tests {
 
     #[test]
     fn updates_must_shrink_by_the_rate() {
-        let trial = Trial::<f64>::of_fixed_point(&NewtonOptions::default(), 20.0 - MORE);
+        let trial = Trial::<f64>::new(&NewtonOptions::default(), 20.0 / NEWTON);
         let keeps = |rate: f64| {
             let mut bound = trial.bound();
             (0..8).all(|k| bound.keeps(1e-3 * rate.powi(k), false))
         };
-        // 38 bits in 20 iterations
-        assert!(keeps(0.26));
-        assert!(!keeps(0.28));
+        // 50 bits in 20 iterations
+        assert!(keeps(0.17));
+        assert!(!keeps(0.18));
         assert!(!keeps(f64::NAN));
     }
 }
