@@ -1,7 +1,7 @@
 //! The cases: which system, which methods.
 
 use crate::Case;
-use crate::ours::{Ours, solvers, to_round_off};
+use crate::ours::{Ours, solvers, to_round_off, to_the_tolerance};
 use crate::trial::{Trials, euclidean};
 use crate::{chain, crates, ensemble};
 use lie_runtime::driver::Problem;
