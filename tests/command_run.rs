@@ -419,6 +419,10 @@ fn a_tolerance_that_cannot_be_is_refused() {
         ),
         ("--tol 1e-6 --method dopri5", "dopri5 chooses its own steps"),
         ("--tol small", "error"),
+        (
+            "--method gauss16 --step 0.1 --converge tolerance",
+            "the run has no tolerance",
+        ),
         ("--tol 1e-6 --at=-1,1", "lie on both sides of t = 0"),
     ] {
         let run = lie(&format!("{BODY} {options}"));

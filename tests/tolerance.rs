@@ -6,6 +6,7 @@ mod systems;
 
 use lie_runtime::driver::{IntegrateError, OptionError, integrate};
 use lie_runtime::methods::Method;
+use lie_runtime::newton::Convergence;
 use lie_runtime::prelude::*;
 use systems::{
     Declared, FreeRigidBody, HeavyTop, KirchhoffBody, NonpolynomialSpin, Random, Su3Quadratic,
@@ -146,4 +147,41 @@ fn what_cannot_be_kept_is_refused() {
     ));
     let nowhere = solve(&problem(0.0), Gauss6, &Options::tolerance(1e-6)).expect("nothing to do");
     assert_eq!(nowhere.t, [0.0]);
+}
+
+/// Where that is asked for, the iteration goes as far as the tolerance asks: less work, the same tolerance kept, and invariants kept as
+/// far. The control, to round-off, keeps them.
+#[test]
+fn the_iteration_ends_by_the_tolerance_where_that_is_asked_for() {
+    let problem = Problem {
+        system: HeavyTop::declared::<f64>(),
+        mu0: HeavyTop::initial::<f64>(),
+        span: (0.0, SPAN),
+    };
+    let ends = Options::new(0.05).save(Save::Ends);
+    let exact = solve(&problem, Gauss16, &ends).ok().expect("it is solved");
+    let exact = exact.mu.last().cloned().expect("an end");
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        let [asked, control] = [Convergence::Tolerance, Convergence::Claimed].map(|convergence| {
+            let mut options = Options::tolerance(tolerance);
+            options.newton.convergence = convergence;
+            let solution = solve(&problem, Gauss16, &options).ok();
+            solution.expect("it is solved")
+        });
+        let error = |end: Option<&_>| {
+            let end: &<<HeavyTop as Declared>::System<f64> as Poisson<f64>>::State =
+                end.expect("an end");
+            relative_distance(end.as_slice(), exact.as_slice())
+        };
+        let lost = [&asked, &control].map(|solution| solution.drift().casimirs[0].max);
+        let work = asked.stats.evaluations as f64 / control.stats.evaluations as f64;
+        println!(
+            "{tolerance:e}: error {:.1e}, work {work:.2}, Casimir lost {lost:.1e?}",
+            error(asked.mu.last())
+        );
+        assert!(error(asked.mu.last()) < 30.0 * tolerance);
+        assert!(work < 0.8, "{work}");
+        assert!(lost[0] < tolerance && lost[1] < 1e-13, "{lost:?}");
+        assert!(lost[0] > 10.0 * lost[1], "{lost:?}");
+    }
 }

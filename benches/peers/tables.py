@@ -12,6 +12,9 @@ OURS = "lie-poisson"
 PICKED = "gauss16"
 """What `lie run --tol` picks."""
 
+STOPPED = "gauss16, converge tolerance"
+"""The same, its iteration as exact as the tolerance asks."""
+
 
 def integrates(row):
     """The closed form is no integrator."""
@@ -56,6 +59,8 @@ def table(case, targets):
     line("lie-poisson, the fastest", [row for row in ours if integrates(row)], "**")
     picked = [row for row in ours if row["method"] == PICKED and row["by"] == "tolerance"]
     line("lie-poisson, `--tol` alone", picked, "**")
+    stopped = [row for row in ours if row["method"] == STOPPED and row["by"] == "tolerance"]
+    line("lie-poisson, `--tol` and `--converge tolerance`", stopped, "**")
     peers = sorted({row["peer"] for row in rows} - {OURS})
     for peer in peers:
         line(peer, [row for row in rows if row["peer"] == peer])
@@ -73,12 +78,13 @@ CRATES = ("ode_solvers", "differential-equations", "diffsol")
 def summary(results):
     """How many times longer others take than lie-poisson, and than it by `--tol` alone and as a Poisson map to round-off."""
     lines = ["| case | error | lie-poisson, µs | heyoka | Boost.odeint | the best of three crates | SciPy | heyoka to `--tol` alone | "
-             "heyoka to a Poisson map to round-off |", "|" + "---|" * 9]
+             "heyoka to `--tol` and `--converge tolerance` | heyoka to a Poisson map to round-off |", "|" + "---|" * 10]
     for name, case in results["cases"].items():
         rows = case["rows"]
         ours = [row for row in rows if row["peer"] == OURS and integrates(row)]
         of = lambda *peers: [row for row in rows if row["peer"] in peers]
         picked = [row for row in ours if row["method"] == PICKED and row["by"] == "tolerance"]
+        stopped = [row for row in ours if row["method"] == STOPPED and row["by"] == "tolerance"]
         poisson = [row for row in ours if row["method"].endswith("converge map") or row["method"].startswith("splitting")]
         for target in case["targets"]:
             best, heyoka = fastest(ours, target), of("heyoka")
@@ -93,7 +99,7 @@ def summary(results):
                 return f"{ratio:.2g}" if ratio < 100 else f"{round(ratio, -1):.0f}"
 
             cells = [times(heyoka, ours), times(of("Boost.odeint"), ours), times(of(*CRATES), ours),
-                     times(of("SciPy"), ours), times(heyoka, picked), times(heyoka, poisson)]
+                     times(of("SciPy"), ours), times(heyoka, picked), times(heyoka, stopped), times(heyoka, poisson)]
             lines.append(f"| {name} | {short(target)} | {microseconds(best['seconds'])} `{best['method']}` | "
                          + " | ".join(cells) + " |")
     return "\n".join(lines)

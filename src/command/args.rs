@@ -200,8 +200,9 @@ pub struct SolverOptions {
     /// chosen automatically; simplified 200, fixed-point 500)
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub max_iterations: Option<String>,
-    /// What has converged where stages that are evaluated together end, as in gauss16: state, or map (its derivative too, so
-    /// that a Poisson map is one to round-off; default of collective and isospectral methods)
+    /// What has converged where stages that are evaluated together end, as in gauss16: state, map (its derivative too, so
+    /// that a Poisson map is one to round-off; default of collective and isospectral methods), or tolerance (with --tol: as
+    /// far as that asks, about twice as fast; what the method preserves is preserved as far)
     #[arg(long, value_name = "NAME")]
     pub converge: Option<String>,
 }

@@ -1,7 +1,7 @@
 //! The cases: which system, which methods.
 
 use crate::Case;
-use crate::ours::{Ours, solvers, to_round_off};
+use crate::ours::{Ours, solvers, to_round_off, to_the_tolerance};
 use crate::trial::{Trials, euclidean};
 use crate::{chain, crates, ensemble};
 use lie_runtime::driver::Problem;
@@ -83,6 +83,7 @@ macro_rules! common {
     ($ours:ident, $quick:expr) => {
         let (all, default) = (solvers($quick), [NewtonOptions::default()]);
         $ours.by_tolerance("gauss16", Gauss16, NewtonOptions::default());
+        $ours.by_tolerance("gauss16, converge tolerance", Gauss16, to_the_tolerance());
         $ours.by_steps("gauss16", Gauss16, FINE, &all);
         $ours.by_steps("gauss12", Gauss12, FINE, &all);
         $ours.by_steps("gauss8", Gauss8, FINE, &all);

@@ -189,6 +189,14 @@ pub fn to_round_off() -> NewtonOptions {
     }
 }
 
+/// What `--converge tolerance` says.
+pub fn to_the_tolerance() -> NewtonOptions {
+    NewtonOptions {
+        convergence: Convergence::Tolerance,
+        ..NewtonOptions::default()
+    }
+}
+
 impl<'a, P: Series<f64>> Ours<'_, 'a, P> {
     /// Taylor series by their own tolerance, and by `--tol`.
     pub fn taylor(&mut self) {

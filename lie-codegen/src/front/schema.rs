@@ -162,7 +162,7 @@ objects! {
         "newton-tolerance" newton_tolerance: Option<Constant>,
         /// Iterations after which a step has failed.
         "max-iterations" max_iterations: Option<Constant>,
-        /// What has converged where stages that are evaluated together end: `state` or `map`.
+        /// What has converged where stages that are evaluated together end: `state`, `map` or `tolerance`.
         "converge" converge: Option<String>,
     }
 }

@@ -159,7 +159,9 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
     pub fn iterate(&mut self, field: impl FnMut(At<'_, V>, &mut V)) -> Iterated<S> {
         match self.options.convergence {
             Convergence::Map => self.iterate_map(field),
-            Convergence::State | Convergence::Claimed => self.iterate_state(field),
+            Convergence::State | Convergence::Claimed | Convergence::Tolerance => {
+                self.iterate_state(field)
+            }
         }
     }
 

@@ -62,6 +62,7 @@ enum IterationInWords {
 enum ConvergenceInWords {
     Claimed,
     State,
+    Tolerance,
     Map,
 }
 

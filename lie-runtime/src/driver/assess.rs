@@ -75,7 +75,8 @@ fn error_of<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     let settled = settled?;
     let tolerance = settled.chosen.tolerance;
     let divides = Course::<M>::may_divide::<S, P>();
-    let mut course = Course::new(&grid, method, options.newton, step).dividing(divides);
+    let newton = settled.newton(step);
+    let mut course = Course::new(&grid, method, newton, step).dividing(divides);
     let start = problem.mu0.clone();
     let run = course.run(
         &problem.system,

@@ -19,7 +19,7 @@ use super::solve::IntegrateError;
 use super::stats::Stats;
 use super::watch::{Gauge, Guard, Watch};
 use crate::methods::{Method, StepFailure, Stepper};
-use crate::newton::NewtonOptions;
+use crate::newton::{Convergence, NewtonOptions};
 use crate::poisson::Poisson;
 use crate::scalar::{Scalar, largest};
 use crate::state::{State, Unknown};
@@ -78,7 +78,12 @@ pub(super) struct Settled<'a, S: Scalar, P: Poisson<S>, M> {
     pub(super) watch: Option<Watch<S, P>>,
 }
 
-impl<'a, S: Scalar, P: Poisson<S>, M> Settled<'a, S, P, M> {
+impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Settled<'a, S, P, M> {
+    /// The solver of the run.
+    pub(super) fn newton(&self, step: f64) -> NewtonOptions {
+        self.trial.newton_of_run(step.abs())
+    }
+
     /// What looks after the run.
     pub(super) fn guard(self) -> Option<Guard<'a, S, P, M>> {
         let trial = self.trial;
@@ -241,6 +246,14 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'_, S, P, M> {
         NewtonOptions {
             tolerance,
             ..self.newton
+        }
+    }
+
+    /// The solver of a run with steps of a size.
+    fn newton_of_run(&self, h: f64) -> NewtonOptions {
+        match self.newton.convergence {
+            Convergence::Tolerance => self.newton_of(h),
+            _ => self.newton,
         }
     }
 

@@ -115,7 +115,10 @@ pub fn integrate<S: Scalar, P: Poisson<S>, M: Method<S, P>>(
     }
     let grid = Grid::new(problem.span, step)?;
     let divides = settled.is_some() && Course::<M>::may_divide::<S, P>();
-    let mut course = Course::new(&grid, &method, options.newton, step).dividing(divides);
+    let newton = settled
+        .as_ref()
+        .map_or(options.newton, |settled| settled.newton(step));
+    let mut course = Course::new(&grid, &method, newton, step).dividing(divides);
     let guard = settled.and_then(Settled::guard);
     let (system, mu) = (&problem.system, problem.mu0.clone());
     let (_, status) = course.run(system, mu, guard, &options.save, observer)?;

@@ -74,7 +74,7 @@ pub fn plan(spec: &Spec, flags: &args::Run) -> Result<Plan, Vec<Message>> {
     }
     let overall = pace.as_ref().map(|(pace, _)| *pace);
     let tolerances = solved.map(|method| planner.tolerances(method, overall));
-    let newton = solved.map(|method| planner.newton(method));
+    let newton = solved.map(|method| planner.newton(method, overall));
     let chart = planner.chart();
     let start = planner.start();
     match (method, pace, times, start) {

@@ -65,7 +65,7 @@ impl Planner<'_> {
         }
     }
 
-    pub(super) fn newton(&mut self, choice: &Choice) -> NewtonOptions {
+    pub(super) fn newton(&mut self, choice: &Choice, pace: Option<Pace>) -> NewtonOptions {
         let flags = &self.flags.solver;
         let mut options = NewtonOptions::default();
         let solved = choice.solved().entry();
@@ -101,7 +101,7 @@ impl Planner<'_> {
             let set = match flag {
                 "--iteration" => iteration(&given).map(|found| options = found),
                 "--newton-tolerance" => tolerance(&given).map(|found| options.tolerance = found),
-                "--converge" => convergence(&given).map(|found| options.convergence = found),
+                "--converge" => convergence(&given, pace).map(|found| options.convergence = found),
                 _ => count(&given).map(|found| options.max_iterations = found),
             };
             self.keep(set);
@@ -128,13 +128,18 @@ fn iteration(given: &Given) -> Result<NewtonOptions, Message> {
     }
 }
 
-fn convergence(given: &Given) -> Result<Convergence, Message> {
+fn convergence(given: &Given, pace: Option<Pace>) -> Result<Convergence, Message> {
     match given.text.trim() {
+        "tolerance" if matches!(pace, Some(Pace::Step(_))) => {
+            let message = given.wrong("the run has no tolerance to which anything could converge");
+            Err(message.help("give `--tol 1e-6` in place of the step, or write `state`"))
+        }
         "state" => Ok(Convergence::State),
         "map" => Ok(Convergence::Map),
+        "tolerance" => Ok(Convergence::Tolerance),
         other => {
             let message = given.wrong(format!("`{other}` is nothing that converges"));
-            Err(message.help("write `state` or `map`"))
+            Err(message.help("write `state`, `map` or `tolerance`"))
         }
     }
 }
