@@ -176,7 +176,7 @@ fn the_iteration_ends_by_the_tolerance_where_that_is_asked_for() {
         let lost = [&asked, &control].map(|solution| solution.drift().casimirs[0].max);
         let work = asked.stats.evaluations as f64 / control.stats.evaluations as f64;
         println!(
-            "{tolerance:e}: error {:.1e}, work {work:.2}, Casimir lost {lost:.1e?}",
+            "{tolerance:e}: error {:.1e}, work {work:.2}, Casimir lost {lost:?}",
             error(asked.mu.last())
         );
         assert!(error(asked.mu.last()) < 30.0 * tolerance);
