@@ -70,7 +70,7 @@ def main():
     arguments = parser.parse_args()
     table = ["| spec | " + " | ".join(METHODS) + " | lines, all of these |", "|---|" + "---|" * (len(METHODS) + 1)]
     with tempfile.TemporaryDirectory() as cache:
-        run(arguments.lie, cache, "run", "specs/heisenberg_h3.json", "--method", "rk4", "--until", "1e-3", "--step", "1e-3")
+        run(arguments.lie, cache, "run", "specs/heisenberg_h3.json", "--method", "gauss4", "--until", "1e-3", "--step", "1e-3")
         for spec in sorted((ROOT / "specs").glob("*.json")):
             if spec.name.endswith("schema.json") or arguments.only not in spec.name:
                 continue
