@@ -202,7 +202,7 @@ pub struct SolverOptions {
     pub max_iterations: Option<String>,
     /// What has converged where stages that are evaluated together end, as in gauss16: state, map (its derivative too, so
     /// that a Poisson map is one to round-off; default of collective and isospectral methods), or tolerance (with --tol: as
-    /// far as that asks, about twice as fast; what the method preserves is preserved as far)
+    /// far as that asks, in about half of the evaluations; what the method preserves is preserved as far)
     #[arg(long, value_name = "NAME")]
     pub converge: Option<String>,
 }

@@ -6,7 +6,7 @@ use super::cohen_hairer::lagrange;
 use super::diagonals::{diagonals, product, product_from};
 use super::kernels::multiply;
 use super::quadrature::{MAX_NODES, Quadrature};
-use super::stage_parallel::At;
+use super::stage_work::At;
 use super::tableau::gauss_tableau;
 use crate::matrix::SquareMatrix;
 use crate::poisson::Poisson;

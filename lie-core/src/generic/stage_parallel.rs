@@ -2,7 +2,9 @@
 
 use core::array::from_fn;
 
-use super::diagonals::{diagonals, product, product_from, total};
+use super::diagonals::{diagonals, product, total};
+use super::stage_ending::{Ending, STAGNATION, are_below, most};
+use super::stage_work::{At, Work};
 use super::tableau::{gauss_ahead, gauss_entry, gauss_weight};
 use crate::newton::{Convergence, NewtonOptions};
 use crate::scalar::{Mask, Scalar, largest};
@@ -10,14 +12,9 @@ use crate::state::{Stages, State};
 
 /// After so many iterations each, updates must have become half as large.
 const REVIEW: u32 = 8;
-/// Updates up to this many units of round-off that no longer shrink are round-off themselves.
-const STAGNATION: f64 = 256.0;
 
 /// Where no rate is known, a change counts as what is left after it.
 const UNKNOWN: (f64, f64) = (1.0, 2.0);
-
-/// A rate that was seen in another step is not trusted below this.
-const TRUSTED: f64 = 1.0 / 16.0;
 
 /// A start that is no better than the field at the state is improved by so many half iterations.
 const APPROACH: u32 = 12;
@@ -51,25 +48,6 @@ pub struct StageParallel<S: Scalar, V, const STAGES: usize> {
     rate: S,
     /// How many iterations the map of the last step took, in each lane.
     taken: S,
-}
-
-/// What an iteration writes.
-#[derive(Clone, Debug)]
-struct Work<V> {
-    slopes: V,
-    points: V,
-    next: V,
-}
-
-/// The stages of a step: its base, which is the same in all places, the slopes, and the points of the stages.
-#[derive(Debug)]
-pub struct At<'a, V> {
-    /// y
-    pub base: &'a V,
-    /// `F_i`
-    pub slopes: &'a V,
-    /// `Y_i = y + h sum_j a_ij F_j`
-    pub points: &'a V,
 }
 
 /// How an iteration ended.
@@ -430,133 +408,4 @@ impl<S: Scalar, V: State<S::Wide>, const STAGES: usize> StageParallel<S, V, STAG
             *slopes = S::gather(entries);
         }
     }
-}
-
-impl<V> Work<V> {
-    /// Moves it out, to be given back.
-    #[inline(always)]
-    fn take<S: Scalar>(&mut self) -> Self
-    where
-        V: State<S::Wide>,
-    {
-        Self {
-            slopes: self.slopes.take(),
-            points: self.points.take(),
-            next: self.next.take(),
-        }
-    }
-
-    /// The points `y + h A F`.
-    #[inline(always)]
-    fn set_points<S: Scalar, const STAGES: usize>(&mut self, tableau: &[S::Wide; 8], base: &V)
-    where
-        V: State<S::Wide>,
-    {
-        let entries = self.points.as_mut_slice().iter_mut().zip(base.as_slice());
-        for ((point, y), slopes) in entries.zip(self.slopes.as_slice()) {
-            *point = product_from::<S, STAGES>(*y, tableau, *slopes);
-        }
-    }
-
-    /// Evaluates the field at the points of the stages.
-    #[inline(always)]
-    fn evaluate<S: Scalar, const STAGES: usize>(
-        &mut self,
-        tableau: &[S::Wide; 8],
-        base: &V,
-        field: &mut impl FnMut(At<'_, V>, &mut V),
-    ) where
-        V: State<S::Wide>,
-    {
-        self.set_points::<S, STAGES>(tableau, base);
-        let at = At {
-            base,
-            slopes: &self.slopes,
-            points: &self.points,
-        };
-        field(at, &mut self.next);
-    }
-
-    /// Takes over the next slopes but in the lanes that have ended; the sum of all changes at each stage.
-    #[inline(always)]
-    fn replace<S: Scalar>(&mut self, ended: S::Mask) -> S::Wide
-    where
-        V: State<S::Wide>,
-    {
-        let mut change = S::Wide::zero();
-        let slopes = self.slopes.as_mut_slice().iter_mut();
-        for (slope, &next) in slopes.zip(self.next.as_slice()) {
-            change += (next - *slope).magnitude();
-            *slope = if S::LANES == 1 {
-                next
-            } else {
-                let (old, new) = (S::scatter(*slope), S::scatter(next));
-                S::gather(from_fn(|i| S::select(ended, old[i], new[i])))
-            };
-        }
-        change
-    }
-}
-
-/// When an iteration has ended, in changes of the slopes.
-struct Ending<S: Scalar> {
-    /// What may be left.
-    goal: S,
-    /// A first change up to this leaves that little, by the rate of the step before.
-    at_once: S,
-    /// Changes up to this are round-off if they no longer shrink.
-    round_off: S,
-    /// Changes above this are not looked at.
-    bound: S,
-}
-
-impl<S: Scalar> Ending<S> {
-    /// For slopes of which a part of round-off is `epsilon` times the size.
-    #[inline(always)]
-    fn new(size: S, rate: S, options: &NewtonOptions) -> Self {
-        let unit = S::epsilon() * size;
-        let goal = unit * S::from_f64(options.tolerance);
-        let rate = rate.max(S::from_f64(TRUSTED));
-        Self {
-            goal,
-            at_once: goal * ((S::one() - rate) / rate),
-            round_off: unit * S::from_f64(STAGNATION),
-            bound: unit * S::from_f64(STAGNATION.max(16.0 * options.tolerance)),
-        }
-    }
-
-    /// The lanes in which changes shrink, and those in which it has ended: with the ratio r of the last two changes as the
-    /// rate, the last one times `r/(1 - r)` is left.
-    #[inline(always)]
-    fn reached(&self, before: S, change: S) -> (S::Mask, S::Mask) {
-        let shrinks = (change + change).less(before);
-        let left = change * change;
-        let small = left.less_equal(self.goal * (before - change));
-        let settled = change.less_equal(self.round_off);
-        (shrinks, (shrinks & small) | (!shrinks & settled))
-    }
-}
-
-/// The lanes in which eight numbers are all below a bound.
-#[inline(always)]
-fn are_below<S: Scalar>(numbers: S::Wide, bound: S) -> S::Mask {
-    if S::LANES == 1 {
-        return S::Mask::splat(numbers.less_equal(bound.widen()).all());
-    }
-    let all = S::Mask::splat(true);
-    let numbers = S::scatter(numbers).into_iter();
-    numbers.fold(all, |below, number| below & number.less_equal(bound))
-}
-
-/// The largest of eight numbers.
-#[inline(always)]
-fn most<S: Scalar>(wide: S::Wide) -> S {
-    if S::LANES == 1 {
-        let pairs = wide.max(S::exchange::<1>(wide));
-        let fours = pairs.max(S::exchange::<2>(pairs));
-        let [most, ..] = S::scatter(fours.max(S::exchange::<4>(fours)));
-        return most;
-    }
-    let [a, b, c, d, e, f, g, h] = S::scatter(wide);
-    S::max(S::max(a.max(b), c.max(d)), S::max(e.max(f), g.max(h)))
 }
