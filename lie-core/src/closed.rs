@@ -34,6 +34,9 @@ const NEAR: f64 = 1.0;
 /// Terms of Stumpff functions from `S_4` on for `|w| <= 1`: the first that is left out is below an eighth of a unit in the
 /// last place of the sum, and of its first two derivatives.
 const STUMPFF_TERMS: usize = 10;
+/// Steps turn by small angles: the same for `|w|` up to this.
+const STUMPFF_BESIDE: f64 = 1.0 / 16.0;
+const STUMPFF_BESIDE_TERMS: usize = 6;
 /// Up to here they are summed; beyond, the upward recurrence loses no more than two bits.
 const STUMPFF_FAR: f64 = 16.0;
 const STUMPFF_FAR_TERMS: usize = 17;
@@ -158,6 +161,16 @@ fn select<S: Scalar, const COUNT: usize>(
 /// ```
 #[inline]
 pub fn stumpff<S: Scalar, const FIRST: usize, const COUNT: usize>(w: S) -> [S; COUNT] {
+    let beside = w.abs().less_equal(S::from_f64(STUMPFF_BESIDE));
+    let values = stumpff_downwards::<S, FIRST, COUNT, STUMPFF_BESIDE_TERMS>(-w);
+    if beside.all() {
+        return values;
+    }
+    select(beside, values, near_stumpff::<S, FIRST, COUNT>(w))
+}
+
+#[inline(never)]
+fn near_stumpff<S: Scalar, const FIRST: usize, const COUNT: usize>(w: S) -> [S; COUNT] {
     let near = w.abs().less_equal(S::from_f64(NEAR));
     let values = stumpff_downwards::<S, FIRST, COUNT, STUMPFF_TERMS>(-w);
     if near.all() {

@@ -11,6 +11,8 @@
 pub mod closed;
 pub mod elimination;
 pub mod equation;
+#[cfg(feature = "std")]
+pub mod family;
 pub mod generating;
 pub mod generic;
 mod generic_equations;
@@ -35,7 +37,7 @@ pub use generating::GeneratingFunction;
 pub use lagrangian::{DiscreteLagrangian, DiscreteLagrangianPoisson, LagrangianPoisson};
 pub use matrix::{SquareMatrix, StageMatrix};
 pub use parameter::{ParameterError, ParameterFault};
-pub use pieces::{PieceFlows, SeparablePoisson};
+pub use pieces::{FoundPoisson, PieceFlows, SeparablePoisson};
 pub use poisson::{CayleyPoisson, LiePoisson, Lift, Poisson, Widen};
 pub use recurrence::{Expand, GradientRecurrence, GradientSeries, Recurrence, Series};
 pub use scalar::{Dual, Mask, Scalar};

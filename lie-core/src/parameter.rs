@@ -25,6 +25,8 @@ pub enum ParameterFault {
     NotFinite,
     /// The parameter was declared positive.
     NotPositive,
+    /// The parameter is the size of a family, which is a whole number.
+    NotASize,
 }
 
 impl fmt::Display for ParameterError {
@@ -36,6 +38,10 @@ impl fmt::Display for ParameterError {
             ParameterFault::NotFinite => write!(
                 f,
                 "`{expression}` is not finite for this value of the parameter `{name}`"
+            ),
+            ParameterFault::NotASize => write!(
+                f,
+                "the parameter `{name}` is the size of the family: a whole number between 1 and 2^31"
             ),
             ParameterFault::NotPositive => {
                 write!(

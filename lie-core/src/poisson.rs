@@ -65,6 +65,12 @@ pub trait Poisson<S: Scalar>: Sized {
         None
     }
 
+    /// Whether Hessian, Poisson matrix and Jacobian can be had. A large system keeps no matrix: methods that need one do not
+    /// apply to it, and those that iterate have no other way.
+    fn has_jacobian(&self) -> bool {
+        true
+    }
+
     /// A state of the right size, all coordinates 0.
     fn zero_state(&self) -> Self::State;
     /// A matrix of the right size, all entries 0.

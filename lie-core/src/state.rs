@@ -61,7 +61,14 @@ pub trait Unknown<S: Scalar>: Clone {
     /// The lanes in which every entry is finite.
     #[inline]
     fn finite(&self) -> S::Mask {
-        self.max_norm().finite()
+        // 0 times what is not finite is not a number
+        let mut sum = S::zero();
+        for part in 0..self.parts() {
+            for &entry in self.part(part) {
+                sum += entry * S::zero();
+            }
+        }
+        sum.finite()
     }
     /// Takes the entries of `other` in the lanes of the mask and keeps its own in the rest.
     #[inline]

@@ -2,7 +2,9 @@
 
 use super::stepper::{FactorSink, RungeKutta, Stage, StepFailure, StepReport, Stepper};
 use crate::equation::Equation;
-use crate::newton::{Failure, FailureReason, Newton, NewtonOptions, NewtonReport};
+use crate::newton::{
+    Failure, FailureReason, Newton, NewtonOptions, NewtonReport, Predictor, Start,
+};
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
 
@@ -12,6 +14,9 @@ pub struct ImplicitStepper<S: Scalar, E: Equation<S>> {
     newton: Newton<S, E::Unknown, E::Matrix>,
     unknown: E::Unknown,
     next: E::State,
+    predictor: Predictor<S, E::Unknown>,
+    /// The state at the end of the last step.
+    last: E::State,
 }
 
 impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
@@ -21,8 +26,10 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
         let unknown = equation.zero_unknown();
         Self {
             equation,
+            predictor: Predictor::new(&unknown),
             newton,
             unknown,
+            last: zero.clone(),
             next: zero,
         }
     }
@@ -44,11 +51,29 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
     #[inline(always)]
     fn advance(&mut self, mu: &mut E::State) -> Result<StepReport, StepFailure> {
         self.equation.set_base(mu);
-        self.equation.initial_guess(&mut self.unknown);
+        let attempts = self.newton.attempts();
+        let follows = equal(mu.as_slice(), self.last.as_slice());
+        let predicted = self.predictor.ready(follows) & attempts.predictable();
+        if predicted.all() {
+            self.unknown.assign_where(predicted, self.predictor.next());
+        } else {
+            self.equation.initial_guess(&mut self.unknown);
+            if predicted.any() {
+                self.unknown.assign_where(predicted, self.predictor.next());
+            }
+        }
         let scale = self.equation.scale(mu);
-        let solved = self
-            .newton
-            .solve(&mut self.equation, &mut self.unknown, scale);
+        let solved = self.newton.solve_trying(
+            &mut self.equation,
+            &mut self.unknown,
+            scale,
+            attempts,
+            &Start {
+                predicted,
+                shows: self.predictor.begins(),
+                before: Some(self.predictor.last()),
+            },
+        );
         self.equation.result(&self.unknown, &mut self.next);
         let finite = self.next.finite();
         let charted = self.equation.within_chart(&self.unknown);
@@ -57,9 +82,37 @@ impl<S: Scalar, E: Equation<S>> ImplicitStepper<S, E> {
             && (finite & charted & resolved).all()
         {
             mu.copy_from(&self.next);
+            self.remember(scale, predicted, attempts.predictable());
             return Ok(StepReport::implicit(report));
         }
-        self.refuse(mu, solved, [finite, charted, resolved])
+        let outcome = self.refuse(mu, solved, [finite, charted, resolved]);
+        self.remember(scale, predicted, attempts.predictable());
+        if let Err(failure) = &outcome {
+            self.predictor.forget(S::Mask::from_bits(failure.lanes));
+        }
+        outcome
+    }
+
+    /// Takes the solution for the next prediction.
+    #[inline(always)]
+    fn remember(&mut self, scale: S, predicted: S::Mask, predictable: S::Mask) {
+        if !predictable.any() {
+            // the next one that is follows none that was taken
+            self.predictor.forget(S::Mask::splat(true));
+            return;
+        }
+        self.last.copy_from(&self.next);
+        if !predicted.all() {
+            self.predictor.examine(&self.unknown, scale, predicted);
+        }
+        self.predictor.take(&self.unknown);
+        if !predictable.all() {
+            self.predictor.forget(!predictable);
+        }
+        let far = self.newton.started_far();
+        if far.any() {
+            self.predictor.rest(far);
+        }
     }
 
     /// Takes over the step in the lanes where nothing is against it, and says what is in the others.
@@ -139,6 +192,19 @@ impl<S: Scalar, E: Equation<S>> Stepper<S> for ImplicitStepper<S, E> {
         }
         outcome
     }
+}
+
+/// The lanes in which two states are equal.
+#[inline(always)]
+fn equal<S: Scalar>(one: &[S], other: &[S]) -> S::Mask {
+    if S::LANES == 1 {
+        return S::Mask::splat(one == other);
+    }
+    let mut equal = S::Mask::splat(true);
+    for (&one, &other) in one.iter().zip(other) {
+        equal = equal & one.less_equal(other) & other.less_equal(one);
+    }
+    equal
 }
 
 /// Sets the lanes of a mask to 0.

@@ -116,7 +116,8 @@ pub use rkmk::{Rkmk2, Rkmk3, Rkmk4, Rkmk6, RkmkStepper};
 pub use series_stepper::{Development, SeriesStepper};
 pub use spherical_midpoint::SphericalMidpoint;
 pub use splitting::{
-    Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8, SplittingStepper,
+    Coordinate, Found, Splitting, Splitting1, Splitting2, Splitting4, Splitting6, Splitting8,
+    SplittingStepper,
 };
 pub use stage_parallel::{Field, Slopes, StageParallelStepper};
 pub use stepper::{

@@ -32,7 +32,17 @@
 //! drift though not exactly. All but [`Splitting1`] are symmetric. A step fails only where numbers
 //! overflow or H has no value.
 //!
-//! Needs: a Hamiltonian of that form ([`SeparablePoisson`]); any Lie algebra.
+//! Needs: a Hamiltonian of that form ([`SeparablePoisson`]); any Lie algebra. With the pieces
+//! [`Found`] it is a sum of functions of linear forms whose elements commute ([`FoundPoisson`]),
+//!
+//! ```math
+//! H(\mu) = \sum_a f_a(\langle v_{a1}, \mu\rangle, \langle v_{a2}, \mu\rangle, \dots) + \text{Casimirs}, \qquad [v_{ai}, v_{aj}] = 0, \qquad
+//! \varphi^a_t(\mu) = \exp\Big(t \sum_i \partial_i f_a\, \mathrm{ad}^*_{v_{ai}}\Big)\, \mu
+//! ```
+//!
+//! in which the forms and with them the exponent are constant. Every quadratic H has such pieces. Casimirs generate no flow:
+//! `$H - C/(2 I_2)$` of the free rigid body has two pieces, where H has three. The energy of H is kept as well, as is
+//! each Casimir; where the group element is reconstructed, what was taken away moves it.
 //!
 //! References: R. I. McLachlan, "Explicit Lie–Poisson integration and the Euler equations", Physical
 //! Review Letters 71 (1993) 3043–3046,
@@ -49,7 +59,7 @@ use super::stepper::{
     FactorSink, Method, Retraction, StepFailure, StepReport, Stepper, not_finite,
 };
 use crate::newton::NewtonOptions;
-use crate::pieces::{PieceFlows, SeparablePoisson};
+use crate::pieces::{FoundPoisson, PieceFlows, SeparablePoisson};
 use crate::scalar::{Mask, Scalar};
 use crate::state::{State, Unknown};
 
@@ -62,11 +72,21 @@ const SWEEPS: usize = 50;
 /// use lie_core::methods::{Scheme, Splitting2, Splitting4};
 /// let strang = Splitting2::new();
 /// let suzuki = Splitting4::new().scheme(Scheme::Suzuki);
+/// let found = Splitting4::new().found();
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Splitting<const ORDER: u32> {
+pub struct Splitting<const ORDER: u32, K = Coordinate> {
     scheme: Option<Scheme>,
+    pieces: K,
 }
+
+/// The pieces of H by coordinates, in ascending order: those of [`SeparablePoisson`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Coordinate;
+
+/// The pieces that were found, the one with the longest flow last: those of [`FoundPoisson`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Found;
 
 /// The splitting of order 1, of Lie and Trotter.
 pub type Splitting1 = Splitting<1>;
@@ -99,9 +119,23 @@ impl<const ORDER: u32> Splitting<ORDER> {
             4 | 6 => Some(Scheme::BlanesMoan),
             _ => Some(Scheme::of_composition(ORDER)),
         };
-        Self { scheme }
+        Self {
+            scheme,
+            pieces: Coordinate,
+        }
     }
 
+    /// The same with the pieces that were found.
+    #[must_use]
+    pub const fn found(self) -> Splitting<ORDER, Found> {
+        Splitting {
+            scheme: self.scheme,
+            pieces: Found,
+        }
+    }
+}
+
+impl<const ORDER: u32, K: Copy> Splitting<ORDER, K> {
     /// The same with other coefficients.
     ///
     /// # Panics
@@ -114,6 +148,7 @@ impl<const ORDER: u32> Splitting<ORDER> {
         );
         Self {
             scheme: Some(scheme),
+            pieces: self.pieces,
         }
     }
 
@@ -144,9 +179,38 @@ impl<const ORDER: u32> Splitting<ORDER> {
         }
         count
     }
+
+    /// The stepper over these flows.
+    fn over<S: Scalar, F: PieceFlows<S>>(
+        self,
+        flows: F,
+        zero: F::State,
+        h: S,
+    ) -> SplittingStepper<S, F> {
+        let mut sizes = [S::zero(); SWEEPS];
+        let count = self.sweeps(&mut sizes);
+        let mut sweeps = [Sweep::default(); SWEEPS];
+        let mut before = S::zero();
+        for (sweep, &size) in sweeps.iter_mut().zip(&sizes[..count]) {
+            *sweep = Sweep {
+                turn: (before + size) * h,
+                time: size * h,
+            };
+            before = size;
+        }
+        SplittingStepper {
+            flows,
+            sweeps,
+            count,
+            end: before * h,
+            step: h,
+            next: zero.clone(),
+            factor: zero,
+        }
+    }
 }
 
-impl<const ORDER: u32> Facts for Splitting<ORDER> {
+impl<const ORDER: u32, K> Facts for Splitting<ORDER, K> {
     const ID: &'static str = match ORDER {
         1 => "splitting1",
         2 => "splitting2",
@@ -171,26 +235,22 @@ where
         P: 'a;
 
     fn stepper<'a>(&self, system: &'a P, h: S, _newton: &NewtonOptions) -> Self::Stepper<'a> {
-        let mut sizes = [S::zero(); SWEEPS];
-        let count = self.sweeps(&mut sizes);
-        let mut sweeps = [Sweep::default(); SWEEPS];
-        let mut before = S::zero();
-        for (sweep, &size) in sweeps.iter_mut().zip(&sizes[..count]) {
-            *sweep = Sweep {
-                turn: (before + size) * h,
-                time: size * h,
-            };
-            before = size;
-        }
-        SplittingStepper {
-            flows: system.flows(),
-            sweeps,
-            count,
-            end: before * h,
-            step: h,
-            next: system.zero_state(),
-            factor: system.zero_state(),
-        }
+        self.over(system.flows(), system.zero_state(), h)
+    }
+}
+
+impl<S, P, const ORDER: u32> Method<S, P> for Splitting<ORDER, Found>
+where
+    S: Scalar,
+    P: FoundPoisson<S>,
+{
+    type Stepper<'a>
+        = SplittingStepper<S, P::Found<'a>>
+    where
+        P: 'a;
+
+    fn stepper<'a>(&self, system: &'a P, h: S, _newton: &NewtonOptions) -> Self::Stepper<'a> {
+        self.over(system.found(), system.zero_state(), h)
     }
 }
 
@@ -225,17 +285,14 @@ impl<S: Scalar, F: PieceFlows<S>> SplittingStepper<S, F> {
             }
             return;
         }
-        for (index, sweep) in self.sweeps[..self.count].iter().enumerate() {
-            if index % 2 == 0 {
-                self.flows.ascend(sweep.turn, sweep.time, &mut self.next);
-            } else {
-                self.flows.descend(sweep.turn, sweep.time, &mut self.next);
-            }
-        }
-        let last = if self.count.is_multiple_of(2) {
-            0
-        } else {
-            pieces - 1
+        let mut sweeps = self.sweeps[..self.count].iter();
+        let last = loop {
+            let Some(up) = sweeps.next() else { break 0 };
+            self.flows.ascend(up.turn, up.time, &mut self.next);
+            let Some(down) = sweeps.next() else {
+                break pieces - 1;
+            };
+            self.flows.descend(down.turn, down.time, &mut self.next);
         };
         self.flows.flow(last, self.end, &mut self.next);
     }
@@ -261,6 +318,7 @@ impl<S: Scalar, F: PieceFlows<S>> SplittingStepper<S, F> {
             if pieces == 1 {
                 flow(0, self.step);
             }
+            self.give_rest(good, sink);
             return;
         }
         for (index, sweep) in self.sweeps[..self.count].iter().enumerate() {
@@ -282,6 +340,18 @@ impl<S: Scalar, F: PieceFlows<S>> SplittingStepper<S, F> {
             pieces - 1
         };
         flow(last, self.end);
+        self.give_rest(good, sink);
+    }
+
+    /// The factor of what H is beside the pieces, which leaves mu where it is: behind all others, at the mu of
+    /// the end, it is what it is before them, at that of the beginning.
+    fn give_rest<K: FactorSink<F::State>>(&mut self, good: S::Mask, sink: &mut K) {
+        if self.flows.rest(self.step, &self.next, &mut self.factor) {
+            for entry in self.factor.as_mut_slice() {
+                *entry = S::select(good, *entry, S::zero());
+            }
+            sink.push(Retraction::Exp, &self.factor);
+        }
     }
 }
 

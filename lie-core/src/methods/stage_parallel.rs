@@ -214,7 +214,9 @@ where
         let mut failure = None;
         if !solved.converged.all() {
             let unknowns = STAGES * self.system.dimension();
-            let alone = self.newton.iteration == Iteration::FixedPoint || unknowns > MOST_UNKNOWNS;
+            let alone = self.newton.iteration == Iteration::FixedPoint
+                || unknowns > MOST_UNKNOWNS
+                || !self.system.has_jacobian();
             failure = if alone {
                 Some(StepFailure {
                     reason: FailureReason::NotConverged,

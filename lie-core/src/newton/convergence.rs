@@ -1,7 +1,9 @@
 //! When an iteration has converged, lane by lane.
 
 use super::options::Iteration;
+use super::sizes::Sizes;
 use crate::scalar::{Mask, Scalar};
+use crate::state::Unknown;
 
 /// Updates up to this many units of round-off that no longer shrink are round-off themselves.
 const STAGNATION: f64 = 256.0;
@@ -65,7 +67,7 @@ impl<S: Scalar> Convergence<S> {
     /// The lanes in which an update may be round-off.
     #[inline(always)]
     pub(super) fn is_round_off(&self, update: S, size: S) -> S::Mask {
-        update.less_equal(S::from_f64(STAGNATION) * S::epsilon() * size)
+        is_round_off(update, size)
     }
 
     /// The lanes whose last update is larger than the first.
@@ -73,6 +75,81 @@ impl<S: Scalar> Convergence<S> {
         self.first.less(self.previous)
     }
 }
+
+/// The lanes in which an iteration with the Jacobian of its start has converged, by its last two updates relative to the
+/// sizes of the entries; `settled` are those whose last update may be round-off of the largest entries.
+#[inline(always)]
+pub(super) fn ends<S: Scalar>(update: S, before: S, settled: S::Mask, tolerance: f64) -> S::Mask {
+    let rate = update / before;
+    let left = (update + update) * rate;
+    let shrinking = rate.less(S::ratio(1.0, 2.0));
+    shrinking & left.less_equal(S::from_f64(tolerance) * S::epsilon()) | !shrinking & settled
+}
+
+/// The lanes in which updates may be round-off, given their size and that of the unknown.
+#[inline(always)]
+pub(super) fn is_round_off<S: Scalar>(update: S, size: S) -> S::Mask {
+    update.less_equal(S::from_f64(STAGNATION) * S::epsilon() * size)
+}
+
+/// A bound of c in `|e_1| <= c |e_0|^2`, the errors before and after an iteration of Newton's method relative to the
+/// sizes of the entries, by the first two updates of a solution: the first relative to the largest size, which bounds c
+/// from above, the second relative to each.
+#[inline(always)]
+pub(super) fn curvature<S: Scalar>(first: S, second: S) -> S {
+    let noise = S::from_f64(CURVATURE_NOISE) * S::epsilon();
+    S::from_f64(CURVATURE_SAFETY) * ((second + noise) / first / first)
+}
+
+/// The factor by which the error may exceed what a solution has shown, and the units of round-off that the second update
+/// may owe to rounding.
+const CURVATURE_SAFETY: f64 = 16.0;
+const CURVATURE_NOISE: f64 = 16.0;
+
+/// Iterations without a Jacobian that started from a prediction end where every entry has come to rest, not the largest
+/// alone.
+pub(super) struct Settling<S: Scalar> {
+    ending: S::Mask,
+    before: S,
+}
+
+impl<S: Scalar> Settling<S> {
+    pub(super) fn new() -> Self {
+        Self {
+            ending: S::Mask::splat(false),
+            before: S::zero(),
+        }
+    }
+
+    /// Takes the lanes that have converged by their largest entries, and returns those that have by all.
+    #[inline(always)]
+    pub(super) fn observe<U: Unknown<S>>(
+        &mut self,
+        converged: S::Mask,
+        predicted: S::Mask,
+        sizes: Sizes<'_, U>,
+        (update, unknown): (&U, &U),
+    ) -> S::Mask {
+        self.ending = self.ending | converged;
+        if !(self.ending & predicted).any() {
+            return self.ending;
+        }
+        let step = sizes.relative(update, unknown);
+        let small = step.less_equal(S::from_f64(AT_REST) * S::epsilon());
+        let at_rest = !step.less(self.before * S::ratio(1.0, 2.0)) & S::zero().less(self.before);
+        self.before = S::select(self.ending, step, self.before);
+        self.ending & (!predicted | small | at_rest)
+    }
+
+    /// The lanes that have converged by their largest entries.
+    #[inline(always)]
+    pub(super) fn ending(&self) -> S::Mask {
+        self.ending
+    }
+}
+
+/// Updates of entries up to this many units of their round-off are at rest.
+const AT_REST: f64 = 16.0;
 
 #[cfg(test)]
 mod tests {

@@ -7,7 +7,7 @@ use crate::state::Unknown;
 /// The largest inverse pivot that elimination without row exchanges accepts.
 const MAX_INVERSE_PIVOT: f64 = 1024.0;
 
-/// The lanes in which no inverse pivot exceeds 2^10, given the largest of their absolute values.
+/// The lanes in which no inverse pivot exceeds 2^10, given the largest of their absolute values, or the sum of a few.
 ///
 /// The Jacobian of a step is the identity plus terms of the step size, hence its pivots are
 /// dimensionless and near 1; an inverse that is large or not a number asks for row exchanges.

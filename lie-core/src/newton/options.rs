@@ -4,9 +4,10 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Iteration {
     /// The fixed point where a Jacobian costs so much more than a residual that this may pay
-    /// ([`Equation::jacobian_cost`](crate::Equation::jacobian_cost)), Newton's method elsewhere. A lane in which the
-    /// updates of the fixed point shrink too slowly is solved by Newton's method from the start of the step, and so
-    /// are its next steps, until the fixed point is tried again.
+    /// ([`Equation::jacobian_cost`](crate::Equation::jacobian_cost)), elsewhere one Jacobian a step: an iteration of Newton's
+    /// method and, where the constant of its convergence does not say that this is enough, iterations with its factors. Both
+    /// start from the unknowns of the steps before, extrapolated. A lane in which updates shrink too slowly is solved by
+    /// Newton's method from the guess of the equation, and so are its next steps, until something else is tried again.
     #[default]
     Automatic,
     /// Newton's method: a new Jacobian in every iteration. Converges quadratically.
@@ -46,7 +47,7 @@ pub struct NewtonOptions {
     pub iteration: Iteration,
     /// Error of the unknown at which the iteration may end, in units of round-off: relative to
     /// `epsilon * max(|mu|, |u|)` in the maximum norm. The error is predicted from the last two
-    /// updates. The default 2^-10 keeps the error that is left far below round-off, so that it
+    /// updates, or from one and the rate at which earlier steps converged. The default 2^-10 keeps the error that is left far below round-off, so that it
     /// does not add up to a drift over millions of steps.
     pub tolerance: f64,
     /// The number of iterations after which a step has failed; of an automatic choice, those of Newton's method.

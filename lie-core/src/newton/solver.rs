@@ -1,8 +1,12 @@
 //! The loop.
 
-use super::convergence::Convergence;
+use super::convergence::{Convergence, Settling};
+use super::count::Count;
+use super::failed::{leave, refuse};
 use super::options::{Iteration, NewtonOptions};
+use super::predictor::is_far;
 use super::report::{Failure, FailureReason, NewtonReport};
+use super::sizes::Sizes;
 use super::trial::Trial;
 use super::update::{self, Workspace};
 use crate::equation::Equation;
@@ -17,10 +21,43 @@ use crate::state::Unknown;
 /// nothing (a heap matrix is allocated where row exchanges are needed).
 #[derive(Clone, Debug)]
 pub struct Newton<S: Scalar, U, M> {
-    options: NewtonOptions,
-    workspace: Workspace<S, U, M>,
-    trial: Trial<S>,
-    start: U,
+    pub(super) options: NewtonOptions,
+    pub(super) workspace: Workspace<S, U, M>,
+    fixed: Trial<S>,
+    chord: Trial<S>,
+    pub(super) far: S::Mask,
+    /// An update of Newton's method whose entries are smaller than their sizes by this factor is the last one, as shown by
+    /// a step that was solved from the guess of its equation.
+    pub(super) enough: S,
+}
+
+/// The lanes in which cheaper iterations are tried before Newton's method.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Attempts<M> {
+    /// Those without a Jacobian.
+    fixed: M,
+    /// Those among them that start from a prediction.
+    predicted: M,
+    /// Those with the Jacobian of the start.
+    chord: M,
+}
+
+/// Where the iteration of a step starts.
+pub(crate) struct Start<'a, U, M> {
+    /// The lanes that start from a prediction.
+    pub(crate) predicted: M,
+    /// The lanes in which the step is to show how Newton's method converges, for predictions soon to come.
+    pub(crate) shows: M,
+    /// The unknown of the step before, where there may be any.
+    pub(crate) before: Option<&'a U>,
+}
+
+impl<M: Mask> Attempts<M> {
+    /// The lanes in which any is from a prediction.
+    #[inline(always)]
+    pub(crate) fn predictable(&self) -> M {
+        self.predicted | self.chord
+    }
 }
 
 impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
@@ -33,12 +70,15 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         Self {
             options: *options,
             workspace,
-            trial: Trial::new(options, equation.jacobian_cost()),
-            start: equation.zero_unknown(),
+            fixed: Trial::of_fixed_point(options, equation.jacobian_cost()),
+            chord: Trial::of_one_jacobian(options),
+            far: S::Mask::splat(false),
+            enough: S::from_f64(f64::INFINITY),
         }
     }
 
-    /// Solves `r(u) = 0` from the unknown given.
+    /// Solves `r(u) = 0` from the unknown given. Where an automatic iteration leaves what it tried for Newton's method,
+    /// that starts from [`Equation::initial_guess`].
     ///
     /// `scale` is the size of the state; errors are measured relative to it and to the unknown.
     ///
@@ -54,35 +94,110 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     where
         E: Equation<S, Unknown = U, Matrix = M>,
     {
+        let attempts = self.attempts();
+        let start = Start {
+            predicted: S::Mask::splat(false),
+            shows: S::Mask::splat(false),
+            before: None,
+        };
+        self.solve_trying(equation, unknown, scale, attempts, &start)
+    }
+
+    /// What is tried in the next step, to be asked once for each.
+    #[inline(always)]
+    pub(crate) fn attempts(&mut self) -> Attempts<S::Mask> {
+        self.far = S::Mask::splat(false);
+        let fixed = self.fixed.lanes();
+        Attempts {
+            fixed,
+            predicted: fixed & S::Mask::splat(self.fixed.predictable()),
+            chord: self.chord.lanes(),
+        }
+    }
+
+    /// The lanes in which a prediction for the last step was far from the solution.
+    #[inline(always)]
+    pub(crate) fn started_far(&self) -> S::Mask {
+        self.far
+    }
+
+    /// [`Newton::solve`] with these attempts, from this start.
+    #[inline(always)]
+    pub(crate) fn solve_trying<E>(
+        &mut self,
+        equation: &mut E,
+        unknown: &mut U,
+        scale: S,
+        attempts: Attempts<S::Mask>,
+        start: &Start<'_, U, S::Mask>,
+    ) -> Result<NewtonReport, Failure>
+    where
+        E: Equation<S, Unknown = U, Matrix = M>,
+    {
         let mut report = NewtonReport::default();
         let mut count = Count::default();
-        let mut iteration = self.options.iteration;
         let mut lanes = S::Mask::splat(true);
-        if iteration == Iteration::Automatic {
-            iteration = Iteration::Newton;
-            let trying = self.trial.lanes();
-            if trying.any() {
-                self.start.assign_where(lanes, unknown);
-                let solved = self.by_fixed_point(
-                    equation,
-                    unknown,
-                    scale,
-                    trying,
-                    (&mut report, &mut count),
-                );
-                if solved.all() {
-                    report.iterations = count.most();
-                    report.fixed_point = report.iterations;
-                    return Ok(report);
-                }
-                lanes = !solved;
-                self.trial.given_up(trying & lanes);
-                unknown.assign_where(lanes, &self.start);
+        let mut predicted = start.predicted;
+        let sizes = Sizes {
+            before: start.before,
+        };
+        // the last steps before predictions show how Newton's method converges
+        let fixed = attempts.fixed & (attempts.predicted | !(predicted | start.shows));
+        if fixed.any() {
+            let counts = (&mut report, &mut count);
+            let trying = (fixed, predicted, sizes);
+            let solved = self.by_fixed_point(equation, unknown, scale, trying, counts);
+            report.fixed_point = count.most();
+            lanes = !solved;
+            if lanes.any() {
+                let left = fixed & lanes;
+                let slow = left & !self.far;
+                restart(equation, unknown, left, &mut self.workspace);
+                predicted = predicted & !left;
+                self.fixed.given_up(slow);
             }
         }
-        report.fixed_point = count.most();
+        let trying = attempts.chord & predicted & lanes;
+        if trying.any() {
+            let counts = (&mut report, &mut count);
+            let trying_them = (trying, sizes);
+            let solved = self.by_one_jacobian(equation, unknown, scale, trying_them, counts);
+            lanes = lanes & !solved;
+            if lanes.any() {
+                let left = trying & lanes;
+                let slow = left & !self.far;
+                restart(equation, unknown, left, &mut self.workspace);
+                self.chord.given_up(slow);
+            }
+        }
+        if lanes.any() {
+            let shows = (start.shows & attempts.chord, sizes);
+            let counts = (report, count);
+            return self.by_newton(equation, unknown, scale, (lanes, shows), counts);
+        }
+        report.iterations = count.most();
+        Ok(report)
+    }
+
+    /// Solves by the iteration of the options in the lanes of a mask, after what was tried.
+    #[inline(never)]
+    fn by_newton<E>(
+        &mut self,
+        equation: &mut E,
+        unknown: &mut U,
+        scale: S,
+        (lanes, shows): (S::Mask, (S::Mask, Sizes<'_, U>)),
+        (mut report, mut count): (NewtonReport, Count<S>),
+    ) -> Result<NewtonReport, Failure>
+    where
+        E: Equation<S, Unknown = U, Matrix = M>,
+    {
+        let iteration = match self.options.iteration {
+            Iteration::Automatic => Iteration::Newton,
+            chosen => chosen,
+        };
         let counts = (&mut report, &mut count);
-        let failed = self.iterate(equation, unknown, scale, (iteration, lanes), counts);
+        let failed = self.iterate(equation, unknown, scale, (iteration, lanes, shows), counts);
         report.iterations = count.most();
         if iteration == Iteration::FixedPoint {
             report.fixed_point = report.iterations;
@@ -105,14 +220,15 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         equation: &mut E,
         unknown: &mut U,
         scale: S,
-        lanes: S::Mask,
+        (lanes, predicted, sizes): (S::Mask, S::Mask, Sizes<'_, U>),
         (report, count): (&mut NewtonReport, &mut Count<S>),
     ) -> S::Mask
     where
         E: Equation<S, Unknown = U, Matrix = M>,
     {
         let mut convergence = Convergence::new(Iteration::FixedPoint, self.options.tolerance);
-        let mut bound = self.trial.bound();
+        let mut bound = self.fixed.bound();
+        let mut settling = Settling::new();
         let mut active = lanes;
         let mut solved = S::Mask::splat(false);
         let mut residual = S::zero();
@@ -123,14 +239,22 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             let step = update.max_norm();
             residual = S::select(active, step, S::zero());
             unknown.subtract_where(active, update);
-            if count.add(active) % REVIEW == 1 {
+            let index = count.add(active);
+            if index % REVIEW == 1 {
                 size = S::largest_magnitude(&[scale, unknown.max_norm()]);
+                if index == 1 {
+                    self.far = is_far(step, scale) & lanes & predicted;
+                    active = active & !self.far;
+                }
             }
             let converged = convergence.observe(step, size) & active;
+            let pair = (&self.workspace.update, &*unknown);
+            let converged = settling.observe(converged, predicted, sizes, pair) & active;
             solved = solved | converged;
             active = active & !converged;
             if active.any() {
-                active = active & bound.keeps(step, convergence.is_round_off(step, size));
+                let keeps = bound.keeps(step, convergence.is_round_off(step, size));
+                active = active & (keeps | settling.ending());
             }
         }
         report.residual = largest(residual);
@@ -144,7 +268,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         equation: &mut E,
         unknown: &mut U,
         scale: S,
-        (iteration, lanes): (Iteration, S::Mask),
+        (iteration, lanes, shows): (Iteration, S::Mask, (S::Mask, Sizes<'_, U>)),
         (report, count): (&mut NewtonReport, &mut Count<S>),
     ) -> Option<(FailureReason, u64)>
     where
@@ -153,7 +277,7 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
         let mut convergence = Convergence::new(iteration, self.options.tolerance);
         let mut active = lanes;
         let mut failed = None;
-        let mut residual = S::zero();
+        let [mut residual, mut first] = [S::zero(); 2];
         let mut size = scale;
         for index in 0..self.options.max_iterations {
             let outcome = update::compute(
@@ -181,6 +305,11 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
             if index % REVIEW == 0 {
                 size = S::largest_magnitude(&[scale, unknown.max_norm()]);
             }
+            match index {
+                0 => first = outcome.update,
+                1 if (shows.0 & active).any() => self.show_curvature(first, unknown, active, shows),
+                _ => {}
+            }
             active = active & !convergence.observe(outcome.update, size);
             if !active.any() {
                 break;
@@ -194,96 +323,19 @@ impl<S: Scalar, U: Unknown<S>, M: Clone> Newton<S, U, M> {
     }
 }
 
-/// Iterations, lane by lane where there are several.
-#[derive(Default)]
-struct Count<S> {
-    all: u32,
-    lanes: S,
-}
-
-impl<S: Scalar> Count<S> {
-    /// Adds one in some lanes; returns their number in all.
-    #[inline(always)]
-    fn add(&mut self, active: S::Mask) -> u32 {
-        self.all += 1;
-        if S::LANES > 1 {
-            self.lanes += S::select(active, S::one(), S::zero());
-        }
-        self.all
-    }
-
-    /// That of the lane that took most.
-    #[inline(always)]
-    fn most(&self) -> u32 {
-        if S::LANES > 1 {
-            largest(self.lanes) as u32
-        } else {
-            self.all
-        }
-    }
-}
-
 /// The unknown is measured with the first iteration, and again after so many.
 const REVIEW: u32 = 4;
 
-/// Lanes that go on no longer: their matrix is singular, or their update not finite.
+/// Lanes in which what was tried did not pay start anew.
 #[cold]
-fn refuse<M: Mask>(failed: &mut Option<(FailureReason, u64)>, active: M, singular: M, sound: M) {
-    record(failed, active & singular, FailureReason::Singular);
-    let infinite = active & !singular & !sound;
-    record(failed, infinite, FailureReason::NotFinite);
-}
-
-/// Lanes whose updates did not shrink to the tolerance, or grew.
-#[cold]
-fn leave<M: Mask>(failed: &mut Option<(FailureReason, u64)>, active: M, growing: M) {
-    record(failed, active & growing, FailureReason::Diverged);
-    record(failed, active & !growing, FailureReason::NotConverged);
-}
-
-/// Adds lanes to the failed ones; the reason is that of the lowest lane.
-fn record<M: Mask>(failed: &mut Option<(FailureReason, u64)>, lanes: M, reason: FailureReason) {
-    let bits = lanes.bits();
-    if bits == 0 {
-        return;
-    }
-    let (known, before) = failed.unwrap_or((reason, 0));
-    let reason = if bits.trailing_zeros() < before.trailing_zeros() {
-        reason
-    } else {
-        known
-    };
-    *failed = Some((reason, before | bits));
-}
-
-#[cfg(all(test, feature = "lanes"))]
-mod tests {
-    use super::*;
-    use crate::scalar::F64x4;
-
-    type Lanes = <F64x4 as Scalar>::Mask;
-
-    #[test]
-    fn the_reason_is_that_of_the_lowest_lane() {
-        let mut failed = None;
-        record(&mut failed, Lanes::from_bits(0), FailureReason::Diverged);
-        assert_eq!(failed, None);
-        record(
-            &mut failed,
-            Lanes::from_bits(0b1000),
-            FailureReason::Singular,
-        );
-        record(
-            &mut failed,
-            Lanes::from_bits(0b0010),
-            FailureReason::NotFinite,
-        );
-        assert_eq!(failed, Some((FailureReason::NotFinite, 0b1010)));
-        record(
-            &mut failed,
-            Lanes::from_bits(0b0100),
-            FailureReason::Diverged,
-        );
-        assert_eq!(failed, Some((FailureReason::NotFinite, 0b1110)));
-    }
+#[inline(never)]
+fn restart<S: Scalar, E: Equation<S>>(
+    equation: &mut E,
+    unknown: &mut E::Unknown,
+    lanes: S::Mask,
+    workspace: &mut Workspace<S, E::Unknown, E::Matrix>,
+) {
+    let start = workspace.spare();
+    equation.initial_guess(start);
+    unknown.assign_where(lanes, start);
 }

@@ -1,12 +1,15 @@
-//! Whether iterations without a Jacobian are tried before those with one, lane by lane.
+//! Whether cheaper iterations are tried before Newton's method, lane by lane.
 
 use super::options::{Iteration, NewtonOptions};
 use crate::scalar::{Mask, Scalar};
 
 /// Newton's method takes so many iterations; the fixed point may cost as much.
 const NEWTON: f64 = 2.2;
-/// The fixed point is not tried where it would have to end after fewer iterations.
-const FEWEST: f64 = 6.0;
+/// From a prediction a step takes one iteration with a Jacobian and so many evaluations more.
+const MORE: f64 = 2.5;
+/// The fixed point is not tried where it would have to end after fewer iterations: from the guess of the equation, and from
+/// a prediction.
+const FEWEST: [f64; 2] = [6.0, 6.5];
 /// So many bits of the first update are to be gained.
 const BITS: f64 = 50.0;
 /// More iterations are never tried.
@@ -17,8 +20,12 @@ const REST: [f64; 2] = [16.0, 1024.0];
 /// What is remembered from step to step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trial<S: Scalar> {
-    /// The factor by which updates must shrink; `None` where nothing is tried.
-    rate: Option<S>,
+    /// Whether anything is tried at all.
+    tried: bool,
+    /// Whether it is where a step starts from a prediction.
+    predicted: bool,
+    /// The factor by which updates without a Jacobian must shrink.
+    rate: S,
     /// The lanes that are left to Newton's method.
     resting: S::Mask,
     /// For how many steps more, and how many the last time.
@@ -27,13 +34,27 @@ pub(super) struct Trial<S: Scalar> {
 }
 
 impl<S: Scalar> Trial<S> {
-    /// For an equation with this [`jacobian_cost`](crate::Equation::jacobian_cost).
-    pub(super) fn new(options: &NewtonOptions, cost: f64) -> Self {
+    /// Of iterations without a Jacobian, for an equation with this [`jacobian_cost`](crate::Equation::jacobian_cost).
+    pub(super) fn of_fixed_point(options: &NewtonOptions, cost: f64) -> Self {
         let most = NEWTON * cost;
-        let automatic = options.iteration == Iteration::Automatic;
-        let tried = automatic && most >= FEWEST && options.max_iterations > 1;
+        let [fewest, fewest_predicted] = FEWEST;
+        let one_jacobian = Self::of_one_jacobian(options);
+        let tried = one_jacobian.tried && most >= fewest;
         Self {
-            rate: tried.then(|| S::from_f64(libm::exp2(-BITS / most))),
+            tried,
+            predicted: tried && cost + MORE >= fewest_predicted,
+            rate: S::from_f64(libm::exp2(-BITS / most)),
+            ..one_jacobian
+        }
+    }
+
+    /// Of iterations with the Jacobian of the start.
+    pub(super) fn of_one_jacobian(options: &NewtonOptions) -> Self {
+        let tried = options.iteration == Iteration::Automatic && options.max_iterations > 1;
+        Self {
+            tried,
+            predicted: tried,
+            rate: S::zero(),
             resting: S::Mask::splat(false),
             left: S::zero(),
             rest: S::from_f64(0.5 * REST[0]),
@@ -43,13 +64,19 @@ impl<S: Scalar> Trial<S> {
     /// The lanes that try in this step.
     #[inline(always)]
     pub(super) fn lanes(&mut self) -> S::Mask {
-        if self.rate.is_none() {
+        if !self.tried {
             return S::Mask::splat(false);
         }
         if self.resting.any() {
             self.count_down();
         }
         !self.resting
+    }
+
+    /// Whether anything is tried from predictions.
+    #[inline(always)]
+    pub(super) fn predictable(&self) -> bool {
+        self.predicted
     }
 
     #[cold]
@@ -61,6 +88,9 @@ impl<S: Scalar> Trial<S> {
     /// Takes the lanes whose updates did not shrink fast enough.
     #[cold]
     pub(super) fn given_up(&mut self, lanes: S::Mask) {
+        if !lanes.any() {
+            return;
+        }
         let [_, most] = REST.map(S::from_f64);
         let doubled = self.rest + self.rest;
         let doubled = S::select(doubled.less(most), doubled, most);
@@ -73,7 +103,7 @@ impl<S: Scalar> Trial<S> {
     #[inline(always)]
     pub(super) fn bound(&self) -> Bound<S> {
         Bound {
-            rate: self.rate.unwrap_or(S::zero()),
+            rate: self.rate,
             size: S::zero(),
             count: 0,
         }
@@ -112,14 +142,18 @@ mod tests {
     #[test]
     fn cheap_jacobians_are_not_avoided() {
         let options = NewtonOptions::default();
-        assert!(!Trial::<f64>::new(&options, 2.0).lanes());
-        assert!(Trial::<f64>::new(&options, 3.3).lanes());
-        assert!(!Trial::<f64>::new(&NewtonOptions::newton(), 3.3).lanes());
+        let trial = |cost: f64| Trial::<f64>::of_fixed_point(&options, cost);
+        assert!(!trial(2.0).lanes());
+        assert!(trial(3.3).lanes());
+        assert!(!Trial::<f64>::of_fixed_point(&NewtonOptions::newton(), 3.3).lanes());
+        // a prediction and one Jacobian are cheaper than two
+        assert!(!trial(3.3).predictable());
+        assert!(trial(5.0).predictable());
     }
 
     #[test]
     fn rests_grow() {
-        let mut trial = Trial::<f64>::new(&NewtonOptions::default(), 10.0);
+        let mut trial = Trial::<f64>::of_fixed_point(&NewtonOptions::default(), 10.0);
         let mut rest = || {
             assert!(trial.lanes());
             trial.given_up(true);
@@ -132,7 +166,7 @@ mod tests {
 
     #[test]
     fn updates_must_shrink_by_the_rate() {
-        let trial = Trial::<f64>::new(&NewtonOptions::default(), 20.0 / NEWTON);
+        let trial = Trial::<f64>::of_fixed_point(&NewtonOptions::default(), 20.0 / NEWTON);
         let keeps = |rate: f64| {
             let mut bound = trial.bound();
             (0..8).all(|k| bound.keeps(1e-3 * rate.powi(k), false))

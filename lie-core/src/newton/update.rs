@@ -12,7 +12,7 @@ pub(super) struct Workspace<S: Scalar, U, M> {
     /// The residual, then the update.
     pub(super) update: U,
     spare: U,
-    factors: M,
+    pub(super) factors: M,
     /// The lanes whose factors may be used.
     safe: S::Mask,
 }
@@ -103,5 +103,10 @@ impl<S: Scalar, U: Clone, M> Workspace<S, U, M> {
             factors: matrix,
             safe: S::Mask::splat(false),
         }
+    }
+
+    /// An unknown whose entries do not matter between two iterations.
+    pub(super) fn spare(&mut self) -> &mut U {
+        &mut self.spare
     }
 }

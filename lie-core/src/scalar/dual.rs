@@ -221,6 +221,28 @@ impl<S: Scalar> Scalar for Dual<S> {
         let value = self.value.tanh();
         self.chain(value, (S::one() - value) * (S::one() + value))
     }
+    fn cbrt(self) -> Self {
+        let root = self.value.cbrt();
+        self.chain(root, S::ratio(1.0, 3.0) / (root * root))
+    }
+    fn log1p(self) -> Self {
+        self.chain(self.value.log1p(), S::one() / (S::one() + self.value))
+    }
+    fn expm1(self) -> Self {
+        self.chain(self.value.expm1(), self.value.exp())
+    }
+    fn asinh(self) -> Self {
+        let slope = S::one() / (S::one() + self.value * self.value).sqrt();
+        self.chain(self.value.asinh(), slope)
+    }
+    fn acosh(self) -> Self {
+        let slope = S::one() / ((self.value - S::one()) * (self.value + S::one())).sqrt();
+        self.chain(self.value.acosh(), slope)
+    }
+    fn atanh(self) -> Self {
+        let slope = S::one() / ((S::one() - self.value) * (S::one() + self.value));
+        self.chain(self.value.atanh(), slope)
+    }
     fn atan2(self, x: Self) -> Self {
         let square = self.value * self.value + x.value * x.value;
         Self::new(
@@ -265,7 +287,7 @@ mod tests {
     /// Every function against a central difference, whose error is about 1e-10.
     #[test]
     fn slopes_agree_with_differences() {
-        let functions: [fn(Dual<f64>) -> Dual<f64>; 18] = [
+        let functions: [fn(Dual<f64>) -> Dual<f64>; 25] = [
             Scalar::abs,
             Scalar::sqrt,
             Scalar::exp,
@@ -279,6 +301,13 @@ mod tests {
             Scalar::sinh,
             Scalar::cosh,
             Scalar::tanh,
+            Scalar::cbrt,
+            |x| (-x).cbrt(),
+            Scalar::log1p,
+            Scalar::expm1,
+            Scalar::asinh,
+            |x| (Dual::one() + x).acosh(),
+            Scalar::atanh,
             |x| x.atan2(Dual::one() + x * x),
             |x| x.powf(Dual::from_f64(2.5)),
             |x| x.powf(x),

@@ -5,12 +5,16 @@
 //!
 //! Sine and cosine are those of `libm`, bit for bit (S. Moshier's and Sun's coefficients as in fdlibm's `k_sin.c` and
 //! `k_cos.c`); the tangent is the quotient of S. Moshier's Cephes library (`tan.c`), with an error below 1.4 units in the
-//! last place: 17 operations instead of 40.
+//! last place: 17 operations instead of 40; up to 1/16 a polynomial of 12 operations, without a division.
 
+#[cfg(any(feature = "lanes", test))]
+use super::Mask;
 use super::Scalar;
 
 /// Angles up to this are small: the double below pi/4.
 const SMALL: f64 = core::f64::consts::FRAC_PI_4;
+/// The tangent of an angle up to this is a polynomial.
+const VERY_SMALL: f64 = 1.0 / 16.0;
 /// The sine of an angle below this is the angle.
 const TINY: f64 = 1.0 / 134_217_728.0;
 
@@ -76,8 +80,42 @@ pub(super) fn cos<S: Scalar>(x: S) -> S {
 }
 
 /// The tangent of a small angle.
+#[cfg(any(feature = "lanes", test))]
 #[inline(always)]
 pub(super) fn tan<S: Scalar>(x: S) -> S {
+    let very = is_very_small(x);
+    let value = tan_polynomial(x);
+    if very.all() {
+        value
+    } else {
+        S::select(very, value, tan_quotient(x))
+    }
+}
+
+/// The lanes in which the tangent is a polynomial.
+#[inline(always)]
+fn is_very_small<S: Scalar>(x: S) -> S::Mask {
+    x.abs().less_equal(S::from_f64(VERY_SMALL))
+}
+
+/// The minimax polynomial of that degree for `|x| <= 1/16`, with a relative error of 2^-55.
+#[inline(always)]
+fn tan_polynomial<S: Scalar>(x: S) -> S {
+    let z = x * x;
+    let slope = polynomial(
+        z,
+        [
+            0.021_954_092_633_481_01,
+            0.053_967_976_048_537_35,
+            0.133_333_333_692_985_45,
+            0.333_333_333_333_188_7,
+        ],
+    );
+    x + x * (z * slope)
+}
+
+#[inline(always)]
+fn tan_quotient<S: Scalar>(x: S) -> S {
     let z = x * x;
     let numerator = polynomial(
         z,
@@ -116,7 +154,25 @@ pub(super) mod one {
     }
     function!(sin);
     function!(cos);
-    function!(tan);
+
+    #[inline(always)]
+    pub(in super::super) fn tan(x: f64) -> f64 {
+        if super::is_very_small(x) {
+            super::tan_polynomial(x)
+        } else {
+            tan_beyond(x)
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn tan_beyond(x: f64) -> f64 {
+        if super::is_small(x) {
+            super::tan_quotient(x)
+        } else {
+            libm::tan(x)
+        }
+    }
 }
 
 #[cfg(test)]
@@ -127,7 +183,7 @@ mod tests {
     fn angles() -> impl Iterator<Item = f64> {
         let even = (0..20_000).map(|k| SMALL * f64::from(k) / 19_999.0);
         let small = (0..200).map(|k| 0.7 * 0.8_f64.powi(k));
-        let edges = [TINY, SMALL, f64::MIN_POSITIVE, 5e-324, 0.0].into_iter();
+        let edges = [TINY, SMALL, VERY_SMALL, f64::MIN_POSITIVE, 5e-324, 0.0].into_iter();
         even.chain(small).chain(edges).flat_map(|x| [x, -x])
     }
 

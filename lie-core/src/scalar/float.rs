@@ -148,7 +148,13 @@ float_scalar!(
     atan = libm::atan,
     sinh = libm::sinh,
     cosh = libm::cosh,
-    tanh = libm::tanh
+    tanh = libm::tanh,
+    cbrt = libm::cbrt,
+    log1p = libm::log1p,
+    expm1 = libm::expm1,
+    asinh = libm::asinh,
+    acosh = libm::acosh,
+    atanh = libm::atanh
 );
 
 float_scalar!(
@@ -170,7 +176,13 @@ float_scalar!(
     atan = libm::atanf,
     sinh = libm::sinhf,
     cosh = libm::coshf,
-    tanh = libm::tanhf
+    tanh = libm::tanhf,
+    cbrt = libm::cbrtf,
+    log1p = libm::log1pf,
+    expm1 = libm::expm1f,
+    asinh = libm::asinhf,
+    acosh = libm::acoshf,
+    atanh = libm::atanhf
 );
 
 /// The f32 nearest to `high + low`. Rounding `high` alone would decide a tie between two f32

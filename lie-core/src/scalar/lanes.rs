@@ -170,7 +170,9 @@ macro_rules! lanes {
             fn sqrt(self) -> Self {
                 Self(self.0.sqrt())
             }
-            lane_function!($lane, exp, log, asin, acos, atan, sinh, cosh, tanh);
+            lane_function!(
+                $lane, exp, log, asin, acos, atan, sinh, cosh, tanh, cbrt, log1p, expm1, asinh, acosh, atanh
+            );
             $angles!($lane, sin, cos, tan);
             #[inline]
             fn atan2(self, x: Self) -> Self {
@@ -343,7 +345,7 @@ mod tests {
             let expected = core::array::from_fn(|k| one(x.lane(k), y.lane(k)));
             assert_eq!(bits(lanes(x, y).to_array()), bits(expected));
         }
-        let unary: [(Unary<F64x8>, Unary<f64>); 15] = [
+        let unary: [(Unary<F64x8>, Unary<f64>); 21] = [
             (|a| -a, |a| -a),
             (Scalar::abs, Scalar::abs),
             (Scalar::sqrt, Scalar::sqrt),
@@ -358,6 +360,12 @@ mod tests {
             (Scalar::sinh, Scalar::sinh),
             (Scalar::cosh, Scalar::cosh),
             (Scalar::tanh, Scalar::tanh),
+            (Scalar::cbrt, Scalar::cbrt),
+            (Scalar::log1p, Scalar::log1p),
+            (Scalar::expm1, Scalar::expm1),
+            (Scalar::asinh, Scalar::asinh),
+            (Scalar::acosh, Scalar::acosh),
+            (Scalar::atanh, Scalar::atanh),
             (Scalar::magnitude, Scalar::magnitude),
         ];
         for (lanes, one) in unary {

@@ -171,6 +171,18 @@ pub trait Scalar:
     fn cosh(self) -> Self;
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
+    /// Cube root, of negative numbers too.
+    fn cbrt(self) -> Self;
+    /// `log(1 + self)`, with all digits of a small number.
+    fn log1p(self) -> Self;
+    /// `exp(self) - 1`, with all digits of a small number.
+    fn expm1(self) -> Self;
+    /// Inverse hyperbolic sine.
+    fn asinh(self) -> Self;
+    /// Inverse hyperbolic cosine, of numbers from 1 on.
+    fn acosh(self) -> Self;
+    /// Inverse hyperbolic tangent, of numbers between -1 and 1.
+    fn atanh(self) -> Self;
     /// The angle of the point (`x`, `self`) in radians.
     fn atan2(self, x: Self) -> Self;
     /// `self` to a real power.

@@ -102,7 +102,8 @@ impl<S: Scalar> Scalar for Pack<S> {
     }
 
     functions!(
-        abs, magnitude, sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh
+        abs, magnitude, sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, cbrt,
+        log1p, expm1, asinh, acosh, atanh
     );
     fn atan2(self, x: Self) -> Self {
         Self(from_fn(|k| self.0[k].atan2(x.0[k])))

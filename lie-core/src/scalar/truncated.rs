@@ -64,6 +64,19 @@ impl<S: Scalar> Truncated<S> {
         })
     }
 
+    /// The series y with `x y' = c y x'` from its constant term: `y_k = sum_(0<j<=k) (c j - (k - j)) x_j y_(k-j) / (k x_0)`.
+    fn power(&self, first: S, c: S) -> Self {
+        let x = &self.terms;
+        Self::recursive(self.length, first, |y, k| {
+            let mut sum = S::zero();
+            for j in 1..=k {
+                let weight = c * S::from_f64(j as f64) - S::from_f64((k - j) as f64);
+                sum += weight * x[j] * y[k - j];
+            }
+            sum / (S::from_f64(k as f64) * x[0])
+        })
+    }
+
     /// Two series y, z with `y' = a z x'` and `z' = b y x'`: sines and cosines.
     fn pair(&self, first: S, second: S, [a, b]: [f64; 2]) -> (Self, Self) {
         let slope = self.slope();
@@ -258,24 +271,43 @@ impl<S: Scalar> Scalar for Truncated<S> {
             _ => quotient.terms[k],
         })
     }
+    fn cbrt(self) -> Self {
+        self.power(self.terms[0].cbrt(), S::ratio(1.0, 3.0))
+    }
+    fn log1p(self) -> Self {
+        let slope = self.slope() / (Self::one() + self);
+        Self::integral(self.terms[0].log1p(), &slope)
+    }
+    fn expm1(self) -> Self {
+        let power = self.exp();
+        Self::of(self.length, |k| match k {
+            0 => self.terms[0].expm1(),
+            _ => power.terms[k],
+        })
+    }
+    fn asinh(self) -> Self {
+        let slope = self.slope() / (Self::one() + self * self).sqrt();
+        Self::integral(self.terms[0].asinh(), &slope)
+    }
+    fn acosh(self) -> Self {
+        let slope = self.slope() / ((self - Self::one()) * (self + Self::one())).sqrt();
+        Self::integral(self.terms[0].acosh(), &slope)
+    }
+    fn atanh(self) -> Self {
+        let slope = self.slope() / ((Self::one() - self) * (Self::one() + self));
+        Self::integral(self.terms[0].atanh(), &slope)
+    }
     fn atan2(self, x: Self) -> Self {
         let slope = (x * self.slope() - self * x.slope()) / (x * x + self * self);
         Self::integral(self.terms[0].atan2(x.terms[0]), &slope)
     }
-    /// `x y' = c y x'` for a constant c: `y_k = sum_(0<j<=k) (c j - (k - j)) x_j y_(k-j) / (k x_0)`; `exp(c log x)` else.
+    /// A constant power; `exp(c log x)` of one that varies.
     fn powf(self, exponent: Self) -> Self {
         if exponent.length > 1 {
             return (exponent * self.log()).exp();
         }
-        let (c, x) = (exponent.terms[0], &self.terms);
-        Self::recursive(self.length, x[0].powf(c), |y, k| {
-            let mut sum = S::zero();
-            for j in 1..=k {
-                let weight = c * S::from_f64(j as f64) - S::from_f64((k - j) as f64);
-                sum += weight * x[j] * y[k - j];
-            }
-            sum / (S::from_f64(k as f64) * x[0])
-        })
+        let c = exponent.terms[0];
+        self.power(self.terms[0].powf(c), c)
     }
     fn max(self, other: Self) -> Self {
         let (one, two) = (self.terms[0], other.terms[0]);

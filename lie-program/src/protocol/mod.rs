@@ -8,10 +8,11 @@
 //! ends soon after. So no program outlives the command that started it, however that one was ended.
 
 pub mod number;
+mod words;
 
 use crate::session;
 use lie_runtime::driver::{Chosen, Options, Pace, Save, Stats};
-use lie_runtime::newton::{Convergence, Iteration, NewtonOptions};
+use lie_runtime::newton::NewtonOptions;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -44,47 +45,6 @@ impl Tolerances {
             atol: tolerance,
         }
     }
-}
-
-/// [`Iteration`] in words.
-#[derive(Deserialize, Serialize)]
-#[serde(remote = "Iteration", rename_all = "kebab-case")]
-enum IterationInWords {
-    Automatic,
-    Newton,
-    Simplified,
-    FixedPoint,
-}
-
-/// [`Convergence`] in words.
-#[derive(Deserialize, Serialize)]
-#[serde(remote = "Convergence", rename_all = "kebab-case")]
-enum ConvergenceInWords {
-    Claimed,
-    State,
-    Tolerance,
-    Map,
-}
-
-/// [`Pace`] in words.
-#[derive(Deserialize, Serialize)]
-#[serde(remote = "Pace", rename_all = "kebab-case")]
-enum PaceInWords {
-    Step(#[serde(with = "number")] f64),
-    Tolerance(#[serde(with = "number")] f64),
-}
-
-/// The fields of [`NewtonOptions`].
-#[derive(Deserialize, Serialize)]
-#[serde(remote = "NewtonOptions", deny_unknown_fields)]
-struct NewtonFields {
-    #[serde(with = "IterationInWords")]
-    iteration: Iteration,
-    #[serde(with = "number")]
-    tolerance: f64,
-    max_iterations: u32,
-    #[serde(with = "ConvergenceInWords")]
-    convergence: Convergence,
 }
 
 /// Where a system starts.
@@ -123,14 +83,14 @@ pub struct Run {
     /// Where it starts.
     pub start: Start,
     /// The step size, or a tolerance.
-    #[serde(with = "PaceInWords")]
+    #[serde(with = "words::PaceInWords")]
     pub pace: Pace,
     /// When rows are wanted.
     pub times: Times,
     /// The tolerances of an adaptive method.
     pub tolerances: Tolerances,
     /// The solver of an implicit method.
-    #[serde(with = "NewtonFields")]
+    #[serde(with = "words::NewtonFields")]
     pub newton: NewtonOptions,
 }
 

@@ -1,0 +1,26 @@
+//! Families `A^N`: many copies of one Lie algebra on a chain or a lattice, coupled by sums over their sites.
+//!
+//! ```math
+//! H = F(T_1, \ldots, T_m), \qquad T_k = \sum_i s_k(\mu_{i + o_1}, \mu_{i + o_2}, \ldots), \qquad
+//! \dot\mu_i = \mathrm{ad}^*_{\partial H/\partial\mu_i}\, \mu_i
+//! ```
+//!
+//! Generated code knows one site and its neighbours ([`Sites`]): straight-line kernels, whatever N is. [`Family`] is the
+//! system, with the loops over its sites. A sum over all sites is periodic: indices count modulo the size. A sum over some
+//! of them has no neighbours beyond the ends.
+//!
+//! A state holds the first coordinates of all sites, then the second ones, and so on; the sites of a lattice row after row.
+//! Memory is a few states: no Jacobian is kept, so that the methods are those that need none.
+#![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
+
+mod energy;
+mod initial;
+mod sites;
+mod splitting;
+mod stencil;
+mod system;
+
+pub use initial::unit_spheres;
+pub use sites::{Sites, Span, Term};
+pub use splitting::{FamilyFlows, Kind, Pieces};
+pub use system::{Family, NoMatrix, size};

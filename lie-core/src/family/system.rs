@@ -1,0 +1,296 @@
+//! The system of a family: loops over the kernels of a site.
+
+use super::Sites;
+use crate::matrix::SquareMatrix;
+use crate::parameter::{ParameterError, ParameterFault};
+use crate::poisson::{LiePoisson, Poisson, Widen};
+use crate::scalar::Scalar;
+use core::array::from_fn;
+use std::format;
+use std::string::String;
+use std::sync::OnceLock;
+use std::vec::Vec;
+
+/// The names of coordinates and Casimirs.
+#[derive(Clone, Debug, PartialEq)]
+struct Names {
+    coordinates: Vec<String>,
+    casimirs: Vec<String>,
+}
+
+/// A family of sites as a system; see the [module's text](super).
+///
+/// Its Casimirs are, of each Casimir of a site, the mean over all sites, the smallest and the largest one.
+#[derive(Clone, Debug)]
+pub struct Family<K, const C: usize, const L: usize, const T: usize> {
+    kernels: K,
+    sizes: [usize; 2],
+    /// Made when somebody asks for one: a large family is integrated without.
+    names: OnceLock<Names>,
+}
+
+/// The number of sites along one axis, from the value of a parameter.
+///
+/// # Errors
+/// It is no whole number between 1 and `2^31`.
+pub fn size<S: Scalar>(value: S, name: &'static str) -> Result<usize, ParameterError> {
+    let number = value.to_f64();
+    if number >= 1.0 && number <= (1_u64 << 31) as f64 && number as usize as f64 == number {
+        Ok(number as usize)
+    } else {
+        Err(ParameterError {
+            name,
+            expression: name,
+            fault: ParameterFault::NotASize,
+        })
+    }
+}
+
+/// The places in the list of Casimirs of a family: three for each of a site.
+const STATISTICS: [&str; 3] = ["mean", "min", "max"];
+
+impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
+    /// The family of so many sites, rows and columns; a chain is one row.
+    pub fn new(kernels: K, sizes: [usize; 2]) -> Self {
+        Self {
+            kernels,
+            sizes,
+            names: OnceLock::new(),
+        }
+    }
+
+    /// The kernels of a site.
+    #[inline]
+    pub fn kernels(&self) -> &K {
+        &self.kernels
+    }
+
+    /// Rows and columns.
+    #[inline]
+    pub fn sizes(&self) -> [usize; 2] {
+        self.sizes
+    }
+
+    /// The number of sites.
+    #[inline]
+    pub fn count(&self) -> usize {
+        self.sizes[0] * self.sizes[1]
+    }
+
+    fn names<S: Scalar>(&self) -> &Names
+    where
+        K: Sites<S, C, L, T>,
+    {
+        self.names.get_or_init(|| {
+            let [rows, columns] = self.sizes;
+            let coordinates = self.kernels.coordinates();
+            let named = |name: &str, site: usize| match rows {
+                1 => format!("{name}[{site}]"),
+                _ => format!("{name}[{}][{}]", site / columns, site % columns),
+            };
+            let all = coordinates.iter();
+            let all = all.flat_map(|name| (0..self.count()).map(move |site| named(name, site)));
+            let casimirs = (0..3 * K::CASIMIRS).map(|index| {
+                let name = self.kernels.casimir_name(index / 3);
+                format!("{name}_{}", STATISTICS[index % 3])
+            });
+            Names {
+                coordinates: all.collect(),
+                casimirs: casimirs.collect(),
+            }
+        })
+    }
+
+    /// The sum of a Casimir over all sites, and the smallest and the largest value.
+    fn statistics<S: Scalar>(&self, mu: &[S], index: usize) -> [S; 3]
+    where
+        K: Sites<S, C, L, T>,
+    {
+        let value = |site: usize| self.kernels.casimir(index, &self.site(mu, site));
+        let first = value(0);
+        (1..self.count()).fold([first; 3], |[sum, smallest, largest], site| {
+            let next = value(site);
+            [sum + next, -(-smallest).max(-next), largest.max(next)]
+        })
+    }
+
+    /// The site at which a Casimir is smallest, or largest; of lanes in the first one.
+    fn extreme<S: Scalar>(&self, mu: &[S], index: usize, largest: bool) -> usize
+    where
+        K: Sites<S, C, L, T>,
+    {
+        let value = |site: usize| self.kernels.casimir(index, &self.site(mu, site)).to_f64();
+        let mut found = (0, value(0));
+        for site in 1..self.count() {
+            let next = value(site);
+            if next != found.1 && (next > found.1) == largest {
+                found = (site, next);
+            }
+        }
+        found.0
+    }
+}
+
+/// The matrix of a family, which keeps none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct NoMatrix;
+
+impl<S: Scalar> SquareMatrix<S> for NoMatrix {
+    fn dimension(&self) -> usize {
+        0
+    }
+    fn get(&self, _row: usize, _column: usize) -> S {
+        unreachable!("a family has no matrix")
+    }
+    fn set(&mut self, _row: usize, _column: usize, _value: S) {
+        unreachable!("a family has no matrix")
+    }
+}
+
+impl<S, K, const C: usize, const L: usize, const T: usize> Poisson<S> for Family<K, C, L, T>
+where
+    S: Scalar,
+    K: Sites<S, C, L, T>,
+{
+    type State = Vec<S>;
+    type Jacobian = NoMatrix;
+
+    fn dimension(&self) -> usize {
+        C * self.count()
+    }
+    fn name(&self) -> &str {
+        self.kernels.name()
+    }
+    fn coordinate(&self, index: usize) -> &str {
+        &self.names().coordinates[index]
+    }
+    fn casimir_count(&self) -> usize {
+        3 * K::CASIMIRS
+    }
+    fn casimir_name(&self, index: usize) -> &str {
+        &self.names().casimirs[index]
+    }
+    fn casimir_degree(&self, index: usize) -> Option<u32> {
+        self.kernels
+            .casimir_degree(index / 3)
+            .filter(|_| index.is_multiple_of(3))
+    }
+    fn hamiltonian_degree(&self) -> Option<u32> {
+        K::DEGREE
+    }
+    fn has_jacobian(&self) -> bool {
+        false
+    }
+    fn zero_state(&self) -> Vec<S> {
+        std::vec![S::zero(); C * self.count()]
+    }
+    fn zero_jacobian(&self) -> NoMatrix {
+        NoMatrix
+    }
+
+    fn hamiltonian(&self, mu: &Vec<S>) -> S {
+        self.kernels.energy(&self.totals(mu))
+    }
+
+    fn gradient(&self, mu: &Vec<S>, out: &mut Vec<S>) {
+        let weights = self.weights(mu);
+        let [rows, columns] = self.sizes;
+        for row in 0..rows {
+            for column in 0..columns {
+                let slope = self.slope(mu, [row, column], &weights);
+                self.set_site(out, row * columns + column, slope);
+            }
+        }
+    }
+
+    fn hessian(&self, _mu: &Vec<S>, _out: &mut NoMatrix) {}
+    fn poisson_matrix(&self, _mu: &Vec<S>, _out: &mut NoMatrix) {}
+
+    #[inline]
+    fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
+        let weights = self.weights(mu);
+        let [rows, columns] = self.sizes;
+        for row in 0..rows {
+            let inner = self.inner::<S>(row);
+            for column in (0..inner.start).chain(inner.end..columns) {
+                let site = row * columns + column;
+                let slope = self.slope(mu, [row, column], &weights);
+                let field = self.kernels.ad_star(&slope, &self.site(mu, site));
+                self.set_site(out, site, field);
+            }
+            if inner.is_empty() {
+                continue;
+            }
+            let along = self.along(mu, row, &inner);
+            let mut parts = out.chunks_exact_mut(rows * columns);
+            let to: [&mut [S]; C] = from_fn(|_| match parts.next() {
+                Some(part) => &mut part[row * columns + inner.start..][..inner.len()],
+                None => unreachable!("a part for each coordinate"),
+            });
+            for i in 0..inner.len() {
+                let at = from_fn(|slot| from_fn(|k| along[slot][k][i]));
+                let field = self.kernels.field(&at, &weights);
+                for k in 0..C {
+                    to[k][i] = field[k];
+                }
+            }
+        }
+    }
+
+    fn jacobian(&self, _mu: &Vec<S>, _out: &mut NoMatrix) {}
+
+    fn casimirs(&self, mu: &Vec<S>, out: &mut [S]) {
+        let count = S::from_f64(self.count() as f64);
+        for index in 0..K::CASIMIRS {
+            let [sum, smallest, largest] = self.statistics(mu, index);
+            out[3 * index..][..3].copy_from_slice(&[sum / count, smallest, largest]);
+        }
+    }
+
+    fn casimir_gradient(&self, index: usize, mu: &Vec<S>, out: &mut Vec<S>) {
+        out.fill(S::zero());
+        let casimir = index / 3;
+        let gradient = |site| self.kernels.casimir_gradient(casimir, &self.site(mu, site));
+        if !index.is_multiple_of(3) {
+            let site = self.extreme(mu, casimir, index % 3 == 2);
+            return self.set_site(out, site, gradient(site));
+        }
+        let share = S::one() / S::from_f64(self.count() as f64);
+        for site in 0..self.count() {
+            self.set_site(out, site, gradient(site).map(|slope| share * slope));
+        }
+    }
+}
+
+impl<S, K, const C: usize, const L: usize, const T: usize> LiePoisson<S> for Family<K, C, L, T>
+where
+    S: Scalar,
+    K: Sites<S, C, L, T>,
+{
+    fn ad(&self, xi: &Vec<S>, eta: &Vec<S>, out: &mut Vec<S>) {
+        for site in 0..self.count() {
+            let value = self.kernels.ad(&self.site(xi, site), &self.site(eta, site));
+            self.set_site(out, site, value);
+        }
+    }
+    fn ad_star(&self, xi: &Vec<S>, mu: &Vec<S>, out: &mut Vec<S>) {
+        for site in 0..self.count() {
+            let value = self
+                .kernels
+                .ad_star(&self.site(xi, site), &self.site(mu, site));
+            self.set_site(out, site, value);
+        }
+    }
+    fn ad_star_matrix(&self, _xi: &Vec<S>, _out: &mut NoMatrix) {}
+}
+
+impl<S, K, const C: usize, const L: usize, const T: usize> Widen<S> for Family<K, C, L, T>
+where
+    S: Scalar,
+    K: Sites<S, C, L, T>,
+{
+    type Widened = Family<K::Widened, C, L, T>;
+    fn widen(&self) -> Self::Widened {
+        Family::new(self.kernels.widen(), self.sizes)
+    }
+}

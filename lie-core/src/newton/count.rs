@@ -1,0 +1,32 @@
+//! Iterations of all lanes.
+
+use crate::scalar::{Scalar, largest};
+
+/// Iterations, lane by lane where there are several.
+#[derive(Default)]
+pub(super) struct Count<S> {
+    all: u32,
+    lanes: S,
+}
+
+impl<S: Scalar> Count<S> {
+    /// Adds one in some lanes; returns their number in all.
+    #[inline(always)]
+    pub(super) fn add(&mut self, active: S::Mask) -> u32 {
+        self.all += 1;
+        if S::LANES > 1 {
+            self.lanes += S::select(active, S::one(), S::zero());
+        }
+        self.all
+    }
+
+    /// That of the lane that took most.
+    #[inline(always)]
+    pub(super) fn most(&self) -> u32 {
+        if S::LANES > 1 {
+            largest(self.lanes) as u32
+        } else {
+            self.all
+        }
+    }
+}
