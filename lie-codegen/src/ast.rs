@@ -72,6 +72,38 @@ pub struct Index {
     pub variable: Option<Name>,
     /// What is added to it.
     pub offset: i64,
+    /// The second index of a lattice.
+    pub second: Option<Box<Index>>,
+}
+
+/// The number of sites of a family along one axis.
+#[derive(Clone, Debug)]
+pub enum Size {
+    /// A number.
+    Number(usize, Origin),
+    /// The value of a parameter, which a run may set.
+    Parameter(Name),
+}
+
+impl Size {
+    /// Where it stands.
+    pub fn origin(&self) -> Origin {
+        match self {
+            Self::Number(_, origin) => *origin,
+            Self::Parameter(name) => name.origin,
+        }
+    }
+}
+
+/// What makes a declaration that of a family `A^N`: its algebra and its state are those of a site.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// The number of sites, of a lattice rows and columns.
+    pub sizes: Vec<Size>,
+    /// The indices in the names of the state.
+    pub indices: Vec<Name>,
+    /// The seed of a random initial state, a point on the unit sphere for each site.
+    pub seed: Option<u64>,
 }
 
 /// `[left, right] = value` of basis elements, or `{left, right} = value` of coordinates.
@@ -259,8 +291,10 @@ pub struct Declaration {
     pub structure: Structure,
     /// The name of the group element, where functions may use its entries.
     pub group: Option<Name>,
-    /// Names of the coordinates of `mu`.
+    /// Names of the coordinates of `mu`; of a family those of a site.
     pub state: Vec<Name>,
+    /// Present where the system is many copies of the algebra.
+    pub family: Option<Family>,
     /// The parameters.
     pub parameters: Vec<Parameter>,
     /// Abbreviations, each may use the earlier ones.

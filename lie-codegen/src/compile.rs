@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 
 use crate::ast::Declaration;
-use crate::check::check;
+use crate::check::{Effort, check, check_with};
 use crate::diagnostic::{Diagnostic, Report};
 use crate::front::{Body, spec};
 use crate::methods::{Choice, refusal};
@@ -16,13 +16,23 @@ use crate::print::{Surface, format, print};
 /// # Errors
 /// Every mistake of the first stage that has one.
 pub fn compile_spec(text: &str) -> Result<Model, Vec<Diagnostic>> {
+    compile_spec_with(text, Effort::Declaration)
+}
+
+/// The same with as much work on what is searched for as is said.
+///
+/// # Errors
+/// Every mistake of the first stage that has one.
+pub fn compile_spec_with(text: &str, effort: Effort) -> Result<Model, Vec<Diagnostic>> {
     let mut report = Report::new();
     let parsed = spec::read(text, &mut report);
     report.gate()?;
     let Some(Body::Declaration(declaration)) = parsed.body else {
         return Err(report.into_diagnostics());
     };
-    compile_declaration(&declaration)
+    let model = check_with(&declaration, effort, &mut report);
+    report.gate()?;
+    model.ok_or_else(|| report.into_diagnostics())
 }
 
 /// Checks a declaration.

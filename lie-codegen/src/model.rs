@@ -1,5 +1,9 @@
 //! The checked model: everything that derivation and emission need, with no mistake left in it.
 
+mod casimir;
+mod family;
+mod realization;
+
 use proc_macro2::TokenStream;
 
 use crate::algebra::{Representation, StructureConstants};
@@ -9,6 +13,10 @@ use crate::diagnostic::{Diagnostic, Origin};
 use crate::exact::{Fraction, Rational};
 use crate::print::Runtime;
 use crate::symbolic::{ExprId, Graph, Symbol};
+
+pub use casimir::{Casimir, CasimirKind, Search};
+pub use family::{Family, SiteSum, Size};
+pub use realization::{CANONICAL, Descent, Realization};
 
 /// A parameter of the system.
 #[derive(Clone, Debug)]
@@ -29,21 +37,6 @@ pub struct Parameter {
     pub unit: Option<String>,
     /// Description, for people, as Markdown.
     pub description: Option<String>,
-}
-
-/// A declared Casimir that was verified; those of a model are functionally independent.
-#[derive(Clone, Debug)]
-pub struct Casimir {
-    /// Whether it has several branches, between which its value jumps.
-    pub multivalued: bool,
-    /// Its name, declared or given.
-    pub name: String,
-    /// Where it is declared.
-    pub origin: Origin,
-    /// The function.
-    pub expr: ExprId,
-    /// Its total degree in the coordinates, where it is a polynomial in them.
-    pub degree: Option<u32>,
 }
 
 /// Where the equations of motion come from. Of its Hamiltonian a checked system knows what is in [`Hamiltonian`];
@@ -197,43 +190,6 @@ impl PoissonMatrix {
     }
 }
 
-/// [`Symbol::Input`] of the first canonical coordinate of a realization: beyond all other inputs.
-pub const CANONICAL: usize = 1 << 20;
-
-/// A verified realization of the bracket: a Poisson map from canonical coordinates.
-#[derive(Clone, Debug)]
-pub struct Realization {
-    /// Names of the positions, then of the momenta.
-    pub names: Vec<Name>,
-    /// The component of each coordinate of the state; position k is the input `CANONICAL + k`.
-    pub map: Vec<ExprId>,
-    /// Where the components stand.
-    pub origins: Vec<Origin>,
-    /// A point near which points over a state are sought.
-    pub start: Vec<ExprId>,
-    /// Whether the declaration gives it.
-    pub given: bool,
-    /// Whether Gauss methods over it are methods for the state.
-    pub descent: Descent,
-}
-
-/// Whether the Gauss methods for `H o J`, J a realization, descend to the state J(z).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Descent {
-    /// They do.
-    Closed,
-    /// The components are not of degree at most two, or it could not be shown that they are.
-    Degree,
-    /// The closure of the components adds functions that the state does not determine, and that commute with them or
-    /// not.
-    Adds {
-        /// Whether they do.
-        commuting: bool,
-    },
-    /// The closure could not be found: a coefficient is not rational, or there are too many of them.
-    Unknown,
-}
-
 /// A checked system.
 ///
 /// The right-invariant sign is already in the bracket, so that `mu' = Pi(mu) grad H(mu)`, of an algebra
@@ -266,10 +222,14 @@ pub struct Model {
     pub energy: Energy,
     /// What the coordinates beside mu are, of a system on `T*G` or one that depends on the time.
     pub configuration: Option<Configuration>,
+    /// The sums of a family. All else is that of a site, and its Hamiltonian is 0.
+    pub family: Option<Family>,
     /// The realization, for collective methods.
     pub realization: Option<Realization>,
-    /// The independent declared Casimirs.
+    /// The independent Casimirs, the declared ones first.
     pub casimirs: Vec<Casimir>,
+    /// How the search for those that were not declared ended.
+    pub search: Search,
     /// Methods that get fused code.
     pub methods: Vec<Name>,
     /// The initial state, expressions in constants and parameters.
@@ -290,6 +250,21 @@ impl Model {
     /// Number of coordinates.
     pub fn dimension(&self) -> usize {
         self.coordinates.len()
+    }
+
+    /// The value of an expression at the default parameters, where it depends on parameters alone and is finite.
+    pub fn at_defaults(&self, graph: &Graph, id: ExprId) -> Option<f64> {
+        let symbols = graph.symbols(id);
+        let alone = symbols
+            .iter()
+            .all(|symbol| matches!(symbol, Symbol::Parameter(_)));
+        let value = || {
+            graph.evaluate(id, &|symbol| match symbol {
+                Symbol::Parameter(k) => self.parameters[k].default_value,
+                _ => f64::NAN,
+            })
+        };
+        alone.then(value).filter(|value| value.is_finite())
     }
 
     /// Whether the bracket is the Lie–Poisson bracket of an algebra and nothing else.
@@ -351,6 +326,44 @@ impl Model {
     /// An expression of the model as text.
     pub fn display(&self, expr: ExprId) -> String {
         self.graph.display(expr, &|symbol| self.symbol_name(symbol))
+    }
+
+    /// The Hamiltonian of a family as text, sums written out.
+    pub fn display_of_family(&self, family: &Family) -> String {
+        let sizes = family.sizes.iter().map(|size| match size {
+            Size::Number(count) => count.to_string(),
+            Size::Parameter(p) => self.parameters[*p].name.clone(),
+        });
+        let sizes: Vec<String> = sizes.collect();
+        let own = &family.names[family.own * self.dimension()];
+        let own = own.split_once('[').map_or("", |(_, rest)| rest);
+        let indices: Vec<&str> = own.trim_end_matches(']').split(',').collect();
+        let range = |(index, size): (usize, &String), spans: &[Option<(usize, usize)>]| {
+            let name = indices.get(index).copied().unwrap_or("i");
+            match spans[spans.len() - sizes.len() + index] {
+                None | Some((0, 0)) => format!("{name} in 0..{size}"),
+                Some((first, 0)) => format!("{name} in {first}..{size}"),
+                Some((first, left)) => format!("{name} in {first}..{size}-{left}"),
+            }
+        };
+        self.graph.display(family.energy, &|symbol| match symbol {
+            Symbol::Coordinate(place) => {
+                let Some(sum) = place
+                    .checked_sub(family.names.len())
+                    .and_then(|k| family.sums.get(k))
+                else {
+                    return family.names[place].clone();
+                };
+                let ranges = sizes.iter().enumerate().map(|size| range(size, &sum.spans));
+                let ranges: Vec<String> = ranges.collect();
+                let summand = self.graph.display(sum.summand, &|symbol| match symbol {
+                    Symbol::Coordinate(place) => family.names[place].clone(),
+                    other => self.symbol_name(other),
+                });
+                format!("sum({}: {summand})", ranges.join(", "))
+            }
+            other => self.symbol_name(other),
+        })
     }
 
     /// The default values of the parameters.

@@ -87,7 +87,7 @@ fn what_is_asked_for_is_planned() {
     }
     let splitting = planned(
         "so3_free_rigid_body",
-        &Choice::Splitting(2, Default::default()),
+        &Choice::Splitting(2, Default::default(), Default::default()),
     );
     assert!(splitting.splitting.is_some() && items(&splitting).is_empty());
 }

@@ -69,9 +69,60 @@ impl<T> StructureConstants<T> {
     }
 }
 
+impl<T: Clone> StructureConstants<T> {
+    /// The finest direct sum of ideals that are spanned by basis elements: the elements of each, ascending, and its constants.
+    ///
+    /// A `unit`, which is central and the last basis element, belongs to each of them as its last one.
+    pub fn blocks(&self, unit: Option<usize>) -> Vec<(Vec<usize>, Self)> {
+        let is_unit = |i: usize| Some(i) == unit;
+        // of each element one of its block that comes before it, or itself
+        let mut before: Vec<usize> = (0..self.dimension).collect();
+        fn first(before: &[usize], mut i: usize) -> usize {
+            while before[i] != i {
+                i = before[i];
+            }
+            i
+        }
+        for (i, j, k, _) in &self.entries {
+            for other in [j, k].into_iter().filter(|other| !is_unit(**other)) {
+                let (a, b) = (first(&before, *i), first(&before, *other));
+                before[a.max(b)] = a.min(b);
+            }
+        }
+        let mut blocks: Vec<(Vec<usize>, Vec<_>)> = Vec::new();
+        let mut block_of = vec![usize::MAX; self.dimension];
+        let mut place_in = vec![0; self.dimension];
+        for i in (0..self.dimension).filter(|i| !is_unit(*i)) {
+            let head = first(&before, i);
+            if head == i {
+                block_of[i] = blocks.len();
+                blocks.push((Vec::new(), Vec::new()));
+            }
+            block_of[i] = block_of[head];
+            let elements = &mut blocks[block_of[i]].0;
+            place_in[i] = elements.len();
+            elements.push(i);
+        }
+        for (elements, _) in &mut blocks {
+            elements.extend(unit);
+        }
+        for (i, j, k, value) in &self.entries {
+            let (elements, entries) = &mut blocks[block_of[*i]];
+            let last = elements.len() - 1;
+            let to = if is_unit(*k) { last } else { place_in[*k] };
+            entries.push((place_in[*i], place_in[*j], to, value.clone()));
+        }
+        let constants = |(elements, entries): (Vec<usize>, Vec<_>)| {
+            let constants = Self::new(elements.len(), entries);
+            (elements, constants)
+        };
+        blocks.into_iter().map(constants).collect()
+    }
+}
+
 impl<T: Ring> StructureConstants<T> {
     /// The brackets as a table: `table[i][j]` lists the `(k, C_ij^k)`, both halves.
-    pub(super) fn table(&self) -> Vec<Vec<Vec<(usize, T)>>> {
+    pub(crate) fn table(&self) -> Vec<Vec<Vec<(usize, T)>>> {
         let n = self.dimension;
         let mut table = vec![vec![Vec::new(); n]; n];
         for (i, j, k, value) in &self.entries {

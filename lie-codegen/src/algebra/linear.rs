@@ -80,6 +80,19 @@ pub(super) fn bracket_value(
     )
 }
 
+/// A linear combination with rational coefficients: those that are not zero, by basis index.
+pub fn rational_form(
+    value: &Expr,
+    scope: &Scope<'_>,
+    budget: &Budget,
+    report: &mut Report,
+) -> Option<BTreeMap<usize, Rational>> {
+    let terms = bracket_value(value, scope, budget, report)?.into_iter();
+    terms
+        .map(|(k, value)| Some((k, value.as_constant()?)))
+        .collect()
+}
+
 /// The largest total degree in numerator and denominator.
 fn degree(value: &Fraction) -> i64 {
     let below = value
@@ -253,7 +266,7 @@ impl Lower for Lowering<'_, '_> {
 
     fn call(&mut self, function: &Name, _: Operands<Form>, origin: Origin) -> Option<Form> {
         let name = &function.text;
-        if Function::from_name(name).is_some() || name == "sqrt" {
+        if Function::is_name(name) {
             return self.irrational(origin, &format!("`{name}` is not rational"));
         }
         self.unknown_function(

@@ -3,6 +3,7 @@
 
 pub mod brackets;
 mod constants;
+pub mod constructors;
 mod envelope;
 pub mod jacobi;
 mod linear;
@@ -22,7 +23,7 @@ mod tests;
 
 pub use constants::StructureConstants;
 pub use envelope::Columns;
-pub use linear::rational;
+pub use linear::{rational, rational_form};
 pub use representation::{Representation, TripleEntry};
 pub use scope::Scope;
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::ast::Declaration;
+use crate::ast::{Declaration, Name};
 use crate::diagnostic::{Diagnostic, Kind};
 use crate::exact::Fraction;
 use crate::suggest::{listed, misspelt};
@@ -68,6 +68,19 @@ impl<'a> Scope<'a> {
             meanings,
             basis,
             parameters,
+        }
+    }
+
+    /// A basis alone.
+    pub fn of_basis(basis: &'a [Name]) -> Self {
+        let basis: Vec<&str> = basis.iter().map(|name| name.text.as_str()).collect();
+        let meanings = basis.iter().enumerate();
+        Self {
+            meanings: meanings
+                .map(|(i, name)| (*name, Meaning::Basis(i)))
+                .collect(),
+            basis,
+            parameters: Vec::new(),
         }
     }
 

@@ -117,10 +117,10 @@ pub(crate) trait Lower: Sized {
 
     /// Reports a function that the grammar does not have; `otherwise` is the remedy where none is near.
     fn unknown_function<T>(&mut self, function: &Name, otherwise: &str) -> Option<T> {
-        let names = Function::ALL.iter().map(|f| f.name()).chain(["sqrt"]);
-        let help = did_you_mean(&function.text, names).map_or(otherwise.to_owned(), |near| {
-            format!("did you mean `{near}`?")
-        });
+        let help = did_you_mean(&function.text, Function::names())
+            .map_or(otherwise.to_owned(), |near| {
+                format!("did you mean `{near}`?")
+            });
         let message = format!("unknown function `{}`", function.text);
         self.fail(Kind::UnknownFunction, function.origin, message, &help)
     }

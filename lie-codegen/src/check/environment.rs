@@ -135,7 +135,7 @@ impl<'a> Environment<'a> {
 
     /// Message and remedy for a name that is not declared.
     fn undeclared(&self, name: &str, allowed: Allowed) -> (String, String) {
-        if Function::from_name(name).is_some() || name == "sqrt" {
+        if Function::is_name(name) {
             let help = format!("write its argument: `{name}(…)`");
             return (format!("`{name}` is a function"), help);
         }

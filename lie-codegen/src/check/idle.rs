@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::ast::{Declaration, Expr, ExprKind, Structure};
+use crate::ast::{Declaration, Expr, ExprKind, Size, Structure};
 use crate::diagnostic::{Diagnostic, Kind, Report};
 use crate::model::{Bracket, Model};
 use crate::symbolic::Symbol;
@@ -15,8 +15,14 @@ pub fn check(declaration: &Declaration, model: &Model, report: &mut Report) {
     motionless(declaration, model, report);
 }
 
-fn unused(declaration: &Declaration, report: &mut Report) {
-    let mentioned = mentioned(declaration);
+/// Warns of parameters and abbreviations that no expression mentions.
+pub fn unused(declaration: &Declaration, report: &mut Report) {
+    let mut mentioned = mentioned(declaration);
+    for size in declaration.family.iter().flat_map(|family| &family.sizes) {
+        if let Size::Parameter(name) = size {
+            mentioned.insert(&name.text);
+        }
+    }
     let parameters = declaration
         .parameters
         .iter()

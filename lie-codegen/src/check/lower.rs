@@ -18,8 +18,8 @@ const MAX_BITS_TOGETHER: u64 = 1 << 20;
 /// The largest arena that expressions may fill, nodes and operands together.
 const MAX_SIZE: usize = 200_000;
 const TOO_LARGE: &str = "the expressions are too large";
-const FUNCTIONS: &str =
-    "the functions are sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, atan2";
+const FUNCTIONS: &str = "the functions are sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, \
+    asinh, acosh, atanh, cbrt, log1p, expm1, atan2, hypot";
 
 /// An expression in the arena: its normal form, and the form in which it was written.
 #[derive(Clone, Copy)]
@@ -139,6 +139,22 @@ impl<'a, 'b> Lowering<'a, 'b> {
         Some(argument.map(|id| self.graph.pow(id, &half)))
     }
 
+    /// `hypot(x, y) = (x^2 + y^2)^(1/2)`
+    fn hypotenuse(&mut self, x: Lowered, y: Lowered) -> Lowered {
+        let two = Rational::from(2);
+        let half = &Rational::ONE / &two;
+        let normal = [x, y].map(|a| (self.graph.pow(a.normal, &two), Rational::ONE));
+        let written = [x, y].map(|a| {
+            let quantity = self.written_base(a.written);
+            (self.graph.pow(quantity, &two), Rational::ONE)
+        });
+        let sum = Lowered {
+            normal: self.graph.linear(&normal),
+            written: self.graph.written_sum(&written),
+        };
+        sum.map(|id| self.graph.pow(id, &half))
+    }
+
     /// A quotient that is raised to a power stays one quantity.
     fn written_base(&mut self, id: ExprId) -> ExprId {
         let (_, product) = self.graph.coefficient(id);
@@ -256,6 +272,7 @@ impl Lower for Lowering<'_, '_> {
         let arity = match known {
             Some(known) => known.arity(),
             None if function.text == "sqrt" => 1,
+            None if function.text == "hypot" => 2,
             None => return self.unknown_function(function, FUNCTIONS),
         };
         if arguments.len() != arity {
@@ -277,8 +294,10 @@ impl Lower for Lowering<'_, '_> {
             .into_iter()
             .map(|a| a.value)
             .collect::<Option<_>>()?;
-        let Some(known) = known else {
-            return self.square_root(lowered[0], place, origin);
+        let known = match (known, lowered.as_slice()) {
+            (Some(known), _) => known,
+            (None, [x, y]) => return Some(self.hypotenuse(*x, *y)),
+            (None, _) => return self.square_root(lowered[0], place, origin),
         };
         if self.is_undefined(known, lowered[0].normal, place)? {
             return self.fail(

@@ -21,7 +21,7 @@ const TYPES: &[&str] = &[
     "u16", "u32", "u64", "u128", "usize",
 ];
 /// Words of the language; `energy` is a column of every output.
-const WORDS: &[&str] = &["pi", "t", "energy", "sum", "sqrt"];
+const WORDS: &[&str] = &["pi", "t", "energy", "sum"];
 
 /// Reports every bad name.
 ///
@@ -142,7 +142,7 @@ pub fn is_reserved(name: &str) -> bool {
     KEYWORDS.contains(&name)
         || WORDS.contains(&name)
         || name.starts_with('_')
-        || Function::from_name(name).is_some()
+        || Function::is_name(name)
 }
 
 fn permitted(name: &Name, report: &mut Report) {

@@ -7,8 +7,8 @@ use super::energy::Declared;
 use super::environment::{Allowed, Environment};
 use super::lower::Lowering;
 use super::{
-    breadth, cocycle, defaults, degree, domain, energy, initial, lets, matrix, methods, naming,
-    parameters, poisson, realization, sign, size,
+    Effort, breadth, cocycle, defaults, degree, domain, energy, found, initial, lets, matrix,
+    methods, naming, parameters, poisson, realization, sign, size,
 };
 use crate::algebra::rank as algebra_rank;
 use crate::ast::{self, Declaration};
@@ -16,15 +16,17 @@ use crate::diagnostic::{Origin, Report};
 use crate::exact::Rational;
 use crate::model::{
     self, Bracket, Casimir, Energy, Hamiltonian, Model, Parameter, PoissonMatrix, Realization,
+    Search,
 };
 use crate::print::Runtime;
 use crate::structure::separable;
-use crate::symbolic::{ExprId, Graph};
+use crate::symbolic::{ExprId, Graph, Symbol};
 
 /// Checks a declaration; of a system on `T*G` it is the one with all coordinates.
 pub fn check(
     declaration: &Declaration,
     configuration: Option<&Configuration>,
+    effort: Effort,
     report: &mut Report,
 ) -> Option<Model> {
     let lowered = lowered(declaration, configuration, report)?;
@@ -41,8 +43,10 @@ pub fn check(
     let candidates = std::mem::take(&mut system.candidates);
     let casimirs = naming::independent(declaration, &system.graph, candidates, &degrees?, report);
     let rank = system.generic_rank(&bracket, casimirs.len());
+    let (casimirs, search) = system.completed(&bracket, casimirs, &rank, effort);
     let energy = system.energy();
     let (mut model, matrix, mut scratch) = system.into_model(bracket, energy, casimirs, &rank);
+    model.search = search;
     domain::check(&model, declaration.initial_origin, report);
     methods::check(&model, report);
     if report.has_errors() {
@@ -300,6 +304,34 @@ impl<'a> System<'a> {
         Rank { generic, bound }
     }
 
+    /// The Casimirs with those that nobody declared, and how the search for them ended.
+    fn completed(
+        &mut self,
+        bracket: &Bracket,
+        mut casimirs: Vec<Casimir>,
+        rank: &Rank,
+        effort: Effort,
+    ) -> (Vec<Casimir>, Search) {
+        let rank = rank.generic.unwrap_or(rank.bound);
+        let number = |symbol| match symbol {
+            Symbol::Parameter(p) => self.parameters[p].default_value,
+            _ => f64::NAN,
+        };
+        let initial = self.initial.as_ref();
+        let asked = found::Asked {
+            declaration: self.declaration,
+            configuration: self.configuration,
+            bracket,
+            brackets: &self.brackets,
+            count: self.declaration.dimension() - rank,
+            initial: initial.map(|mu| self.graph.evaluate_all(mu, &number)),
+            effort,
+        };
+        let (added, search) = asked.search(&casimirs, (&mut self.graph, &mut self.scratch));
+        casimirs.extend(added);
+        (casimirs, search)
+    }
+
     /// The energy with what is known of its Hamiltonian.
     fn energy(&mut self) -> Energy {
         let dimension = self.declaration.dimension();
@@ -348,8 +380,10 @@ impl<'a> System<'a> {
             invariance: declaration.invariance,
             energy,
             configuration: configuration.cloned(),
+            family: None,
             realization,
             casimirs,
+            search: Search::Complete,
             methods: declaration.methods.clone(),
             initial,
             initial_origins: initial_origins.collect(),

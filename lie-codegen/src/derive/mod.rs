@@ -5,6 +5,7 @@ mod coadjoint;
 mod discrete_gradient;
 mod exponential;
 mod field;
+mod found;
 mod generating;
 mod kernel;
 mod lagrangian;
@@ -20,6 +21,7 @@ mod tape;
 mod traced;
 
 pub(crate) use discrete_gradient::Closed;
+pub use found::FoundKernel;
 pub use generating::{Function, Generating};
 pub(crate) use generating::{Slope, slope, symmetric};
 pub use kernel::{Argument, Kernel, Shape};
@@ -28,7 +30,7 @@ pub use realization::Realization;
 pub use recurrence::{Quantity, Recurrences, recurrences};
 pub(crate) use second_kind::moved;
 pub use source::{Bracket, Source};
-pub(crate) use splitting::Definitions;
+pub(crate) use splitting::{Definitions, action};
 pub use splitting::{PieceKernel, Update};
 pub(crate) use tape::{Tangents, Tape};
 
@@ -233,7 +235,8 @@ impl Source {
     /// The flows of the coordinate pieces of a separable Hamiltonian.
     pub fn splitting_kernels(&mut self) -> Option<Vec<PieceKernel>> {
         let pieces = self.pieces.clone()?;
-        Some(splitting::kernels(self, &pieces))
+        let slopes = self.gradient_of_h();
+        Some(splitting::kernels(self, &pieces, &slopes))
     }
 
     /// Gradient and Hessian of a generating function; `None` where they swell.

@@ -12,6 +12,8 @@
 //! | `s, c = sin(u), cos(u)` | `Ds = c Du`, `Dc = -s Du` (`sinh`, `cosh`: `+s`) |
 //! | `y = tan(u)`, `tanh(u)` | `Dy = w Du`, `w = 1 ± y y` |
 //! | `y = atan(u)`, `asin(u)` | `w Dy = Du`, `w = 1 + u u`, `w w = 1 - u u` |
+//! | `y = atanh(u)`, `asinh(u)`, `acosh(u)` | `w Dy = Du`, `w = 1 - u u`, `w w = u u + 1`, `w w = u u - 1` |
+//! | `y = cbrt(u)`, `log1p(u)`, `expm1(u)` | as `u^(1/3)`, `log(1 + u)`, `exp(u)` from order 1 on |
 //! | `y = atan2(u, v)` | `w Dy = v Du - u Dv`, `w = u u + v v` |
 
 mod functions;

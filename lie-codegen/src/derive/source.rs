@@ -4,6 +4,7 @@ use super::Realization;
 use crate::algebra::{Representation, TripleEntry};
 use crate::model::{self, Descent, Discrete, Energy, Hamiltonian, Lagrangian, Model};
 use crate::structure::exponential::Exponential;
+use crate::structure::found::Found;
 use crate::structure::group::Group;
 use crate::structure::inertia::Body;
 use crate::structure::integrable::{self, Motion};
@@ -43,6 +44,8 @@ pub struct Source {
     pub triple: Option<Vec<TripleEntry>>,
     /// The coordinate pieces of H, if it is a sum of functions of one coordinate each.
     pub pieces: Option<Vec<Piece>>,
+    /// The pieces of H up to Casimirs, and H without these, where a splitting is asked for.
+    pub found: Option<Found>,
     /// The declared realization.
     pub realization: Option<Realization>,
     /// The representation, where it carries collective methods.
@@ -84,6 +87,7 @@ impl Source {
             casimirs: Vec::new(),
             triple: None,
             pieces: None,
+            found: None,
             realization: None,
             matrices: None,
             spins: None,

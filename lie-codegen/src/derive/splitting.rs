@@ -92,9 +92,13 @@ pub(super) fn sigma(source: &mut Source, block: &Block, s: ExprId) -> ExprId {
     }
 }
 
-pub(super) fn kernels(source: &mut Source, pieces: &[Piece]) -> Vec<PieceKernel> {
+pub(super) fn kernels(
+    source: &mut Source,
+    pieces: &[Piece],
+    slopes: &[ExprId],
+) -> Vec<PieceKernel> {
     let flow = |piece: &Piece| match &piece.blocks {
-        Some(blocks) => kernel(source, piece.coordinate, blocks),
+        Some(blocks) => kernel(source, piece.coordinate, blocks, slopes[piece.coordinate]),
         None => PieceKernel {
             coordinate: piece.coordinate,
             kernel: None,
@@ -104,10 +108,20 @@ pub(super) fn kernels(source: &mut Source, pieces: &[Piece]) -> Vec<PieceKernel>
     pieces.iter().map(flow).collect()
 }
 
-fn kernel(source: &mut Source, coordinate: usize, blocks: &[Block]) -> PieceKernel {
+/// `mu -> exp(t ad*_(e_i)) mu`.
+pub(crate) fn action(source: &mut Source, coordinate: usize, blocks: &[Block]) -> PieceKernel {
+    let one = source.graph.integer(1);
+    kernel(source, coordinate, blocks, one)
+}
+
+pub(super) fn kernel(
+    source: &mut Source,
+    coordinate: usize,
+    blocks: &[Block],
+    slope: ExprId,
+) -> PieceKernel {
     let mut definitions = Definitions::default();
     let time = source.graph.symbol(Symbol::Time);
-    let slope = source.gradient_of_h()[coordinate];
     let s = source.graph.mul(time, slope);
     let mut increments: Vec<Vec<ExprId>> = vec![Vec::new(); source.dimension];
     let mut changes = vec![None; source.dimension];

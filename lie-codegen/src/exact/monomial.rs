@@ -37,6 +37,14 @@ impl Monomial {
         self.powers.iter().map(|&(v, e)| (v as usize, e))
     }
 
+    /// The same with other variables, whose order must be that of the old ones.
+    pub fn renamed(&self, variable: &dyn Fn(usize) -> usize) -> Self {
+        let powers = self.powers().map(|(v, e)| (variable(v) as u32, e));
+        let powers: Box<[(u32, u32)]> = powers.collect();
+        debug_assert!(powers.is_sorted_by(|a, b| a.0 < b.0));
+        Self::new(powers)
+    }
+
     /// Whether it is the empty product.
     pub fn is_one(&self) -> bool {
         self.powers.is_empty()

@@ -96,6 +96,12 @@ impl Polynomial {
         }
     }
 
+    /// The same with other variables, whose order must be that of the old ones.
+    pub fn renamed(&self, variable: &dyn Fn(usize) -> usize) -> Self {
+        let terms = self.0.iter().map(|(m, c)| (m.renamed(variable), c.clone()));
+        Self(terms.collect())
+    }
+
     /// `factor * self`.
     pub fn scale(&self, factor: &Rational) -> Self {
         if factor.is_zero() {

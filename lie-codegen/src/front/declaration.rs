@@ -3,16 +3,18 @@
 mod block;
 mod entry;
 mod statement;
+mod vectors;
 
 use proc_macro2::{Span, TokenStream};
 
-use self::block::{algebra, names, parameters, realization};
+use self::block::{algebra, is_named, names, parameters, realization};
 use self::entry::{Entry, compact, inside};
 use self::statement::{Statement, statements};
-use super::reader::{self, Entries, Line};
+use super::reader::{self, Entries, Line, Read};
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
+use super::vectors::Declared;
 use super::{Body, Names, Parsed, item, rust};
-use crate::ast::{Algebra, Expr, Name, Realization, RunOption};
+use crate::ast::{Expr, Name, Realization, RunOption};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::print::{NoPath, Runtime};
 
@@ -226,7 +228,9 @@ fn system(parts: &Parts<'_>, report: &mut Report) -> Parsed {
         let example = "algebra { basis e1, e2; [e1, e2] = e2; }";
         parts.missing("algebra", example, place, report);
     }
-    parts.missing("state", "state x, y;", place, report);
+    if !parts.first("algebra").is_some_and(is_named) {
+        parts.missing("state", "state x, y;", place, report);
+    }
     if item::FUNCTIONS[1..]
         .iter()
         .all(|f| parts.first(f).is_none())
@@ -283,12 +287,17 @@ impl Entries for Parts<'_> {
         Some((render(&line.tokens), place))
     }
 
-    fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Algebra> {
+    fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Read> {
         algebra(self.first("algebra")?, parameters, report)
     }
 
     fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization> {
         realization(self.first("realization")?, parameters, report)
+    }
+
+    fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared> {
+        let block = self.first("vectors").and_then(|s| s.block(report));
+        vectors::read(&block.unwrap_or_default(), names, report)
     }
 
     fn initial(&self, _: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {

@@ -20,7 +20,7 @@ use super::names::Names;
 use super::number;
 use super::operand::{begins_factor, ends_in_function, last_operand};
 use super::token::{Cursor, Delimiter, Token, TokenKind};
-use super::{families, mistakes};
+use super::{families, mistakes, vectors};
 use crate::ast::{Expr, ExprKind};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::exact::Rational;
@@ -53,7 +53,8 @@ pub fn parse(tokens: &[Token], names: &Names, report: &mut Report) -> Option<Exp
         parser.fail(mistakes::unexpected(token, before, rest));
     }
     let expression = expression.filter(|_| !parser.failed)?;
-    families::refuse(&expression, report).then_some(expression)
+    let taken = names.may_be_indexed() || families::refuse(&expression, report);
+    vectors::expand(taken.then_some(expression)?, names.vectors(), report)
 }
 
 /// The parser's state. Methods return `None` after a mistake that they reported and behind which

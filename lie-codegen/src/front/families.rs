@@ -1,11 +1,11 @@
 //! Indexed names and sums, `x[i+1]` and `sum(i in 0..N: …)`.
 //!
-//! The parser reads them into the tree; [`refuse`] is the one place that turns them away as long
-//! as no later stage takes them.
+//! The parser reads them into the tree; [`refuse`] turns them away where the declaration is none of a family.
 
 use super::expression::Parser;
+use super::token::{Cursor, render, span};
 use super::token::{Delimiter, Token, TokenKind};
-use crate::ast::{Expr, ExprKind, Index, Name};
+use crate::ast::{Expr, ExprKind, Index, Name, Size};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// Reports indexed names and sums; whether there were none.
@@ -50,9 +50,9 @@ pub fn not_built(origin: Origin) -> Diagnostic {
     Diagnostic::new(
         Kind::Syntax,
         origin,
-        "families of systems (indexed names and sums) are not built yet",
+        "indexed names and sums belong to families, and this declaration is none",
     )
-    .help("write the copies out, as in x1, x2, x3")
+    .help("a family is declared by a spec, with an algebra such as `so(3)^N` and a state such as `x[i]`; else write the copies out, as in x1, x2, x3")
 }
 
 /// `x[0]` or `x[i]` where a name is declared: what stands behind the opening bracket.
@@ -68,9 +68,30 @@ pub fn indexed_name(name: &Token, index: &[Token], origin: Origin) -> Diagnostic
     Diagnostic::new(Kind::Syntax, origin, message).help(format!("write `{name}{digits}`"))
 }
 
-/// The rest of `sum(i in from..to: body)`, after the word `sum`.
+/// The rest of `sum(i in from..to: body)`, or of `sum(i in from..to, j in from..to: body)`, after the word `sum`.
 pub(super) fn indexed_sum<'a>(parser: &mut Parser<'a>, word: &'a Token) -> Option<Expr> {
     let open = parser.cursor.advance()?;
+    let mut ranges = vec![range(parser, word)?];
+    while parser.cursor.eat(',').is_some() {
+        ranges.push(range(parser, word)?);
+    }
+    expect(parser, ':', word)?;
+    let body = parser.sum()?;
+    let origin = word.origin.to(parser.close(open, Delimiter::Parenthesis)?);
+    let sum = |body: Expr, (index, from, to): (Name, Expr, Expr)| Expr {
+        kind: ExprKind::IndexedSum {
+            index,
+            from: Box::new(from),
+            to: Box::new(to),
+            body: Box::new(body),
+        },
+        origin,
+    };
+    Some(ranges.into_iter().rev().fold(body, sum))
+}
+
+/// `i in from..to`
+fn range<'a>(parser: &mut Parser<'a>, word: &'a Token) -> Option<(Name, Expr, Expr)> {
     let index = parser.cursor.peek().and_then(|t| {
         Some(Name {
             text: t.identifier()?.to_owned(),
@@ -91,16 +112,7 @@ pub(super) fn indexed_sum<'a>(parser: &mut Parser<'a>, word: &'a Token) -> Optio
     }
     let to = parser.sum()?;
     parser.bounds = outer;
-    expect(parser, ':', word)?;
-    let body = parser.sum()?;
-    let origin = word.origin.to(parser.close(open, Delimiter::Parenthesis)?);
-    let kind = ExprKind::IndexedSum {
-        index,
-        from: Box::new(from),
-        to: Box::new(to),
-        body: Box::new(body),
-    };
-    Some(Expr { kind, origin })
+    Some((index, from, to))
 }
 
 fn expect<'a>(parser: &mut Parser<'a>, sign: char, word: &'a Token) -> Option<&'a Token> {
@@ -124,6 +136,16 @@ pub(super) fn index<'a>(
     let Some(open) = parser.cursor.eat_kind(&TokenKind::Open(Delimiter::Bracket)) else {
         return Some((None, name.origin));
     };
+    let mut index = one_index(parser, open)?;
+    if parser.cursor.eat(',').is_some() {
+        index.second = Some(Box::new(one_index(parser, open)?));
+    }
+    let end = parser.close(open, Delimiter::Bracket)?;
+    Some((Some(index), name.origin.to(end)))
+}
+
+/// `i`, `i+1`, `i-2` or `0`
+fn one_index<'a>(parser: &mut Parser<'a>, open: &'a Token) -> Option<Index> {
     let variable = parser.cursor.peek().and_then(|t| {
         Some(Name {
             text: t.identifier()?.to_owned(),
@@ -160,6 +182,102 @@ pub(super) fn index<'a>(
         };
         offset = sign * value;
     }
-    let end = parser.close(open, Delimiter::Bracket)?;
-    Some((Some(Index { variable, offset }), name.origin.to(end)))
+    let second = None;
+    Some(Index {
+        variable,
+        offset,
+        second,
+    })
+}
+
+/// A name of the state with its indices, `x[i]` or `x[i, j]`; none where it is another text.
+pub(super) fn indexed_state(tokens: &[Token]) -> Option<(Name, Vec<Name>)> {
+    let name = |token: &Token| {
+        Some(Name {
+            text: token.identifier()?.to_owned(),
+            origin: token.origin,
+        })
+    };
+    let [first, open, inside @ .., close] = tokens else {
+        return None;
+    };
+    let brackets = open.kind == TokenKind::Open(Delimiter::Bracket)
+        && close.kind == TokenKind::Close(Delimiter::Bracket);
+    let indices: Option<Vec<Name>> = match inside {
+        [i] => Some(vec![name(i)?]),
+        [i, comma, j] if comma.is(',') => Some(vec![name(i)?, name(j)?]),
+        _ => None,
+    };
+    Some((name(first)?, indices.filter(|_| brackets)?))
+}
+
+/// The names of a state, of a family with their indices, all the same.
+pub(super) fn same_indices(
+    state: Vec<(Name, Vec<Name>)>,
+    report: &mut Report,
+) -> (Vec<Name>, Vec<Name>) {
+    let texts = |names: &[Name]| -> Vec<String> { names.iter().map(|n| n.text.clone()).collect() };
+    let first = state.first().map_or_else(Vec::new, |(_, i)| i.clone());
+    for (name, indices) in &state {
+        if texts(indices) != texts(&first) {
+            let message = format!(
+                "`{}` has other indices than the first coordinate",
+                name.text
+            );
+            let help = format!("write `{}[{}]`", name.text, texts(&first).join(", "));
+            report.push(Diagnostic::new(Kind::Syntax, name.origin, message).help(help));
+        }
+    }
+    (state.into_iter().map(|(name, _)| name).collect(), first)
+}
+
+/// What stands before the last `^` of the algebra of a family, and the sizes behind it: `N`, `64` or `(N, M)`.
+pub(super) fn power<'a>(
+    tokens: &'a [Token],
+    whole: Origin,
+    report: &mut Report,
+) -> Option<(&'a [Token], Vec<Size>)> {
+    let caret = tokens.iter().rposition(|token| token.is('^'));
+    let sizes = caret.and_then(|at| Some((&tokens[..at], sizes(&tokens[at + 1..])?)));
+    if sizes.is_none() {
+        let place = span(tokens).unwrap_or(whole);
+        let message = format!(
+            "the state has an index, and the algebra `{}` no number of copies",
+            render(tokens)
+        );
+        let help = "write the algebra as `so(3)^N`, with N a parameter or a number; of a lattice as `so(3)^(N, M)`";
+        report.push(Diagnostic::new(Kind::Syntax, place, message).help(help));
+    }
+    sizes
+}
+
+fn sizes(tokens: &[Token]) -> Option<Vec<Size>> {
+    let size = |token: &Token| match &token.kind {
+        TokenKind::Identifier(text) => Some(Size::Parameter(Name {
+            text: text.clone(),
+            origin: token.origin,
+        })),
+        TokenKind::Number(text) if text.bytes().all(|b| b.is_ascii_digit()) => {
+            Some(Size::Number(text.parse().ok()?, token.origin))
+        }
+        _ => None,
+    };
+    let mut cursor = Cursor::new(tokens);
+    if cursor
+        .eat_kind(&TokenKind::Open(Delimiter::Parenthesis))
+        .is_none()
+    {
+        return match tokens {
+            [one] => Some(vec![size(one)?]),
+            _ => None,
+        };
+    }
+    match cursor.rest() {
+        [rows, comma, columns, close]
+            if comma.is(',') && close.kind == TokenKind::Close(Delimiter::Parenthesis) =>
+        {
+            Some(vec![size(rows)?, size(columns)?])
+        }
+        _ => None,
+    }
 }

@@ -252,6 +252,12 @@ pub fn structure(
     None
 }
 
+/// An algebra with names of its own, whose coordinates have none.
+pub fn missing_state(kind: Kind, place: Origin) -> Diagnostic {
+    let message = "the declaration has no `state`, and an algebra with another basis has no standard names of it";
+    Diagnostic::new(kind, place, message).help("name one coordinate for each basis element")
+}
+
 /// A Hamiltonian of blanks.
 pub fn empty_function(keyword: &str, place: Origin) -> Diagnostic {
     let (name, help) = match keyword {

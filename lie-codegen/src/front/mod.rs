@@ -18,6 +18,7 @@ pub(crate) mod habits;
 mod item;
 mod json;
 mod mistakes;
+mod named;
 mod number;
 mod object;
 mod operand;
@@ -27,6 +28,7 @@ mod rust;
 mod schema;
 mod text;
 mod token;
+mod vectors;
 
 pub use names::Names;
 pub use place::line_column;
@@ -50,6 +52,8 @@ pub struct Parsed {
     pub name: Option<Name>,
     /// Names of the coordinates, as far as they could be read.
     pub state: Vec<Name>,
+    /// The indices of these names, of a family.
+    pub indices: Vec<Name>,
     /// Number of coordinates, those with unreadable names included.
     pub dimension: usize,
     /// Names of the parameters, as far as they could be read.

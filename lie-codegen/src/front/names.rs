@@ -1,7 +1,9 @@
 //! What a parser must know about names: which are declared, which are functions.
 
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
+use super::vectors::Vectors;
 use unicode_normalization::{IsNormalized, UnicodeNormalization as _, is_nfc_quick};
 
 /// The functions of the grammar with their numbers of arguments.
@@ -18,6 +20,13 @@ pub const FUNCTIONS: &[(&str, usize)] = &[
     ("sinh", 1),
     ("cosh", 1),
     ("tanh", 1),
+    ("cbrt", 1),
+    ("log1p", 1),
+    ("expm1", 1),
+    ("asinh", 1),
+    ("acosh", 1),
+    ("atanh", 1),
+    ("hypot", 2),
     ("atan2", 2),
 ];
 
@@ -47,15 +56,42 @@ pub fn arity(function: &str) -> Option<usize> {
 pub struct Names {
     here: BTreeSet<String>,
     elsewhere: BTreeSet<String>,
+    indexed: bool,
+    vectors: Rc<Vectors>,
 }
 
 impl Names {
+    /// The same for a family, in whose functions names may have indices.
+    #[must_use]
+    pub fn of_family(mut self, family: bool) -> Self {
+        self.indexed = family;
+        self
+    }
+
+    /// Whether names may have indices.
+    pub fn may_be_indexed(&self) -> bool {
+        self.indexed
+    }
+
     /// Adds names that are declared but cannot stand in the expression. A literal such as `2e3`
     /// must not be read as a number where `e3` is one of them.
     #[must_use]
     pub fn with_elsewhere<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
         self.elsewhere.extend(names.into_iter().map(Into::into));
         self
+    }
+
+    /// Adds vectors and matrices.
+    #[must_use]
+    pub(super) fn with_vectors(mut self, vectors: Vectors) -> Self {
+        self.here.extend(vectors.names().cloned());
+        self.vectors = Rc::new(vectors);
+        self
+    }
+
+    /// The vectors and matrices that may stand in the expression.
+    pub(super) fn vectors(&self) -> &Vectors {
+        &self.vectors
     }
 
     /// Whether the name is declared or built in.
@@ -84,6 +120,8 @@ impl<S: Into<String>> FromIterator<S> for Names {
         Self {
             here: names.into_iter().map(Into::into).collect(),
             elsewhere: BTreeSet::new(),
+            indexed: false,
+            vectors: Rc::default(),
         }
     }
 }

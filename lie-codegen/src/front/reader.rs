@@ -5,10 +5,11 @@
 use std::borrow::Cow;
 
 use super::token::Token;
+use super::vectors::{self, Declared};
 use super::{Body, Names, Parsed, expression, item};
 use crate::ast::{
-    Algebra, Declaration, Energy, Expr, Invariance, Name, Parameter, Realization, RunOption,
-    Structure,
+    Algebra, Declaration, Energy, Expr, Family, Invariance, Name, Parameter, Realization,
+    RunOption, Size, Structure,
 };
 use crate::diagnostic::{Kind, Origin, Report};
 
@@ -38,6 +39,16 @@ pub struct Parameters {
     pub whole: Vec<Parameter>,
 }
 
+/// An algebra, written out or by its name.
+pub struct Read {
+    /// Its brackets and matrices.
+    pub algebra: Algebra,
+    /// Of a named one the standard names of the coordinates; none where its basis is not the standard one.
+    pub state: Option<Vec<Name>>,
+    /// Of a family the numbers of its copies.
+    pub sizes: Vec<Size>,
+}
+
 /// A declaration in the form of one of the front ends; `key` is one of the spec. Mistakes of form are reported
 /// where an entry is asked for.
 pub trait Entries {
@@ -57,11 +68,17 @@ pub trait Entries {
     /// The word `left` or `right`, or what stands there.
     fn invariance(&self, report: &mut Report) -> Option<(String, Origin)>;
     /// The algebra; values of brackets may use the parameters.
-    fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Algebra>;
+    fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Read>;
     /// The realization; its map may use the parameters.
     fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization>;
+    /// The vectors and matrices, whose entries may use `names`.
+    fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared>;
     /// The initial state in these names.
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr>;
+    /// The seed of a random initial state of a family.
+    fn seed(&self, _report: &mut Report) -> Option<u64> {
+        None
+    }
     /// Description and references, for people.
     fn prose(&self, report: &mut Report) -> (Vec<String>, Vec<String>);
     /// Defaults of the command.
@@ -75,7 +92,32 @@ pub fn finish<E: Entries>(
     parameters: Vec<Parameter>,
     report: &mut Report,
 ) -> Parsed {
-    let declaration = remainder(entries, &parsed, parameters, report);
+    let constants: Vec<String> = texts(&parsed.parameters).collect();
+    let place = entries.place("algebra");
+    let read = place.map(|place| (place, entries.algebra(&constants, report)));
+    if let Some((place, Some(Read { state, .. }))) = &read
+        && let Some(state) = state
+        && entries.place("state").is_none()
+    {
+        parsed.dimension = state.len();
+        parsed.state.clone_from(state);
+        if state.is_empty() {
+            report.push(item::missing_state(E::FORM, *place));
+        }
+    }
+    let sizes = read.iter().filter_map(|(_, read)| read.as_ref());
+    let sizes: Vec<Size> = sizes.flat_map(|read| read.sizes.clone()).collect();
+    let algebra = read.map(|(place, read)| (place, read.map(|read| read.algebra)));
+    let declaration = remainder(entries, &parsed, algebra, parameters, report);
+    let indices = parsed.indices.clone();
+    let declaration = declaration.map(|declaration| Declaration {
+        family: (!indices.is_empty()).then(|| Family {
+            sizes,
+            indices,
+            seed: entries.seed(report),
+        }),
+        ..declaration
+    });
     if !report.has_errors() {
         parsed.body = declaration.map(|d| Body::Declaration(Box::new(d)));
     }
@@ -85,17 +127,17 @@ pub fn finish<E: Entries>(
 fn remainder<E: Entries>(
     entries: &E,
     parsed: &Parsed,
+    algebra: Option<(Origin, Option<Algebra>)>,
     parameters: Vec<Parameter>,
     report: &mut Report,
 ) -> Option<Declaration> {
     let constants: Vec<String> = texts(&parsed.parameters).collect();
-    let place = entries.place("algebra");
-    let algebra = place.map(|place| (place, entries.algebra(&constants, report)));
     let velocity = entries.names("velocity", report);
     let lets = entries.lines("let", report);
     let basis = algebra.iter().filter_map(|(_, algebra)| algebra.as_ref());
     let names = in_functions(entries, parsed, &velocity, &lets)
         .with_elsewhere(basis.flat_map(|algebra| texts(&algebra.basis)));
+    let names = with_vectors(entries, parsed, names, report);
     let structure = structure(entries, algebra, &names, report);
     let lets = lets.iter();
     let lets = lets.filter_map(|line| abbreviation(line, &names, report));
@@ -116,7 +158,8 @@ fn remainder<E: Entries>(
     let invariance = invariance(entries, report);
     let constants: Names = constants.into_iter().collect();
     let initial_origin = entries.place("initial");
-    let initial = initial_origin.map(|_| entries.initial(&parsed.state, &constants, report));
+    let listed = initial_origin.filter(|_| parsed.indices.is_empty());
+    let initial = listed.map(|_| entries.initial(&parsed.state, &constants, report));
     let (description, references) = entries.prose(report);
     let run = entries.run(report);
     Some(Declaration {
@@ -127,6 +170,7 @@ fn remainder<E: Entries>(
         structure: structure?,
         group: without_mistake(group)?,
         state: parsed.state.clone(),
+        family: None,
         parameters,
         lets,
         energy: energy?,
@@ -152,6 +196,28 @@ fn without_mistake<T>(read: Option<Option<T>>) -> Option<Option<T>> {
     }
 }
 
+/// The names with those of vectors and matrices.
+fn with_vectors<E: Entries>(
+    entries: &E,
+    parsed: &Parsed,
+    names: Names,
+    report: &mut Report,
+) -> Names {
+    let mut found = Report::new();
+    let declared = entries.vectors(&names, &mut found);
+    // entries of the group element are names that only the algebra tells
+    let closed = entries.place("group").is_none();
+    let vectors = vectors::collect(declared, &names, closed, &mut found);
+    let vectors = vectors.with_mistake(found.has_errors());
+    let vectors = match parsed.indices.is_empty() {
+        true => vectors,
+        false => vectors.of_sites(texts(&parsed.state)),
+    };
+    let found = found.into_diagnostics();
+    found.into_iter().for_each(|mistake| report.push(mistake));
+    names.with_vectors(vectors)
+}
+
 /// The names that the functions may use.
 fn in_functions<E: Entries>(
     entries: &E,
@@ -167,7 +233,8 @@ fn in_functions<E: Entries>(
         .chain(texts(&parsed.parameters))
         .chain(defined.filter_map(|name| Some(name.identifier()?.to_owned())))
         .chain(step)
-        .collect()
+        .collect::<Names>()
+        .of_family(!parsed.indices.is_empty())
 }
 
 fn structure<E: Entries>(

@@ -4,15 +4,17 @@ mod algebra;
 mod parameters;
 mod realization;
 mod run;
+mod vectors;
 
 use quote::quote;
 
 use super::json::{self, Type, Value};
 use super::object::{Object, list, string, wrong_type};
-use super::reader::{self, Entries, Line};
-use super::schema::Spec;
-use super::{Names, Parsed, expression, file, item, number, prose};
-use crate::ast::{Algebra, Expr, ExprKind, Name, Realization, RunOption};
+use super::reader::{self, Entries, Line, Read};
+use super::schema::{self, Spec};
+use super::vectors::Declared;
+use super::{Names, Parsed, expression, families, file, item, number, prose};
+use crate::ast::{Expr, ExprKind, Name, Realization, RunOption};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The only version of the format.
@@ -51,6 +53,9 @@ fn document(text: &str, report: &mut Report) -> Parsed {
     };
     let Some(spec) = spec else { return parsed };
     spec.require("a spec", Spec::REQUIRED, report);
+    if !spec.get("algebra").is_some_and(algebra::is_named) {
+        spec.require("a spec", &["state"], report);
+    }
     if spec.get("poisson").is_none() {
         spec.require("a spec", &["algebra"], report);
     }
@@ -60,7 +65,7 @@ fn document(text: &str, report: &mut Report) -> Parsed {
     headers(&spec, report);
     let name = spec.line("name", report);
     parsed.name = name.and_then(|line| item::name(&line.tokens, line.place, report));
-    parsed.state = spec.names("state", report);
+    (parsed.state, parsed.indices) = state(&spec, report);
     parsed.dimension = spec.get("state").map_or(0, |v| v.elements().len());
     let parameters = spec
         .get("parameters")
@@ -68,6 +73,45 @@ fn document(text: &str, report: &mut Report) -> Parsed {
         .unwrap_or_default();
     parsed.parameters = parameters.names;
     reader::finish(&spec, parsed, parameters.whole, report)
+}
+
+/// The names of the state; of a family with their indices.
+fn state(spec: &Object<'_>, report: &mut Report) -> (Vec<Name>, Vec<Name>) {
+    let mut ignored = Report::new();
+    let lines = spec.lines("state", &mut ignored);
+    ignored.ignore("the list is read again");
+    let indexed = lines.iter().map(|l| families::indexed_state(&l.tokens));
+    match indexed.collect::<Option<Vec<_>>>() {
+        Some(state) if !state.is_empty() => families::same_indices(state, report),
+        _ => (spec.names("state", report), Vec::new()),
+    }
+}
+
+/// The seed of `{"random": "unit-sphere", "seed": 1}`.
+fn seed(value: Value<'_>, report: &mut Report) -> Option<u64> {
+    if value.kind() != Type::Object {
+        let message = "the initial state of a family is not a list";
+        let help =
+            "write `{\"random\": \"unit-sphere\", \"seed\": 1}`, or give the values by `--initial`";
+        report.push(Diagnostic::new(Kind::Schema, value.head(), message).help(help));
+        return None;
+    }
+    let object = Object::read(value, "`initial`", schema::Random::KEYS, report)?;
+    object.require("`initial`", schema::Random::REQUIRED, report);
+    let kind = string(object.get("random")?, "`random`", report)?;
+    if kind.text != "unit-sphere" {
+        let message = format!("unknown distribution `{}`", kind.text.escape_debug());
+        let help = "write `unit-sphere`: a point on it for each site";
+        report.push(Diagnostic::new(Kind::Schema, kind.whole(), message).help(help));
+    }
+    let Some(seed) = object.get("seed") else {
+        return Some(1);
+    };
+    let number = seed.raw().parse().ok();
+    if number.is_none() {
+        report.push(wrong_type(&seed, "`seed`", "a whole number"));
+    }
+    number
 }
 
 /// `$schema` and `format`.
@@ -129,17 +173,37 @@ impl Entries for Object<'_> {
         Some((source.text.to_string(), source.whole()))
     }
 
-    fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Algebra> {
-        algebra::read(self.get("algebra")?, parameters, report)
+    fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Read> {
+        let value = self.get("algebra")?;
+        let (_, indices) = {
+            let mut ignored = Report::new();
+            let found = state(self, &mut ignored);
+            ignored.ignore("the state is read elsewhere");
+            found
+        };
+        if indices.is_empty() {
+            algebra::read(value, parameters, report)
+        } else {
+            algebra::of_family(value, report)
+        }
     }
 
     fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization> {
         realization::read(self.get("realization")?, parameters, report)
     }
 
+    fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared> {
+        let value = self.get("vectors");
+        value.map_or_else(Vec::new, |v| vectors::read(v, names, report))
+    }
+
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {
         let value = self.get("initial");
         value.map_or_else(Vec::new, |v| initial(v, state, names, report))
+    }
+
+    fn seed(&self, report: &mut Report) -> Option<u64> {
+        seed(self.get("initial")?, report)
     }
 
     fn prose(&self, report: &mut Report) -> (Vec<String>, Vec<String>) {

@@ -50,6 +50,7 @@ impl<T: Number> Scope<T> {
                 let values: Vec<T> = arguments.iter().map(|a| self.evaluate(a)).collect();
                 match (function.text.as_str(), values.as_slice()) {
                     ("sqrt", [x]) => x.power(0.5),
+                    ("hypot", [x, y]) => x.mul(x).add(&y.mul(y)).power(0.5),
                     ("atan2", [y, x]) => y.atan2(x),
                     (name, [x]) => match Function::from_name(name) {
                         Some(function) => x.call(function),

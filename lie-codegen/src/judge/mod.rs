@@ -14,7 +14,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 
-use crate::ast::{Declaration, Energy};
+use crate::ast::{Declaration, Energy, Expr};
 use crate::diagnostic::{Origin, Report};
 use crate::front::{Body, spec};
 use crate::model::Model;
@@ -59,8 +59,8 @@ pub struct Verdict {
 #[derive(Debug)]
 pub struct Judge {
     kernels: Kernels,
-    /// The place of each Casimir of the model among the declared ones.
-    casimirs: Vec<usize>,
+    /// The Casimirs of the model as they were declared, or would have been.
+    casimirs: Vec<Expr>,
 }
 
 impl Judge {
@@ -77,9 +77,9 @@ impl Judge {
 
     /// The judge of a declaration that passed its checks.
     pub fn new(declaration: &Declaration, model: &Model, parameters: &[f64]) -> Self {
-        let place = |origin: Origin| {
-            let mut declared = declaration.casimirs.iter();
-            declared.position(|casimir| match (casimir.value.origin, origin) {
+        let declared = |origin: Origin| {
+            let mut declared = declaration.casimirs.iter().map(|casimir| &casimir.value);
+            declared.find(|value| match (value.origin, origin) {
                 (Origin::Text { start: a, .. }, Origin::Text { start: b, .. }) => a == b,
                 (Origin::Span(a), Origin::Span(b)) => format!("{a:?}") == format!("{b:?}"),
                 _ => false,
@@ -89,7 +89,7 @@ impl Judge {
             casimirs: model
                 .casimirs
                 .iter()
-                .filter_map(|c| place(c.origin))
+                .filter_map(|c| c.written.clone().or_else(|| declared(c.origin).cloned()))
                 .collect(),
             kernels: Kernels::new(Declared {
                 declaration: declaration.clone(),
@@ -208,10 +208,7 @@ impl Judge {
                 exact(vec![Rounded::rounded(possible, 1.0)])
             }
             ("casimirs", [mu]) => exact(self.casimirs(mu)),
-            ("casimir_gradient", [mu]) => {
-                let casimir = &kernels.declared.declaration.casimirs[*self.casimirs.get(index)?];
-                exact(kernels.slope_of(&casimir.value, mu))
-            }
+            ("casimir_gradient", [mu]) => exact(kernels.slope_of(self.casimirs.get(index)?, mu)),
             ("lagrangian" | "momentum" | "inertia", [xi])
                 if kernels.declared.configuration.is_none() =>
             {
@@ -253,10 +250,7 @@ impl Judge {
     fn casimirs(&self, mu: &[f64]) -> Vec<Rounded> {
         let declared = &self.kernels.declared;
         let mu = inputs(mu);
-        let value = |&place: &usize| {
-            let casimir = &declared.declaration.casimirs[place];
-            declared.function(&casimir.value, &mu)
-        };
+        let value = |casimir: &Expr| declared.function(casimir, &mu);
         self.casimirs.iter().map(value).collect()
     }
 

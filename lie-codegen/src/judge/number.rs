@@ -115,6 +115,12 @@ impl Number for Rounded {
             Function::Sinh => x.cosh(),
             Function::Cosh => x.sinh(),
             Function::Tanh => 1.0 - value * value,
+            Function::Cbrt => 1.0 / (3.0 * value * value),
+            Function::Log1p => 1.0 / (1.0 + x),
+            Function::Expm1 => 1.0 + value,
+            Function::Asinh => 1.0 / (1.0 + x * x).sqrt(),
+            Function::Acosh => 1.0 / (x * x - 1.0).sqrt(),
+            Function::Atanh => 1.0 / (1.0 - x * x),
             Function::Stumpff(_) | Function::Phi(_) => {
                 function.slope_of_closed(x).unwrap_or(f64::NAN)
             }
@@ -216,6 +222,12 @@ impl<T: Number> Number for Jet<T> {
             Function::Sinh => x.call(Function::Cosh),
             Function::Cosh => x.call(Function::Sinh),
             Function::Tanh => one.sub(&at.mul(&at)),
+            Function::Cbrt => one.div(&T::integer(3).mul(&at.mul(&at))),
+            Function::Log1p => one.div(&one.add(x)),
+            Function::Expm1 => x.call(Function::Exp),
+            Function::Asinh => one.div(&one.add(&x.mul(x)).power(0.5)),
+            Function::Acosh => one.div(&x.mul(x).sub(&one).power(0.5)),
+            Function::Atanh => one.div(&one.sub(&x.mul(x))),
             // not in the grammar
             Function::Stumpff(_) | Function::Phi(_) | Function::Atan2 => T::rounded(f64::NAN, 0.0),
         };

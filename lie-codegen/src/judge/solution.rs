@@ -108,6 +108,23 @@ impl Number for Series {
                 self.integral(first, &sign.div(&root))
             }
             Function::Atan => self.integral(first, &Self::one().div(&Self::one().add(&square()))),
+            Function::Cbrt if x < 0.0 => self.neg().power(1.0 / 3.0).neg(),
+            Function::Cbrt => self.power(1.0 / 3.0),
+            Function::Log1p => self.integral(first, &Self::one().div(&Self::one().add(self))),
+            Function::Expm1 => self.chain(first, |made| {
+                let mut power = made.to_vec();
+                power[0] = x.exp();
+                power
+            }),
+            Function::Asinh => {
+                let root = Self::one().add(&square()).power(0.5);
+                self.integral(first, &Self::one().div(&root))
+            }
+            Function::Acosh => {
+                let root = square().sub(&Self::one()).power(0.5);
+                self.integral(first, &Self::one().div(&root))
+            }
+            Function::Atanh => self.integral(first, &Self::one().div(&Self::one().sub(&square()))),
             // not in the grammar
             Function::Stumpff(_) | Function::Phi(_) | Function::Atan2 => {
                 Self::rounded(f64::NAN, 0.0)

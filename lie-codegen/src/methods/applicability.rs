@@ -1,21 +1,26 @@
 //! Which methods a system can carry.
 
-use super::{CATALOGUE, Choice, Lift, Retraction, Tensor};
+use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Tensor};
 use crate::diagnostic::Kind;
-use crate::model::{Bracket, Descent, Discrete, Model};
-use crate::structure::{inertia, integrable, lifts, matrices, separable, spins, vectors};
+use crate::model::{Bracket, Descent, Discrete, Family, Model};
+use crate::structure::family as pieces;
+use crate::structure::{found, inertia, integrable, lifts, matrices, separable, spins, vectors};
 
 /// Why a method does not apply to a system, with the nearest one that does; `None` if it applies.
 pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
     if let Choice::Compose(_, _, base) = choice {
         return refusal(model, base);
     }
+    if let Some(own) = &model.family {
+        return family(model, own, choice);
+    }
     if let Some(reason) = bracket(model, choice).or_else(|| lagrangian(model, choice)) {
         return Some(reason);
     }
     match choice {
         Choice::DiscreteGradient(_, Tensor::Mean) => tensor(model, choice),
-        Choice::Splitting(order, _) => separable::refusal(model, *order),
+        Choice::Splitting(order, _, Pieces::Found) => found::refusal(model, *order),
+        Choice::Splitting(order, ..) => separable::refusal(model, *order),
         Choice::Generating(6, Retraction::Cayley) => Some((
             "the generating function of order 6 is known in exponential coordinates, not in those \
              of the Cayley map"
@@ -50,6 +55,34 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
         _ => None,
     }
 }
+
+/// Why a method does not apply to a family, of which no matrix is kept.
+fn family(model: &Model, family: &Family, choice: &Choice) -> Option<(String, String)> {
+    match choice {
+        Choice::Splitting(_, _, Pieces::Found) => Some((
+            "the pieces of a family are those of its sums".into(),
+            "leave `--pieces` out".into(),
+        )),
+        Choice::Splitting(..) => {
+            let why = pieces::pieces(model, family, &mut model.graph.clone()).err()?;
+            let message = format!("H does not consist of pieces with exact flows: {why}");
+            Some((
+                message,
+                "use `gauss16`, which keeps quadratic Casimirs".into(),
+            ))
+        }
+        Choice::Rk4 | Choice::Dopri5 => None,
+        Choice::Gauss(stages) if *stages >= PARALLEL => None,
+        _ => {
+            let message = "a family keeps no matrix of all its coordinates, and the method is not one that does without";
+            let help = "use `gauss16`, which iterates without one and keeps quadratic Casimirs, or `dopri5`";
+            Some((message.into(), help.into()))
+        }
+    }
+}
+
+/// Gauss methods with so many stages or more are solved without a matrix.
+const PARALLEL: usize = 4;
 
 /// Why solutions are not developed into series.
 fn expression(model: &Model) -> Option<(String, String)> {

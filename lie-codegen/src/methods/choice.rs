@@ -1,6 +1,6 @@
 //! A method with its options, as asked for.
 
-use super::options::{Gradient, Lift, OptionError, Retraction, Scheme, Tensor};
+use super::options::{Gradient, Lift, OptionError, Pieces, Retraction, Scheme, Tensor};
 use super::{CATALOGUE, find};
 use crate::suggest::did_you_mean;
 
@@ -44,7 +44,7 @@ pub enum Choice {
     SphericalMidpoint,
     /// `splitting1`, `splitting2`, `splitting4`, `splitting6`, `splitting8`; below order 4 the
     /// scheme means nothing.
-    Splitting(u32, Scheme),
+    Splitting(u32, Scheme, Pieces),
     /// `gonzalez`, `mean-value`, `itoh-abe`
     DiscreteGradient(Gradient, Tensor),
     /// `orbit-energy`
@@ -153,7 +153,11 @@ impl Choice {
     fn plain(id: &str) -> Option<Self> {
         let splitting = |order| {
             let scheme = Scheme::of_splitting(order).first();
-            Self::Splitting(order, scheme.copied().unwrap_or_default())
+            Self::Splitting(
+                order,
+                scheme.copied().unwrap_or_default(),
+                Pieces::Coordinate,
+            )
         };
         Some(match id {
             "midpoint" => Self::Midpoint,
@@ -273,7 +277,7 @@ impl Choice {
             Self::Isospectral(order) => format!("isospectral{order}"),
             Self::EulerArnold2 => "euler-arnold2".into(),
             Self::SphericalMidpoint => "spherical-midpoint".into(),
-            Self::Splitting(order, _) => format!("splitting{order}"),
+            Self::Splitting(order, ..) => format!("splitting{order}"),
             Self::DiscreteGradient(gradient, _) => gradient.name().into(),
             Self::OrbitEnergy(_) => "orbit-energy".into(),
             Self::CohenHairer(order) => format!("cohen-hairer{order}"),

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Choice;
-use super::options::{Gradient, Lift, Retraction, Scheme, Tensor};
+use super::options::{Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 
 impl Choice {
     /// The type of a method in the runtime whose equation a plan may have code for.
@@ -107,10 +107,11 @@ impl Choice {
             Self::Isospectral(order) => new(numbered("Isospectral", *order)),
             Self::EulerArnold2 => named("EulerArnold2"),
             Self::SphericalMidpoint => named("SphericalMidpoint"),
-            Self::Splitting(order, scheme) => {
+            Self::Splitting(order, scheme, pieces) => {
                 let splitting = new(numbered("Splitting", *order));
                 let scheme = with_scheme(*scheme, Scheme::of_splitting(*order));
-                quote! { #splitting #scheme }
+                let found = (*pieces == Pieces::Found).then(|| quote! { .found() });
+                quote! { #splitting #scheme #found }
             }
             Self::DiscreteGradient(gradient, Tensor::Midpoint) => method(type_of(*gradient)),
             Self::DiscreteGradient(gradient, Tensor::Mean) => {

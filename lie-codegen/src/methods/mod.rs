@@ -10,7 +10,7 @@ mod table;
 pub use applicability::{applicability, kind_of_refusal, refusal};
 pub use choice::{Choice, Unusable};
 pub use lie_core::methods::Preserves;
-pub use options::{Gradient, Lift, OptionError, Retraction, Scheme, Tensor};
+pub use options::{Gradient, Lift, OptionError, Pieces, Retraction, Scheme, Tensor};
 pub use table::CATALOGUE;
 
 /// One method of the catalogue.

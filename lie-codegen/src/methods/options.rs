@@ -84,6 +84,16 @@ named! {
 }
 
 named! {
+    /// The pieces of a splitting, `--pieces`.
+    Pieces, Coordinate {
+        /// H is a sum of functions of one coordinate each.
+        Coordinate = "coordinate",
+        /// The fewest pieces with exact flows that are found, the longest in the middle.
+        Found = "found",
+    }
+}
+
+named! {
     /// The coefficients of a composition, `--composition`.
     Scheme, Suzuki {
         /// Five stages for each two orders.
@@ -205,20 +215,14 @@ impl Choice {
             (Self::OrbitEnergy(_), "gradient") => {
                 Self::OrbitEnergy(pick(option, value, Gradient::ALL, Gradient::name)?)
             }
-            (Self::Splitting(order, _), "composition") if order > 2 => {
+            (Self::Splitting(order, _, pieces), "composition") if order > 2 => {
                 let all = Scheme::of_splitting(order);
-                Self::Splitting(order, pick(option, value, all, Scheme::name)?)
+                Self::Splitting(order, pick(option, value, all, Scheme::name)?, pieces)
             }
-            (split @ Self::Splitting(..), "pieces") => match value {
-                "coordinate" => split,
-                "found" => {
-                    return Err(OptionError::Value(
-                        "the pieces `found` are not built yet".into(),
-                        "take `--pieces coordinate`, for H = sum f_i(x_i)".into(),
-                    ));
-                }
-                _ => pick(option, value, &["coordinate"], |name| name).map(|_| split)?,
-            },
+            (Self::Splitting(order, scheme, _), "pieces") => {
+                let all = Pieces::ALL;
+                Self::Splitting(order, scheme, pick(option, value, all, Pieces::name)?)
+            }
             (Self::Compose(order, _, base), "composition") => {
                 let all = Scheme::of_composition(order);
                 Self::Compose(order, pick(option, value, all, Scheme::name)?, base)
@@ -242,9 +246,9 @@ impl Choice {
             Self::Collective(_, lift) => vec![("lift", lift.name())],
             Self::OrbitEnergy(gradient) => vec![("gradient", gradient.name())],
             Self::DiscreteGradient(_, tensor) => vec![("tensor", tensor.name())],
-            Self::Splitting(1 | 2, _) => vec![("pieces", "coordinate")],
-            Self::Splitting(_, scheme) => {
-                vec![("composition", scheme.name()), ("pieces", "coordinate")]
+            Self::Splitting(1 | 2, _, pieces) => vec![("pieces", pieces.name())],
+            Self::Splitting(_, scheme, pieces) => {
+                vec![("composition", scheme.name()), ("pieces", pieces.name())]
             }
             Self::Compose(_, scheme, base) => {
                 let mut options = vec![("composition", scheme.name())];
@@ -288,10 +292,15 @@ impl Choice {
                 .iter()
                 .map(|g| Self::OrbitEnergy(*g))
                 .collect(),
-            Self::Splitting(order @ (4 | 6 | 8), _) => Scheme::of_splitting(*order)
-                .iter()
-                .map(|s| Self::Splitting(*order, *s))
-                .collect(),
+            Self::Splitting(order, scheme, _) => {
+                let schemes = Scheme::of_splitting(*order);
+                let default = schemes.first().copied().unwrap_or(*scheme);
+                let of = |scheme| Self::Splitting(*order, scheme, Pieces::Coordinate);
+                let mut all = vec![of(default)];
+                all.extend(schemes.iter().skip(1).map(|scheme| of(*scheme)));
+                all.push(Self::Splitting(*order, default, Pieces::Found));
+                all
+            }
             Self::Compose(order, _, base) => {
                 let schemes = Scheme::of_composition(*order);
                 let bases = base.variants();

@@ -1,6 +1,7 @@
 //! The doc lines of a system.
 
 use crate::model::{Bracket, Model};
+use crate::structure::algebra;
 
 /// What the bracket is, in words.
 fn bracket_in_words(model: &Model) -> String {
@@ -21,6 +22,25 @@ fn bracket_in_words(model: &Model) -> String {
             }
         }
     }
+}
+
+/// The algebra by name and class; nothing where there is none, or where it is too large for a declaration.
+fn algebra_in_words(model: &Model) -> Option<String> {
+    let report = algebra::report(model, algebra::WORK)?;
+    let class = report.class.words();
+    let at_defaults = report.at_defaults.is_some();
+    let generic = if at_defaults {
+        " for generic parameters"
+    } else {
+        ""
+    };
+    Some(match report.name {
+        Ok(name) if at_defaults => {
+            format!("The algebra is `{name}` at the default parameters, and {class}{generic}.")
+        }
+        Ok(name) => format!("The algebra is `{name}`: {class}."),
+        Err(_) => format!("The algebra is {class}{generic}."),
+    })
 }
 
 /// The doc lines of the generated type: the user's own, then the mathematics.
@@ -51,7 +71,20 @@ pub(super) fn docs(model: &Model) -> Vec<String> {
             velocity.join(", ")
         ));
     }
-    docs.push(format!("{energy} {},", bracket_in_words(model)));
+    if let Some(family) = &model.family {
+        let energy = model.display_of_family(family);
+        docs.push(format!("`H = {energy}` on a family of sites,"));
+        docs.push(
+            "a state holds the first coordinates of all of them, then the second, and so on."
+                .into(),
+        );
+    }
+    let each = if model.family.is_some() {
+        "Each site".to_owned()
+    } else {
+        energy
+    };
+    docs.push(format!("{each} {},", bracket_in_words(model)));
     docs.push(format!(
         "coordinates `{}`; the Poisson matrix has generic rank {}.",
         names.join(", "),
@@ -60,13 +93,23 @@ pub(super) fn docs(model: &Model) -> Vec<String> {
     if let Some(configuration) = &model.configuration {
         docs.push(format!("Coordinates: {}.", configuration.description()));
     }
+    docs.extend(algebra_in_words(model));
     if !model.casimirs.is_empty() {
         let casimirs: Vec<String> = model
             .casimirs
             .iter()
             .map(|c| format!("`{} = {}`", c.name, model.display(c.expr)))
             .collect();
-        docs.push(format!("Casimirs: {}.", casimirs.join(", ")));
+        let missing = model.casimirs_to_find().saturating_sub(casimirs.len());
+        let missing = match missing {
+            0 => String::new(),
+            _ => format!(
+                " ({} of {} known)",
+                casimirs.len(),
+                casimirs.len() + missing
+            ),
+        };
+        docs.push(format!("Casimirs: {}{missing}.", casimirs.join(", ")));
     }
     for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
         docs.push(format!(

@@ -11,6 +11,7 @@ mod docs;
 pub mod elimination;
 mod energy;
 mod equation;
+mod family;
 mod function;
 mod generating;
 mod lifts;
@@ -30,12 +31,13 @@ pub use equation::{
     Chart, Ending, Fused, Generating, Gradient, Guess, Item, Method, Motion, Partner, Solver,
     Sparse, Unknown,
 };
+pub use family::{Family, FamilyForm, FamilyPiece, FamilyPieces, Sum};
 pub use function::Function;
 pub use names::Names;
 pub use own::Own;
 pub use planner::{plan, plan_with};
 pub use recurrence::Recurrence;
-pub use splitting::{Flow, Splitting};
+pub use splitting::{Flow, Found, FoundPiece, Splitting};
 pub use structure::{
     Group, Inertia, Realization, Representation, Spectrum, Spins, Structure, Vectors,
 };
@@ -68,6 +70,10 @@ pub struct Plan {
     pub generic: Vec<String>,
     /// The flows of the pieces of H, where a splitting is asked for.
     pub splitting: Option<Splitting>,
+    /// The flows of the pieces that were found, where a splitting is asked for.
+    pub found: Option<Found>,
+    /// The kernels of a family, which has nothing else.
+    pub family: Option<Box<Family>>,
 }
 
 /// A parameter of a system.
@@ -98,8 +104,12 @@ impl Plan {
             counts.extend(item.elimination());
             counts.extend(item.recurrence());
         }
+        let found = self.found.iter().flat_map(Found::flows);
         let flows = self.splitting.iter().flat_map(|splitting| &splitting.flows);
+        let flows = flows.chain(found);
         counts.extend(flows.filter_map(|flow| flow.function.as_ref()).map(counted));
+        let family = self.family.iter().flat_map(|family| family.functions());
+        counts.extend(family.map(counted));
         counts
     }
 }

@@ -15,6 +15,9 @@ use crate::structure::{exponential, separable};
 
 /// The plan of a checked system with fused code for these methods; all others run on the generic forms.
 pub fn plan(model: &Model, choices: &[Choice]) -> Plan {
+    if let Some(family) = &model.family {
+        return super::family::plan(model, family);
+    }
     let (planner, begun) = Planner::begin(model, choices);
     planner.finish(begun)
 }
@@ -100,6 +103,7 @@ impl<'a> Planner<'a> {
             generic,
         } = begun;
         let splitting = self.splitting();
+        let found = self.found();
         let defaults: Vec<_> = self.model.parameters.iter().map(|p| p.default).collect();
         let defaults = self.preparation(&defaults);
         let table = std::mem::take(&mut self.constants);
@@ -123,6 +127,8 @@ impl<'a> Planner<'a> {
             items: self.items,
             generic,
             splitting,
+            found,
+            family: None,
         }
     }
 
@@ -132,7 +138,7 @@ impl<'a> Planner<'a> {
     }
 }
 
-fn parameters(model: &Model) -> Vec<Parameter> {
+pub(super) fn parameters(model: &Model) -> Vec<Parameter> {
     let described = model.parameters.iter().map(|p| {
         let mut doc = match &p.description {
             Some(description) => description.clone(),

@@ -4,7 +4,7 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 
 use super::{Constants, Fused, Generating, Item, Method, Partner, Plan, Recurrence, Solver};
-use super::{Energy, Function, Spectrum, Structure};
+use super::{Energy, Found, Function, Spectrum, Structure};
 use crate::schedule::Program;
 use crate::structure::integrable::Motion;
 
@@ -57,6 +57,28 @@ impl fmt::Display for Plan {
                     Some(function) => write!(f, "{function}")?,
                     None => writeln!(f, "  {}: by its series", names.coordinates[flow.coordinate])?,
                 }
+            }
+        }
+        if let Some(Found::Pieces { pieces, text, .. }) = &self.found {
+            let of = text.as_ref().map(|text| format!(", {text}"));
+            let of = of.unwrap_or_default();
+            section(f, &format!("flows of the pieces that were found{of}"))?;
+            for piece in pieces {
+                writeln!(f, "  {}", piece.terms.join(", "))?;
+                match &piece.flows {
+                    Some(flows) => {
+                        for function in flows.iter().filter_map(|flow| flow.function.as_ref()) {
+                            write!(f, "{function}")?;
+                        }
+                    }
+                    None => writeln!(f, "    by its series")?,
+                }
+            }
+        }
+        if let Some(family) = &self.family {
+            section(f, "family")?;
+            for function in family.functions() {
+                write!(f, "{function}")?;
             }
         }
         list(f, "generic", &self.generic)

@@ -154,7 +154,7 @@ impl Elimination {
         let safe = match inverses.split_first() {
             None => quote! { <S::Mask as ::lie_runtime::Mask>::splat(true) },
             Some((first, rest)) => quote! {
-                ::lie_runtime::__private::inverse_pivots_are_safe(#first.abs() #(.max(#rest.abs()))*)
+                ::lie_runtime::__private::inverse_pivots_are_safe(#first.abs() #(+ #rest.abs())*)
             },
         };
         let body = code.body;

@@ -5,6 +5,8 @@
 mod elimination;
 mod equation;
 mod expression;
+mod family;
+mod found;
 mod function;
 mod gradient;
 mod lifts;
@@ -33,6 +35,11 @@ use crate::plan::{Item, Plan};
 /// The items of a system.
 pub fn print(plan: &Plan, surface: &Surface) -> TokenStream {
     let printer = Printer { plan, surface };
+    if let Some(family) = &plan.family {
+        return surface
+            .runtime
+            .root(of_this_version(printer.family(family)));
+    }
     let parameters = printer.parameters();
     let system = printer.system_struct();
     let traits = printer.traits();
@@ -43,8 +50,9 @@ pub fn print(plan: &Plan, surface: &Surface) -> TokenStream {
     let items: TokenStream = plan.items.iter().map(|item| printer.item(item)).collect();
     let generic = printer.generic();
     let splitting = printer.splitting();
+    let found = printer.found();
     surface.runtime.root(of_this_version(quote! {
-        #parameters #system #traits #lagrangian #other_scalars #structure #realization #items #generic #splitting
+        #parameters #system #traits #lagrangian #other_scalars #structure #realization #items #generic #splitting #found
     }))
 }
 

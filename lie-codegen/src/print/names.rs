@@ -24,7 +24,12 @@ impl Printer<'_> {
 
     /// The system.
     pub(super) fn system_name(&self) -> Ident {
-        format_ident!("{}System", self.name())
+        let suffix = if self.plan.family.is_some() {
+            "Sites"
+        } else {
+            "System"
+        };
+        format_ident!("{}{suffix}", self.name())
     }
 
     /// A type of the system by the end of its name.

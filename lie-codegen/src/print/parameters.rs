@@ -64,6 +64,13 @@ impl Printer<'_> {
             " If a constant that the system needs is not finite, such as the inverse of a zero."
         };
         let initial = self.initial_state();
+        let family = self.plan.family.is_some();
+        let make = ident(if family { "sites" } else { "system" });
+        let what = if family {
+            " One site of the family for these parameters; what depends on them alone is computed here, once."
+        } else {
+            " The system for these parameters; what depends on them alone is computed here, once."
+        };
         quote! {
             #(#[doc = #docs])*
             #[derive(Clone, Debug, PartialEq)]
@@ -91,11 +98,11 @@ impl Printer<'_> {
 
             #[allow(non_snake_case)]
             impl<S: ::lie_runtime::Scalar> #name<S> {
-                #[doc = " The system for these parameters; what depends on them alone is computed here, once."]
+                #[doc = #what]
                 #[doc = ""]
                 #[doc = " # Errors"]
                 #[doc = #errors]
-                pub fn system(&self) -> ::core::result::Result<#system<S>, ::lie_runtime::ParameterError> {
+                pub fn #make(&self) -> ::core::result::Result<#system<S>, ::lie_runtime::ParameterError> {
                     #build
                 }
                 #initial
@@ -218,26 +225,9 @@ impl Printer<'_> {
 
     /// The same system over dual numbers, and over eight numbers at once.
     pub(super) fn other_scalars(&self) -> TokenStream {
-        let (name, system) = (self.name(), self.system_name());
-        let fields = self.constant_names();
-        let names = self.parameters_by_name();
-        let marker = self.marker();
-        let branch = self
-            .has_branches()
-            .then(|| quote! { _branch: self._branch.map(|branch| branch.map(&_constant)), });
+        let (over, system) = (self.over(), self.system_name());
         quote! {
-            impl<S: ::lie_runtime::Scalar> #system<S> {
-                fn _over<T: ::lie_runtime::Scalar>(&self, _constant: impl Fn(S) -> T) -> #system<T> {
-                    #system {
-                        _parameters: #name {
-                            #(#names: _constant(self._parameters.#names),)*
-                            #marker
-                        },
-                        #branch
-                        #(#fields: _constant(self.#fields),)*
-                    }
-                }
-            }
+            #over
 
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::Lift<S> for #system<S> {
                 type Lifted = #system<::lie_runtime::Dual<S>>;
@@ -260,6 +250,31 @@ impl Printer<'_> {
 
                 fn expand(&self) -> Self::Expanded {
                     self._over(::lie_runtime::scalar::Truncated::constant_of)
+                }
+            }
+        }
+    }
+
+    /// The same with its constants as other scalars.
+    pub(super) fn over(&self) -> TokenStream {
+        let (name, system) = (self.name(), self.system_name());
+        let fields = self.constant_names();
+        let names = self.parameters_by_name();
+        let marker = self.marker();
+        let branch = self
+            .has_branches()
+            .then(|| quote! { _branch: self._branch.map(|branch| branch.map(&_constant)), });
+        quote! {
+            impl<S: ::lie_runtime::Scalar> #system<S> {
+                fn _over<T: ::lie_runtime::Scalar>(&self, _constant: impl Fn(S) -> T) -> #system<T> {
+                    #system {
+                        _parameters: #name {
+                            #(#names: _constant(self._parameters.#names),)*
+                            #marker
+                        },
+                        #branch
+                        #(#fields: _constant(self.#fields),)*
+                    }
                 }
             }
         }

@@ -24,15 +24,10 @@ impl Printer<'_> {
         let field = series.then(|| quote! { series: #generic<'a, S, #system<S>>, });
         let value = series.then(|| quote! { series: #generic::new(system), });
         let doc = self.doc_of_flows(pieces);
-        let functions: Vec<Ident> = (0..pieces.len())
-            .map(|position| format_ident!("_flow{position}"))
-            .collect();
-        let flows: TokenStream = pieces
-            .iter()
-            .zip(&functions)
-            .map(|(piece, function)| self.flow(piece, function, &state))
-            .collect();
-        let methods = methods_of_flows(pieces, &functions);
+        let functions = names_of(pieces);
+        let flows = self.flows(pieces, &functions, &state);
+        let direction = direction(pieces);
+        let methods = methods_of_flows(pieces.len(), &functions, &direction);
         Some(quote! {
             #[doc = #doc]
             #[derive(Debug)]
@@ -67,6 +62,14 @@ impl Printer<'_> {
         })
     }
 
+    /// The flows of all pieces as functions.
+    fn flows(&self, pieces: &[Flow], functions: &[Ident], state: &TokenStream) -> TokenStream {
+        let flows = pieces.iter().zip(functions);
+        flows
+            .map(|(piece, function)| self.flow(piece, function, state))
+            .collect()
+    }
+
     fn doc_of_flows(&self, pieces: &[Flow]) -> String {
         let names = pieces
             .iter()
@@ -78,7 +81,7 @@ impl Printer<'_> {
     }
 
     /// The flow of one piece as a function.
-    fn flow(&self, piece: &Flow, function: &Ident, state: &TokenStream) -> TokenStream {
+    pub(super) fn flow(&self, piece: &Flow, function: &Ident, state: &TokenStream) -> TokenStream {
         let coordinate = &self.plan.names.coordinates[piece.coordinate];
         let mu = self.argument("mu");
         let Some(kernel) = &piece.function else {
@@ -114,22 +117,44 @@ impl Printer<'_> {
     }
 }
 
-/// The methods of the trait, over a function for the flow of each piece.
-fn methods_of_flows(pieces: &[Flow], functions: &[Ident]) -> TokenStream {
-    let sweeps = sweeps(functions);
+/// The functions of the flows.
+fn names_of(pieces: &[Flow]) -> Vec<Ident> {
+    let positions = 0..pieces.len();
+    positions
+        .map(|position| format_ident!("_flow{position}"))
+        .collect()
+}
+
+/// What a piece that there is not is answered with.
+pub(super) fn message(pieces: usize) -> String {
+    format!("the splitting has {pieces} pieces")
+}
+
+/// The direction of a piece of H itself.
+fn direction(pieces: &[Flow]) -> TokenStream {
+    if pieces.is_empty() {
+        let message = message(0);
+        return quote! { panic!(#message); };
+    }
     let count = index(pieces.len());
-    let message = format!("the splitting has {} pieces", pieces.len());
-    let positions = (0..pieces.len()).map(index);
     let coordinates = pieces.iter().map(|piece| index(piece.coordinate));
-    let direction = if pieces.is_empty() {
-        quote! { panic!(#message); }
-    } else {
-        quote! {
-            const COORDINATES: [usize; #count] = [#(#coordinates),*];
-            let coordinate = COORDINATES[_piece];
-            ::lie_runtime::generic::piece_direction(self.system, coordinate, _t, _mu, _xi);
-        }
-    };
+    quote! {
+        const COORDINATES: [usize; #count] = [#(#coordinates),*];
+        let coordinate = COORDINATES[_piece];
+        ::lie_runtime::generic::piece_direction(self.system, coordinate, _t, _mu, _xi);
+    }
+}
+
+/// The methods of the trait, over a function for the flow of each piece.
+pub(super) fn methods_of_flows(
+    pieces: usize,
+    functions: &[Ident],
+    direction: &TokenStream,
+) -> TokenStream {
+    let sweeps = sweeps(functions);
+    let count = index(pieces);
+    let message = message(pieces);
+    let positions = (0..pieces).map(index);
     quote! {
         #[inline]
         fn pieces(&self) -> usize {
@@ -153,7 +178,7 @@ fn methods_of_flows(pieces: &[Flow], functions: &[Ident]) -> TokenStream {
 }
 
 /// The statements that change mu.
-fn updates(
+pub(super) fn updates(
     kernel: &Function,
     updates: &[Update],
     mu: &Ident,

@@ -32,7 +32,10 @@ impl Surface {
             visibility: model.visibility.clone(),
             runtime: model.runtime.clone(),
             name: span(model.name_origin),
-            coordinates: model.coordinates.iter().map(|c| span(c.origin)).collect(),
+            coordinates: match &model.family {
+                Some(family) => vec![Span::call_site(); family.names.len() + family.sums.len()],
+                None => model.coordinates.iter().map(|c| span(c.origin)).collect(),
+            },
             parameters: model.parameters.iter().map(|p| span(p.origin)).collect(),
         }
     }

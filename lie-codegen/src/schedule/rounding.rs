@@ -112,6 +112,12 @@ impl Rounded {
             Function::Sinh => libm::cosh(x),
             Function::Cosh => libm::sinh(x),
             Function::Tanh => 1.0 - value * value,
+            Function::Cbrt => 1.0 / (3.0 * value * value),
+            Function::Log1p => 1.0 / (1.0 + x),
+            Function::Expm1 => 1.0 + value,
+            Function::Asinh => 1.0 / (1.0 + x * x).sqrt(),
+            Function::Acosh => 1.0 / (x * x - 1.0).sqrt(),
+            Function::Atanh => 1.0 / (1.0 - x * x),
             Function::Stumpff(_) | Function::Phi(_) => {
                 function.slope_of_closed(x).unwrap_or(f64::NAN)
             }

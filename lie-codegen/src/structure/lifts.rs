@@ -87,7 +87,7 @@ pub fn gauge(model: &Model, graph: &mut Graph) -> Option<ExprId> {
             .collect();
         let mut best = (terms_of(graph, value, n), f64::INFINITY, value);
         for &slope in &slopes {
-            let Some(at_default) = constant(model, graph, slope) else {
+            let Some(at_default) = model.at_defaults(graph, slope) else {
                 continue;
             };
             let terms: Vec<ExprId> = pairing
@@ -101,7 +101,7 @@ pub fn gauge(model: &Model, graph: &mut Graph) -> Option<ExprId> {
             let candidate = graph.normal(candidate);
             let spread = slopes
                 .iter()
-                .filter_map(|other| constant(model, graph, *other));
+                .filter_map(|other| model.at_defaults(graph, *other));
             let spread = spread
                 .map(|other| (other - at_default).abs())
                 .fold(0.0, f64::max);
@@ -165,21 +165,6 @@ fn coefficient(graph: &mut Graph, value: ExprId, (a, b): (ExprId, ExprId)) -> Ex
         slope = graph.scale(slope, &(Rational::ONE / scale));
     }
     slope
-}
-
-/// The value of an expression at the default parameters, where it depends on parameters alone and is finite and not 0.
-fn constant(model: &Model, graph: &Graph, id: ExprId) -> Option<f64> {
-    let symbols = graph.symbols(id);
-    let alone = symbols
-        .iter()
-        .all(|symbol| matches!(symbol, Symbol::Parameter(_)));
-    let value = || {
-        graph.evaluate(id, &|symbol| match symbol {
-            Symbol::Parameter(k) => model.parameters[k].default_value,
-            _ => f64::NAN,
-        })
-    };
-    alone.then(value).filter(|value| value.is_finite())
 }
 
 /// How many second derivatives of a function do not vanish.

@@ -1,6 +1,10 @@
 //! What a system has beyond the algebra and H: structure that some methods need.
 
+pub mod algebra;
+pub mod casimirs;
 pub mod exponential;
+pub mod family;
+pub mod found;
 pub mod group;
 pub mod inertia;
 pub mod integrable;

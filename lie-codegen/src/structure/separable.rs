@@ -68,19 +68,25 @@ pub fn coordinates(
 /// The pieces with their flows, if H is such a sum; elements that act as zero are left out.
 pub fn pieces(model: &Model) -> Option<Vec<Piece>> {
     let algebra = model.bracket.algebra()?;
+    let coordinates = model.energy.expression()?.pieces.as_ref().ok()?;
+    Some(moving(algebra, coordinates))
+}
+
+/// The pieces in some coordinates, without those whose elements act as zero.
+fn moving(algebra: &Algebra, coordinates: &[usize]) -> Vec<Piece> {
     let mut pieces = Vec::new();
-    for &coordinate in model.energy.expression()?.pieces.as_ref().ok()? {
+    for &coordinate in coordinates {
         let entries = action(algebra, coordinate);
         if !entries.is_empty() {
             let blocks = one_parameter::closed_form(&entries);
             pieces.push(Piece { coordinate, blocks });
         }
     }
-    Some(pieces)
+    pieces
 }
 
 /// The matrix of `ad*_(e_i)`.
-fn action(algebra: &Algebra, coordinate: usize) -> Vec<Entry> {
+pub(super) fn action(algebra: &Algebra, coordinate: usize) -> Vec<Entry> {
     // (ad*_(e_i))_jk = C_ij^k, and C_ji^k = -C_ij^k
     let constants = algebra.exact.entries().iter();
     constants
@@ -117,7 +123,7 @@ pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
 }
 
 /// The remedy: the nearest method of an order.
-fn nearest(order: u32) -> String {
+pub(super) fn nearest(order: u32) -> String {
     let nearest = match order {
         1 | 2 => "`lie-midpoint`".to_owned(),
         order => format!("`compose{order}(lie-midpoint)`"),

@@ -15,25 +15,35 @@ impl Graph {
     /// The partial derivative, or `None` if the arena would outgrow `most` (see [`Graph::size`]):
     /// products of many factors and deep compositions swell.
     pub fn derivative_within(&mut self, id: ExprId, symbol: Symbol, most: usize) -> Option<ExprId> {
-        for node in self.dependencies(&[id]) {
+        let zero = self.integer(0);
+        for node in self.varying(id, symbol) {
             if !self.derivatives.contains_key(&(node, symbol)) {
                 if self.size().saturating_add(self.swell(node, symbol)) > most {
                     return None;
                 }
-                let derivative = self.differentiate_node(node, symbol);
+                let derivative = self.differentiate_node(node, symbol, zero);
                 self.derivatives.insert((node, symbol), derivative);
             }
         }
-        Some(self.tidy(self.derivatives[&(id, symbol)]))
+        Some(self.tidy(self.slope(id, symbol, zero)))
+    }
+
+    /// The derivative of a node, which is known; `zero` of one in which the symbol does not occur.
+    fn slope(&self, id: ExprId, symbol: Symbol, zero: ExprId) -> ExprId {
+        let known = self.derivatives.get(&(id, symbol));
+        known.copied().unwrap_or(zero)
     }
 
     /// An upper bound of what the derivative of one node adds to the size.
     fn swell(&self, id: ExprId, symbol: Symbol) -> usize {
-        let inner = |child: &ExprId| match self.node(self.derivatives[&(*child, symbol)]) {
-            Node::Sum { terms, .. } => terms.len(),
-            Node::Product(factors) => factors.len(),
-            Node::Number(zero) if zero.is_zero() => 0,
-            _ => 1,
+        let inner = |child: &ExprId| {
+            let known = self.derivatives.get(&(*child, symbol));
+            known.map_or(0, |slope| match self.node(*slope) {
+                Node::Sum { terms, .. } => terms.len(),
+                Node::Product(factors) => factors.len(),
+                Node::Number(zero) if zero.is_zero() => 0,
+                _ => 1,
+            })
         };
         match self.node(id) {
             Node::Sum { terms, .. } | Node::Written(terms) => {
@@ -49,28 +59,28 @@ impl Graph {
     }
 
     /// One node, the derivatives of whose children are known.
-    fn differentiate_node(&mut self, id: ExprId, symbol: Symbol) -> ExprId {
+    fn differentiate_node(&mut self, id: ExprId, symbol: Symbol, zero: ExprId) -> ExprId {
         match self.node(id).clone() {
             Node::Number(_) | Node::Pi => self.number(Rational::ZERO),
             Node::Symbol(other) => self.integer(i64::from(other == symbol)),
             Node::Sum { terms, .. } => {
                 let terms: Vec<_> = terms
                     .iter()
-                    .map(|(t, c)| (self.derivatives[&(*t, symbol)], c.clone()))
+                    .map(|(t, c)| (self.slope(*t, symbol, zero), c.clone()))
                     .collect();
                 self.linear(&terms)
             }
             Node::Written(terms) => {
                 let terms: Vec<_> = terms
                     .iter()
-                    .map(|(t, c)| (self.derivatives[&(*t, symbol)], c.clone()))
+                    .map(|(t, c)| (self.slope(*t, symbol, zero), c.clone()))
                     .collect();
                 self.written_sum(&terms)
             }
             Node::Product(factors) => {
                 let mut terms = Vec::new();
                 for (position, (base, exponent)) in factors.iter().enumerate() {
-                    let inner = self.derivatives[&(*base, symbol)];
+                    let inner = self.slope(*base, symbol, zero);
                     if self.is_zero(inner) {
                         continue;
                     }
@@ -82,9 +92,9 @@ impl Graph {
                 self.linear(&terms)
             }
             Node::Call(function, arguments) => {
-                let inner = self.derivatives[&(arguments[0], symbol)];
+                let inner = self.slope(arguments[0], symbol, zero);
                 if function == Function::Atan2 {
-                    let inner_x = self.derivatives[&(arguments[1], symbol)];
+                    let inner_x = self.slope(arguments[1], symbol, zero);
                     return self
                         .differentiate_atan2([arguments[0], arguments[1]], [inner, inner_x]);
                 }
@@ -145,6 +155,28 @@ impl Graph {
             Function::Tanh => {
                 let tangent = self.pow(value, &two);
                 self.sub(one, tangent)
+            }
+            Function::Cbrt => {
+                let inverse = self.pow(value, &Rational::from(-2));
+                let third = Rational::new(1, 3).unwrap_or(Rational::ONE);
+                self.linear(&[(inverse, third)])
+            }
+            Function::Log1p => {
+                let inside = self.add(one, x);
+                self.pow(inside, &Rational::MINUS_ONE)
+            }
+            Function::Expm1 => self.call(Function::Exp, &[x]),
+            Function::Asinh | Function::Acosh => {
+                let inside = if function == Function::Asinh {
+                    self.add(square, one)
+                } else {
+                    self.sub(square, one)
+                };
+                self.pow(inside, &Rational::new(-1, 2).unwrap_or(Rational::MINUS_ONE))
+            }
+            Function::Atanh => {
+                let inside = self.sub(one, square);
+                self.pow(inside, &Rational::MINUS_ONE)
             }
             Function::Stumpff(k) => {
                 let [next, second] = [k + 1, k + 2].map(|k| self.call(Function::Stumpff(k), &[x]));

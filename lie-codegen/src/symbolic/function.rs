@@ -1,5 +1,5 @@
-//! The elementary functions of the grammar, and those that closed forms of the exponential are made of. A square root
-//! is the power 1/2, not a function here.
+//! The elementary functions of the grammar, and those that closed forms of the exponential are made of. Square roots
+//! are powers, not functions here.
 
 use lie_core::closed;
 
@@ -37,8 +37,12 @@ macro_rules! functions {
 }
 functions! {
     Exp "exp" 1, Log "log" 1, Sin "sin" 1, Cos "cos" 1, Tan "tan" 1, Asin "asin" 1, Acos "acos" 1,
-    Atan "atan" 1, Sinh "sinh" 1, Cosh "cosh" 1, Tanh "tanh" 1, Atan2 "atan2" 2,
+    Atan "atan" 1, Sinh "sinh" 1, Cosh "cosh" 1, Tanh "tanh" 1, Cbrt "cbrt" 1, Log1p "log1p" 1,
+    Expm1 "expm1" 1, Asinh "asinh" 1, Acosh "acosh" 1, Atanh "atanh" 1, Atan2 "atan2" 2,
 }
+
+/// Functions of the grammar that are powers: `sqrt(x) = x^(1/2)`, `hypot(x, y) = (x^2 + y^2)^(1/2)`.
+pub const POWERS: [&str; 2] = ["sqrt", "hypot"];
 
 /// The names of the functions of closed forms.
 const STUMPFF: [&str; closed::MOST_FUNCTIONS] = [
@@ -65,7 +69,17 @@ impl Function {
         }
     }
 
-    /// The function of that name; `sqrt` is none of them.
+    /// The names of all functions of the grammar.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        Self::ALL.iter().map(|f| f.name()).chain(POWERS)
+    }
+
+    /// Whether a function of the grammar has that name.
+    pub fn is_name(name: &str) -> bool {
+        Self::names().any(|known| known == name)
+    }
+
+    /// The function of that name; those that are powers are none of them.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|f| f.name() == name)
     }
@@ -86,6 +100,12 @@ impl Function {
             Function::Sinh => libm::sinh(x),
             Function::Cosh => libm::cosh(x),
             Function::Tanh => libm::tanh(x),
+            Function::Cbrt => libm::cbrt(x),
+            Function::Log1p => libm::log1p(x),
+            Function::Expm1 => libm::expm1(x),
+            Function::Asinh => libm::asinh(x),
+            Function::Acosh => libm::acosh(x),
+            Function::Atanh => libm::atanh(x),
             Function::Atan2 => libm::atan2(x, arguments[1]),
             Function::Stumpff(k) => closed::stumpff_of(k.into(), x),
             Function::Phi(k) => closed::phi_of(k.into(), x),

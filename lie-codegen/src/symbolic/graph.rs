@@ -41,6 +41,20 @@ pub enum Symbol {
     Input(usize),
 }
 
+impl Symbol {
+    /// The bit of a symbol in a set that takes several symbols for one.
+    fn bit(self) -> u64 {
+        let place = match self {
+            Self::Coordinate(i) => i,
+            Self::Parameter(i) => i.wrapping_add(21),
+            Self::Input(i) => i.wrapping_add(42),
+            Self::Step => 62,
+            Self::Time => 63,
+        };
+        1 << (place % 64)
+    }
+}
+
 /// The forms of an expression.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
@@ -69,6 +83,8 @@ pub enum Node {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
+    /// Which symbols may occur in each node: a bit for those that share it.
+    supports: Vec<u64>,
     index: HashMap<Node, ExprId>,
     pub(super) derivatives: HashMap<(ExprId, Symbol), ExprId>,
     /// The normal forms of expressions as they were written.
@@ -124,9 +140,29 @@ impl Graph {
         let id = ExprId(
             u32::try_from(self.nodes.len()).expect("fewer than 2^32 nodes by the size limit"),
         );
+        let support = self.support(&node);
+        self.supports.push(support);
         self.nodes.push(node.clone());
         self.index.insert(node, id);
         id
+    }
+
+    /// The bits of the symbols that occur in a node.
+    fn support(&self, node: &Node) -> u64 {
+        let of = |id: &ExprId| self.supports[id.index()];
+        match node {
+            Node::Number(_) | Node::Pi => 0,
+            Node::Symbol(symbol) => symbol.bit(),
+            Node::Sum { terms, .. } | Node::Written(terms) | Node::Product(terms) => {
+                terms.iter().fold(0, |all, (id, _)| all | of(id))
+            }
+            Node::Call(_, arguments) => arguments.iter().fold(0, |all, id| all | of(id)),
+        }
+    }
+
+    /// What an expression is made of and a symbol may occur in, in ascending order.
+    pub(super) fn varying(&self, root: ExprId, symbol: Symbol) -> Vec<ExprId> {
+        self.reached(&[root], |id| self.supports[id.index()] & symbol.bit() != 0)
     }
 
     /// An exact number.
@@ -283,11 +319,19 @@ impl Graph {
                 | Function::Atan
                 | Function::Sinh
                 | Function::Tanh
+                | Function::Cbrt
+                | Function::Log1p
+                | Function::Expm1
+                | Function::Asinh
+                | Function::Atanh
                     if value.is_zero() =>
                 {
                     Some(Rational::ZERO)
                 }
-                Function::Log | Function::Acos if value.is_one() => Some(Rational::ZERO),
+                Function::Log | Function::Acos | Function::Acosh if value.is_one() => {
+                    Some(Rational::ZERO)
+                }
+                Function::Cbrt if value.is_one() => Some(Rational::ONE),
                 Function::Stumpff(k) | Function::Phi(k) if value.is_zero() => {
                     let factorial: i64 = (1..=i64::from(k)).product();
                     Rational::new(1, factorial)
@@ -315,11 +359,16 @@ impl Graph {
 
     /// Everything that the roots are made of, themselves included, in ascending order.
     pub fn dependencies(&self, roots: &[ExprId]) -> Vec<ExprId> {
-        let mut seen: FxHashSet<ExprId> = roots.iter().copied().collect();
-        let mut stack: Vec<ExprId> = roots.to_vec();
+        self.reached(roots, |_| true)
+    }
+
+    /// Everything of the kind that the roots are made of, by way of nodes of the kind, in ascending order.
+    fn reached(&self, roots: &[ExprId], kind: impl Fn(ExprId) -> bool) -> Vec<ExprId> {
+        let mut stack: Vec<ExprId> = roots.iter().copied().filter(|id| kind(*id)).collect();
+        let mut seen: FxHashSet<ExprId> = stack.iter().copied().collect();
         while let Some(id) = stack.pop() {
             for child in self.children(id) {
-                if seen.insert(child) {
+                if kind(child) && seen.insert(child) {
                     stack.push(child);
                 }
             }
@@ -327,6 +376,16 @@ impl Graph {
         let mut order: Vec<ExprId> = seen.into_iter().collect();
         order.sort_unstable();
         order
+    }
+
+    /// The coordinates in an expression, in ascending order.
+    pub fn coordinates(&self, id: ExprId) -> Vec<usize> {
+        let symbols = self.symbols(id).into_iter();
+        let coordinates = symbols.filter_map(|symbol| match symbol {
+            Symbol::Coordinate(i) => Some(i),
+            _ => None,
+        });
+        coordinates.collect()
     }
 
     /// The symbols in an expression.

@@ -78,7 +78,14 @@ fn derivatives_agree_with_differences() {
     let mut cases = Vec::new();
     for f in Function::ALL {
         let arguments = if f.arity() == 2 { vec![x, y] } else { vec![x] };
-        let inner = g.mul(x, y);
+        let mut inner = g.mul(x, y);
+        if *f == Function::Acosh {
+            // real from 1 on
+            let one = g.integer(1);
+            inner = g.add(inner, one);
+            cases.push(g.call(*f, &[inner]));
+            continue;
+        }
         let composed: Vec<_> = if f.arity() == 2 {
             vec![inner, z]
         } else {

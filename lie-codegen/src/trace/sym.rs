@@ -201,6 +201,24 @@ impl Scalar for Sym {
     fn tanh(self) -> Self {
         self.call(Function::Tanh)
     }
+    fn cbrt(self) -> Self {
+        self.call(Function::Cbrt)
+    }
+    fn log1p(self) -> Self {
+        self.call(Function::Log1p)
+    }
+    fn expm1(self) -> Self {
+        self.call(Function::Expm1)
+    }
+    fn asinh(self) -> Self {
+        self.call(Function::Asinh)
+    }
+    fn acosh(self) -> Self {
+        self.call(Function::Acosh)
+    }
+    fn atanh(self) -> Self {
+        self.call(Function::Atanh)
+    }
     fn atan2(self, x: Self) -> Self {
         Self(with(|s| {
             s.source.graph.call(Function::Atan2, &[self.0, x.0])

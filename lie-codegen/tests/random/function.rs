@@ -39,10 +39,16 @@ pub enum Call {
     Exp,
     Log,
     Sqrt,
+    Cbrt,
+    Log1p,
+    Expm1,
+    Asinh,
+    Acosh,
+    Atanh,
 }
 
 impl Call {
-    pub const ALL: [Call; 12] = [
+    pub const ALL: [Call; 18] = [
         Call::Sin,
         Call::Cos,
         Call::Tan,
@@ -55,6 +61,12 @@ impl Call {
         Call::Exp,
         Call::Log,
         Call::Sqrt,
+        Call::Cbrt,
+        Call::Log1p,
+        Call::Expm1,
+        Call::Asinh,
+        Call::Acosh,
+        Call::Atanh,
     ];
 
     fn text(self, a: &str) -> String {
@@ -71,6 +83,12 @@ impl Call {
             Call::Exp => format!("exp(sin({a}))"),
             Call::Log => format!("log(3/2 + ({a})^2)"),
             Call::Sqrt => format!("sqrt(1/2 + ({a})^2)"),
+            Call::Cbrt => format!("cbrt(-1 - ({a})^2)"),
+            Call::Log1p => format!("log1p(({a})^2)"),
+            Call::Expm1 => format!("expm1(sin({a}))"),
+            Call::Asinh => format!("asinh({a})"),
+            Call::Acosh => format!("acosh(3/2 + ({a})^2)"),
+            Call::Atanh => format!("atanh(sin({a})/2)"),
         }
     }
 }

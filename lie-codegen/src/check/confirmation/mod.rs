@@ -239,6 +239,12 @@ fn call(function: Function, x: &Ball, second: Option<&Ball>) -> Option<Ball> {
             let (sine, cosine) = x.sinh_cosh(precision)?;
             sine.div(&cosine, precision)
         }
+        Function::Cbrt => x.cbrt(precision),
+        Function::Log1p => x.log1p(precision),
+        Function::Expm1 => x.expm1(precision),
+        Function::Asinh => x.asinh(precision),
+        Function::Acosh => x.acosh(precision),
+        Function::Atanh => x.atanh(precision),
         Function::Atan2 => x.atan2(second?, precision),
         Function::Stumpff(_) | Function::Phi(_) => None,
     }
@@ -262,7 +268,7 @@ fn branches(graph: &Graph, parts: &[ExprId]) -> Vec<ExprId> {
                 let fractional = factors.iter().filter(|(_, e)| !e.is_integer());
                 fractional.for_each(|(base, _)| add(graph.coefficient(*base).1));
             }
-            Node::Call(Function::Log | Function::Atan2, arguments) => {
+            Node::Call(Function::Log | Function::Cbrt | Function::Atan2, arguments) => {
                 let parts = arguments.iter();
                 parts.for_each(|argument| add(graph.coefficient(*argument).1));
             }

@@ -49,6 +49,25 @@ impl Lowering<'_, '_> {
                 let rest = self.graph.sub(one, square);
                 Some(self.constant_sign(rest, place)? == Some(-1))
             }
+            Function::Log1p => {
+                let one = self.graph.integer(1);
+                let inside = self.graph.add(one, id);
+                let sign = self.constant_sign(inside, place)?;
+                Some(sign.is_some_and(|sign| sign <= 0))
+            }
+            Function::Acosh => {
+                let one = self.graph.integer(1);
+                let rest = self.graph.sub(id, one);
+                Some(self.constant_sign(rest, place)? == Some(-1))
+            }
+            Function::Atanh => {
+                // 1 - x^2
+                let square = self.graph.pow(id, &Rational::from(2));
+                let one = self.graph.integer(1);
+                let rest = self.graph.sub(one, square);
+                let sign = self.constant_sign(rest, place)?;
+                Some(sign.is_some_and(|sign| sign <= 0))
+            }
             Function::Tan => {
                 let cosine = self.graph.call(Function::Cos, &[id]);
                 Some(self.constant_sign(cosine, place)? == Some(0))

@@ -309,6 +309,10 @@ impl<'a> NormalForm<'a> {
         let argument = &arguments[0];
         match function {
             Function::Exp => self.exponential(argument),
+            Function::Expm1 => {
+                let power = self.exponential(argument)?;
+                Ok(power.sub(&Rational::ONE.into(), self.budget)?)
+            }
             Function::Sinh | Function::Cosh | Function::Tanh => {
                 let power = self.exponential(argument)?;
                 let inverse = self.reciprocal(&power)?;
@@ -320,7 +324,14 @@ impl<'a> NormalForm<'a> {
                     _ => Ok(difference.mul(&self.reciprocal(&sum)?, self.budget)?),
                 }
             }
-            Function::Asin | Function::Atan if argument.numerator().content().is_negative() => {
+            // odd functions
+            Function::Asin
+            | Function::Atan
+            | Function::Asinh
+            | Function::Atanh
+            | Function::Cbrt
+                if argument.numerator().content().is_negative() =>
+            {
                 Ok(self.call(function, &[argument.neg()])?.neg())
             }
             _ => {

@@ -1,6 +1,7 @@
 //! The rules of the elementary functions.
 
 use super::{At, Lowering, Term, number};
+use crate::exact::Rational;
 use crate::schedule::{Operation, Value};
 use crate::symbolic::Function;
 
@@ -16,7 +17,27 @@ impl Lowering {
                 self.integral(zero, &u.row(), u)
             }
             Function::Tan | Function::Tanh => self.tangent(function, u),
-            Function::Asin | Function::Acos | Function::Atan => self.arc(function, u),
+            Function::Asin
+            | Function::Acos
+            | Function::Atan
+            | Function::Asinh
+            | Function::Acosh
+            | Function::Atanh => self.arc(function, u),
+            Function::Cbrt => {
+                let zero = self.at_zero(function, arguments);
+                let third = Rational::new(1, 3).unwrap_or(Rational::ONE);
+                let row = self.power(u, &third, &zero);
+                Term::varying(zero, row)
+            }
+            Function::Log1p => {
+                let zero = self.at_zero(function, arguments);
+                let w = self.begin.add(number(1), u.zero.clone());
+                self.integral(zero, &u.row(), &Term::varying(w, u.row()))
+            }
+            Function::Expm1 => {
+                let zero = self.at_zero(function, arguments);
+                Term::varying(zero, self.exponential(u).row())
+            }
             Function::Atan2 => self.angle(u, &arguments[1]),
             Function::Stumpff(_) | Function::Phi(_) => {
                 unreachable!(
@@ -124,9 +145,19 @@ impl Lowering {
                 let w = self.begin.add(number(1), square);
                 (Term::varying(w, square_row), u.row())
             }
+            Function::Atanh => {
+                let w = self.begin.sub(number(1), square);
+                (Term::varying(w, self.advance.neg(square_row)), u.row())
+            }
             _ => {
-                let inside = self.begin.sub(number(1), square);
-                let inside_row = self.advance.neg(square_row);
+                let (inside, inside_row) = match function {
+                    Function::Asinh => (self.begin.add(square, number(1)), square_row),
+                    Function::Acosh => (self.begin.sub(square, number(1)), square_row),
+                    _ => {
+                        let inside = self.begin.sub(number(1), square);
+                        (inside, self.advance.neg(square_row))
+                    }
+                };
                 let root = self.begin.push(Operation::Sqrt(inside.clone()));
                 let inside = Term::varying(inside, inside_row);
                 let root_row = self.root(&inside, &root);

@@ -1,6 +1,7 @@
 //! The elementary functions of balls.
 
 use super::{Ball, MAX_ARGUMENT, Precision, series};
+use crate::exact::Rational;
 use num_traits::Zero;
 
 /// Halvings of the argument before the series of exp.
@@ -144,6 +145,67 @@ impl Ball {
             .mul(&Ball::integer(sign.into()), precision);
         let rest = x.div(self, precision)?.atan(precision)?;
         Some(quarter.sub(&rest, precision))
+    }
+
+    /// The cube root; of members of both signs there is none.
+    pub fn cbrt(&self, precision: &Precision) -> Option<Self> {
+        let third = Rational::new(1, 3)?;
+        match self.sign()? {
+            0 => Some(self.clone()),
+            1 => self.power(&third, precision),
+            _ => Some(self.neg().power(&third, precision)?.neg()),
+        }
+    }
+
+    /// `log(1 + x)`; all members must be above -1.
+    pub fn log1p(&self, precision: &Precision) -> Option<Self> {
+        // 2 artanh(x/(2 + x)) keeps the digits of a small x
+        let ratio = self.div(&self.add(&Ball::integer(2), precision), precision);
+        match ratio.filter(|ratio| ratio.magnitude() <= -1) {
+            Some(ratio) => Some(series::odd_powers(&ratio, 1, precision)?.shifted(1)),
+            None => self.add(&Ball::integer(1), precision).log(precision),
+        }
+    }
+
+    /// `exp(x) - 1 = 2 sinh(x/2) exp(x/2)`
+    pub fn expm1(&self, precision: &Precision) -> Option<Self> {
+        let half = self.shifted(-1);
+        let (sine, _) = half.sinh_cosh(precision)?;
+        Some(sine.mul(&half.exp(precision)?, precision).shifted(1))
+    }
+
+    /// The inverse hyperbolic sine, for x that are not negative `log1p(x + x^2/(1 + sqrt(1 + x^2)))`.
+    pub fn asinh(&self, precision: &Precision) -> Option<Self> {
+        if self.sign() == Some(-1) {
+            return Some(self.neg().asinh(precision)?.neg());
+        }
+        let one = Ball::integer(1);
+        let square = self.mul(self, precision);
+        let root = one.add(&square, precision).sqrt(precision)?;
+        let rest = square.div(&one.add(&root, precision), precision)?;
+        self.add(&rest, precision).log1p(precision)
+    }
+
+    /// The inverse hyperbolic cosine, `log1p(y + sqrt(y (y + 2)))` of `y = x - 1`; no member may be below 1.
+    pub fn acosh(&self, precision: &Precision) -> Option<Self> {
+        let y = self.sub(&Ball::integer(1), precision);
+        let square = y.mul(&y.add(&Ball::integer(2), precision), precision);
+        let root = (y.sign()? >= 0).then(|| square.sqrt(precision))??;
+        y.add(&root, precision).log1p(precision)
+    }
+
+    /// The inverse hyperbolic tangent; all members must be within (-1, 1).
+    pub fn atanh(&self, precision: &Precision) -> Option<Self> {
+        if self.magnitude() <= -1 {
+            return series::odd_powers(self, 1, precision);
+        }
+        let one = Ball::integer(1);
+        let below = one.sub(self, precision);
+        if below.sign()? <= 0 {
+            return None;
+        }
+        let ratio = one.add(self, precision).div(&below, precision)?;
+        Some(ratio.log(precision)?.shifted(-1))
     }
 
     /// Hyperbolic sine and cosine.

@@ -17,6 +17,12 @@ fn value(name: &str, x: &[Ball], p: &Precision) -> Option<Ball> {
         "sinh" => Some(x[0].sinh_cosh(p)?.0),
         "cosh" => Some(x[0].sinh_cosh(p)?.1),
         "tanh" => x[0].sinh_cosh(p).and_then(|(s, c)| s.div(&c, p)),
+        "cbrt" => x[0].cbrt(p),
+        "log1p" => x[0].log1p(p),
+        "expm1" => x[0].expm1(p),
+        "asinh" => x[0].asinh(p),
+        "acosh" => x[0].acosh(p),
+        "atanh" => x[0].atanh(p),
         _ => None,
     }
 }
@@ -74,6 +80,10 @@ fn what_may_be_undefined_has_no_value() {
     assert!(wide.sqrt(&p).is_none() && one.neg().sqrt(&p).is_none());
     assert!(wide.recip(&p).is_none() && zero.recip(&p).is_none());
     assert!(Ball::integer(2).asin(&p).is_none());
+    assert!(zero.acosh(&p).is_none() && Ball::integer(2).atanh(&p).is_none());
+    assert!(one.atanh(&p).is_none() && one.neg().atanh(&p).is_none());
+    assert!(one.neg().log1p(&p).is_none() && wide.cbrt(&p).is_none());
+    assert_eq!(one.acosh(&p).unwrap().sign(), Some(0));
     assert!(wide.atan2(&one.neg(), &p).is_none() && zero.atan2(&zero, &p).is_none());
     assert!(Ball::dyadic(1, 60).sin_cos(&p).is_none());
     assert_eq!(zero.sqrt(&p).unwrap().sign(), Some(0));

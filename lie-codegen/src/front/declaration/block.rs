@@ -4,7 +4,8 @@ use super::entry::{Entry, inside};
 use super::statement::Statement;
 use crate::ast::{Algebra, Expr, Matrix, Name, Parameter, Realization};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
-use crate::front::reader::Parameters;
+use crate::front::named::{self, Changes};
+use crate::front::reader::{Line, Parameters, Read};
 use crate::front::token::{Delimiter, Token, span, split_commas};
 use crate::front::{Names, item};
 
@@ -22,21 +23,37 @@ pub fn names(tokens: &[Token], place: Origin, report: &mut Report) -> Vec<Name> 
         .collect()
 }
 
-/// `{ basis …; [a, b] = …; }`
+/// `= so(3)`, or a block.
 pub fn algebra(
     statement: &Statement<'_>,
     parameters: &[String],
     report: &mut Report,
-) -> Option<Algebra> {
-    if let Some(equals) = statement.rest.first().filter(|t| t.is('=')) {
-        let place = span(&statement.rest[1..]).unwrap_or(equals.origin);
-        report.push(
-            Diagnostic::new(Kind::Syntax, place, "named algebras are not built yet")
-                .help("write `algebra { basis e1, e2; [e1, e2] = e2; }`"),
-        );
-        return None;
+) -> Option<Read> {
+    if let Some((equals, name)) = statement.rest.split_first().filter(|(t, _)| t.is('=')) {
+        let named = named::parse(name, equals.origin, report)?;
+        let place = span(name).unwrap_or(equals.origin);
+        return Some(named::standard(&named, place));
     }
     let entries = statement.block(report)?;
+    if let Some(name) = entries.iter().find(|entry| entry.is_word("named")) {
+        return by_name(statement, name, &entries, parameters, report);
+    }
+    for word in ["action", "central"] {
+        if let Some(entry) = entries.iter().find(|entry| entry.is_word(word)) {
+            report.push(named::without_name(Kind::Syntax, word, entry.origin()));
+            return None;
+        }
+    }
+    written(statement, &entries, parameters, report)
+}
+
+/// `{ basis …; [a, b] = …; }` without a name.
+fn written(
+    statement: &Statement<'_>,
+    entries: &[Entry<'_>],
+    parameters: &[String],
+    report: &mut Report,
+) -> Option<Read> {
     let mut basis: Option<Vec<Name>> = None;
     for entry in entries.iter().filter(|e| e.is_word("basis")) {
         if basis.is_some() {
@@ -71,12 +88,71 @@ pub fn algebra(
         }
     }
     let computed = !with_brackets && entries.iter().any(|e| e.is_word("matrix"));
-    Some(Algebra {
+    let algebra = Algebra {
         basis,
         brackets: (!computed).then_some(brackets),
         matrices,
         origin: statement.origin,
+    };
+    let state = None;
+    Some(Read {
+        algebra,
+        state,
+        sizes: Vec::new(),
     })
+}
+
+/// Whether the algebra is one by its name.
+pub fn is_named(statement: &Statement<'_>) -> bool {
+    let block = inside(statement.rest, Delimiter::Brace).unwrap_or_default();
+    statement.rest.first().is_some_and(|token| token.is('='))
+        || block
+            .windows(2)
+            .any(|pair| pair[0].is_word("named") && pair[1].is('='))
+}
+
+/// `{ named = so(3); basis a = e1, b = e2 + e3, c = e3; }`
+fn by_name(
+    statement: &Statement<'_>,
+    name: &Entry<'_>,
+    entries: &[Entry<'_>],
+    parameters: &[String],
+    report: &mut Report,
+) -> Option<Read> {
+    let (_, value) = item::definition(name.tokens, "`named`", name.origin(), report)?;
+    let named = named::parse(value, name.origin(), report);
+    let constants: Names = parameters.iter().cloned().collect();
+    let mut changes = Changes {
+        action: None,
+        basis: None,
+        central: Vec::new(),
+        brackets: Vec::new(),
+        matrices: None,
+        origin: statement.origin,
+    };
+    for entry in entries.iter().filter(|entry| !entry.is_word("named")) {
+        if entry.is_word("basis") {
+            let parts = split_commas(&entry.tokens[1..]).into_iter();
+            let line = |tokens: &[Token]| Line {
+                tokens: tokens.to_vec().into(),
+                place: span(tokens).unwrap_or(entry.origin()),
+            };
+            changes.basis = Some(parts.map(line).collect());
+        } else if entry.is_word("central") {
+            changes
+                .central
+                .extend(names(&entry.tokens[1..], entry.origin(), report));
+        } else if entry.is_word("action") {
+            let matrix = matrix(entry, &constants, report);
+            changes.action.get_or_insert_default().extend(matrix);
+        } else if entry.is_word("matrix") {
+            let matrix = matrix(entry, &constants, report);
+            changes.matrices.get_or_insert_default().extend(matrix);
+        } else {
+            changes.brackets.push(entry.line());
+        }
+    }
+    changes.apply(named?, report)
 }
 
 /// `{ positions q1, q2; momenta p1, p2; x = …; start = [1, 0, 0, 1]; }`

@@ -15,6 +15,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("group", Follows::Name),
     ("state", Follows::Name),
     ("parameters", Follows::Block),
+    ("vectors", Follows::Block),
     ("let", Follows::Name),
     ("hamiltonian", Follows::Equals),
     ("lagrangian", Follows::Equals),

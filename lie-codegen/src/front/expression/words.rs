@@ -3,7 +3,7 @@
 use super::super::names::arity;
 use super::super::operand::{begins_factor, operand_text};
 use super::super::token::{Delimiter, Token, TokenKind, render};
-use super::super::{families, habits, mistakes};
+use super::super::{families, habits, mistakes, vectors};
 use super::{CLOSE, OPEN, Parser, zero};
 use crate::ast::{Expr, ExprKind, Name};
 
@@ -104,7 +104,7 @@ impl<'a> Parser<'a> {
             }
         }
         let origin = token.origin.to(self.close(open, Delimiter::Parenthesis)?);
-        match arity(function) {
+        match arity(function).or_else(|| vectors::arity(function)) {
             None => self.fail(mistakes::unknown_function(
                 function,
                 &texts,

@@ -2,28 +2,32 @@
 
 use super::{line, quantity};
 use crate::ast::{Algebra, Bracket, Matrix};
-use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::diagnostic::{Kind, Report};
 use crate::front::json::{Type, Value};
+use crate::front::named::{self, Changes};
 use crate::front::object::{Object, list, wrong_type};
-use crate::front::reader::Entries as _;
+use crate::front::reader::{Entries as _, Read};
 use crate::front::schema;
-use crate::front::{Names, item};
+use crate::front::{Names, families, item};
 
 /// Reads the algebra; values of brackets may use `parameters`.
-pub fn read(value: Value<'_>, parameters: &[String], report: &mut Report) -> Option<Algebra> {
+pub fn read(value: Value<'_>, parameters: &[String], report: &mut Report) -> Option<Read> {
     if value.kind() == Type::String {
-        report.push(
-            Diagnostic::new(
-                Kind::Schema,
-                value.origin(),
-                "named algebras are not built yet",
-            )
-            .help("write an object with `basis` and `brackets`"),
-        );
-        return None;
+        let line = line(value, "`algebra`", report)?;
+        let named = named::parse(&line.tokens, line.place, report)?;
+        return Some(named::standard(&named, line.place));
     }
     let object = Object::read(value, "`algebra`", schema::Algebra::KEYS, report)?;
+    if let Some(name) = object.get("named") {
+        return by_name(value, name, &object, parameters, report);
+    }
     object.require("`algebra`", schema::Algebra::REQUIRED, report);
+    object.require("`algebra`", &["basis"], report);
+    for key in ["action", "central"] {
+        if let Some(value) = object.get(key) {
+            report.push(named::without_name(Kind::Schema, key, value.origin()));
+        }
+    }
     let basis = object.names("basis", report);
     let names: Names = basis
         .iter()
@@ -37,12 +41,68 @@ pub fn read(value: Value<'_>, parameters: &[String], report: &mut Report) -> Opt
         .get("matrices")
         .map(|v| matrices(v, &parameters, report))
         .unwrap_or_default();
-    Some(Algebra {
+    let algebra = Algebra {
         basis,
         brackets,
         matrices,
         origin: value.origin(),
+    };
+    Some(Read {
+        algebra,
+        state: None,
+        sizes: Vec::new(),
     })
+}
+
+/// The algebra of a site of a family, by its name, and the number of copies.
+pub fn of_family(value: Value<'_>, report: &mut Report) -> Option<Read> {
+    let line = line(value, "the algebra of a family", report)?;
+    let (site, sizes) = families::power(&line.tokens, line.place, report)?;
+    let named = named::parse(site, line.place, report)?;
+    let read = named::standard(&named, line.place);
+    Some(Read { sizes, ..read })
+}
+
+/// Whether the algebra is one by its name.
+pub fn is_named(value: Value<'_>) -> bool {
+    let mut report = Report::new();
+    let named = value.kind() == Type::String
+        || value.kind() == Type::Object
+            && value
+                .members(&mut report)
+                .iter()
+                .any(|member| member.key.text == "named");
+    report.ignore("the members are read again");
+    named
+}
+
+/// An algebra by its name, with what is changed.
+fn by_name(
+    value: Value<'_>,
+    name: Value<'_>,
+    object: &Object<'_>,
+    parameters: &[String],
+    report: &mut Report,
+) -> Option<Read> {
+    let line = line(name, "`named`", report)?;
+    let named = named::parse(&line.tokens, line.place, report);
+    let basis = object.get("basis").map(|_| object.lines("basis", report));
+    let central = object.names("central", report);
+    let brackets = object.lines("brackets", report);
+    let parameters: Names = parameters.iter().cloned().collect();
+    let matrices = object.get("matrices");
+    let matrices = matrices.map(|value| self::matrices(value, &parameters, report));
+    let action = object.get("action");
+    let action = action.map(|value| self::matrices(value, &parameters, report));
+    let changes = Changes {
+        action,
+        basis,
+        central,
+        brackets,
+        matrices,
+        origin: value.origin(),
+    };
+    changes.apply(named?, report)
 }
 
 fn brackets_of(object: &Object<'_>, names: &Names, report: &mut Report) -> Vec<Bracket> {

@@ -266,7 +266,14 @@ fn statements() {
         assert_eq!(changed(from, to), one(Syntax, place), "{to}");
     }
     let algebra = "{ basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = k*e1; [e3, e1] = e2; }";
-    assert_eq!(changed(algebra, "= so(3);"), one(Syntax, "so(3)"));
+    assert_eq!(changed(algebra, "= so(3);"), []);
+    assert_eq!(changed(algebra, "= so(3) * R;"), one(Syntax, "*"));
+    assert_eq!(changed(algebra, "= ;"), one(Syntax, "="));
+    assert_eq!(changed(algebra, "= so(0);"), one(Kind::Number, "0"));
+    assert_eq!(
+        changed(algebra, "= soo(3);"),
+        one(Kind::UnknownSymbol, "soo")
+    );
     assert_eq!(changed(algebra, ";"), one(Syntax, "algebra"));
     assert_eq!(changed("basis e1, e2, e3; ", ""), one(Syntax, "algebra"));
 }

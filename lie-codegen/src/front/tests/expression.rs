@@ -237,7 +237,10 @@ fn families_are_read_and_refused() {
         let (kind, place, help) = mistake(text);
         assert_eq!(
             (kind, help.as_str()),
-            (Kind::Syntax, "write the copies out, as in x1, x2, x3"),
+            (
+                Kind::Syntax,
+                "a family is declared by a spec, with an algebra such as `so(3)^N` and a state such as `x[i]`; else write the copies out, as in x1, x2, x3"
+            ),
             "{text}"
         );
         place

@@ -27,7 +27,9 @@ fn explicit(expression: &Expr) -> String {
         ExprKind::Name { name, index: None } => name.clone(),
         ExprKind::Name {
             name,
-            index: Some(Index { variable, offset }),
+            index: Some(Index {
+                variable, offset, ..
+            }),
         } => {
             format!(
                 "{name}[{}{offset:+}]",

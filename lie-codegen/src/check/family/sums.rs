@@ -1,0 +1,366 @@
+//! The sums of a Hamiltonian, and the sites that their summands depend on.
+
+use std::collections::BTreeSet;
+
+use super::bounds::{self, Span};
+use crate::ast::{Declaration, Expr, ExprKind, Family, Index, Name};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+
+/// A sum as it was written.
+pub struct Collected {
+    /// The distances of all sites that a summand or the motion of a site depends on.
+    pub slots: Vec<[i64; 2]>,
+    /// The sums.
+    pub sums: Vec<Sum>,
+    /// The indices of the family.
+    indices: Vec<String>,
+}
+
+/// One sum.
+pub struct Sum {
+    /// The summand, its coordinates under the names of their slots.
+    pub body: Expr,
+    /// The distances of the sites in it.
+    pub sites: BTreeSet<[i64; 2]>,
+    /// Where it goes, by row and by column.
+    pub spans: [Span; 2],
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// The name under which a sum stands in H, which nobody can write.
+pub fn total(index: usize) -> String {
+    format!("sum {index}")
+}
+
+/// The name of a coordinate of a site at a distance.
+fn named(name: &str, indices: &[String], [down, right]: [i64; 2]) -> String {
+    let offsets = if indices.len() == 1 {
+        vec![right]
+    } else {
+        vec![down, right]
+    };
+    let index = |(index, offset): (&String, i64)| match offset {
+        0 => index.clone(),
+        _ => format!("{index}{offset:+}"),
+    };
+    let indices: Vec<String> = indices.iter().zip(offsets).map(index).collect();
+    format!("{name}[{}]", indices.join(","))
+}
+
+impl Collected {
+    /// The names of all coordinates, slot after slot.
+    pub fn names(&self, declaration: &Declaration) -> Vec<String> {
+        let state = &declaration.state;
+        let of = |slot: &[i64; 2]| -> Vec<String> {
+            let names = state.iter();
+            names
+                .map(|name| named(&name.text, &self.indices, *slot))
+                .collect()
+        };
+        self.slots.iter().flat_map(of).collect()
+    }
+
+    /// The slot of a distance.
+    pub fn slot(&self, distance: [i64; 2]) -> usize {
+        let found = self.slots.iter().position(|slot| *slot == distance);
+        found.unwrap_or_default()
+    }
+}
+
+/// The answer to a sum within another one.
+pub fn within(origin: Origin) -> Diagnostic {
+    Diagnostic::new(
+        Kind::Syntax,
+        origin,
+        "a sum over all sites stands within another one",
+    )
+    .help("couple all sites with all by a product of sums, such as `X^2/(2*N)` with `X = sum(i in 0..N: x[i])`")
+}
+
+/// The sums of a declaration, as they are found.
+pub struct Sums<'a> {
+    declaration: &'a Declaration,
+    family: &'a Family,
+    found: Vec<Sum>,
+}
+
+/// A sum that is being read.
+struct Reading<'a> {
+    variables: Vec<&'a Name>,
+    spans: Vec<Span>,
+    sites: BTreeSet<[i64; 2]>,
+}
+
+impl<'a> Sums<'a> {
+    /// None yet.
+    pub fn of(declaration: &'a Declaration, family: &'a Family) -> Self {
+        Self {
+            declaration,
+            family,
+            found: Vec::new(),
+        }
+    }
+
+    fn indices(&self) -> Vec<String> {
+        self.family.indices.iter().map(|i| i.text.clone()).collect()
+    }
+
+    /// All that were found.
+    pub fn collected(self) -> Collected {
+        let mut slots = BTreeSet::from([[0, 0]]);
+        for sum in &self.found {
+            for one in &sum.sites {
+                slots.insert(*one);
+                let others = sum.sites.iter();
+                slots.extend(others.map(|other| [other[0] - one[0], other[1] - one[1]]));
+            }
+        }
+        Collected {
+            slots: slots.into_iter().collect(),
+            indices: self.indices(),
+            sums: self.found,
+        }
+    }
+
+    /// An expression outside of sums, with a name for each of them.
+    pub fn outside(&mut self, expr: &Expr, report: &mut Report) -> Option<Expr> {
+        let name = |sums: &mut Self, expr: &Expr, report: &mut Report| match &expr.kind {
+            ExprKind::Name {
+                name,
+                index: Some(_),
+            } => {
+                let message = format!("`{name}` has an index and stands in no sum");
+                let help =
+                    "a Hamiltonian of a family is a function of sums such as `sum(i in 0..N: …)`";
+                report.push(Diagnostic::new(Kind::Syntax, expr.origin, message).help(help));
+                None
+            }
+            ExprKind::Name { name, .. } if sums.is_coordinate(name) => {
+                report.push(sums.without_index(name, expr.origin));
+                None
+            }
+            ExprKind::IndexedSum { .. } => sums.sum(expr, report),
+            _ => Some(expr.clone()),
+        };
+        mapped(expr, &mut |expr| name(self, expr, report))
+    }
+
+    fn is_coordinate(&self, name: &str) -> bool {
+        self.declaration.state.iter().any(|s| s.text == name)
+    }
+
+    fn without_index(&self, name: &str, origin: Origin) -> Diagnostic {
+        let help = format!("write `{}` in a sum", named(name, &self.indices(), [0, 0]));
+        let message = format!("`{name}` is a coordinate of each site and needs an index");
+        Diagnostic::new(Kind::UnknownSymbol, origin, message).help(help)
+    }
+
+    /// A sum becomes a name.
+    fn sum(&mut self, expr: &Expr, report: &mut Report) -> Option<Expr> {
+        let mut reading = Reading {
+            variables: Vec::new(),
+            spans: Vec::new(),
+            sites: BTreeSet::new(),
+        };
+        let mut body = expr;
+        for size in &self.family.sizes {
+            let ExprKind::IndexedSum {
+                index,
+                from,
+                to,
+                body: inner,
+            } = &body.kind
+            else {
+                let message = "the sum goes over rows alone, and the sites have two indices";
+                let help = "write `sum(i in 0..N, j in 0..M: …)`";
+                report.push(Diagnostic::new(Kind::Syntax, expr.origin, message).help(help));
+                return None;
+            };
+            self.fresh(index, report)?;
+            reading.spans.push(bounds::span(from, to, size, report)?);
+            reading.variables.push(index);
+            body = inner;
+        }
+        let body = mapped(body, &mut |part| match &part.kind {
+            ExprKind::IndexedSum { .. } => {
+                report.push(within(part.origin));
+                None
+            }
+            ExprKind::Name { name, index: None } if self.is_coordinate(name) => {
+                report.push(self.without_index(name, part.origin));
+                None
+            }
+            ExprKind::Name {
+                name,
+                index: Some(index),
+            } => self.coordinate(name, index, part.origin, &mut reading, report),
+            _ => Some(part.clone()),
+        })?;
+        let span = |axis: usize| {
+            let before = 2 - reading.spans.len();
+            axis.checked_sub(before)
+                .and_then(|axis| reading.spans[axis])
+        };
+        self.found.push(Sum {
+            body,
+            sites: reading.sites,
+            spans: [span(0), span(1)],
+            origin: expr.origin,
+        });
+        let name = total(self.found.len() - 1);
+        Some(Expr {
+            kind: ExprKind::Name { name, index: None },
+            origin: expr.origin,
+        })
+    }
+
+    /// Reports the index of a sum that is another name too.
+    fn fresh(&self, index: &Name, report: &mut Report) -> Option<()> {
+        let declaration = self.declaration;
+        let parameters = declaration.parameters.iter().map(|p| &p.name);
+        let lets = declaration.lets.iter().map(|(name, _)| name);
+        let mut taken = declaration.state.iter().chain(parameters).chain(lets);
+        if taken.any(|name| name.text == index.text) {
+            let message = format!("the index `{}` is the name of something else", index.text);
+            let help = "give the index another name, such as `i`";
+            report.push(Diagnostic::new(Kind::DuplicateName, index.origin, message).help(help));
+            return None;
+        }
+        Some(())
+    }
+
+    /// A coordinate with an index under the name of its slot.
+    fn coordinate(
+        &self,
+        name: &str,
+        index: &Index,
+        origin: Origin,
+        reading: &mut Reading<'_>,
+        report: &mut Report,
+    ) -> Option<Expr> {
+        let mut fail = |kind, message: String, help: String| {
+            report.push(Diagnostic::new(kind, origin, message).help(help));
+            None
+        };
+        if !self.is_coordinate(name) {
+            let message = format!("`{name}` has an index and is no coordinate");
+            let help =
+                "only the names of the state have indices; a parameter is the same for all sites";
+            return fail(Kind::UnknownSymbol, message, help.into());
+        }
+        let indices: Vec<&Index> =
+            std::iter::successors(Some(index), |i| i.second.as_deref()).collect();
+        let variables: Vec<&str> = reading.variables.iter().map(|v| v.text.as_str()).collect();
+        let right = format!("write `{name}[{}]`", variables.join(", "));
+        if indices.len() != variables.len() {
+            let message = format!("`{name}` has {} indices here", indices.len());
+            return fail(Kind::Syntax, message, right);
+        }
+        let mut distance = [0, 0];
+        for (axis, (index, variable)) in indices.iter().zip(&variables).enumerate() {
+            match &index.variable {
+                Some(used) if used.text == *variable => {}
+                Some(used) => {
+                    let message = format!("the index `{}` is not that of the sum here", used.text);
+                    return fail(Kind::UnknownSymbol, message, right);
+                }
+                None => {
+                    let message =
+                        format!("`{name}` has a fixed index, and every site is as the others");
+                    return fail(Kind::Syntax, message, right);
+                }
+            }
+            let last = 2 - variables.len();
+            distance[axis + last] = index.offset;
+            if let Some(help) = bounds::beyond(reading.spans[axis], index.offset, variable) {
+                let message = format!(
+                    "this site is beyond the end: the sum does not go over all sites, so that `{variable}` does not wrap around"
+                );
+                return fail(Kind::Domain, message, help);
+            }
+        }
+        reading.sites.insert(distance);
+        Some(Expr {
+            kind: ExprKind::Name {
+                name: named(name, &self.indices(), distance),
+                index: None,
+            },
+            origin,
+        })
+    }
+}
+
+/// A Casimir of a site, written with or without the index of the family.
+pub fn on_site(expr: &Expr, family: &Family, report: &mut Report) -> Option<Expr> {
+    mapped(expr, &mut |part| match &part.kind {
+        ExprKind::IndexedSum { .. } => {
+            let message = "a Casimir of a family is one of a site";
+            let help = "write it without the sum, such as `x[i]^2 + y[i]^2 + z[i]^2`";
+            report.push(Diagnostic::new(Kind::Syntax, part.origin, message).help(help));
+            None
+        }
+        ExprKind::Name {
+            name,
+            index: Some(index),
+        } => {
+            let indices = std::iter::successors(Some(index), |i| i.second.as_deref());
+            let own = indices.zip(&family.indices).all(|(index, own)| {
+                let same = index.variable.as_ref().is_some_and(|v| v.text == own.text);
+                same && index.offset == 0
+            });
+            if !own {
+                let message = "a Casimir of a family is one of a site";
+                let names: Vec<&str> = family.indices.iter().map(|i| i.text.as_str()).collect();
+                let help = format!("write `{name}[{}]`", names.join(", "));
+                report.push(Diagnostic::new(Kind::Syntax, part.origin, message).help(help));
+                return None;
+            }
+            Some(Expr {
+                kind: ExprKind::Name {
+                    name: name.clone(),
+                    index: None,
+                },
+                origin: part.origin,
+            })
+        }
+        _ => Some(part.clone()),
+    })
+}
+
+/// The expression with its leaves and sums replaced; all of them are looked at.
+fn mapped(expr: &Expr, leaf: &mut dyn FnMut(&Expr) -> Option<Expr>) -> Option<Expr> {
+    let mut operands = |operands: &[(bool, Expr)]| -> Option<Vec<(bool, Expr)>> {
+        let all: Vec<_> = operands
+            .iter()
+            .map(|(inverse, operand)| Some((*inverse, mapped(operand, leaf)?)))
+            .collect();
+        all.into_iter().collect()
+    };
+    let kind = match &expr.kind {
+        ExprKind::Number(_) | ExprKind::Name { .. } | ExprKind::IndexedSum { .. } => {
+            return leaf(expr);
+        }
+        ExprKind::Sum(terms) => ExprKind::Sum(operands(terms)?),
+        ExprKind::Product(factors) => ExprKind::Product(operands(factors)?),
+        ExprKind::Negative(a) => ExprKind::Negative(Box::new(mapped(a, leaf)?)),
+        ExprKind::Power(a, b) => {
+            let (a, b) = (mapped(a, leaf), mapped(b, leaf));
+            ExprKind::Power(Box::new(a?), Box::new(b?))
+        }
+        ExprKind::Call {
+            function,
+            arguments,
+        } => {
+            let all: Vec<_> = arguments.iter().map(|a| mapped(a, leaf)).collect();
+            ExprKind::Call {
+                function: function.clone(),
+                arguments: all.into_iter().collect::<Option<_>>()?,
+            }
+        }
+    };
+    Some(Expr {
+        kind,
+        origin: expr.origin,
+    })
+}

@@ -1,0 +1,187 @@
+use super::{expect, model, system};
+use crate::model::Size;
+
+/// A ring of spins with what is given instead.
+fn ring(extra: &[(&str, &str)]) -> String {
+    system(
+        &[
+            ("algebra", r#""so(3)^N""#),
+            ("state", r#"["x[i]", "y[i]", "z[i]"]"#),
+            ("parameters", r#"{"N": 8, "J": 1}"#),
+            ("hamiltonian", r#""J*sum(i in 0..N: x[i]*x[i+1])""#),
+        ],
+        extra,
+    )
+}
+
+fn hamiltonian(text: &str) -> Vec<(&'static str, String)> {
+    vec![("hamiltonian", format!("\"{text}\""))]
+}
+
+/// The errors of a Hamiltonian.
+#[track_caller]
+fn refused(text: &str, expected: &[&str]) {
+    let keys = hamiltonian(text);
+    let keys: Vec<(&str, &str)> = keys.iter().map(|(k, v)| (*k, v.as_str())).collect();
+    expect(&ring(&keys), expected);
+}
+
+#[test]
+fn a_ring_has_the_casimirs_of_a_site_and_the_slots_of_its_bonds() {
+    let model = model(&ring(&[]));
+    let family = model.family.as_ref().expect("a family");
+    assert_eq!(family.sizes, [Size::Parameter(0)]);
+    assert_eq!(family.slots, [[0, -1], [0, 0], [0, 1]]);
+    assert_eq!(family.own, 1);
+    assert_eq!(family.sums[0].slots, [1, 2]);
+    assert_eq!(family.sums[0].spans, [None, None]);
+    assert_eq!(family.degree, Some(2));
+    assert_eq!((model.casimirs.len(), model.generic_rank), (1, 2));
+    assert_eq!(
+        model.display_of_family(family),
+        "J*sum(i in 0..N: x[i]*x[i+1])"
+    );
+}
+
+#[test]
+fn open_chains_lattices_and_functions_of_sums() {
+    let keys = [
+        ("let", r#"["X = sum(k in 0..N: x[k])"]"#),
+        (
+            "hamiltonian",
+            r#""sum(j in 1..N-2: x[j-1]*y[j+2]) + X^2/(2*N) + J""#,
+        ),
+    ];
+    let open = model(&ring(&keys));
+    let family = open.family.as_ref().expect("a family");
+    // sums of H come behind those of the abbreviations
+    assert_eq!(family.sums[1].spans, [None, Some((1, 2))]);
+    assert_eq!(family.slots, [[0, -3], [0, -1], [0, 0], [0, 2], [0, 3]]);
+    assert_eq!(family.degree, Some(4));
+    let keys = [
+        ("algebra", r#""so(3)^(3, M)""#),
+        ("state", r#"["x[i, j]", "y[i, j]", "z[i, j]"]"#),
+        ("parameters", r#"{"M": 5}"#),
+        (
+            "hamiltonian",
+            r#""sum(i in 0..2, j in 0..M: x[i, j]*x[i+1, j] + z[i, j]*y[i, j+1])""#,
+        ),
+    ];
+    let lattice = model(&ring(&keys));
+    let family = lattice.family.as_ref().expect("a family");
+    assert_eq!(family.sizes, [Size::Number(3), Size::Parameter(0)]);
+    assert_eq!(family.sums[0].spans, [Some((0, 1)), None]);
+    assert_eq!(family.sites(&[5.0]), Some([3, 5]));
+    assert_eq!(family.sites(&[2.5]), None);
+    assert_eq!(
+        lattice.display_of_family(family),
+        "sum(i in 0..3-1, j in 0..M: x[i,j]*x[i+1,j] + z[i,j]*y[i,j+1])"
+    );
+}
+
+#[test]
+fn mistakes_of_sums_are_reported_at_their_place() {
+    refused(
+        "sum(i in 0..N: x[i]*x)",
+        &["unknown-symbol at x: `x` is a coordinate of each site"],
+    );
+    refused(
+        "x[i]",
+        &["syntax at x[i]: `x` has an index and stands in no sum"],
+    );
+    refused(
+        "sum(i in 0..N: x[k])",
+        &["unknown-symbol at x[k]: the index `k` is not that of the sum"],
+    );
+    refused(
+        "sum(i in 0..N: x[0]*y[i])",
+        &["syntax at x[0]: `x` has a fixed index"],
+    );
+    refused(
+        "sum(i in 0..N: x[i, i])",
+        &["syntax at x[i, i]: `x` has 2 indices here"],
+    );
+    refused(
+        "sum(i in 0..N: J[i]*x[i])",
+        &["unknown-symbol at J[i]: `J` has an index and is no coordinate"],
+    );
+    refused(
+        "sum(i in 0..N-1: x[i]*x[i+2])",
+        &["domain at x[i+2]: this site is beyond the end"],
+    );
+    refused(
+        "sum(i in 1..N: x[i]*x[i+1])",
+        &["domain at x[i+1]: this site is beyond the end"],
+    );
+    refused(
+        "sum(i in 0..N-1: x[i]*x[i-1])",
+        &["domain at x[i-1]: this site is beyond the end"],
+    );
+    refused(
+        "sum(i in 0..M: x[i])",
+        &["syntax at M: a sum goes from a number to the number of sites"],
+    );
+    refused(
+        "sum(i in 0..N: sum(j in 0..N: x[i]*x[j]))",
+        &["syntax at sum(j in 0..N: x[i]*x[j]): a sum over all sites stands within"],
+    );
+    refused(
+        "sum(J in 0..N: x[J])",
+        &["duplicate-name at J: the index `J` is the name of something else"],
+    );
+    expect(
+        &ring(&[
+            ("let", r#"["X = sum(i in 0..N: x[i])"]"#),
+            ("hamiltonian", r#""sum(i in 0..N: X*x[i])""#),
+        ]),
+        &["syntax at sum(i in 0..N: X*x[i]): a sum over all sites stands within"],
+    );
+}
+
+#[test]
+fn what_a_family_cannot_be_is_said() {
+    expect(
+        &ring(&[("algebra", r#""so(3)""#)]),
+        &["syntax at so(3): the state has an index, and the algebra `so(3)` no number of copies"],
+    );
+    expect(
+        &ring(&[("algebra", r#""so(3)^L""#)]),
+        &["syntax at N: a sum goes from a number"],
+    );
+    expect(
+        &ring(&[("parameters", r#"{"M": 8, "J": 1}"#)]),
+        &["unknown-symbol at N: the number of sites `N` is not declared"],
+    );
+    expect(
+        &ring(&[("parameters", r#"{"N": 2.5, "J": 1}"#)]),
+        &["number at N: the number of sites is a whole number"],
+    );
+    expect(
+        &ring(&[("algebra", r#""so(3)^(N, 4)""#)]),
+        &["schema at \"so(3)^(N, 4)\": the numbers of indices differ"],
+    );
+    expect(
+        &ring(&[("state", r#"["x[i]", "y[k]", "z[i]"]"#)]),
+        &["syntax at y: `y` has other indices than the first coordinate"],
+    );
+    expect(
+        &ring(&[("methods", r#"["midpoint"]"#)]),
+        &["method at midpoint: a family keeps no matrix"],
+    );
+    expect(
+        &ring(&[("initial", "[1, 2, 3]")]),
+        &["schema at [: the initial state of a family is not a list"],
+    );
+    expect(
+        &ring(&[("initial", r#"{"random": "gauss"}"#)]),
+        &["schema at gauss: unknown distribution `gauss`"],
+    );
+    expect(
+        &ring(&[("casimirs", r#"["x[i+1]^2"]"#)]),
+        &["syntax at x[i+1]: a Casimir of a family is one of a site"],
+    );
+    expect(
+        &ring(&[("casimirs", r#"["C = x[i]^2 + y[i]^2"]"#)]),
+        &["casimir at x[i]^2 + y[i]^2: "],
+    );
+}

@@ -1,0 +1,142 @@
+//! Casimirs that nobody declared.
+
+use super::*;
+use crate::model::{CasimirKind, Search};
+
+const SE3: &str = r#"{"basis": ["J1", "J2", "J3", "P1", "P2", "P3"], "brackets": [
+    "[J1, J2] = J3", "[J2, J3] = J1", "[J3, J1] = J2",
+    "[J1, P2] = P3", "[J2, P3] = P1", "[J3, P1] = P2",
+    "[P1, J2] = P3", "[P2, J3] = P1", "[P3, J1] = P2"]}"#;
+
+fn se3(extra: &[(&str, &str)]) -> Model {
+    let base = [
+        ("algebra", SE3),
+        ("state", r#"["m1", "m2", "m3", "g1", "g2", "g3"]"#),
+        ("hamiltonian", r#""m1^2 + m2 + m3 + g3""#),
+    ];
+    model(&system(&base, extra))
+}
+
+/// Name, text and kind of each.
+fn all(model: &Model) -> Vec<(String, String, CasimirKind)> {
+    let casimirs = model.casimirs.iter();
+    casimirs
+        .map(|c| (c.name.clone(), model.display(c.expr), c.kind))
+        .collect()
+}
+
+fn texts(model: &Model) -> Vec<String> {
+    all(model)
+        .into_iter()
+        .map(|(name, text, _)| format!("{name} = {text}"))
+        .collect()
+}
+
+#[test]
+fn what_is_not_declared_is_found_and_named() {
+    let none = se3(&[]);
+    assert_eq!(
+        texts(&none),
+        ["C1 = m1*g1 + m2*g2 + m3*g3", "C2 = g1^2 + g2^2 + g3^2"]
+    );
+    assert!(
+        none.casimirs
+            .iter()
+            .all(|c| c.degree == Some(2) && c.kind == CasimirKind::Polynomial)
+    );
+    // the declared ones come first, and what depends on them is left out
+    let one = se3(&[("casimirs", r#"["length = sqrt(g1^2 + g2^2 + g3^2)"]"#)]);
+    assert_eq!(
+        texts(&one),
+        [
+            "length = sqrt(g1^2 + g2^2 + g3^2)",
+            "C1 = m1*g1 + m2*g2 + m3*g3"
+        ]
+    );
+    assert_eq!(one.casimirs[0].kind, CasimirKind::Declared);
+    // names that are taken are skipped: by a parameter, by a declared Casimir without a name
+    let named = se3(&[
+        ("casimirs", r#"["g1^2 + g2^2 + g3^2"]"#),
+        ("parameters", r#"{"C2": 1}"#),
+    ]);
+    assert_eq!(
+        texts(&named),
+        ["C1 = g1^2 + g2^2 + g3^2", "C3 = m1*g1 + m2*g2 + m3*g3"]
+    );
+    // of a complete set nothing is looked for
+    let both = se3(&[(
+        "casimirs",
+        r#"["g1^2 + g2^2 + g3^2", "m1*g1 + m2*g2 + m3*g3 + g1^2 + g2^2 + g3^2"]"#,
+    )]);
+    assert!(
+        both.casimirs
+            .iter()
+            .all(|c| c.kind == CasimirKind::Declared)
+    );
+    assert_eq!(both.casimirs.len(), 2);
+}
+
+#[test]
+fn brackets_with_constant_terms() {
+    // a planar rotation of a plane with a magnetic field
+    let plane = |cocycle: &str| {
+        let algebra = r#"{"basis": ["r", "p", "q"], "brackets": ["[r, p] = q", "[r, q] = -p"]}"#;
+        let base = [
+            ("algebra", algebra),
+            ("state", r#"["l", "x", "y"]"#),
+            ("hamiltonian", r#""l^2""#),
+            ("parameters", r#"{"b": {"default": 2, "exact": true}}"#),
+        ];
+        model(&system(&base, &[("cocycle", cocycle)]))
+    };
+    assert_eq!(
+        texts(&plane(r#"["{x, y} = 1/2"]"#)),
+        ["C1 = -l + x^2 + y^2"]
+    );
+    assert_eq!(
+        texts(&plane(r#"["{x, y} = b"]"#)),
+        ["C1 = 2*b*l - x^2 - y^2"]
+    );
+    // affine brackets of coordinates, and others
+    let general = |brackets: &str| {
+        let base = [("state", r#"["x", "y", "z"]"#), ("hamiltonian", r#""x^2""#)];
+        model(&system(&base, &[("poisson", brackets)]))
+    };
+    let affine = general(r#"["{x, y} = z + 1", "{y, z} = x", "{z, x} = y"]"#);
+    assert_eq!(texts(&affine), ["C1 = 2*z + x^2 + y^2 + z^2"]);
+    let quadratic = general(r#"["{x, y} = x*y"]"#);
+    assert!(quadratic.casimirs.is_empty() && matches!(quadratic.search, Search::None(_)));
+}
+
+#[test]
+fn systems_of_the_time_and_on_a_group() {
+    let timed = model(&so3(&[("hamiltonian", r#""x^2 + t*y^2""#)]));
+    assert_eq!(texts(&timed), ["C1 = x^2 + y^2 + z^2"]);
+    let right = model(&so3(&[("invariance", r#""right""#)]));
+    assert_eq!(texts(&right), ["C1 = x^2 + y^2 + z^2"]);
+}
+
+#[test]
+fn rational_ones_are_defined_at_the_initial_state() {
+    let plane = |initial: &str| {
+        let algebra = r#"{"basis": ["r", "p", "q"], "brackets": ["[r, p] = p", "[r, q] = q"]}"#;
+        let base = [
+            ("algebra", algebra),
+            ("state", r#"["l", "x", "y"]"#),
+            ("hamiltonian", r#""l^2""#),
+        ];
+        model(&system(&base, &[("initial", initial)]))
+    };
+    let found = plane("[1, 2, 3]");
+    assert_eq!(texts(&found), ["C1 = x/y"]);
+    assert_eq!(
+        (found.casimirs[0].kind, found.casimirs[0].degree),
+        (CasimirKind::Rational, None)
+    );
+    assert_eq!(texts(&plane("[1, 2, 0]")), ["C1 = y/x"]);
+    let nowhere = plane("[1, 0, 0]");
+    assert_eq!(
+        (texts(&nowhere).len(), nowhere.search, nowhere.initial_rank),
+        (0, Search::Singular, Some(0))
+    );
+}

@@ -1,0 +1,224 @@
+//! Vectors and matrices: names for groups of scalars. What is written with them is expanded right behind the parser, so
+//! that every later stage sees scalars.
+
+mod expand;
+mod scalars;
+mod shapes;
+
+use std::cell::Cell;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::names::{self, Names};
+use crate::ast::{Expr, ExprKind, Name};
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+
+pub use expand::expand;
+
+/// How many nodes all expansions of a declaration may have.
+const MOST_NODES: usize = 200_000;
+
+/// The functions of vectors with their numbers of arguments.
+const FUNCTIONS: &[(&str, usize)] = &[
+    ("dot", 2),
+    ("cross", 2),
+    ("norm", 1),
+    ("norm2", 1),
+    ("quad", 2),
+];
+
+/// Number of arguments of a function of vectors.
+pub fn arity(function: &str) -> Option<usize> {
+    let found = FUNCTIONS.iter().find(|(name, _)| *name == function);
+    found.map(|(_, arity)| *arity)
+}
+
+/// A scalar, a vector or a matrix of scalars.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// One expression.
+    Scalar(Expr),
+    /// Its entries.
+    Vector(Vec<Expr>),
+    /// Its rows, all of the same length.
+    Matrix(Vec<Vec<Expr>>),
+}
+
+/// One declared vector or matrix.
+#[derive(Clone, Debug)]
+pub struct Declared {
+    /// Its name.
+    pub name: Name,
+    /// What it stands for.
+    pub value: Value,
+}
+
+/// The vectors and matrices of a declaration.
+#[derive(Debug, Default)]
+pub struct Vectors {
+    named: BTreeMap<String, Value>,
+    spent: Cell<usize>,
+    /// The coordinates of a site, in the declaration of a family: these take the index of a vector.
+    sites: BTreeSet<String>,
+    /// Whether one of them has a mistake, which is reported: no shape is known then.
+    broken: bool,
+}
+
+impl Vectors {
+    /// The value of a name.
+    fn get(&self, name: &str) -> Option<&Value> {
+        self.named.get(name)
+    }
+
+    /// The names.
+    pub fn names(&self) -> impl Iterator<Item = &String> {
+        self.named.keys()
+    }
+
+    /// The same where one of the declared has a mistake.
+    pub fn with_mistake(self, broken: bool) -> Self {
+        Self { broken, ..self }
+    }
+
+    /// The same for a family whose sites have these coordinates.
+    pub fn of_sites(self, coordinates: impl IntoIterator<Item = String>) -> Self {
+        let sites = coordinates.into_iter().collect();
+        Self { sites, ..self }
+    }
+
+    /// Counts nodes that an expansion copies; whether they are not too many.
+    fn spend(&self, nodes: usize) -> bool {
+        self.spent.set(self.spent.get().saturating_add(nodes));
+        self.spent.get() <= MOST_NODES
+    }
+}
+
+/// Takes what was declared; `names` are those that the functions may use. Names that are taken, ragged matrices and, if
+/// `closed`, entries with unknown names are reported.
+pub fn collect(
+    declared: Vec<Declared>,
+    names: &Names,
+    closed: bool,
+    report: &mut Report,
+) -> Vectors {
+    let mut vectors = Vectors::default();
+    for Declared { name, value } in declared {
+        if let Some(mistake) = taken(&name, &vectors, names) {
+            report.push(mistake);
+            continue;
+        }
+        if let Some(mistake) = malformed(&name, &value) {
+            report.push(mistake);
+        } else if closed {
+            entries(&value).for_each(|entry| unknown(entry, &name, names, report));
+        }
+        vectors.named.insert(name.text, value);
+    }
+    vectors
+}
+
+fn entries(value: &Value) -> Box<dyn Iterator<Item = &Expr> + '_> {
+    match value {
+        Value::Scalar(entry) => Box::new(std::iter::once(entry)),
+        Value::Vector(entries) => Box::new(entries.iter()),
+        Value::Matrix(rows) => Box::new(rows.iter().flatten()),
+    }
+}
+
+/// A name that something else has.
+fn taken(name: &Name, vectors: &Vectors, names: &Names) -> Option<Diagnostic> {
+    let text = name.text.as_str();
+    let help = "choose another name for the vector";
+    if names::arity(text).is_some() || arity(text).is_some() || ["pi", "t", "sum"].contains(&text) {
+        let message = format!("`{text}` is a name of the language, not of a vector");
+        return Some(Diagnostic::new(Kind::ReservedName, name.origin, message).help(help));
+    }
+    let twice = vectors.get(text).is_some();
+    if !twice && !names.declares(text) && !names.declares_elsewhere(text) {
+        return None;
+    }
+    let message = if twice {
+        format!("the vector `{text}` is declared twice")
+    } else {
+        format!("the vector `{text}` has the name of something else in the declaration")
+    };
+    Some(Diagnostic::new(Kind::DuplicateName, name.origin, message).help(help))
+}
+
+/// No entries, or rows of different lengths.
+fn malformed(name: &Name, value: &Value) -> Option<Diagnostic> {
+    let text = &name.text;
+    let (message, help) = match value {
+        Value::Scalar(_) => return None,
+        Value::Vector(entries) if !entries.is_empty() => return None,
+        Value::Vector(_) => (
+            format!("the vector `{text}` has no entries"),
+            "write its entries, such as m1, m2, m3",
+        ),
+        Value::Matrix(rows) => {
+            let first = rows.first().map_or(0, Vec::len);
+            let other = rows.iter().map(Vec::len).find(|length| *length != first);
+            match other {
+                Some(other) => (
+                    format!("the matrix `{text}` has rows of {first} and of {other} entries"),
+                    "give all rows the same length",
+                ),
+                None if first == 0 => (
+                    format!("the matrix `{text}` has no entries"),
+                    "write its rows, such as [a, b], [b, c]",
+                ),
+                None => return None,
+            }
+        }
+    };
+    Some(Diagnostic::new(Kind::Syntax, name.origin, message).help(help))
+}
+
+/// Reports the names of an entry that nothing declares.
+fn unknown(entry: &Expr, vector: &Name, names: &Names, report: &mut Report) {
+    let mut pending = vec![entry];
+    while let Some(part) = pending.pop() {
+        match &part.kind {
+            ExprKind::Name { name, .. } if !names.knows(name) => {
+                let message = format!("`{name}`, an entry of `{}`, is not declared", vector.text);
+                report.push(
+                    Diagnostic::new(Kind::UnknownSymbol, part.origin, message)
+                        .help("entries are coordinates, parameters, abbreviations and numbers"),
+                );
+            }
+            _ => pending.extend(children(part)),
+        }
+    }
+}
+
+/// The operands of an expression.
+fn children(expression: &Expr) -> Vec<&Expr> {
+    match &expression.kind {
+        ExprKind::Number(_) | ExprKind::Name { .. } => Vec::new(),
+        ExprKind::Negative(a) => vec![a],
+        ExprKind::Power(a, b) => vec![a, b],
+        ExprKind::Sum(operands) | ExprKind::Product(operands) => {
+            operands.iter().map(|(_, operand)| operand).collect()
+        }
+        ExprKind::Call { arguments, .. } => arguments.iter().collect(),
+        ExprKind::IndexedSum { from, to, body, .. } => vec![from, to, body],
+    }
+}
+
+/// The number of nodes of an expression.
+fn nodes(expression: &Expr) -> usize {
+    let mut pending = vec![expression];
+    let mut count = 0;
+    while let Some(part) = pending.pop() {
+        count += 1;
+        pending.extend(children(part));
+    }
+    count
+}
+
+/// The answer to an expansion without end.
+fn too_large(origin: Origin) -> Diagnostic {
+    let message =
+        format!("the vectors of the declaration expand to more than {MOST_NODES} operations");
+    Diagnostic::new(Kind::Limit, origin, message)
+        .help("give scalar parts names with `let`, and nest the products less")
+}

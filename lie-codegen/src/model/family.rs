@@ -1,0 +1,69 @@
+//! Families of copies of an algebra.
+
+use crate::symbolic::ExprId;
+
+/// A family `A^N`: H is a function of sums over the sites.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// The number of sites along each axis, one or two.
+    pub sizes: Vec<Size>,
+    /// The distances, in rows and columns, of the sites that a summand or the motion of a site depends on; a chain is a row.
+    /// Coordinate a of a site in slot s is [`Symbol::Coordinate`](crate::symbolic::Symbol::Coordinate) `s n + a`.
+    pub slots: Vec<[i64; 2]>,
+    /// The slot of the site itself.
+    pub own: usize,
+    /// The names of all these coordinates, such as `x[i+1]`.
+    pub names: Vec<String>,
+    /// The sums `T_k`; `Symbol::Coordinate(slots n + k)` in H.
+    pub sums: Vec<SiteSum>,
+    /// H.
+    pub energy: ExprId,
+    /// The total degree of H in the coordinates, where it is a polynomial.
+    pub degree: Option<u32>,
+    /// The seed of a random initial state.
+    pub seed: Option<u64>,
+}
+
+/// The number of sites along one axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Size {
+    /// A number.
+    Number(usize),
+    /// The value of a parameter.
+    Parameter(usize),
+}
+
+/// A sum over sites.
+#[derive(Clone, Debug)]
+pub struct SiteSum {
+    /// The summand.
+    pub summand: ExprId,
+    /// The slots that it depends on.
+    pub slots: Vec<usize>,
+    /// For each axis the first site and the number of sites behind the last one; none where it goes over all.
+    pub spans: [Option<(usize, usize)>; 2],
+}
+
+impl Family {
+    /// Rows and columns for these values of the parameters; none where a value is no size.
+    pub fn sites(&self, parameters: &[f64]) -> Option<[usize; 2]> {
+        let size = |size: &Size| size.value(parameters);
+        match self.sizes.as_slice() {
+            [columns] => Some([1, size(columns)?]),
+            [rows, columns, ..] => Some([size(rows)?, size(columns)?]),
+            [] => None,
+        }
+    }
+}
+
+impl Size {
+    /// The number for these values of the parameters; none where it is no size.
+    pub fn value(&self, parameters: &[f64]) -> Option<usize> {
+        let value = match self {
+            Self::Number(count) => *count as f64,
+            Self::Parameter(p) => parameters[*p],
+        };
+        let whole = value >= 1.0 && value <= (1_u64 << 31) as f64 && value.fract() == 0.0;
+        whole.then_some(value as usize)
+    }
+}

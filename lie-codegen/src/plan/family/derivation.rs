@@ -1,0 +1,324 @@
+//! What is derived for a family: the kernels of one site.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{Family, FamilyForm, FamilyPiece, FamilyPieces, Sum};
+use crate::derive::{Argument, Kernel, Source, action};
+use crate::model;
+use crate::plan::constants::Table;
+use crate::plan::function::Function;
+use crate::plan::planner::Planner;
+use crate::structure::family::{self as pieces, Form};
+use crate::structure::separable;
+use crate::symbolic::{ExprId, Symbol};
+
+/// The derivation of the kernels.
+pub(super) struct Derivation<'p, 'm> {
+    planner: &'p mut Planner<'m>,
+    family: &'m model::Family,
+    /// `dF/dT_k`: an expression in the parameters, or the symbol of a weight.
+    weights: Vec<ExprId>,
+    /// `dF/dT_k` where it depends on the state, else 0.
+    mean: Vec<ExprId>,
+}
+
+impl<'p, 'm> Derivation<'p, 'm> {
+    pub(super) fn of(planner: &'p mut Planner<'m>, family: &'m model::Family) -> Self {
+        let graph = &mut planner.source.graph;
+        let energy = graph.as_written(family.energy);
+        let (mut weights, mut mean) = (Vec::new(), Vec::new());
+        for k in 0..family.sums.len() {
+            let symbol = Symbol::Coordinate(family.names.len() + k);
+            let slope = graph.derivative(energy, symbol);
+            let symbols = graph.symbols(slope);
+            let varies = symbols.iter().any(|s| matches!(s, Symbol::Coordinate(_)));
+            let zero = graph.integer(0);
+            weights.push(if varies { graph.symbol(symbol) } else { slope });
+            mean.push(if varies { slope } else { zero });
+        }
+        Self {
+            planner,
+            family,
+            weights,
+            mean,
+        }
+    }
+
+    fn n(&self) -> usize {
+        self.planner.source.dimension
+    }
+
+    fn at(&self) -> Vec<Argument> {
+        let places = 0..self.family.names.len();
+        let sums = places.end..places.end + self.family.sums.len();
+        vec![
+            Argument {
+                name: "at",
+                symbols: places.map(Symbol::Coordinate).collect(),
+            },
+            Argument {
+                name: "weights",
+                symbols: sums.map(Symbol::Coordinate).collect(),
+            },
+        ]
+    }
+
+    fn function(&mut self, label: &str, kernel: &Kernel) -> Function {
+        let label = label.to_owned();
+        self.planner.labelled(label, kernel, &mut Table::default())
+    }
+
+    fn vector(
+        &mut self,
+        label: &str,
+        (name, formula): (&'static str, &'static str),
+        arguments: Vec<Argument>,
+        entries: &[ExprId],
+    ) -> Function {
+        let kernel = Kernel::vector(
+            &self.planner.source.graph,
+            name,
+            formula,
+            arguments,
+            entries,
+        );
+        self.function(label, &kernel)
+    }
+
+    /// The derivative of a summand by the coordinates in a slot, times the weight of its sum.
+    fn slope(&mut self, k: usize, slot: usize) -> Vec<ExprId> {
+        let (n, weight) = (self.n(), self.weights[k]);
+        let graph = &mut self.planner.source.graph;
+        let summand = graph.as_written(self.family.sums[k].summand);
+        let places = slot * n..(slot + 1) * n;
+        places
+            .map(|place| {
+                let slope = graph.derivative(summand, Symbol::Coordinate(place));
+                graph.mul(weight, slope)
+            })
+            .collect()
+    }
+
+    /// The expressions with each site moved, so that the one in `slot` comes to stand at the site itself.
+    fn moved(&mut self, expressions: &[ExprId], slot: usize) -> Vec<ExprId> {
+        let (n, slots) = (self.n(), &self.family.slots);
+        let [down, right] = slots[slot];
+        let place = |symbol: Symbol| match symbol {
+            Symbol::Coordinate(place) if place < n * slots.len() => {
+                let [row, column] = slots[place / n];
+                let moved = slots
+                    .iter()
+                    .position(|s| *s == [row - down, column - right])?;
+                Some(Symbol::Coordinate(moved * n + place % n))
+            }
+            _ => None,
+        };
+        let graph = &mut self.planner.source.graph;
+        let symbols = expressions.iter().flat_map(|e| graph.symbols(*e));
+        let symbols: Vec<Symbol> = symbols.collect();
+        let mut targets: BTreeMap<Symbol, ExprId> = BTreeMap::new();
+        for symbol in symbols {
+            if let Some(target) = place(symbol) {
+                targets.insert(symbol, graph.symbol(target));
+            }
+        }
+        graph.substitute(expressions, &|symbol| targets.get(&symbol).copied())
+    }
+
+    pub(super) fn family(mut self) -> Family {
+        let family = self.family;
+        let (slopes, field) = self.slopes_and_field();
+        let summands: Vec<ExprId> = family
+            .sums
+            .iter()
+            .map(|sum| self.planner.source.graph.as_written(sum.summand))
+            .collect();
+        let at = self.at();
+        let formula = ("summands", "`out_k = s_k(mu_i, …)`");
+        let summands = self.vector("summands", formula, at, &summands);
+        let energy = self.planner.source.graph.as_written(family.energy);
+        let formula = "`H = F(T_1, …)`, a function of the sums over all sites";
+        let energy = Kernel::scalar("energy", formula, self.at(), energy);
+        let energy = self.function("energy", &energy);
+        let mean = self.mean.clone();
+        let formula = ("weights", "`out_k = dF/dT_k`");
+        let at = self.at();
+        let weights = self.vector("weights", formula, at, &mean);
+        let zero = self.planner.source.graph.integer(0);
+        let mean_field = mean.iter().any(|slope| *slope != zero);
+        let [ad, ad_star] = self.brackets();
+        Family {
+            coordinates: self
+                .planner
+                .model
+                .coordinates
+                .iter()
+                .map(|c| c.text.clone())
+                .collect(),
+            sizes: family.sizes.clone(),
+            offsets: family.slots.clone(),
+            own: family.own,
+            sums: family
+                .sums
+                .iter()
+                .map(|sum| Sum {
+                    slots: sum.slots.clone(),
+                    spans: sum.spans,
+                })
+                .collect(),
+            mean_field,
+            degree: family.degree,
+            seed: family.seed,
+            field,
+            slopes,
+            summands,
+            energy,
+            weights,
+            ad,
+            ad_star,
+            casimirs: self.casimirs(),
+            pieces: self.pieces(),
+        }
+    }
+
+    fn slopes_and_field(&mut self) -> (Vec<(usize, usize, Function)>, Function) {
+        let (n, family) = (self.n(), self.family);
+        let own = family.own * n..(family.own + 1) * n;
+        let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); n];
+        let mut slopes = Vec::new();
+        for (k, sum) in family.sums.iter().enumerate() {
+            for &slot in &sum.slots {
+                let slope = self.slope(k, slot);
+                let label = format!(
+                    "slope of sum {k} by {}",
+                    family.names[slot * n..(slot + 1) * n].join(", ")
+                );
+                let formula = (
+                    "slope",
+                    "`out = dF/dT_k ds_k/dmu`, at the site of the summand",
+                );
+                let at = self.at();
+                slopes.push((k, slot, self.vector(&label, formula, at, &slope)));
+                let moved = self.moved(&slope, slot);
+                terms
+                    .iter_mut()
+                    .zip(moved)
+                    .for_each(|(all, one)| all.push(one));
+            }
+        }
+        let source = &mut self.planner.source;
+        let gradient: Vec<ExprId> = terms.iter().map(|terms| source.graph.sum(terms)).collect();
+        let mu: Vec<ExprId> = own
+            .map(|i| source.graph.symbol(Symbol::Coordinate(i)))
+            .collect();
+        let field = source.ad_star_of(&gradient, &mu);
+        let field: Vec<ExprId> = field.into_iter().map(|f| source.graph.tidy(f)).collect();
+        let formula = (
+            "field",
+            "`mu_i' = ad*_(dH/dmu_i) mu_i` of a site with all its neighbours",
+        );
+        let at = self.at();
+        (slopes, self.vector("field of a site", formula, at, &field))
+    }
+
+    /// The bracket and the coadjoint action.
+    fn brackets(&mut self) -> [Function; 2] {
+        let (n, all) = (self.n(), self.planner.names.coordinates.len());
+        let symbols = |from: usize| (from..from + n).map(Symbol::Input).collect::<Vec<_>>();
+        let (xi, other) = (symbols(0), symbols(all));
+        let source = &mut self.planner.source;
+        let expressions = |source: &mut Source, symbols: &[Symbol]| -> Vec<ExprId> {
+            symbols.iter().map(|s| source.graph.symbol(*s)).collect()
+        };
+        let (of_xi, of_other) = (expressions(source, &xi), expressions(source, &other));
+        let ad = source.ad_of(&of_xi, &of_other);
+        let ad_star = source.ad_star_of(&of_xi, &of_other);
+        let arguments = |name| {
+            let (xi, other) = (xi.clone(), other.clone());
+            vec![
+                Argument {
+                    name: "xi",
+                    symbols: xi,
+                },
+                Argument {
+                    name,
+                    symbols: other,
+                },
+            ]
+        };
+        let of_ad = ("ad", "`out = [xi, eta]`");
+        let of_ad_star = ("ad_star", "`out = ad*_xi mu`");
+        [
+            self.vector("ad", of_ad, arguments("eta"), &ad),
+            self.vector("ad_star", of_ad_star, arguments("mu"), &ad_star),
+        ]
+    }
+
+    /// The pieces of H, if their flows are exact.
+    fn pieces(&mut self) -> Option<FamilyPieces> {
+        let model = self.planner.model;
+        let found = pieces::pieces(model, self.family, &mut self.planner.source.graph).ok()?;
+        let own = Argument {
+            name: "one",
+            symbols: (0..self.n()).map(Symbol::Coordinate).collect(),
+        };
+        let (mut kinds, mut needed) = (Vec::new(), BTreeSet::new());
+        for piece in found {
+            let (form, rate) = match piece.form {
+                Form::Site(a, slope) => {
+                    needed.insert(a);
+                    (FamilyForm::Site(a), slope)
+                }
+                Form::Product(both, factor) => {
+                    needed.extend(both);
+                    (FamilyForm::Product(both), factor)
+                }
+                Form::Exchange(rate) => (FamilyForm::Exchange, rate),
+            };
+            let formula = "the speed along the flow of a piece";
+            let kernel = Kernel::scalar("rate", formula, vec![own.clone()], rate);
+            let label = format!("rate of piece {}", kinds.len());
+            kinds.push(FamilyPiece {
+                offset: piece.offset,
+                spans: piece.spans,
+                form,
+                rate: self.function(&label, &kernel),
+            });
+        }
+        let actions = separable::actions(model.bracket.algebra()?);
+        let mut turns = Vec::new();
+        for a in needed {
+            let blocks = actions[a].as_ref()?;
+            let piece = action(&mut self.planner.source, a, blocks);
+            let label = format!("turn about {}", model.coordinates[a].text);
+            let function = self.function(&label, &piece.kernel?);
+            turns.push((a, function, piece.updates));
+        }
+        Some(FamilyPieces { kinds, turns })
+    }
+
+    /// The Casimirs of a site, in the coordinates of slot 0.
+    fn casimirs(&mut self) -> Vec<(String, Option<u32>, [Function; 2])> {
+        let n = self.n();
+        let model = self.planner.model;
+        let mut casimirs = Vec::new();
+        for casimir in &model.casimirs {
+            let graph = &mut self.planner.source.graph;
+            let value = graph.as_written(casimir.expr);
+            let symbols = (0..n).map(Symbol::Coordinate);
+            let gradient: Vec<ExprId> = symbols.map(|s| graph.derivative(value, s)).collect();
+            let argument = Argument {
+                name: "mu",
+                symbols: (0..n).map(Symbol::Coordinate).collect(),
+            };
+            let formula = "`C(mu_i)`";
+            let kernel = Kernel::scalar("casimir", formula, vec![argument.clone()], value);
+            let value = self.function(&format!("casimir {}", casimir.name), &kernel);
+            let formula = ("casimir_gradient", "`out = dC/dmu_i`");
+            let label = format!("casimir_gradient {}", casimir.name);
+            let gradient = self.vector(&label, formula, vec![argument], &gradient);
+            casimirs.push((casimir.name.clone(), casimir.degree, [value, gradient]));
+        }
+        casimirs
+    }
+}

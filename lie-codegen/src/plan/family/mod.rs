@@ -1,0 +1,188 @@
+//! The kernels of a family: those of one site and of the sums that it takes part in.
+
+mod derivation;
+
+use super::constants::Table;
+use super::function::Function;
+use super::names::Names;
+use super::planner::{Planner, parameters};
+use super::structure::Structure;
+use super::system::{Energy, System};
+use super::{Constants, Plan};
+use crate::derive::{Bracket, Source, Update};
+use crate::model::{self, Model, Size};
+use derivation::Derivation;
+
+/// What is generated for a family.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Family {
+    /// The names of the coordinates of a site.
+    pub coordinates: Vec<String>,
+    /// The number of sites along each axis.
+    pub sizes: Vec<Size>,
+    /// The distances of the slots.
+    pub offsets: Vec<[i64; 2]>,
+    /// The slot of the site itself.
+    pub own: usize,
+    /// The sums.
+    pub sums: Vec<Sum>,
+    /// Whether some `dF/dT_k` depends on the state.
+    pub mean_field: bool,
+    /// The total degree of H, if it is a polynomial.
+    pub degree: Option<u32>,
+    /// The seed of a random initial state.
+    pub seed: Option<u64>,
+    /// The vector field of a site with all its neighbours.
+    pub field: Function,
+    /// The derivative of each summand by the coordinates in each of its slots, times `dF/dT_k`.
+    pub slopes: Vec<(usize, usize, Function)>,
+    /// The summands.
+    pub summands: Function,
+    /// H as a function of the sums.
+    pub energy: Function,
+    /// `dF/dT_k` where they depend on the state.
+    pub weights: Function,
+    /// The bracket of the algebra of a site.
+    pub ad: Function,
+    /// Its coadjoint action.
+    pub ad_star: Function,
+    /// The Casimirs of a site with their names and degrees, and their gradients.
+    pub casimirs: Vec<(String, Option<u32>, [Function; 2])>,
+    /// The pieces of H, where their flows are exact.
+    pub pieces: Option<FamilyPieces>,
+}
+
+/// The pieces of the Hamiltonian of a family.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct FamilyPieces {
+    /// The pieces.
+    pub kinds: Vec<FamilyPiece>,
+    /// `exp(t ad*_(e_a))` for each coordinate that they need.
+    pub turns: Vec<(usize, Function, Vec<Update>)>,
+}
+
+/// A piece, the same for all sites that it goes over.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct FamilyPiece {
+    /// The distance of the second site of a bond.
+    pub offset: [i64; 2],
+    /// Where the first sites are.
+    pub spans: [Option<(usize, usize)>; 2],
+    /// What it is.
+    pub form: FamilyForm,
+    /// The derivative of a function of one coordinate, the factor of a product, or the rate of an exchange.
+    pub rate: Function,
+}
+
+/// What a piece is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FamilyForm {
+    /// A function of a coordinate.
+    Site(usize),
+    /// A product of a coordinate of each site.
+    Product([usize; 2]),
+    /// The exchange of two spins.
+    Exchange,
+}
+
+/// A sum over sites.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Sum {
+    /// The slots that its summand depends on.
+    pub slots: Vec<usize>,
+    /// By row and by column the first site and the number of sites behind the last; none where it goes over all.
+    pub spans: [Option<(usize, usize)>; 2],
+}
+
+impl Family {
+    /// All kernels.
+    pub fn functions(&self) -> impl Iterator<Item = &Function> {
+        let casimirs = self.casimirs.iter().flat_map(|(_, _, functions)| functions);
+        let mean = self.mean_field.then_some(&self.weights);
+        [&self.field]
+            .into_iter()
+            .chain(self.slopes.iter().map(|(_, _, function)| function))
+            .chain([&self.summands, &self.energy])
+            .chain(mean)
+            .chain([&self.ad, &self.ad_star])
+            .chain(casimirs)
+            .chain(self.pieces.iter().flat_map(|pieces| {
+                let turns = pieces.turns.iter().map(|(_, function, _)| function);
+                pieces.kinds.iter().map(|kind| &kind.rate).chain(turns)
+            }))
+    }
+
+    /// The number of coordinates in all slots together.
+    pub fn places(&self) -> usize {
+        self.offsets.len() * self.coordinates.len()
+    }
+}
+
+/// The plan of a family.
+pub(super) fn plan(model: &Model, family: &model::Family) -> Plan {
+    let mut names = Names::of(model);
+    let n = model.dimension();
+    let of_slots = (0..family.names.len()).map(|place| {
+        let (slot, name) = (place / n, &model.coordinates[place % n].text);
+        format!("_{slot}{name}")
+    });
+    let of_sums = (0..family.sums.len()).map(|k| format!("_w{k}"));
+    names.coordinates = of_slots.chain(of_sums).collect();
+    let constants = model
+        .bracket
+        .algebra()
+        .map_or_else(Vec::new, |algebra| algebra.constants.entries().to_vec());
+    let source = Source {
+        dimension: n,
+        bracket: Bracket::Lie(constants),
+        ..Source::empty(model.graph.clone())
+    };
+    let mut planner = Planner {
+        model,
+        source,
+        names,
+        methods: Vec::new(),
+        constants: Table::default(),
+        items: Vec::new(),
+        known: Vec::new(),
+        eliminations: Vec::new(),
+    };
+    let planned = Derivation::of(&mut planner, family).family();
+    planner.family(planned)
+}
+
+impl Planner<'_> {
+    fn family(mut self, family: Family) -> Plan {
+        let defaults: Vec<_> = self.model.parameters.iter().map(|p| p.default).collect();
+        let defaults = self.preparation(&defaults);
+        let table = std::mem::take(&mut self.constants);
+        let constants: Constants = self.prepared(&table, "_k");
+        Plan {
+            names: self.names,
+            docs: super::docs::docs(self.model),
+            parameters: parameters(self.model),
+            defaults,
+            initial: None,
+            constants,
+            system: System {
+                hamiltonian_degree: family.degree,
+                poisson_degree: None,
+                casimirs: Vec::new(),
+                energy: Energy::Expression,
+                derivatives: false,
+                poisson: Vec::new(),
+                algebra: Vec::new(),
+                exponential: Vec::new(),
+                triple: None,
+                lagrangian: Vec::new(),
+                discrete: Vec::new(),
+            },
+            structure: Structure::default(),
+            items: Vec::new(),
+            generic: Vec::new(),
+            splitting: None,
+            found: None,
+            family: Some(Box::new(family)),
+        }
+    }
+}

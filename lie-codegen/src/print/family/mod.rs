@@ -1,0 +1,321 @@
+//! The kernels of a family as an impl of `Sites`, and the type of the system.
+
+mod pieces;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::Printer;
+use super::function::Owner;
+use super::names::{ident, index};
+use crate::derive::Shape;
+use crate::model::Size;
+use crate::plan::{Family, Function};
+use crate::symbolic::Symbol;
+
+impl Printer<'_> {
+    /// All items of a family.
+    pub(super) fn family(&self, family: &Family) -> TokenStream {
+        let parameters = self.parameters();
+        let sites = self.system_struct();
+        let over = self.over();
+        let system = self.system_of_family(family);
+        let kernels = self.sites(family);
+        let pieces = family.pieces.as_ref();
+        let pieces = pieces.map(|pieces| self.pieces_of_family(family, pieces));
+        quote! { #parameters #sites #over #system #kernels #pieces }
+    }
+
+    /// C, L and T.
+    fn counts(&self, family: &Family) -> [Literal; 3] {
+        let counts = [
+            family.coordinates.len(),
+            family.offsets.len(),
+            family.sums.len(),
+        ];
+        counts.map(index)
+    }
+
+    /// The type of the system, and how it is made.
+    fn system_of_family(&self, family: &Family) -> TokenStream {
+        let (visibility, name, sites) = (&self.surface.visibility, self.name(), self.system_name());
+        let system = self.type_name("System");
+        let [c, l, t] = self.counts(family);
+        let names = self.parameters_by_name();
+        let size = |size: &Size| match size {
+            Size::Number(count) => {
+                let count = index(*count);
+                quote! { #count }
+            }
+            Size::Parameter(p) => {
+                let (field, text) = (&names[*p], names[*p].to_string());
+                quote! { ::lie_runtime::family::size(self.#field, #text)? }
+            }
+        };
+        let sizes = family.sizes.iter().map(size);
+        let row = (family.sizes.len() == 1).then(|| quote! { 1, });
+        let initial = family.seed.map(|seed| {
+            let seed = Literal::u64_unsuffixed(seed);
+            quote! {
+                #[doc = " The initial state of the declaration: a point on the unit sphere for each site, at random."]
+                #[doc = ""]
+                #[doc = " # Errors"]
+                #[doc = " If a number of sites is none."]
+                pub fn initial_state(&self) -> ::core::result::Result<::std::vec::Vec<S>, ::lie_runtime::ParameterError> {
+                    let [rows, columns] = self.sizes()?;
+                    ::core::result::Result::Ok(::lie_runtime::family::unit_spheres(rows * columns, #c, #seed))
+                }
+            }
+        });
+        let doc = format!(" The family of sites [`{sites}`] as a system.");
+        quote! {
+            #[doc = #doc]
+            #visibility type #system<S = f64> = ::lie_runtime::family::Family<#sites<S>, #c, #l, #t>;
+
+            #[allow(non_snake_case)]
+            impl<S: ::lie_runtime::Scalar> #name<S> {
+                #[doc = " The number of rows and columns of sites; a chain is one row."]
+                #[doc = ""]
+                #[doc = " # Errors"]
+                #[doc = " If a parameter that gives one is no whole number, at least 1."]
+                pub fn sizes(&self) -> ::core::result::Result<[usize; 2], ::lie_runtime::ParameterError> {
+                    ::core::result::Result::Ok([#row #(#sizes),*])
+                }
+
+                #[doc = " The system for these parameters."]
+                #[doc = ""]
+                #[doc = " # Errors"]
+                #[doc = " If a number of sites is none, or a constant that the system needs is not finite."]
+                pub fn system(&self) -> ::core::result::Result<#system<S>, ::lie_runtime::ParameterError> {
+                    ::core::result::Result::Ok(::lie_runtime::family::Family::new(self.sites()?, self.sizes()?))
+                }
+
+                #initial
+            }
+        }
+    }
+
+    /// The impl of `Sites`.
+    fn sites(&self, family: &Family) -> TokenStream {
+        let sites = self.system_name();
+        let [c, l, t] = self.counts(family);
+        let facts = self.facts_of_sites(family);
+        let at = quote! { _at: &[[S; #c]; #l] };
+        let weights = quote! { _weights: &[S; #t] };
+        let vector = quote! { [S; #c] };
+        let field = self.kernel(family, &family.field, family.coordinates.len());
+        let slopes = self.slopes_of_sums(family);
+        let summands = self.kernel(family, &family.summands, family.sums.len());
+        let energy = self.kernel(family, &family.energy, 1);
+        let of_sums = self.kernel(family, &family.weights, family.sums.len());
+        let ad = self.kernel(family, &family.ad, family.coordinates.len());
+        let ad_star = self.kernel(family, &family.ad_star, family.coordinates.len());
+        let casimirs = self.casimirs_of_site(family);
+        let [of_field, of_summands, of_energy] =
+            [&family.field, &family.summands, &family.energy].map(|function| self.docs(function));
+        quote! {
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::family::Sites<S, #c, #l, #t> for #sites<S> {
+                type Widened = #sites<S::Wide>;
+
+                #facts
+
+                #of_field
+                #[inline(always)]
+                fn field(&self, #at, #weights) -> #vector { #field }
+
+                #slopes
+
+                #of_summands
+                #[inline(always)]
+                fn summands(&self, #at) -> [S; #t] { #summands }
+
+                #of_energy
+                fn energy(&self, _weights: &[S; #t]) -> S { #energy }
+
+                fn weights(&self, _weights: &[S; #t]) -> [S; #t] { #of_sums }
+
+                #[inline]
+                fn ad(&self, _xi: &#vector, _eta: &#vector) -> #vector { #ad }
+
+                #[inline]
+                fn ad_star(&self, _xi: &#vector, _mu: &#vector) -> #vector { #ad_star }
+
+                #casimirs
+
+                fn widen(&self) -> Self::Widened {
+                    self._over(S::widen)
+                }
+            }
+        }
+    }
+
+    /// What the family says of itself.
+    fn facts_of_sites(&self, family: &Family) -> TokenStream {
+        let [c, l, t] = self.counts(family);
+        let (name, coordinates) = (&self.plan.names.system, &family.coordinates);
+        let offsets = family.offsets.iter().map(|distance| {
+            let [down, right] = distance.map(Literal::i64_unsuffixed);
+            quote! { [#down, #right] }
+        });
+        let terms = family.sums.iter().map(|sum| {
+            let slots = sum.slots.iter().map(|slot| index(*slot));
+            let spans = sum.spans.iter().map(span);
+            quote! { ::lie_runtime::family::Term { slots: &[#(#slots),*], spans: [#(#spans),*] } }
+        });
+        let option = |degree: Option<u32>| match degree {
+            Some(degree) => {
+                let degree = index(degree as usize);
+                quote! { ::core::option::Option::Some(#degree) }
+            }
+            None => quote! { ::core::option::Option::None },
+        };
+        let degree = option(family.degree);
+        let (mean, count) = (family.mean_field, index(family.casimirs.len()));
+        let casimirs = family.casimirs.iter().map(|(name, ..)| name);
+        let degrees = family.casimirs.iter().map(|(_, degree, _)| option(*degree));
+        let places: Vec<_> = (0..family.casimirs.len()).map(index).collect();
+        quote! {
+            const MEAN_FIELD: bool = #mean;
+            const CASIMIRS: usize = #count;
+            const OFFSETS: [[isize; 2]; #l] = [#(#offsets),*];
+            const TERMS: [::lie_runtime::family::Term; #t] = [#(#terms),*];
+            const DEGREE: ::core::option::Option<u32> = #degree;
+
+            fn name(&self) -> &'static str {
+                #name
+            }
+
+            fn coordinates(&self) -> [&'static str; #c] {
+                [#(#coordinates),*]
+            }
+
+            fn casimir_name(&self, _index: usize) -> &'static str {
+                match _index {
+                    #(#places => #casimirs,)*
+                    _ => "",
+                }
+            }
+
+            fn casimir_degree(&self, _index: usize) -> ::core::option::Option<u32> {
+                match _index {
+                    #(#places => #degrees,)*
+                    _ => ::core::option::Option::None,
+                }
+            }
+        }
+    }
+
+    fn slopes_of_sums(&self, family: &Family) -> TokenStream {
+        let [c, l, t] = self.counts(family);
+        let arms = family.slopes.iter().map(|(k, slot, function)| {
+            let (k, slot) = (index(*k), index(*slot));
+            let body = self.kernel(family, function, family.coordinates.len());
+            quote! { (#k, #slot) => { #body } }
+        });
+        let counts = family
+            .slopes
+            .iter()
+            .map(|(_, _, function)| format!(" {}: {}.", function.label, function.program.counts));
+        quote! {
+            #[doc = " `dF/dT_k ds_k/dmu` by the coordinates in a slot, at the site of the summand."]
+            #[doc = ""]
+            #(#[doc = #counts])*
+            fn slope(&self, _term: usize, _slot: usize, _at: &[[S; #c]; #l], _weights: &[S; #t]) -> [S; #c] {
+                match (_term, _slot) {
+                    #(#arms)*
+                    _ => [S::zero(); #c],
+                }
+            }
+        }
+    }
+
+    fn casimirs_of_site(&self, family: &Family) -> TokenStream {
+        let [c, ..] = self.counts(family);
+        let places: Vec<_> = (0..family.casimirs.len()).map(index).collect();
+        let size = family.coordinates.len();
+        let bodies = |which: usize, size: usize| -> Vec<TokenStream> {
+            let functions = family.casimirs.iter().map(|(_, _, both)| &both[which]);
+            functions
+                .map(|function| self.kernel(family, function, size))
+                .collect()
+        };
+        let (values, gradients) = (bodies(0, 1), bodies(1, size));
+        quote! {
+            fn casimir(&self, _index: usize, _mu: &[S; #c]) -> S {
+                match _index {
+                    #(#places => { #values })*
+                    _ => S::zero(),
+                }
+            }
+
+            fn casimir_gradient(&self, _index: usize, _mu: &[S; #c]) -> [S; #c] {
+                match _index {
+                    #(#places => { #gradients })*
+                    _ => [S::zero(); #c],
+                }
+            }
+        }
+    }
+
+    /// The body of a kernel: arguments taken apart, locals, and an array of this size, or a scalar.
+    fn kernel(&self, family: &Family, function: &Function, size: usize) -> TokenStream {
+        let unpacked: TokenStream = function
+            .arguments
+            .iter()
+            .map(|argument| {
+                let from = ident(&format!("_{}", argument.name));
+                if argument.name != "at" {
+                    return self.taken(function, &argument.symbols, &quote! { *#from });
+                }
+                let slots = argument.symbols.chunks(family.coordinates.len());
+                slots
+                    .enumerate()
+                    .map(|(slot, symbols)| {
+                        let slot = index(slot);
+                        self.taken(function, symbols, &quote! { #from[#slot] })
+                    })
+                    .collect()
+            })
+            .collect();
+        let leaf = |value: &_| self.value(value, Owner::System);
+        let (statements, outputs) = self.program(&function.program, &leaf);
+        let result = match &function.shape {
+            Shape::Vector(indices) => {
+                let entries = (0..size).map(|k| match indices.iter().position(|i| *i == k) {
+                    Some(at) => outputs[at].clone(),
+                    None => quote! { S::zero() },
+                });
+                quote! { [#(#entries),*] }
+            }
+            _ => quote! { #(#outputs)* },
+        };
+        quote! { #unpacked #statements #result }
+    }
+
+    /// The entries of an array that a kernel reads.
+    fn taken(&self, function: &Function, symbols: &[Symbol], from: &TokenStream) -> TokenStream {
+        if !symbols.iter().any(|s| function.program.reads(*s)) {
+            return TokenStream::new();
+        }
+        let entries = symbols.iter().map(|symbol| {
+            if function.program.reads(*symbol) {
+                let name = self.local(*symbol);
+                quote! { #name }
+            } else {
+                quote! { _ }
+            }
+        });
+        quote! { let [#(#entries),*] = #from; }
+    }
+}
+
+fn span(span: &Option<(usize, usize)>) -> TokenStream {
+    match span {
+        None => quote! { ::lie_runtime::family::Span::All },
+        Some((first, left)) => {
+            let (first, left) = (index(*first), index(*left));
+            quote! { ::lie_runtime::family::Span::Within { first: #first, left: #left } }
+        }
+    }
+}

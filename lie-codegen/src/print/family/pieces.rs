@@ -1,0 +1,127 @@
+//! The pieces of a family as an impl of `Pieces`.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use super::super::Printer;
+use super::super::function::Owner;
+use super::super::names::{ident, index};
+use super::span;
+use crate::plan::{Family, FamilyForm, FamilyPieces};
+use crate::schedule::Value;
+use crate::symbolic::Symbol;
+
+/// The turn about a coordinate.
+fn turn(a: usize) -> Ident {
+    ident(&format!("_turn_{a}"))
+}
+
+/// The rate of a piece.
+fn rate(place: usize) -> Ident {
+    ident(&format!("_rate_{place}"))
+}
+
+impl Printer<'_> {
+    /// The impl of `Pieces`, and the actions that it needs.
+    pub(super) fn pieces_of_family(&self, family: &Family, pieces: &FamilyPieces) -> TokenStream {
+        let sites = self.system_name();
+        let [c, l, t] = self.counts(family);
+        let kinds = pieces.kinds.iter().map(|kind| {
+            let [down, right] = kind.offset.map(Literal::i64_unsuffixed);
+            let spans = kind.spans.iter().map(span);
+            quote! { ::lie_runtime::family::Kind { offset: [#down, #right], spans: [#(#spans),*] } }
+        });
+        let rates = pieces.kinds.iter().enumerate().map(|(place, kind)| {
+            let (name, body) = (rate(place), self.kernel(family, &kind.rate, 1));
+            quote! {
+                #[inline]
+                fn #name(&self, _one: &[S; #c]) -> S { #body }
+            }
+        });
+        let turns = self.turns(family, pieces);
+        let [exchanges, flows] = self.flows_of_pieces(family, pieces);
+        quote! {
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<S: ::lie_runtime::Scalar> #sites<S> {
+                #(#rates)*
+                #(#turns)*
+            }
+
+            #[allow(non_snake_case)]
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::family::Pieces<S, #c, #l, #t> for #sites<S> {
+                const KINDS: &'static [::lie_runtime::family::Kind] = &[#(#kinds),*];
+
+                #[inline]
+                fn exchange(&self, _kind: usize) -> ::core::option::Option<S> {
+                    match _kind {
+                        #(#exchanges)*
+                        _ => ::core::option::Option::None,
+                    }
+                }
+
+                #[inline]
+                fn flow(&self, _kind: usize, _t: S, _one: &mut [S; #c], _other: &mut [S; #c]) {
+                    match _kind {
+                        #(#flows)*
+                        _ => {}
+                    }
+                }
+            }
+        }
+    }
+
+    /// The actions `exp(t ad*_(e_a))` that the pieces need.
+    fn turns(&self, family: &Family, pieces: &FamilyPieces) -> Vec<TokenStream> {
+        let [c, ..] = self.counts(family);
+        let own: Vec<Symbol> = (0..family.coordinates.len())
+            .map(Symbol::Coordinate)
+            .collect();
+        let turns = pieces.turns.iter().map(|(a, function, updates)| {
+            let (name, docs) = (turn(*a), self.docs(function));
+            let unpacked = self.taken(function, &own, &quote! { *_mu });
+            let (statements, outputs) = self.program(&function.program, &|value| match value {
+                Value::Symbol(Symbol::Time) => quote! { _t },
+                value => self.value(value, Owner::System),
+            });
+            let writes =
+                super::super::splitting::updates(function, updates, &ident("_mu"), &outputs);
+            quote! {
+                #docs
+                #[inline]
+                fn #name(&self, _t: S, _mu: &mut [S; #c]) { #unpacked #statements #writes }
+            }
+        });
+        turns.collect()
+    }
+
+    /// The arms for exchanges, by their rate, and for other pieces, by their flow.
+    fn flows_of_pieces(&self, family: &Family, pieces: &FamilyPieces) -> [Vec<TokenStream>; 2] {
+        let [c, ..] = self.counts(family);
+        let (mut exchanges, mut flows) = (Vec::new(), Vec::new());
+        for (place, kind) in pieces.kinds.iter().enumerate() {
+            let (rate, place) = (rate(place), index(place));
+            match kind.form {
+                FamilyForm::Exchange => exchanges.push(quote! {
+                    #place => ::core::option::Option::Some(self.#rate(&[S::zero(); #c])),
+                }),
+                FamilyForm::Site(a) => {
+                    let turn = turn(a);
+                    flows.push(quote! { #place => self.#turn(self.#rate(_one) * _t, _one), });
+                }
+                FamilyForm::Product([a, b]) => {
+                    let (first, second) = (turn(a), turn(b));
+                    let (a, b) = (index(a), index(b));
+                    flows.push(quote! {
+                        #place => {
+                            let _rate = self.#rate(_one) * _t;
+                            let (_first, _second) = (_rate * _other[#b], _rate * _one[#a]);
+                            self.#first(_first, _one);
+                            self.#second(_second, _other);
+                        }
+                    });
+                }
+            }
+        }
+        [exchanges, flows]
+    }
+}

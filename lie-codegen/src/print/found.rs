@@ -1,0 +1,179 @@
+//! The flows of the pieces that were found.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::Printer;
+use super::function::{Body, Owner};
+use super::names::index;
+use super::splitting::{message, methods_of_flows};
+use crate::plan::{Constants, Found, FoundPiece};
+
+impl Printer<'_> {
+    /// The flows of the pieces that were found and their hook.
+    pub(super) fn found(&self) -> Option<TokenStream> {
+        let system = self.system_name();
+        let (name, items) = match self.plan.found.as_ref()? {
+            Found::Same if self.plan.splitting.is_none() => return None,
+            Found::Same => (self.type_name("Splitting"), TokenStream::new()),
+            Found::Pieces {
+                pieces,
+                whole,
+                text,
+            } => {
+                let items = self.found_flows(pieces, *whole, text.as_deref());
+                (self.type_name("Found"), items)
+            }
+        };
+        Some(quote! {
+            #items
+
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::FoundPoisson<S> for #system<S> {
+                type Found<'a> = #name<'a, S> where Self: 'a;
+                fn found(&self) -> Self::Found<'_> {
+                    #name::new(self)
+                }
+            }
+        })
+    }
+
+    /// The type of the flows.
+    fn found_flows(&self, pieces: &[FoundPiece], whole: bool, text: Option<&str>) -> TokenStream {
+        let (visibility, system) = (&self.surface.visibility, self.system_name());
+        let name = self.type_name("Found");
+        let n = index(self.plan.dimension());
+        let state = quote! { ::lie_runtime::__private::SVector<S, #n> };
+        let rest =
+            text.map(|text| format!(" of `{text}`, which is H without a combination of Casimirs"));
+        let title = format!(" The flows of the pieces{}:", rest.unwrap_or_default());
+        let list = pieces
+            .iter()
+            .map(|piece| format!(" - `{}`", piece.terms.join("`, `")));
+        let numbers = 0..pieces.len();
+        let functions: Vec<Ident> = numbers.clone().map(|k| format_ident!("_flow{k}")).collect();
+        let directions: Vec<Ident> = numbers
+            .clone()
+            .map(|k| format_ident!("_direction{k}"))
+            .collect();
+        let flows: TokenStream = pieces
+            .iter()
+            .enumerate()
+            .map(|(place, piece)| self.found_flow(place, piece, &state))
+            .collect();
+        let places = numbers.map(index);
+        let none = message(pieces.len());
+        let direction = quote! {
+            match _piece {
+                #(#places => self.#directions(_mu, _xi),)*
+                _ => panic!(#none),
+            }
+            #[allow(unreachable_code)]
+            for entry in _xi.iter_mut() {
+                *entry = _t * *entry;
+            }
+        };
+        let methods = methods_of_flows(pieces.len(), &functions, &direction);
+        let rest = (!whole).then(|| beside(&directions));
+        quote! {
+            #[doc = #title]
+            #[doc = ""]
+            #(#[doc = #list])*
+            #[derive(Debug)]
+            #visibility struct #name<'a, S: ::lie_runtime::Scalar> {
+                // not read where no flow contains a parameter
+                #[allow(dead_code)]
+                system: &'a #system<S>,
+            }
+
+            #[allow(non_snake_case, clippy::many_single_char_names)]
+            impl<'a, S: ::lie_runtime::Scalar> #name<'a, S> {
+                #[doc = " The flows of a system."]
+                #[must_use]
+                pub fn new(system: &'a #system<S>) -> Self {
+                    Self { system }
+                }
+
+                #flows
+            }
+
+            impl<S: ::lie_runtime::Scalar> ::lie_runtime::PieceFlows<S> for #name<'_, S> {
+                type State = #state;
+
+                #methods
+                #rest
+            }
+        }
+    }
+
+    /// The flow of one piece, and its direction.
+    fn found_flow(&self, place: usize, piece: &FoundPiece, state: &TokenStream) -> TokenStream {
+        let flow = format_ident!("_flow{place}");
+        let direction = format_ident!("_direction{place}");
+        let kernel = &piece.direction;
+        let mu = self.argument_if("mu", kernel.reads(&kernel.arguments[0]));
+        let none = Constants::default();
+        let body = self.body(
+            kernel,
+            &Body::of(Owner::Equation(&none), &|_| quote! { #mu }, &["_xi"]),
+        );
+        let docs = self.docs(kernel);
+        let flows = match piece.flows.as_deref() {
+            Some([only]) => self.flow(only, &flow, state),
+            Some(several) => {
+                let numbers = 0..several.len();
+                let names: Vec<Ident> =
+                    numbers.map(|k| format_ident!("_flow{place}_{k}")).collect();
+                let parts = several.iter().zip(&names);
+                let parts: TokenStream = parts
+                    .map(|(part, name)| self.flow(part, name, state))
+                    .collect();
+                quote! {
+                    #parts
+                    #[inline]
+                    fn #flow(&self, t: S, mu: &mut #state) {
+                        #(self.#names(t, mu);)*
+                    }
+                }
+            }
+            None => quote! {
+                fn #flow(&self, t: S, mu: &mut #state) {
+                    let (start, mut xi) = (*mu, *mu);
+                    self.#direction(mu, &mut xi);
+                    for entry in xi.iter_mut() {
+                        *entry = t * *entry;
+                    }
+                    ::lie_runtime::LiePoisson::coadjoint_action(self.system, &xi, &start, mu);
+                }
+            },
+        };
+        quote! {
+            #flows
+
+            #docs
+            fn #direction(&self, #mu: &#state, _xi: &mut #state) {
+                #body
+            }
+        }
+    }
+}
+
+/// What H is beside the pieces.
+fn beside(directions: &[Ident]) -> TokenStream {
+    quote! {
+        fn rest(&self, t: S, mu: &Self::State, xi: &mut Self::State) -> bool {
+            let mut part = *mu;
+            ::lie_runtime::Poisson::gradient(self.system, mu, xi);
+            #(
+                self.#directions(mu, &mut part);
+                for (entry, part) in xi.iter_mut().zip(part.iter()) {
+                    *entry -= *part;
+                }
+            )*
+            for entry in xi.iter_mut() {
+                *entry = t * *entry;
+            }
+            let _ = &mut part;
+            true
+        }
+    }
+}

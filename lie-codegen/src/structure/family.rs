@@ -1,0 +1,245 @@
+//! The pieces of the Hamiltonian of a family whose flows are exact: functions of one coordinate, products of a coordinate of
+//! each of two sites, and on so(3) the exchange of two spins.
+
+use crate::model::{Family, Model, SiteSum};
+use crate::structure::{separable, spins};
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// A piece, the same for all sites that it goes over.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// The distance of the second site of a bond; 0 of a function of one.
+    pub offset: [i64; 2],
+    /// Where the first sites are.
+    pub spans: [Option<(usize, usize)>; 2],
+    /// What it is.
+    pub form: Form,
+}
+
+/// What a piece is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A function of a coordinate, with its derivative; coordinate a of the site is `Symbol::Coordinate(a)`.
+    Site(usize, ExprId),
+    /// A multiple of a product of a coordinate of each site.
+    Product([usize; 2], ExprId),
+    /// `s_1' = rate (s_1 + s_2) x s_1`, and the opposite of that for the other spin.
+    Exchange(ExprId),
+}
+
+impl Piece {
+    /// What it is, in the names of the coordinates.
+    pub fn describe(&self, model: &Model) -> String {
+        let name = |a: usize| &model.coordinates[a].text;
+        let at = match self.offset {
+            [0, right] => format!("{right:+}"),
+            [down, right] => format!("{down:+},{right:+}"),
+        };
+        match &self.form {
+            Form::Site(a, _) => format!("f({})", name(*a)),
+            Form::Product([a, b], _) => format!("{}*{}[{at}]", name(*a), name(*b)),
+            Form::Exchange(_) => format!("exchange with [{at}]"),
+        }
+    }
+}
+
+/// The pieces, or why H does not consist of such; their expressions are in the arena, which has those of the model.
+///
+/// # Errors
+/// The reason.
+pub fn pieces(model: &Model, family: &Family, graph: &mut Graph) -> Result<Vec<Piece>, String> {
+    let mut search = Search {
+        model,
+        family,
+        graph,
+        found: Vec::new(),
+    };
+    for (k, sum) in family.sums.iter().enumerate() {
+        search.sum(k, sum)?;
+    }
+    let found = search.found;
+    let actions = model.bracket.algebra().map(separable::actions);
+    let actions = actions.unwrap_or_default();
+    let needed = found.iter().flat_map(|piece| match &piece.form {
+        Form::Site(a, _) => vec![*a],
+        Form::Product(both, _) => both.to_vec(),
+        Form::Exchange(_) => Vec::new(),
+    });
+    for a in needed {
+        if actions.get(a).is_none_or(Option::is_none) {
+            let name = &model.coordinates[a].text;
+            return Err(format!(
+                "the flow of a function of `{name}` has no closed form"
+            ));
+        }
+    }
+    Ok(found)
+}
+
+struct Search<'a> {
+    model: &'a Model,
+    family: &'a Family,
+    graph: &'a mut Graph,
+    found: Vec<Piece>,
+}
+
+impl Search<'_> {
+    fn n(&self) -> usize {
+        self.model.dimension()
+    }
+
+    fn sum(&mut self, k: usize, sum: &SiteSum) -> Result<(), String> {
+        let symbol = Symbol::Coordinate(self.family.names.len() + k);
+        let weight = self.graph.derivative(self.family.energy, symbol);
+        if !self.graph.coordinates(weight).is_empty() {
+            return Err("H is not linear in a sum over all sites".into());
+        }
+        let mut density = self.graph.mul(weight, sum.summand);
+        match *sum.slots.as_slice() {
+            [] | [_] => {}
+            [one, other] => density = self.bond(density, [one, other], sum)?,
+            _ => return Err("a summand depends on more than two sites".into()),
+        }
+        for &slot in &sum.slots {
+            self.site(density, slot, sum)?;
+        }
+        Ok(())
+    }
+
+    /// The spans of a sum as those of the site in a slot.
+    fn spans(&self, sum: &SiteSum, slot: usize) -> [Option<(usize, usize)>; 2] {
+        let distance = self.family.slots[slot];
+        let moved = |axis: usize| {
+            let (first, left) = sum.spans[axis]?;
+            let moved = |count: usize, by: i64| usize::try_from(count as i64 + by).unwrap_or(0);
+            Some((moved(first, distance[axis]), moved(left, -distance[axis])))
+        };
+        [moved(0), moved(1)]
+    }
+
+    /// The products of a summand; what is left without them.
+    fn bond(
+        &mut self,
+        density: ExprId,
+        [one, other]: [usize; 2],
+        sum: &SiteSum,
+    ) -> Result<ExprId, String> {
+        let n = self.n();
+        let mut rest = density;
+        let mut factors = Vec::new();
+        for a in 0..n {
+            let slope = self
+                .graph
+                .derivative(density, Symbol::Coordinate(one * n + a));
+            for b in 0..n {
+                let factor = self
+                    .graph
+                    .derivative(slope, Symbol::Coordinate(other * n + b));
+                if self.graph.is_zero(factor) {
+                    continue;
+                }
+                if !self.graph.coordinates(factor).is_empty() {
+                    let names = &self.family.names;
+                    let (x, y) = (&names[one * n + a], &names[other * n + b]);
+                    return Err(format!(
+                        "`{x}` and `{y}` are coupled by more than a product"
+                    ));
+                }
+                let product =
+                    [one * n + a, other * n + b].map(|p| self.graph.symbol(Symbol::Coordinate(p)));
+                let product = self.graph.product(&[factor, product[0], product[1]]);
+                rest = self.graph.sub(rest, product);
+                factors.push(([a, b], factor));
+            }
+        }
+        let slots = &self.family.slots;
+        let offset = [
+            slots[other][0] - slots[one][0],
+            slots[other][1] - slots[one][1],
+        ];
+        let spans = self.spans(sum, one);
+        let exchange = self.exchange(&mut factors);
+        let forms = exchange.into_iter().map(Form::Exchange);
+        let products = factors
+            .into_iter()
+            .map(|(ab, factor)| Form::Product(ab, factor));
+        let forms: Vec<Form> = forms.chain(products).collect();
+        self.found.extend(forms.into_iter().map(|form| Piece {
+            offset,
+            spans,
+            form,
+        }));
+        Ok(rest)
+    }
+
+    /// The rate of an exchange that leaves fewer products than there were, which are taken out.
+    fn exchange(&mut self, factors: &mut Vec<([usize; 2], ExprId)>) -> Option<ExprId> {
+        let spins = spins::spins(self.model)?;
+        let [spin] = spins.as_slice() else {
+            return None;
+        };
+        let zero = self.graph.integer(0);
+        let diagonal: [ExprId; 3] = std::array::from_fn(|a| {
+            let found = factors.iter().find(|(ab, _)| *ab == [a, a]);
+            found.map_or(zero, |(_, factor)| *factor)
+        });
+        let common = [(0, 1), (0, 2), (1, 2)]
+            .into_iter()
+            .find(|(a, b)| diagonal[*a] == diagonal[*b] && diagonal[*a] != zero)
+            .map(|(a, _)| diagonal[a])?;
+        factors.retain(|([a, b], _)| a != b);
+        for (a, factor) in diagonal.into_iter().enumerate() {
+            let rest = self.graph.sub(factor, common);
+            if !self.graph.is_zero(rest) {
+                factors.push(([a, a], rest));
+            }
+        }
+        let rate = self.graph.mul(common, spin.scale);
+        Some(self.graph.neg(rate))
+    }
+
+    /// The functions of single coordinates of the site in a slot.
+    fn site(&mut self, density: ExprId, slot: usize, sum: &SiteSum) -> Result<(), String> {
+        let n = self.n();
+        let spans = self.spans(sum, slot);
+        for a in 0..n {
+            let place = slot * n + a;
+            let slope = self.graph.derivative(density, Symbol::Coordinate(place));
+            for other in self.graph.coordinates(slope) {
+                let mixed = self.graph.derivative(slope, Symbol::Coordinate(other));
+                if other != place && !self.graph.is_zero(mixed) {
+                    let names = &self.family.names;
+                    return Err(format!("H mixes `{}` and `{}`", names[place], names[other]));
+                }
+            }
+            let (own, zero) = (
+                self.graph.symbol(Symbol::Coordinate(a)),
+                self.graph.integer(0),
+            );
+            let slope = self.graph.substitute(&[slope], &|symbol| match symbol {
+                Symbol::Coordinate(p) if p == place => Some(own),
+                Symbol::Coordinate(_) => Some(zero),
+                _ => None,
+            })[0];
+            if self.graph.is_zero(slope) {
+                continue;
+            }
+            let known = self
+                .found
+                .iter_mut()
+                .find_map(|piece| match &mut piece.form {
+                    Form::Site(b, slope) if *b == a && piece.spans == spans => Some(slope),
+                    _ => None,
+                });
+            match known {
+                Some(known) => *known = self.graph.add(*known, slope),
+                None => self.found.push(Piece {
+                    offset: [0, 0],
+                    spans,
+                    form: Form::Site(a, slope),
+                }),
+            }
+        }
+        Ok(())
+    }
+}

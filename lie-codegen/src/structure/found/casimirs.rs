@@ -1,0 +1,139 @@
+//! H without a combination of quadratic Casimirs, which generate no flow: the combination that leaves the fewest pieces.
+//!
+//! Of `H = sum_i x_i^2/(2 I_i)` on so(3) the multiple `1/(2 I_2)` of the Casimir takes away one piece of three. The
+//! multiples are those that cancel one second derivative of H that depends on parameters alone.
+
+use super::additive;
+use super::atoms::{self, Atom, Commuting};
+use super::{classes, colouring};
+use crate::exact::{Budget, Rational};
+use crate::model::Model;
+use crate::symbolic::{ExprId, Graph, Symbol};
+
+/// Larger systems are not searched.
+const LARGEST: usize = 40;
+/// Multiples of one Casimir that are tried.
+const MULTIPLES: usize = 64;
+
+/// A Hamiltonian that may be split, and how well.
+#[derive(Clone, Copy)]
+struct Candidate {
+    value: ExprId,
+    /// Pairs of coordinates in one term that do not commute.
+    mixed: usize,
+    /// Classes of terms that commute.
+    pieces: usize,
+    /// The largest second derivative at the default parameters.
+    spread: f64,
+}
+
+impl Candidate {
+    fn is_better(&self, other: &Self) -> bool {
+        let (one, two) = ((self.mixed, self.pieces), (other.mixed, other.pieces));
+        one < two
+    }
+}
+
+/// H without the Casimirs, where that leaves less to split.
+pub(super) fn without(
+    model: &Model,
+    commuting: &Commuting<'_>,
+    graph: &mut Graph,
+    start: ExprId,
+    budget: &Budget,
+) -> Option<ExprId> {
+    if model.dimension() > LARGEST {
+        return None;
+    }
+    let quadratic = model.casimirs.iter().filter(|c| c.degree == Some(2));
+    let casimirs: Vec<ExprId> = quadratic.map(|c| graph.normal(c.expr)).collect();
+    let measure =
+        |graph: &mut Graph, value: ExprId| candidate(model, commuting, graph, value, budget);
+    let mut value = start;
+    let mut current = measure(graph, value)?;
+    for _ in 0..casimirs.len() {
+        for &casimir in &casimirs {
+            let mut best = current;
+            for multiple in multiples(model, graph, value, casimir) {
+                let taken = graph.mul(multiple, casimir);
+                let other = graph.sub(value, taken);
+                let other = graph.normal(other);
+                let Some(other) = measure(graph, other) else {
+                    continue;
+                };
+                let level = !best.is_better(&other) && best.is_better(&current);
+                if other.is_better(&best) || (level && other.spread < best.spread) {
+                    best = other;
+                }
+            }
+            (value, current) = (best.value, best);
+        }
+    }
+    (value != start).then_some(value)
+}
+
+/// The multiples of a Casimir that cancel a second derivative of H, each once.
+fn multiples(model: &Model, graph: &mut Graph, value: ExprId, casimir: ExprId) -> Vec<ExprId> {
+    let n = model.dimension();
+    let mut found = Vec::new();
+    for i in 0..n {
+        let of_casimir = graph.derivative(casimir, Symbol::Coordinate(i));
+        let of_value = graph.derivative(value, Symbol::Coordinate(i));
+        for j in i..n {
+            let below = graph.derivative(of_casimir, Symbol::Coordinate(j));
+            let below = graph.normal(below);
+            let above = graph.derivative(of_value, Symbol::Coordinate(j));
+            let above = graph.normal(above);
+            if constant(model, graph, below).is_none() || constant(model, graph, above).is_none() {
+                continue;
+            }
+            let multiple =
+                graph.power_product(&[(above, Rational::ONE), (below, Rational::MINUS_ONE)]);
+            let multiple = graph.normal(multiple);
+            if !found.contains(&multiple) && found.len() < MULTIPLES {
+                found.push(multiple);
+            }
+        }
+    }
+    found
+}
+
+/// How well a function can be split by coordinates; `None` where it has too many terms.
+fn candidate(
+    model: &Model,
+    commuting: &Commuting<'_>,
+    graph: &mut Graph,
+    value: ExprId,
+    budget: &Budget,
+) -> Option<Candidate> {
+    let terms = additive::terms(graph, value)?;
+    let mut atoms = atoms::by_coordinates(graph, &terms);
+    let pairs = |atom: &Atom| match atom {
+        Atom::Coordinates(set, _) => commuting.mixed(set).len(),
+        Atom::Form { .. } => 0,
+    };
+    let mixed = atoms.iter().map(pairs).sum();
+    atoms.retain(|atom| !commuting.is_idle(atom));
+    let pieces = colouring::count(&classes(commuting, &atoms, budget));
+    let mut spread = 0.0_f64;
+    for i in 0..model.dimension() {
+        let slope = graph.derivative(value, Symbol::Coordinate(i));
+        let second = graph.derivative(slope, Symbol::Coordinate(i));
+        let second = graph.normal(second);
+        if let Some(second) = constant(model, graph, second) {
+            spread = spread.max(second.abs());
+        }
+    }
+    Some(Candidate {
+        value,
+        mixed,
+        pieces,
+        spread,
+    })
+}
+
+/// The value of an expression at the default parameters, where it is one and not 0.
+fn constant(model: &Model, graph: &Graph, id: ExprId) -> Option<f64> {
+    let value = model.at_defaults(graph, id);
+    value.filter(|value| *value != 0.0)
+}
