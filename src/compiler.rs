@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::rc::Rc;
 
+use lie_codegen::check::Effort;
 use lie_codegen::diagnostic::{Diagnostic, Kind};
 use lie_codegen::front::file;
 use lie_codegen::model::Model;
@@ -32,8 +33,16 @@ impl Spec {
 /// # Errors
 /// `io` if the file cannot be read (exit 1), else every mistake in it (exit 2).
 pub fn load(path: &Path) -> Result<Spec, Failure> {
+    load_with(path, Effort::Declaration)
+}
+
+/// The same with as much work on what is searched for as is said.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_with(path: &Path, effort: Effort) -> Result<Spec, Failure> {
     let source = Rc::new(read(path)?);
-    match lie_codegen::compile::compile_spec(&source.text) {
+    match lie_codegen::compile::compile_spec_with(&source.text, effort) {
         Ok(model) => Ok(Spec { source, model }),
         Err(diagnostics) => {
             let all = diagnostics.into_iter();

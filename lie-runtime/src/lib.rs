@@ -63,6 +63,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 pub mod diagnostics;
 #[cfg(feature = "std")]
 pub mod driver;
+#[cfg(feature = "std")]
+pub use lie_core::family;
 #[cfg(feature = "sources")]
 pub mod sources;
 #[cfg(test)]
@@ -70,14 +72,14 @@ mod test_systems;
 
 pub use lie_core::{
     CayleyPoisson, ClosedRealization, CollectivePoisson, ColumnPoisson, CotangentPoisson,
-    DiscreteLagrangian, DiscreteLagrangianPoisson, Dual, Equation, Expand, GeneratingFunction,
-    GradientRecurrence, GradientSeries, Group, Implicit, InertiaPoisson, IntegrablePoisson,
-    LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson, Motion, ParameterError,
-    ParameterFault, PieceFlows, Poisson, RealizedPoisson, Recurrence, Scalar, SeparablePoisson,
-    Series, Spectrum, SpinPoisson, SquareMatrix, StageMatrix, Stages, State, Unknown,
-    VectorPoisson, Widen, closed, elimination, equation, generating, generic, generic_equations,
-    lagrangian, matrix, methods, newton, parameter, pieces, poisson, recurrence, scalar, state,
-    structure,
+    DiscreteLagrangian, DiscreteLagrangianPoisson, Dual, Equation, Expand, FoundPoisson,
+    GeneratingFunction, GradientRecurrence, GradientSeries, Group, Implicit, InertiaPoisson,
+    IntegrablePoisson, LagrangianPoisson, LiePoisson, Lift, Mask, MatrixGroup, MatrixPoisson,
+    Motion, ParameterError, ParameterFault, PieceFlows, Poisson, RealizedPoisson, Recurrence,
+    Scalar, SeparablePoisson, Series, Spectrum, SpinPoisson, SquareMatrix, StageMatrix, Stages,
+    State, Unknown, VectorPoisson, Widen, closed, elimination, equation, generating, generic,
+    generic_equations, lagrangian, matrix, methods, newton, parameter, pieces, poisson, recurrence,
+    scalar, state, structure,
 };
 #[cfg(feature = "macros")]
 pub use lie_macros::lie_poisson;
@@ -127,7 +129,7 @@ pub mod __private_0_1 {
     pub use crate::matrix::{SquareMatrix, StageMatrix};
     pub use crate::newton::{dense, inverse_pivots_are_safe};
     pub use crate::parameter::{ParameterError, all_finite, all_positive};
-    pub use crate::pieces::{PieceFlows, SeparablePoisson};
+    pub use crate::pieces::{FoundPoisson, PieceFlows, SeparablePoisson};
     pub use crate::poisson::{CayleyPoisson, LiePoisson, Lift, Poisson, Widen};
     pub use crate::scalar::{Mask, Scalar};
     pub use crate::state::{Stages, State, Unknown};

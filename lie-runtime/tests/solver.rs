@@ -213,3 +213,55 @@ fn the_automatic_choice_solves_what_newton_solves() {
         assert_eq!(report.factorizations, newton.factorizations);
     }
 }
+
+/// Steps that start from a prediction end where Newton's method does from the guess of the equation, with less work; also
+/// after a state that does not follow.
+#[test]
+fn predictions_change_the_work_and_not_the_steps() {
+    fn check<P: Poisson<f64>>(
+        system: &P,
+        method: &impl Method<f64, P>,
+        start: &[f64],
+        h: f64,
+    ) -> [f64; 2] {
+        let mut mu = state(system, start);
+        let mut stepper = method.stepper(system, h, &NewtonOptions::default());
+        let mut work = [0.0; 2];
+        for step in 0..120 {
+            if step == 70 {
+                mu = state(system, start);
+            }
+            let mut expected = mu.clone();
+            let mut fresh = method.stepper(system, h, &NewtonOptions::newton());
+            fresh.step(&mut expected, &mut ()).expect("a step");
+            let mut cold = mu.clone();
+            let mut fresh = method.stepper(system, h, &NewtonOptions::default());
+            let report = fresh.step(&mut cold, &mut ()).expect("a step");
+            work[1] += f64::from(report.iterations) / 120.0;
+            let report = stepper.step(&mut mu, &mut ()).expect("a step");
+            work[0] += f64::from(report.iterations) / 120.0;
+            let error = distance(&mu, &expected);
+            assert!(error < 2e-15, "h = {h}, step {step}: {error:e}");
+        }
+        work
+    }
+    macro_rules! all {
+        ($($method:expr),*) => {$(
+            for h in [0.003, 0.03, 0.1, 0.3, 0.6] {
+                check(&HeavyTop::default(), &$method, &START, h);
+                check(&Nonpolynomial, &$method, &BODY, h);
+                check(&RigidBody::default(), &$method, &BODY, h);
+            }
+            let [predicted, cold] = check(&HeavyTop::default(), &$method, &START, 0.01);
+            assert!(predicted < 0.8 * cold, "{predicted} {cold}");
+        )*};
+    }
+    all!(
+        ImplicitMidpoint,
+        Gauss6,
+        LieMidpoint::exp(),
+        LieMidpoint::cayley(),
+        CohenHairer4::new(),
+        OrbitEnergy::gonzalez()
+    );
+}

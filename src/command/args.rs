@@ -89,6 +89,9 @@ pub struct Check {
     /// Prints one JSON object (an array for several specs)
     #[arg(long)]
     pub json: bool,
+    /// Looks for Casimirs as long as it takes, up to minutes
+    #[arg(long)]
+    pub deep: bool,
 }
 
 /// `lie expand`.
@@ -216,7 +219,7 @@ pub struct MethodOptions {
     /// Coefficients of a composition or a splitting: suzuki, triple-jump, kahan-li, …
     #[arg(long, value_name = "NAME")]
     pub composition: Option<String>,
-    /// Pieces of a splitting: coordinate
+    /// Pieces of a splitting: coordinate (H = sum f_i(x_i)) or found (the fewest pieces with exact flows: commuting coordinates, squares of linear forms, up to quadratic Casimirs)
     #[arg(long, value_name = "NAME")]
     pub pieces: Option<String>,
     /// Space over g* of a collective method: representation, hopf or spec (the declared realization)

@@ -1,12 +1,19 @@
 //! `lie check`: what a spec declares, and what can be done with it.
 
+mod casimirs;
+mod motions;
+mod splitting;
+mod structure;
+
 use std::fmt::Write as _;
 use std::path::Path;
 
+use lie_codegen::check::{Effort, motions as search};
 use lie_codegen::compile;
 use lie_codegen::methods::{Choice, applicability, refusal};
-use lie_codegen::model::Model;
-use lie_codegen::structure::lifts;
+use lie_codegen::model::{CasimirKind, Model};
+use lie_codegen::structure::found::Terms;
+use lie_codegen::structure::{algebra, lifts};
 use serde_json::{Value, json};
 
 use super::run::plan::plan;
@@ -25,8 +32,13 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
         messages: Vec::new(),
         code: 0,
     };
+    let effort = if arguments.deep {
+        Effort::Deep
+    } else {
+        Effort::Declaration
+    };
     for path in &arguments.specs {
-        match compiler::load(path) {
+        match compiler::load_with(path, effort) {
             Ok(spec) => {
                 render::print(&spec.warnings());
                 if let Err(found) = defaults_of_run(&spec) {
@@ -34,7 +46,7 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
                     failure.messages.extend(found);
                     continue;
                 }
-                let report = Report::on(&spec.model);
+                let report = Report::on(&spec.model, effort);
                 if arguments.json {
                     reports.push(report.json(&spec.model));
                 } else {
@@ -68,7 +80,8 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
 /// The `run` of a spec as `lie run` would take it without flags. Without an initial state the flags
 /// have to bring one.
 fn defaults_of_run(spec: &Spec) -> Result<(), Vec<Message>> {
-    if spec.model.run.is_empty() || spec.model.initial.is_none() {
+    let seed = spec.model.family.as_ref().and_then(|family| family.seed);
+    if spec.model.run.is_empty() || (spec.model.initial.is_none() && seed.is_none()) {
         return Ok(());
     }
     plan(spec, &args::Run::default()).map(|_| ())
@@ -79,10 +92,13 @@ struct Report {
     /// Kernel, additions, multiplications, divisions, calls.
     operations: Vec<(String, [usize; 4])>,
     methods: Vec<(&'static str, Option<String>)>,
+    algebra: Option<algebra::Report>,
+    motions: Result<search::Motions, &'static str>,
+    splitting: Result<Terms, String>,
 }
 
 impl Report {
-    fn on(model: &Model) -> Self {
+    fn on(model: &Model, effort: Effort) -> Self {
         let plan = lie_codegen::plan::plan(model, &compile::declared_choices(model));
         let operations = plan
             .counts()
@@ -92,6 +108,15 @@ impl Report {
         Self {
             operations,
             methods: applicability(model),
+            algebra: algebra::report(model, algebra::DEEP),
+            motions: search::find(
+                model,
+                match effort {
+                    Effort::Declaration => search::WORK,
+                    Effort::Deep => search::DEEP,
+                },
+            ),
+            splitting: splitting::of(model),
         }
     }
 
@@ -103,7 +128,11 @@ impl Report {
                 json!({
                     "name": casimir.name,
                     "expression": model.display(casimir.expr),
-                    "kind": "declared",
+                    "kind": match casimir.kind {
+                        CasimirKind::Declared => "declared",
+                        CasimirKind::Polynomial => "polynomial",
+                        CasimirKind::Rational => "rational",
+                    },
                     "degree": casimir.degree,
                 })
             })
@@ -123,15 +152,20 @@ impl Report {
             .iter()
             .map(|(id, reason)| ((*id).to_owned(), reason.clone().into()))
             .collect();
+        let sites = sites(model).map_or(1, |[rows, columns]| rows * columns);
         json!({
             "name": model.name,
-            "dimension": model.dimension(),
-            "generic_rank": model.generic_rank,
+            "dimension": sites * model.dimension(),
+            "generic_rank": sites * model.generic_rank,
             "initial_rank": model.initial_rank,
             "casimirs": casimirs,
-            "independent_casimirs": model.dimension() - model.generic_rank,
-            "class": null,
-            "splitting": null,
+            "independent_casimirs": sites * (model.dimension() - model.generic_rank),
+            "constants_of_motion": motions::json(model, &self.motions),
+            "class": self.algebra.as_ref().map(|report| structure::class(&report.class)),
+            "algebra_name": self.algebra.as_ref().and_then(|report| report.name.as_ref().ok()),
+            "series": self.algebra.as_ref().map(|report| structure::series(&report.series)),
+            "killing": self.algebra.as_ref().map(structure::killing),
+            "splitting": splitting::json(&self.splitting),
             "operations": operations,
             "methods": methods,
         })
@@ -146,7 +180,9 @@ impl Report {
     }
 
     fn write(&self, model: &Model, text: &mut String) -> std::fmt::Result {
-        write_system(model, text)?;
+        write_system(model, self.algebra.as_ref(), text)?;
+        motions::write(model, &self.motions, text)?;
+        splitting::write(model, &self.splitting, text)?;
         self.write_operations(text)?;
         self.write_methods(model, text)
     }
@@ -185,7 +221,7 @@ impl Report {
         if !also.is_empty() {
             list(text, "  and with options: ", &also)?;
         }
-        if let Some(smallest) = lifts::smallest(model) {
+        if let Some(smallest) = lifts::smallest(model).filter(|_| model.family.is_none()) {
             writeln!(
                 text,
                 "  collective methods from order 8 on go over {}",
@@ -230,17 +266,55 @@ impl Report {
     }
 }
 
+/// Rows and columns of a family with its default parameters.
+fn sites(model: &Model) -> Option<[usize; 2]> {
+    model.family.as_ref()?.sites(&model.defaults())
+}
+
+/// How large a family is.
+fn write_family(model: &Model, [rows, columns]: [usize; 2], text: &mut String) -> std::fmt::Result {
+    let sites = rows * columns;
+    let lattice = match rows {
+        1 => format!("a chain of {columns}"),
+        _ => format!("a lattice of {rows} x {columns}"),
+    };
+    let (dimension, rank) = (sites * model.dimension(), sites * model.generic_rank);
+    let corank = sites * model.casimirs_to_find();
+    writeln!(
+        text,
+        "  {lattice} sites: dimension {dimension}, generic rank {rank}, {corank} independent Casimirs"
+    )
+}
+
 /// What the system is: its rank, its functions, its Casimirs.
-fn write_system(model: &Model, text: &mut String) -> std::fmt::Result {
+fn write_system(
+    model: &Model,
+    report: Option<&algebra::Report>,
+    text: &mut String,
+) -> std::fmt::Result {
     let dimension = model.dimension();
+    if let Some([rows, columns]) = sites(model) {
+        write_family(model, [rows, columns], text)?;
+    }
     write!(
         text,
         "  dimension {dimension}, generic rank {}",
         model.generic_rank
     )?;
     match model.initial_rank {
+        _ if model.family.is_some() => writeln!(text, " of a site")?,
         Some(rank) => writeln!(text, ", rank {rank} at the initial state")?,
         None => writeln!(text, ", no initial state")?,
+    }
+    if let Some(rank) = model.initial_rank.filter(|rank| *rank < model.generic_rank) {
+        writeln!(
+            text,
+            "  warning: the initial state lies on a singular leaf, of dimension {rank}: the motion stays there, \
+             and the Casimirs alone do not determine the leaf"
+        )?;
+    }
+    if let Some(report) = report {
+        structure::write(report, text)?;
     }
     if let Some(configuration) = &model.configuration {
         writeln!(text, "  {}", configuration.description())?;
@@ -251,28 +325,15 @@ fn write_system(model: &Model, text: &mut String) -> std::fmt::Result {
         }
         writeln!(text, "  l = {}", model.display(lagrangian.value))?;
     }
-    match model.energy.expression() {
-        Some(hamiltonian) => writeln!(text, "  H = {}", model.display(hamiltonian.energy))?,
-        None => writeln!(
+    match (&model.family, model.energy.expression()) {
+        (Some(family), _) => writeln!(text, "  H = {}", model.display_of_family(family))?,
+        (None, Some(hamiltonian)) => writeln!(text, "  H = {}", model.display(hamiltonian.energy))?,
+        (None, None) => writeln!(
             text,
             "  H = Legendre transform of l, solved by Newton's iteration"
         )?,
     }
-    let independent = model.casimirs_to_find();
-    writeln!(
-        text,
-        "  Casimirs: {} declared of {independent} independent",
-        model.casimirs.len()
-    )?;
-    for casimir in &model.casimirs {
-        writeln!(
-            text,
-            "    {} = {}",
-            casimir.name,
-            model.display(casimir.expr)
-        )?;
-    }
-    Ok(())
+    casimirs::write(model, text)
 }
 
 /// The reason of methods whose names are only kept.

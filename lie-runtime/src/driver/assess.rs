@@ -1,11 +1,12 @@
 //! The error at the end of a run, by a second one, and a step that keeps it.
 
+use super::course::Course;
 use super::grid::Grid;
 use super::observer::Observer;
 use super::options::{Options, Save};
 use super::pace::{Assessed, Chosen, count, settle};
 use super::problem::Problem;
-use super::solve::{Course, IntegrateError};
+use super::solve::IntegrateError;
 use crate::methods::Method;
 use crate::newton::NewtonOptions;
 use crate::poisson::Poisson;

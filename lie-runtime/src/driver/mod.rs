@@ -1,6 +1,7 @@
 //! From a problem to a solution: the loop over the time grid, what is saved, and observers.
 
 mod assess;
+mod course;
 mod error;
 mod grid;
 mod group_matrix;
@@ -12,6 +13,7 @@ pub mod reconstruction;
 mod solution;
 mod solve;
 mod stats;
+mod trial;
 mod watch;
 
 pub use error::{SolveError, StepError};

@@ -1,12 +1,15 @@
 //! What looks after the error of steps during a run whose step was chosen.
 //!
 //! The run-in knows the start alone: a motion may begin quietly and become fast. So the run watches a number that follows the
-//! error of a step and costs little, `s = |f| |Df|^p/|mu|`, p the order: where it exceeds what it was when errors were
-//! estimated last, by more than those errors leave room for, the error of the step just made is estimated again. A step whose
-//! error is 30 times what it may be is made again in several parts, and so is every later one: the method is one
-//! map again from there on. A step that fails is divided too.
+//! error of a step and costs little, `s = |f| |Df|^p/|mu|`, p the order, and adds up the errors that it suggests. Where the
+//! sum is ten times the tolerance, or the number far beyond what it was when an error was estimated last, the error of the
+//! step just made is estimated again. If the sum stays too large, the step is made again in several parts, and so is every
+//! later one: the method is one map again from there on. A step that fails is divided too.
+//!
+//! The sum decides and not the largest error: to divide all steps for the sake of a few costs more than these do.
 
-use super::pace::{Chosen, Trial};
+use super::pace::Chosen;
+use super::trial::Trial;
 use crate::matrix::SquareMatrix;
 use crate::methods::Method;
 use crate::poisson::Poisson;
@@ -15,8 +18,10 @@ use crate::state::{State, Unknown};
 
 /// The Jacobian is looked at up to so many coordinates: beyond, it costs more than a step may.
 const MOST_COORDINATES: usize = 12;
-/// An error is too large that is so many times what it may be.
-const TOO_LARGE: f64 = 30.0;
+/// Steps are divided where their errors add up to so many times the tolerance, until one has at most so many times its share.
+const TOO_LARGE: f64 = 10.0;
+/// They are divided too where a step has more than so many times its share, or what half a division would take off.
+const FAR_TOO_LARGE: f64 = 30.0;
 /// By how much the watched number may grow before errors are estimated again: as much as they leave room for, within these.
 const ROOM: (f64, f64) = (4.0, 64.0);
 /// Steps are looked at once in so much of the time in which the motion changes.
@@ -35,7 +40,7 @@ pub(super) struct Gauge<S: Scalar, P: Poisson<S>> {
 
 impl<S: Scalar, P: Poisson<S>> Gauge<S, P> {
     pub(super) fn new(system: &P, mu: &P::State, order: u32) -> Self {
-        let small = system.dimension() <= MOST_COORDINATES;
+        let small = system.dimension() <= MOST_COORDINATES && system.has_jacobian();
         let mut gauge = Self {
             order: order.max(1) as i32,
             unit: 1.0,
@@ -87,33 +92,65 @@ pub(super) struct Watch<S: Scalar, P: Poisson<S>> {
     gauge: Gauge<S, P>,
     /// Up to this number nothing is estimated.
     ceiling: f64,
+    /// The error of a step for a number of one, and the sum of errors, both as parts of what they may be.
+    slope: f64,
+    spent: f64,
+    /// The part of the span that a step is.
+    share: f64,
     interval: u32,
     left: u32,
     before: P::State,
 }
 
-/// How much the gauge may grow from where an error was found.
-fn room(target: f64, error: f64) -> f64 {
-    (0.5 * TOO_LARGE * target / error).clamp(ROOM.0, ROOM.1)
+/// How much the gauge may grow from where an error was found, relative to what it may be.
+fn room(part: f64) -> f64 {
+    (15.0 / part).clamp(ROOM.0, ROOM.1)
 }
 
 impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
     /// From the largest number seen while steps were chosen, and the largest error of one relative to what it may be.
     pub(super) fn new(
         gauge: Gauge<S, P>,
-        seen: f64,
-        part: f64,
+        (seen, part): (f64, f64),
         chosen: &Chosen,
+        share: f64,
         zero: P::State,
     ) -> Self {
         let interval = gauge.interval(chosen.step.abs());
         Self {
-            ceiling: seen * room(1.0, part),
+            ceiling: seen * room(part),
+            slope: part / seen,
+            spent: 0.0,
+            share,
             gauge,
             interval,
             left: 1,
             before: zero,
         }
+    }
+
+    /// Adds the errors that a number suggests; whether one has to be estimated. A number that is none says nothing.
+    #[inline(always)]
+    fn exceeded(&mut self, number: f64) -> bool {
+        let sum = self.slope * number * self.share * f64::from(self.interval);
+        self.spent += if sum.is_finite() { sum } else { 0.0 };
+        number > self.ceiling || self.spent > TOO_LARGE
+    }
+
+    /// Corrects the sum of errors after one was estimated that has a part of what it may be; whether they are too large.
+    fn corrected(&mut self, number: f64, part: f64, order: f64) -> bool {
+        let suggested = self.slope * number;
+        if part < suggested {
+            self.spent *= part / suggested;
+        } else {
+            self.spent += (part - suggested).max(0.0) * self.share * f64::from(self.interval);
+        }
+        let far = f64::max(FAR_TOO_LARGE, (0.5 * order).exp2());
+        let much = self.spent.min(part) > TOO_LARGE || part > far;
+        if self.spent > TOO_LARGE {
+            self.spent = 0.0;
+        }
+        much || part.is_nan()
     }
 
     /// In how many parts the step of h after the state that was kept is to be made; `number` is that of the gauge at its end.
@@ -131,24 +168,31 @@ impl<S: Scalar, P: Poisson<S>> Watch<S, P> {
         let number = number.max(self.gauge.at(system, &self.before));
         loop {
             let size = h / f64::from(now);
-            let target = trial.target(size.abs());
-            let bound = if first { TOO_LARGE } else { 3.0 };
-            let factor = match trial.estimate(system, &self.before, size) {
-                Ok(found) if found.error <= bound * target => {
-                    self.ceiling = number * room(target, found.error);
-                    break;
+            let factor = match trial.estimate(system, &self.before, size, now < SLOW_PARTS) {
+                Ok(found) => {
+                    let part = found.error / trial.target(size.abs());
+                    let large = if first {
+                        self.corrected(number, part, order)
+                    } else {
+                        part.is_nan() || part > TOO_LARGE
+                    };
+                    if !large {
+                        self.ceiling = number * room(part);
+                        self.slope = part / number;
+                        break;
+                    }
+                    (part / TOO_LARGE).powf(1.0 / order).clamp(1.1, 8.0)
                 }
-                Ok(found) => (found.error / target).powf(1.0 / order).clamp(1.1, 8.0),
                 Err(_) => 2.0,
             };
             let next = (factor * f64::from(now)).ceil() as u32;
             if next > MOST_PARTS {
                 self.ceiling = f64::INFINITY;
+                self.slope = 0.0;
                 break;
             }
             (now, first) = (next, false);
         }
-        self.interval = self.gauge.interval((h / f64::from(now)).abs());
         now
     }
 }
@@ -182,16 +226,15 @@ impl<S: Scalar, P: Poisson<S>, M: Method<S, P>> Guard<'_, S, P, M> {
     #[inline(always)]
     pub(super) fn parts(&mut self, system: &P, (h, parts): (f64, u32), end: &P::State) -> u32 {
         let number = self.watch.gauge.at(system, end);
-        // a number that is none says nothing
-        if number.is_nan() || number <= self.watch.ceiling {
+        if !self.watch.exceeded(number) {
             return parts;
         }
         self.watch.needed(&self.trial, system, (h, parts), number)
     }
 }
 
-/// Steps that Newton's iteration had to solve, after which they are divided: it costs more than several that contract.
-pub(super) const MOST_SLOW: u32 = 2;
+/// A step that needs a Jacobian in place of a fixed point costs about as much as so many that do not.
+pub(super) const JACOBIAN: u64 = 200;
 /// Into so many parts steps are divided at most in order to contract.
 pub(super) const SLOW_PARTS: u32 = 8;
 

@@ -57,6 +57,11 @@ pub enum Ended {
 /// Every mistake.
 pub fn bed(flags: &Measured, defaults: impl Fn(&Spec) -> Vec<Choice>) -> Result<Bed, Failure> {
     let spec = compiler::load(&flags.spec)?;
+    if spec.model.family.is_some() {
+        let text = format!("{} is a family, which is not measured yet", spec.model.name);
+        let help = "`lie run` says how much energy and Casimirs drift; write a small one out, such as `so(3)^2` with the state x1, x2, …, to measure it";
+        return Err(Message::option("SPEC", text).help(help).into());
+    }
     let as_run = args::Run {
         param: flags.param.clone(),
         initial: flags.initial.clone(),

@@ -297,7 +297,7 @@ fn report(bed: &Bed, results: &Results, steps: u64) -> String {
     let independent = model.casimirs_to_find();
     if model.casimirs.len() < independent {
         text.push_str(&format!(
-            "{} of {independent} Casimirs declared: the others are not looked at, declare them in the spec\n",
+            "{} of {independent} Casimirs known: the others are not looked at, declare them in the spec\n",
             model.casimirs.len()
         ));
     }

@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use lie_codegen::model::Model;
+use std::collections::BTreeMap;
+
+use lie_codegen::model::{Family, Model, Parameter};
 use lie_codegen::program::Chart;
 use lie_codegen::structure::group;
 use lie_program::protocol::Columns;
@@ -38,10 +40,41 @@ impl Layout {
         }
     }
 
+    /// The columns of a family with these values of its parameters.
+    pub fn of_family(model: &Model, family: &Family, values: &BTreeMap<String, f64>) -> Self {
+        let parameters = model.parameters.iter();
+        let value = |p: &Parameter| values.get(&p.name).copied().unwrap_or(p.default_value);
+        let parameters: Vec<f64> = parameters.map(value).collect();
+        let [rows, columns] = family.sites(&parameters).unwrap_or([1, 1]);
+        let named = |name: &str, site: usize| match rows {
+            1 => format!("{name}[{site}]"),
+            _ => format!("{name}[{}][{}]", site / columns, site % columns),
+        };
+        let mut names = vec!["t".to_owned()];
+        for name in &model.coordinates {
+            names.extend((0..rows * columns).map(|site| named(&name.text, site)));
+        }
+        let states = names.len() - 1;
+        names.push("energy".to_owned());
+        for casimir in &model.casimirs {
+            let statistics = ["mean", "min", "max"].iter();
+            names.extend(statistics.map(|what| format!("{}_{what}", casimir.name)));
+        }
+        Self {
+            invariants: states + 1..names.len(),
+            columns: names,
+            states,
+        }
+    }
+
     /// Where the columns that are shown stand in the rows of a program; none where it does not have them.
     pub fn places(&self, columns: &Columns) -> Option<Vec<usize>> {
         let (states, rest) = self.columns[1..].split_at(self.states);
         let (casimirs, element) = rest[1..].split_at(self.invariants.end - self.states - 2);
+        // a large family is not searched name by name
+        if states == columns.coordinates && casimirs == columns.casimirs && element.is_empty() {
+            return (columns.element == 0).then(|| (0..columns.width()).collect());
+        }
         if element.len() != columns.element {
             return None;
         }

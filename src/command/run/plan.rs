@@ -181,7 +181,7 @@ impl Planner<'_> {
         let id = given.unwrap_or_else(|| {
             let model = &self.spec.model;
             let discrete = model.energy.lagrangian().and_then(|l| l.discrete);
-            let method = if self.picks() {
+            let method = if self.picks() || model.family.is_some() {
                 OF_TOLERANCE
             } else if discrete.is_some_and(|discrete| !discrete.in_entries) {
                 DISCRETE

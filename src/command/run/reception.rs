@@ -59,7 +59,10 @@ impl Reception {
         draws: bool,
     ) -> io::Result<Self> {
         let model = &spec.model;
-        let layout = Layout::new(model, plan.chart);
+        let layout = match &model.family {
+            Some(family) => Layout::of_family(model, family, &plan.start.parameters),
+            None => Layout::new(model, plan.chart),
+        };
         let step = match plan.pace.0 {
             Pace::Step(step) => step,
             Pace::Tolerance(_) => f64::NAN,

@@ -78,14 +78,14 @@ fn short(error: f64) -> String {
     }
 }
 
-/// The iterations of a step, of each kind that there were.
+/// The iterations of a step, of each kind of which there were more than a few.
 fn iterations(work: &Work) -> String {
     let per_step = |count: u64| count as f64 / work.steps as f64;
     let fixed = per_step(work.fixed_point);
     let newton = per_step(work.newton - work.fixed_point);
-    match (work.fixed_point, work.newton - work.fixed_point) {
-        (0, _) => format!(", {newton:.2} Newton iterations per step"),
-        (_, 0) => format!(", {fixed:.2} fixed-point iterations per step"),
+    match (fixed >= 0.005, newton >= 0.005) {
+        (false, _) => format!(", {newton:.2} Newton iterations per step"),
+        (_, false) => format!(", {fixed:.2} fixed-point iterations per step"),
         _ => format!(", {fixed:.2} fixed-point and {newton:.2} Newton iterations per step"),
     }
 }
@@ -166,6 +166,13 @@ mod tests {
             of(11, 10),
             ", 2.50 fixed-point and 0.25 Newton iterations per step"
         );
+        let many = Work {
+            steps: 10_000,
+            newton: 10_200,
+            fixed_point: 6,
+            ..Work::default()
+        };
+        assert_eq!(iterations(&many), ", 1.02 Newton iterations per step");
     }
 
     #[test]

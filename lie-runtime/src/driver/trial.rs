@@ -1,0 +1,297 @@
+//! Steps that are tried, and what the first ones of a run say of the step for all of it.
+
+use super::error::StepError;
+use super::options::OptionError;
+use super::pace::least_tolerance;
+use super::problem::Problem;
+use super::solve::IntegrateError;
+use super::stats::Stats;
+use super::watch::Gauge;
+use crate::methods::{Method, StepFailure, Stepper};
+use crate::newton::{Convergence, Iteration, NewtonOptions};
+use crate::poisson::Poisson;
+use crate::scalar::{Scalar, largest};
+use crate::state::{State, Unknown};
+
+/// Steps whose estimates decide.
+const ESTIMATES: u32 = 5;
+/// Attempts at a step, in all.
+const ATTEMPTS: u32 = 200;
+/// An error of so many units of round-off is round-off alone: it says nothing of longer steps.
+const UNSEEN: f64 = 3.0;
+/// Smaller parts of round-off than this are not worth shorter steps.
+const SMALLEST: f64 = 1.0 / 64.0;
+/// The part of the error of a step that its solver may have in the run-in.
+const SOLVER: f64 = 0.05;
+/// By how much steps are shortened at most so that the iteration contracts.
+const SLOWER: f64 = 16.0;
+/// By how much a fixed point has to contract at least: iterations by a factor of e are the best use of evaluations, and
+/// the continued polynomial of a shorter step is a better start.
+const CONTRACTION: f64 = 3.0;
+
+/// Steps that are tried.
+pub(super) struct Trial<'a, S: Scalar, P: Poisson<S>, M> {
+    problem: &'a Problem<S, P>,
+    method: &'a M,
+    newton: NewtonOptions,
+    span: f64,
+    tolerance: f64,
+}
+
+/// What a trial has found.
+pub(super) struct Found<V> {
+    /// The error of a step, relative to the state.
+    pub(super) error: f64,
+    /// The state after two steps of half the size.
+    end: V,
+    /// Whether the iteration without a Jacobian does not contract well.
+    slow: bool,
+}
+
+/// What the estimates of a run-in have come to.
+pub(super) struct Estimates {
+    /// Steps that were counted.
+    count: u32,
+    /// The largest step that all of them allow.
+    allowed: f64,
+    /// The largest error of a step.
+    pub(super) worst: f64,
+    /// The largest error relative to what it may be.
+    pub(super) part: f64,
+    /// The largest number of the gauge.
+    pub(super) seen: f64,
+}
+
+impl Estimates {
+    const NONE: Self = Self {
+        count: 0,
+        allowed: f64::INFINITY,
+        worst: 0.0,
+        part: 0.0,
+        seen: 0.0,
+    };
+}
+
+impl<'a, S: Scalar, P: Poisson<S>, M: Method<S, P>> Trial<'a, S, P, M> {
+    /// Of the steps of a problem by a method.
+    pub(super) fn new(
+        problem: &'a Problem<S, P>,
+        method: &'a M,
+        newton: NewtonOptions,
+        tolerance: f64,
+    ) -> Self {
+        Self {
+            problem,
+            method,
+            newton,
+            span: (problem.span.1 - problem.span.0).abs(),
+            tolerance,
+        }
+    }
+
+    /// The error that a step of a size may have.
+    pub(super) fn target(&self, h: f64) -> f64 {
+        let part = if self.span > 0.0 {
+            (h / self.span).min(1.0)
+        } else {
+            1.0
+        };
+        (self.tolerance * part).max(least_tolerance::<S>())
+    }
+
+    /// A step whose error is too small to be seen, from one whose error is round-off, by the order of the method.
+    pub(super) fn below_round_off(&self, h: f64) -> f64 {
+        let asked = self.tolerance * h / self.span.max(h);
+        let part = (asked / least_tolerance::<S>()).clamp(SMALLEST, 1.0);
+        h * part.powf(1.0 / f64::from(M::ORDER.max(1)))
+    }
+
+    /// The solver without a Jacobian where that is worth a try: shorter steps cost less than one that needs a Jacobian.
+    pub(super) fn cheap(newton: NewtonOptions) -> NewtonOptions {
+        let iteration = match newton.iteration {
+            Iteration::Automatic if M::FIXED_POINT => Iteration::FixedPoint,
+            other => other,
+        };
+        NewtonOptions {
+            iteration,
+            ..newton
+        }
+    }
+
+    /// The solver for a trial of a size: where each digit costs an iteration, no more exact than the estimate needs.
+    fn newton_of(&self, h: f64) -> NewtonOptions {
+        if !M::FIXED_POINT {
+            return self.newton;
+        }
+        let enough = SOLVER * self.target(h) / largest(S::epsilon());
+        NewtonOptions {
+            tolerance: self.newton.tolerance.max(enough),
+            convergence: Convergence::State,
+            ..self.newton
+        }
+    }
+
+    /// The solver of a run with steps of a size.
+    pub(super) fn newton_of_run(&self, h: f64) -> NewtonOptions {
+        match self.newton.convergence {
+            Convergence::Tolerance => self.newton_of(h),
+            _ => self.newton,
+        }
+    }
+
+    /// The size of step that the estimates of a run-in allow, and what they are.
+    pub(super) fn run_in(
+        &self,
+        span: f64,
+    ) -> Result<(f64, Estimates, Gauge<S, P>), IntegrateError> {
+        let mut mu = self.problem.mu0.clone();
+        let mut followed = self.problem.system.following(&mu);
+        let system = followed.as_ref().unwrap_or(&self.problem.system);
+        let mut gauge = Gauge::new(system, &mu, M::ORDER);
+        let start = gauge.at(system, &mu);
+        let mut h = self.first(&mu);
+        let (mut reached, mut estimates) = (0.0, Estimates::NONE);
+        let (mut ceiling, mut shrunk, mut failure) = (f64::INFINITY, false, None);
+        let mut contracting = 0.0_f64;
+        for _ in 0..ATTEMPTS {
+            // a step that the end cuts short says nothing of longer ones
+            let cut = estimates.count > 0 && h > self.span - reached;
+            if estimates.count >= ESTIMATES || reached >= self.span || cut {
+                let allowed = estimates.allowed.min(ceiling).min(self.span);
+                estimates.seen = estimates.seen.max(start);
+                return Ok((allowed.max(f64::MIN_POSITIVE), estimates, gauge));
+            }
+            let system = followed.as_ref().unwrap_or(&self.problem.system);
+            h = h.min(self.span - reached);
+            let cheap = h > contracting;
+            let Found { error, end, .. } =
+                match self.estimate(system, &mu, h * span.signum(), cheap) {
+                    // where it does not contract, several shorter steps cost less
+                    Ok(found) if found.slow && cheap => {
+                        contracting = f64::max(contracting, h / SLOWER);
+                        h *= 0.7;
+                        (ceiling, shrunk, estimates) = (h, true, Estimates::NONE);
+                        continue;
+                    }
+                    Ok(found) => found,
+                    Err(failed) => {
+                        if M::FIXED_POINT && cheap {
+                            contracting = f64::max(contracting, h / SLOWER);
+                        }
+                        failure = Some(failed);
+                        h *= 0.5;
+                        (ceiling, shrunk, estimates) = (h, true, Estimates::NONE);
+                        continue;
+                    }
+                };
+            let target = self.target(h);
+            let ratio = (target / error).powf(1.0 / f64::from(M::ORDER.max(1)));
+            let kept = error <= 3.0 * target;
+            if !kept {
+                h *= (0.9 * ratio).clamp(0.1, 0.9);
+                (shrunk, estimates) = (true, Estimates::NONE);
+                continue;
+            }
+            // grow first, at the start: a step that its error allowed has to be allowed there too
+            let unseen = error <= UNSEEN * largest(S::epsilon());
+            let grows = !shrunk && estimates.count == 0 && reached + h < self.span;
+            if (ratio > 1.2 || unseen) && grows {
+                h *= ratio.clamp(if unseen { 1.5 } else { 1.0 }, 2.0);
+                estimates = Estimates::NONE;
+                continue;
+            }
+            mu = end;
+            reached += h;
+            estimates.count += 1;
+            estimates.allowed = estimates.allowed.min(h * ratio.min(2.0));
+            estimates.worst = estimates.worst.max(error);
+            estimates.part = estimates.part.max(error / target);
+            estimates.seen = estimates.seen.max(gauge.at(system, &mu));
+            if let Some(next) = system.following(&mu) {
+                followed = Some(next);
+            }
+        }
+        Err(match failure {
+            Some(failure) => IntegrateError::Step(Box::new(StepError {
+                step: 1,
+                time: self.problem.span.0,
+                failure,
+                stats: Stats::default(),
+                works: None,
+            })),
+            None => OptionError::NoStep(self.tolerance).into(),
+        })
+    }
+
+    /// The mean of the steps that a method chooses itself, from the start on.
+    pub(super) fn own_steps(&self, span: f64) -> Result<f64, IntegrateError> {
+        let system = &self.problem.system;
+        let mut size = self.first(&self.problem.mu0);
+        loop {
+            let mut mu = self.problem.mu0.clone();
+            let h = S::from_f64(size * span.signum());
+            let mut stepper = self.method.stepper(system, h, &self.newton);
+            match stepper.step(&mut mu, &mut ()) {
+                Ok(report) if report.substeps >= ESTIMATES || size >= self.span => {
+                    return Ok(size / f64::from(report.substeps.max(1)));
+                }
+                Ok(_) => size = (4.0 * size).min(self.span),
+                // the run itself says where it ends
+                Err(_) => return Ok(size),
+            }
+        }
+    }
+
+    /// A size of step to begin with, from those of state and field.
+    fn first(&self, mu: &P::State) -> f64 {
+        let mut field = self.problem.system.zero_state();
+        self.problem.system.vector_field(mu, &mut field);
+        let time = largest(mu.max_norm()) / largest(field.max_norm());
+        let order = f64::from(M::ORDER.max(1));
+        let part = f64::max(0.15 * order, 2.0) * self.target(0.3 * time).powf(1.0 / order);
+        let size = part.min(1.0) * time;
+        if size.is_finite() && size > 0.0 {
+            size.min(self.span)
+        } else {
+            self.span
+        }
+    }
+
+    /// The error of a step of h, relative to the state, and the state after two steps of h/2; if cheap, it fails where a
+    /// Jacobian would be needed in place of a fixed point.
+    pub(super) fn estimate(
+        &self,
+        system: &P,
+        mu: &P::State,
+        h: f64,
+        cheap: bool,
+    ) -> Result<Found<P::State>, StepFailure> {
+        let mut newton = self.newton_of(h.abs());
+        if cheap {
+            newton = Self::cheap(newton);
+        }
+        let digits = -(newton.tolerance * largest(S::epsilon())).ln();
+        let (mut slow, most) = (false, digits / CONTRACTION.ln());
+        let mut steps = |h: f64, count: u32| {
+            let mut stepper = self.method.stepper(system, S::from_f64(h), &newton);
+            let mut end = mu.clone();
+            for _ in 0..count {
+                let report = stepper.step(&mut end, &mut ())?;
+                slow |= M::FIXED_POINT
+                    && (report.factorizations > 0 || f64::from(report.iterations) > most);
+            }
+            Ok(end)
+        };
+        let (mut whole, halves) = (steps(h, 1)?, steps(0.5 * h, 2)?);
+        whole.axpy(S::from_f64(-1.0), &halves);
+        let size = mu.max_norm().max(halves.max_norm());
+        let resting = size.less_equal(S::zero());
+        let error = S::select(resting, S::zero(), whole.max_norm() / size);
+        let part = 1.0 - 0.5_f64.powi(M::ORDER as i32);
+        Ok(Found {
+            error: largest(error.max(S::epsilon())) / part,
+            end: halves,
+            slow,
+        })
+    }
+}
