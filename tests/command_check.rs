@@ -36,7 +36,14 @@ fn json_has_the_agreed_fields() {
     assert_eq!(one["casimirs"][0]["name"], "length2");
     assert_eq!(one["casimirs"][0]["kind"], "declared");
     assert_eq!(one["casimirs"][0]["degree"], 2);
-    assert!(one["class"].is_null() && one["splitting"].is_null());
+    let class = serde_json::json!({
+        "abelian": false, "nilpotent": false, "solvable": false,
+        "semisimple": false, "reductive": false, "unimodular": true,
+    });
+    assert_eq!(one["class"], class);
+    assert_eq!(one["series"]["derived"], serde_json::json!([6]));
+    assert_eq!(one["killing"]["negative"], 3);
+    assert_eq!(one["splitting"].as_array().map(Vec::len), Some(3));
     assert!(one["methods"]["midpoint"].is_null());
     assert!(one["methods"]["spherical-midpoint"].is_string());
     assert_eq!(one["operations"]["vector_field"]["mul"], 21);
@@ -160,5 +167,42 @@ fn larger_algebras_are_not_what_was_declared() {
             refused.contains(what) && !refused.contains("so(3)"),
             "{refused}"
         );
+    }
+}
+
+/// A slip in a sign makes another algebra, which is seen; Casimirs need not be declared.
+#[test]
+fn the_algebra_is_named_and_its_casimirs_are_found() {
+    let folder = folder();
+    let check = |brackets: serde_json::Value, flags: &str| {
+        let path = spec(folder.path(), |spec| {
+            spec["casimirs"] = serde_json::json!([]);
+            spec["algebra"]["brackets"] = brackets;
+        });
+        lie(&format!("check {} {flags}", path.display()))
+            .ok()
+            .stdout
+    };
+    let right = || serde_json::json!(["[e1, e2] = e3", "[e2, e3] = e1", "[e3, e1] = e2"]);
+    let slip = || serde_json::json!(["[e1, e2] = e3", "[e2, e3] = e1", "[e3, e1] = -e2"]);
+    for (brackets, name, casimir) in [
+        (right(), "so(3)", "C1 = x^2 + y^2 + z^2"),
+        (slip(), "sl(2,R)", "C1 = x^2 - y^2 + z^2"),
+    ] {
+        for flags in ["", "--deep"] {
+            let text = check(brackets.clone(), flags);
+            for part in [
+                format!("algebra: {name} ("),
+                "Casimirs: found 1 of 1 independent".to_owned(),
+                casimir.to_owned(),
+            ] {
+                assert!(text.contains(&part), "{part}: {text}");
+            }
+        }
+        let json: serde_json::Value =
+            serde_json::from_str(&check(brackets, "--json")).expect("JSON");
+        assert_eq!(json["algebra_name"], name);
+        assert_eq!(json["casimirs"][0]["kind"], "polynomial");
+        assert_eq!(json["class"]["semisimple"], true);
     }
 }

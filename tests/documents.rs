@@ -4,15 +4,17 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use lie_codegen::algebra::constructors::FAMILIES;
 use lie_codegen::compile::{compile_spec, declared_choices, expand};
 use lie_codegen::methods::{CATALOGUE, Choice, Method};
 
-const DOCUMENTS: [&str; 5] = [
+const DOCUMENTS: [&str; 6] = [
     "README.md",
     "ARCHITECTURE.md",
     "CONTRIBUTING.md",
     "CHANGELOG.md",
     "docs/declaration.md",
+    "docs/algebras.md",
 ];
 
 fn read(path: &str) -> String {
@@ -308,6 +310,7 @@ fn no_arrow_between_crates_points_back() {
         dependencies("lie-runtime/Cargo.toml"),
         ["lie-core", "lie-macros"]
     );
+    assert_eq!(dependencies("lie-dense/Cargo.toml"), ["lie-runtime"]);
     assert_eq!(dependencies("lie-program/Cargo.toml"), ["lie-runtime"]);
     assert_eq!(
         dependencies("lie-measure/Cargo.toml"),
@@ -346,6 +349,42 @@ fn headers_of_formulas_are_copies() {
             read(&format!("{package}/docs/katex.html")),
             header,
             "copy docs/katex/katex.html there"
+        );
+    }
+}
+
+/// The first cell of a row with the dimension that the second one gives.
+#[test]
+fn the_table_of_algebras_is_that_of_the_compiler() {
+    let page = read("docs/algebras.md");
+    for family in FAMILIES {
+        for name in family.names {
+            let named = ["(", "`", "^"].map(|end| format!("`{name}{end}"));
+            assert!(
+                named.iter().any(|text| page.contains(text)),
+                "{name} is not in the table"
+            );
+        }
+    }
+    for (name, dimension) in [("so(3)", 3), ("sl(2)", 3), ("se(2)", 3), ("se(3)", 6)] {
+        let row = page
+            .lines()
+            .find(|line| line.starts_with(&format!("| `{name}`")));
+        assert!(
+            row.is_some_and(|row| row.contains(&format!("| {dimension} |"))),
+            "{name}"
+        );
+        let spec = format!(r#"{{"name": "A", "algebra": "{name}", "hamiltonian": "1"}}"#);
+        let model = compile_spec(&spec).expect("a sound spec");
+        assert_eq!(model.coordinates.len(), dimension);
+        let state: Vec<&str> = model
+            .coordinates
+            .iter()
+            .map(|name| name.text.as_str())
+            .collect();
+        assert!(
+            row.is_some_and(|row| row.contains(&format!("`{}`", state.join(", ")))),
+            "{state:?}"
         );
     }
 }

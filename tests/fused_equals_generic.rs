@@ -26,8 +26,8 @@ use lie_runtime::{CayleyPoisson, Dual, Implicit, Poisson, State};
 use representation::Representation;
 use systems::{
     CotangentBody, CotangentEulerArnold, Declared, DiscreteBody, FreeRigidBody, Gyrostat, HeavyTop,
-    Heisenberg, KirchhoffBody, ManakovTop, NonpolynomialSpin, Pendulum, QuarticBody, Random,
-    Satellite, Sl2Quadratic, Su3Quadratic, TodaLattice, state,
+    Heisenberg, KirchhoffBody, KirchhoffFull, ManakovTop, NonpolynomialSpin, Pendulum, QuarticBody,
+    Random, Satellite, Sl2Quadratic, Su3Quadratic, TodaLattice, state,
 };
 
 /// Random states per system.

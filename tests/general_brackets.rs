@@ -401,3 +401,70 @@ fn quadratic_casimirs_and_tensors() {
     let (energy, casimir) = drift(&Rk4);
     assert!(casimir > 1e-9 && energy > 1e-9, "{energy:e} {casimir:e}");
 }
+
+/// The largest difference of an entry to that of Newton's method from the guess of its equation, relative to the entry, in
+/// steps from states of this scale with a solver of this tolerance; and the Jacobians of both. Entries grow and shrink by
+/// decades.
+fn entry_errors<M>(method: &M, scale: f64, tolerance: f64) -> (f64, [u32; 2])
+where
+    M: Method<f64, LotkaVolterraSystem>,
+{
+    let newton = NewtonOptions {
+        tolerance,
+        ..NewtonOptions::default()
+    };
+    let (system, mut mu) = (
+        LotkaVolterra::declared(),
+        LotkaVolterra::initial::<f64>() * scale,
+    );
+    let mut stepper = method.stepper(&system, 0.05, &newton);
+    let (mut largest, mut jacobians) = (0.0_f64, [0; 2]);
+    for _ in 0..400 {
+        let [mut expected, mut closer] = [mu; 2];
+        let mut fresh = method.stepper(&system, 0.05, &NewtonOptions::newton());
+        // discrete gradients leave the domain from some states
+        let Ok(report) = fresh.step(&mut expected, &mut ()) else {
+            break;
+        };
+        jacobians[1] += report.factorizations;
+        let tight = NewtonOptions {
+            tolerance: 1e-7,
+            ..NewtonOptions::newton()
+        };
+        let mut fresh = method.stepper(&system, 0.05, &tight);
+        fresh.step(&mut closer, &mut ()).expect("a step");
+        // the maximum norm ends Newton's method too early where an entry is very small
+        let known = |index: usize| (closer[index] / expected[index] - 1.0).abs() < f64::EPSILON;
+        let report = stepper.step(&mut mu, &mut ()).expect("a step");
+        jacobians[0] += report.factorizations;
+        for index in (0..3).filter(|&index| known(index)) {
+            largest = largest.max((mu[index] / expected[index] - 1.0).abs());
+        }
+    }
+    (largest, jacobians)
+}
+
+/// H depends on small entries by their logarithms: a start from a prediction leaves them as exact as the large ones.
+#[test]
+fn entries_of_all_sizes_converge() {
+    // H is a difference of logarithms up to 230
+    const BOUND: f64 = 512.0 * f64::EPSILON;
+    fn check<M: Facts + Method<f64, LotkaVolterraSystem>>(method: M) {
+        let tolerance = NewtonOptions::default().tolerance;
+        for scale in [1.0, 1e-5, 1e-20, 1e-100] {
+            let (error, [jacobians, newton]) = entry_errors(&method, scale, tolerance);
+            println!("{} {scale:e}: {error:.1e}, {jacobians} {newton}", M::ID);
+            assert!(error < BOUND, "{} {scale:e}: {error:e}", M::ID);
+            assert!(jacobians < newton, "{jacobians} {newton}");
+        }
+    }
+    check(ImplicitMidpoint);
+    check(Gauss4);
+    check(Gauss6);
+    check(Gonzalez);
+    check(MeanValue);
+    check(CohenHairer::<2>::new());
+    // the control: an iteration that ends too early
+    let (error, _) = entry_errors(&ImplicitMidpoint, 1.0, 1e9);
+    assert!(error > BOUND, "{error:e}");
+}

@@ -78,22 +78,45 @@ fn list(value: &Value) -> String {
         .join(", ")
 }
 
+/// The statement or the block of an algebra.
+fn in_macro(algebra: &Value) -> String {
+    if let Some(name) = algebra.as_str() {
+        return format!("algebra = {name};\n");
+    }
+    let mut block = format!("algebra {{ basis {};", list(&algebra["basis"]));
+    for bracket in strings(&algebra["brackets"]) {
+        block += &format!(" {bracket};");
+    }
+    let matrices = algebra.get("matrices").and_then(Value::as_object);
+    for (name, rows) in matrices.into_iter().flatten() {
+        block += &format!(" matrix {name} = {};", rows_of(rows));
+    }
+    block + " }\n"
+}
+
+/// `[[1, 0], [0, 1]]`
+fn rows_of(matrix: &Value) -> String {
+    let rows = matrix.as_array().into_iter().flatten().map(list);
+    let rows: Vec<String> = rows.map(|row| format!("[{row}]")).collect();
+    format!("[{}]", rows.join(", "))
+}
+
+/// The block of vectors and matrices.
+fn vectors(declared: &Value) -> String {
+    let declared = declared.as_object().into_iter().flatten();
+    let each = declared.map(|(name, value)| match value[0].is_array() {
+        true => format!(" {name} = {};", rows_of(value)),
+        false => format!(" {name} = ({});", list(value)),
+    });
+    format!("vectors {{{} }}\n", each.collect::<String>())
+}
+
 /// The body of the macro that declares what a spec declares.
 fn declaration(spec: &Map<String, Value>) -> String {
     let text = |key: &str| spec[key].as_str().expect("a string");
     let mut body = format!("pub system {};\n", text("name"));
     if let Some(algebra) = spec.get("algebra") {
-        body += &format!("algebra {{ basis {};", list(&algebra["basis"]));
-        for bracket in strings(&algebra["brackets"]) {
-            body += &format!(" {bracket};");
-        }
-        let matrices = algebra.get("matrices").and_then(Value::as_object);
-        for (name, rows) in matrices.into_iter().flatten() {
-            let rows = rows.as_array().into_iter().flatten().map(list);
-            let rows: Vec<String> = rows.map(|row| format!("[{row}]")).collect();
-            body += &format!(" matrix {name} = [{}];", rows.join(", "));
-        }
-        body += " }\n";
+        body += &in_macro(algebra);
     }
     if let Some(group) = spec.get("group").and_then(Value::as_str) {
         body += &format!("group {group};\n");
@@ -122,6 +145,7 @@ fn declaration(spec: &Map<String, Value>) -> String {
         );
     }
     body += " }\n";
+    body += &spec.get("vectors").map_or_else(String::new, vectors);
     for definition in spec.get("let").into_iter().flat_map(strings) {
         body += &format!("let {definition};\n");
     }
@@ -344,7 +368,8 @@ fn the_order_of_what_is_unrelated_does_not_matter() {
                 *brackets = reverse(brackets);
             }
         }
-        if let Some(algebra) = turned.get_mut("algebra") {
+        // an algebra that goes by its name has no brackets to turn
+        if let Some(algebra) = turned.get_mut("algebra").filter(|a| a.is_object()) {
             algebra["brackets"] = reverse(&algebra["brackets"]);
         }
         assert_eq!(code, from_spec(&turned).to_string(), "{}", path.display());

@@ -13,10 +13,10 @@ use lie_runtime::newton::NewtonOptions;
 use lie_runtime::prelude::*;
 use systems::{
     Declared, HeavyTop, KirchhoffBody, NonpolynomialSpin, distance, e2_pendulum, heisenberg_h3,
-    relative_distance, se3_heavy_top, se3_kirchhoff, sl2_quadratic, so3_cotangent_euler_arnold,
-    so3_cotangent_group, so3_discrete_lagrangian, so3_free_rigid_body, so3_gravity_gradient,
-    so3_gyrostat_lagrangian, so3_nonpolynomial, so3_quartic_lagrangian, so4_manakov, state,
-    su3_quadratic, toda3_solvable,
+    relative_distance, se3_heavy_top, se3_kirchhoff, se3_kirchhoff_full, sl2_quadratic,
+    so3_cotangent_euler_arnold, so3_cotangent_group, so3_discrete_lagrangian, so3_free_rigid_body,
+    so3_gravity_gradient, so3_gyrostat_lagrangian, so3_nonpolynomial, so3_quartic_lagrangian,
+    so4_manakov, state, su3_quadratic, toda3_solvable,
 };
 use vectors::Reference;
 

@@ -1,9 +1,12 @@
 //! The motion on the group beside every method.
 
+#[path = "common/attitude.rs"]
+mod attitude;
 #[macro_use]
 #[path = "common/systems.rs"]
 mod systems;
 
+use attitude::{Q10, Y0};
 use lie_runtime::diagnostics::poisson_defect;
 use lie_runtime::driver::{Chart, Reconstruction};
 use lie_runtime::methods::{Cayley, Exp, Method};
@@ -95,15 +98,6 @@ fn skewness(g: &[f64], n: usize) -> f64 {
     }
     largest
 }
-
-const Y0: [f64; 3] = [1.8, 0.4, -0.9];
-/// q(10), published, and checked by an independent integration.
-const Q10: [f64; 4] = [
-    -0.736_061_364_160_793_9,
-    -0.570_786_951_240_350_7,
-    -0.299_388_571_830_790_1,
-    -0.206_839_086_104_673_2,
-];
 
 #[test]
 fn the_attitude_of_hairer_and_vilmart_is_met() {

@@ -388,7 +388,7 @@ fn other_hamiltonians_are_refused() {
         );
         assert!(run.stderr.contains(nearest), "{}", run.stderr);
     }
-    let run = common::lie("run specs/se3_heavy_top.json --method splitting4 --pieces found");
+    let run = common::lie("run specs/se3_heavy_top.json --method splitting4 --pieces other");
     let run = run.error("option", "command line: --pieces");
-    assert!(run.stderr.contains("not built yet"), "{}", run.stderr);
+    assert!(run.stderr.contains("coordinate, found"), "{}", run.stderr);
 }

@@ -119,7 +119,8 @@ lie_poisson! {
     parameters { a = 1.3; b = 0.4; }
     hamiltonian = exp(b*x*y) + log(2 + x^2) + sin(a*z)*cos(x - y) + tan(y/3) + asin(x/4) - acos(z/5) + atan(x + y*z)
         + sinh(x/2)*cosh(z) + tanh(y - z) + atan2(3 + x, 1 - y*z) + atan2(z, a) + sqrt(3 + x*z) + (2 + y)^(7/5)
-        + (1 + z^2)^-2 + 1/(2 + x + b*y) + x/(3 + z) + (4 + x)^(-2/3)/a + x^3*y^2 + sqrt(2 + z)*(x^2 + y)^3;
+        + (1 + z^2)^-2 + 1/(2 + x + b*y) + x/(3 + z) + (4 + x)^(-2/3)/a + x^3*y^2 + sqrt(2 + z)*(x^2 + y)^3
+        + cbrt(2 + x*y) + cbrt(z - 3) + log1p(x*z) + expm1(b*y + z) + asinh(x + a*y) + acosh(3 + y*z) + atanh(x*y/2) + hypot(1 + x, z);
     methods = [taylor, lie-taylor];
 }
 

@@ -15,6 +15,7 @@ pub use spec_systems::lotka_volterra::{self, LotkaVolterra};
 pub use spec_systems::se2_circulation::{self, BodyWithCirculation};
 pub use spec_systems::se3_heavy_top::{self, HeavyTop};
 pub use spec_systems::se3_kirchhoff::{self, KirchhoffBody};
+pub use spec_systems::se3_kirchhoff_full::{self, KirchhoffFull};
 pub use spec_systems::sl2_quadratic::{self, Sl2Quadratic};
 pub use spec_systems::so3_cotangent_euler_arnold::{self, CotangentEulerArnold};
 pub use spec_systems::so3_cotangent_group::{self, CotangentBody};
@@ -67,6 +68,7 @@ declared!(e2_pendulum, Pendulum, PendulumSystem);
 declared!(heisenberg_h3, Heisenberg, HeisenbergSystem);
 declared!(se3_heavy_top, HeavyTop, HeavyTopSystem);
 declared!(se3_kirchhoff, KirchhoffBody, KirchhoffBodySystem);
+declared!(se3_kirchhoff_full, KirchhoffFull, KirchhoffFullSystem);
 declared!(sl2_quadratic, Sl2Quadratic, Sl2QuadraticSystem);
 declared!(
     so3_cotangent_euler_arnold,
@@ -108,6 +110,7 @@ macro_rules! each_system {
 /// The same for the systems without reference values of their own, on which that of Cayley is not checked.
 macro_rules! each_further_system {
     ($check:ident) => {
+        $check!(se3_kirchhoff_full, KirchhoffFull, exp);
         $check!(so3_cotangent_group, CotangentBody, exp);
         $check!(so3_discrete_lagrangian, DiscreteBody, exp);
         $check!(so3_gravity_gradient, Satellite, exp);

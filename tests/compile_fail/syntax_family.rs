@@ -1,4 +1,4 @@
-//! A family of systems, which is not built yet.
+//! A family of systems, which only a spec declares.
 
 use lie_runtime::prelude::*;
 

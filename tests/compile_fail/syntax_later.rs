@@ -4,7 +4,7 @@ use lie_runtime::prelude::*;
 
 lie_poisson! {
     pub system Body;
-    algebra = so(3);
+    algebra = so(3)^N;
     state x, y, z;
     parameters { I1 = 2; I2 = 1; I3 = 2/3; }
     hamiltonian = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3);

@@ -612,7 +612,7 @@ for LotkaVolterraMidpoint<'_, S> {
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
         )
     }
 
@@ -824,13 +824,8 @@ impl<
         matrix.0[1][1][(2, 1)] = _a5_4;
         matrix.0[1][1][(2, 2)] = _a5_5;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs() + _a3_3.abs() + _a4_4.abs()
+                + _a5_5.abs(),
         )
     }
 
@@ -951,7 +946,7 @@ impl<
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
         )
     }
 

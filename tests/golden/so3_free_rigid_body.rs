@@ -4,6 +4,7 @@
 ///
 /// `H = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)` on the dual of a Lie algebra of dimension 3,
 /// coordinates `x, y, z`; the Poisson matrix has generic rank 2.
+/// The algebra is `so(3)`: semisimple, reductive, unimodular.
 /// Casimirs: `norm2 = x^2 + y^2 + z^2`.
 ///
 /// Reference: J. E. Marsden and T. S. Ratiu (1999), Introduction to Mechanics and Symmetry, 2nd ed., Springer, chapter 15. doi:10.1007/978-0-387-21792-5
@@ -50,18 +51,25 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
     pub fn system(
         &self,
     ) -> ::core::result::Result<FreeRigidBodySystem<S>, ::lie_runtime::ParameterError> {
-        let _t0 = S::one() / self.I1;
-        let _t1 = S::one() / self.I2;
-        let _t2 = S::one() / self.I3;
-        let _c0 = S::from_f64(0.5) / self.I1;
-        let _c1 = S::from_f64(0.5) / self.I2;
-        let _c2 = S::from_f64(0.5) / self.I3;
-        let _c3 = _t0;
-        let _c4 = _t1;
-        let _c5 = _t2;
-        let _c6 = _t2 - _t1;
-        let _c7 = _t0 - _t2;
-        let _c8 = _t1 - _t0;
+        let _t0 = S::from_f64(0.5) / self.I1;
+        let _t1 = S::from_f64(0.5) / self.I2;
+        let _t2 = S::from_f64(0.5) / self.I3;
+        let _t3 = S::one() / self.I1;
+        let _t4 = S::one() / self.I2;
+        let _t5 = S::one() / self.I3;
+        let _t6 = _t3 - _t4;
+        let _c0 = _t0;
+        let _c1 = _t1;
+        let _c2 = _t2;
+        let _c3 = _t3;
+        let _c4 = _t4;
+        let _c5 = _t5;
+        let _c6 = _t5 - _t4;
+        let _c7 = _t3 - _t5;
+        let _c8 = -_t6;
+        let _c9 = _t0 - _t1;
+        let _c10 = _t6;
+        let _c11 = _t2 - _t1;
         ::lie_runtime::__private_0_1::all_finite(
             &[
                 (_c0, "I1", "1/(2*I1)"),
@@ -73,6 +81,9 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
                 (_c6, "I2", "-1/I2 + 1/I3"),
                 (_c7, "I1", "1/I1 - 1/I3"),
                 (_c8, "I1", "-1/I1 + 1/I2"),
+                (_c9, "I1", "1/(2*I1) - 1/(2*I2)"),
+                (_c10, "I1", "1/I1 - 1/I2"),
+                (_c11, "I2", "-1/(2*I2) + 1/(2*I3)"),
             ],
         )?;
         ::core::result::Result::Ok(FreeRigidBodySystem {
@@ -86,6 +97,9 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBody<S> {
             _k6: _c6,
             _k7: _c7,
             _k8: _c8,
+            _k9: _c9,
+            _k10: _c10,
+            _k11: _c11,
         })
     }
 
@@ -123,6 +137,12 @@ pub struct FreeRigidBodySystem<S = f64> {
     _k7: S,
     /// `-1/I1 + 1/I2`
     _k8: S,
+    /// `1/(2*I1) - 1/(2*I2)`
+    _k9: S,
+    /// `1/I1 - 1/I2`
+    _k10: S,
+    /// `-1/(2*I2) + 1/(2*I3)`
+    _k11: S,
 }
 
 impl<S> FreeRigidBodySystem<S> {
@@ -464,6 +484,9 @@ impl<S: ::lie_runtime::Scalar> FreeRigidBodySystem<S> {
             _k6: _constant(self._k6),
             _k7: _constant(self._k7),
             _k8: _constant(self._k8),
+            _k9: _constant(self._k9),
+            _k10: _constant(self._k10),
+            _k11: _constant(self._k11),
         }
     }
 }
@@ -767,9 +790,7 @@ for FreeRigidBodyMidpoint<'_, S> {
         matrix[(1, 2)] = _a1_2;
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
-        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a1_1.abs().max(_a2_2.abs()),
-        )
+        ::lie_runtime::__private_0_1::inverse_pivots_are_safe(_a1_1.abs() + _a2_2.abs())
     }
 
     #[inline]
@@ -961,13 +982,8 @@ impl<
         matrix.0[1][1][(2, 1)] = _a5_4;
         matrix.0[1][1][(2, 2)] = _a5_5;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs() + _a3_3.abs() + _a4_4.abs()
+                + _a5_5.abs(),
         )
     }
 
@@ -1385,16 +1401,8 @@ impl<
         matrix.0[2][2][(2, 1)] = _a8_7;
         matrix.0[2][2][(2, 2)] = _a8_8;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a3_3.abs())
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs())
-                .max(_a6_6.abs())
-                .max(_a7_7.abs())
-                .max(_a8_8.abs()),
+            _a0_0.abs() + _a3_3.abs() + _a1_1.abs() + _a2_2.abs() + _a4_4.abs()
+                + _a5_5.abs() + _a6_6.abs() + _a7_7.abs() + _a8_8.abs(),
         )
     }
 
@@ -1674,7 +1682,7 @@ for FreeRigidBodyCayleyMidpoint<'_, S> {
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
         )
     }
 
@@ -1916,7 +1924,7 @@ for FreeRigidBodyExpMidpoint<'_, S> {
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
         )
     }
 
@@ -2005,7 +2013,7 @@ impl<
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
         )
     }
 
@@ -2373,13 +2381,8 @@ impl<
         matrix.0[1][1][(2, 1)] = _a5_4;
         matrix.0[1][1][(2, 2)] = _a5_5;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0
-                .abs()
-                .max(_a1_1.abs())
-                .max(_a2_2.abs())
-                .max(_a3_3.abs())
-                .max(_a4_4.abs())
-                .max(_a5_5.abs()),
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs() + _a3_3.abs() + _a4_4.abs()
+                + _a5_5.abs(),
         )
     }
 
@@ -2659,7 +2662,7 @@ for FreeRigidBodySphericalMidpoint<'_, S> {
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
         )
     }
 
@@ -2868,7 +2871,7 @@ for FreeRigidBodyMoserVeselov<'_, S> {
         matrix[(2, 1)] = _a2_1;
         matrix[(2, 2)] = _a2_2;
         ::lie_runtime::__private_0_1::inverse_pivots_are_safe(
-            _a0_0.abs().max(_a1_1.abs()).max(_a2_2.abs()),
+            _a0_0.abs() + _a1_1.abs() + _a2_2.abs(),
         )
     }
 
@@ -3164,5 +3167,150 @@ for FreeRigidBodySystem<S> {
     type Flows<'a> = FreeRigidBodySplitting<'a, S> where Self: 'a;
     fn flows(&self) -> Self::Flows<'_> {
         FreeRigidBodySplitting::new(self)
+    }
+}
+
+/// The flows of the pieces of `x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3) - (x^2 + y^2 + z^2)/(2*I2)`, which is H without a combination of Casimirs:
+///
+/// - `x^2/(2*I1)`, `-x^2/(2*I2)`
+/// - `z^2/(2*I3)`, `-z^2/(2*I2)`
+#[derive(Debug)]
+pub struct FreeRigidBodyFound<'a, S: ::lie_runtime::Scalar> {
+    #[allow(dead_code)]
+    system: &'a FreeRigidBodySystem<S>,
+}
+
+#[allow(non_snake_case, clippy::many_single_char_names)]
+impl<'a, S: ::lie_runtime::Scalar> FreeRigidBodyFound<'a, S> {
+    /// The flows of a system.
+    #[must_use]
+    pub fn new(system: &'a FreeRigidBodySystem<S>) -> Self {
+        Self { system }
+    }
+
+    /// The flow of the piece in `x` over a time t.
+    ///
+    /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
+    ///
+    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    #[inline]
+    fn _flow0(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 3>) {
+        let [[x, y, z]] = mu.data.0;
+        let _t0 = (x * t * self.system._k9).tan();
+        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
+        let _t2 = _t0 * _t1;
+        mu[1] += z * _t1 - y * _t2;
+        mu[2] -= y * _t1 + z * _t2;
+    }
+
+    /// the gradient of the piece
+    ///
+    /// 1 multiplication.
+    fn _direction0(
+        &self,
+        mu: &::lie_runtime::__private_0_1::SVector<S, 3>,
+        _xi: &mut ::lie_runtime::__private_0_1::SVector<S, 3>,
+    ) {
+        let [[x, _, _]] = mu.data.0;
+        _xi.as_mut_slice().fill(S::zero());
+        _xi[0] = x * self.system._k10;
+    }
+
+    /// The flow of the piece in `z` over a time t.
+    ///
+    /// `mu -> exp(s ad*_(e_i)) mu`, `s = t f_i'(mu_i)`
+    ///
+    /// 5 additions, 9 multiplications, 1 division, 1 function call.
+    #[inline]
+    fn _flow1(&self, t: S, mu: &mut ::lie_runtime::__private_0_1::SVector<S, 3>) {
+        let [[x, y, z]] = mu.data.0;
+        let _t0 = (z * t * self.system._k11).tan();
+        let _t1 = _t0 * S::from_f64(2.0) / (S::one() + _t0 * _t0);
+        let _t2 = _t0 * _t1;
+        mu[0] += y * _t1 - x * _t2;
+        mu[1] -= y * _t2 + x * _t1;
+    }
+
+    /// the gradient of the piece
+    ///
+    /// 1 multiplication.
+    fn _direction1(
+        &self,
+        mu: &::lie_runtime::__private_0_1::SVector<S, 3>,
+        _xi: &mut ::lie_runtime::__private_0_1::SVector<S, 3>,
+    ) {
+        let [[_, _, z]] = mu.data.0;
+        _xi.as_mut_slice().fill(S::zero());
+        _xi[2] = z * self.system._k6;
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::PieceFlows<S>
+for FreeRigidBodyFound<'_, S> {
+    type State = ::lie_runtime::__private_0_1::SVector<S, 3>;
+    #[inline]
+    fn pieces(&self) -> usize {
+        2
+    }
+
+    fn direction(&self, _piece: usize, _t: S, _mu: &Self::State, _xi: &mut Self::State) {
+        match _piece {
+            0 => self._direction0(_mu, _xi),
+            1 => self._direction1(_mu, _xi),
+            _ => panic!("the splitting has 2 pieces"),
+        }
+
+        #[allow(unreachable_code)]
+        for entry in _xi.iter_mut() {
+            *entry = _t * *entry;
+        }
+    }
+
+    #[inline]
+    fn flow(&mut self, piece: usize, _t: S, _mu: &mut Self::State) {
+        match piece {
+            0 => self._flow0(_t, _mu),
+            1 => self._flow1(_t, _mu),
+            _ => panic!("the splitting has 2 pieces"),
+        }
+    }
+
+    #[inline]
+    fn ascend(&mut self, first: S, _t: S, mu: &mut Self::State) {
+        self._flow0(first, mu);
+    }
+
+    #[inline]
+    fn descend(&mut self, last: S, _t: S, mu: &mut Self::State) {
+        self._flow1(last, mu);
+    }
+
+    fn rest(&self, t: S, mu: &Self::State, xi: &mut Self::State) -> bool {
+        let mut part = *mu;
+        ::lie_runtime::Poisson::gradient(self.system, mu, xi);
+        self._direction0(mu, &mut part);
+        for (entry, part) in xi.iter_mut().zip(part.iter()) {
+            *entry -= *part;
+        }
+
+        self._direction1(mu, &mut part);
+        for (entry, part) in xi.iter_mut().zip(part.iter()) {
+            *entry -= *part;
+        }
+
+        for entry in xi.iter_mut() {
+            *entry = t * *entry;
+        }
+
+        let _ = &mut part;
+        true
+    }
+}
+
+impl<S: ::lie_runtime::Scalar> ::lie_runtime::FoundPoisson<S>
+for FreeRigidBodySystem<S> {
+    type Found<'a> = FreeRigidBodyFound<'a, S> where Self: 'a;
+    fn found(&self) -> Self::Found<'_> {
+        FreeRigidBodyFound::new(self)
     }
 }
