@@ -18,15 +18,9 @@ use lie_runtime::driver::{Chart, Reconstruction};
 use lie_runtime::prelude::*;
 
 lie_poisson! {
-    /// A free rigid body; the matrices are those of the rotations of space.
+    /// A free rigid body; so(3) brings the matrices of the rotations of space, and the names x, y, z.
     pub system Body;
-    algebra {
-        basis e1, e2, e3;
-        matrix e1 = [[0, 0, 0], [0, 0, -1], [0, 1, 0]];
-        matrix e2 = [[0, 0, 1], [0, 0, 0], [-1, 0, 0]];
-        matrix e3 = [[0, -1, 0], [1, 0, 0], [0, 0, 0]];
-    }
-    state x, y, z;
+    algebra = so(3);
     parameters { I1 = 1; I2 = 2; I3 = 3; }
     hamiltonian = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3);
     casimir norm2 = x^2 + y^2 + z^2;

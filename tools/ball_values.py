@@ -17,6 +17,8 @@ FUNCTIONS = {
     "exp": mp.exp, "log": mp.log, "sqrt": mp.sqrt, "sin": mp.sin, "cos": mp.cos, "tan": mp.tan, "asin": mp.asin,
     "acos": mp.acos, "atan": mp.atan, "sinh": mp.sinh, "cosh": mp.cosh, "tanh": mp.tanh,
     "cuberoot": lambda x: mp.exp(mp.log(x) / 3), "atan2": mp.atan2,
+    "cbrt": lambda x: mp.sign(x) * mp.cbrt(abs(x)), "log1p": mp.log1p, "expm1": mp.expm1, "asinh": mp.asinh,
+    "acosh": mp.acosh, "atanh": mp.atanh,
 }
 
 
@@ -28,9 +30,11 @@ def dyadic(name):
         n = int(random.uniform(0.5, 1) * 2 ** (k + size))
         if n == 0:
             continue
-        if name in ("asin", "acos"):
+        if name in ("asin", "acos", "atanh", "log1p"):
             n = min(n, 2 ** k - 1)
-        if name not in ("log", "sqrt", "cuberoot") and random.random() < 0.5:
+        if name == "acosh":
+            n += 2 ** k
+        if name not in ("log", "sqrt", "cuberoot", "acosh") and random.random() < 0.5:
             n = -n
         return n, k
 

@@ -17,7 +17,9 @@ FUNCTIONS = {
     "sin": (1, sp.sin), "cos": (1, sp.cos), "tan": (1, sp.tan),
     "asin": (1, sp.asin), "acos": (1, sp.acos), "atan": (1, sp.atan),
     "sinh": (1, sp.sinh), "cosh": (1, sp.cosh), "tanh": (1, sp.tanh),
-    "atan2": (2, sp.atan2),
+    "asinh": (1, sp.asinh), "acosh": (1, sp.acosh), "atanh": (1, sp.atanh), "cbrt": (1, lambda x: sp.sign(x) * sp.Abs(x) ** sp.Rational(1, 3)),
+    "log1p": (1, lambda x: sp.log(1 + x)), "expm1": (1, lambda x: sp.exp(x) - 1),
+    "atan2": (2, sp.atan2), "hypot": (2, lambda x, y: sp.sqrt(x**2 + y**2)),
 }
 TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)|([^\W\d]\w*)|(.))", re.DOTALL)
 

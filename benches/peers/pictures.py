@@ -8,7 +8,7 @@ import math
 import sys
 from pathlib import Path
 
-COLOURS = {"lie-poisson": "#c0392b", "heyoka": "#2c5f8a", "Boost.odeint": "#3d8b57", "ode_solvers": "#b8860b",
+COLOURS = {"lie-poisson": "#c0392b", "lie-poisson, --fma": "#e8958c", "heyoka": "#2c5f8a", "Boost.odeint": "#3d8b57", "ode_solvers": "#b8860b",
            "differential-equations": "#7d5ba6", "diffsol": "#777777", "SciPy": "#a0a0a0"}
 WIDTH, HEIGHT, LEFT, TOP, RIGHT, BOTTOM = 380, 300, 62, 34, 14, 40
 
@@ -53,17 +53,16 @@ def panel(name, case, left, top):
 def picture(results):
     cases = results["cases"]
     columns = 2
-    height = HEIGHT * math.ceil(len(cases) / columns) + 60
+    height = HEIGHT * math.ceil(len(cases) / columns) + 80
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {columns * WIDTH} {height}" '
              f'font-family="sans-serif" font-size="11">', '<rect width="100%" height="100%" fill="white"/>']
     for index, (name, case) in enumerate(cases.items()):
         parts += panel(name, case, index % columns * WIDTH, index // columns * HEIGHT)
-    x = 20
-    for peer, colour in COLOURS.items():
-        parts.append(f'<line x1="{x}" x2="{x + 18}" y1="{height - 24}" y2="{height - 24}" stroke="{colour}" stroke-width="2.5"/>')
-        parts.append(f'<text x="{x + 23}" y="{height - 20}">{peer}</text>')
-        x += 44 + 6 * len(peer)
-    parts.append(f'<text x="20" y="{height - 44}">Microseconds of one run against the error at its end, both logarithmic; '
+    for place, (peer, colour) in enumerate(COLOURS.items()):
+        x, y = 20 + 180 * (place % 4), height - 40 + 20 * (place // 4)
+        parts.append(f'<line x1="{x}" x2="{x + 18}" y1="{y - 4}" y2="{y - 4}" stroke="{colour}" stroke-width="2.5"/>')
+        parts.append(f'<text x="{x + 23}" y="{y}">{peer}</text>')
+    parts.append(f'<text x="20" y="{height - 60}">Microseconds of one run against the error at its end, both logarithmic; '
                  'the fastest settings of each program</text>')
     return "\n".join(parts + ["</svg>"]) + "\n"
 

@@ -9,6 +9,9 @@ import re
 from pathlib import Path
 
 OURS = "lie-poisson"
+FUSED = "lie-poisson, --fma"
+"""The same program with multiplications and additions contracted, as g++ and heyoka contract them."""
+
 PICKED = "gauss16"
 """What `lie run --tol` picks."""
 
@@ -19,6 +22,11 @@ STOPPED = "gauss16, converge tolerance"
 def integrates(row):
     """The closed form is no integrator."""
     return not row["method"].startswith("exact")
+
+
+def is_poisson(row):
+    """A Poisson map to round-off."""
+    return row["method"].endswith("converge map") or row["method"].startswith("splitting")
 
 
 def fastest(rows, target):
@@ -61,7 +69,11 @@ def table(case, targets):
     line("lie-poisson, `--tol` alone", picked, "**")
     stopped = [row for row in ours if row["method"] == STOPPED and row["by"] == "tolerance"]
     line("lie-poisson, `--tol` and `--converge tolerance`", stopped, "**")
-    peers = sorted({row["peer"] for row in rows} - {OURS})
+    fused = [row for row in rows if row["peer"] == FUSED and integrates(row)]
+    line("lie-poisson with `--fma`, the fastest", fused, "**")
+    line("lie-poisson, the fastest Poisson map", [row for row in ours if is_poisson(row)], "**")
+    line("lie-poisson with `--fma`, the fastest Poisson map", [row for row in fused if is_poisson(row)], "**")
+    peers = sorted({row["peer"] for row in rows} - {OURS, FUSED})
     for peer in peers:
         line(peer, [row for row in rows if row["peer"] == peer])
     for name in sorted({(row["method"], row["by"]) for row in ours}):
@@ -78,14 +90,16 @@ CRATES = ("ode_solvers", "differential-equations", "diffsol")
 def summary(results):
     """How many times longer others take than lie-poisson, and than it by `--tol` alone and as a Poisson map to round-off."""
     lines = ["| case | error | lie-poisson, µs | heyoka | Boost.odeint | the best of three crates | SciPy | heyoka to `--tol` alone | "
-             "heyoka to `--tol` and `--converge tolerance` | heyoka to a Poisson map to round-off |", "|" + "---|" * 10]
+             "heyoka to `--tol` and `--converge tolerance` | heyoka to a Poisson map to round-off | heyoka to `--fma` | "
+             "heyoka to a Poisson map with `--fma` |", "|" + "---|" * 12]
     for name, case in results["cases"].items():
         rows = case["rows"]
         ours = [row for row in rows if row["peer"] == OURS and integrates(row)]
         of = lambda *peers: [row for row in rows if row["peer"] in peers]
         picked = [row for row in ours if row["method"] == PICKED and row["by"] == "tolerance"]
         stopped = [row for row in ours if row["method"] == STOPPED and row["by"] == "tolerance"]
-        poisson = [row for row in ours if row["method"].endswith("converge map") or row["method"].startswith("splitting")]
+        poisson = [row for row in ours if is_poisson(row)]
+        fused = [row for row in of(FUSED) if integrates(row)]
         for target in case["targets"]:
             best, heyoka = fastest(ours, target), of("heyoka")
             if best is None:
@@ -99,7 +113,8 @@ def summary(results):
                 return f"{ratio:.2g}" if ratio < 100 else f"{round(ratio, -1):.0f}"
 
             cells = [times(heyoka, ours), times(of("Boost.odeint"), ours), times(of(*CRATES), ours),
-                     times(of("SciPy"), ours), times(heyoka, picked), times(heyoka, stopped), times(heyoka, poisson)]
+                     times(of("SciPy"), ours), times(heyoka, picked), times(heyoka, stopped), times(heyoka, poisson),
+                     times(heyoka, fused), times(heyoka, [row for row in fused if is_poisson(row)])]
             lines.append(f"| {name} | {short(target)} | {microseconds(best['seconds'])} `{best['method']}` | "
                          + " | ".join(cells) + " |")
     return "\n".join(lines)
@@ -109,7 +124,7 @@ def settings(case, targets):
     """How the fastest of each peer came about."""
     lines = ["| error | who | method | setting | steps | error | energy | Casimirs | spread |", "|" + "---|" * 9]
     for target in targets:
-        for peer in sorted({row["peer"] for row in case["rows"]}, key=lambda p: (p != OURS, p)):
+        for peer in sorted({row["peer"] for row in case["rows"]}, key=lambda p: (p not in (OURS, FUSED), p)):
             row = fastest([row for row in case["rows"] if row["peer"] == peer and integrates(row)], target)
             if row:
                 drift = row["drift"] or [None, None]

@@ -20,13 +20,28 @@ pub struct Case {
     unit: f64,
 }
 
+/// A step at which the defect of a method that is no Poisson map is seen, in units.
+pub const LARGER: f64 = 1.75;
+
 /// What was measured of a method.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured {
     /// The slope of errors against steps.
     pub order: f64,
-    /// The Poisson defect of the executed step.
-    pub defect: f64,
+    /// The Poisson defect of the executed step, of the unit and of [`LARGER`] units.
+    pub defects: [f64; 2],
+    /// None where no step reaches the end.
+    pub drift: Option<Drift>,
+}
+
+/// Parts of the unit that are tried as steps of long runs.
+const PARTS: [f64; 4] = [0.9, 0.6, 0.3, 0.1];
+
+/// What became of the invariants in a long run.
+#[derive(Clone, Copy, Debug)]
+pub struct Drift {
+    /// The step in units.
+    pub part: f64,
     /// The largest relative error of the energy in the first tenth, and in the last.
     pub energy: (f64, f64),
     /// That of the quadratic form that is constant on orbits.
@@ -94,13 +109,15 @@ impl Case {
         M: Method<f64, Drawn> + Method<Dual<f64>, Drawn>,
     {
         let options = NewtonOptions::default();
-        let defect = poisson_defect(&self.system, method, self.unit, &self.start, &options);
-        let (energy, casimir) = self.drift(method, span);
+        let defects = [1.0, LARGER].map(|units| {
+            let step = units * self.unit;
+            let defect = poisson_defect(&self.system, method, step, &self.start, &options);
+            defect.unwrap_or(f64::NAN)
+        });
         Measured {
             order: self.order(method),
-            defect: defect.unwrap_or(f64::NAN),
-            energy,
-            casimir,
+            defects,
+            drift: self.drift(method, span),
         }
     }
 
@@ -137,9 +154,16 @@ impl Case {
         above / points.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>()
     }
 
-    /// The errors of energy and Casimir with steps of nine tenths of the unit.
-    fn drift<M: Method<f64, Drawn>>(&self, method: &M, span: f64) -> ((f64, f64), f64) {
-        let (h, algebra) = (0.9 * self.unit, &self.system.algebra);
+    /// The errors of energy and Casimir, with the longest of the [`PARTS`] of the unit that reaches the end.
+    fn drift<M: Method<f64, Drawn>>(&self, method: &M, span: f64) -> Option<Drift> {
+        PARTS
+            .into_iter()
+            .find_map(|part| self.drift_of(method, span, part))
+    }
+
+    /// The errors of energy and Casimir with steps of a part of the unit.
+    fn drift_of<M: Method<f64, Drawn>>(&self, method: &M, span: f64, part: f64) -> Option<Drift> {
+        let (h, algebra) = (part * self.unit, &self.system.algebra);
         let steps = (span / h).ceil() as u64;
         let options = NewtonOptions::default();
         let mut stepper = method.stepper(&self.system, h, &options);
@@ -147,9 +171,7 @@ impl Case {
         let (energy, square) = (self.system.hamiltonian(&mu), casimir(algebra, &mu));
         let (mut first, mut last, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
         for k in 0..steps {
-            if stepper.step(&mut mu, &mut ()).is_err() {
-                return ((f64::NAN, f64::NAN), f64::NAN);
-            }
+            stepper.step(&mut mu, &mut ()).ok()?;
             let error = (self.system.hamiltonian(&mu) / energy - 1.0).abs();
             if 10 * k < steps {
                 first = first.max(error);
@@ -158,6 +180,10 @@ impl Case {
             }
             most = most.max((casimir(algebra, &mu) / square - 1.0).abs());
         }
-        ((first, last), most)
+        Some(Drift {
+            part,
+            energy: (first, last),
+            casimir: most,
+        })
     }
 }

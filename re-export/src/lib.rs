@@ -7,13 +7,7 @@ runtime::lie_poisson! {
     crate = crate::lie_runtime;
     /// Free rigid body, with fused code, flows and all.
     pub system RigidBody;
-    algebra {
-        basis e1, e2, e3;
-        [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2;
-        matrix e1 = [[0, 0, 0], [0, 0, -1], [0, 1, 0]];
-        matrix e2 = [[0, 0, 1], [0, 0, 0], [-1, 0, 0]];
-        matrix e3 = [[0, -1, 0], [1, 0, 0], [0, 0, 0]];
-    }
+    algebra = so(3);
     state x, y, z;
     parameters { I1 = 2.0, positive; I2 = 1.0; I3 = 2/3; }
     hamiltonian = x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3);

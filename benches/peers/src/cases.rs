@@ -1,7 +1,7 @@
 //! The cases: which system, which methods.
 
 use crate::Case;
-use crate::ours::{Ours, solvers, to_round_off, to_the_tolerance};
+use crate::ours::{FUSED, Ours, solvers, to_round_off, to_the_tolerance};
 use crate::trial::{Trials, euclidean};
 use crate::{chain, crates, ensemble};
 use lie_runtime::driver::Problem;
@@ -145,7 +145,9 @@ macro_rules! case {
             quick: $case.quick,
         };
         $methods
-        crates::measure(&mut trials, fields::$module, start, $given.until, $case.quick);
+        if !FUSED {
+            crates::measure(&mut trials, fields::$module, start, $given.until, $case.quick);
+        }
         $then(&mut trials);
     }};
 }
@@ -183,7 +185,9 @@ fn with_chain(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
     ours.by_tolerance("splitting4", Splitting4::new(), default[0]);
     ours.by_tolerance("splitting6", Splitting6::new(), default[0]);
     ours.by_tolerance("splitting8", Splitting8::new(), default[0]);
-    crates::measure_large(&mut trials, chain::field::<f64>, &start, until, case.quick);
+    if !FUSED {
+        crates::measure_large(&mut trials, chain::field::<f64>, &start, until, case.quick);
+    }
     then(&mut trials);
 }
 

@@ -20,7 +20,7 @@ const LANES: usize = 8;
 pub fn distance(one: &[f64], other: &[f64]) -> f64 {
     let pairs = one.chunks_exact(3).zip(other.chunks_exact(3));
     // not a number if any is not
-    let largest = |most: f64, next: f64| if next <= most { most } else { next };
+    let largest = |most: f64, next: f64| if most.is_nan() || next <= most { most } else { next };
     pairs
         .map(|(a, b)| crate::trial::euclidean(a, b))
         .fold(0.0, largest)

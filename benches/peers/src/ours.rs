@@ -8,7 +8,14 @@ use lie_runtime::newton::{Convergence, NewtonOptions};
 use lie_runtime::{GradientSeries, LiePoisson, Poisson, Series, State, Unknown, Widen};
 use std::ops::ControlFlow;
 
-pub const PEER: &str = "lie-poisson";
+/// Whether this program was compiled as `lie run --fma` compiles: `run` sets the variable beside the flags of the compiler.
+pub const FUSED: bool = option_env!("LIE_PEERS_FUSED").is_some();
+
+pub const PEER: &str = if FUSED {
+    "lie-poisson, --fma"
+} else {
+    "lie-poisson"
+};
 
 /// The part of `--tol` that is the tolerance of a Taylor series, as in `lie run`.
 const PER_STEP: f64 = 0.01;

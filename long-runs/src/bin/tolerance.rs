@@ -78,18 +78,23 @@ fn write(commanded: &[Row], plain: &[Row], span: f64) {
 
 fn lifts(span: f64) -> String {
     let mut text = String::from(
-        "| system, H | method | order by slope | Poisson defect | energy error, first tenth | last tenth | Casimir |\n|---|---|---|---|---|---|---|\n",
+        "| system, H | method | order by slope | Poisson defect | at 1.75 units | units of a step of the long run | energy error, first tenth | last tenth | Casimir |\n|---|---|---|---|---|---|---|---|---|\n",
     );
     for case in cases() {
         for (id, found) in [
             ("collective16", case.collective(span)),
             ("gauss16", case.gauss(span)),
         ] {
-            let (first, last) = found.energy;
+            let drift = found.drift.map_or("– | – | – | –".into(), |drift| {
+                let (first, last) = drift.energy;
+                let (part, casimir) = (drift.part, drift.casimir);
+                format!("{part} | {first:.0e} | {last:.0e} | {casimir:.0e}")
+            });
+            let [defect, larger] = found.defects;
             let _ = writeln!(
                 text,
-                "| {} | {id} | {:.1} | {:.0e} | {first:.0e} | {last:.0e} | {:.0e} |",
-                case.name, found.order, found.defect, found.casimir
+                "| {} | {id} | {:.1} | {defect:.0e} | {larger:.0e} | {drift} |",
+                case.name, found.order
             );
             eprintln!("{}: {id} {found:?}", case.name);
         }
