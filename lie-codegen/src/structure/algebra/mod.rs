@@ -9,6 +9,7 @@ mod extensions;
 mod name;
 mod parts;
 mod roots;
+mod series;
 mod simple;
 mod subspace;
 mod table;

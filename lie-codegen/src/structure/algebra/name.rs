@@ -6,6 +6,7 @@
 
 use super::extensions::extension;
 use super::parts::{self, Map};
+use super::series;
 use super::simple;
 use super::subspace::{Subspace, Vector, signature};
 use super::table::Table;
@@ -87,7 +88,11 @@ fn semisimple(table: &Table, budget: &Budget) -> Result<Option<Vec<String>>, Exh
     let centroid = parts::semisimple_centroid(table, budget)?;
     if centroid.len() == 1 {
         let positive = table.killing_signature(budget)?.positive;
-        return Ok(simple::real_form(n, positive).map(|name| vec![name]));
+        let possible = match simple::ambiguous(n) {
+            Some(rank) => series::possible(table, rank, budget)?,
+            None => Vec::new(),
+        };
+        return Ok(simple::real_form(n, positive, &possible).map(|name| vec![name]));
     }
     let spaces = parts::eigenspaces(table, &centroid, budget)?;
     let mut names = Vec::new();

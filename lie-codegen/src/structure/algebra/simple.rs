@@ -2,12 +2,16 @@
 //!
 //! A real form of a complex simple algebra is determined by the type of the latter and the number of positive
 //! squares in its Killing form, the dimension of a noncompact complement (Helgason, Differential Geometry, Lie Groups, and
-//! Symmetric Spaces, chapter X, table V). The type is determined by the dimension, except for B_n and C_n, n >= 3, and
-//! dimension 78, and the coincidences of small rank are named once. A name is given where no other form has both numbers.
+//! Symmetric Spaces, chapter X, table V). The type is determined by the dimension, except for B_n and C_n, n >= 3, which `series` tells
+//! apart, and E_6, which is neither of those of its dimension; the coincidences of small rank are named once. A name is given where
+//! no other form has both numbers.
 
-/// The name of a real form of dimension `dimension` with so many positive squares, if there is only one.
-pub fn real_form(dimension: usize, positive: usize) -> Option<String> {
-    let forms = forms(dimension);
+use super::series::Series;
+
+/// The name of a real form of dimension `dimension` with so many positive squares, if there is only one; `possible` are
+/// the types that B_n and C_n leave open.
+pub fn real_form(dimension: usize, positive: usize, possible: &[Series]) -> Option<String> {
+    let forms = forms(dimension, possible);
     let mut fitting = forms
         .into_iter()
         .filter(|(_, squares)| *squares == positive);
@@ -15,17 +19,27 @@ pub fn real_form(dimension: usize, positive: usize) -> Option<String> {
     fitting.next().is_none().then_some(name)
 }
 
+/// The n >= 3 of which B_n and C_n have this dimension.
+pub fn ambiguous(dimension: usize) -> Option<usize> {
+    (3..=dimension).find(|n| n * (2 * n + 1) == dimension)
+}
+
 /// The real forms of a dimension, with the positive squares of each.
-fn forms(dimension: usize) -> Vec<(String, usize)> {
+fn forms(dimension: usize, possible: &[Series]) -> Vec<(String, usize)> {
     let mut all = Vec::new();
     let rank = |of: &dyn Fn(usize) -> usize| (1..=dimension).find(|&n| of(n) == dimension);
     if let Some(n) = rank(&|n| n * (n + 2)) {
         special(n + 1, &mut all);
     }
-    if let Some(n) = rank(&|n| n * (2 * n + 1)).filter(|n| *n >= 2) {
-        orthogonal(2 * n + 1, &mut all);
-        if n >= 3 {
-            symplectic(n, &mut all);
+    if dimension == 10 {
+        orthogonal(5, &mut all);
+    }
+    if let Some(n) = ambiguous(dimension) {
+        for series in possible {
+            match series {
+                Series::Orthogonal => orthogonal(2 * n + 1, &mut all),
+                Series::Symplectic => symplectic(n, &mut all),
+            }
         }
     }
     if let Some(n) = rank(&|n| n * (2 * n).saturating_sub(1)).filter(|n| *n >= 4) {
@@ -130,7 +144,8 @@ mod tests {
 
     #[test]
     fn forms_are_told_apart_or_not_named() {
-        let name = |dimension, positive| real_form(dimension, positive);
+        let both = [Series::Orthogonal, Series::Symplectic];
+        let name = |dimension, positive| real_form(dimension, positive, &both);
         for (dimension, positive, expected) in [
             (3, 0, "so(3)"),
             (3, 2, "sl(2,R)"),
@@ -152,6 +167,13 @@ mod tests {
         // so(7) and sp(3), so(4,3) and sp(6,R)
         assert_eq!((name(21, 0), name(21, 12)), (None, None));
         assert_eq!(name(21, 6).as_deref(), Some("so(6,1)"));
+        assert_eq!(real_form(21, 12, &both[..1]).as_deref(), Some("so(4,3)"));
+        assert_eq!(real_form(21, 12, &both[1..]).as_deref(), Some("sp(6,R)"));
+        // E_6 is what is neither
+        assert_eq!(
+            (name(78, 0), real_form(78, 0, &[]).as_deref()),
+            (None, Some("e6"))
+        );
         assert_eq!((name(3, 1), name(7, 0)), (None, None));
     }
 }

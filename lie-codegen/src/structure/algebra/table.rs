@@ -52,6 +52,12 @@ impl Table {
         StructureConstants::new(self.dimension(), entries)
     }
 
+    /// The `(j, k, C_ij^k)` of one i.
+    pub fn brackets_of(&self, i: usize) -> impl Iterator<Item = (usize, usize, &Rational)> {
+        let row = self.brackets[i].iter().enumerate();
+        row.flat_map(|(j, value)| value.iter().map(move |(k, c)| (j, *k, c)))
+    }
+
     /// The finest direct sum of ideals that are spanned by basis elements: each once, with how often it occurs.
     pub fn blocks(&self) -> Vec<(Self, usize)> {
         let mut kinds: Vec<(StructureConstants<Rational>, usize)> = Vec::new();

@@ -372,3 +372,21 @@ fn a_sum_of_many_is_named_part_by_part() {
     assert_eq!(report.series.derived, [214, 212, 210]);
     assert!(!report.class.reductive && !report.class.unimodular && !report.class.solvable);
 }
+
+/// B_n and C_n have the same dimension, and their split forms the same signature.
+#[test]
+fn orthogonal_and_symplectic_algebras_of_one_dimension() {
+    let split: Vec<known::Integers> = isometries(&[1, 1, 1, 1, -1, -1, -1])[..21].to_vec();
+    for (matrices, expected) in [
+        (known::so(7), "so(7)"),
+        (split, "so(4,3)"),
+        (known::sp(3), "sp(6,R)"),
+        (known::so(9), "so(9)"),
+        (known::sp(4), "sp(8,R)"),
+    ] {
+        let constants = from_matrices(&matrices);
+        assert_eq!(name_of(&constants).as_deref(), Ok(expected));
+    }
+    let constants = remixed(&from_matrices(&known::so(7)), 2018);
+    assert_eq!(name_of(&constants).as_deref(), Ok("so(7)"));
+}

@@ -30,6 +30,7 @@ pub(crate) mod solve {
     pub(crate) use super::normal::cleared;
 }
 
+pub use field::{Field, PRIMES, Prime};
 pub use operators::MAX_DEGREE;
 pub use quotients::{HIGHEST as MAX_FACTOR_DEGREE, LARGEST as MAX_EXPONENT};
 
