@@ -35,7 +35,7 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
     let effort = if arguments.deep {
         Effort::Deep
     } else {
-        Effort::Declaration
+        Effort::Report
     };
     for path in &arguments.specs {
         match compiler::load_with(path, effort) {
@@ -112,7 +112,7 @@ impl Report {
             motions: search::find(
                 model,
                 match effort {
-                    Effort::Declaration => search::WORK,
+                    Effort::Declaration | Effort::Report => search::WORK,
                     Effort::Deep => search::DEEP,
                 },
             ),

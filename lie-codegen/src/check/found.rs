@@ -58,6 +58,7 @@ impl Asked<'_> {
         };
         let work = match self.effort {
             Effort::Declaration => casimirs::WORK,
+            Effort::Report => casimirs::REPORT,
             Effort::Deep => casimirs::DEEP,
         };
         let initial = self.initial.iter().flatten();
