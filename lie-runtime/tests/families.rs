@@ -13,6 +13,17 @@ lie_poisson! { pub spec = "../tests/data/families/mean_field.json"; }
 lie_poisson! { pub spec = "../tests/data/families/lattice.json"; }
 lie_poisson! { pub spec = "../tests/data/families/su3_ring.json"; }
 lie_poisson! { pub spec = "../tests/data/families/xxz_chain.json"; }
+lie_poisson! { pub spec = "../tests/data/families/mean_field_pieces.json"; }
+
+lie_poisson! {
+    /// Classical spins on a ring, without a spec.
+    pub system Ring;
+    algebra = so(3)^N;
+    state x[i], y[i], z[i];
+    parameters { N = 1000; J = 1; }
+    hamiltonian = -J*sum(i in 0..N: x[i]*x[i+1] + y[i]*y[i+1] + z[i]*z[i+1]);
+    initial = random(unit-sphere, 1);
+}
 
 lie_poisson! {
     /// Four spins on a ring, written out.
@@ -119,6 +130,27 @@ fn compare<K, const L: usize, const T: usize>(
     let mut by_bracket = mu.clone();
     family.ad_star(&gradient, &mu, &mut by_bracket);
     assert!(largest_difference(&field, &by_bracket) < 1e-14, "bracket");
+}
+
+#[test]
+fn a_family_in_the_macro_is_that_of_its_spec() {
+    let written = Ring { N: 33.0, J: 0.75 };
+    let spec = HeisenbergChain { N: 33.0, J: 0.75 };
+    assert_eq!(Ring::new().N, HeisenbergChain::new().N);
+    let mu = written.initial_state().expect("a size");
+    assert_eq!(mu, spec.initial_state().expect("a size"));
+    let (written, spec) = (written.system().expect("a size"), spec.system().expect("a size"));
+    let (one, other) = (
+        end(&written, Splitting6::new(), &mu, 0.3, 9),
+        end(&spec, Splitting6::new(), &mu, 0.3, 9),
+    );
+    assert_eq!(one, other);
+    assert_ne!(one, mu);
+    let (one, other) = (
+        end(&written, Gauss16, &mu, 0.3, 3),
+        end(&spec, Gauss16, &mu, 0.3, 3),
+    );
+    assert_eq!(one, other);
 }
 
 #[test]
@@ -378,11 +410,15 @@ fn bonds_of_spins_are_done_two_or_three_colours_at_a_time() {
     let mu: Vec<f64> = unit_spheres(6, 3, 1);
     let (mut one, mut ten) = (mu.clone(), mu);
     let mut flows = SeparablePoisson::<f64>::flows(&system);
+    let start = one.clone();
+    flows.take(&start, &mut one);
+    flows.take(&start, &mut ten);
     flows.flow(0, 9.0, &mut one);
     for _ in 0..10 {
         flows.flow(0, 0.9, &mut ten);
     }
     assert!(largest_difference(&one, &ten) < 1e-13);
+    assert!(largest_difference(&one, &start) > 0.1);
 }
 
 #[test]
@@ -400,6 +436,90 @@ fn products_and_functions_of_one_coordinate_are_pieces_too() {
 }
 
 #[test]
+fn functions_of_sums_over_one_coordinate_are_pieces_too() {
+    for n in [1.0, 2.0, 9.0, 200.0] {
+        let family = MeanFieldPieces {
+            N: n,
+            ..MeanFieldPieces::new()
+        };
+        let system = family.system().expect("a size");
+        let n = n as isize;
+        compare(&system, |at| {
+            let [x, y, z] = [0, 1, 2].map(|k| move |i: isize| at(k, 0, i));
+            let all = |from: isize, f: &dyn Fn(isize) -> D| (from..n).fold(d(0.0), |sum, i| sum + f(i));
+            let (sx, sz) = (all(0, &x), all(1, &z));
+            let half = all(0, &|i| x(i) * x(i) * d(0.5));
+            let bonds = (0..n - 1).fold(d(0.0), |sum, i| sum + z(i) * z(i + 1));
+            let mean = (sx * sx + sx * half) * d(0.5 / n as f64);
+            mean + d(0.5) * sz.sin() + d(0.25) * all(0, &y) - bonds
+        });
+        if n > 1 {
+            splits(&system);
+        }
+    }
+    // a function of the sum turns all sites by the same angle, however far
+    let family = MeanFieldPieces { N: 3.0, J: 6.0, K: 0.0 };
+    let system = family.system().expect("a size");
+    let start = vec![0.5, 0.25, 0.75, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+    let mut flows = SeparablePoisson::<f64>::flows(&system);
+    let (mut taken, mut end) = (start.clone(), start.clone());
+    flows.take(&start, &mut taken);
+    let piece = (0..flows.pieces()).find(|piece| {
+        let mut moved = taken.clone();
+        flows.flow(*piece, 0.125, &mut moved);
+        moved[..3] == taken[..3] && moved[3..] != taken[3..]
+    });
+    flows.flow(piece.expect("a turn about x"), 0.125, &mut taken);
+    flows.give(true, &taken, &mut end);
+    let (sum, squares): (f64, f64) = (1.5, 0.5 * (0.25 + 0.0625 + 0.5625));
+    let turned = |i: usize| {
+        let angle = 0.125 * (2.0 * sum + squares + sum * start[i]);
+        let (y, z) = (start[3 + i], start[6 + i]);
+        let (sin, cos) = angle.sin_cos();
+        [y * cos - z * sin, y * sin + z * cos, y * cos + z * sin, z * cos - y * sin]
+    };
+    for i in 0..3 {
+        let [y, z, y_back, z_back] = turned(i);
+        let near = |a: f64, b: f64| (end[3 + i] - a).abs() + (end[6 + i] - b).abs() < 1e-14;
+        assert!(near(y, z) || near(y_back, z_back), "{i} {end:?}");
+    }
+}
+
+#[test]
+fn lanes_make_the_steps_of_single_runs() {
+    // spins of very different lengths, so that lanes take different numbers of terms, or none
+    let scales = [1e-6, 0.01, 0.3, 1.0, 2.0, 7.0, 1e3, 0.0];
+    let mu: Vec<Vec<f64>> = (0..8)
+        .map(|lane| {
+            let state = unit_spheres::<f64>(7, 3, lane as u64);
+            state.into_iter().map(|x| scales[lane] * x).collect()
+        })
+        .collect();
+    let ring = HeisenbergChain::<F64x8> {
+        N: F64x8::from_f64(7.0),
+        J: F64x8::from_f64(0.75),
+    };
+    let wide = ring.system().expect("a size");
+    let mut lanes: Vec<F64x8> = (0..21)
+        .map(|k| F64x8::new(std::array::from_fn(|lane| mu[lane][k])))
+        .collect();
+    let h = F64x8::from_f64(0.25);
+    let mut stepper = Splitting6::new().stepper(&wide, h, &NewtonOptions::default());
+    for _ in 0..5 {
+        stepper.step(&mut lanes, &mut ()).expect("a step");
+    }
+    let single = HeisenbergChain { N: 7.0, J: 0.75 }.system().expect("a size");
+    for (lane, mu) in mu.iter().enumerate() {
+        let alone = end(&single, Splitting6::new(), mu, 0.25, 5);
+        let among: Vec<f64> = lanes.iter().map(|x| x.lane(lane)).collect();
+        assert_eq!(alone, among, "lane {lane}");
+        if lane < 7 {
+            assert_ne!(&alone, mu);
+        }
+    }
+}
+
+#[test]
 fn opposite_spins_beside_a_bond_that_turns_far_stay() {
     let family = HeisenbergChain { N: 4.0, J: 0.75 }.system().expect("sizes");
     // the first bond has the sum 0; the second turns by more than what a series is taken for
@@ -407,14 +527,16 @@ fn opposite_spins_beside_a_bond_that_turns_far_stay() {
     let start = by_component(&spins, 3);
     let (mut once, mut often) = (start.clone(), start.clone());
     let mut flows = family.flows();
+    flows.take(&start, &mut once);
+    flows.take(&start, &mut often);
     flows.flow(0, 4.0, &mut once);
     (0..1000).for_each(|_| flows.flow(0, 0.004, &mut often));
     let difference = largest_difference(&once, &often);
     assert!(difference < 1e-12, "{difference:e}");
-    assert!(
-        largest_difference(&once, &start) > 0.1,
-        "the other bond turns"
-    );
+    let mut end = start.clone();
+    flows.give(true, &once, &mut end);
+    let moved = |site: usize| (0..3).any(|k| (end[4 * k + site] - start[4 * k + site]).abs() > 0.1);
+    assert_eq!([0, 1, 2, 3].map(moved), [false, false, true, true]);
 }
 
 #[test]

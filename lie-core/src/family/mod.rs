@@ -13,7 +13,10 @@
 //! Memory is a few states: no Jacobian is kept, so that the methods are those that need none.
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+mod bonds;
+mod columns;
 mod energy;
+mod exchange;
 mod initial;
 mod sites;
 mod splitting;

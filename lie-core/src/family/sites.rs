@@ -1,6 +1,7 @@
 //! What generated code says of one site of a family.
 
 use crate::scalar::Scalar;
+use core::ops::Range;
 
 /// Over which sites a sum goes, along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +18,16 @@ pub enum Span {
 }
 
 impl Span {
+    /// The sites that a sum goes over, of so many.
+    #[inline]
+    #[must_use]
+    pub fn range(self, size: usize) -> Range<usize> {
+        match self {
+            Self::All => 0..size,
+            Self::Within { first, left } => first..size.saturating_sub(left).max(first),
+        }
+    }
+
     /// Whether a sum goes over a site, of so many.
     #[inline]
     #[must_use]
