@@ -108,11 +108,12 @@ pub fn finish<E: Entries>(
     let algebra = read.map(|(place, read)| (place, read.map(|read| read.algebra)));
     let declaration = remainder(entries, &parsed, algebra, parameters, report);
     let indices = parsed.indices.clone();
+    let start = (!indices.is_empty()).then(|| entries.start(report));
     let declaration = declaration.map(|declaration| Declaration {
         family: (!indices.is_empty()).then(|| Family {
             sizes,
             indices,
-            start: entries.start(report),
+            start: start.flatten(),
         }),
         ..declaration
     });
