@@ -46,7 +46,10 @@ where
     let (energy, sites) = (system.hamiltonian(&mu), mu.len() / 3);
     let square = mu.iter().map(|x| x * x).sum::<f64>() / sites as f64;
     let change = (energy - before) / before.abs();
-    println!("energy {energy} changed by {change:e}, squares {square}, {}", memory());
+    println!(
+        "energy {energy} changed by {change:e}, squares {square}, {}",
+        memory()
+    );
     true
 }
 
@@ -78,7 +81,9 @@ fn run(system: &str, method: &str, sites: f64, how: [f64; 2]) -> Option<bool> {
     match system {
         "ring" => Some(by_method(&ring.system().ok()?, method, mu, how)),
         "by_hand" => {
-            let spins: Vec<f64> = (0..mu.len()).map(|k| mu[k % 3 * (mu.len() / 3) + k / 3]).collect();
+            let spins: Vec<f64> = (0..mu.len())
+                .map(|k| mu[k % 3 * (mu.len() / 3) + k / 3])
+                .collect();
             let by_hand = chain::Chain::new(spins.len() / 3);
             Some(by_method(&by_hand, method, chain::state(&spins), how))
         }
@@ -96,7 +101,10 @@ fn run(system: &str, method: &str, sites: f64, how: [f64; 2]) -> Option<bool> {
 }
 
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    let arguments: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|argument| argument != "--bench")
+        .collect();
     if let [system, method, sites, h, count] = arguments.as_slice() {
         let numbers = [sites, h, count].map(|text| text.parse().unwrap_or(f64::NAN));
         if run(system, method, numbers[0], [numbers[1], numbers[2]]) == Some(true) {

@@ -126,7 +126,10 @@ fn a_family_in_the_macro_is_that_of_its_spec() {
     assert_eq!(Ring::new().N, HeisenbergChain::new().N);
     let mu = written.initial_state().expect("a size");
     assert_eq!(mu, spec.initial_state().expect("a size"));
-    let (written, spec) = (written.system().expect("a size"), spec.system().expect("a size"));
+    let (written, spec) = (
+        written.system().expect("a size"),
+        spec.system().expect("a size"),
+    );
     let (one, other) = (
         end(&written, Splitting6::new(), &mu, 0.3, 9),
         end(&spec, Splitting6::new(), &mu, 0.3, 9),
@@ -207,7 +210,8 @@ fn functions_of_sums_are_gathered_once() {
         let n = n as isize;
         compare(&system, |at| {
             let [x, y, z] = [0, 1, 2].map(|k| move |i: isize| at(k, 0, i));
-            let all = |from: isize, f: &dyn Fn(isize) -> D| (from..n).fold(d(0.0), |sum, i| sum + f(i));
+            let all =
+                |from: isize, f: &dyn Fn(isize) -> D| (from..n).fold(d(0.0), |sum, i| sum + f(i));
             let (sx, sz) = (all(0, &x), all(1, &z));
             let half = all(0, &|i| x(i) * x(i) * d(0.5));
             let bonds = (0..n - 1).fold(d(0.0), |sum, i| sum + z(i) * z(i + 1));

@@ -124,7 +124,9 @@ fn lanes_make_the_steps_of_single_runs() {
     for _ in 0..5 {
         stepper.step(&mut lanes, &mut ()).expect("a step");
     }
-    let single = HeisenbergChain { N: 7.0, J: 0.75 }.system().expect("a size");
+    let single = HeisenbergChain { N: 7.0, J: 0.75 }
+        .system()
+        .expect("a size");
     for (lane, mu) in mu.iter().enumerate() {
         let alone = end(&single, Splitting6::new(), mu, 0.25, 5);
         let among: Vec<f64> = lanes.iter().map(|x| x.lane(lane)).collect();
@@ -185,7 +187,11 @@ fn functions_of_sums_over_one_coordinate_are_pieces_too() {
         }
     }
     // a function of the sum turns all sites by the same angle, however far
-    let family = MeanFieldPieces { N: 3.0, J: 6.0, K: 0.0 };
+    let family = MeanFieldPieces {
+        N: 3.0,
+        J: 6.0,
+        K: 0.0,
+    };
     let system = family.system().expect("a size");
     let start = vec![0.5, 0.25, 0.75, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
     let mut flows = SeparablePoisson::<f64>::flows(&system);
@@ -203,7 +209,12 @@ fn functions_of_sums_over_one_coordinate_are_pieces_too() {
         let angle = 0.125 * (2.0 * sum + squares + sum * start[i]);
         let (y, z) = (start[3 + i], start[6 + i]);
         let (sin, cos) = angle.sin_cos();
-        [y * cos - z * sin, y * sin + z * cos, y * cos + z * sin, z * cos - y * sin]
+        [
+            y * cos - z * sin,
+            y * sin + z * cos,
+            y * cos + z * sin,
+            z * cos - y * sin,
+        ]
     };
     for i in 0..3 {
         let [y, z, y_back, z_back] = turned(i);
@@ -211,4 +222,3 @@ fn functions_of_sums_over_one_coordinate_are_pieces_too() {
         assert!(near(y, z) || near(y_back, z_back), "{i} {end:?}");
     }
 }
-

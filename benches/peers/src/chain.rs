@@ -17,7 +17,13 @@ pub fn distance(one: &[f64], other: &[f64]) -> f64 {
     let square = |place: usize| (one[place] - other[place]).powi(2);
     let of = |spin: usize| (square(spin) + square(spins + spin) + square(2 * spins + spin)).sqrt();
     // not a number if any is not
-    let largest = |most: f64, next: f64| if most.is_nan() || next <= most { most } else { next };
+    let largest = |most: f64, next: f64| {
+        if most.is_nan() || next <= most {
+            most
+        } else {
+            next
+        }
+    };
     (0..spins).map(of).fold(0.0, largest)
 }
 

@@ -21,12 +21,18 @@ pub(super) struct Bonds {
 impl Bonds {
     /// Those of a kind; none where each site would be bound to itself.
     pub(super) fn of(kind: Kind, sizes: [usize; 2]) -> Option<Self> {
-        [1, 0].into_iter().find_map(|axis| Self::along(axis, kind, sizes[axis]))
+        [1, 0]
+            .into_iter()
+            .find_map(|axis| Self::along(axis, kind, sizes[axis]))
     }
 
     fn along(axis: usize, kind: Kind, size: usize) -> Option<Self> {
         let (offset, ring) = (kind.offset[axis], kind.spans[axis] == Span::All);
-        let offset = if ring { offset.rem_euclid(size as isize) } else { offset };
+        let offset = if ring {
+            offset.rem_euclid(size as isize)
+        } else {
+            offset
+        };
         let (mut distance, mut turned) = (offset.unsigned_abs(), offset < 0);
         if ring && 2 * distance > size {
             (distance, turned) = (size - distance, true);
@@ -74,7 +80,10 @@ impl Bonds {
         let over = self.size - self.offset as usize;
         [
             (span.start..span.end.min(over), self.offset),
-            (span.start.max(over)..span.end, self.offset - self.size as isize),
+            (
+                span.start.max(over)..span.end,
+                self.offset - self.size as isize,
+            ),
         ]
     }
 }
@@ -89,7 +98,11 @@ mod tests {
         for size in 2..30 {
             for offset in -9..=9 {
                 for ring in [true, false] {
-                    let span = if ring { Span::All } else { Span::Within { first: 0, left: 0 } };
+                    let span = if ring {
+                        Span::All
+                    } else {
+                        Span::Within { first: 0, left: 0 }
+                    };
                     let kind = Kind {
                         offset: [0, offset],
                         spans: [Span::All, span],
@@ -109,7 +122,10 @@ mod tests {
                     for (range, shift) in bonds.stretches(firsts.clone()) {
                         for first in range {
                             let second = (first as isize + shift) as usize;
-                            assert_eq!(second, (first as isize + offset).rem_euclid(size as isize) as usize);
+                            assert_eq!(
+                                second,
+                                (first as isize + offset).rem_euclid(size as isize) as usize
+                            );
                             let colour = usize::from(bonds.colour(first));
                             assert!(colour < usize::from(bonds.colours()));
                             seen[colour][first] += 1;

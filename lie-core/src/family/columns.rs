@@ -96,7 +96,10 @@ mod tests {
                 columns.take(&from, &mut taken);
                 for (column, value) in from[..count].iter().enumerate() {
                     let place = columns.place(column);
-                    assert_eq!((taken[place], taken[count + place]), (*value, value + count as f64));
+                    assert_eq!(
+                        (taken[place], taken[count + place]),
+                        (*value, value + count as f64)
+                    );
                 }
                 back.fill(0.0);
                 columns.give(false, &taken, &mut back);
@@ -107,6 +110,9 @@ mod tests {
         }
         // neighbours of even columns stand beside them in a stretch of their own
         let columns = Columns::new(7, 2);
-        assert_eq!([0, 2, 4, 6, 1, 3, 5].map(|c| columns.place(c)), [0, 1, 2, 3, 4, 5, 6]);
+        assert_eq!(
+            [0, 2, 4, 6, 1, 3, 5].map(|c| columns.place(c)),
+            [0, 1, 2, 3, 4, 5, 6]
+        );
     }
 }

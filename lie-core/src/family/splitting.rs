@@ -115,7 +115,16 @@ where
         let below = wrapped(row as isize + kind.offset[0], rows) * columns;
         let span = kind.spans[1].range(columns);
         let of_columns = bonds.filter(|bonds| bonds.axis == 1);
-        let parts = of_columns.map_or([(span.clone(), 0), (0..0, 0)], |bonds| bonds.stretches(span));
+        if of_columns.is_none() && span == (0..columns) {
+            // whole rows, whatever the order of their columns is
+            return then(Stretch {
+                places: [begin, below],
+                count: columns,
+            });
+        }
+        let parts = of_columns.map_or([(span.clone(), 0), (0..0, 0)], |bonds| {
+            bonds.stretches(span)
+        });
         let step = self.columns.modulus();
         for (Range { start, end }, shift) in parts {
             for first in (start..end.min(start + step)).filter(|first| own(1, *first)) {

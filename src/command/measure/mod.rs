@@ -103,7 +103,10 @@ fn small(spec: &Spec, point: &Point) -> Result<(), Failure> {
         "measure fewer sites, at most {}, as with `--param N=4`: the kernels of a site are the same",
         MOST_COORDINATES / site
     );
-    Err(Message::new(Kind::Limit, text).at_option("--param").help(help).into())
+    Err(Message::new(Kind::Limit, text)
+        .at_option("--param")
+        .help(help)
+        .into())
 }
 
 impl Bed {
@@ -116,7 +119,10 @@ impl Bed {
         if model.family.is_none() {
             return Ok(());
         }
-        let text = format!("{} is a family, which `{command}` does not measure yet", model.name);
+        let text = format!(
+            "{} is a family, which `{command}` does not measure yet",
+            model.name
+        );
         let help = "`lie verify` measures a small one; `lie run` says how much energy and Casimirs drift and how long a step takes";
         Err(Message::option("SPEC", text).help(help).into())
     }

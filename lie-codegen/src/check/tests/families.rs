@@ -251,10 +251,22 @@ fn an_initial_state_is_random_or_a_file() {
     let file = start(r#"{"npy": "a/b.npy"}"#);
     assert!(matches!(file, Some(Start::File(name)) if name.text == "a/b.npy"));
     for (text, expected) in [
-        ("[1, 0, 0]", "schema at [: the initial state of a family is not a list"),
-        (r#"{"npy": 3}"#, "schema at 3: `npy` is a string, not a number"),
-        (r#"{"npy": "a.npy", "seed": 1}"#, "schema at \"seed\": unknown key `seed` in `initial`"),
-        (r#"{"random": "cube"}"#, "schema at \"cube\": unknown distribution `cube`"),
+        (
+            "[1, 0, 0]",
+            "schema at [: the initial state of a family is not a list",
+        ),
+        (
+            r#"{"npy": 3}"#,
+            "schema at 3: `npy` is a string, not a number",
+        ),
+        (
+            r#"{"npy": "a.npy", "seed": 1}"#,
+            "schema at \"seed\": unknown key `seed` in `initial`",
+        ),
+        (
+            r#"{"random": "cube"}"#,
+            "schema at \"cube\": unknown distribution `cube`",
+        ),
     ] {
         expect(&ring(&[("initial", text)]), &[expected]);
     }

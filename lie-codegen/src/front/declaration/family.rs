@@ -12,7 +12,10 @@ use crate::front::token::{Delimiter, Token, TokenKind, span, split_commas};
 /// The names of the state, and of a family their indices.
 pub fn state(statement: &Statement<'_>, report: &mut Report) -> (Vec<Name>, Vec<Name>) {
     let parts = split_commas(statement.rest).into_iter();
-    match parts.map(families::indexed_state).collect::<Option<Vec<_>>>() {
+    match parts
+        .map(families::indexed_state)
+        .collect::<Option<Vec<_>>>()
+    {
         Some(state) if !state.is_empty() => families::same_indices(state, report),
         _ => (names(statement.rest, statement.origin, report), Vec::new()),
     }
@@ -55,7 +58,9 @@ pub fn start(statement: &Statement<'_>, report: &mut Report) -> Option<Start> {
 
 fn seed(list: &[Token]) -> Option<u64> {
     let parts = split_commas(inside(list, Delimiter::Parenthesis)?);
-    let sphere = parts.first().is_some_and(|part| compact(part) == "unit-sphere");
+    let sphere = parts
+        .first()
+        .is_some_and(|part| compact(part) == "unit-sphere");
     match parts.as_slice() {
         _ if !sphere => None,
         [_] => Some(1),

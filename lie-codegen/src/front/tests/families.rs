@@ -9,8 +9,18 @@ fn a_family_is_read_as_in_a_spec() {
         hamiltonian = sum(i in 0..N: x[i]*x[i+1]); initial = random(unit-sphere, 5);";
     let declaration = declared(text);
     let family = declaration.family.expect("a family");
-    assert!(matches!(family.start, Some(crate::ast::Start::UnitSpheres(5))));
-    assert_eq!((family.sizes.len(), family.indices.len(), declaration.state.len()), (1, 1, 3));
+    assert!(matches!(
+        family.start,
+        Some(crate::ast::Start::UnitSpheres(5))
+    ));
+    assert_eq!(
+        (
+            family.sizes.len(),
+            family.indices.len(),
+            declaration.state.len()
+        ),
+        (1, 1, 3)
+    );
     for (from, to, expected) in [
         ("so(3)^N", "so(3)", "so"),
         ("= so(3)^N", "{ basis a, b, c; }", "algebra"),

@@ -65,12 +65,19 @@ pub fn parse(bytes: &[u8]) -> Result<Array, Fault> {
         .try_fold(width, |size: usize, n| size.checked_mul(*n));
     if size != Some(data.len()) {
         return fault(
-            format!("it has {} bytes of numbers for the shape {shape:?}", data.len()),
+            format!(
+                "it has {} bytes of numbers for the shape {shape:?}",
+                data.len()
+            ),
             "copy it once more, or write it again",
         );
     }
     let double = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_le_bytes);
-    let single = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, |b| f32::from_le_bytes(b).into());
+    let single = |bytes: &[u8]| {
+        bytes
+            .try_into()
+            .map_or(f64::NAN, |b| f32::from_le_bytes(b).into())
+    };
     let numbers = data.chunks_exact(width);
     let values = match width {
         8 => numbers.map(double).collect(),
@@ -101,7 +108,9 @@ fn header(bytes: &[u8]) -> Option<(&str, &[u8])> {
 /// What stands behind a key of the header, a dictionary in Python.
 fn after<'a>(header: &'a str, key: &str) -> Option<&'a str> {
     let quoted = [format!("'{key}'"), format!("\"{key}\"")];
-    let rest = quoted.iter().find_map(|key| Some(header.split_once(key.as_str())?.1))?;
+    let rest = quoted
+        .iter()
+        .find_map(|key| Some(header.split_once(key.as_str())?.1))?;
     Some(rest.trim_start().strip_prefix(':')?.trim_start())
 }
 
@@ -115,7 +124,10 @@ fn text(value: Option<&str>) -> Option<&str> {
 /// `(1000, 3)`
 fn shape(value: &str) -> Option<Vec<usize>> {
     let (inside, _) = value.strip_prefix('(')?.split_once(')')?;
-    let sizes = inside.split(',').map(str::trim).filter(|size| !size.is_empty());
+    let sizes = inside
+        .split(',')
+        .map(str::trim)
+        .filter(|size| !size.is_empty());
     sizes.map(|size| size.parse().ok()).collect()
 }
 
@@ -141,9 +153,15 @@ mod tests {
         let double: Vec<u8> = values.iter().flat_map(|x: &f64| x.to_le_bytes()).collect();
         let array = parse(&file(&header("'<f8'", "False", "(2, 3)"), &double)).unwrap();
         assert_eq!((array.shape, array.values), (vec![2, 3], values.to_vec()));
-        let single: Vec<u8> = [1.5_f32, 0.1].iter().flat_map(|x| x.to_le_bytes()).collect();
+        let single: Vec<u8> = [1.5_f32, 0.1]
+            .iter()
+            .flat_map(|x| x.to_le_bytes())
+            .collect();
         let array = parse(&file(&header("\"<f4\"", "False", "(2,)"), &single)).unwrap();
-        assert_eq!((array.shape, array.values), (vec![2], vec![1.5, f64::from(0.1_f32)]));
+        assert_eq!(
+            (array.shape, array.values),
+            (vec![2], vec![1.5, f64::from(0.1_f32)])
+        );
         let mut second = b"\x93NUMPY\x02\x00".to_vec();
         let text = header("'<f8'", "False", "()");
         second.extend((text.len() as u32).to_le_bytes());
@@ -158,17 +176,35 @@ mod tests {
         for (bytes, expected) in [
             (b"PK\x03\x04".to_vec(), "no file in NumPy's format"),
             (b"\x93NUMPY\x01".to_vec(), "no file in NumPy's format"),
-            (b"\x93NUMPY\x01\x00\xff\xff{".to_vec(), "no file in NumPy's format"),
+            (
+                b"\x93NUMPY\x01\x00\xff\xff{".to_vec(),
+                "no file in NumPy's format",
+            ),
             (file(&header("'>f8'", "False", "(1,)"), &eight), "`>f8`"),
             (file(&header("'<i8'", "False", "(1,)"), &eight), "`<i8`"),
-            (file(&header("[('x', '<f8')]", "False", "(1,)"), &eight), "a structure"),
-            (file(&header("'<f8'", "True", "(1, 1)"), &eight), "Fortran order"),
-            (file(&header("'<f8'", "no", "(1,)"), &eight), "order of its numbers"),
+            (
+                file(&header("[('x', '<f8')]", "False", "(1,)"), &eight),
+                "a structure",
+            ),
+            (
+                file(&header("'<f8'", "True", "(1, 1)"), &eight),
+                "Fortran order",
+            ),
+            (
+                file(&header("'<f8'", "no", "(1,)"), &eight),
+                "order of its numbers",
+            ),
             (file(&header("'<f8'", "False", "1"), &eight), "no shape"),
             (file(&header("'<f8'", "False", "(x,)"), &eight), "no shape"),
-            (file(&header("'<f8'", "False", "(2,)"), &eight), "8 bytes of numbers"),
             (
-                file(&header("'<f8'", "False", "(4294967296, 4294967296)"), &eight),
+                file(&header("'<f8'", "False", "(2,)"), &eight),
+                "8 bytes of numbers",
+            ),
+            (
+                file(
+                    &header("'<f8'", "False", "(4294967296, 4294967296)"),
+                    &eight,
+                ),
                 "8 bytes of numbers",
             ),
             (file("{}", &eight), "a structure"),
