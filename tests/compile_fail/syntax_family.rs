@@ -1,0 +1,26 @@
+//! A family of systems, whose algebra has no name, and which starts at a list.
+
+use lie_runtime::prelude::*;
+
+lie_poisson! {
+    pub system Body;
+    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    state x[i], y[i], z[i];
+    parameters { I1 = 2; I2 = 1; I3 = 2/3; }
+    hamiltonian = sum(i in 0..3: x[i]^2);
+    methods = [lie-midpoint];
+    initial = [1, 0, 0];
+}
+
+// Whoever uses the type hears of nothing else.
+fn main() {
+    let mut body = Body::new();
+    body.I1 = 3.0;
+    let system = body.system().expect("finite constants");
+    let problem = Problem::new(system, [1.0, 0.0, 0.5], (0.0, 1.0));
+    let solution = solve(&problem, LieMidpoint::exp(), &Options::new(0.1)).expect("a solution");
+    let single = Body::<f32>::default().system().expect("finite constants");
+    let mut velocity = single.zero_state();
+    single.vector_field(&single.zero_state(), &mut velocity);
+    println!("{} {:?} {:?}", body.I2, solution.last(), solution.drift());
+}
