@@ -28,6 +28,13 @@ fn check_says_how_large_a_family_is_and_what_applies() {
     );
     assert!(json["methods"]["gauss16"].is_null() && json["methods"]["splitting4"].is_null());
     assert!(json["methods"]["midpoint"].is_string());
+    let run = lie("check tests/data/families/mean_field_pieces.json").ok();
+    for text in ["F(sums over x)", "F(sums over z)", "f(y)", "z*z[+1]"] {
+        assert!(run.stdout.contains(text), "{text}: {}", run.stdout);
+    }
+    let run = lie("check tests/data/families/mean_field.json").ok();
+    let why = "splitting: none: H mixes sums over `x` and over `y`";
+    assert!(run.stdout.contains(why), "{}", run.stdout);
     let run = lie("check tests/data/families/open_chain.json").ok();
     let why = "splitting: none: `z[i]` and `y[i+1]` are coupled by more than a product";
     assert!(run.stdout.contains(why), "{}", run.stdout);
@@ -90,6 +97,139 @@ fn what_a_family_is_not_run_with_is_said() {
     );
     refused(
         &format!("verify {CHAIN}"),
-        "a family, which is not measured yet",
+        "measure fewer sites, at most 21, as with `--param N=4`",
     );
+    refused(
+        &format!("bench {CHAIN} --param N=4"),
+        "a family, which `lie bench` does not measure yet",
+    );
+    refused(
+        &format!("stress {CHAIN} --param N=4"),
+        "a family, which `lie stress` does not measure yet",
+    );
+}
+
+#[test]
+fn verify_measures_a_small_family() {
+    let call =
+        format!("verify {CHAIN} --param N=8 --methods gauss8,splitting2,splitting4,rk4 --json");
+    let run = lie(&call).ok();
+    let json: serde_json::Value = serde_json::from_str(&run.stdout).expect("JSON");
+    let fact = |method: &str, fact: &str| json["methods"][method][fact].clone();
+    for (method, order) in [
+        ("gauss8", 8.0),
+        ("splitting2", 2.0),
+        ("splitting4", 4.0),
+        ("rk4", 4.0),
+    ] {
+        let found = fact(method, "order");
+        assert_eq!(
+            (&found["claim"], &found["verdict"]),
+            (&order.into(), &"holds".into()),
+            "{method}: {found}"
+        );
+    }
+    // each measurement has a method that it tells from the others
+    let small = |method: &str, name: &str| fact(method, name)["measured"].as_f64() < Some(1e-12);
+    assert!(small("gauss8", "energy") && !small("rk4", "energy") && !small("splitting4", "energy"));
+    assert!(small("splitting4", "quadratic Casimirs") && !small("rk4", "quadratic Casimirs"));
+    assert!(small("splitting4", "Poisson") && !small("rk4", "Poisson"));
+    assert!(small("splitting2", "symmetric") && !small("rk4", "symmetric"));
+}
+
+/// The NPY file of an array.
+fn npy(kind: &str, order: &str, shape: &str, numbers: &[f64]) -> Vec<u8> {
+    let header = format!("{{'descr': '{kind}', 'fortran_order': {order}, 'shape': {shape}, }}\n");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.as_bytes());
+    bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
+    bytes
+}
+
+/// The chain in a folder, with this initial state.
+fn chain_from(folder: &std::path::Path, initial: &str) -> String {
+    let text = std::fs::read_to_string(CHAIN).expect("the spec");
+    let random = r#"{ "random": "unit-sphere", "seed": 1 }"#;
+    assert!(text.contains(random));
+    let path = folder.join("chain.json");
+    std::fs::write(&path, text.replace(random, initial)).expect("a spec");
+    path.display().to_string()
+}
+
+#[test]
+fn a_run_starts_at_the_numbers_of_a_file_beside_the_spec() {
+    let folder = folder();
+    let sites = [0.6, 0.0, 0.8, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.6, -0.8];
+    let by_component: Vec<f64> = (0..12).map(|k| sites[k % 4 * 3 + k / 4]).collect();
+    let chain = chain_from(folder.path(), r#"{ "npy": "start.npy" }"#);
+    let mut rows = Vec::new();
+    for (shape, numbers) in [("(4, 3)", &sites[..]), ("(12,)", &by_component)] {
+        let file = npy("<f8", "False", shape, numbers);
+        std::fs::write(folder.path().join("start.npy"), file).expect("a file");
+        let run = lie(&format!(
+            "run {chain} --param N=4 --at 0,1 --method rk4 --step 0.1"
+        ))
+        .ok();
+        let row = run.stdout.lines().nth(1).expect("a row").to_owned();
+        let found: Vec<f64> = row
+            .split(',')
+            .skip(1)
+            .take(12)
+            .filter_map(|x| x.parse().ok())
+            .collect();
+        assert_eq!(found, by_component, "{shape}");
+        rows.push(run.stdout);
+    }
+    assert_eq!(rows[0], rows[1]);
+    assert_ne!(
+        rows[0].lines().nth(1),
+        rows[0].lines().nth(2),
+        "the sites move"
+    );
+}
+
+#[test]
+fn a_file_that_is_no_state_is_refused_where_the_spec_names_it() {
+    let folder = folder();
+    let chain = chain_from(folder.path(), r#"{ "npy": "start.npy" }"#);
+    let numbers = [0.5; 12];
+    let mut infinite = numbers;
+    infinite[7] = f64::NAN;
+    for (file, kind, text) in [
+        (None, "io", "cannot be read"),
+        (Some(b"x,y,z\n".to_vec()), "io", "no file in NumPy's format"),
+        (Some(npy(">f8", "False", "(4, 3)", &numbers)), "io", "`>f8`"),
+        (
+            Some(npy("<f8", "True", "(4, 3)", &numbers)),
+            "io",
+            "Fortran order",
+        ),
+        (
+            Some(npy("<f8", "False", "(4, 3)", &numbers[..11])),
+            "io",
+            "88 bytes",
+        ),
+        (
+            Some(npy("<f8", "False", "(3, 4)", &numbers)),
+            "state-length",
+            "its shape is [3, 4], for 4 sites of 3 coordinates",
+        ),
+        (
+            Some(npy("<f8", "False", "(4, 3)", &infinite)),
+            "domain",
+            "`y` of site 2 is NaN",
+        ),
+    ] {
+        let path = folder.path().join("start.npy");
+        let _ = std::fs::remove_file(&path);
+        if let Some(bytes) = file {
+            std::fs::write(&path, bytes).expect("a file");
+        }
+        let run = lie(&format!("run {chain} --param N=4")).error(kind, &format!("{chain}:9:"));
+        assert!(run.stderr.contains(text), "{text}: {}", run.stderr);
+    }
+    let chain = chain_from(folder.path(), r#"{ "npy": "start.npy", "seed": 1 }"#);
+    let run = lie(&format!("check {chain}")).error("schema", &format!("{chain}:9:"));
+    assert!(run.stderr.contains("unknown key `seed`"), "{}", run.stderr);
 }

@@ -4,6 +4,9 @@
 //! Without valgrind this prints `skipped`. The counts of steps are in `tests/data/instructions_per_step.txt`, with the
 //! compiler that they hold for: another one is not compared with them. `LIE_UPDATE_GOLDEN=1` writes them.
 
+mod common;
+
+use common::callgrind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -11,65 +14,9 @@ use std::sync::OnceLock;
 /// By which part the instructions of a step may change unnoticed.
 const TOLERANCE: f64 = 0.03;
 
-/// Builds `benches/instruction_counts` with optimisation, in a crate of its own that needs the
-/// runtime alone.
-fn build() -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("instruction_counts");
-    std::fs::create_dir_all(&folder).expect("a folder");
-    let source = root.join("benches/instruction_counts/main.rs");
-    let runtime = root.join("lie-runtime");
-    let systems = root.join("spec-systems");
-    let manifest = format!(
-        "[package]\nname = \"instruction_counts\"\nedition = \"2024\"\n\n\
-         [[bin]]\nname = \"instruction_counts\"\npath = {source:?}\n\n\
-         [dependencies]\n\
-         lie-runtime = {{ path = {runtime:?}, default-features = false, features = [\"std\"] }}\n\
-         spec-systems = {{ path = {systems:?} }}\n\n\
-         [profile.release]\ncodegen-units = 1\n\n[workspace]\n"
-    );
-    std::fs::write(folder.join("Cargo.toml"), manifest).expect("the manifest is written");
-    std::fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock"))
-        .expect("the lock file is copied");
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let output = Command::new(cargo)
-        .args([
-            "build",
-            "--release",
-            "--offline",
-            "--quiet",
-            "--manifest-path",
-        ])
-        .arg(folder.join("Cargo.toml"))
-        .arg("--target-dir")
-        .arg(folder.join("target"))
-        .env_remove("CARGO_BUILD_TARGET")
-        .output()
-        .expect("cargo starts");
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    folder.join("target/release/instruction_counts")
-}
-
 /// All instructions of a run with so many repetitions, and what it printed.
 fn run(program: &Path, form: &str, kernel: &str, repetitions: u64) -> (u64, String) {
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(program)
-        .args([form, kernel, &repetitions.to_string()])
-        .output()
-        .expect("valgrind starts");
-    let report = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{report}");
-    let collected = report
-        .lines()
-        .find_map(|line| line.split_once("Collected :"));
-    let (_, count) = collected.unwrap_or_else(|| panic!("no count in {report}"));
-    let count = count.trim().parse().expect("a count");
-    (count, String::from_utf8_lossy(&output.stdout).into_owned())
+    callgrind::run(program, &[form, kernel, &repetitions.to_string()])
 }
 
 /// Instructions of one call, with its loop; and the numbers computed.
@@ -86,12 +33,10 @@ fn per_call(program: &Path, form: &str, kernel: &str) -> (f64, String) {
 fn program() -> Option<&'static Path> {
     static PROGRAM: OnceLock<Option<PathBuf>> = OnceLock::new();
     let program = PROGRAM.get_or_init(|| {
-        let valgrind = Command::new("valgrind").arg("--version").output();
-        valgrind.is_ok().then(build)
+        let systems = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec-systems");
+        let needs = format!("spec-systems = {{ path = {systems:?} }}");
+        callgrind::build("instruction_counts", &["std"], &needs)
     });
-    if program.is_none() {
-        println!("skipped: valgrind is not installed");
-    }
     program.as_deref()
 }
 

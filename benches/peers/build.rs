@@ -34,6 +34,9 @@ struct Case {
     /// Empty for a case that has a program of its own.
     #[serde(default)]
     spec: String,
+    /// The spec of a family.
+    #[serde(default)]
+    family: String,
     #[serde(default)]
     initial: Vec<f64>,
     #[serde(default)]
@@ -49,9 +52,17 @@ fn main() {
     let text = std::fs::read_to_string(&cases).expect("cases.json can be read");
     let mut cases: BTreeMap<String, Case> =
         serde_json::from_str(&text).expect("cases.json is sound");
+    let families = here.join("../../tests/data/families");
+    println!("cargo::rerun-if-changed={}", families.display());
+    let of_families = cases.values().filter(|case| !case.family.is_empty());
+    let of_families: Vec<String> = of_families
+        .map(|case| system(&families, &case.family))
+        .collect();
     cases.retain(|_, case| !case.spec.is_empty());
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets it"));
-    write(&out.join("systems.rs"), &systems(&specs, &cases));
+    let written = cases.values().map(|case| system(&specs, &case.spec));
+    let written: String = written.chain(of_families).collect();
+    write(&out.join("systems.rs"), &written);
     write(&out.join("fields.rs"), &fields(&cases));
 }
 
@@ -59,18 +70,14 @@ fn write(path: &Path, text: &str) {
     std::fs::write(path, text).expect("the output folder can be written");
 }
 
-/// A module for each case with the system of its spec.
-fn systems(specs: &Path, cases: &BTreeMap<String, Case>) -> String {
-    let mut text = String::new();
-    for case in cases.values() {
-        let spec = specs.join(&case.spec).with_extension("json");
-        let spec = std::fs::read_to_string(&spec).expect("the spec can be read");
-        let model = compile_spec(&spec).expect("the spec is sound");
-        let choices = METHODS.map(|id| Choice::from_id(id).expect("a method"));
-        let code = expand(&model, &with_options(&model, &choices));
-        writeln!(text, "pub mod {} {{\n{code}\n}}", case.spec).expect("a string takes all");
-    }
-    text
+/// A module with the system of a spec.
+fn system(folder: &Path, name: &str) -> String {
+    let spec = folder.join(name).with_extension("json");
+    let spec = std::fs::read_to_string(&spec).expect("the spec can be read");
+    let model = compile_spec(&spec).expect("the spec is sound");
+    let choices = METHODS.map(|id| Choice::from_id(id).expect("a method"));
+    let code = expand(&model, &with_options(&model, &choices));
+    format!("pub mod {name} {{\n{code}\n}}\n")
 }
 
 /// A function for each case: straight code with literal constants, inlined.

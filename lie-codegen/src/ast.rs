@@ -102,8 +102,17 @@ pub struct Family {
     pub sizes: Vec<Size>,
     /// The indices in the names of the state.
     pub indices: Vec<Name>,
-    /// The seed of a random initial state, a point on the unit sphere for each site.
-    pub seed: Option<u64>,
+    /// Where a run starts.
+    pub start: Option<Start>,
+}
+
+/// The initial state of a family.
+#[derive(Clone, Debug)]
+pub enum Start {
+    /// A point on the unit sphere for each site, at random with a seed.
+    UnitSpheres(u64),
+    /// The numbers of a file in NumPy's format; the path is relative to that of the spec.
+    File(Name),
 }
 
 /// `[left, right] = value` of basis elements, or `{left, right} = value` of coordinates.

@@ -15,7 +15,7 @@ use crate::print::Runtime;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
 pub use casimir::{Casimir, CasimirKind, Search};
-pub use family::{Family, SiteSum, Size};
+pub use family::{Family, SiteSum, Size, Start};
 pub use realization::{CANONICAL, Descent, Realization};
 
 /// A parameter of the system.

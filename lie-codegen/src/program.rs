@@ -96,7 +96,7 @@ pub fn program(model: &Model, choices: &[Choice], purpose: Purpose) -> String {
 /// The same system without fused equations, and the methods that are compared on it: those that are fused, once each.
 fn plain(model: &Model, choices: &[Choice]) -> Option<(TokenStream, TokenStream)> {
     let fused: Vec<&Choice> = choices.iter().filter(|choice| is_fused(choice)).collect();
-    if fused.is_empty() || model.energy.expression().is_none() {
+    if fused.is_empty() || model.energy.expression().is_none() || model.family.is_some() {
         return None;
     }
     let system = generate(model, &[]);
@@ -151,6 +151,10 @@ fn evidence(model: &Model) -> TokenStream {
         }
     };
     add(model.is_lie_poisson(), quote! { .with_orbits() });
+    if model.family.is_some() {
+        // what else is known is known of a site
+        return calls;
+    }
     add(source.group.is_some(), quote! { .with_group() });
     add(source.triple.is_some(), quote! { .with_cayley() });
     add(

@@ -2,7 +2,7 @@
 
 use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
-use crate::state::State;
+use crate::state::{State, Unknown as _};
 
 /// The flows of the pieces of `$H = \sum_i f_i(\mu_i)$`, or of other pieces whose gradients are constant along their flows.
 ///
@@ -17,6 +17,17 @@ pub trait PieceFlows<S: Scalar> {
 
     /// The number of pieces.
     fn pieces(&self) -> usize;
+    /// Copies a state as the other functions have it: a family has its sites in another order there, in which those that move
+    /// together stand side by side.
+    #[inline]
+    fn take(&mut self, mu: &Self::State, next: &mut Self::State) {
+        next.copy_from(mu);
+    }
+    /// Copies such a state back, in the lanes of a mask.
+    #[inline]
+    fn give(&self, lanes: S::Mask, next: &Self::State, mu: &mut Self::State) {
+        mu.assign_where(lanes, next);
+    }
     /// The element of the algebra that a piece moves along in a time t, t times the gradient of the piece, `xi = t f_i'(mu_i) e_i`: its
     /// flow is `Ad*_(exp xi)`.
     fn direction(&self, piece: usize, t: S, mu: &Self::State, xi: &mut Self::State);

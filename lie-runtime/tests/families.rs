@@ -1,18 +1,30 @@
 //! Families: their kernels and loops against a direct sum that is written out, and against H differentiated by dual
 //! numbers, which shares nothing with them.
 
+mod sites;
+
 use lie_runtime::driver::Save;
-use lie_runtime::family::{Family, Pieces, Sites, unit_spheres};
+use lie_runtime::family::{Family, Sites, unit_spheres};
 use lie_runtime::methods::Method;
 use lie_runtime::prelude::*;
-use lie_runtime::{PieceFlows, SeparablePoisson};
+use sites::{by_component, end, largest_difference};
 
 lie_poisson! { pub spec = "../tests/data/families/heisenberg_chain.json"; }
 lie_poisson! { pub spec = "../tests/data/families/open_chain.json"; }
 lie_poisson! { pub spec = "../tests/data/families/mean_field.json"; }
 lie_poisson! { pub spec = "../tests/data/families/lattice.json"; }
 lie_poisson! { pub spec = "../tests/data/families/su3_ring.json"; }
-lie_poisson! { pub spec = "../tests/data/families/xxz_chain.json"; }
+lie_poisson! { pub spec = "../tests/data/families/mean_field_pieces.json"; }
+
+lie_poisson! {
+    /// Classical spins on a ring, without a spec.
+    pub system Ring;
+    algebra = so(3)^N;
+    state x[i], y[i], z[i];
+    parameters { N = 1000; J = 1; }
+    hamiltonian = -J*sum(i in 0..N: x[i]*x[i+1] + y[i]*y[i+1] + z[i]*z[i+1]);
+    initial = random(unit-sphere, 1);
+}
 
 lie_poisson! {
     /// Four spins on a ring, written out.
@@ -23,20 +35,6 @@ lie_poisson! {
     hamiltonian = -J*((x0*x1 + y0*y1 + z0*z1) + (x1*x2 + y1*y2 + z1*z2)
         + (x2*x3 + y2*y3 + z2*z3) + (x3*x0 + y3*y0 + z3*z0));
     methods = [rk4];
-}
-
-/// The state of a family from that of a direct sum, site after site.
-fn by_component(sites: &[f64], n: usize) -> Vec<f64> {
-    let count = sites.len() / n;
-    (0..sites.len())
-        .map(|place| sites[place % count * n + place / count])
-        .collect()
-}
-
-fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
-    assert_eq!(one.len(), other.len());
-    let differences = one.iter().zip(other).map(|(a, b)| (a - b).abs());
-    differences.fold(0.0, Scalar::max)
 }
 
 #[test]
@@ -122,6 +120,30 @@ fn compare<K, const L: usize, const T: usize>(
 }
 
 #[test]
+fn a_family_in_the_macro_is_that_of_its_spec() {
+    let written = Ring { N: 33.0, J: 0.75 };
+    let spec = HeisenbergChain { N: 33.0, J: 0.75 };
+    assert_eq!(Ring::new().N, HeisenbergChain::new().N);
+    let mu = written.initial_state().expect("a size");
+    assert_eq!(mu, spec.initial_state().expect("a size"));
+    let (written, spec) = (
+        written.system().expect("a size"),
+        spec.system().expect("a size"),
+    );
+    let (one, other) = (
+        end(&written, Splitting6::new(), &mu, 0.3, 9),
+        end(&spec, Splitting6::new(), &mu, 0.3, 9),
+    );
+    assert_eq!(one, other);
+    assert_ne!(one, mu);
+    let (one, other) = (
+        end(&written, Gauss16, &mu, 0.3, 3),
+        end(&spec, Gauss16, &mu, 0.3, 3),
+    );
+    assert_eq!(one, other);
+}
+
+#[test]
 fn rings_of_any_size_move_as_their_hamiltonian_says() {
     for n in [1, 2, 3, 4, 5, 37] {
         let ring = HeisenbergChain {
@@ -173,6 +195,28 @@ fn all_sites_are_coupled_to_all_by_functions_of_sums() {
             let (sx, sy) = (all(&x), all(&y));
             let mean = d(0.5 / (2.0 * n as f64)) * (sx * sx + d(2.0) * sx * sy);
             mean + all(&|i| z(i) * z(i + 1) + x(i) * x(i) * y(i))
+        });
+    }
+}
+
+#[test]
+fn functions_of_sums_are_gathered_once() {
+    for n in [1.0, 2.0, 9.0, 200.0] {
+        let family = MeanFieldPieces {
+            N: n,
+            ..MeanFieldPieces::new()
+        };
+        let system = family.system().expect("a size");
+        let n = n as isize;
+        compare(&system, |at| {
+            let [x, y, z] = [0, 1, 2].map(|k| move |i: isize| at(k, 0, i));
+            let all =
+                |from: isize, f: &dyn Fn(isize) -> D| (from..n).fold(d(0.0), |sum, i| sum + f(i));
+            let (sx, sz) = (all(0, &x), all(1, &z));
+            let half = all(0, &|i| x(i) * x(i) * d(0.5));
+            let bonds = (0..n - 1).fold(d(0.0), |sum, i| sum + z(i) * z(i + 1));
+            let mean = (sx * sx + sx * half) * d(0.5 / n as f64);
+            mean + d(0.5) * sz.sin() + d(0.25) * all(0, &y) - bonds
         });
     }
 }
@@ -310,119 +354,4 @@ fn what_is_no_number_of_sites_is_refused() {
     .system()
     .expect_err("no constant");
     assert_eq!(error.name, "J");
-}
-
-/// The end of a run of so many steps.
-fn end<P, M>(system: &P, method: M, mu: &[f64], h: f64, steps: u32) -> Vec<f64>
-where
-    P: Poisson<f64, State = Vec<f64>>,
-    M: Method<f64, P>,
-{
-    let mut mu = mu.to_vec();
-    let mut stepper = method.stepper(system, h, &NewtonOptions::default());
-    for _ in 0..steps {
-        stepper.step(&mut mu, &mut ()).expect("a step");
-    }
-    mu
-}
-
-/// Splittings have their orders, keep the Casimir of each site and are undone by the step back.
-fn splits<K, const L: usize, const T: usize>(system: &Family<K, 3, L, T>)
-where
-    K: Pieces<f64, 3, L, T> + Sites<f64, 3, L, T>,
-{
-    let count = system.count();
-    let mu: Vec<f64> = unit_spheres(count, 3, 11);
-    let exact = end(system, Gauss16, &mu, 0.05, 20);
-    let error = |end: Vec<f64>| largest_difference(&end, &exact);
-    let order = |coarse: f64, fine: f64| (coarse / fine).log2();
-    let second =
-        [20, 40].map(|n| error(end(system, Splitting2::new(), &mu, 1.0 / f64::from(n), n)));
-    let fourth = [8, 16].map(|n| error(end(system, Splitting4::new(), &mu, 1.0 / f64::from(n), n)));
-    let sixth = [5, 10].map(|n| error(end(system, Splitting6::new(), &mu, 1.0 / f64::from(n), n)));
-    for (errors, expected) in [(second, 2.0), (fourth, 4.0), (sixth, 6.0)] {
-        let found = order(errors[0], errors[1]);
-        assert!(
-            (found - expected).abs() < 0.7,
-            "{found} {expected} {errors:?}"
-        );
-        assert!(errors[1] > 1e-13, "{errors:?} is round-off");
-    }
-    let far = end(system, Splitting2::new(), &mu, 0.3, 200);
-    for site in 0..count {
-        let square: f64 = (0..3).map(|k| far[k * count + site].powi(2)).sum();
-        assert!((square - 1.0).abs() < 1e-13, "{site} {square}");
-    }
-    let back = end(system, Splitting4::new(), &far, 0.3, 5);
-    let back = end(system, Splitting4::new(), &back, -0.3, 5);
-    assert!(largest_difference(&back, &far) < 1e-12);
-}
-
-#[test]
-fn bonds_of_spins_are_done_two_or_three_colours_at_a_time() {
-    for n in [2, 3, 6, 7, 100, 101] {
-        let ring = HeisenbergChain {
-            N: f64::from(n),
-            J: 0.8,
-        };
-        let system = ring.system().expect("a size");
-        let colours = if n % 2 == 0 { 2 } else { 3 };
-        assert_eq!(SeparablePoisson::<f64>::flows(&system).pieces(), colours);
-        // both bonds of two sites are the same, so that a splitting of them is exact
-        if n > 2 {
-            splits(&system);
-        }
-    }
-    // large steps, on which the turn is no short series
-    let system = HeisenbergChain { N: 6.0, J: 1.0 }.system().expect("a size");
-    let mu: Vec<f64> = unit_spheres(6, 3, 1);
-    let (mut one, mut ten) = (mu.clone(), mu);
-    let mut flows = SeparablePoisson::<f64>::flows(&system);
-    flows.flow(0, 9.0, &mut one);
-    for _ in 0..10 {
-        flows.flow(0, 0.9, &mut ten);
-    }
-    assert!(largest_difference(&one, &ten) < 1e-13);
-}
-
-#[test]
-fn products_and_functions_of_one_coordinate_are_pieces_too() {
-    for n in [2.0, 7.0, 80.0] {
-        let chain = XxzChain {
-            N: n,
-            ..XxzChain::new()
-        };
-        splits(&chain.system().expect("a size"));
-    }
-    for (n, m) in [(2.0, 3.0), (3.0, 5.0), (4.0, 70.0)] {
-        splits(&Lattice { N: n, M: m }.system().expect("sizes"));
-    }
-}
-
-#[test]
-fn opposite_spins_beside_a_bond_that_turns_far_stay() {
-    let family = HeisenbergChain { N: 4.0, J: 0.75 }.system().expect("sizes");
-    // the first bond has the sum 0; the second turns by more than what a series is taken for
-    let spins = [0.6, 0.0, 0.8, -0.6, 0.0, -0.8, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-    let start = by_component(&spins, 3);
-    let (mut once, mut often) = (start.clone(), start.clone());
-    let mut flows = family.flows();
-    flows.flow(0, 4.0, &mut once);
-    (0..1000).for_each(|_| flows.flow(0, 0.004, &mut often));
-    let difference = largest_difference(&once, &often);
-    assert!(difference < 1e-12, "{difference:e}");
-    assert!(
-        largest_difference(&once, &start) > 0.1,
-        "the other bond turns"
-    );
-}
-
-#[test]
-fn a_bond_of_a_site_with_itself_is_no_piece() {
-    let system = HeisenbergChain { N: 1.0, J: 1.0 }.system().expect("a size");
-    let mut stepper =
-        Method::<f64, _>::stepper(&Splitting2::new(), &system, 0.1, &NewtonOptions::default());
-    let mut mu = vec![1.0, 0.0, 0.0];
-    assert!(stepper.step(&mut mu, &mut ()).is_err());
-    assert_eq!(mu, [1.0, 0.0, 0.0]);
 }

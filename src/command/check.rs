@@ -80,8 +80,9 @@ pub fn run(arguments: &args::Check) -> Result<u8, Failure> {
 /// The `run` of a spec as `lie run` would take it without flags. Without an initial state the flags
 /// have to bring one.
 fn defaults_of_run(spec: &Spec) -> Result<(), Vec<Message>> {
-    let seed = spec.model.family.as_ref().and_then(|family| family.seed);
-    if spec.model.run.is_empty() || (spec.model.initial.is_none() && seed.is_none()) {
+    let family = spec.model.family.as_ref();
+    let start = family.is_some_and(|family| family.start.is_some());
+    if spec.model.run.is_empty() || (spec.model.initial.is_none() && !start) {
         return Ok(());
     }
     plan(spec, &args::Run::default()).map(|_| ())

@@ -1,4 +1,4 @@
-//! A family of systems, which only a spec declares.
+//! A family of systems, whose algebra has no name, and which starts at a list.
 
 use lie_runtime::prelude::*;
 
@@ -9,6 +9,7 @@ lie_poisson! {
     parameters { I1 = 2; I2 = 1; I3 = 2/3; }
     hamiltonian = sum(i in 0..3: x[i]^2);
     methods = [lie-midpoint];
+    initial = [1, 0, 0];
 }
 
 // Whoever uses the type hears of nothing else.

@@ -152,17 +152,19 @@ macro_rules! case {
     }};
 }
 
-/// The chain of spins. States and the reference are in its order.
+/// The chain of spins.
 fn with_chain(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
     let given = case.initial.as_ref().expect("an initial state");
     let start = chain::state(given);
     let reference = chain::state(&case.reference);
     let until = Given::of("D").until;
-    let problem = Problem::new(
-        chain::Chain::new(given.len() / 3),
-        start.clone(),
-        (0.0, until),
-    );
+    let chain = systems::heisenberg_chain::HeisenbergChain {
+        N: (given.len() / 3) as f64,
+        J: 1.0,
+    };
+    let system = chain.system().expect("a number of spins");
+    let problem = Problem::new(system, start.clone(), (0.0, until));
+    same_field(&problem, chain::field);
     let mut trials = Trials {
         reference: &reference,
         distance: chain::distance,
@@ -186,7 +188,7 @@ fn with_chain(case: &Case, then: &mut dyn FnMut(&mut Trials<'_>)) {
     ours.by_tolerance("splitting6", Splitting6::new(), default[0]);
     ours.by_tolerance("splitting8", Splitting8::new(), default[0]);
     if !FUSED {
-        crates::measure_large(&mut trials, chain::field::<f64>, &start, until, case.quick);
+        crates::measure_large(&mut trials, chain::field, &start, until, case.quick);
     }
     then(&mut trials);
 }

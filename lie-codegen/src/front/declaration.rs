@@ -2,6 +2,7 @@
 
 mod block;
 mod entry;
+mod family;
 mod statement;
 mod vectors;
 
@@ -14,7 +15,7 @@ use super::reader::{self, Entries, Line, Read};
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::vectors::Declared;
 use super::{Body, Names, Parsed, item, rust};
-use crate::ast::{Expr, Name, Realization, RunOption};
+use crate::ast::{Expr, Name, Realization, RunOption, Start};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 use crate::print::{NoPath, Runtime};
 
@@ -237,10 +238,8 @@ fn system(parts: &Parts<'_>, report: &mut Report) -> Parsed {
     {
         parts.missing("hamiltonian", "hamiltonian = x^2/2;", place, report);
     }
-    parsed.state = parts
-        .first("state")
-        .map(|s| names(s.rest, s.origin, report))
-        .unwrap_or_default();
+    let state = parts.first("state");
+    (parsed.state, parsed.indices) = state.map(|s| family::state(s, report)).unwrap_or_default();
     parsed.dimension = match parts.first("state") {
         Some(state) => split_commas(state.rest).len(),
         None => parts.size_of_basis(),
@@ -288,7 +287,11 @@ impl Entries for Parts<'_> {
     }
 
     fn algebra(&self, parameters: &[String], report: &mut Report) -> Option<Read> {
-        algebra(self.first("algebra")?, parameters, report)
+        let statement = self.first("algebra")?;
+        if self.first("state").is_some_and(family::is_indexed) {
+            return family::algebra(statement, report);
+        }
+        algebra(statement, parameters, report)
     }
 
     fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization> {
@@ -303,6 +306,10 @@ impl Entries for Parts<'_> {
     fn initial(&self, _: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {
         let statement = self.first("initial");
         statement.map_or_else(Vec::new, |s| initial(s, names, report))
+    }
+
+    fn start(&self, report: &mut Report) -> Option<Start> {
+        family::start(self.first("initial")?, report)
     }
 
     fn prose(&self, _: &mut Report) -> (Vec<String>, Vec<String>) {

@@ -3,6 +3,8 @@
 //! The parser reads them into the tree; [`refuse`] turns them away where the declaration is none of a family.
 
 use super::expression::Parser;
+use super::named;
+use super::reader::Read;
 use super::token::{Cursor, render, span};
 use super::token::{Delimiter, Token, TokenKind};
 use crate::ast::{Expr, ExprKind, Index, Name, Size};
@@ -52,7 +54,7 @@ pub fn not_built(origin: Origin) -> Diagnostic {
         origin,
         "indexed names and sums belong to families, and this declaration is none",
     )
-    .help("a family is declared by a spec, with an algebra such as `so(3)^N` and a state such as `x[i]`; else write the copies out, as in x1, x2, x3")
+    .help("a family has an algebra such as `so(3)^N` and a state such as `x[i]`; else write the copies out, as in x1, x2, x3")
 }
 
 /// `x[0]` or `x[i]` where a name is declared: what stands behind the opening bracket.
@@ -231,8 +233,16 @@ pub(super) fn same_indices(
     (state.into_iter().map(|(name, _)| name).collect(), first)
 }
 
+/// The algebra of a site of a family, by its name, and the number of copies.
+pub(super) fn algebra(tokens: &[Token], place: Origin, report: &mut Report) -> Option<Read> {
+    let (site, sizes) = power(tokens, place, report)?;
+    let named = named::parse(site, place, report)?;
+    let read = named::standard(&named, place);
+    Some(Read { sizes, ..read })
+}
+
 /// What stands before the last `^` of the algebra of a family, and the sizes behind it: `N`, `64` or `(N, M)`.
-pub(super) fn power<'a>(
+fn power<'a>(
     tokens: &'a [Token],
     whole: Origin,
     report: &mut Report,

@@ -9,7 +9,7 @@ use super::vectors::{self, Declared};
 use super::{Body, Names, Parsed, expression, item};
 use crate::ast::{
     Algebra, Declaration, Energy, Expr, Family, Invariance, Name, Parameter, Realization,
-    RunOption, Size, Structure,
+    RunOption, Size, Start, Structure,
 };
 use crate::diagnostic::{Kind, Origin, Report};
 
@@ -75,10 +75,8 @@ pub trait Entries {
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared>;
     /// The initial state in these names.
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr>;
-    /// The seed of a random initial state of a family.
-    fn seed(&self, _report: &mut Report) -> Option<u64> {
-        None
-    }
+    /// The initial state of a family.
+    fn start(&self, report: &mut Report) -> Option<Start>;
     /// Description and references, for people.
     fn prose(&self, report: &mut Report) -> (Vec<String>, Vec<String>);
     /// Defaults of the command.
@@ -110,11 +108,12 @@ pub fn finish<E: Entries>(
     let algebra = read.map(|(place, read)| (place, read.map(|read| read.algebra)));
     let declaration = remainder(entries, &parsed, algebra, parameters, report);
     let indices = parsed.indices.clone();
+    let start = (!indices.is_empty()).then(|| entries.start(report));
     let declaration = declaration.map(|declaration| Declaration {
         family: (!indices.is_empty()).then(|| Family {
             sizes,
             indices,
-            seed: entries.seed(report),
+            start: start.flatten(),
         }),
         ..declaration
     });

@@ -98,6 +98,14 @@ objects! {
         "seed" seed: Option<u64>,
     }
 
+    /// The initial state of a family from a file.
+    struct Numbers requires ["npy"] {
+        /// The path of a file in NumPy's format, relative to that of the spec: numbers of type f8 or f4, little-endian, in C
+        /// order, a row for each site, of a lattice `(N, M, coordinates)`; or one-dimensional in the order of the state, the
+        /// first coordinates of all sites, then the second ones.
+        "npy" npy: String,
+    }
+
     /// A Lie algebra. Antisymmetry is implied and absent brackets are zero.
     struct Algebra requires [] {
         /// The name of a known algebra, such as `so(3)`, which the other keys change.
@@ -200,7 +208,7 @@ pub enum AlgebraForm {
     Written(Algebra),
 }
 
-/// The initial state: of a family at random, else value by value.
+/// The initial state: of a family at random or from a file, else value by value.
 #[derive(JsonSchema)]
 #[schemars(untagged)]
 #[expect(dead_code, reason = "the variants describe the schema")]
@@ -209,6 +217,8 @@ pub enum Initial {
     Values(Vec<Constant>),
     /// At random.
     Random(Random),
+    /// From a file.
+    Numbers(Numbers),
 }
 
 /// How the sites of a random state are distributed.

@@ -4,6 +4,7 @@ mod algebra;
 mod parameters;
 mod realization;
 mod run;
+mod start;
 mod vectors;
 
 use quote::quote;
@@ -11,10 +12,10 @@ use quote::quote;
 use super::json::{self, Type, Value};
 use super::object::{Object, list, string, wrong_type};
 use super::reader::{self, Entries, Line, Read};
-use super::schema::{self, Spec};
+use super::schema::Spec;
 use super::vectors::Declared;
 use super::{Names, Parsed, expression, families, file, item, number, prose};
-use crate::ast::{Expr, ExprKind, Name, Realization, RunOption};
+use crate::ast::{Expr, ExprKind, Name, Realization, RunOption, Start};
 use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 /// The only version of the format.
@@ -85,33 +86,6 @@ fn state(spec: &Object<'_>, report: &mut Report) -> (Vec<Name>, Vec<Name>) {
         Some(state) if !state.is_empty() => families::same_indices(state, report),
         _ => (spec.names("state", report), Vec::new()),
     }
-}
-
-/// The seed of `{"random": "unit-sphere", "seed": 1}`.
-fn seed(value: Value<'_>, report: &mut Report) -> Option<u64> {
-    if value.kind() != Type::Object {
-        let message = "the initial state of a family is not a list";
-        let help =
-            "write `{\"random\": \"unit-sphere\", \"seed\": 1}`, or give the values by `--initial`";
-        report.push(Diagnostic::new(Kind::Schema, value.head(), message).help(help));
-        return None;
-    }
-    let object = Object::read(value, "`initial`", schema::Random::KEYS, report)?;
-    object.require("`initial`", schema::Random::REQUIRED, report);
-    let kind = string(object.get("random")?, "`random`", report)?;
-    if kind.text != "unit-sphere" {
-        let message = format!("unknown distribution `{}`", kind.text.escape_debug());
-        let help = "write `unit-sphere`: a point on it for each site";
-        report.push(Diagnostic::new(Kind::Schema, kind.whole(), message).help(help));
-    }
-    let Some(seed) = object.get("seed") else {
-        return Some(1);
-    };
-    let number = seed.raw().parse().ok();
-    if number.is_none() {
-        report.push(wrong_type(&seed, "`seed`", "a whole number"));
-    }
-    number
 }
 
 /// `$schema` and `format`.
@@ -202,8 +176,8 @@ impl Entries for Object<'_> {
         value.map_or_else(Vec::new, |v| initial(v, state, names, report))
     }
 
-    fn seed(&self, report: &mut Report) -> Option<u64> {
-        seed(self.get("initial")?, report)
+    fn start(&self, report: &mut Report) -> Option<Start> {
+        start::read(self.get("initial")?, report)
     }
 
     fn prose(&self, report: &mut Report) -> (Vec<String>, Vec<String>) {

@@ -1,5 +1,6 @@
 //! Families of copies of an algebra.
 
+pub use crate::ast::Start;
 use crate::symbolic::ExprId;
 
 /// A family `A^N`: H is a function of sums over the sites.
@@ -20,8 +21,8 @@ pub struct Family {
     pub energy: ExprId,
     /// The total degree of H in the coordinates, where it is a polynomial.
     pub degree: Option<u32>,
-    /// The seed of a random initial state.
-    pub seed: Option<u64>,
+    /// Where a run starts.
+    pub start: Option<Start>,
 }
 
 /// The number of sites along one axis.
@@ -45,6 +46,14 @@ pub struct SiteSum {
 }
 
 impl Family {
+    /// The seed of a random initial state.
+    pub fn seed(&self) -> Option<u64> {
+        match self.start {
+            Some(Start::UnitSpheres(seed)) => Some(seed),
+            _ => None,
+        }
+    }
+
     /// Rows and columns for these values of the parameters; none where a value is no size.
     pub fn sites(&self, parameters: &[f64]) -> Option<[usize; 2]> {
         let size = |size: &Size| size.value(parameters);

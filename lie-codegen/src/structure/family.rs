@@ -1,5 +1,5 @@
 //! The pieces of the Hamiltonian of a family whose flows are exact: functions of one coordinate, products of a coordinate of
-//! each of two sites, and on so(3) the exchange of two spins.
+//! each of two sites, on so(3) the exchange of two spins, and functions of sums of functions of one coordinate.
 
 use crate::model::{Family, Model, SiteSum};
 use crate::structure::{separable, spins};
@@ -21,6 +21,9 @@ pub struct Piece {
 pub enum Form {
     /// A function of a coordinate, with its derivative; coordinate a of the site is `Symbol::Coordinate(a)`.
     Site(usize, ExprId),
+    /// A function of sums over functions of one coordinate, all of which its flow keeps: its derivative by that coordinate of a
+    /// site, in which the sums are the symbols that they are in H, and what a site adds to each of these sums.
+    Collective(usize, ExprId, Vec<(usize, ExprId)>),
     /// A multiple of a product of a coordinate of each site.
     Product([usize; 2], ExprId),
     /// `s_1' = rate (s_1 + s_2) x s_1`, and the opposite of that for the other spin.
@@ -37,6 +40,7 @@ impl Piece {
         };
         match &self.form {
             Form::Site(a, _) => format!("f({})", name(*a)),
+            Form::Collective(a, ..) => format!("F(sums over {})", name(*a)),
             Form::Product([a, b], _) => format!("{}*{}[{at}]", name(*a), name(*b)),
             Form::Exchange(_) => format!("exchange with [{at}]"),
         }
@@ -54,6 +58,7 @@ pub fn pieces(model: &Model, family: &Family, graph: &mut Graph) -> Result<Vec<P
         graph,
         found: Vec::new(),
     };
+    search.collective()?;
     for (k, sum) in family.sums.iter().enumerate() {
         search.sum(k, sum)?;
     }
@@ -61,7 +66,7 @@ pub fn pieces(model: &Model, family: &Family, graph: &mut Graph) -> Result<Vec<P
     let actions = model.bracket.algebra().map(separable::actions);
     let actions = actions.unwrap_or_default();
     let needed = found.iter().flat_map(|piece| match &piece.form {
-        Form::Site(a, _) => vec![*a],
+        Form::Site(a, _) | Form::Collective(a, ..) => vec![*a],
         Form::Product(both, _) => both.to_vec(),
         Form::Exchange(_) => Vec::new(),
     });
@@ -88,17 +93,97 @@ impl Search<'_> {
         self.model.dimension()
     }
 
+    fn symbol_of_sum(&self, k: usize) -> Symbol {
+        Symbol::Coordinate(self.family.names.len() + k)
+    }
+
+    /// `dF/dT_k`
+    fn weight(&mut self, k: usize) -> ExprId {
+        let symbol = self.symbol_of_sum(k);
+        self.graph.derivative(self.family.energy, symbol)
+    }
+
+    /// Whether `dF/dT_k` depends on another sum, or on its own.
+    fn mixed(&mut self, k: usize, other: usize) -> bool {
+        let (weight, symbol) = (self.weight(k), self.symbol_of_sum(other));
+        let mixed = self.graph.derivative(weight, symbol);
+        !self.graph.is_zero(mixed)
+    }
+
+    /// The functions of sums that are not linear in them: those that belong together are one piece.
+    fn collective(&mut self) -> Result<(), String> {
+        let count = self.family.sums.len();
+        let mut left: Vec<usize> = (0..count)
+            .filter(|k| (0..count).any(|other| self.mixed(*k, other)))
+            .collect();
+        while let Some(first) = left.pop() {
+            let (mut group, mut next) = (vec![first], 0);
+            while let Some(&k) = group.get(next) {
+                let (with, without): (Vec<usize>, Vec<usize>) =
+                    left.iter().partition(|other| self.mixed(k, **other));
+                group.extend(with);
+                left = without;
+                next += 1;
+            }
+            group.sort_unstable();
+            let piece = self.function_of_sums(&group)?;
+            self.found.push(piece);
+        }
+        Ok(())
+    }
+
+    /// The piece that is a function of these sums.
+    fn function_of_sums(&mut self, group: &[usize]) -> Result<Piece, String> {
+        let n = self.n();
+        let (mut known, mut slope, mut shares) = (None, self.graph.integer(0), Vec::new());
+        for &k in group {
+            let sum = &self.family.sums[k];
+            let places = self.graph.coordinates(sum.summand);
+            let [place] = places.as_slice() else {
+                return Err("H is a function of a sum, not linear in it, whose summand depends on more than one coordinate".into());
+            };
+            let (slot, a) = (place / n, place % n);
+            let spans = self.spans(sum, slot);
+            let (coordinate, of_all) = *known.get_or_insert((a, spans));
+            if coordinate != a {
+                let names = [coordinate, a].map(|a| &self.model.coordinates[a].text);
+                return Err(format!(
+                    "H mixes sums over `{}` and over `{}`",
+                    names[0], names[1]
+                ));
+            }
+            if of_all != spans {
+                return Err("H mixes sums over different sites".into());
+            }
+            let (place, own) = (*place, self.graph.symbol(Symbol::Coordinate(a)));
+            let share = self.graph.substitute(&[sum.summand], &|symbol| {
+                (symbol == Symbol::Coordinate(place)).then_some(own)
+            })[0];
+            let by_site = self.graph.derivative(share, Symbol::Coordinate(a));
+            let weight = self.weight(k);
+            let term = self.graph.mul(weight, by_site);
+            slope = self.graph.add(slope, term);
+            shares.push((k, share));
+        }
+        let (a, spans) = known.unwrap_or_default();
+        Ok(Piece {
+            offset: [0, 0],
+            spans,
+            form: Form::Collective(a, slope, shares),
+        })
+    }
+
     fn sum(&mut self, k: usize, sum: &SiteSum) -> Result<(), String> {
-        let symbol = Symbol::Coordinate(self.family.names.len() + k);
-        let weight = self.graph.derivative(self.family.energy, symbol);
+        let weight = self.weight(k);
         if !self.graph.coordinates(weight).is_empty() {
-            return Err("H is not linear in a sum over all sites".into());
+            // a function of sums is a piece of its own
+            return Ok(());
         }
         let mut density = self.graph.mul(weight, sum.summand);
-        match *sum.slots.as_slice() {
-            [] | [_] => {}
-            [one, other] => density = self.bond(density, [one, other], sum)?,
-            _ => return Err("a summand depends on more than two sites".into()),
+        for (place, &one) in sum.slots.iter().enumerate() {
+            for &other in &sum.slots[place + 1..] {
+                density = self.bond(density, [one, other], sum)?;
+            }
         }
         for &slot in &sum.slots {
             self.site(density, slot, sum)?;
@@ -117,7 +202,7 @@ impl Search<'_> {
         [moved(0), moved(1)]
     }
 
-    /// The products of a summand; what is left without them.
+    /// The products of coordinates of two of the sites of a summand; what is left without them.
     fn bond(
         &mut self,
         density: ExprId,

@@ -8,13 +8,13 @@ use core::array::from_fn;
 const BLOCK: usize = 128;
 
 /// Sums that carry their rounding errors: `sum + low` is the sum of what was added, to twice the digits.
-struct Totals<S, const T: usize> {
+pub(super) struct Totals<S, const T: usize> {
     sum: [S; T],
     low: [S; T],
 }
 
 impl<S: Scalar, const T: usize> Totals<S, T> {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             sum: [S::zero(); T],
             low: [S::zero(); T],
@@ -22,7 +22,7 @@ impl<S: Scalar, const T: usize> Totals<S, T> {
     }
 
     /// Knuth's sum of two numbers with its error.
-    fn add(&mut self, values: [S; T]) {
+    pub(super) fn add(&mut self, values: [S; T]) {
         for (k, value) in values.into_iter().enumerate() {
             let before = self.sum[k];
             let sum = before + value;
@@ -32,7 +32,7 @@ impl<S: Scalar, const T: usize> Totals<S, T> {
         }
     }
 
-    fn end(self) -> [S; T] {
+    pub(super) fn end(self) -> [S; T] {
         from_fn(|k| self.sum[k] + self.low[k])
     }
 }

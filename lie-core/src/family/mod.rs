@@ -10,17 +10,23 @@
 //! of them has no neighbours beyond the ends.
 //!
 //! A state holds the first coordinates of all sites, then the second ones, and so on; the sites of a lattice row after row.
-//! Memory is a few states: no Jacobian is kept, so that the methods are those that need none.
+//! Memory is a few states: no method keeps a Jacobian, so that they are those that need none. Matrices of all coordinates are
+//! there for measurements on small families.
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
+mod bonds;
+mod columns;
 mod energy;
+mod exchange;
 mod initial;
+mod matrix;
 mod sites;
 mod splitting;
 mod stencil;
 mod system;
 
 pub use initial::unit_spheres;
+pub use matrix::LateMatrix;
 pub use sites::{Sites, Span, Term};
 pub use splitting::{FamilyFlows, Kind, Pieces};
-pub use system::{Family, NoMatrix, size};
+pub use system::{Family, size};

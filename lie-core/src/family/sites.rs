@@ -1,6 +1,7 @@
 //! What generated code says of one site of a family.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Dual, Scalar};
+use core::ops::Range;
 
 /// Over which sites a sum goes, along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +18,16 @@ pub enum Span {
 }
 
 impl Span {
+    /// The sites that a sum goes over, of so many.
+    #[inline]
+    #[must_use]
+    pub fn range(self, size: usize) -> Range<usize> {
+        match self {
+            Self::All => 0..size,
+            Self::Within { first, left } => first..size.saturating_sub(left).max(first),
+        }
+    }
+
     /// Whether a sum goes over a site, of so many.
     #[inline]
     #[must_use]
@@ -46,6 +57,8 @@ pub struct Term {
 pub trait Sites<S: Scalar, const C: usize, const L: usize, const T: usize>: Clone {
     /// The same over eight numbers at once.
     type Widened: Sites<S::Wide, C, L, T>;
+    /// The same over dual numbers.
+    type Lifted: Sites<Dual<S>, C, L, T>;
 
     /// Whether some `dF/dT_k` depends on the state.
     const MEAN_FIELD: bool;
@@ -89,4 +102,6 @@ pub trait Sites<S: Scalar, const C: usize, const L: usize, const T: usize>: Clon
 
     /// The same with each constant eight times.
     fn widen(&self) -> Self::Widened;
+    /// The same with each constant as a dual number.
+    fn lift(&self) -> Self::Lifted;
 }

@@ -1,14 +1,20 @@
 //! Splittings of families: pieces of H whose flows are exact, each for as many sites at once as do not touch.
 //!
-//! A piece is a function of one coordinate of each site, or a bond of two sites at a fixed distance: a product of a coordinate
-//! of each, or on so(3) the exchange `s_i . s_j`, along whose flow both spins turn about their sum. Bonds of a kind are done
-//! in two pieces, those that begin at even and at odd places, or in three where a ring has an odd number of them.
+//! A piece is a function of one coordinate of each site, a function of sums of such functions over all sites, or a bond of two
+//! sites at a fixed distance: a product of a coordinate of each, or on so(3) the exchange `s_i . s_j`, along whose flow both
+//! spins turn about their sum. Bonds of a kind are done in two pieces, those that begin at even and at odd places, or in three
+//! where a ring has an odd number of them.
 
+use super::bonds::Bonds;
+use super::columns::Columns;
+use super::energy::Totals;
+use super::exchange::Exchange;
 use super::stencil::wrapped;
 use super::{Family, Sites, Span};
 use crate::pieces::{PieceFlows, SeparablePoisson};
-use crate::scalar::{Scalar, largest};
+use crate::scalar::Scalar;
 use core::array::from_fn;
+use core::ops::Range;
 use std::vec::Vec;
 
 /// A kind of pieces: a function of one site, or a bond.
@@ -18,6 +24,8 @@ pub struct Kind {
     pub offset: [isize; 2],
     /// The sites that it goes over, the first ones of bonds.
     pub spans: [Span; 2],
+    /// Whether it is a function of sums over these sites, which its flow keeps.
+    pub collective: bool,
 }
 
 /// Sites whose sums have pieces with exact flows. Generated where the compiler finds them.
@@ -33,313 +41,189 @@ pub trait Pieces<S: Scalar, const C: usize, const L: usize, const T: usize>:
 
     /// The rate of an exchange, `s_1' = rate (s_1 + s_2) x s_1`; none of another kind.
     fn exchange(&self, kind: usize) -> Option<S>;
-    /// The flow of a piece over a time t, of a site or of a bond.
-    fn flow(&self, kind: usize, t: S, one: &mut [S; C], other: &mut [S; C]);
+    /// What a site adds to the sums of which a piece is a function; 0 of all other sums.
+    fn share(&self, kind: usize, one: &[S; C]) -> [S; T];
+    /// The flow of a piece over a time t, of a site or of a bond, at these values of its sums.
+    fn flow(&self, kind: usize, t: S, sums: &[S; T], one: &mut [S; C], other: &mut [S; C]);
 }
 
-/// Sites that are done together.
-const BLOCK: usize = 32;
-
-/// The flows of the pieces of a family.
-pub struct FamilyFlows<'a, K, const C: usize, const L: usize, const T: usize> {
-    family: &'a Family<K, C, L, T>,
-    /// Kind and colour of each piece.
-    pieces: Vec<(usize, u8)>,
+/// A piece: a kind, of bonds those of one colour.
+struct Piece<S> {
+    kind: usize,
+    colour: u8,
+    bonds: Option<Bonds>,
+    exchange: Option<S>,
 }
 
-/// The bonds of a kind along the axis by which they are coloured.
-#[derive(Clone, Copy)]
-struct Cycle {
-    /// Sites on a cycle of bonds.
-    length: usize,
-    /// The number of cycles.
+/// Sites of a row, or bonds, that are done together: where the first and where the second ones stand, one behind the other.
+struct Stretch {
+    places: [usize; 2],
     count: usize,
-    /// The place on a cycle goes up by this with each site.
-    inverse: usize,
-    distance: usize,
-    open: bool,
 }
 
-fn greatest_divisor(a: usize, b: usize) -> usize {
-    if b == 0 {
-        a
-    } else {
-        greatest_divisor(b, a % b)
-    }
+/// The flows of the pieces of a family. They act on states in an order of their own, see [`PieceFlows::take`].
+pub struct FamilyFlows<'a, S, K, const C: usize, const L: usize, const T: usize> {
+    family: &'a Family<K, C, L, T>,
+    columns: Columns,
+    pieces: Vec<Piece<S>>,
+    /// A bound of the squares of all spins, which exchanges ask for.
+    largest: S,
 }
 
-impl Cycle {
-    fn new(distance: usize, size: usize, open: bool) -> Self {
-        let count = greatest_divisor(distance % size, size);
-        let (length, step) = (size / count, distance / count);
-        let inverse = (1..length).find(|k| k * step % length == 1 % length);
-        Self {
-            length,
-            count,
-            inverse: inverse.unwrap_or(0),
-            distance,
-            open,
+impl<'a, S, K, const C: usize, const L: usize, const T: usize> FamilyFlows<'a, S, K, C, L, T>
+where
+    S: Scalar,
+    K: Pieces<S, C, L, T>,
+{
+    fn new(family: &'a Family<K, C, L, T>) -> Self {
+        let (mut pieces, mut modulus) = (Vec::new(), 1);
+        for (place, kind) in K::KINDS.iter().enumerate() {
+            let bonds = Bonds::of(*kind, family.sizes());
+            if let Some(bonds) = bonds.filter(|bonds| bonds.axis == 1) {
+                modulus = bonds.period().max(modulus);
+            }
+            for colour in 0..bonds.map_or(1, Bonds::colours) {
+                pieces.push(Piece {
+                    kind: place,
+                    colour,
+                    bonds,
+                    exchange: family.kernels().exchange(place),
+                });
+            }
         }
-    }
-
-    /// How many colours there are.
-    fn colours(self) -> u8 {
-        match self.length {
-            _ if self.open => 2,
-            1 => 1,
-            length => 2 + (length % 2) as u8,
-        }
-    }
-
-    /// The colour of the bond that begins at a place.
-    fn colour(self, place: usize) -> u8 {
-        if self.length == 1 && !self.open {
-            return 0;
-        }
-        if self.open {
-            return (place / self.distance % 2) as u8;
-        }
-        let at = place / self.count * self.inverse % self.length;
-        if at + 1 == self.length && self.length % 2 == 1 {
-            2
-        } else {
-            (at % 2) as u8
-        }
-    }
-}
-
-/// The axis by which the bonds of a kind are coloured; none of a function of one site.
-fn axis(kind: Kind) -> Option<usize> {
-    match kind.offset {
-        [0, 0] => None,
-        [_, 0] => Some(0),
-        _ => Some(1),
-    }
-}
-
-impl<'a, K, const C: usize, const L: usize, const T: usize> FamilyFlows<'a, K, C, L, T> {
-    fn new<S: Scalar>(family: &'a Family<K, C, L, T>) -> Self
-    where
-        K: Pieces<S, C, L, T>,
-    {
-        let kinds = K::KINDS.iter().enumerate();
-        let pieces = kinds.flat_map(|(place, kind)| {
-            let colours = Self::cycle(family, *kind).map_or(1, |(_, cycle)| cycle.colours());
-            (0..colours).map(move |colour| (place, colour))
-        });
         Self {
             family,
-            pieces: pieces.collect(),
+            columns: Columns::new(family.sizes()[1], modulus),
+            pieces,
+            // the flow of an exchange of any spins, until a state is taken
+            largest: S::one() / S::zero(),
         }
     }
 
-    fn cycle(family: &Family<K, C, L, T>, kind: Kind) -> Option<(usize, Cycle)> {
-        let axis = axis(kind)?;
-        let (distance, size) = (kind.offset[axis].unsigned_abs(), family.sizes()[axis]);
-        let open = kind.spans[axis] != Span::All;
-        Some((axis, Cycle::new(distance, size, open)))
-    }
-
-    /// The flow of the pieces of a kind and a colour whose first sites are in a row.
-    fn row<S: Scalar>(&self, (place, colour): (usize, u8), row: usize, t: S, mu: &mut [S])
-    where
-        K: Pieces<S, C, L, T>,
-    {
-        let (family, kind) = (self.family, K::KINDS[place]);
-        let [rows, columns] = family.sizes();
-        let cycle = Self::cycle(family, kind);
-        let of_rows = |(axis, cycle): (usize, Cycle)| axis == 0 && cycle.colour(row) != colour;
-        if !kind.spans[0].holds(row as isize, rows) || cycle.is_some_and(of_rows) {
+    /// The stretches of a piece whose first sites are in a row.
+    fn stretches(&self, piece: &Piece<S>, row: usize, mut then: impl FnMut(Stretch)) {
+        let kind = K::KINDS[piece.kind];
+        let [rows, columns] = self.family.sizes();
+        let Piece { bonds, colour, .. } = *piece;
+        let own = |axis: usize, place: usize| {
+            bonds.is_none_or(|bonds| bonds.axis != axis || bonds.colour(place) == colour)
+        };
+        if !kind.spans[0].holds(row as isize, rows) || !own(0, row) {
             return;
         }
-        let cycle = cycle.filter(|(axis, _)| *axis == 1).map(|(_, cycle)| cycle);
+        let begin = row * columns;
         let below = wrapped(row as isize + kind.offset[0], rows) * columns;
-        let (from, end) = match kind.spans[1] {
-            Span::All => (0, columns),
-            Span::Within { first, left } => (first, columns.saturating_sub(left)),
-        };
-        // columns in which nothing wraps around, every one or every second
-        let (first, last, stride) = match (kind.offset[1], cycle) {
-            (0, _) => (from, end, 1),
-            (1, Some(_)) if colour < 2 => {
-                let odd = (from + usize::from(colour)) % 2;
-                (from + odd, end.min(columns - 1), 2)
-            }
-            (1, Some(_)) => (end, end.min(columns - 1), 2),
-            _ => (end, from, 1),
-        };
-        let shift = kind.offset[1] as usize;
-        for column in (first..last).step_by(stride * BLOCK) {
-            let count = (last - column).div_ceil(stride).min(BLOCK);
-            let places = [row * columns + column, below + column + shift];
-            self.block(place, t, mu, places, (stride, count));
+        let span = kind.spans[1].range(columns);
+        let of_columns = bonds.filter(|bonds| bonds.axis == 1);
+        if of_columns.is_none() && span == (0..columns) {
+            // whole rows, whatever the order of their columns is
+            return then(Stretch {
+                places: [begin, below],
+                count: columns,
+            });
         }
-        for column in last.max(from)..end {
-            if cycle.is_none_or(|cycle| cycle.colour(column) == colour) {
-                let other = below + wrapped(column as isize + kind.offset[1], columns);
-                self.block(place, t, mu, [row * columns + column, other], (1, 1));
+        let parts = of_columns.map_or([(span.clone(), 0), (0..0, 0)], |bonds| {
+            bonds.stretches(span)
+        });
+        let step = self.columns.modulus();
+        for (Range { start, end }, shift) in parts {
+            for first in (start..end.min(start + step)).filter(|first| own(1, *first)) {
+                let second = (first as isize + shift) as usize;
+                then(Stretch {
+                    places: [
+                        begin + self.columns.place(first),
+                        below + self.columns.place(second),
+                    ],
+                    count: (end - first).div_ceil(step),
+                });
             }
         }
     }
 
-    /// The flow of so many pieces, whose sites begin at places and are a stride apart.
-    #[inline(always)]
-    fn block<S: Scalar>(
-        &self,
-        kind: usize,
-        t: S,
-        mu: &mut [S],
-        places: [usize; 2],
-        (stride, count): (usize, usize),
-    ) where
-        K: Pieces<S, C, L, T>,
-    {
-        let (family, bond) = (self.family, K::KINDS[kind].offset != [0, 0]);
-        let sites = family.count();
-        let beside = stride == 2 && places[1] == places[0] + 1;
-        let mut taken = [[[S::zero(); BLOCK]; C]; 2];
-        let [one, other] = &mut taken;
-        for (k, (one, other)) in one.iter_mut().zip(other.iter_mut()).enumerate() {
-            let [first, second] = places.map(|place| &mu[k * sites + place..]);
-            if beside {
-                let pairs = first[..2 * count].chunks_exact(2);
-                for ((one, other), pair) in one.iter_mut().zip(other).zip(pairs) {
-                    (*one, *other) = (pair[0], pair[1]);
-                }
-            } else {
+    /// The sums of which a piece is a function.
+    fn sums(&self, piece: &Piece<S>, mu: &[S]) -> [S; T] {
+        let mut totals = Totals::new();
+        let (family, kind) = (self.family, piece.kind);
+        if K::KINDS[kind].collective {
+            for row in 0..family.sizes()[0] {
+                self.stretches(piece, row, |stretch| {
+                    let first = stretch.places[0];
+                    for site in first..first + stretch.count {
+                        totals.add(family.kernels().share(kind, &family.site(mu, site)));
+                    }
+                });
+            }
+        }
+        totals.end()
+    }
+
+    /// The flow of a piece that is no exchange.
+    fn sites(&self, piece: &Piece<S>, t: S, mu: &mut [S]) {
+        let (family, kind) = (self.family, piece.kind);
+        let bond = piece.bonds.is_some();
+        let sums = self.sums(piece, mu);
+        for row in 0..family.sizes()[0] {
+            self.stretches(piece, row, |Stretch { places, count }| {
                 for i in 0..count {
-                    (one[i], other[i]) = (first[stride * i], second[stride * i]);
+                    let [first, second] = places.map(|place| place + i);
+                    let (mut one, mut other) = (family.site(mu, first), family.site(mu, second));
+                    family.kernels().flow(kind, t, &sums, &mut one, &mut other);
+                    if bond {
+                        family.set_site(mu, second, other);
+                    }
+                    family.set_site(mu, first, one);
                 }
-            }
+            });
         }
-        let [one, other] = &mut taken;
-        if bond && places[0] == places[1] {
-            // a bond of a site with itself is no such piece
-            *one = [[S::zero() / S::zero(); BLOCK]; C];
-        } else if let Some(rate) = family.kernels().exchange(kind) {
-            exchange(rate * t, one, other, count);
-        } else {
-            for i in 0..count {
-                let mut first = from_fn(|k| one[k][i]);
-                let mut second = from_fn(|k| other[k][i]);
-                family.kernels().flow(kind, t, &mut first, &mut second);
-                for k in 0..C {
-                    (one[k][i], other[k][i]) = (first[k], second[k]);
-                }
-            }
-        }
-        for (k, (one, other)) in one.iter().zip(other.iter()).enumerate() {
-            if beside {
-                let pairs = mu[k * sites + places[0]..][..2 * count].chunks_exact_mut(2);
-                for ((one, other), pair) in one.iter().zip(other).zip(pairs) {
-                    (pair[0], pair[1]) = (*one, *other);
-                }
-                continue;
-            }
-            for i in 0..count {
-                if bond {
-                    mu[k * sites + places[1] + stride * i] = other[i];
-                }
-                mu[k * sites + places[0] + stride * i] = one[i];
-            }
+    }
+
+    /// The flow of exchanges.
+    fn exchanges(&self, piece: &Piece<S>, t: S, mu: &mut [S]) {
+        let exchange = Exchange::new(t, self.largest);
+        for row in 0..self.family.sizes()[0] {
+            self.stretches(piece, row, |stretch| {
+                let mut parts = mu.chunks_exact_mut(self.family.count());
+                let components: [_; 3] = from_fn(|_| match parts.next() {
+                    Some(part) => stretch.pair(part),
+                    None => unreachable!("a spin has three components"),
+                });
+                let [[x1, x2], [y1, y2], [z1, z2]] = components;
+                exchange.flow([[x1, y1, z1], [x2, y2, z2]]);
+            });
         }
     }
 }
 
-/// Both spins of each bond turn about their sum S, by the angle `|S| t`. With `x = |S|^2 t^2`, `t sin(|S| t)/(|S| t)` and
-/// `(1 - cos(|S| t))/|S|^2` are series in x, of which as many terms are taken as round-off needs.
-fn exchange<S: Scalar, const C: usize>(
-    t: S,
-    one: &mut [[S; BLOCK]; C],
-    other: &mut [[S; BLOCK]; C],
-    count: usize,
-) {
-    // the largest |S|^2, in parts that do not wait for each other
+impl Stretch {
+    /// The first and the second numbers, which are apart.
+    fn pair<'m, S>(&self, numbers: &'m mut [S]) -> [&'m mut [S]; 2] {
+        let ([first, second], count) = (self.places, self.count);
+        let (before, behind) = numbers.split_at_mut(first.max(second));
+        if first < second {
+            [&mut before[first..][..count], &mut behind[..count]]
+        } else {
+            [&mut behind[..count], &mut before[second..][..count]]
+        }
+    }
+}
+
+/// The largest square of the first three coordinates of a site, in parts that do not wait for each other.
+fn largest_square<S: Scalar>(mu: &[S], sites: usize) -> S {
+    let [x, y, z] = from_fn(|k| &mu[k * sites..][..sites]);
     let mut parts = [S::zero(); 8];
-    for from in (0..BLOCK).step_by(8) {
-        for (part, i) in parts.iter_mut().zip(from..from + 8) {
-            let sum: [S; 3] = from_fn(|k| one[k][i] + other[k][i]);
-            let square = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+    for from in (0..sites).step_by(8) {
+        let end = sites.min(from + 8);
+        let spins = x[from..end].iter().zip(&y[from..end]).zip(&z[from..end]);
+        for (part, ((&x, &y), &z)) in parts.iter_mut().zip(spins) {
+            let square = x * x + y * y + z * z;
             *part = S::select(square.less(*part), *part, square);
         }
     }
-    let most = parts.into_iter().fold(S::zero(), S::max);
-    match largest(most * (t * t)) {
-        x if x < 3e-4 => by_series::<S, C, 4>(t, one, other),
-        x if x < 2e-2 => by_series::<S, C, 6>(t, one, other),
-        x if x < 0.4 => by_series::<S, C, 8>(t, one, other),
-        x if x < 4.0 => by_series::<S, C, 11>(t, one, other),
-        _ => (0..count).for_each(|i| {
-            turn(one, other, i, |square| {
-                // opposite spins do not turn, whatever the functions are
-                let square = S::select(S::zero().less(square), square, S::one());
-                let size = square.sqrt();
-                let half = S::ratio(1.0, 2.0) * size * t;
-                let (sine, cosine) = half.sin_cos();
-                let two = S::from_f64(2.0);
-                (two * sine * cosine / size, two * sine * sine / square)
-            });
-        }),
-    }
-}
-
-fn by_series<S: Scalar, const C: usize, const TERMS: usize>(
-    t: S,
-    one: &mut [[S; BLOCK]; C],
-    other: &mut [[S; BLOCK]; C],
-) {
-    // (-1)^k t / (2k + 1)! and (-1)^k t^2 / (2k + 2)!
-    let (mut sines, mut cosines) = ([t; TERMS], [S::ratio(1.0, 2.0) * t * t; TERMS]);
-    for k in 1..TERMS {
-        let n = 2.0 * k as f64;
-        sines[k] = -sines[k - 1] * S::ratio(1.0, n * (n + 1.0));
-        cosines[k] = -cosines[k - 1] * S::ratio(1.0, (n + 1.0) * (n + 2.0));
-    }
-    let squared = t * t;
-    for i in 0..BLOCK {
-        turn(one, other, i, |square| {
-            let x = square * squared;
-            let (mut sine, mut cosine) = (sines[TERMS - 1], cosines[TERMS - 1]);
-            for k in (0..TERMS - 1).rev() {
-                sine = sine * x + sines[k];
-                cosine = cosine * x + cosines[k];
-            }
-            (sine, cosine)
-        });
-    }
-}
-
-/// Turns the two spins of a bond about their sum, of whose square the two functions are given.
-#[inline(always)]
-fn turn<S: Scalar, const C: usize>(
-    one: &mut [[S; BLOCK]; C],
-    other: &mut [[S; BLOCK]; C],
-    i: usize,
-    functions: impl Fn(S) -> (S, S),
-) {
-    let a: [S; 3] = from_fn(|k| one[k][i]);
-    let b: [S; 3] = from_fn(|k| other[k][i]);
-    let s: [S; 3] = from_fn(|k| a[k] + b[k]);
-    let cross = |u: [S; 3], v: [S; 3]| {
-        [
-            u[1] * v[2] - u[2] * v[1],
-            u[2] * v[0] - u[0] * v[2],
-            u[0] * v[1] - u[1] * v[0],
-        ]
-    };
-    // S x a = b x a
-    let w = cross(b, a);
-    let v = cross(s, w);
-    let (sine, cosine) = functions(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-    for k in 0..3 {
-        let change = sine * w[k] + cosine * v[k];
-        one[k][i] = a[k] + change;
-        other[k][i] = b[k] - change;
-    }
+    parts.into_iter().fold(S::zero(), S::max)
 }
 
 impl<S, K, const C: usize, const L: usize, const T: usize> PieceFlows<S>
-    for FamilyFlows<'_, K, C, L, T>
+    for FamilyFlows<'_, S, K, C, L, T>
 where
     S: Scalar,
     K: Pieces<S, C, L, T>,
@@ -354,10 +238,26 @@ where
         unreachable!("nobody follows the group element of a family")
     }
 
+    fn take(&mut self, mu: &Vec<S>, next: &mut Vec<S>) {
+        self.columns.take(mu, next);
+        if self.pieces.iter().any(|piece| piece.exchange.is_some()) {
+            self.largest = largest_square(mu, self.family.count());
+        }
+    }
+
+    fn give(&self, lanes: S::Mask, next: &Vec<S>, mu: &mut Vec<S>) {
+        self.columns.give(lanes, next, mu);
+    }
+
     fn flow(&mut self, piece: usize, t: S, mu: &mut Vec<S>) {
-        let [rows, _] = self.family.sizes();
-        for row in 0..rows {
-            self.row(self.pieces[piece], row, t, mu);
+        let piece = &self.pieces[piece];
+        if piece.bonds.is_none() && K::KINDS[piece.kind].offset != [0, 0] {
+            // a bond of a site with itself is no such piece
+            return mu.fill(S::zero() / S::zero());
+        }
+        match piece.exchange {
+            Some(rate) => self.exchanges(piece, rate * t, mu),
+            None => self.sites(piece, t, mu),
         }
     }
 }
@@ -369,7 +269,7 @@ where
     K: Pieces<S, C, L, T>,
 {
     type Flows<'a>
-        = FamilyFlows<'a, K, C, L, T>
+        = FamilyFlows<'a, S, K, C, L, T>
     where
         Self: 'a;
 

@@ -1,7 +1,6 @@
 //! The system of a family: loops over the kernels of a site.
 
-use super::Sites;
-use crate::matrix::SquareMatrix;
+use super::{LateMatrix, Sites};
 use crate::parameter::{ParameterError, ParameterFault};
 use crate::poisson::{LiePoisson, Poisson, Widen};
 use crate::scalar::Scalar;
@@ -131,29 +130,13 @@ impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
     }
 }
 
-/// The matrix of a family, which keeps none.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct NoMatrix;
-
-impl<S: Scalar> SquareMatrix<S> for NoMatrix {
-    fn dimension(&self) -> usize {
-        0
-    }
-    fn get(&self, _row: usize, _column: usize) -> S {
-        unreachable!("a family has no matrix")
-    }
-    fn set(&mut self, _row: usize, _column: usize, _value: S) {
-        unreachable!("a family has no matrix")
-    }
-}
-
 impl<S, K, const C: usize, const L: usize, const T: usize> Poisson<S> for Family<K, C, L, T>
 where
     S: Scalar,
     K: Sites<S, C, L, T>,
 {
     type State = Vec<S>;
-    type Jacobian = NoMatrix;
+    type Jacobian = LateMatrix<S>;
 
     fn dimension(&self) -> usize {
         C * self.count()
@@ -184,8 +167,8 @@ where
     fn zero_state(&self) -> Vec<S> {
         std::vec![S::zero(); C * self.count()]
     }
-    fn zero_jacobian(&self) -> NoMatrix {
-        NoMatrix
+    fn zero_jacobian(&self) -> LateMatrix<S> {
+        LateMatrix::new(C * self.count())
     }
 
     fn hamiltonian(&self, mu: &Vec<S>) -> S {
@@ -203,8 +186,15 @@ where
         }
     }
 
-    fn hessian(&self, _mu: &Vec<S>, _out: &mut NoMatrix) {}
-    fn poisson_matrix(&self, _mu: &Vec<S>, _out: &mut NoMatrix) {}
+    fn hessian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
+        self.derivative(mu, out, |family, mu, out| family.gradient(mu, out));
+    }
+
+    fn poisson_matrix(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
+        self.by_sites(out, |site, unit| {
+            self.kernels.ad_star(unit, &self.site(mu, site))
+        });
+    }
 
     #[inline]
     fn vector_field(&self, mu: &Vec<S>, out: &mut Vec<S>) {
@@ -237,7 +227,9 @@ where
         }
     }
 
-    fn jacobian(&self, _mu: &Vec<S>, _out: &mut NoMatrix) {}
+    fn jacobian(&self, mu: &Vec<S>, out: &mut LateMatrix<S>) {
+        self.derivative(mu, out, |family, mu, out| family.vector_field(mu, out));
+    }
 
     fn casimirs(&self, mu: &Vec<S>, out: &mut [S]) {
         let count = S::from_f64(self.count() as f64);
@@ -281,7 +273,11 @@ where
             self.set_site(out, site, value);
         }
     }
-    fn ad_star_matrix(&self, _xi: &Vec<S>, _out: &mut NoMatrix) {}
+    fn ad_star_matrix(&self, xi: &Vec<S>, out: &mut LateMatrix<S>) {
+        self.by_sites(out, |site, unit| {
+            self.kernels.ad_star(&self.site(xi, site), unit)
+        });
+    }
 }
 
 impl<S, K, const C: usize, const L: usize, const T: usize> Widen<S> for Family<K, C, L, T>

@@ -363,15 +363,15 @@ impl<S: Scalar, F: PieceFlows<S>> Stepper<S> for SplittingStepper<S, F> {
         mu: &mut F::State,
         sink: &mut K,
     ) -> Result<StepReport, StepFailure> {
-        self.next.copy_from(mu);
+        self.flows.take(mu, &mut self.next);
         self.advance();
         let finite = self.next.finite();
         if K::ACTIVE && finite.any() {
             // only at the end it is known which lanes have no factors to give away
-            self.next.copy_from(mu);
+            self.flows.take(mu, &mut self.next);
             self.advance_with(finite, sink);
         }
-        mu.assign_where(finite, &self.next);
+        self.flows.give(finite, &self.next, mu);
         let report = StepReport {
             evaluations: self.count as u32,
             substeps: 1,

@@ -61,6 +61,7 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
     let flags = &arguments.measured;
     let budget = positive("--budget", arguments.budget.as_ref())?.unwrap_or(0.2);
     let bed = bed(flags, |spec| list::fewer(&spec.model))?;
+    bed.is_no_family("lie bench")?;
     let until = until(arguments, &bed)?;
     let measure = sense::measure(arguments, &bed)?;
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;

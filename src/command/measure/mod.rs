@@ -14,6 +14,7 @@ pub mod verify;
 use std::path::PathBuf;
 use std::process::Command;
 
+use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
 use lie_program::protocol::Obstacle;
@@ -30,6 +31,9 @@ use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
 use crate::render;
+
+/// The most coordinates of a family that is measured.
+const MOST_COORDINATES: usize = 64;
 
 /// A system at an initial state with the methods to measure, checked.
 pub struct Bed {
@@ -57,11 +61,6 @@ pub enum Ended {
 /// Every mistake.
 pub fn bed(flags: &Measured, defaults: impl Fn(&Spec) -> Vec<Choice>) -> Result<Bed, Failure> {
     let spec = compiler::load(&flags.spec)?;
-    if spec.model.family.is_some() {
-        let text = format!("{} is a family, which is not measured yet", spec.model.name);
-        let help = "`lie run` says how much energy and Casimirs drift; write a small one out, such as `so(3)^2` with the state x1, x2, …, to measure it";
-        return Err(Message::option("SPEC", text).help(help).into());
-    }
     let as_run = args::Run {
         param: flags.param.clone(),
         initial: flags.initial.clone(),
@@ -77,6 +76,9 @@ pub fn bed(flags: &Measured, defaults: impl Fn(&Spec) -> Vec<Choice>) -> Result<
     let (Some(point), Some(choices)) = (start, choices) else {
         return Err(Failure::invalid(mistakes));
     };
+    if spec.model.family.is_some() {
+        small(&spec, &point)?;
+    }
     if !flags.quiet {
         render::print(&spec.warnings());
     }
@@ -87,7 +89,44 @@ pub fn bed(flags: &Measured, defaults: impl Fn(&Spec) -> Vec<Choice>) -> Result<
     })
 }
 
+/// Refuses a family of more coordinates than matrices of all of them are computed for.
+fn small(spec: &Spec, point: &Point) -> Result<(), Failure> {
+    let (all, site) = (point.initial.len(), spec.model.dimension());
+    if all <= MOST_COORDINATES {
+        return Ok(());
+    }
+    let name = &spec.model.name;
+    let text = format!(
+        "{name} has {all} coordinates, and matrices of all of them are computed up to {MOST_COORDINATES}"
+    );
+    let help = format!(
+        "measure fewer sites, at most {}, as with `--param N=4`: the kernels of a site are the same",
+        MOST_COORDINATES / site
+    );
+    Err(Message::new(Kind::Limit, text)
+        .at_option("--param")
+        .help(help)
+        .into())
+}
+
 impl Bed {
+    /// Refuses a family.
+    ///
+    /// # Errors
+    /// It is one.
+    pub fn is_no_family(&self, command: &str) -> Result<(), Failure> {
+        let model = &self.spec.model;
+        if model.family.is_none() {
+            return Ok(());
+        }
+        let text = format!(
+            "{} is a family, which `{command}` does not measure yet",
+            model.name
+        );
+        let help = "`lie verify` measures a small one; `lie run` says how much energy and Casimirs drift and how long a step takes";
+        Err(Message::option("SPEC", text).help(help).into())
+    }
+
     /// The built program of these methods.
     ///
     /// # Errors

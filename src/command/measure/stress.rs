@@ -117,6 +117,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
     let steps = Given::flag("--steps", &arguments.steps).count();
     let steps = steps.map_err(|message| message.help(help))?;
     let bed = bed(flags, |spec| list::fewer(&spec.model))?;
+    bed.is_no_family("lie stress")?;
     let out = files::open("--out", arguments.out.as_deref(), &flags.spec)?;
     let plot = files::open("--plot", arguments.plot.as_deref(), &flags.spec)?;
     let interrupt = Interrupt::install();

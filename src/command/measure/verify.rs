@@ -149,12 +149,19 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
         step,
     };
     let model = &bed.spec.model;
-    let judge = Judge::of_spec(&bed.spec.source.text, model, &bed.point.parameters);
+    // what a spec of a family declares is one site, and is not interpreted
+    let evidence = match model.family {
+        Some(_) => Evidence::without_judge(),
+        None => {
+            let judge = Judge::of_spec(&bed.spec.source.text, model, &bed.point.parameters);
+            Evidence::before(judge, model.is_lie_poisson())
+        }
+    };
     let mut results = Results {
         system: model.name.clone(),
         ground: None,
         rows: Vec::new(),
-        evidence: Evidence::before(judge, model.is_lie_poisson()),
+        evidence,
     };
     let ended = bed.measure(flags, program, options, &interrupt, &mut |found| {
         results.take(found);

@@ -1,5 +1,7 @@
 //! What to run: flags over the spec's `run` over defaults, everything validated.
 
+mod npy;
+mod sites;
 mod solver;
 mod state;
 mod times;

@@ -49,7 +49,7 @@ pub fn check(
         sums: Vec::new(),
         energy: model.hamiltonian(),
         degree: None,
-        seed: family.seed,
+        start: family.start.clone(),
     };
     let family = lowered(
         declaration,

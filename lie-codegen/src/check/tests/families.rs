@@ -185,3 +185,89 @@ fn what_a_family_cannot_be_is_said() {
         &["casimir at x[i]^2 + y[i]^2: "],
     );
 }
+
+#[test]
+fn pieces_of_functions_of_sums_and_of_longer_summands_are_found() {
+    let pieces = |hamiltonian: &str| {
+        let keys = hamiltonian_with(hamiltonian);
+        let keys: Vec<(&str, &str)> = keys.iter().map(|(k, v)| (*k, v.as_str())).collect();
+        let model = model(&ring(&keys));
+        let family = model.family.as_ref().expect("a family");
+        let found = crate::structure::family::pieces(&model, family, &mut model.graph.clone());
+        let described = |p: &crate::structure::family::Piece| p.describe(&model);
+        found.map(|pieces| pieces.iter().map(described).collect::<Vec<_>>().join(", "))
+    };
+    let ok = |text: &str| Ok(text.to_owned());
+    let err = |text: &str| Err(text.to_owned());
+    assert_eq!(pieces("J*X^2"), ok("F(sums over x)"));
+    assert_eq!(pieces("J*X*N + Y"), ok("f(x), f(y)"));
+    assert_eq!(pieces("X*X2 + Y^2"), ok("F(sums over y), F(sums over x)"));
+    assert_eq!(pieces("X*Y"), err("H mixes sums over `x` and over `y`"));
+    assert_eq!(pieces("X*Z"), ok("F(sums over x)"));
+    assert_eq!(pieces("X*W"), err("H mixes sums over different sites"));
+    assert!(pieces("XY^2").is_err_and(|why| why.contains("more than one coordinate")));
+    assert_eq!(
+        pieces("sum(i in 0..N: x[i]*x[i+1] + y[i]*y[i+2] + z[i+1]*z[i+2] + z[i]^2)"),
+        ok("x*x[+1], y*y[+2], z*z[+1], f(z)")
+    );
+    assert_eq!(
+        pieces("sum(i in 0..N: x[i]*x[i+1]*x[i+2])"),
+        err("`x[i]` and `x[i+1]` are coupled by more than a product")
+    );
+}
+
+/// A Hamiltonian with sums to write it in.
+fn hamiltonian_with(text: &str) -> Vec<(&'static str, String)> {
+    let sums = [
+        "X = sum(i in 0..N: x[i])",
+        "X2 = sum(i in 0..N: x[i]^2)",
+        "Y = sum(i in 0..N: y[i])",
+        "Z = sum(i in 0..N: sin(x[i+1]))",
+        "W = sum(i in 1..N: x[i])",
+        "XY = sum(i in 0..N: x[i] + y[i])",
+    ];
+    let used: Vec<&str> = sums
+        .into_iter()
+        .filter(|sum| {
+            let name = sum.split(' ').next().unwrap_or_default();
+            let words = text.split(|c: char| !c.is_alphanumeric());
+            words.into_iter().any(|word| word == name)
+        })
+        .collect();
+    let mut keys = hamiltonian(text);
+    keys.push(("let", format!("{used:?}")));
+    keys
+}
+
+#[test]
+fn an_initial_state_is_random_or_a_file() {
+    use crate::model::Start;
+    let start = |text: &str| {
+        let model = model(&ring(&[("initial", text)]));
+        model.family.and_then(|family| family.start)
+    };
+    let seed = start(r#"{"random": "unit-sphere", "seed": 7}"#);
+    assert!(matches!(seed, Some(Start::UnitSpheres(7))));
+    let file = start(r#"{"npy": "a/b.npy"}"#);
+    assert!(matches!(file, Some(Start::File(name)) if name.text == "a/b.npy"));
+    for (text, expected) in [
+        (
+            "[1, 0, 0]",
+            "schema at [: the initial state of a family is not a list",
+        ),
+        (
+            r#"{"npy": 3}"#,
+            "schema at 3: `npy` is a string, not a number",
+        ),
+        (
+            r#"{"npy": "a.npy", "seed": 1}"#,
+            "schema at \"seed\": unknown key `seed` in `initial`",
+        ),
+        (
+            r#"{"random": "cube"}"#,
+            "schema at \"cube\": unknown distribution `cube`",
+        ),
+    ] {
+        expect(&ring(&[("initial", text)]), &[expected]);
+    }
+}

@@ -57,10 +57,7 @@ pub fn read(value: Value<'_>, parameters: &[String], report: &mut Report) -> Opt
 /// The algebra of a site of a family, by its name, and the number of copies.
 pub fn of_family(value: Value<'_>, report: &mut Report) -> Option<Read> {
     let line = line(value, "the algebra of a family", report)?;
-    let (site, sizes) = families::power(&line.tokens, line.place, report)?;
-    let named = named::parse(site, line.place, report)?;
-    let read = named::standard(&named, line.place);
-    Some(Read { sizes, ..read })
+    families::algebra(&line.tokens, line.place, report)
 }
 
 /// Whether the algebra is one by its name.

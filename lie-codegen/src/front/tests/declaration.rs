@@ -33,7 +33,7 @@ fn read(text: &str) -> (Parsed, Vec<Diagnostic>) {
     (parsed, report.into_diagnostics())
 }
 
-fn declared(text: &str) -> Declaration {
+pub(super) fn declared(text: &str) -> Declaration {
     match read(text) {
         (
             Parsed {
@@ -52,7 +52,7 @@ fn changed(from: &str, to: &str) -> Vec<(Kind, String)> {
     mistakes(&BODY.replacen(from, to, 1))
 }
 
-fn mistakes(text: &str) -> Vec<(Kind, String)> {
+pub(super) fn mistakes(text: &str) -> Vec<(Kind, String)> {
     let place = |d: Diagnostic| {
         assert!(d.help.is_some(), "{d:?}");
         match d.origin {

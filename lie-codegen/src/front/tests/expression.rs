@@ -239,7 +239,7 @@ fn families_are_read_and_refused() {
             (kind, help.as_str()),
             (
                 Kind::Syntax,
-                "a family is declared by a spec, with an algebra such as `so(3)^N` and a state such as `x[i]`; else write the copies out, as in x1, x2, x3"
+                "a family has an algebra such as `so(3)^N` and a state such as `x[i]`; else write the copies out, as in x1, x2, x3"
             ),
             "{text}"
         );

@@ -6,6 +6,7 @@ use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
 
 mod declaration;
 mod expression;
+mod families;
 mod habits;
 mod robustness;
 mod spec;

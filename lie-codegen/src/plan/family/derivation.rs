@@ -48,10 +48,10 @@ impl<'p, 'm> Derivation<'p, 'm> {
         self.planner.source.dimension
     }
 
-    fn at(&self) -> Vec<Argument> {
+    fn at(&self) -> [Argument; 2] {
         let places = 0..self.family.names.len();
         let sums = places.end..places.end + self.family.sums.len();
-        vec![
+        [
             Argument {
                 name: "at",
                 symbols: places.map(Symbol::Coordinate).collect(),
@@ -133,16 +133,16 @@ impl<'p, 'm> Derivation<'p, 'm> {
             .iter()
             .map(|sum| self.planner.source.graph.as_written(sum.summand))
             .collect();
-        let at = self.at();
+        let at = self.at().to_vec();
         let formula = ("summands", "`out_k = s_k(mu_i, …)`");
         let summands = self.vector("summands", formula, at, &summands);
         let energy = self.planner.source.graph.as_written(family.energy);
         let formula = "`H = F(T_1, …)`, a function of the sums over all sites";
-        let energy = Kernel::scalar("energy", formula, self.at(), energy);
+        let energy = Kernel::scalar("energy", formula, self.at().to_vec(), energy);
         let energy = self.function("energy", &energy);
         let mean = self.mean.clone();
         let formula = ("weights", "`out_k = dF/dT_k`");
-        let at = self.at();
+        let at = self.at().to_vec();
         let weights = self.vector("weights", formula, at, &mean);
         let zero = self.planner.source.graph.integer(0);
         let mean_field = mean.iter().any(|slope| *slope != zero);
@@ -168,7 +168,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
                 .collect(),
             mean_field,
             degree: family.degree,
-            seed: family.seed,
+            seed: family.seed(),
             field,
             slopes,
             summands,
@@ -197,7 +197,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
                     "slope",
                     "`out = dF/dT_k ds_k/dmu`, at the site of the summand",
                 );
-                let at = self.at();
+                let at = self.at().to_vec();
                 slopes.push((k, slot, self.vector(&label, formula, at, &slope)));
                 let moved = self.moved(&slope, slot);
                 terms
@@ -217,7 +217,7 @@ impl<'p, 'm> Derivation<'p, 'm> {
             "field",
             "`mu_i' = ad*_(dH/dmu_i) mu_i` of a site with all its neighbours",
         );
-        let at = self.at();
+        let at = self.at().to_vec();
         (slopes, self.vector("field of a site", formula, at, &field))
     }
 
@@ -262,12 +262,20 @@ impl<'p, 'm> Derivation<'p, 'm> {
             name: "one",
             symbols: (0..self.n()).map(Symbol::Coordinate).collect(),
         };
+        let [_, sums] = self.at();
         let (mut kinds, mut needed) = (Vec::new(), BTreeSet::new());
         for piece in found {
+            let place = kinds.len();
+            let mut share = None;
             let (form, rate) = match piece.form {
                 Form::Site(a, slope) => {
                     needed.insert(a);
                     (FamilyForm::Site(a), slope)
+                }
+                Form::Collective(a, slope, shares) => {
+                    needed.insert(a);
+                    share = Some(self.share(place, &own, &shares));
+                    (FamilyForm::Collective(a), slope)
                 }
                 Form::Product(both, factor) => {
                     needed.extend(both);
@@ -276,13 +284,15 @@ impl<'p, 'm> Derivation<'p, 'm> {
                 Form::Exchange(rate) => (FamilyForm::Exchange, rate),
             };
             let formula = "the speed along the flow of a piece";
-            let kernel = Kernel::scalar("rate", formula, vec![own.clone()], rate);
-            let label = format!("rate of piece {}", kinds.len());
+            let arguments = vec![own.clone(), sums.clone()];
+            let kernel = Kernel::scalar("rate", formula, arguments, rate);
+            let label = format!("rate of piece {place}");
             kinds.push(FamilyPiece {
                 offset: piece.offset,
                 spans: piece.spans,
                 form,
                 rate: self.function(&label, &kernel),
+                share,
             });
         }
         let actions = separable::actions(model.bracket.algebra()?);
@@ -295,6 +305,17 @@ impl<'p, 'm> Derivation<'p, 'm> {
             turns.push((a, function, piece.updates));
         }
         Some(FamilyPieces { kinds, turns })
+    }
+
+    /// What a site adds to these sums.
+    fn share(&mut self, piece: usize, own: &Argument, shares: &[(usize, ExprId)]) -> Function {
+        let mut entries = vec![self.planner.source.graph.integer(0); self.family.sums.len()];
+        for (k, share) in shares {
+            entries[*k] = self.planner.source.graph.as_written(*share);
+        }
+        let formula = ("share", "what a site adds to the sums of a piece");
+        let label = format!("share of piece {piece}");
+        self.vector(&label, formula, vec![own.clone()], &entries)
     }
 
     /// The Casimirs of a site, in the coordinates of slot 0.

@@ -72,6 +72,8 @@ pub struct FamilyPiece {
     pub form: FamilyForm,
     /// The derivative of a function of one coordinate, the factor of a product, or the rate of an exchange.
     pub rate: Function,
+    /// What a site adds to the sums of which it is a function.
+    pub share: Option<Function>,
 }
 
 /// What a piece is.
@@ -79,6 +81,8 @@ pub struct FamilyPiece {
 pub enum FamilyForm {
     /// A function of a coordinate.
     Site(usize),
+    /// A function of sums over functions of a coordinate.
+    Collective(usize),
     /// A product of a coordinate of each site.
     Product([usize; 2]),
     /// The exchange of two spins.
@@ -108,7 +112,9 @@ impl Family {
             .chain(casimirs)
             .chain(self.pieces.iter().flat_map(|pieces| {
                 let turns = pieces.turns.iter().map(|(_, function, _)| function);
-                pieces.kinds.iter().map(|kind| &kind.rate).chain(turns)
+                let kinds = pieces.kinds.iter();
+                let kinds = kinds.flat_map(|kind| [&kind.rate].into_iter().chain(&kind.share));
+                kinds.chain(turns)
             }))
     }
 

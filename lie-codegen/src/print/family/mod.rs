@@ -117,6 +117,7 @@ impl Printer<'_> {
             #[allow(non_snake_case, clippy::many_single_char_names)]
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::family::Sites<S, #c, #l, #t> for #sites<S> {
                 type Widened = #sites<S::Wide>;
+                type Lifted = #sites<::lie_runtime::Dual<S>>;
 
                 #facts
 
@@ -145,6 +146,10 @@ impl Printer<'_> {
 
                 fn widen(&self) -> Self::Widened {
                     self._over(S::widen)
+                }
+
+                fn lift(&self) -> Self::Lifted {
+                    self._over(::lie_runtime::Dual::constant_of)
                 }
             }
         }

@@ -29,14 +29,20 @@ impl Printer<'_> {
         let kinds = pieces.kinds.iter().map(|kind| {
             let [down, right] = kind.offset.map(Literal::i64_unsuffixed);
             let spans = kind.spans.iter().map(span);
-            quote! { ::lie_runtime::family::Kind { offset: [#down, #right], spans: [#(#spans),*] } }
+            let collective = kind.share.is_some();
+            quote! { ::lie_runtime::family::Kind { offset: [#down, #right], spans: [#(#spans),*], collective: #collective } }
         });
         let rates = pieces.kinds.iter().enumerate().map(|(place, kind)| {
             let (name, body) = (rate(place), self.kernel(family, &kind.rate, 1));
             quote! {
                 #[inline]
-                fn #name(&self, _one: &[S; #c]) -> S { #body }
+                fn #name(&self, _one: &[S; #c], _weights: &[S; #t]) -> S { #body }
             }
+        });
+        let shares = pieces.kinds.iter().enumerate().filter_map(|(place, kind)| {
+            let body = self.kernel(family, kind.share.as_ref()?, family.sums.len());
+            let place = index(place);
+            Some(quote! { #place => { #body } })
         });
         let turns = self.turns(family, pieces);
         let [exchanges, flows] = self.flows_of_pieces(family, pieces);
@@ -60,7 +66,15 @@ impl Printer<'_> {
                 }
 
                 #[inline]
-                fn flow(&self, _kind: usize, _t: S, _one: &mut [S; #c], _other: &mut [S; #c]) {
+                fn share(&self, _kind: usize, _one: &[S; #c]) -> [S; #t] {
+                    match _kind {
+                        #(#shares)*
+                        _ => [S::zero(); #t],
+                    }
+                }
+
+                #[inline]
+                fn flow(&self, _kind: usize, _t: S, _sums: &[S; #t], _one: &mut [S; #c], _other: &mut [S; #c]) {
                     match _kind {
                         #(#flows)*
                         _ => {}
@@ -96,24 +110,24 @@ impl Printer<'_> {
 
     /// The arms for exchanges, by their rate, and for other pieces, by their flow.
     fn flows_of_pieces(&self, family: &Family, pieces: &FamilyPieces) -> [Vec<TokenStream>; 2] {
-        let [c, ..] = self.counts(family);
+        let [c, _, t] = self.counts(family);
         let (mut exchanges, mut flows) = (Vec::new(), Vec::new());
         for (place, kind) in pieces.kinds.iter().enumerate() {
             let (rate, place) = (rate(place), index(place));
             match kind.form {
                 FamilyForm::Exchange => exchanges.push(quote! {
-                    #place => ::core::option::Option::Some(self.#rate(&[S::zero(); #c])),
+                    #place => ::core::option::Option::Some(self.#rate(&[S::zero(); #c], &[S::zero(); #t])),
                 }),
-                FamilyForm::Site(a) => {
+                FamilyForm::Site(a) | FamilyForm::Collective(a) => {
                     let turn = turn(a);
-                    flows.push(quote! { #place => self.#turn(self.#rate(_one) * _t, _one), });
+                    flows.push(quote! { #place => self.#turn(self.#rate(_one, _sums) * _t, _one), });
                 }
                 FamilyForm::Product([a, b]) => {
                     let (first, second) = (turn(a), turn(b));
                     let (a, b) = (index(a), index(b));
                     flows.push(quote! {
                         #place => {
-                            let _rate = self.#rate(_one) * _t;
+                            let _rate = self.#rate(_one, _sums) * _t;
                             let (_first, _second) = (_rate * _other[#b], _rate * _one[#a]);
                             self.#first(_first, _one);
                             self.#second(_second, _other);

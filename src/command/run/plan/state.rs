@@ -3,9 +3,7 @@
 use lie_codegen::check::domain;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::front::names::normalised;
-use lie_codegen::model::Family;
 use lie_codegen::suggest::did_you_mean;
-use lie_runtime::family::unit_spheres;
 
 use super::super::values::Given;
 use super::{Planner, Point};
@@ -104,45 +102,6 @@ impl Planner<'_> {
             return None;
         };
         self.in_domain(parameters, &values).then_some(values)
-    }
-
-    /// The initial state of a family: the values of `--initial`, the first coordinates of all sites, then the second and
-    /// so on, or a random one.
-    fn of_family(&mut self, family: &Family, parameters: &[f64]) -> Option<Vec<f64>> {
-        let n = self.spec.model.dimension();
-        let Some([rows, columns]) = family.sites(parameters) else {
-            let text = "the number of sites is a whole number, at least 1";
-            let message = Message::new(Kind::Domain, text).at_option("--param");
-            self.mistakes
-                .push(message.help("write it like `--param N=1000`"));
-            return None;
-        };
-        let sites = rows * columns;
-        let Some(text) = &self.flags.initial else {
-            let Some(seed) = family.seed else {
-                let text = format!("the spec of {} has no `initial`", self.spec.model.name);
-                let help = "write `\"initial\": {\"random\": \"unit-sphere\", \"seed\": 1}`, or give the values by `--initial`";
-                self.mistakes
-                    .push(Message::option("--initial", text).help(help));
-                return None;
-            };
-            return Some(unit_spheres(sites, n, seed));
-        };
-        let given = Given::flag("--initial", text);
-        let parts = given.split();
-        if parts.len() != n * sites {
-            let text = format!(
-                "{} values for {sites} sites of {n} coordinates",
-                parts.len()
-            );
-            let mut message = given.wrong(text);
-            message.kind = Kind::StateLength;
-            let help = "give the first coordinates of all sites, then the second ones, and so on";
-            self.mistakes.push(message.help(help));
-            return None;
-        }
-        let values: Vec<Option<f64>> = parts.iter().map(|part| self.keep(part.number())).collect();
-        values.into_iter().collect()
     }
 
     fn example(&self) -> String {

@@ -1,0 +1,73 @@
+//! Statements of families: `state x[i], y[i], z[i];`, `algebra = so(3)^N;`, `initial = random(unit-sphere, 1);`.
+
+use super::block::names;
+use super::entry::{compact, inside};
+use super::statement::Statement;
+use crate::ast::{Name, Start};
+use crate::diagnostic::{Diagnostic, Kind, Report};
+use crate::front::families;
+use crate::front::reader::Read;
+use crate::front::token::{Delimiter, Token, TokenKind, span, split_commas};
+
+/// The names of the state, and of a family their indices.
+pub fn state(statement: &Statement<'_>, report: &mut Report) -> (Vec<Name>, Vec<Name>) {
+    let parts = split_commas(statement.rest).into_iter();
+    match parts
+        .map(families::indexed_state)
+        .collect::<Option<Vec<_>>>()
+    {
+        Some(state) if !state.is_empty() => families::same_indices(state, report),
+        _ => (names(statement.rest, statement.origin, report), Vec::new()),
+    }
+}
+
+/// Whether a state is that of a family.
+pub fn is_indexed(statement: &Statement<'_>) -> bool {
+    let mut parts = split_commas(statement.rest).into_iter().peekable();
+    parts.peek().is_some() && parts.all(|part| families::indexed_state(part).is_some())
+}
+
+/// `= so(3)^N`
+pub fn algebra(statement: &Statement<'_>, report: &mut Report) -> Option<Read> {
+    match statement.rest.split_first().filter(|(t, _)| t.is('=')) {
+        Some((equals, name)) => families::algebra(name, equals.origin, report),
+        None => {
+            let message = "the algebra of a family is one by its name";
+            let help = "write `algebra = so(3)^N;`, with N a parameter or a number";
+            report.push(Diagnostic::new(Kind::Syntax, statement.origin, message).help(help));
+            None
+        }
+    }
+}
+
+/// `= random(unit-sphere, 1)`
+pub fn start(statement: &Statement<'_>, report: &mut Report) -> Option<Start> {
+    let value = statement.value(report)?;
+    let seed = match value {
+        [word, list @ ..] if word.is_word("random") => seed(list),
+        _ => None,
+    };
+    if seed.is_none() {
+        let place = span(value).unwrap_or(statement.origin);
+        let message = "the initial state of a family is a random one";
+        let help = "write `initial = random(unit-sphere, 1);`: a point on the unit sphere for each site, the seed behind it";
+        report.push(Diagnostic::new(Kind::Syntax, place, message).help(help));
+    }
+    seed.map(Start::UnitSpheres)
+}
+
+fn seed(list: &[Token]) -> Option<u64> {
+    let parts = split_commas(inside(list, Delimiter::Parenthesis)?);
+    let sphere = parts
+        .first()
+        .is_some_and(|part| compact(part) == "unit-sphere");
+    match parts.as_slice() {
+        _ if !sphere => None,
+        [_] => Some(1),
+        [_, [number]] => match &number.kind {
+            TokenKind::Number(text) => text.parse().ok(),
+            _ => None,
+        },
+        _ => None,
+    }
+}

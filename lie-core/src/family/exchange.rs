@@ -1,0 +1,142 @@
+//! The exact flow of the exchange of two spins, `s_1' = (s_1 + s_2) x s_1` and the opposite of that for the other: both turn about
+//! their sum S, by the angle `|S| t`.
+
+use crate::scalar::{Mask, Scalar, largest};
+
+/// As many terms of the series are round-off up to this square of the angle.
+const LEVELS: [(usize, f64); 4] = [(4, 3e-4), (6, 2e-2), (8, 0.4), (MOST, 4.0)];
+const MOST: usize = 11;
+
+/// The components of the spins of bonds, the first ones and the second ones.
+pub(super) type Pairs<'a, S> = [[&'a mut [S]; 3]; 2];
+
+/// The flow over a time t. With `x = |S|^2 t^2`, `t sin(|S| t)/(|S| t)` and `(1 - cos(|S| t))/|S|^2` are series in x.
+///
+/// Spins keep their lengths, so that a bound of x for all bonds is known before the step; each lane takes as many terms as it
+/// needs by itself.
+pub(super) struct Exchange<S: Scalar> {
+    t: S,
+    /// `(-1)^k t / (2k + 1)!`
+    sines: [S; MOST],
+    /// `(-1)^k t^2 / (2k + 2)!`
+    cosines: [S; MOST],
+    /// The largest bound of x of all lanes.
+    most: f64,
+    /// The lanes for which a series is enough.
+    near: S::Mask,
+}
+
+impl<S: Scalar> Exchange<S> {
+    /// The flow over a time t of spins whose squares are at most `square`.
+    pub(super) fn new(t: S, square: S) -> Self {
+        let x = S::from_f64(4.0) * square * (t * t);
+        let (mut sine, mut cosine) = (t, S::ratio(1.0, 2.0) * t * t);
+        let (mut sines, mut cosines) = ([S::zero(); MOST], [S::zero(); MOST]);
+        for k in 0..MOST {
+            if k > 0 {
+                let n = 2.0 * k as f64;
+                sine = -sine * S::ratio(1.0, n * (n + 1.0));
+                cosine = -cosine * S::ratio(1.0, (n + 1.0) * (n + 2.0));
+            }
+            // lanes in which fewer terms are enough have zeros in the others, which change no bit
+            let enough = LEVELS.iter().rfind(|(terms, _)| *terms <= k);
+            (sines[k], cosines[k]) = match enough {
+                None => (sine, cosine),
+                Some((_, limit)) => {
+                    let fewer = x.less(S::from_f64(*limit));
+                    (
+                        S::select(fewer, S::zero(), sine),
+                        S::select(fewer, S::zero(), cosine),
+                    )
+                }
+            };
+        }
+        Self {
+            t,
+            sines,
+            cosines,
+            most: largest(x),
+            near: x.less(S::from_f64(LEVELS[LEVELS.len() - 1].1)),
+        }
+    }
+
+    /// The flow of bonds, each of which has its spins at the same place in the slices.
+    #[inline(always)]
+    pub(super) fn flow(&self, pairs: Pairs<'_, S>) {
+        match self.most {
+            x if x < LEVELS[0].1 => self.by_series::<{ LEVELS[0].0 }>(pairs),
+            x if x < LEVELS[1].1 => self.by_series::<{ LEVELS[1].0 }>(pairs),
+            x if x < LEVELS[2].1 => self.by_series::<{ LEVELS[2].0 }>(pairs),
+            x if x < LEVELS[3].1 => self.by_series::<{ LEVELS[3].0 }>(pairs),
+            _ => turn(pairs, |square| self.far(square)),
+        }
+    }
+
+    fn by_series<const TERMS: usize>(&self, pairs: Pairs<'_, S>) {
+        let (sines, cosines) = (&self.sines[..TERMS], &self.cosines[..TERMS]);
+        let squared = self.t * self.t;
+        turn(pairs, |square| {
+            let x = square * squared;
+            let (mut sine, mut cosine) = (sines[TERMS - 1], cosines[TERMS - 1]);
+            for k in (0..TERMS - 1).rev() {
+                sine = sine * x + sines[k];
+                cosine = cosine * x + cosines[k];
+            }
+            (sine, cosine)
+        });
+    }
+
+    /// The two functions by sine and cosine, and by their series in the lanes for which that is enough.
+    fn far(&self, square: S) -> (S, S) {
+        let x = square * (self.t * self.t);
+        // opposite spins do not turn, whatever the functions are
+        let square = S::select(S::zero().less(square), square, S::one());
+        let size = square.sqrt();
+        let (sin, cos) = (S::ratio(1.0, 2.0) * size * self.t).sin_cos();
+        let two = S::from_f64(2.0);
+        let (sine, cosine) = (two * sin * cos / size, two * sin * sin / square);
+        if !self.near.any() {
+            return (sine, cosine);
+        }
+        let series = |terms: &[S; MOST]| {
+            let terms = terms.iter().rev();
+            terms.fold(S::zero(), |sum, term| sum * x + *term)
+        };
+        (
+            S::select(self.near, series(&self.sines), sine),
+            S::select(self.near, series(&self.cosines), cosine),
+        )
+    }
+}
+
+/// Turns the two spins of each bond about their sum, of whose square the two functions are given.
+#[inline(always)]
+fn turn<S: Scalar>(pairs: Pairs<'_, S>, functions: impl Fn(S) -> (S, S)) {
+    let [[x1, y1, z1], [x2, y2, z2]] = pairs;
+    let count = x1.len();
+    let [y1, z1, x2, y2, z2] = [y1, z1, x2, y2, z2].map(|part| &mut part[..count]);
+    for i in 0..count {
+        let (a, b) = ([x1[i], y1[i], z1[i]], [x2[i], y2[i], z2[i]]);
+        let s = [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+        // S x a = b x a
+        let w = cross(b, a);
+        let v = cross(s, w);
+        let (sine, cosine) = functions(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+        let d = [
+            sine * w[0] + cosine * v[0],
+            sine * w[1] + cosine * v[1],
+            sine * w[2] + cosine * v[2],
+        ];
+        (x1[i], y1[i], z1[i]) = (a[0] + d[0], a[1] + d[1], a[2] + d[2]);
+        (x2[i], y2[i], z2[i]) = (b[0] - d[0], b[1] - d[1], b[2] - d[2]);
+    }
+}
+
+#[inline(always)]
+fn cross<S: Scalar>(u: [S; 3], v: [S; 3]) -> [S; 3] {
+    [
+        u[1] * v[2] - u[2] * v[1],
+        u[2] * v[0] - u[0] * v[2],
+        u[0] * v[1] - u[1] * v[0],
+    ]
+}

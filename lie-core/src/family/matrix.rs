@@ -1,0 +1,119 @@
+//! Matrices of all coordinates of a family, which only measurements on small ones ask for.
+
+use super::{Family, Sites};
+use crate::matrix::SquareMatrix;
+use crate::poisson::{Lift, Poisson};
+use crate::scalar::{Dual, Scalar};
+use core::array::from_fn;
+use std::vec::Vec;
+
+/// A square matrix that takes no memory before an entry is set.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LateMatrix<S> {
+    dimension: usize,
+    entries: Vec<S>,
+}
+
+impl<S: Scalar> LateMatrix<S> {
+    /// Zero, of so many rows.
+    #[must_use]
+    pub fn new(dimension: usize) -> Self {
+        Self {
+            dimension,
+            entries: Vec::new(),
+        }
+    }
+
+    /// Sets every entry to 0.
+    fn clear(&mut self) {
+        self.entries.clear();
+    }
+
+    /// Sets a column.
+    fn set_column(&mut self, column: usize, values: impl IntoIterator<Item = S>) {
+        for (row, value) in values.into_iter().enumerate() {
+            self.set(row, column, value);
+        }
+    }
+}
+
+impl<S: Scalar> SquareMatrix<S> for LateMatrix<S> {
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+    fn get(&self, row: usize, column: usize) -> S {
+        let entry = self.entries.get(row * self.dimension + column);
+        entry.map_or(S::zero(), |entry| *entry)
+    }
+    fn set(&mut self, row: usize, column: usize, value: S) {
+        let size = self.dimension * self.dimension;
+        self.entries.resize(size, S::zero());
+        self.entries[row * self.dimension + column] = value;
+    }
+}
+
+impl<K, const C: usize, const L: usize, const T: usize> Family<K, C, L, T> {
+    /// The matrix of a map of each site by itself, from what it makes of each unit vector.
+    pub(super) fn by_sites<S: Scalar>(
+        &self,
+        out: &mut LateMatrix<S>,
+        map: impl Fn(usize, &[S; C]) -> [S; C],
+    ) {
+        out.clear();
+        for site in 0..self.count() {
+            for k in 0..C {
+                let unit = from_fn(|i| if i == k { S::one() } else { S::zero() });
+                for (i, value) in map(site, &unit).into_iter().enumerate() {
+                    out.set(i * self.count() + site, k * self.count() + site, value);
+                }
+            }
+        }
+    }
+
+    /// The derivative of a vector by all coordinates, by dual numbers.
+    pub(super) fn derivative<S: Scalar>(
+        &self,
+        mu: &[S],
+        out: &mut LateMatrix<S>,
+        vector: impl Fn(&Family<K::Lifted, C, L, T>, &Vec<Dual<S>>, &mut Vec<Dual<S>>),
+    ) where
+        K: Sites<S, C, L, T>,
+    {
+        let lifted = self.lift();
+        let mut at: Vec<Dual<S>> = mu.iter().map(|value| Dual::constant_of(*value)).collect();
+        let mut found = lifted.zero_state();
+        for (column, value) in mu.iter().enumerate() {
+            at[column] = Dual::variable(*value);
+            vector(&lifted, &at, &mut found);
+            at[column] = Dual::constant_of(*value);
+            out.set_column(column, found.iter().map(|entry| entry.derivative));
+        }
+    }
+}
+
+impl<S, K, const C: usize, const L: usize, const T: usize> Lift<S> for Family<K, C, L, T>
+where
+    S: Scalar,
+    K: Sites<S, C, L, T>,
+{
+    type Lifted = Family<K::Lifted, C, L, T>;
+    fn lift(&self) -> Self::Lifted {
+        Family::new(self.kernels().lift(), self.sizes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_takes_memory_with_its_first_entry() {
+        let mut matrix = LateMatrix::<f64>::new(1_000_000);
+        assert_eq!((matrix.get(3, 4), matrix.entries.capacity()), (0.0, 0));
+        matrix = LateMatrix::new(3);
+        matrix.set(2, 1, 5.0);
+        assert_eq!((matrix.get(2, 1), matrix.get(1, 2)), (5.0, 0.0));
+        matrix.clear();
+        assert_eq!(matrix.get(2, 1), 0.0);
+    }
+}

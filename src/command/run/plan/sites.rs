@@ -1,0 +1,137 @@
+//! The initial state of a family.
+
+use std::path::Path;
+
+use lie_codegen::diagnostic::{Kind, Origin};
+use lie_codegen::model::{Family, Start};
+use lie_runtime::family::unit_spheres;
+
+use super::super::values::Given;
+use super::Planner;
+use super::npy::{self, Array};
+use crate::message::{Message, Place};
+
+impl Planner<'_> {
+    /// The initial state of a family: the values of `--initial`, the first coordinates of all sites, then the second and
+    /// so on, or what the spec says.
+    pub(super) fn of_family(&mut self, family: &Family, parameters: &[f64]) -> Option<Vec<f64>> {
+        let n = self.spec.model.dimension();
+        let Some([rows, columns]) = family.sites(parameters) else {
+            let text = "the number of sites is a whole number, at least 1";
+            let message = Message::new(Kind::Domain, text).at_option("--param");
+            self.mistakes
+                .push(message.help("write it like `--param N=1000`"));
+            return None;
+        };
+        let sites = rows * columns;
+        let Some(text) = &self.flags.initial else {
+            return match &family.start {
+                Some(Start::UnitSpheres(seed)) => Some(unit_spheres(sites, n, *seed)),
+                Some(Start::File(path)) => self.file(&path.text, path.origin, [rows, columns]),
+                None => {
+                    let text = format!("the spec of {} has no `initial`", self.spec.model.name);
+                    let help = "write `\"initial\": {\"random\": \"unit-sphere\", \"seed\": 1}` or `{\"npy\": \"chain.npy\"}`, or give the values by `--initial`";
+                    self.mistakes
+                        .push(Message::option("--initial", text).help(help));
+                    None
+                }
+            };
+        };
+        let given = Given::flag("--initial", text);
+        let parts = given.split();
+        if parts.len() != n * sites {
+            let text = format!(
+                "{} values for {sites} sites of {n} coordinates",
+                parts.len()
+            );
+            let mut message = given.wrong(text);
+            message.kind = Kind::StateLength;
+            let help = "give the first coordinates of all sites, then the second ones, and so on";
+            self.mistakes.push(message.help(help));
+            return None;
+        }
+        let values: Vec<Option<f64>> = parts.iter().map(|part| self.keep(part.number())).collect();
+        values.into_iter().collect()
+    }
+
+    /// The numbers of a file, the path of which stands in the spec and is relative to it.
+    fn file(&mut self, name: &str, origin: Origin, sizes: [usize; 2]) -> Option<Vec<f64>> {
+        let source = &self.spec.source;
+        let place = match origin {
+            Origin::Text { start, end } => Place::Text(source.clone(), start..end),
+            Origin::Span(_) => Place::File(source.path.clone()),
+        };
+        let folder = Path::new(&source.path).parent().unwrap_or(Path::new(""));
+        let path = folder.join(name);
+        let mut refuse = |kind, text: String, help: &str| {
+            let text = format!("{}: {text}", path.display());
+            let message = Message::new(kind, text).at(place.clone());
+            self.mistakes.push(message.help(help));
+            None
+        };
+        let bytes = match std::fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let help = "the path is relative to the folder of the spec";
+                return refuse(Kind::Io, format!("it cannot be read: {error}"), help);
+            }
+        };
+        let array = match npy::parse(&bytes) {
+            Ok(array) => array,
+            Err(fault) => return refuse(Kind::Io, fault.text, fault.help),
+        };
+        let n = self.spec.model.dimension();
+        let shape = array.shape.clone();
+        let Some(state) = state(array, sizes, n) else {
+            let [rows, columns] = sizes;
+            let sites = rows * columns;
+            let text = format!("its shape is {shape:?}, for {sites} sites of {n} coordinates");
+            let help = format!(
+                "write an array of the shape ({sites}, {n}), or one-dimensional the first coordinates of all sites, then the second ones; `--param` changes the number of sites"
+            );
+            return refuse(Kind::StateLength, text, &help);
+        };
+        if let Some(at) = state.iter().position(|value| !value.is_finite()) {
+            let sites = sizes[0] * sizes[1];
+            let coordinate = &self.spec.model.coordinates[at / sites].text;
+            let (site, value) = (at % sites, state[at]);
+            let text = format!("`{coordinate}` of site {site} is {value}");
+            let help = "give each coordinate of each site a finite number";
+            return refuse(Kind::Domain, text, help);
+        }
+        Some(state)
+    }
+}
+
+/// The state of a family in an array: a row for each site, or one-dimensional in the order of the state.
+fn state(array: Array, [rows, columns]: [usize; 2], n: usize) -> Option<Vec<f64>> {
+    let (sites, Array { shape, values }) = (rows * columns, array);
+    if shape == [sites * n] {
+        return Some(values);
+    }
+    let by_site = shape == [sites, n] || shape == [rows, columns, n];
+    let place = |place: usize| values[place % sites * n + place / sites];
+    by_site.then(|| (0..sites * n).map(place).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_sites_and_a_flat_array_is_a_state() {
+        let values: Vec<f64> = (0..6).map(f64::from).collect();
+        let array = |shape: &[usize]| Array {
+            shape: shape.to_vec(),
+            values: values.clone(),
+        };
+        let by_component = Some(vec![0.0, 3.0, 1.0, 4.0, 2.0, 5.0]);
+        assert_eq!(state(array(&[2, 3]), [1, 2], 3), by_component);
+        assert_eq!(state(array(&[2, 1, 3]), [2, 1], 3), by_component);
+        assert_eq!(state(array(&[6]), [1, 2], 3), Some(values.clone()));
+        for shape in [&[3, 2][..], &[6, 1], &[1, 2, 3, 1], &[]] {
+            let found = state(array(shape), [1, 2], 3);
+            assert_eq!(found, None, "{shape:?}");
+        }
+    }
+}
