@@ -65,9 +65,9 @@ fn a_rigid_body_has_two_pieces_and_the_flow_written_by_hand() {
     let mut differences = [0.0_f64; 2];
     for h in [0.3, -0.2, 1.0] {
         let [mut one, mut other, mut declared] = [(); 3].map(|()| state(&body, &start));
-        advance(&body, &Splitting4::new().found(), h, 5, &mut one);
+        advance(&body, &Splitting4::new(), h, 5, &mut one);
         advance(&shifted, &Splitting4::new(), h, 5, &mut other);
-        advance(&body, &Splitting4::new(), h, 5, &mut declared);
+        advance(&body, &Splitting4::new().coordinate(), h, 5, &mut declared);
         differences[0] = Scalar::max(differences[0], distance(one.as_slice(), other.as_slice()));
         differences[1] = Scalar::max(
             differences[1],
@@ -95,7 +95,7 @@ fn other_parameters_give_the_same_as_by_hand() {
             shifted.system().expect("valid"),
         );
         let [mut one, mut other] = [(); 2].map(|()| state(&body, &[0.8, -0.5, 1.1]));
-        advance(&body, &Splitting2::new().found(), 0.1, 10, &mut one);
+        advance(&body, &Splitting2::new(), 0.1, 10, &mut one);
         advance(&shifted, &Splitting2::new(), 0.1, 10, &mut other);
         let difference = distance(one.as_slice(), other.as_slice());
         assert!(difference < 2e-14, "{difference:e}");
@@ -115,14 +115,14 @@ fn orders() {
         );
     };
     close(
-        order(&body, &Splitting2::new().found(), &start[..3], over),
+        order(&body, &Splitting2::new(), &start[..3], over),
         2.0,
     );
     close(
-        order(&body, &Splitting1::new().found(), &start[..3], over),
+        order(&body, &Splitting1::new(), &start[..3], over),
         1.0,
     );
-    close(order(&screw, &Splitting2::new().found(), &start, over), 2.0);
+    close(order(&screw, &Splitting2::new(), &start, over), 2.0);
 }
 
 /// x, y, z and r are left of a Hamiltonian that mixes all six, and z and r commute.
@@ -159,7 +159,7 @@ fn casimir_structure_and_energy_are_kept() {
     let mut worst = [0.0_f64; 2];
     for half in &mut worst {
         for _ in 0..20_000 {
-            advance(&body, &Splitting2::new().found(), 0.05, 1, &mut mu);
+            advance(&body, &Splitting2::new(), 0.05, 1, &mut mu);
             *half = Scalar::max(*half, (body.hamiltonian(&mu) - energy).abs());
         }
     }
@@ -171,7 +171,7 @@ fn casimir_structure_and_energy_are_kept() {
     let newton = NewtonOptions::default();
     let defect = poisson_defect(
         &dual,
-        &Splitting2::new().found(),
+        &Splitting2::new(),
         0.3,
         &[0.8, -0.5, 1.1],
         &newton,
@@ -181,7 +181,7 @@ fn casimir_structure_and_energy_are_kept() {
 
 #[test]
 fn what_no_casimir_splits_is_refused() {
-    let run = common::lie("run specs/so3_nonpolynomial.json --method splitting2 --pieces found");
+    let run = common::lie("run specs/so3_nonpolynomial.json --method splitting2");
     let run = run.error("splitting", "command line: --method");
     assert!(
         run.stderr.contains("no combination of quadratic Casimirs"),
@@ -243,9 +243,9 @@ fn the_group_element_moves_with_all_of_h() {
     assert_eq!((body.found().pieces(), freed.found().pieces()), (2, 2));
     let error = |h: f64, fourth: bool| {
         let (q, _) = if fourth {
-            attitude(&body, Splitting4::new().found(), h, Chart::Quaternion)
+            attitude(&body, Splitting4::new(), h, Chart::Quaternion)
         } else {
-            attitude(&body, Splitting2::new().found(), h, Chart::Quaternion)
+            attitude(&body, Splitting2::new(), h, Chart::Quaternion)
         };
         distance(&q, &Q10)
     };
@@ -257,15 +257,15 @@ fn the_group_element_moves_with_all_of_h() {
     }
     assert!(error(0.01, true) < 1e-9);
     // the spatial momentum G mu does not move
-    let (g, mu) = attitude(&body, Splitting2::new().found(), 0.1, Chart::Matrix);
+    let (g, mu) = attitude(&body, Splitting2::new(), 0.1, Chart::Matrix);
     let momentum: Vec<f64> = (0..3)
         .map(|i| (0..3).map(|j| g[3 * i + j] * mu[j]).sum())
         .collect();
     assert!(distance(&momentum, &Y0) < 5e-14, "{momentum:?}");
     // without what the Casimir adds the momentum is the same and the attitude another
     let h = 0.01;
-    let (q, mu) = attitude(&freed, Splitting4::new().found(), h, Chart::Quaternion);
-    let (_, other) = attitude(&body, Splitting4::new().found(), h, Chart::Quaternion);
+    let (q, mu) = attitude(&freed, Splitting4::new(), h, Chart::Quaternion);
+    let (_, other) = attitude(&body, Splitting4::new(), h, Chart::Quaternion);
     assert!(distance(&mu, &other) < 1e-12);
     assert!(distance(&q, &Q10) > 0.1, "{q:?}");
 }
@@ -282,7 +282,7 @@ fn the_report_names_the_pieces() {
     let text = common::lie("check specs/so3_free_rigid_body.json")
         .ok()
         .stdout;
-    let says = "  splitting: H is 2 pieces with exact flows, and a combination of Casimirs (--pieces found)";
+    let says = "  splitting: H is 2 pieces with exact flows, and a combination of Casimirs";
     assert!(text.contains(says), "{text}");
     assert!(check("specs/so3_nonpolynomial.json")["splitting"].is_null());
     let text = common::lie("check specs/so3_nonpolynomial.json")

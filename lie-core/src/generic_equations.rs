@@ -211,6 +211,15 @@ macro_rules! generic_equations {
         }
     };
     (@splitting [$($generics:tt)*] $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(@coordinate_splitting [$($generics)*] $system, $scalar);
+        impl<$($generics)*> $crate::FoundPoisson<$scalar> for $system {
+            type Found<'a> = $crate::generic::CoordinateFlows<'a, $scalar, Self> where Self: 'a;
+            fn found(&self) -> Self::Found<'_> {
+                $crate::generic::CoordinateFlows::new(self)
+            }
+        }
+    };
+    (@coordinate_splitting [$($generics:tt)*] $system:ty, $scalar:ty) => {
         impl<$($generics)*> $crate::SeparablePoisson<$scalar> for $system {
             type Flows<'a> = $crate::generic::CoordinateFlows<'a, $scalar, Self> where Self: 'a;
             fn flows(&self) -> Self::Flows<'_> {

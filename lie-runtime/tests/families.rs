@@ -5,7 +5,7 @@ use lie_runtime::driver::Save;
 use lie_runtime::family::{Family, Pieces, Sites, unit_spheres};
 use lie_runtime::methods::Method;
 use lie_runtime::prelude::*;
-use lie_runtime::{PieceFlows, SeparablePoisson};
+use lie_runtime::{FoundPoisson, PieceFlows};
 
 lie_poisson! { pub spec = "../tests/data/families/heisenberg_chain.json"; }
 lie_poisson! { pub spec = "../tests/data/families/open_chain.json"; }
@@ -367,7 +367,7 @@ fn bonds_of_spins_are_done_two_or_three_colours_at_a_time() {
         };
         let system = ring.system().expect("a size");
         let colours = if n % 2 == 0 { 2 } else { 3 };
-        assert_eq!(SeparablePoisson::<f64>::flows(&system).pieces(), colours);
+        assert_eq!(FoundPoisson::<f64>::found(&system).pieces(), colours);
         // both bonds of two sites are the same, so that a splitting of them is exact
         if n > 2 {
             splits(&system);
@@ -377,7 +377,7 @@ fn bonds_of_spins_are_done_two_or_three_colours_at_a_time() {
     let system = HeisenbergChain { N: 6.0, J: 1.0 }.system().expect("a size");
     let mu: Vec<f64> = unit_spheres(6, 3, 1);
     let (mut one, mut ten) = (mu.clone(), mu);
-    let mut flows = SeparablePoisson::<f64>::flows(&system);
+    let mut flows = FoundPoisson::<f64>::found(&system);
     flows.flow(0, 9.0, &mut one);
     for _ in 0..10 {
         flows.flow(0, 0.9, &mut ten);

@@ -6,7 +6,7 @@
 
 use super::stencil::wrapped;
 use super::{Family, Sites, Span};
-use crate::pieces::{PieceFlows, SeparablePoisson};
+use crate::pieces::{FoundPoisson, PieceFlows};
 use crate::scalar::{Scalar, largest};
 use core::array::from_fn;
 use std::vec::Vec;
@@ -362,18 +362,18 @@ where
     }
 }
 
-impl<S, K, const C: usize, const L: usize, const T: usize> SeparablePoisson<S>
+impl<S, K, const C: usize, const L: usize, const T: usize> FoundPoisson<S>
     for Family<K, C, L, T>
 where
     S: Scalar,
     K: Pieces<S, C, L, T>,
 {
-    type Flows<'a>
+    type Found<'a>
         = FamilyFlows<'a, K, C, L, T>
     where
         Self: 'a;
 
-    fn flows(&self) -> Self::Flows<'_> {
+    fn found(&self) -> Self::Found<'_> {
         FamilyFlows::new(self)
     }
 }

@@ -1,10 +1,13 @@
 //! H without a combination of quadratic Casimirs, which generate no flow: the combination that leaves the fewest pieces.
 //!
 //! Of `H = sum_i x_i^2/(2 I_i)` on so(3) the multiple `1/(2 I_2)` of the Casimir takes away one piece of three. The
-//! multiples are those that cancel one second derivative of H that depends on parameters alone.
+//! multiples are those that cancel one second derivative of H that depends on parameters alone. Casimirs of subalgebras have flows of their own, and
+//! may still leave fewer pieces: with `|m|^2/(2 I_2)` taken from the kinetic energy of a heavy top and added as a function of one argument, there
+//! are two.
 
 use super::additive;
-use super::atoms::{self, Atom, Commuting};
+use super::atoms::{Atom, Commuting};
+use super::invariants::Invariant;
 use super::{classes, colouring};
 use crate::exact::{Budget, Rational};
 use crate::model::Model;
@@ -34,29 +37,34 @@ impl Candidate {
     }
 }
 
-/// H without the Casimirs, where that leaves less to split.
+/// H without multiples of quadratic Casimirs, where that leaves less to split; of a Casimir of a subalgebra the multiple
+/// is added as one of its symbol.
 pub(super) fn without(
     model: &Model,
     commuting: &Commuting<'_>,
     graph: &mut Graph,
-    start: ExprId,
+    (start, casimirs): (ExprId, &[&Invariant]),
     budget: &Budget,
 ) -> Option<ExprId> {
     if model.dimension() > LARGEST {
         return None;
     }
-    let quadratic = model.casimirs.iter().filter(|c| c.degree == Some(2));
-    let casimirs: Vec<ExprId> = quadratic.map(|c| graph.normal(c.expr)).collect();
     let measure =
         |graph: &mut Graph, value: ExprId| candidate(model, commuting, graph, value, budget);
     let mut value = start;
     let mut current = measure(graph, value)?;
     for _ in 0..casimirs.len() {
-        for &casimir in &casimirs {
+        let before = value;
+        for casimir in casimirs {
+            let mut taken = casimir.value;
+            if !casimir.moved.is_empty() {
+                let symbol = graph.symbol(casimir.symbol);
+                taken = graph.sub(taken, symbol);
+            }
             let mut best = current;
-            for multiple in multiples(model, graph, value, casimir) {
-                let taken = graph.mul(multiple, casimir);
-                let other = graph.sub(value, taken);
+            for multiple in multiples(model, graph, value, casimir.value) {
+                let part = graph.mul(multiple, taken);
+                let other = graph.sub(value, part);
                 let other = graph.normal(other);
                 let Some(other) = measure(graph, other) else {
                     continue;
@@ -67,6 +75,9 @@ pub(super) fn without(
                 }
             }
             (value, current) = (best.value, best);
+        }
+        if value == before {
+            break;
         }
     }
     (value != start).then_some(value)
@@ -107,9 +118,9 @@ fn candidate(
     budget: &Budget,
 ) -> Option<Candidate> {
     let terms = additive::terms(graph, value)?;
-    let mut atoms = atoms::by_coordinates(graph, &terms);
+    let mut atoms = commuting.by_arguments(graph, &terms);
     let pairs = |atom: &Atom| match atom {
-        Atom::Coordinates(set, _) => commuting.mixed(set).len(),
+        Atom::Function(set, _) => commuting.mixed(set).len(),
         Atom::Form { .. } => 0,
     };
     let mixed = atoms.iter().map(pairs).sum();
