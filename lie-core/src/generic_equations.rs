@@ -19,7 +19,8 @@
 /// `variational6`; need [`crate::LagrangianPoisson`], the last two also over [`crate::Lift::Lifted`]) and
 /// `variational_cayley` (needs [`crate::CayleyPoisson`] too); `discrete` and `discrete_cayley` (need
 /// [`crate::DiscreteLagrangianPoisson`]). `splitting` implements
-/// [`crate::SeparablePoisson`], for a Hamiltonian that is a sum of functions of one coordinate each; `taylor` and
+/// [`crate::SeparablePoisson`] and [`crate::FoundPoisson`], for a Hamiltonian that is a sum of functions of one coordinate
+/// each, `coordinate_splitting` the first alone; `taylor` and
 /// `lie_taylor` implement [`crate::Series`] and [`crate::GradientSeries`] (need [`crate::Expand`]).
 #[macro_export]
 macro_rules! generic_equations {
