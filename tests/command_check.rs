@@ -43,7 +43,12 @@ fn json_has_the_agreed_fields() {
     assert_eq!(one["class"], class);
     assert_eq!(one["series"]["derived"], serde_json::json!([6]));
     assert_eq!(one["killing"]["negative"], 3);
-    assert_eq!(one["splitting"].as_array().map(Vec::len), Some(3));
+    assert_eq!(one["splitting"].as_array().map(Vec::len), Some(2));
+    assert!(
+        one["splitting_cost"]["weight"]
+            .as_u64()
+            .is_some_and(|weight| weight > 0)
+    );
     assert!(one["methods"]["midpoint"].is_null());
     assert!(one["methods"]["spherical-midpoint"].is_string());
     assert_eq!(one["operations"]["vector_field"]["mul"], 21);

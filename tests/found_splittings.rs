@@ -448,7 +448,13 @@ fn without_code_of_their_own_the_steps_are_the_same() {
     let mut control = one;
     advance(&fused, &Splitting4::new(), 0.1, 20, &mut one);
     advance(&plain, &Splitting4::new(), 0.1, 20, &mut other);
-    advance(&fused, &Splitting4::new().coordinate(), 0.1, 20, &mut control);
+    advance(
+        &fused,
+        &Splitting4::new().coordinate(),
+        0.1,
+        20,
+        &mut control,
+    );
     let difference = distance(one.as_slice(), other.as_slice());
     assert!(difference < 1e-13, "{difference:e}");
     assert!(distance(one.as_slice(), control.as_slice()) > 1e-8);
@@ -461,7 +467,13 @@ fn declared_pieces_are_the_default_where_nothing_is_gained() {
     let start = Random(5).numbers(3);
     let [mut one, mut other] = [(); 2].map(|()| state(&system, &start));
     advance(&system, &Splitting4::new(), 0.1, 50, &mut one);
-    advance(&system, &Splitting4::new().coordinate(), 0.1, 50, &mut other);
+    advance(
+        &system,
+        &Splitting4::new().coordinate(),
+        0.1,
+        50,
+        &mut other,
+    );
     assert_eq!(one.as_slice(), other.as_slice());
     assert_ne!(one.as_slice(), &start[..]);
 }
@@ -484,8 +496,7 @@ fn pieces_are_reported_and_taken() {
         println!("{name}: {found}");
         assert_eq!(found.as_array().map(Vec::len), Some(pieces), "{name}");
     }
-    let run =
-        "run specs/se3_kirchhoff.json --method splitting4 --step 0.1 --until 1";
+    let run = "run specs/se3_kirchhoff.json --method splitting4 --step 0.1 --until 1";
     let run = common::lie(run).ok();
     assert_eq!(run.stdout.lines().count(), 12, "{}", run.stdout);
 }

@@ -88,10 +88,26 @@ fn errors_in_the_step_and_in_the_small_parameter() {
     // small parameters: the term of the first order in it; short steps: that of the second
     let small = |steps| (1e-7, steps);
     let short = (200, [1e-2, 2.5e-3]);
-    close(slopes!(First, scheme(Scheme::Saba2), small([10, 20]), short), 4.0, 2.0);
-    close(slopes!(Second, scheme(Scheme::Sbab2), small([10, 20]), short), 4.0, 2.0);
-    close(slopes!(First, scheme(Scheme::Saba4), small([5, 8]), short), 8.0, 2.0);
-    close(slopes!(Second, scheme(Scheme::Sbab4), small([5, 8]), short), 8.0, 2.0);
+    close(
+        slopes!(First, scheme(Scheme::Saba2), small([10, 20]), short),
+        4.0,
+        2.0,
+    );
+    close(
+        slopes!(Second, scheme(Scheme::Sbab2), small([10, 20]), short),
+        4.0,
+        2.0,
+    );
+    close(
+        slopes!(First, scheme(Scheme::Saba4), small([5, 8]), short),
+        8.0,
+        2.0,
+    );
+    close(
+        slopes!(Second, scheme(Scheme::Sbab4), small([5, 8]), short),
+        8.0,
+        2.0,
+    );
     let mclachlan = Splitting4::new().scheme(Scheme::McLachlan84).coordinate();
     let short = (40, [2e-1, 5e-2]);
     close(slopes!(First, mclachlan, small([5, 8]), short), 8.0, 2.0);
@@ -102,7 +118,11 @@ fn errors_in_the_step_and_in_the_small_parameter() {
 #[test]
 fn controls() {
     let short = (200, [1e-2, 2.5e-3]);
-    close(slopes!(First, scheme(Scheme::Strang), (1e-7, [10, 20]), short), 2.0, 1.0);
+    close(
+        slopes!(First, scheme(Scheme::Strang), (1e-7, [10, 20]), short),
+        2.0,
+        1.0,
+    );
     let (_, in_epsilon) = slopes!(Second, scheme(Scheme::Saba4), (1e-7, [5, 8]), short);
     assert!(in_epsilon < 1.3, "{in_epsilon}");
 }
@@ -120,7 +140,8 @@ fn orders() {
 
 #[test]
 fn the_command_takes_them_for_two_pieces() {
-    let run = "run specs/so3_free_rigid_body.json --method splitting2 --step 0.1 --until 1 --composition";
+    let run =
+        "run specs/so3_free_rigid_body.json --method splitting2 --step 0.1 --until 1 --composition";
     let saba = common::lie(&format!("{run} saba2")).ok();
     let strang = common::lie(&format!("{run} strang")).ok();
     assert_eq!(saba.stdout.lines().count(), 12);

@@ -163,7 +163,13 @@ where
     let mut mu = D::initial::<f64>();
     let (mut first, mut last) = (vec![0.0; casimirs], vec![0.0; casimirs]);
     system.casimirs(&mu, &mut first);
-    advance(&system, &Splitting4::new().coordinate(), 0.05, 100_000, &mut mu);
+    advance(
+        &system,
+        &Splitting4::new().coordinate(),
+        0.05,
+        100_000,
+        &mut mu,
+    );
     system.casimirs(&mu, &mut last);
     let drift = distance(&last, &first);
     println!("{}: Casimirs move by {drift:.1e} in 10^5 steps", D::FILE);
@@ -175,7 +181,13 @@ where
     let defects = [
         poisson_defect(&dual, &Splitting1::new().coordinate(), 0.3, &start, &newton),
         poisson_defect(&dual, &Splitting2::new().coordinate(), 0.3, &start, &newton),
-        poisson_defect(&dual, &Splitting4::new().coordinate(), -0.3, &start, &newton),
+        poisson_defect(
+            &dual,
+            &Splitting4::new().coordinate(),
+            -0.3,
+            &start,
+            &newton,
+        ),
         poisson_defect(&dual, &Splitting6::new().coordinate(), 0.3, &start, &newton),
         poisson_defect(&dual, &Splitting8::new().coordinate(), 0.3, &start, &newton),
     ];

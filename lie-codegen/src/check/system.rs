@@ -15,8 +15,8 @@ use crate::ast::{self, Declaration};
 use crate::diagnostic::{Origin, Report};
 use crate::exact::Rational;
 use crate::model::{
-    self, Bracket, Casimir, Energy, Hamiltonian, Kept, Model, Parameter, PoissonMatrix, Realization,
-    Search,
+    self, Bracket, Casimir, Energy, Hamiltonian, Kept, Model, Parameter, PoissonMatrix,
+    Realization, Search,
 };
 use crate::print::Runtime;
 use crate::structure::separable;

@@ -266,6 +266,11 @@ impl Choice {
         })
     }
 
+    /// Whether its coefficients are for two pieces one of which is small.
+    pub fn is_near_integrable(&self) -> bool {
+        matches!(self, Self::Splitting(_, scheme, _) if scheme.is_near_integrable())
+    }
+
     /// The options and their values, defaults included.
     pub fn options(&self) -> Vec<(&'static str, &'static str)> {
         match self {
@@ -284,7 +289,9 @@ impl Choice {
             }
             Self::Compose(_, scheme, base) => {
                 let mut options = vec![("composition", scheme.name())];
-                options.extend(base.options());
+                // that of the base is its default
+                let of_base = base.options().into_iter();
+                options.extend(of_base.filter(|(name, _)| *name != "composition"));
                 options
             }
             Self::Dopri5 => vec![("rtol", "1e-6"), ("atol", "1e-9")],
@@ -335,7 +342,8 @@ impl Choice {
             }
             Self::Compose(order, _, base) => {
                 let schemes = Scheme::of_composition(*order);
-                let bases = base.variants();
+                let mut bases = base.variants();
+                bases.retain(|base| !base.is_near_integrable());
                 let of = |scheme: &Scheme| {
                     let scheme = *scheme;
                     bases

@@ -208,7 +208,11 @@ impl Planner<'_> {
             _ => false,
         };
         if !self.methods.iter().any(splits) {
-            let key = if same { "splitting" } else { "coordinate_splitting" };
+            let key = if same {
+                "splitting"
+            } else {
+                "coordinate_splitting"
+            };
             return Some(Err(key.to_owned()));
         }
         let flows = pieces

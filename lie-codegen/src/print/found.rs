@@ -216,7 +216,10 @@ fn follow(pieces: &[FoundPiece]) -> Option<TokenStream> {
         let alone = piece.parts.len() == 1;
         let parts = piece.parts.iter().enumerate().map(|(part, known)| {
             let (direction, flow) = if alone {
-                (format_ident!("_direction{place}"), format_ident!("_flow{place}"))
+                (
+                    format_ident!("_direction{place}"),
+                    format_ident!("_flow{place}"),
+                )
             } else {
                 let direction = format_ident!("_direction{place}_{part}");
                 (direction, part_name(place, part))

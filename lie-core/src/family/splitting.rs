@@ -362,8 +362,7 @@ where
     }
 }
 
-impl<S, K, const C: usize, const L: usize, const T: usize> FoundPoisson<S>
-    for Family<K, C, L, T>
+impl<S, K, const C: usize, const L: usize, const T: usize> FoundPoisson<S> for Family<K, C, L, T>
 where
     S: Scalar,
     K: Pieces<S, C, L, T>,

@@ -46,17 +46,18 @@ pub(super) fn of(model: &Model) -> Result<Splitting, String> {
 
 /// The terms of each piece.
 pub(super) fn json(splitting: &Result<Splitting, String>) -> Value {
-    splitting
-        .as_ref()
-        .map_or(Value::Null, |splitting| splitting.terms.pieces.clone().into())
+    splitting.as_ref().map_or(Value::Null, |splitting| {
+        splitting.terms.pieces.clone().into()
+    })
 }
 
 /// What a step costs, beside other ways.
 pub(super) fn cost(splitting: &Result<Splitting, String>) -> Value {
     let costs = splitting.as_ref().ok().and_then(|s| s.costs.as_ref());
-    costs.map_or(Value::Null, |(own, others)| {
-        json!({ "weight": own, "others": others })
-    })
+    costs.map_or(
+        Value::Null,
+        |(own, others)| json!({ "weight": own, "others": others }),
+    )
 }
 
 /// One line for each piece.

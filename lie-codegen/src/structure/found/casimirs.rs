@@ -8,8 +8,8 @@
 use super::additive;
 use super::atoms::{Atom, Commuting};
 use super::invariants::Invariant;
-use super::{classes, colouring};
-use crate::exact::{Budget, Rational};
+use super::{Work, classes, colouring};
+use crate::exact::Rational;
 use crate::model::Model;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
@@ -44,13 +44,13 @@ pub(super) fn without(
     commuting: &Commuting<'_>,
     graph: &mut Graph,
     (start, casimirs): (ExprId, &[&Invariant]),
-    budget: &Budget,
+    work: Work<'_>,
 ) -> Option<ExprId> {
     if model.dimension() > LARGEST {
         return None;
     }
     let measure =
-        |graph: &mut Graph, value: ExprId| candidate(model, commuting, graph, value, budget);
+        |graph: &mut Graph, value: ExprId| candidate(model, commuting, graph, value, work);
     let mut value = start;
     let mut current = measure(graph, value)?;
     for _ in 0..casimirs.len() {
@@ -115,7 +115,7 @@ fn candidate(
     commuting: &Commuting<'_>,
     graph: &mut Graph,
     value: ExprId,
-    budget: &Budget,
+    work: Work<'_>,
 ) -> Option<Candidate> {
     let terms = additive::terms(graph, value)?;
     let mut atoms = commuting.by_arguments(graph, &terms);
@@ -125,7 +125,7 @@ fn candidate(
     };
     let mixed = atoms.iter().map(pairs).sum();
     atoms.retain(|atom| !commuting.is_idle(atom));
-    let pieces = colouring::count(&classes(commuting, &atoms, budget));
+    let pieces = colouring::count(&classes(commuting, &atoms, work));
     let mut spread = 0.0_f64;
     for i in 0..model.dimension() {
         let slope = graph.derivative(value, Symbol::Coordinate(i));

@@ -184,10 +184,13 @@ fn quadratic_casimirs(algebra: &Algebra, elements: &[usize]) -> Vec<Polynomial> 
     let constants = StructureConstants::new(m, entries);
     let wanted = m - rank::generic(&constants, m);
     let found = casimirs::find(&constants, wanted, false, WORK);
-    let quadratic = found.casimirs.into_iter().filter_map(|casimir| match casimir {
-        Casimir::Polynomial(function) => Some(function),
-        Casimir::Rational(_) => None,
-    });
+    let quadratic = found
+        .casimirs
+        .into_iter()
+        .filter_map(|casimir| match casimir {
+            Casimir::Polynomial(function) => Some(function),
+            Casimir::Rational(_) => None,
+        });
     let degree = |function: &Polynomial| {
         let of = |m2: &crate::exact::Monomial| -> u32 {
             m2.powers().filter(|(v, _)| *v < m).map(|(_, e)| e).sum()

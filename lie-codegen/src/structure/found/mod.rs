@@ -39,6 +39,8 @@ pub use report::{Terms, count, refusal, terms};
 
 /// Work allowed for the forms of one Hamiltonian.
 const WORK: u64 = 2_000_000;
+/// Work allowed for classes of parts that commute, in all ways to take a Hamiltonian apart together.
+const COLOURING: u64 = 20_000_000;
 /// More ways with equally few pieces are not kept.
 const MOST_WAYS: usize = 6;
 
@@ -197,7 +199,10 @@ fn ways(model: &Model, graph: &mut Graph) -> Option<Vec<Found>> {
             model,
             commuting: Commuting::of(algebra, graph, &invariants),
             invariants: &invariants,
-            budget: &budget,
+            work: Work {
+                forms: &budget,
+                colouring: &Budget::new(COLOURING),
+            },
         };
         for way in search.all(graph, start) {
             let count = best.first().map_or(least, |best| best.count + 1);
@@ -218,7 +223,8 @@ fn ways(model: &Model, graph: &mut Graph) -> Option<Vec<Found>> {
         let found = assembly::put_together(algebra, graph, &invariants, &way, &budget);
         let same = |other: &Found| {
             let (one, other) = (found.pieces.iter(), other.pieces.iter());
-            one.map(|piece| &piece.terms).eq(other.map(|piece| &piece.terms))
+            one.map(|piece| &piece.terms)
+                .eq(other.map(|piece| &piece.terms))
         };
         if ways.len() < MOST_WAYS && !ways.iter().any(same) {
             ways.push(found);
@@ -247,11 +253,18 @@ fn as_declared(graph: &mut Graph, value: ExprId, declared: &[separable::Piece]) 
     }
 }
 
+/// What work is left.
+#[derive(Clone, Copy)]
+struct Work<'a> {
+    forms: &'a Budget,
+    colouring: &'a Budget,
+}
+
 struct Search<'a> {
     model: &'a Model,
     commuting: Commuting<'a>,
     invariants: &'a [Invariant],
-    budget: &'a Budget,
+    work: Work<'a>,
 }
 
 impl Search<'_> {
@@ -284,7 +297,7 @@ impl Search<'_> {
                 for value in reached.clone() {
                     let known = (value, &casimirs[..]);
                     let less =
-                        casimirs::without(self.model, &self.commuting, graph, known, self.budget);
+                        casimirs::without(self.model, &self.commuting, graph, known, self.work);
                     reached.extend(less);
                 }
             }
@@ -300,7 +313,7 @@ impl Search<'_> {
             for mut atoms in self.variants(graph, value) {
                 let count = atoms.len();
                 atoms.retain(|atom| !self.commuting.is_casimir(atom));
-                let classes = classes(&self.commuting, &atoms, self.budget);
+                let classes = classes(&self.commuting, &atoms, self.work);
                 all.push(Classified {
                     count: colouring::count(&classes),
                     rest,
@@ -343,7 +356,7 @@ impl Search<'_> {
             all.push(plain);
         }
         let n = self.model.dimension();
-        let Some(quadratic) = Quadratic::of(graph, &terms, n, self.budget) else {
+        let Some(quadratic) = Quadratic::of(graph, &terms, n, self.work.forms) else {
             return all;
         };
         if let Some((form, others)) = quadratic.linear_part(graph) {
@@ -356,10 +369,10 @@ impl Search<'_> {
         let default = |p: &crate::model::Parameter| Rational::from_f64(p.default_value);
         let defaults: Vec<Option<Rational>> = self.model.parameters.iter().map(default).collect();
         for order in [Order::Entangled, Order::Last] {
-            let squares =
-                quadratic
-                    .clone()
-                    .squares(graph, commuting, &defaults, order, self.budget);
+            let work = self.work.forms;
+            let squares = quadratic
+                .clone()
+                .squares(graph, commuting, &defaults, order, work);
             let Ok(Some((mut squares, others))) = squares else {
                 continue;
             };
@@ -381,8 +394,8 @@ impl Search<'_> {
 }
 
 /// The fewest classes of parts that commute.
-fn classes(commuting: &Commuting<'_>, atoms: &[Atom], budget: &Budget) -> Vec<usize> {
-    let conflict = |one: &Atom, other: &Atom| !commuting.commute(one, other, budget);
+fn classes(commuting: &Commuting<'_>, atoms: &[Atom], work: Work<'_>) -> Vec<usize> {
+    let conflict = |one: &Atom, other: &Atom| !commuting.commute(one, other, work.forms);
     let mut conflicts = vec![vec![false; atoms.len()]; atoms.len()];
     for (i, one) in atoms.iter().enumerate() {
         for (j, other) in atoms.iter().enumerate().skip(i + 1) {
@@ -390,7 +403,7 @@ fn classes(commuting: &Commuting<'_>, atoms: &[Atom], budget: &Budget) -> Vec<us
             conflicts[j][i] = conflicts[i][j];
         }
     }
-    colouring::fewest(&conflicts)
+    colouring::fewest(&conflicts, work.colouring)
 }
 
 #[cfg(test)]

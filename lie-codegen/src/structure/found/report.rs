@@ -1,7 +1,7 @@
 //! What is said of the pieces, or of why there are none.
 
-use super::{Found, Searched, additive};
 use super::atoms::{Atom, Commuting};
+use super::{Found, Searched, additive};
 use crate::model::Model;
 use crate::structure::separable;
 use crate::symbolic::ExprId;
@@ -71,4 +71,3 @@ pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
     };
     Some((reason, nearest))
 }
-

@@ -137,10 +137,8 @@ fn casimirs_of_subalgebras_are_arguments() {
     assert_eq!(pieces(&lagrange).len(), 2);
     let kinetic = top(r#""hamiltonian": "(a^2 + b^2)/2 + c^2/3""#);
     assert_eq!(pieces(&kinetic).len(), 1);
-    let heavy = top(
-        r#""parameters": {"i": 1, "j": 2, "k": 3, "g": 1},
-            "hamiltonian": "a^2/(2*i) + b^2/(2*j) + c^2/(2*k) + g*r""#,
-    );
+    let heavy = top(r#""parameters": {"i": 1, "j": 2, "k": 3, "g": 1},
+            "hamiltonian": "a^2/(2*i) + b^2/(2*j) + c^2/(2*k) + g*r""#);
     assert_eq!(pieces(&heavy).len(), 2);
     let size = top(r#""hamiltonian": "sqrt(1 + a^2 + b^2 + c^2) + q""#);
     assert_eq!(pieces(&size).len(), 2);
