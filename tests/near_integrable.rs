@@ -88,6 +88,8 @@ fn errors_in_the_step_and_in_the_small_parameter() {
     // small parameters: the term of the first order in it; short steps: that of the second
     let small = |steps| (1e-7, steps);
     let short = (200, [1e-2, 2.5e-3]);
+    // of order 8 the errors of shorter steps are round-off
+    let long = (1e-6, [2, 4]);
     close(
         slopes!(First, scheme(Scheme::Saba2), small([10, 20]), short),
         4.0,
@@ -98,19 +100,15 @@ fn errors_in_the_step_and_in_the_small_parameter() {
         4.0,
         2.0,
     );
+    close(slopes!(First, scheme(Scheme::Saba4), long, short), 8.0, 2.0);
     close(
-        slopes!(First, scheme(Scheme::Saba4), small([5, 8]), short),
-        8.0,
-        2.0,
-    );
-    close(
-        slopes!(Second, scheme(Scheme::Sbab4), small([5, 8]), short),
+        slopes!(Second, scheme(Scheme::Sbab4), long, short),
         8.0,
         2.0,
     );
     let mclachlan = Splitting4::new().scheme(Scheme::McLachlan84).coordinate();
     let short = (40, [2e-1, 5e-2]);
-    close(slopes!(First, mclachlan, small([5, 8]), short), 8.0, 2.0);
+    close(slopes!(First, mclachlan, long, short), 8.0, 2.0);
 }
 
 /// Strang's splitting has an error of the first order in the parameter, whatever the step, and the schemes of
@@ -123,7 +121,7 @@ fn controls() {
         2.0,
         1.0,
     );
-    let (_, in_epsilon) = slopes!(Second, scheme(Scheme::Saba4), (1e-7, [5, 8]), short);
+    let (_, in_epsilon) = slopes!(Second, scheme(Scheme::Saba4), (1e-6, [2, 4]), short);
     assert!(in_epsilon < 1.3, "{in_epsilon}");
 }
 

@@ -95,7 +95,7 @@ pub trait SeparablePoisson<S: Scalar>: LiePoisson<S> {
 /// Along the flow of a piece these quantities are constant, and each of them generates a one-parameter group. A Casimir of the
 /// algebra generates no flow, so that the flows of the `$f_a$`
 /// are those of pieces of the vector field of H. The pieces are the fewest that were found: two for the free rigid body,
-/// whose H has three squares, and two for the heavy top; three for a ring of spins with exchange along three axes.
+/// whose H has three squares, and two for a top in a field along one of its axes; three for a ring of spins with exchange along three axes.
 /// Where the functions of one coordinate each that H is declared as are as few, they are those.
 ///
 /// Generated for systems that have the structure; by hand, for a sum of functions of one coordinate each, with

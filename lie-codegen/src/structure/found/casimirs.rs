@@ -2,13 +2,14 @@
 //!
 //! Of `H = sum_i x_i^2/(2 I_i)` on so(3) the multiple `1/(2 I_2)` of the Casimir takes away one piece of three. The
 //! multiples are those that cancel one second derivative of H that depends on parameters alone. Casimirs of subalgebras have flows of their own, and
-//! may still leave fewer pieces: with `|m|^2/(2 I_2)` taken from the kinetic energy of a heavy top and added as a function of one argument, there
+//! may still leave fewer pieces: with `|m|^2/(2 I_2)` taken from the kinetic energy of a top in a field along one of its axes and added as a function of one argument, there
 //! are two.
 
 use super::additive;
 use super::atoms::{Atom, Commuting};
+use super::colouring;
 use super::invariants::Invariant;
-use super::{Work, classes, colouring};
+use super::search::{Work, classes};
 use crate::exact::Rational;
 use crate::model::Model;
 use crate::symbolic::{ExprId, Graph, Symbol};

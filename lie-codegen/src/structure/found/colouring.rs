@@ -24,8 +24,8 @@ fn clique(conflicts: &[Vec<bool>]) -> usize {
     let n = conflicts.len();
     let grown = |first: usize| {
         let mut members = vec![first];
-        for v in 0..n {
-            if members.iter().all(|member| conflicts[*member][v]) {
+        for (v, row) in conflicts.iter().enumerate() {
+            if members.iter().all(|member| row[*member]) {
                 members.push(v);
             }
         }
