@@ -44,6 +44,11 @@ fn json_has_the_agreed_fields() {
     assert_eq!(one["series"]["derived"], serde_json::json!([6]));
     assert_eq!(one["killing"]["negative"], 3);
     assert_eq!(one["splitting"].as_array().map(Vec::len), Some(3));
+    assert!(
+        one["splitting_cost"]["weight"]
+            .as_u64()
+            .is_some_and(|weight| weight > 0)
+    );
     assert!(one["methods"]["midpoint"].is_null());
     assert!(one["methods"]["spherical-midpoint"].is_string());
     assert_eq!(one["operations"]["vector_field"]["mul"], 21);
@@ -52,7 +57,7 @@ fn json_has_the_agreed_fields() {
         .ok()
         .stdout;
     let several: serde_json::Value = serde_json::from_str(&several).expect("JSON");
-    assert_eq!(several.as_array().map(Vec::len), Some(2));
+    assert_eq!(several.as_array().map(Vec::len), Some(3));
     assert_eq!(several[0], one);
 }
 

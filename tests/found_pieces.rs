@@ -65,9 +65,9 @@ fn a_rigid_body_has_two_pieces_and_the_flow_written_by_hand() {
     let mut differences = [0.0_f64; 2];
     for h in [0.3, -0.2, 1.0] {
         let [mut one, mut other, mut declared] = [(); 3].map(|()| state(&body, &start));
-        advance(&body, &Splitting4::new().found(), h, 5, &mut one);
+        advance(&body, &Splitting4::new(), h, 5, &mut one);
         advance(&shifted, &Splitting4::new(), h, 5, &mut other);
-        advance(&body, &Splitting4::new(), h, 5, &mut declared);
+        advance(&body, &Splitting4::new().coordinate(), h, 5, &mut declared);
         differences[0] = Scalar::max(differences[0], distance(one.as_slice(), other.as_slice()));
         differences[1] = Scalar::max(
             differences[1],
@@ -95,7 +95,7 @@ fn other_parameters_give_the_same_as_by_hand() {
             shifted.system().expect("valid"),
         );
         let [mut one, mut other] = [(); 2].map(|()| state(&body, &[0.8, -0.5, 1.1]));
-        advance(&body, &Splitting2::new().found(), 0.1, 10, &mut one);
+        advance(&body, &Splitting2::new(), 0.1, 10, &mut one);
         advance(&shifted, &Splitting2::new(), 0.1, 10, &mut other);
         let difference = distance(one.as_slice(), other.as_slice());
         assert!(difference < 2e-14, "{difference:e}");
@@ -114,15 +114,9 @@ fn orders() {
             "{measured} for {order}"
         );
     };
-    close(
-        order(&body, &Splitting2::new().found(), &start[..3], over),
-        2.0,
-    );
-    close(
-        order(&body, &Splitting1::new().found(), &start[..3], over),
-        1.0,
-    );
-    close(order(&screw, &Splitting2::new().found(), &start, over), 2.0);
+    close(order(&body, &Splitting2::new(), &start[..3], over), 2.0);
+    close(order(&body, &Splitting1::new(), &start[..3], over), 1.0);
+    close(order(&screw, &Splitting2::new(), &start, over), 2.0);
 }
 
 /// x, y, z and r are left of a Hamiltonian that mixes all six, and z and r commute.
@@ -159,7 +153,7 @@ fn casimir_structure_and_energy_are_kept() {
     let mut worst = [0.0_f64; 2];
     for half in &mut worst {
         for _ in 0..20_000 {
-            advance(&body, &Splitting2::new().found(), 0.05, 1, &mut mu);
+            advance(&body, &Splitting2::new(), 0.05, 1, &mut mu);
             *half = Scalar::max(*half, (body.hamiltonian(&mu) - energy).abs());
         }
     }
@@ -169,19 +163,13 @@ fn casimir_structure_and_energy_are_kept() {
 
     let dual = Body::<Dual<f64>>::default().system().expect("valid");
     let newton = NewtonOptions::default();
-    let defect = poisson_defect(
-        &dual,
-        &Splitting2::new().found(),
-        0.3,
-        &[0.8, -0.5, 1.1],
-        &newton,
-    );
+    let defect = poisson_defect(&dual, &Splitting2::new(), 0.3, &[0.8, -0.5, 1.1], &newton);
     assert!(defect.expect("a step") < 1e-14);
 }
 
 #[test]
 fn what_no_casimir_splits_is_refused() {
-    let run = common::lie("run specs/so3_nonpolynomial.json --method splitting2 --pieces found");
+    let run = common::lie("run specs/so3_nonpolynomial.json --method splitting2");
     let run = run.error("splitting", "command line: --method");
     assert!(
         run.stderr.contains("no combination of quadratic Casimirs"),
@@ -225,7 +213,21 @@ where
     P: MatrixGroup<f64> + Clone,
     M: Method<f64, P>,
 {
-    let start = state(system, &Y0);
+    attitude_from(&Y0, system, method, h, chart)
+}
+
+fn attitude_from<P, M>(
+    start: &[f64],
+    system: &P,
+    method: M,
+    h: f64,
+    chart: Chart,
+) -> (Vec<f64>, Vec<f64>)
+where
+    P: MatrixGroup<f64> + Clone,
+    M: Method<f64, P>,
+{
+    let start = state(system, start);
     let mut attitude = Reconstruction::new(system, chart);
     let problem = Problem::new(system.clone(), start, (0.0, 10.0));
     let options = Options::new(h).save(Save::Ends);
@@ -243,9 +245,9 @@ fn the_group_element_moves_with_all_of_h() {
     assert_eq!((body.found().pieces(), freed.found().pieces()), (2, 2));
     let error = |h: f64, fourth: bool| {
         let (q, _) = if fourth {
-            attitude(&body, Splitting4::new().found(), h, Chart::Quaternion)
+            attitude(&body, Splitting4::new(), h, Chart::Quaternion)
         } else {
-            attitude(&body, Splitting2::new().found(), h, Chart::Quaternion)
+            attitude(&body, Splitting2::new(), h, Chart::Quaternion)
         };
         distance(&q, &Q10)
     };
@@ -257,17 +259,77 @@ fn the_group_element_moves_with_all_of_h() {
     }
     assert!(error(0.01, true) < 1e-9);
     // the spatial momentum G mu does not move
-    let (g, mu) = attitude(&body, Splitting2::new().found(), 0.1, Chart::Matrix);
+    let (g, mu) = attitude(&body, Splitting2::new(), 0.1, Chart::Matrix);
     let momentum: Vec<f64> = (0..3)
         .map(|i| (0..3).map(|j| g[3 * i + j] * mu[j]).sum())
         .collect();
     assert!(distance(&momentum, &Y0) < 5e-14, "{momentum:?}");
     // without what the Casimir adds the momentum is the same and the attitude another
     let h = 0.01;
-    let (q, mu) = attitude(&freed, Splitting4::new().found(), h, Chart::Quaternion);
-    let (_, other) = attitude(&body, Splitting4::new().found(), h, Chart::Quaternion);
+    let (q, mu) = attitude(&freed, Splitting4::new(), h, Chart::Quaternion);
+    let (_, other) = attitude(&body, Splitting4::new(), h, Chart::Quaternion);
     assert!(distance(&mu, &other) < 1e-12);
     assert!(distance(&q, &Q10) > 0.1, "{q:?}");
+}
+
+// pieces with Casimirs, of the algebra and of a subalgebra, as arguments: their gradients move along their flows
+lie_poisson! {
+    system Weighted;
+    algebra {
+        basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2;
+        matrix e1 = [[0, 0, 0], [0, 0, -1], [0, 1, 0]];
+        matrix e2 = [[0, 0, 1], [0, 0, 0], [-1, 0, 0]];
+        matrix e3 = [[0, -1, 0], [1, 0, 0], [0, 0, 0]];
+    }
+    state y1, y2, y3;
+    hamiltonian = (y1^2 + y2^2 + y3^2)*y3/8 + sqrt(1 + y1^2 + y2^2 + y3^2)*y1^2/6;
+    methods = [splitting4];
+}
+
+lie_poisson! {
+    system Top;
+    algebra {
+        basis J1, J2, J3, P1, P2, P3;
+        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
+        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
+        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
+        matrix J1 = [[0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 0]];
+        matrix J2 = [[0, 0, 1, 0], [0, 0, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 0]];
+        matrix J3 = [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]];
+        matrix P1 = [[0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]];
+        matrix P2 = [[0, 0, 0, 0], [0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0]];
+        matrix P3 = [[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1], [0, 0, 0, 0]];
+    }
+    state a, b, c, p, q, r;
+    hamiltonian = (a^2 + b^2)/3 + c^2/5 + r/2 + p/5;
+    methods = [splitting4];
+}
+
+/// The order of the motion on the group, beside a composition of another method.
+macro_rules! group_order {
+    ($system:expr, $start:expr, $pieces:literal) => {{
+        let system = $system.system().expect("valid");
+        assert_eq!(system.found().pieces(), $pieces);
+        let fine = Compose8::new(LieMidpoint::exp());
+        let (exact, _) = attitude_from(&$start, &system, fine, 0.02, Chart::Matrix);
+        let error = |h: f64| {
+            let (g, _) = attitude_from(&$start, &system, Splitting4::new(), h, Chart::Matrix);
+            distance(&g, &exact)
+        };
+        let (coarse, fine) = (error(0.1), error(0.05));
+        let slope = (coarse / fine).log2();
+        println!("{coarse:.1e} {fine:.1e}, slope {slope:.2}");
+        assert!(
+            (slope - 4.0).abs() < 0.3 && fine < 1e-4,
+            "{slope}, {fine:e}"
+        );
+    }};
+}
+
+#[test]
+fn the_group_element_follows_gradients_that_move() {
+    group_order!(Weighted::new(), [0.9, -0.5, 0.7], 2);
+    group_order!(Top::new(), [0.9, -0.5, 0.7, 0.3, 0.2, -0.8], 2);
 }
 
 #[test]
@@ -282,7 +344,7 @@ fn the_report_names_the_pieces() {
     let text = common::lie("check specs/so3_free_rigid_body.json")
         .ok()
         .stdout;
-    let says = "  splitting: H is 2 pieces with exact flows, and a combination of Casimirs (--pieces found)";
+    let says = "  splitting: H is 2 pieces with exact flows, and a combination of Casimirs\n";
     assert!(text.contains(says), "{text}");
     assert!(check("specs/so3_nonpolynomial.json")["splitting"].is_null());
     let text = common::lie("check specs/so3_nonpolynomial.json")

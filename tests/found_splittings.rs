@@ -1,4 +1,5 @@
-//! Splittings into the fewest pieces that were found: coordinates that commute, squares of linear forms. Each flow is that
+//! Splittings into the fewest pieces that were found: coordinates that commute, squares of linear forms, Casimirs of the
+//! algebra and of subalgebras as arguments. Each flow is that
 //! of its piece, the pieces are all of H, and the methods over them do what they claim.
 
 #[path = "common/advance.rs"]
@@ -89,6 +90,90 @@ lie_poisson! {
     methods = [splitting2];
 }
 
+// Casimirs as factors and in functions
+lie_poisson! {
+    system Factors;
+    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    state x, y, z;
+    parameters { k = 0.4; }
+    hamiltonian = k*(x^2 + y^2 + z^2)*z + cos(x^2 + y^2 + z^2)*x^2/3 + sin(y);
+    casimir size = x^2 + y^2 + z^2;
+    methods = [splitting2];
+}
+
+// a coordinate times the length of the other vector, and a Casimir that is found
+lie_poisson! {
+    system Length;
+    algebra {
+        basis J1, J2, J3, P1, P2, P3;
+        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
+        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
+        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
+    }
+    state a, b, c, p, q, r;
+    hamiltonian = sqrt(1 + p^2 + q^2 + r^2)*c + exp(a*p + b*q + c*r)*r/4 + a^2/2;
+    methods = [splitting2];
+}
+
+// the tops of Lagrange and of Kovalevskaya, and one with a function of the size of m
+lie_poisson! {
+    system Lagrange;
+    algebra {
+        basis J1, J2, J3, P1, P2, P3;
+        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
+        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
+        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
+    }
+    state a, b, c, p, q, r;
+    parameters { I = 0.8; K = 1.3; g = 0.7; }
+    hamiltonian = (a^2 + b^2)/(2*I) + c^2/(2*K) + g*r;
+    methods = [splitting2];
+}
+lie_poisson! {
+    system Kovalevskaya;
+    algebra {
+        basis J1, J2, J3, P1, P2, P3;
+        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
+        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
+        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
+    }
+    state a, b, c, p, q, r;
+    hamiltonian = (a^2 + b^2)/2 + c^2 + p;
+    methods = [splitting2];
+}
+lie_poisson! {
+    system Relativistic;
+    algebra {
+        basis J1, J2, J3, P1, P2, P3;
+        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
+        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
+        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
+    }
+    state a, b, c, p, q, r;
+    hamiltonian = sqrt(1 + a^2 + b^2 + c^2) + cos(q + r/2);
+    methods = [splitting2];
+}
+lie_poisson! {
+    system Declared3;
+    algebra { basis e1, e2, e3; [e1, e2] = e3; [e2, e3] = e1; [e3, e1] = e2; }
+    state x, y, z;
+    hamiltonian = cos(x) + y^4 + z^3/3;
+    methods = [splitting2];
+}
+// that of Lagrange without code of its own for splittings
+lie_poisson! {
+    system Plain;
+    algebra {
+        basis J1, J2, J3, P1, P2, P3;
+        [J1, J2] = J3; [J2, J3] = J1; [J3, J1] = J2;
+        [J1, P2] = P3; [J2, P3] = P1; [J3, P1] = P2;
+        [P1, J2] = P3; [P2, J3] = P1; [P3, J1] = P2;
+    }
+    state a, b, c, p, q, r;
+    parameters { I = 0.8; K = 1.3; g = 0.7; }
+    hamiltonian = (a^2 + b^2)/(2*I) + c^2/(2*K) + g*r;
+}
+
 /// The largest entry; not a number if one is not.
 fn size(numbers: &[f64]) -> f64 {
     numbers
@@ -144,10 +229,19 @@ fn flows_are_exact<P: FoundPoisson<f64>>(system: &P) -> usize {
             let t = 0.4 + random.number().abs();
             let mut flowed = mu.clone();
             flows.flow(piece, t, &mut flowed);
-            // the exponential of the direction
-            flows.direction(piece, t, &mu, &mut xi);
-            generic::coadjoint_action(system, &xi, &mu, &mut out);
-            worst[0] = Scalar::max(worst[0], distance(flowed.as_slice(), out.as_slice()));
+            // the same part by part, and the exponentials of the elements of the parts
+            let mut elements = Vec::new();
+            let mut followed = mu.clone();
+            flows.follow(piece, t, &mut followed, &mut xi, &mut |xi| {
+                elements.push(xi.clone());
+            });
+            assert_eq!(followed.as_slice(), flowed.as_slice());
+            let mut product = mu.clone();
+            for xi in &elements {
+                let before = product.clone();
+                generic::coadjoint_action(system, xi, &before, &mut product);
+            }
+            worst[0] = Scalar::max(worst[0], distance(flowed.as_slice(), product.as_slice()));
             // a fine reference of the field of the piece, in which the direction moves as it may
             let direction = |mu: &P::State, xi: &mut P::State| flows.direction(piece, 1.0, mu, xi);
             let exact = reference(system, &direction, t, &mu);
@@ -200,9 +294,9 @@ where
     let start = random.numbers(system.dimension());
     let name = system.name();
     let over = (1.0, [16, 32, 64]);
-    let first = order(system, &Splitting1::new().found(), &start, over);
-    let second = order(system, &Splitting2::new().found(), &start, over);
-    let fourth = order(system, &Splitting4::new().found(), &start, over);
+    let first = order(system, &Splitting1::new(), &start, over);
+    let second = order(system, &Splitting2::new(), &start, over);
+    let fourth = order(system, &Splitting4::new(), &start, over);
     println!("{name}: orders {first:.2}, {second:.2}, {fourth:.2}");
     for (measured, order) in [(first, 1.0), (second, 2.0), (fourth, 4.0)] {
         assert!(
@@ -218,7 +312,7 @@ where
     let mut worst = [0.0_f64; 2];
     for half in &mut worst {
         for _ in 0..2000 {
-            advance(system, &Splitting2::new().found(), 0.05, 1, &mut mu);
+            advance(system, &Splitting2::new(), 0.05, 1, &mut mu);
             *half = Scalar::max(*half, (system.hamiltonian(&mu) - energy).abs());
         }
     }
@@ -238,7 +332,7 @@ macro_rules! defect {
         let (system, newton) = ($system, NewtonOptions::default());
         let start = Random(3).numbers(system.dimension());
         let dual = $dual;
-        let splitting = Splitting2::new().found();
+        let splitting = Splitting2::new();
         let kept = poisson_defect(&dual, &splitting, 0.3, &start, &newton).expect("a step");
         let lost = poisson_defect(&dual, &Rk4, 0.3, &start, &newton).expect("a step");
         println!(
@@ -323,10 +417,65 @@ fn a_linear_hamiltonian_is_one_piece() {
     // its flow is exact: a step of any length
     let start = [0.3, -1.1, 0.7];
     let [mut one, mut many] = [(); 2].map(|()| state(&system, &start));
-    advance(&system, &Splitting2::new().found(), 20.0, 1, &mut one);
+    advance(&system, &Splitting2::new(), 20.0, 1, &mut one);
     advance(&system, &Gauss6, 0.01, 2000, &mut many);
     let error = distance(one.as_slice(), many.as_slice());
     assert!(error < 1e-11, "{error:e}");
+}
+
+#[test]
+fn casimirs_are_factors() {
+    system_holds!(Factors, 3);
+    system_holds!(Length, 2);
+}
+
+#[test]
+fn casimirs_of_subalgebras_have_flows() {
+    system_holds!(Lagrange, 2);
+    system_holds!(Kovalevskaya, 2);
+    system_holds!(Relativistic, 2);
+}
+
+/// Whether a declaration asks for code of its own changes no piece and no order of them.
+#[test]
+fn without_code_of_their_own_the_steps_are_the_same() {
+    let (fused, plain) = (
+        Lagrange::new().system().expect("valid"),
+        Plain::new().system().expect("valid"),
+    );
+    let start = Random(11).numbers(6);
+    let [mut one, mut other] = [(); 2].map(|()| state(&fused, &start));
+    let mut control = one;
+    advance(&fused, &Splitting4::new(), 0.1, 20, &mut one);
+    advance(&plain, &Splitting4::new(), 0.1, 20, &mut other);
+    advance(
+        &fused,
+        &Splitting4::new().coordinate(),
+        0.1,
+        20,
+        &mut control,
+    );
+    let difference = distance(one.as_slice(), other.as_slice());
+    assert!(difference < 1e-13, "{difference:e}");
+    assert!(distance(one.as_slice(), control.as_slice()) > 1e-8);
+}
+
+/// Where what is declared has the fewest pieces, the default is that, bit for bit.
+#[test]
+fn declared_pieces_are_the_default_where_nothing_is_gained() {
+    let system = Declared3::new().system().expect("valid");
+    let start = Random(5).numbers(3);
+    let [mut one, mut other] = [(); 2].map(|()| state(&system, &start));
+    advance(&system, &Splitting4::new(), 0.1, 50, &mut one);
+    advance(
+        &system,
+        &Splitting4::new().coordinate(),
+        0.1,
+        50,
+        &mut other,
+    );
+    assert_eq!(one.as_slice(), other.as_slice());
+    assert_ne!(one.as_slice(), &start[..]);
 }
 
 fn splitting(path: &str) -> serde_json::Value {
@@ -347,8 +496,7 @@ fn pieces_are_reported_and_taken() {
         println!("{name}: {found}");
         assert_eq!(found.as_array().map(Vec::len), Some(pieces), "{name}");
     }
-    let run =
-        "run specs/se3_kirchhoff.json --method splitting4 --pieces found --step 0.1 --until 1";
+    let run = "run specs/se3_kirchhoff.json --method splitting4 --step 0.1 --until 1";
     let run = common::lie(run).ok();
     assert_eq!(run.stdout.lines().count(), 12, "{}", run.stdout);
 }

@@ -551,7 +551,7 @@ fn the_table_of_preserved_quantities_is_that_of_hairer_and_vilmart() {
         [true, true, true, false, false]
     );
     assert_eq!(
-        kept("splitting2", Splitting2::new()),
+        kept("splitting2", Splitting2::new().coordinate()),
         [true, true, false, true, true]
     );
     // others of ours, and a control that keeps nothing

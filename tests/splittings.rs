@@ -54,9 +54,9 @@ where
         println!("{}: {name}: {error:.1e}", D::FILE);
         error
     }
-    let suzuki = Splitting4::new().scheme(Scheme::Suzuki);
-    assert!(error::<D>("lie_trotter_coordinate", &Splitting1::new()) < STEP);
-    assert!(error::<D>("strang_coordinate", &Splitting2::new()) < STEP);
+    let suzuki = Splitting4::new().scheme(Scheme::Suzuki).coordinate();
+    assert!(error::<D>("lie_trotter_coordinate", &Splitting1::new().coordinate()) < STEP);
+    assert!(error::<D>("strang_coordinate", &Splitting2::new().coordinate()) < STEP);
     assert!(error::<D>("suzuki4_strang_coordinate", &suzuki) < STEP);
     // the bound is no formality: another splitting misses it
     assert!(error::<D>("strang_coordinate", &suzuki) > 1e-7);
@@ -102,7 +102,7 @@ fn fused_equals_generic<P: SeparablePoisson<f64>>(system: &P) -> Vec<usize> {
         }
         // a step: pieces that do nothing only move the places where sweeps turn
         let (mut one, mut other) = (mu.clone(), mu.clone());
-        advance(system, &Splitting2::new(), 0.2, 1, &mut one);
+        advance(system, &Splitting2::new().coordinate(), 0.2, 1, &mut one);
         for (piece, h) in (0..system.dimension())
             .map(|piece| (piece, 0.1))
             .chain((0..system.dimension()).rev().map(|piece| (piece, 0.1)))
@@ -163,7 +163,13 @@ where
     let mut mu = D::initial::<f64>();
     let (mut first, mut last) = (vec![0.0; casimirs], vec![0.0; casimirs]);
     system.casimirs(&mu, &mut first);
-    advance(&system, &Splitting4::new(), 0.05, 100_000, &mut mu);
+    advance(
+        &system,
+        &Splitting4::new().coordinate(),
+        0.05,
+        100_000,
+        &mut mu,
+    );
     system.casimirs(&mu, &mut last);
     let drift = distance(&last, &first);
     println!("{}: Casimirs move by {drift:.1e} in 10^5 steps", D::FILE);
@@ -173,11 +179,17 @@ where
     let start: Vec<f64> = D::initial::<f64>().as_slice().to_vec();
     let newton = NewtonOptions::default();
     let defects = [
-        poisson_defect(&dual, &Splitting1::new(), 0.3, &start, &newton),
-        poisson_defect(&dual, &Splitting2::new(), 0.3, &start, &newton),
-        poisson_defect(&dual, &Splitting4::new(), -0.3, &start, &newton),
-        poisson_defect(&dual, &Splitting6::new(), 0.3, &start, &newton),
-        poisson_defect(&dual, &Splitting8::new(), 0.3, &start, &newton),
+        poisson_defect(&dual, &Splitting1::new().coordinate(), 0.3, &start, &newton),
+        poisson_defect(&dual, &Splitting2::new().coordinate(), 0.3, &start, &newton),
+        poisson_defect(
+            &dual,
+            &Splitting4::new().coordinate(),
+            -0.3,
+            &start,
+            &newton,
+        ),
+        poisson_defect(&dual, &Splitting6::new().coordinate(), 0.3, &start, &newton),
+        poisson_defect(&dual, &Splitting8::new().coordinate(), 0.3, &start, &newton),
     ];
     let defects = defects.map(|defect| defect.expect("a step"));
     println!("{}: Poisson defects {defects:?}", D::FILE);
@@ -187,14 +199,14 @@ where
     let mut together = D::initial::<F64x8>();
     advance(
         &D::declared::<F64x8>(),
-        &Splitting6::new(),
+        &Splitting6::new().coordinate(),
         F64x8::new(h),
         5,
         &mut together,
     );
     for (lane, h) in h.into_iter().enumerate() {
         let mut alone = D::initial::<f64>();
-        advance(&system, &Splitting6::new(), h, 5, &mut alone);
+        advance(&system, &Splitting6::new().coordinate(), h, 5, &mut alone);
         for (many, one) in together.as_slice().iter().zip(alone.as_slice()) {
             assert_eq!(many.lane(lane).to_bits(), one.to_bits(), "lane {lane}");
         }
@@ -347,27 +359,27 @@ fn orders_up_to_eight() {
         assert!((measured - order).abs() < 0.06 * order, "{measured}");
     };
     check(
-        order::<HeavyTop>(&Splitting1::new(), 1.0, &[256, 512, 1024]),
+        order::<HeavyTop>(&Splitting1::new().coordinate(), 1.0, &[256, 512, 1024]),
         1.0,
     );
     check(
-        order::<HeavyTop>(&Splitting2::new(), 2.0, &[32, 64, 128]),
+        order::<HeavyTop>(&Splitting2::new().coordinate(), 2.0, &[32, 64, 128]),
         2.0,
     );
     check(
-        order::<HeavyTop>(&Splitting4::new(), 2.0, &[16, 24, 32, 48]),
+        order::<HeavyTop>(&Splitting4::new().coordinate(), 2.0, &[16, 24, 32, 48]),
         4.0,
     );
     check(
-        order::<HeavyTop>(&Splitting6::new(), 4.0, &[20, 24, 32, 40]),
+        order::<HeavyTop>(&Splitting6::new().coordinate(), 4.0, &[20, 24, 32, 40]),
         6.0,
     );
     check(
-        order::<HeavyTop>(&Splitting8::new(), 8.0, &[28, 32, 36, 40]),
+        order::<HeavyTop>(&Splitting8::new().coordinate(), 8.0, &[28, 32, 36, 40]),
         8.0,
     );
     check(
-        order::<ManakovTop>(&Splitting8::new(), 8.0, &[14, 16, 18, 20]),
+        order::<ManakovTop>(&Splitting8::new().coordinate(), 8.0, &[14, 16, 18, 20]),
         8.0,
     );
 }
@@ -379,7 +391,9 @@ fn other_hamiltonians_are_refused() {
         ("splitting2", "`lie-midpoint`"),
         ("splitting6", "`compose6(lie-midpoint)`"),
     ] {
-        let run = common::lie(&format!("run specs/sl2_quadratic.json --method {method}"));
+        let run = common::lie(&format!(
+            "run specs/sl2_quadratic.json --method {method} --pieces coordinate"
+        ));
         let run = run.error("splitting", "command line: --method");
         assert!(
             run.stderr.contains("it mixes `h` and `e`"),
@@ -390,5 +404,5 @@ fn other_hamiltonians_are_refused() {
     }
     let run = common::lie("run specs/se3_heavy_top.json --method splitting4 --pieces other");
     let run = run.error("option", "command line: --pieces");
-    assert!(run.stderr.contains("coordinate, found"), "{}", run.stderr);
+    assert!(run.stderr.contains("found, coordinate"), "{}", run.stderr);
 }

@@ -76,8 +76,14 @@ def splitting_sequence(values, count):
     return sequence
 
 
-def splitting_defect(order, count):
-    basis = words([1, 1], order)
+def near_integrable(first, second):
+    """Words of at most `second` letters, and those of at most `first` with one B: errors e h^first + e^2 h^second."""
+    single = [(0,) * i + (1,) + (0,) * j for i in range(first) for j in range(first - i)]
+    none = [(0,) * i for i in range(first + 1)]
+    return sorted(set(words([1, 1], second)) | set(single) | set(none), key=lambda w: (len(w), w))
+
+
+def splitting_defect(basis, count):
     target = exponential([mp.mpf(1), mp.mpf(1)], basis)
 
     def defect(values):
@@ -145,15 +151,50 @@ BLANES_MOAN_4 = (["0.0792036964311957", "0.353172906049774", "-0.042065080357719
                  ["0.209515106613362", "-0.143851773179818"])
 BLANES_MOAN_6 = (["0.0502627644003922", "0.413514300428344", "0.0450798897943977", "-0.188054853819569", "0.541960678450780"],
                  ["0.148816447901042", "-0.132385865767784", "0.067307604692185", "0.432666402578175"])
+# A and B of the scheme (8, 4) with 5 stages
+MCLACHLAN_84 = (["0.07534696026989288842", "0.51791685468825678230"], ["0.19022593937367661925", "0.84652407044352625706"])
 
 
 def sweeps(name, leading, order):
     a, b = leading
-    values = refine(name, a + b, splitting_defect(order, len(a)))
+    basis = near_integrable(*order) if isinstance(order, tuple) else words([1, 1], order)
+    values = refine(name, a + b, splitting_defect(basis, len(a)))
+    return sizes_of(splitting_sequence(values, len(a)))
+
+
+def sizes_of(sequence):
     sizes = []
-    for x in splitting_sequence(values, len(a))[:-1]:
+    for x in sequence[:-1]:
         sizes.append(x - (sizes[-1] if sizes else 0))
     return sizes
+
+
+def quadrature(nodes):
+    """The scheme whose B, at these nodes, is the interpolatory quadrature: sizes of sweeps, B first where 0 is a node."""
+    count = len(nodes)
+    matrix = mp.matrix(count, count)
+    for power in range(count):
+        for k, node in enumerate(nodes):
+            matrix[power, k] = node**power if power else mp.mpf(1)
+    weights = list(mp.lu_solve(matrix, mp.matrix([mp.mpf(1) / (p + 1) for p in range(count)])))
+    ends = nodes if abs(nodes[0]) < mp.mpf(10) ** -50 else [mp.mpf(0)] + nodes + [mp.mpf(1)]
+    gaps = [y - x for x, y in zip(ends, ends[1:])]
+    outer, inner = (weights, gaps) if len(weights) > len(gaps) else (gaps, weights)
+    sequence = [outer[0]]
+    for x, y in zip(inner, outer[1:]):
+        sequence += [x, y]
+    return sizes_of(sequence)
+
+
+def gauss(count):
+    roots = mp.polyroots(mp.taylor(lambda x: mp.legendre(count, x), 0, count)[::-1], maxsteps=200, extraprec=200)
+    return sorted((1 + mp.re(x)) / 2 for x in roots)
+
+
+def lobatto(count):
+    slopes = [k * c for k, c in enumerate(mp.taylor(lambda x: mp.legendre(count - 1, x), 0, count - 1))][1:]
+    roots = mp.polyroots(slopes[::-1], maxsteps=200, extraprec=200)
+    return [mp.mpf(0)] + sorted((1 + mp.re(x)) / 2 for x in roots) + [mp.mpf(1)]
 
 
 def tables():
@@ -167,6 +208,12 @@ def tables():
     yield "KAHAN_LI_8", mirrored(refine("Kahan-Li 8", KAHAN_LI_8, composition_defect(8)))
     yield "BLANES_MOAN_4", sweeps("Blanes-Moan S6", BLANES_MOAN_4, 4)
     yield "BLANES_MOAN_6", sweeps("Blanes-Moan S10", BLANES_MOAN_6, 6)
+    yield "STRANG", [mp.mpf(1) / 2, mp.mpf(1) / 2]
+    yield "SABA_2", quadrature(gauss(2))
+    yield "SABA_4", quadrature(gauss(4))
+    yield "SBAB_2", quadrature(lobatto(3))
+    yield "SBAB_4", quadrature(lobatto(5))
+    yield "MCLACHLAN_84", sweeps("McLachlan (8, 4)", MCLACHLAN_84, (8, 4))
 
 
 def rust():

@@ -4,7 +4,7 @@
 //! The number of spins is even. A state holds the first components of the spins at even places, of those at odd places,
 //! then the second and the third components alike.
 
-use lie_runtime::{LiePoisson, PieceFlows, Poisson, Scalar, SeparablePoisson, SquareMatrix, Widen};
+use lie_runtime::{FoundPoisson, LiePoisson, PieceFlows, Poisson, Scalar, SquareMatrix, Widen};
 use std::marker::PhantomData;
 
 /// The chain.
@@ -220,9 +220,9 @@ impl<S: Scalar> LiePoisson<S> for Chain<S> {
 /// The flows of the bonds that begin at even places, and of those that begin at odd ones.
 pub struct Bonds;
 
-impl SeparablePoisson<f64> for Chain<f64> {
-    type Flows<'a> = Bonds;
-    fn flows(&self) -> Bonds {
+impl FoundPoisson<f64> for Chain<f64> {
+    type Found<'a> = Bonds;
+    fn found(&self) -> Bonds {
         Bonds
     }
 }

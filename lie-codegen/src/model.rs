@@ -3,6 +3,7 @@
 mod casimir;
 mod family;
 mod realization;
+mod splitting;
 
 use proc_macro2::TokenStream;
 
@@ -17,6 +18,7 @@ use crate::symbolic::{ExprId, Graph, Symbol};
 pub use casimir::{Casimir, CasimirKind, Search};
 pub use family::{Family, SiteSum, Size, Start};
 pub use realization::{CANONICAL, Descent, Realization};
+pub use splitting::Kept;
 
 /// A parameter of the system.
 #[derive(Clone, Debug)]
@@ -244,6 +246,8 @@ pub struct Model {
     pub generic_rank: usize,
     /// Its rank at the initial state, rounded to double precision, with default parameters.
     pub initial_rank: Option<usize>,
+    /// What was found out of the pieces of H.
+    pub kept: Kept,
 }
 
 impl Model {

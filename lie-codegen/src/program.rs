@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use crate::compile::generate;
 use crate::derive::Source;
-use crate::methods::{Choice, Lift, Pieces, Tensor};
+use crate::methods::{Choice, Lift, Scheme, Tensor};
 use crate::model::Model;
 use crate::print::format;
 
@@ -131,7 +131,7 @@ fn is_fused(choice: &Choice) -> bool {
         | Choice::MoserVeselov
         | Choice::GeneratingSecondKind2
         | Choice::SphericalMidpoint
-        | Choice::Splitting(2, _, Pieces::Coordinate)
+        | Choice::Splitting(2, Scheme::Strang, _)
         | Choice::DiscreteGradient(_, Tensor::Midpoint)
         | Choice::OrbitEnergy(_) => true,
         Choice::Gauss(stages) => *stages == 2,

@@ -1,7 +1,7 @@
 //! A method that is asked for has its equation planned, and no other has.
 
 use lie_codegen::compile::{compile_spec, expand};
-use lie_codegen::methods::{Choice, Gradient, Lift, Retraction, Tensor};
+use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_codegen::plan::{Item, Method, Plan, Solver, plan};
 
 fn planned(spec: &str, choice: &Choice) -> Plan {
@@ -85,11 +85,17 @@ fn what_is_asked_for_is_planned() {
         let collocation = planned(spec, &Choice::CohenHairer(2 * stages as u32));
         assert_eq!(methods(&collocation).len(), 1, "{spec}");
     }
-    let splitting = planned(
-        "so3_free_rigid_body",
-        &Choice::Splitting(2, Default::default(), Default::default()),
-    );
-    assert!(splitting.splitting.is_some() && items(&splitting).is_empty());
+    let splitting = |pieces| {
+        let plan = planned(
+            "so3_free_rigid_body",
+            &Choice::Splitting(2, Scheme::Strang, pieces),
+        );
+        assert!(items(&plan).is_empty());
+        let found = plan.found.as_ref().map_or(0, |found| found.flows().count());
+        (plan.splitting.is_some(), found)
+    };
+    assert_eq!(splitting(Pieces::Coordinate), (true, 0));
+    assert_eq!(splitting(Pieces::Found), (false, 2));
 }
 
 /// Where H is not quadratic, the methods that keep the energy have equations of their own.

@@ -19,7 +19,8 @@
 /// `variational6`; need [`crate::LagrangianPoisson`], the last two also over [`crate::Lift::Lifted`]) and
 /// `variational_cayley` (needs [`crate::CayleyPoisson`] too); `discrete` and `discrete_cayley` (need
 /// [`crate::DiscreteLagrangianPoisson`]). `splitting` implements
-/// [`crate::SeparablePoisson`], for a Hamiltonian that is a sum of functions of one coordinate each; `taylor` and
+/// [`crate::SeparablePoisson`] and [`crate::FoundPoisson`], for a Hamiltonian that is a sum of functions of one coordinate
+/// each, `coordinate_splitting` the first alone; `taylor` and
 /// `lie_taylor` implement [`crate::Series`] and [`crate::GradientSeries`] (need [`crate::Expand`]).
 #[macro_export]
 macro_rules! generic_equations {
@@ -211,6 +212,15 @@ macro_rules! generic_equations {
         }
     };
     (@splitting [$($generics:tt)*] $system:ty, $scalar:ty) => {
+        $crate::generic_equations!(@coordinate_splitting [$($generics)*] $system, $scalar);
+        impl<$($generics)*> $crate::FoundPoisson<$scalar> for $system {
+            type Found<'a> = $crate::generic::CoordinateFlows<'a, $scalar, Self> where Self: 'a;
+            fn found(&self) -> Self::Found<'_> {
+                $crate::generic::CoordinateFlows::new(self)
+            }
+        }
+    };
+    (@coordinate_splitting [$($generics:tt)*] $system:ty, $scalar:ty) => {
         impl<$($generics)*> $crate::SeparablePoisson<$scalar> for $system {
             type Flows<'a> = $crate::generic::CoordinateFlows<'a, $scalar, Self> where Self: 'a;
             fn flows(&self) -> Self::Flows<'_> {

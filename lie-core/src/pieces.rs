@@ -4,7 +4,7 @@ use crate::poisson::LiePoisson;
 use crate::scalar::Scalar;
 use crate::state::{State, Unknown as _};
 
-/// The flows of the pieces of `$H = \sum_i f_i(\mu_i)$`, or of other pieces whose gradients are constant along their flows.
+/// The flows of the pieces of `$H = \sum_i f_i(\mu_i)$`, or of other pieces that are functions of quantities which commute.
 ///
 /// Along the flow of one piece its coordinate is constant, and with it the velocity `f_i'(mu_i) e_i`:
 /// the flow over a time t is `exp(t f_i'(mu_i) ad*_(e_i)) mu`, a constant matrix to a varying power.
@@ -28,11 +28,29 @@ pub trait PieceFlows<S: Scalar> {
     fn give(&self, lanes: S::Mask, next: &Self::State, mu: &mut Self::State) {
         mu.assign_where(lanes, next);
     }
-    /// The element of the algebra that a piece moves along in a time t, t times the gradient of the piece, `xi = t f_i'(mu_i) e_i`: its
-    /// flow is `Ad*_(exp xi)`.
+    /// The element of the algebra that a piece moves along, t times the gradient of the piece, `xi = t f_i'(mu_i) e_i`. Where it is constant
+    /// along the flow, this is `Ad*_(exp xi)`.
     fn direction(&self, piece: usize, t: S, mu: &Self::State, xi: &mut Self::State);
     /// The flow of one piece over a time t.
     fn flow(&mut self, piece: usize, t: S, mu: &mut Self::State);
+
+    /// The flow of one piece as a product of one-parameter groups: before each of them acts, `give` gets its element, which may
+    /// be changed. One element, the direction, where the gradient of the piece is constant along its flow; of a function of a Casimir of a
+    /// subalgebra, or of the whole algebra, whose gradient moves, several.
+    ///
+    /// `factor` is scratch space.
+    fn follow(
+        &mut self,
+        piece: usize,
+        t: S,
+        mu: &mut Self::State,
+        factor: &mut Self::State,
+        give: &mut dyn FnMut(&mut Self::State),
+    ) {
+        self.direction(piece, t, mu, factor);
+        give(factor);
+        self.flow(piece, t, mu);
+    }
 
     /// What H is beside the pieces generates no flow of mu, but moves the group element that mu
     /// comes from: the element of the algebra that is left of `t grad H(mu)` without the gradients of the pieces. False where the
@@ -70,7 +88,7 @@ pub trait PieceFlows<S: Scalar> {
 /// such a sum.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot be split into coordinate pieces over the scalar `{S}`",
-    note = "splittings need a Hamiltonian that is a sum of functions of one coordinate each: see `lie_runtime::generic_equations!` for a system written by hand, or use `LieMidpoint::exp()` or a composition of it"
+    note = "splittings by coordinates need a Hamiltonian that is a sum of functions of one coordinate each: leave `.coordinate()` out for pieces that were found; see `lie_runtime::generic_equations!` for a system written by hand, or use `LieMidpoint::exp()` or a composition of it"
 )]
 pub trait SeparablePoisson<S: Scalar>: LiePoisson<S> {
     /// The flows; they may borrow the system.
@@ -81,17 +99,21 @@ pub trait SeparablePoisson<S: Scalar>: LiePoisson<S> {
     fn flows(&self) -> Self::Flows<'_>;
 }
 
-/// A Lie–Poisson system whose Hamiltonian is, up to a combination of Casimirs, a sum of functions of linear forms
-/// whose elements commute: `$H = \sum_a f_a(\langle v_{a1}, \mu\rangle, \dots) + \sum_c \lambda_c C_c$`.
+/// A Lie–Poisson system whose Hamiltonian is, up to a combination of Casimirs, a sum of functions of quantities that
+/// commute: `$H = \sum_a f_a(\langle v_{a1}, \mu\rangle, \dots, c_{a1}(\mu), \dots) + \sum_c \lambda_c C_c$`, the `$v$` elements
+/// that commute, the `$c$` Casimirs of the algebra or of subalgebras.
 ///
-/// Along the flow of a piece its forms and its gradient are constant. A Casimir generates no flow, so that the flows of the `$f_a$`
+/// Along the flow of a piece these quantities are constant, and each of them generates a one-parameter group. A Casimir of the
+/// algebra generates no flow, so that the flows of the `$f_a$`
 /// are those of pieces of the vector field of H. The pieces are the fewest that were found: two for the free rigid body,
-/// whose H has three squares; three for a ring of spins with exchange along three axes.
+/// whose H has three squares, and two for a top in a field along one of its axes; three for a ring of spins with exchange along three axes.
+/// Where the functions of one coordinate each that H is declared as are as few, they are those.
 ///
-/// Generated for systems that have the structure, where `methods` names a splitting.
+/// Generated for systems that have the structure; by hand, for a sum of functions of one coordinate each, with
+/// `lie_runtime::generic_equations!([S: Scalar] Body<S>, S: splitting);`.
 #[diagnostic::on_unimplemented(
-    message = "no pieces were found for `{Self}` over the scalar `{S}`",
-    note = "found pieces need a splitting among the `methods` of the declaration, and a Hamiltonian that is a sum of functions of commuting coordinates and a quadratic function; `lie check` says what is found"
+    message = "no pieces with exact flows are known for `{Self}` over the scalar `{S}`",
+    note = "splittings need a Hamiltonian that is a sum of functions of commuting coordinates, of Casimirs of subalgebras and a quadratic function: `lie check` says what is found; see `lie_runtime::generic_equations!` for a system written by hand, or use `LieMidpoint::exp()` or a composition of it"
 )]
 pub trait FoundPoisson<S: Scalar>: LiePoisson<S> {
     /// The flows; they may borrow the system.

@@ -5,7 +5,7 @@ mod sites;
 use lie_runtime::family::{Family, Pieces, Sites, unit_spheres};
 use lie_runtime::methods::Method;
 use lie_runtime::prelude::*;
-use lie_runtime::{PieceFlows, SeparablePoisson};
+use lie_runtime::{FoundPoisson, PieceFlows};
 use sites::{by_component, end, largest_difference};
 
 lie_poisson! { pub spec = "../tests/data/families/heisenberg_chain.json"; }
@@ -65,7 +65,7 @@ fn bonds_of_spins_are_done_two_or_three_colours_at_a_time() {
         };
         let system = ring.system().expect("a size");
         let colours = if n % 2 == 0 { 2 } else { 3 };
-        assert_eq!(SeparablePoisson::<f64>::flows(&system).pieces(), colours);
+        assert_eq!(FoundPoisson::<f64>::found(&system).pieces(), colours);
         // both bonds of two sites are the same, so that a splitting of them is exact
         if n > 2 {
             splits(&system);
@@ -75,7 +75,7 @@ fn bonds_of_spins_are_done_two_or_three_colours_at_a_time() {
     let system = HeisenbergChain { N: 6.0, J: 1.0 }.system().expect("a size");
     let mu: Vec<f64> = unit_spheres(6, 3, 1);
     let (mut one, mut ten) = (mu.clone(), mu);
-    let mut flows = SeparablePoisson::<f64>::flows(&system);
+    let mut flows = FoundPoisson::<f64>::found(&system);
     let start = one.clone();
     flows.take(&start, &mut one);
     flows.take(&start, &mut ten);
@@ -144,7 +144,7 @@ fn opposite_spins_beside_a_bond_that_turns_far_stay() {
     let spins = [0.6, 0.0, 0.8, -0.6, 0.0, -0.8, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     let start = by_component(&spins, 3);
     let (mut once, mut often) = (start.clone(), start.clone());
-    let mut flows = family.flows();
+    let mut flows = family.found();
     flows.take(&start, &mut once);
     flows.take(&start, &mut often);
     flows.flow(0, 4.0, &mut once);
@@ -194,7 +194,7 @@ fn functions_of_sums_over_one_coordinate_are_pieces_too() {
     };
     let system = family.system().expect("a size");
     let start = vec![0.5, 0.25, 0.75, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
-    let mut flows = SeparablePoisson::<f64>::flows(&system);
+    let mut flows = FoundPoisson::<f64>::found(&system);
     let (mut taken, mut end) = (start.clone(), start.clone());
     flows.take(&start, &mut taken);
     let piece = (0..flows.pieces()).find(|piece| {

@@ -216,10 +216,10 @@ pub struct MethodOptions {
     /// Retraction of lie-midpoint and of generating methods: exp or cayley
     #[arg(long, value_name = "NAME")]
     pub retraction: Option<String>,
-    /// Coefficients of a composition or a splitting: suzuki, triple-jump, kahan-li, …
+    /// Coefficients of a composition or a splitting: suzuki, triple-jump, kahan-li, …; for two pieces of which one is small: saba2, saba4, sbab2, sbab4, mclachlan-8-4
     #[arg(long, value_name = "NAME")]
     pub composition: Option<String>,
-    /// Pieces of a splitting: coordinate (H = sum f_i(x_i)) or found (the fewest pieces with exact flows: commuting coordinates, squares of linear forms, up to quadratic Casimirs)
+    /// Pieces of a splitting: found (default: the fewest with exact flows; `lie check` lists them) or coordinate (H = sum f_i(x_i), in the order of the coordinates)
     #[arg(long, value_name = "NAME")]
     pub pieces: Option<String>,
     /// Space over g* of a collective method: representation, hopf or spec (the declared realization)

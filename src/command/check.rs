@@ -12,7 +12,6 @@ use lie_codegen::check::{Effort, motions as search};
 use lie_codegen::compile;
 use lie_codegen::methods::{Choice, applicability, refusal};
 use lie_codegen::model::{CasimirKind, Model};
-use lie_codegen::structure::found::Terms;
 use lie_codegen::structure::{algebra, lifts};
 use serde_json::{Value, json};
 
@@ -95,7 +94,7 @@ struct Report {
     methods: Vec<(&'static str, Option<String>)>,
     algebra: Option<algebra::Report>,
     motions: Result<search::Motions, &'static str>,
-    splitting: Result<Terms, String>,
+    splitting: Result<splitting::Splitting, String>,
 }
 
 impl Report {
@@ -167,6 +166,7 @@ impl Report {
             "series": self.algebra.as_ref().map(|report| structure::series(&report.series)),
             "killing": self.algebra.as_ref().map(structure::killing),
             "splitting": splitting::json(&self.splitting),
+            "splitting_cost": splitting::cost(&self.splitting),
             "operations": operations,
             "methods": methods,
         })

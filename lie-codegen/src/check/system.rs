@@ -15,8 +15,8 @@ use crate::ast::{self, Declaration};
 use crate::diagnostic::{Origin, Report};
 use crate::exact::Rational;
 use crate::model::{
-    self, Bracket, Casimir, Energy, Hamiltonian, Model, Parameter, PoissonMatrix, Realization,
-    Search,
+    self, Bracket, Casimir, Energy, Hamiltonian, Kept, Model, Parameter, PoissonMatrix,
+    Realization, Search,
 };
 use crate::print::Runtime;
 use crate::structure::separable;
@@ -391,6 +391,7 @@ impl<'a> System<'a> {
             warnings: Vec::new(),
             generic_rank: rank.generic.unwrap_or(rank.bound),
             initial_rank: None,
+            kept: Kept::default(),
         };
         (model, matrix, scratch)
     }

@@ -1,10 +1,12 @@
 //! The flows of pieces that were found: `exp(t s ad*_v) mu` for each of the commuting elements v of a piece, by blocks; where one of them
-//! has no blocks, `exp(ad*_x) mu` with `x = t sum s v` by the minimal polynomial of `ad*_x`.
+//! has no blocks, `exp(ad*_x) mu` with `x = t sum s v` by the minimal polynomial of `ad*_x`. Of a Casimir c of a subalgebra
+//! `x = t s grad c(mu)`, by the minimal polynomial on that subalgebra; what commutes with c is left alone.
 
 use super::field::mu;
 use super::splitting::{PieceKernel, Update, kernel};
 use super::tape::Tape;
 use super::{Kernel, Source};
+use crate::structure::exponential::Exponential;
 use crate::structure::found::{Factor, Found, Piece};
 use crate::symbolic::{ExprId, Symbol};
 
@@ -16,9 +18,19 @@ const FIRST: usize = 1 << 24;
 pub struct FoundKernel {
     /// Its terms.
     pub terms: Vec<ExprId>,
+    /// The one-parameter groups of which its flow is the product, one after the other: that of all forms together, and one for each
+    /// Casimir of the algebra or of a subalgebra.
+    pub parts: Vec<PartKernel>,
+    /// The gradient of the piece.
+    pub direction: Kernel,
+}
+
+/// A part of a flow whose element is constant along it.
+#[derive(Clone, Debug)]
+pub struct PartKernel {
     /// Flows that make it up, one after the other; `None` where the series is summed.
     pub flows: Option<Vec<PieceKernel>>,
-    /// The gradient of the piece, which is constant along its flow.
+    /// The gradient of this part of the piece.
     pub direction: Kernel,
 }
 
@@ -43,33 +55,75 @@ impl Source {
                 ..factor.clone()
             })
             .collect();
-        let mut entries: Vec<Vec<ExprId>> = vec![Vec::new(); self.dimension];
-        for factor in &factors {
-            for (i, v) in &factor.direction {
-                entries[*i].push(self.graph.mul(factor.slope, *v));
+        let mut elements: Vec<Vec<Vec<ExprId>>> = Vec::new();
+        let mut flows = Vec::new();
+        if !factors.is_empty() {
+            let of_forms = factors.iter().map(|f| (f.slope, &f.direction[..]));
+            elements.push(self.element(of_forms));
+            let closed = factors.iter().all(|factor| factor.blocks.is_some());
+            let entries = self.sums(&elements[0]);
+            flows.push(if closed {
+                let factors = factors.iter();
+                Some(factors.flat_map(|f| self.factor_flow(f)).collect())
+            } else {
+                let moved: Vec<usize> = (0..self.dimension).collect();
+                self.exponential_flow(found.exponential.as_ref(), &entries, &moved)
+                    .map(|flow| vec![flow])
+            });
+        }
+        for conserved in &piece.conserved {
+            let element = self.element([(conserved.slope, &conserved.gradient[..])].into_iter());
+            let entries = self.sums(&element);
+            elements.push(element);
+            flows.push(match conserved.moved.as_slice() {
+                [] => Some(Vec::new()),
+                moved => self
+                    .exponential_flow(conserved.exponential.as_ref(), &entries, moved)
+                    .map(|flow| vec![flow]),
+            });
+        }
+        let mut whole = vec![Vec::new(); self.dimension];
+        for element in &elements {
+            for (all, terms) in whole.iter_mut().zip(element) {
+                all.extend(terms.iter().copied());
             }
         }
-        let entries: Vec<ExprId> = entries.iter().map(|terms| self.graph.sum(terms)).collect();
-        let arguments = vec![mu(self)];
-        let formula = "the gradient of the piece";
-        let direction = Kernel::vector(&self.graph, "direction", formula, arguments, &entries);
-        let closed = factors.iter().all(|factor| factor.blocks.is_some());
-        let flows = if closed {
-            Some(
-                factors
-                    .iter()
-                    .flat_map(|factor| self.factor_flow(factor))
-                    .collect(),
-            )
-        } else {
-            self.exponential_flow(found, &entries)
-                .map(|flow| vec![flow])
-        };
+        let parts = flows.into_iter().zip(&elements);
         FoundKernel {
             terms: piece.terms.clone(),
-            flows,
-            direction,
+            parts: parts
+                .map(|(flows, element)| PartKernel {
+                    flows,
+                    direction: self.direction(element),
+                })
+                .collect(),
+            direction: self.direction(&whole),
         }
+    }
+
+    /// `sum s v`, entry by entry.
+    fn element<'a>(
+        &mut self,
+        parts: impl Iterator<Item = (ExprId, &'a [(usize, ExprId)])>,
+    ) -> Vec<Vec<ExprId>> {
+        let mut entries: Vec<Vec<ExprId>> = vec![Vec::new(); self.dimension];
+        for (slope, direction) in parts {
+            for (i, v) in direction {
+                entries[*i].push(self.graph.mul(slope, *v));
+            }
+        }
+        entries
+    }
+
+    fn sums(&mut self, element: &[Vec<ExprId>]) -> Vec<ExprId> {
+        let entries = element.iter();
+        entries.map(|terms| self.graph.sum(terms)).collect()
+    }
+
+    fn direction(&mut self, element: &[Vec<ExprId>]) -> Kernel {
+        let entries = self.sums(element);
+        let formula = "the gradient of the piece";
+        Kernel::vector(&self.graph, "direction", formula, vec![mu(self)], &entries)
     }
 
     /// The slope of a coordinate as it was written, where it is that of the piece: H is split as it is, and no other
@@ -83,6 +137,11 @@ impl Source {
         let (Some(i), None) = (factor.coordinate(&self.graph), found.rest) else {
             return factor.slope;
         };
+        // a Casimir in the place of a part of H makes other derivatives
+        let mut pieces = found.pieces.iter();
+        if pieces.any(|piece| !piece.conserved.is_empty()) {
+            return factor.slope;
+        }
         let others = found
             .pieces
             .iter()
@@ -116,9 +175,14 @@ impl Source {
         Some(kernel(self, coordinate, blocks, factor.slope))
     }
 
-    /// `exp(ad*_x) mu`, `x = t xi`, where functions of `ad*_x` have a closed form.
-    fn exponential_flow(&mut self, found: &Found, xi: &[ExprId]) -> Option<PieceKernel> {
-        let exponential = Some(found.exponential.clone()?);
+    /// `exp(ad*_x) mu`, `x = t xi`, where functions of `ad*_x` have a closed form; only some coordinates move.
+    fn exponential_flow(
+        &mut self,
+        exponential: Option<&Exponential>,
+        xi: &[ExprId],
+        moved_ones: &[usize],
+    ) -> Option<PieceKernel> {
+        let exponential = Some(exponential.cloned()?);
         let before = std::mem::replace(&mut self.exponential, exponential);
         let time = self.graph.symbol(Symbol::Time);
         let mut tape = Tape::new(self, FIRST);
@@ -132,14 +196,13 @@ impl Source {
         let m = self.coordinates();
         let moved = self.closed_function(&mut tape, (&x, &m), 0);
         self.exponential = before;
-        let increments: Vec<ExprId> = moved
-            .iter()
-            .zip(&m)
-            .map(|(a, b)| self.graph.sub(*a, *b))
-            .collect();
+        let mut increments = vec![self.graph.integer(0); self.dimension];
+        for &i in moved_ones {
+            increments[i] = self.graph.sub(moved[i], m[i]);
+        }
         let formula = "`mu -> exp(ad*_x) mu`, `x = t xi`, xi the gradient of the piece";
         let mut kernel = Kernel::vector(&self.graph, "flow", formula, vec![mu(self)], &increments);
-        kernel.task.definitions = tape.definitions().to_vec();
+        kernel.task.definitions = self.needed(tape.definitions(), &kernel.task.outputs);
         let count = increments
             .iter()
             .filter(|id| !self.graph.is_zero(**id))

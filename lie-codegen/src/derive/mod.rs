@@ -21,7 +21,7 @@ mod tape;
 mod traced;
 
 pub(crate) use discrete_gradient::Closed;
-pub use found::FoundKernel;
+pub use found::{FoundKernel, PartKernel};
 pub use generating::{Function, Generating};
 pub(crate) use generating::{Slope, slope, symmetric};
 pub use kernel::{Argument, Kernel, Shape};

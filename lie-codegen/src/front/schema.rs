@@ -172,7 +172,7 @@ objects! {
         "retraction" retraction: Option<String>,
         /// Composition of the method.
         "composition" composition: Option<String>,
-        /// Pieces of a splitting.
+        /// Pieces of a splitting: found (default) or coordinate.
         "pieces" pieces: Option<String>,
         /// Lift of a collective method.
         "lift" lift: Option<String>,

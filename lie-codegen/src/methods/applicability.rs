@@ -1,6 +1,6 @@
 //! Which methods a system can carry.
 
-use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Tensor};
+use super::{CATALOGUE, Choice, Lift, Pieces, Retraction, Scheme, Tensor};
 use crate::diagnostic::Kind;
 use crate::model::{Bracket, Descent, Discrete, Family, Model};
 use crate::structure::family as pieces;
@@ -19,8 +19,16 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
     }
     match choice {
         Choice::DiscreteGradient(_, Tensor::Mean) => tensor(model, choice),
-        Choice::Splitting(order, _, Pieces::Found) => found::refusal(model, *order),
-        Choice::Splitting(order, ..) => separable::refusal(model, *order),
+        Choice::Splitting(order, scheme, pieces) => {
+            let (why, count) = match pieces {
+                Pieces::Found => (found::refusal(model, *order), found::count(model)),
+                Pieces::Coordinate => (
+                    separable::refusal(model, *order),
+                    separable::pieces(model).map_or(0, |pieces| pieces.len()),
+                ),
+            };
+            why.or_else(|| near_integrable(*order, *scheme, count))
+        }
         Choice::Generating(6, Retraction::Cayley) => Some((
             "the generating function of order 6 is known in exponential coordinates, not in those \
              of the Cayley map"
@@ -56,20 +64,46 @@ pub fn refusal(model: &Model, choice: &Choice) -> Option<(String, String)> {
     }
 }
 
+/// Why coefficients for two pieces are not for this many.
+fn near_integrable(order: u32, scheme: Scheme, pieces: usize) -> Option<(String, String)> {
+    (scheme.is_near_integrable() && pieces > 2).then(|| {
+        let message = format!(
+            "the coefficients `{}` are for two pieces of which one is small, and H has {pieces}",
+            scheme.name()
+        );
+        (message, other_scheme(order))
+    })
+}
+
+/// The remedy: the default scheme of an order.
+fn other_scheme(order: u32) -> String {
+    let default = Scheme::of_splitting(order).first().copied();
+    let name = default.unwrap_or_default().name();
+    format!("use `splitting{order}` with `--composition {name}`, which is for any number of pieces")
+}
+
 /// Why a method does not apply to a family, of which no matrix is kept.
 fn family(model: &Model, family: &Family, choice: &Choice) -> Option<(String, String)> {
     match choice {
-        Choice::Splitting(_, _, Pieces::Found) => Some((
+        Choice::Splitting(_, _, Pieces::Coordinate) => Some((
             "the pieces of a family are those of its sums".into(),
             "leave `--pieces` out".into(),
         )),
-        Choice::Splitting(..) => {
-            let why = pieces::pieces(model, family, &mut model.graph.clone()).err()?;
-            let message = format!("H does not consist of pieces with exact flows: {why}");
-            Some((
-                message,
-                "use `gauss16`, which keeps quadratic Casimirs".into(),
-            ))
+        Choice::Splitting(order, scheme, _) => {
+            if let Err(why) = pieces::pieces(model, family, &mut model.graph.clone()) {
+                let message = format!("H does not consist of pieces with exact flows: {why}");
+                let help = "use `gauss16`, which keeps quadratic Casimirs";
+                return Some((message, help.into()));
+            }
+            if !scheme.is_near_integrable() {
+                return None;
+            }
+            let message = format!(
+                "the coefficients `{}` are for two pieces of which one is small, and those of a family are counted \
+                 at each site",
+                scheme.name()
+            );
+            Some((message, other_scheme(*order)))
         }
         Choice::Rk4 | Choice::Dopri5 => None,
         Choice::Gauss(stages) if *stages >= PARALLEL => None,

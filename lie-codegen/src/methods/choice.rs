@@ -42,7 +42,7 @@ pub enum Choice {
     EulerArnold2,
     /// `spherical-midpoint`
     SphericalMidpoint,
-    /// `splitting1`, `splitting2`, `splitting4`, `splitting6`, `splitting8`; below order 4 the
+    /// `splitting1`, `splitting2`, `splitting4`, `splitting6`, `splitting8`; of order 1 the
     /// scheme means nothing.
     Splitting(u32, Scheme, Pieces),
     /// `gonzalez`, `mean-value`, `itoh-abe`
@@ -153,11 +153,7 @@ impl Choice {
     fn plain(id: &str) -> Option<Self> {
         let splitting = |order| {
             let scheme = Scheme::of_splitting(order).first();
-            Self::Splitting(
-                order,
-                scheme.copied().unwrap_or_default(),
-                Pieces::Coordinate,
-            )
+            Self::Splitting(order, scheme.copied().unwrap_or_default(), Pieces::Found)
         };
         Some(match id {
             "midpoint" => Self::Midpoint,

@@ -110,8 +110,9 @@ impl Choice {
             Self::Splitting(order, scheme, pieces) => {
                 let splitting = new(numbered("Splitting", *order));
                 let scheme = with_scheme(*scheme, Scheme::of_splitting(*order));
-                let found = (*pieces == Pieces::Found).then(|| quote! { .found() });
-                quote! { #splitting #scheme #found }
+                let coordinate = *pieces == Pieces::Coordinate;
+                let coordinate = coordinate.then(|| quote! { .coordinate() });
+                quote! { #splitting #scheme #coordinate }
             }
             Self::DiscreteGradient(gradient, Tensor::Midpoint) => method(type_of(*gradient)),
             Self::DiscreteGradient(gradient, Tensor::Mean) => {
@@ -207,6 +208,12 @@ fn with(scheme: Scheme) -> TokenStream {
         Scheme::KahanLi => format_ident!("KahanLi"),
         Scheme::SuzukiUmeno => format_ident!("SuzukiUmeno"),
         Scheme::BlanesMoan => format_ident!("BlanesMoan"),
+        Scheme::Strang => format_ident!("Strang"),
+        Scheme::Saba2 => format_ident!("Saba2"),
+        Scheme::Saba4 => format_ident!("Saba4"),
+        Scheme::Sbab2 => format_ident!("Sbab2"),
+        Scheme::Sbab4 => format_ident!("Sbab4"),
+        Scheme::McLachlan84 => format_ident!("McLachlan84"),
     };
     quote! { .scheme(::lie_runtime::methods::Scheme::#scheme) }
 }

@@ -85,11 +85,11 @@ named! {
 
 named! {
     /// The pieces of a splitting, `--pieces`.
-    Pieces, Coordinate {
-        /// H is a sum of functions of one coordinate each.
-        Coordinate = "coordinate",
+    Pieces, Found {
         /// The fewest pieces with exact flows that are found, the longest in the middle.
         Found = "found",
+        /// The functions of one coordinate each that H is the sum of, in their order.
+        Coordinate = "coordinate",
     }
 }
 
@@ -108,6 +108,18 @@ named! {
         SuzukiUmeno = "suzuki-umeno",
         /// Blanes and Moan: splittings with the fewest stages for their error.
         BlanesMoan = "blanes-moan",
+        /// Strang: order 2.
+        Strang = "strang",
+        /// Laskar and Robutel: order 2, for two pieces, the second small, two stages.
+        Saba2 = "saba2",
+        /// The same with four stages.
+        Saba4 = "saba4",
+        /// Laskar and Robutel: order 2, for two pieces, the first small, two stages.
+        Sbab2 = "sbab2",
+        /// The same with four stages.
+        Sbab4 = "sbab4",
+        /// McLachlan: order (8, 4), for two pieces, the second small, five stages.
+        McLachlan84 = "mclachlan-8-4",
     }
 }
 
@@ -122,10 +134,30 @@ impl Scheme {
         }
     }
 
+    /// Whether it is for two pieces one of which is small.
+    pub const fn is_near_integrable(self) -> bool {
+        matches!(
+            self,
+            Self::Saba2 | Self::Saba4 | Self::Sbab2 | Self::Sbab4 | Self::McLachlan84
+        )
+    }
+
     /// The schemes of a splitting of an order; the first is the default.
     pub const fn of_splitting(order: u32) -> &'static [Self] {
         match order {
-            4 => &[Self::BlanesMoan, Self::Suzuki, Self::TripleJump],
+            2 => &[
+                Self::Strang,
+                Self::Saba2,
+                Self::Saba4,
+                Self::Sbab2,
+                Self::Sbab4,
+            ],
+            4 => &[
+                Self::BlanesMoan,
+                Self::Suzuki,
+                Self::TripleJump,
+                Self::McLachlan84,
+            ],
             6 => &[
                 Self::BlanesMoan,
                 Self::KahanLi,
@@ -215,7 +247,7 @@ impl Choice {
             (Self::OrbitEnergy(_), "gradient") => {
                 Self::OrbitEnergy(pick(option, value, Gradient::ALL, Gradient::name)?)
             }
-            (Self::Splitting(order, _, pieces), "composition") if order > 2 => {
+            (Self::Splitting(order, _, pieces), "composition") if order > 1 => {
                 let all = Scheme::of_splitting(order);
                 Self::Splitting(order, pick(option, value, all, Scheme::name)?, pieces)
             }
@@ -234,6 +266,11 @@ impl Choice {
         })
     }
 
+    /// Whether its coefficients are for two pieces one of which is small.
+    pub fn is_near_integrable(&self) -> bool {
+        matches!(self, Self::Splitting(_, scheme, _) if scheme.is_near_integrable())
+    }
+
     /// The options and their values, defaults included.
     pub fn options(&self) -> Vec<(&'static str, &'static str)> {
         match self {
@@ -246,13 +283,15 @@ impl Choice {
             Self::Collective(_, lift) => vec![("lift", lift.name())],
             Self::OrbitEnergy(gradient) => vec![("gradient", gradient.name())],
             Self::DiscreteGradient(_, tensor) => vec![("tensor", tensor.name())],
-            Self::Splitting(1 | 2, _, pieces) => vec![("pieces", pieces.name())],
+            Self::Splitting(1, _, pieces) => vec![("pieces", pieces.name())],
             Self::Splitting(_, scheme, pieces) => {
                 vec![("composition", scheme.name()), ("pieces", pieces.name())]
             }
             Self::Compose(_, scheme, base) => {
                 let mut options = vec![("composition", scheme.name())];
-                options.extend(base.options());
+                // that of the base is its default
+                let of_base = base.options().into_iter();
+                options.extend(of_base.filter(|(name, _)| *name != "composition"));
                 options
             }
             Self::Dopri5 => vec![("rtol", "1e-6"), ("atol", "1e-9")],
@@ -295,15 +334,16 @@ impl Choice {
             Self::Splitting(order, scheme, _) => {
                 let schemes = Scheme::of_splitting(*order);
                 let default = schemes.first().copied().unwrap_or(*scheme);
-                let of = |scheme| Self::Splitting(*order, scheme, Pieces::Coordinate);
+                let of = |scheme| Self::Splitting(*order, scheme, Pieces::Found);
                 let mut all = vec![of(default)];
                 all.extend(schemes.iter().skip(1).map(|scheme| of(*scheme)));
-                all.push(Self::Splitting(*order, default, Pieces::Found));
+                all.push(Self::Splitting(*order, default, Pieces::Coordinate));
                 all
             }
             Self::Compose(order, _, base) => {
                 let schemes = Scheme::of_composition(*order);
-                let bases = base.variants();
+                let mut bases = base.variants();
+                bases.retain(|base| !base.is_near_integrable());
                 let of = |scheme: &Scheme| {
                     let scheme = *scheme;
                     bases

@@ -27,7 +27,7 @@ const COLLECTIVE: &str = "a matrix representation closed under (abc + cba)/2, up
 const LINEAR: &str = "a direct sum of algebras so(3) (hopf), so(3) with vectors such as se(3) (quaternion), else a matrix representation closed under (abc + cba)/2, up to matrices that commute with it";
 const SPINS: &str = "a direct sum of algebras so(3)";
 const EXPRESSION: &str = "a Hamiltonian with an expression";
-const SUM: &str = "H = sum f_i(x_i), each term of one coordinate";
+const SUM: &str = "H of functions of commuting coordinates and of Casimirs of subalgebras, or quadratic; for --pieces coordinate H = sum f_i(x_i)";
 
 const AKW: &str = "Austin, Krishnaprasad, Wang (1993), 10.1006/jcph.1993.1128";
 const HLW: &str =

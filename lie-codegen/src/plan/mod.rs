@@ -37,7 +37,7 @@ pub use names::Names;
 pub use own::Own;
 pub use planner::{plan, plan_with};
 pub use recurrence::Recurrence;
-pub use splitting::{Flow, Found, FoundPiece, Splitting};
+pub use splitting::{Flow, Found, FoundPart, FoundPiece, Splitting, chosen};
 pub use structure::{
     Group, Inertia, Realization, Representation, Spectrum, Spins, Structure, Vectors,
 };
@@ -70,7 +70,7 @@ pub struct Plan {
     pub generic: Vec<String>,
     /// The flows of the pieces of H, where a splitting is asked for.
     pub splitting: Option<Splitting>,
-    /// The flows of the pieces that were found, where a splitting is asked for.
+    /// The flows of the pieces that were found.
     pub found: Option<Found>,
     /// The kernels of a family, which has nothing else.
     pub family: Option<Box<Family>>,

@@ -1,11 +1,13 @@
-//! The flows of the coordinate pieces of a separable Hamiltonian.
+//! The flows of the pieces of a Hamiltonian: those of one coordinate each, and those that were found.
 
 use super::constants::Table;
 use super::function::Function;
 use super::planner::Planner;
-use crate::derive::{FoundKernel, PieceKernel, Update};
-use crate::methods::Choice;
-use crate::structure::found;
+use crate::derive::{FoundKernel, Kernel, PieceKernel, Source, Update};
+use crate::methods::{Choice, Pieces};
+use crate::model::Model;
+use crate::schedule::Counts;
+use crate::structure::found::Chosen;
 
 /// The flows of all pieces.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -46,18 +48,19 @@ pub enum Found {
 pub struct FoundPiece {
     /// Its terms, in the names of the declaration.
     pub terms: Vec<String>,
-    /// Flows that make up its own, one after the other; `None` where the series is summed.
-    pub flows: Option<Vec<Flow>>,
+    /// The parts of its flow, one after the other.
+    pub parts: Vec<FoundPart>,
     /// The gradient of the piece.
     pub direction: Function,
 }
 
-impl FoundPiece {
-    /// The operations of its flow.
-    fn cost(&self) -> usize {
-        let cost = |flows: &Vec<Flow>| flows.iter().map(Flow::cost).sum();
-        self.flows.as_ref().map_or(usize::MAX, cost)
-    }
+/// A part of the flow of a piece, whose element is constant along it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct FoundPart {
+    /// Flows that make it up, one after the other; `None` where the exponential of its direction is used.
+    pub flows: Option<Vec<Flow>>,
+    /// Its direction, where there are other parts.
+    pub direction: Option<Function>,
 }
 
 impl Found {
@@ -67,43 +70,97 @@ impl Found {
             Found::Same => &[],
             Found::Pieces { pieces, .. } => pieces,
         };
-        pieces.iter().flat_map(|piece| piece.flows.iter().flatten())
+        let parts = pieces.iter().flat_map(|piece| &piece.parts);
+        parts.flat_map(|part| part.flows.iter().flatten())
     }
 }
 
-impl Flow {
-    /// The operations of one flow.
-    fn cost(&self) -> usize {
-        let counts = self
-            .function
-            .as_ref()
-            .map(|function| function.program.counts);
-        counts.map_or(usize::MAX, |counts| counts.weight())
+/// What a series costs, for choosing between ways to split H: more than closed forms.
+const SERIES: usize = 10_000;
+
+/// The way to split H whose step of order 2 has the fewest operations, and the order of its pieces.
+pub fn chosen(model: &Model) -> Option<Chosen> {
+    let searched = model.splitting();
+    let first = searched.ways.first()?;
+    if first.declared {
+        return Some(Chosen {
+            way: 0,
+            order: (0..first.pieces.len()).collect(),
+            costs: vec![0],
+        });
+    }
+    let source = Source::of(model);
+    let ways = searched.ways.iter().map(|way| {
+        let mut source = source.clone();
+        source.found = Some(way.moved(&searched.graph, &mut source.graph));
+        let kernels = source.found_kernels().unwrap_or_default();
+        let costs: Vec<usize> = kernels.iter().map(|k| cost(&mut source, k)).collect();
+        let mut order: Vec<usize> = (0..costs.len()).collect();
+        order.sort_by_key(|place| costs[*place]);
+        // each piece acts twice, the last one once
+        let last = order.last().map_or(0, |place| costs[*place]);
+        (2 * costs.iter().sum::<usize>() - last, order)
+    });
+    let ways: Vec<(usize, Vec<usize>)> = ways.collect();
+    let way = (0..ways.len()).min_by_key(|way| ways[*way].0)?;
+    Some(Chosen {
+        way,
+        order: ways[way].1.clone(),
+        costs: ways.iter().map(|(cost, _)| *cost).collect(),
+    })
+}
+
+/// The operations of the flow of a piece, in units of one multiplication.
+fn cost(source: &mut Source, kernel: &FoundKernel) -> usize {
+    let mut cost = 0;
+    for part in &kernel.parts {
+        let Some(flows) = &part.flows else {
+            cost += SERIES;
+            continue;
+        };
+        for flow in flows {
+            cost += flow.kernel.as_ref().map_or(SERIES, |kernel| {
+                let mut counts = kernel.program(&mut source.graph).counts;
+                count_updates(&mut counts, &flow.updates);
+                counts.weight()
+            });
+        }
+    }
+    cost
+}
+
+/// Adds what is done with the outputs of a flow.
+fn count_updates(counts: &mut Counts, updates: &[Update]) {
+    for update in updates {
+        match update {
+            Update::Add | Update::Subtract => counts.add += 1,
+            Update::Multiply => counts.mul += 1,
+            Update::Divide => counts.div += 1,
+        }
     }
 }
 
 impl Planner<'_> {
-    /// The flows of the pieces that were found, where a splitting is asked for.
+    /// The flows of the pieces that were found: of code of their own where a splitting is asked for, else by the exponentials of
+    /// their directions.
     ///
-    /// They are looked for behind all other kernels, whose code does not depend on them then.
+    /// They come behind all other kernels, whose code does not depend on them then.
     pub(super) fn found(&mut self) -> Option<Found> {
-        let mut methods = self.methods.iter();
-        if !methods.any(|choice| matches!(choice, Choice::Splitting(..))) {
-            return None;
-        }
-        self.source.found = found::found(self.model, &mut self.source.graph);
-        let found = self.source.found.as_ref()?;
+        let (found, chosen) = self.model.chosen()?;
         if found.declared {
             return Some(Found::Same);
         }
+        let from = &self.model.splitting().graph;
+        self.source.found = Some(found.moved(from, &mut self.source.graph));
+        let found = self.source.found.as_ref()?;
         let (rest, whole) = (found.rest, found.whole);
+        let mut methods = self.methods.iter();
+        let fused = methods.any(|choice| matches!(choice, Choice::Splitting(_, _, Pieces::Found)));
         let kernels = self.source.found_kernels()?;
-        let mut pieces: Vec<FoundPiece> = kernels
-            .iter()
-            .enumerate()
-            .map(|(place, kernel)| self.found_piece(place + 1, kernel))
+        let pieces = chosen.order.iter().enumerate();
+        let pieces = pieces
+            .map(|(place, piece)| self.found_piece(place + 1, &kernels[*piece], fused))
             .collect();
-        pieces.sort_by_key(FoundPiece::cost);
         Some(Found::Pieces {
             pieces,
             whole,
@@ -111,26 +168,52 @@ impl Planner<'_> {
         })
     }
 
-    fn found_piece(&mut self, number: usize, kernel: &FoundKernel) -> FoundPiece {
-        let flows = kernel.flows.as_ref().map(|flows| {
-            let flows = flows.iter();
-            flows.map(|flow| self.flow(flow, "found")).collect()
-        });
+    fn found_piece(&mut self, number: usize, kernel: &FoundKernel, fused: bool) -> FoundPiece {
         let label = format!("found direction {number}");
+        let alone = kernel.parts.len() == 1;
+        let parts = kernel.parts.iter().enumerate();
+        let parts = parts.map(|(place, part)| {
+            let idle = part.flows.as_ref().is_some_and(Vec::is_empty);
+            let flows = part.flows.as_ref().filter(|_| fused || idle);
+            let flows = flows.map(|flows| {
+                let flows = flows.iter();
+                flows.map(|flow| self.flow(flow, "found")).collect()
+            });
+            let label = format!("{label}.{}", place + 1);
+            FoundPart {
+                flows,
+                direction: (!alone).then(|| self.direction(label, &part.direction)),
+            }
+        });
         FoundPiece {
+            parts: parts.collect(),
             terms: kernel.terms.iter().map(|term| self.text(*term)).collect(),
-            flows,
-            direction: self.labelled(label, &kernel.direction, &mut Table::default()),
+            direction: self.direction(label, &kernel.direction),
         }
+    }
+
+    fn direction(&mut self, label: String, kernel: &Kernel) -> Function {
+        self.labelled(label, kernel, &mut Table::default())
     }
 
     /// The flows where H has pieces: of code of their own where a splitting is asked for, else the key of the generic
     /// ones.
     pub(super) fn splitting(&mut self) -> Option<Result<Splitting, String>> {
         let pieces = self.source.splitting_kernels()?;
-        let splits = |choice: &Choice| matches!(choice, Choice::Splitting(..));
+        let found = self.model.chosen();
+        let same = found.is_some_and(|(found, _)| found.declared);
+        let splits = |choice: &Choice| match choice {
+            Choice::Splitting(_, _, Pieces::Coordinate) => true,
+            Choice::Splitting(_, _, Pieces::Found) => same,
+            _ => false,
+        };
         if !self.methods.iter().any(splits) {
-            return Some(Err("splitting".to_owned()));
+            let key = if same {
+                "splitting"
+            } else {
+                "coordinate_splitting"
+            };
+            return Some(Err(key.to_owned()));
         }
         let flows = pieces
             .iter()
@@ -144,13 +227,7 @@ impl Planner<'_> {
             let coordinate = &self.names.coordinates[piece.coordinate];
             let label = format!("{kind} flow {coordinate}");
             let mut function = self.labelled(label, kernel, &mut Table::default());
-            for update in &piece.updates {
-                match update {
-                    Update::Add | Update::Subtract => function.program.counts.add += 1,
-                    Update::Multiply => function.program.counts.mul += 1,
-                    Update::Divide => function.program.counts.div += 1,
-                }
-            }
+            count_updates(&mut function.program.counts, &piece.updates);
             function
         });
         Flow {

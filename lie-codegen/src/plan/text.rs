@@ -65,13 +65,15 @@ impl fmt::Display for Plan {
             section(f, &format!("flows of the pieces that were found{of}"))?;
             for piece in pieces {
                 writeln!(f, "  {}", piece.terms.join(", "))?;
-                match &piece.flows {
-                    Some(flows) => {
-                        for function in flows.iter().filter_map(|flow| flow.function.as_ref()) {
-                            write!(f, "{function}")?;
+                for part in &piece.parts {
+                    match &part.flows {
+                        Some(flows) => {
+                            for function in flows.iter().filter_map(|flow| flow.function.as_ref()) {
+                                write!(f, "{function}")?;
+                            }
                         }
+                        None => writeln!(f, "    by the exponential of its direction")?,
                     }
-                    None => writeln!(f, "    by its series")?,
                 }
             }
         }

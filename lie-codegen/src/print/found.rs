@@ -7,7 +7,7 @@ use super::Printer;
 use super::function::{Body, Owner};
 use super::names::index;
 use super::splitting::{message, methods_of_flows};
-use crate::plan::{Constants, Found, FoundPiece};
+use crate::plan::{Constants, Found, FoundPart, FoundPiece, Function};
 
 impl Printer<'_> {
     /// The flows of the pieces that were found and their hook.
@@ -73,6 +73,7 @@ impl Printer<'_> {
             }
         };
         let methods = methods_of_flows(pieces.len(), &functions, &direction);
+        let follow = follow(pieces);
         let rest = (!whole).then(|| beside(&directions));
         quote! {
             #[doc = #title]
@@ -100,6 +101,7 @@ impl Printer<'_> {
                 type State = #state;
 
                 #methods
+                #follow
                 #rest
             }
         }
@@ -109,7 +111,37 @@ impl Printer<'_> {
     fn found_flow(&self, place: usize, piece: &FoundPiece, state: &TokenStream) -> TokenStream {
         let flow = format_ident!("_flow{place}");
         let direction = format_ident!("_direction{place}");
-        let kernel = &piece.direction;
+        let of_piece = self.direction(&piece.direction, &direction, state);
+        let flows = match piece.parts.as_slice() {
+            [only] => self.part(only, &flow, &direction, state),
+            parts => {
+                let names = parts.iter().enumerate().map(|(part, known)| {
+                    let direction = format_ident!("_direction{place}_{part}");
+                    let kernel = known.direction.as_ref();
+                    let own = kernel.map(|kernel| self.direction(kernel, &direction, state));
+                    let name = part_name(place, part);
+                    let flow = moves(known).then(|| self.part(known, &name, &direction, state));
+                    (quote! { #own #flow }, moves(known).then_some(name))
+                });
+                let (items, names): (Vec<TokenStream>, Vec<Option<Ident>>) = names.unzip();
+                let names = names.into_iter().flatten();
+                quote! {
+                    #(#items)*
+                    #[inline]
+                    fn #flow(&self, t: S, mu: &mut #state) {
+                        #(self.#names(t, mu);)*
+                    }
+                }
+            }
+        };
+        quote! {
+            #flows
+            #of_piece
+        }
+    }
+
+    /// A gradient, of a piece or of a part of it.
+    fn direction(&self, kernel: &Function, name: &Ident, state: &TokenStream) -> TokenStream {
         let mu = self.argument_if("mu", kernel.reads(&kernel.arguments[0]));
         let none = Constants::default();
         let body = self.body(
@@ -117,12 +149,27 @@ impl Printer<'_> {
             &Body::of(Owner::Equation(&none), &|_| quote! { #mu }, &["_xi"]),
         );
         let docs = self.docs(kernel);
-        let flows = match piece.flows.as_deref() {
-            Some([only]) => self.flow(only, &flow, state),
+        quote! {
+            #docs
+            fn #name(&self, #mu: &#state, _xi: &mut #state) {
+                #body
+            }
+        }
+    }
+
+    /// The flow of a part of a piece.
+    fn part(
+        &self,
+        part: &FoundPart,
+        name: &Ident,
+        direction: &Ident,
+        state: &TokenStream,
+    ) -> TokenStream {
+        match part.flows.as_deref() {
+            Some([only]) => self.flow(only, name, state),
             Some(several) => {
                 let numbers = 0..several.len();
-                let names: Vec<Ident> =
-                    numbers.map(|k| format_ident!("_flow{place}_{k}")).collect();
+                let names: Vec<Ident> = numbers.map(|k| format_ident!("{name}_{k}")).collect();
                 let parts = several.iter().zip(&names);
                 let parts: TokenStream = parts
                     .map(|(part, name)| self.flow(part, name, state))
@@ -130,13 +177,13 @@ impl Printer<'_> {
                 quote! {
                     #parts
                     #[inline]
-                    fn #flow(&self, t: S, mu: &mut #state) {
+                    fn #name(&self, t: S, mu: &mut #state) {
                         #(self.#names(t, mu);)*
                     }
                 }
             }
             None => quote! {
-                fn #flow(&self, t: S, mu: &mut #state) {
+                fn #name(&self, t: S, mu: &mut #state) {
                     let (start, mut xi) = (*mu, *mu);
                     self.#direction(mu, &mut xi);
                     for entry in xi.iter_mut() {
@@ -145,16 +192,66 @@ impl Printer<'_> {
                     ::lie_runtime::LiePoisson::coadjoint_action(self.system, &xi, &start, mu);
                 }
             },
-        };
-        quote! {
-            #flows
-
-            #docs
-            fn #direction(&self, #mu: &#state, _xi: &mut #state) {
-                #body
-            }
         }
     }
+}
+
+/// The name of the flow of a part.
+fn part_name(place: usize, part: usize) -> Ident {
+    format_ident!("_part{place}_{part}")
+}
+
+/// Whether a part moves anything: a Casimir of the algebra does not.
+fn moves(part: &FoundPart) -> bool {
+    part.flows.as_ref().is_none_or(|flows| !flows.is_empty())
+}
+
+/// The flows part by part, where a piece has several.
+fn follow(pieces: &[FoundPiece]) -> Option<TokenStream> {
+    if pieces.iter().all(|piece| piece.parts.len() == 1) {
+        return None;
+    }
+    let cases = pieces.iter().enumerate().map(|(place, piece)| {
+        let number = index(place);
+        let alone = piece.parts.len() == 1;
+        let parts = piece.parts.iter().enumerate().map(|(part, known)| {
+            let (direction, flow) = if alone {
+                (
+                    format_ident!("_direction{place}"),
+                    format_ident!("_flow{place}"),
+                )
+            } else {
+                let direction = format_ident!("_direction{place}_{part}");
+                (direction, part_name(place, part))
+            };
+            let flow = moves(known).then(|| quote! { self.#flow(t, mu); });
+            quote! {
+                self.#direction(mu, factor);
+                for entry in factor.iter_mut() {
+                    *entry = t * *entry;
+                }
+                give(factor);
+                #flow
+            }
+        });
+        quote! { #number => { #(#parts)* } }
+    });
+    let none = message(pieces.len());
+    Some(quote! {
+        fn follow(
+            &mut self,
+            piece: usize,
+            t: S,
+            mu: &mut Self::State,
+            factor: &mut Self::State,
+            give: &mut dyn FnMut(&mut Self::State),
+        ) {
+            match piece {
+                #(#cases)*
+                _ => panic!(#none),
+            }
+        }
+    })
 }
 
 /// What H is beside the pieces.

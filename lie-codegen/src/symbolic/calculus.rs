@@ -200,11 +200,34 @@ impl Graph {
         roots: &[ExprId],
         replace: &dyn Fn(Symbol) -> Option<ExprId>,
     ) -> Vec<ExprId> {
+        let nodes = self.dependencies(roots).into_iter();
+        let nodes: Vec<(ExprId, Node)> = nodes.map(|id| (id, self.node(id).clone())).collect();
+        self.rebuild(roots, nodes, replace)
+    }
+
+    /// Expressions of another arena.
+    pub fn import(&mut self, from: &Self, roots: &[ExprId]) -> Vec<ExprId> {
+        let nodes = from.dependencies(roots).into_iter();
+        let nodes: Vec<(ExprId, Node)> = nodes.map(|id| (id, from.node(id).clone())).collect();
+        self.rebuild(roots, nodes, &|_| None)
+    }
+
+    /// Makes nodes again, children first, with symbols replaced.
+    fn rebuild(
+        &mut self,
+        roots: &[ExprId],
+        nodes: Vec<(ExprId, Node)>,
+        replace: &dyn Fn(Symbol) -> Option<ExprId>,
+    ) -> Vec<ExprId> {
         let mut image: HashMap<ExprId, ExprId> = HashMap::default();
-        for id in self.dependencies(roots) {
-            let new = match self.node(id).clone() {
-                Node::Number(_) | Node::Pi => id,
-                Node::Symbol(symbol) => replace(symbol).unwrap_or(id),
+        for (id, node) in nodes {
+            let new = match node {
+                Node::Number(value) => self.number(value),
+                Node::Pi => self.pi(),
+                Node::Symbol(symbol) => match replace(symbol) {
+                    Some(value) => value,
+                    None => self.symbol(symbol),
+                },
                 Node::Sum { constant, terms } => {
                     let mut terms: Vec<_> =
                         terms.iter().map(|(t, c)| (image[t], c.clone())).collect();

@@ -11,7 +11,7 @@ use super::energy::Totals;
 use super::exchange::Exchange;
 use super::stencil::wrapped;
 use super::{Family, Sites, Span};
-use crate::pieces::{PieceFlows, SeparablePoisson};
+use crate::pieces::{FoundPoisson, PieceFlows};
 use crate::scalar::Scalar;
 use core::array::from_fn;
 use core::ops::Range;
@@ -262,18 +262,17 @@ where
     }
 }
 
-impl<S, K, const C: usize, const L: usize, const T: usize> SeparablePoisson<S>
-    for Family<K, C, L, T>
+impl<S, K, const C: usize, const L: usize, const T: usize> FoundPoisson<S> for Family<K, C, L, T>
 where
     S: Scalar,
     K: Pieces<S, C, L, T>,
 {
-    type Flows<'a>
+    type Found<'a>
         = FamilyFlows<'a, S, K, C, L, T>
     where
         Self: 'a;
 
-    fn flows(&self) -> Self::Flows<'_> {
+    fn found(&self) -> Self::Found<'_> {
         FamilyFlows::new(self)
     }
 }

@@ -13,7 +13,11 @@
 //! [doi:10.1090/S0025-5718-97-00873-9](https://doi.org/10.1090/S0025-5718-97-00873-9); S. Blanes,
 //! P. C. Moan, "Practical symplectic partitioned Runge–Kutta and Runge–Kutta–Nyström methods", Journal
 //! of Computational and Applied Mathematics 142 (2002) 313–330,
-//! [doi:10.1016/S0377-0427(01)00492-7](https://doi.org/10.1016/S0377-0427(01)00492-7).
+//! [doi:10.1016/S0377-0427(01)00492-7](https://doi.org/10.1016/S0377-0427(01)00492-7); R. I. McLachlan,
+//! "Composition methods in the presence of small parameters", BIT 35 (1995) 258–268,
+//! [doi:10.1007/BF01951548](https://doi.org/10.1007/BF01951548); J. Laskar, P. Robutel, "High order symplectic
+//! integrators for perturbed Hamiltonian systems", Celestial Mechanics and Dynamical Astronomy 80 (2001)
+//! 39–62, [doi:10.1023/A:1012098603882](https://doi.org/10.1023/A:1012098603882).
 
 use crate::scalar::Scalar;
 
@@ -34,6 +38,18 @@ pub enum Scheme {
     SuzukiUmeno,
     /// For splittings alone: order 4 with 6 stages (S6), order 6 with 10 stages (S10).
     BlanesMoan,
+    /// For splittings alone: order 2, two sweeps.
+    Strang,
+    /// For a splitting into A, the first piece, and a small B: order 2, two stages, Gauss nodes, `O(e h^4 + e^2 h^2)`.
+    Saba2,
+    /// The same with four stages, `O(e h^8 + e^2 h^2)`.
+    Saba4,
+    /// For a splitting into a small A, the first piece, and B: order 2, two stages, Lobatto nodes, `O(e h^4 + e^2 h^2)`.
+    Sbab2,
+    /// The same with four stages, `O(e h^8 + e^2 h^2)`.
+    Sbab4,
+    /// For a splitting into A, the first piece, and a small B: order 4, five stages, `O(e h^8 + e^2 h^4)`.
+    McLachlan84,
 }
 
 /// High and low part of a coefficient; the sum is good to 100 bits.
@@ -81,6 +97,12 @@ impl Scheme {
         Some(match (self, order) {
             (Self::BlanesMoan, 4) => &BLANES_MOAN_4,
             (Self::BlanesMoan, 6) => &BLANES_MOAN_6,
+            (Self::Strang, 2) => &STRANG,
+            (Self::Saba2, 2) => &SABA_2,
+            (Self::Saba4, 2) => &SABA_4,
+            (Self::Sbab2, 2) => &SBAB_2,
+            (Self::Sbab4, 2) => &SBAB_4,
+            (Self::McLachlan84, 4) => &MCLACHLAN_84,
             _ => return None,
         })
     }
@@ -171,6 +193,34 @@ const BLANES_MOAN_6: [Parts; 10] = [
     Parts(0.34635818985072814, 6.353406242375e-18),
     Parts(-0.3627627792543458, 1.776379990369837e-17),
 ];
+const STRANG: [Parts; 1] = [Parts(0.5, 0.0)];
+const SABA_2: [Parts; 2] = [
+    Parts(0.2113248654051871, 1.1030435245950743e-17),
+    Parts(0.28867513459481287, 1.6725140369678172e-17),
+];
+const SABA_4: [Parts; 4] = [
+    Parts(0.06943184420297371, -1.3430706493351195e-18),
+    Parts(0.10449557836575321, 5.17323884370984e-18),
+    Parts(0.15608205563884495, -7.57582904785581e-18),
+    Parts(0.16999052179242813, 3.745660853481089e-18),
+];
+const SBAB_2: [Parts; 2] = [
+    Parts(0.16666666666666666, 9.25185853854297e-18),
+    Parts(0.3333333333333333, 1.850371707708594e-17),
+];
+const SBAB_4: [Parts; 4] = [
+    Parts(0.05, -2.7755575615628915e-18),
+    Parts(0.12267316464601143, 1.9853965172945736e-18),
+    Parts(0.1495490575762108, 7.574857305866497e-18),
+    Parts(0.17777777777777778, -6.784696261598179e-18),
+];
+const MCLACHLAN_84: [Parts; 5] = [
+    Parts(0.07534696026989289, -1.8885378876530202e-18),
+    Parts(0.11487897910378374, -6.8410054278198655e-18),
+    Parts(0.40303787558447307, -1.9461384554608393e-17),
+    Parts(0.4434861948590532, -1.2104251869325211e-17),
+    Parts(-0.5367500098172029, 1.2539604123777578e-17),
+];
 
 #[cfg(test)]
 mod tests {
@@ -216,10 +266,59 @@ mod tests {
 
     #[test]
     fn sweeps_cover_one_step() {
-        for order in [4, 6] {
-            let half = BlanesMoan.sweeps(order).expect("a scheme of that order");
+        let schemes = [
+            (BlanesMoan, 4, 6),
+            (BlanesMoan, 6, 10),
+            (Strang, 2, 1),
+            (Saba2, 2, 2),
+            (Saba4, 2, 4),
+            (Sbab2, 2, 2),
+            (Sbab4, 2, 4),
+            (McLachlan84, 4, 5),
+        ];
+        for (scheme, order, stages) in schemes {
+            let half = scheme.sweeps(order).expect("a scheme of that order");
+            assert_eq!(half.len(), stages);
             let sum: f64 = half.iter().map(|parts| 2.0 * parts.number::<f64>()).sum();
-            assert!((sum - 1.0).abs() < 5e-16, "{order}: {sum}");
+            assert!((sum - 1.0).abs() < 5e-16, "{scheme:?}: {sum}");
+        }
+    }
+
+    /// The conditions on the terms with one B: quadrature of the functions up to a degree, at the times at which B acts.
+    #[test]
+    fn near_integrable_schemes_are_quadratures() {
+        let schemes = [
+            (Saba2, 2, 4, false),
+            (Saba4, 2, 8, false),
+            (Sbab2, 2, 4, true),
+            (Sbab4, 2, 8, true),
+            (McLachlan84, 4, 8, false),
+        ];
+        for (scheme, order, exact, b_first) in schemes {
+            let half = scheme.sweeps(order).expect("a scheme of that order");
+            let sizes: Vec<f64> = half.iter().map(|parts| parts.number()).collect();
+            let all = sizes.iter().chain(sizes.iter().rev()).copied();
+            let all: Vec<f64> = all.collect();
+            // the flows in turn, those of the first piece at even places
+            let mut flows = vec![all[0]];
+            flows.extend(all.windows(2).map(|pair| pair[0] + pair[1]));
+            flows.push(all[all.len() - 1]);
+            let defect = |power: i32| {
+                let (mut time, mut sum) = (0.0_f64, 0.0_f64);
+                for (place, flow) in flows.iter().enumerate() {
+                    if (place % 2 == 0) == b_first {
+                        sum += flow * time.powi(power);
+                    } else {
+                        time += flow;
+                    }
+                }
+                (sum - 1.0 / f64::from(power + 1)).abs()
+            };
+            for power in 0..exact {
+                assert!(defect(power) < 1e-15, "{scheme:?}: power {power}");
+            }
+            // the control: no further
+            assert!(defect(exact) > 1e-6, "{scheme:?}: {}", defect(exact));
         }
     }
 }

@@ -1,4 +1,6 @@
-//! Splittings of a Hamiltonian that is a sum of functions of one coordinate each.
+//! Splittings of a Hamiltonian into pieces whose flows are exact.
+//!
+//! The simplest pieces are functions of one coordinate each ([`Coordinate`]):
 //!
 //! ```math
 //! H(\mu) = \sum_i f_i(\mu_i), \qquad
@@ -19,7 +21,8 @@
 //! |---|---|---|
 //! | [`Splitting1`] | `$\chi_h$` (Lie, Trotter) | 1 |
 //! | [`Splitting2`] | `$\chi^*_{h/2} \circ \chi_{h/2}$` (Strang) | 2 |
-//! | [`Splitting4`] | `$\chi^*_{s_{12} h} \circ \chi_{s_{11} h} \circ \dots \circ \chi^*_{s_2 h} \circ \chi_{s_1 h}$` (Blanes, Moan: S6), or a composition of Strang steps: [`Scheme::Suzuki`], [`Scheme::TripleJump`] | 12, 10, 6 |
+//! | [`Splitting2`], near-integrable | the same with other times: [`Scheme::Saba2`], [`Scheme::Saba4`], [`Scheme::Sbab2`], [`Scheme::Sbab4`] | 4, 8, 4, 8 |
+//! | [`Splitting4`] | `$\chi^*_{s_{12} h} \circ \chi_{s_{11} h} \circ \dots \circ \chi^*_{s_2 h} \circ \chi_{s_1 h}$` (Blanes, Moan: S6), or a composition of Strang steps: [`Scheme::Suzuki`], [`Scheme::TripleJump`]; near-integrable: [`Scheme::McLachlan84`] | 12, 10, 6, 10 |
 //! | [`Splitting6`] | the same with 10 stages (S10), or [`Scheme::KahanLi`], [`Scheme::Yoshida`], [`Scheme::Suzuki`], [`Scheme::TripleJump`] | 20, 18, 14, 50, 18 |
 //! | [`Splitting8`] | composition of Strang steps, [`Scheme::KahanLi`] or [`Scheme::SuzukiUmeno`] | 34, 30 |
 //!
@@ -32,24 +35,37 @@
 //! drift though not exactly. All but [`Splitting1`] are symmetric. A step fails only where numbers
 //! overflow or H has no value.
 //!
-//! Needs: a Hamiltonian of that form ([`SeparablePoisson`]); any Lie algebra. With the pieces
-//! [`Found`] it is a sum of functions of linear forms whose elements commute ([`FoundPoisson`]),
+//! The pieces are by default those that were found ([`FoundPoisson`]): functions of linear forms whose elements commute, and
+//! of Casimirs c of the algebra or of subalgebras, which commute with them,
 //!
 //! ```math
-//! H(\mu) = \sum_a f_a(\langle v_{a1}, \mu\rangle, \langle v_{a2}, \mu\rangle, \dots) + \text{Casimirs}, \qquad [v_{ai}, v_{aj}] = 0, \qquad
-//! \varphi^a_t(\mu) = \exp\Big(t \sum_i \partial_i f_a\, \mathrm{ad}^*_{v_{ai}}\Big)\, \mu
+//! H(\mu) = \sum_a f_a(\langle v_{a1}, \mu\rangle, \dots, c_{a1}(\mu), \dots) + \text{Casimirs}, \qquad
+//! \varphi^a_t(\mu) = \exp\Big(t \sum_i \partial_i f_a\, \mathrm{ad}^*_{v_{ai}}\Big) \prod_j
+//! \exp\big(t\, \partial_j f_a\, \mathrm{ad}^*_{\nabla c_{aj}(\mu)}\big)\, \mu
 //! ```
 //!
-//! in which the forms and with them the exponent are constant. Every quadratic H has such pieces. Casimirs generate no flow:
+//! in which all of these quantities, and so the slopes, are constant. The gradient of a Casimir of a subalgebra is constant along the flow that
+//! the Casimir generates: `$|m|^2$` on se(3) turns the other vector about m and leaves m. Every quadratic H has such pieces. Casimirs of the
+//! algebra generate no flow:
 //! `$H - C/(2 I_2)$` of the free rigid body has two pieces, where H has three. The energy of H is kept as well, as is
-//! each Casimir; where the group element is reconstructed, what was taken away moves it.
+//! each Casimir; where the group element is reconstructed, what was taken away moves it. Where the functions of one coordinate each are
+//! as few, they are taken, and the step is that of [`Coordinate`].
+//!
+//! Of two pieces A, the first, and B, of which one is small, `$A + \varepsilon B$`, the near-integrable schemes have errors
+//! `$O(\varepsilon h^4 + \varepsilon^2 h^2)$` (SABA2), `$O(\varepsilon h^8 + \varepsilon^2 h^2)$` (SABA4) and
+//! `$O(\varepsilon h^8 + \varepsilon^2 h^4)$` (McLachlan's (8, 4)); SBAB2 and SBAB4 are for `$\varepsilon A + B$`. For more pieces
+//! nothing of this holds.
+//!
+//! Needs: pieces ([`FoundPoisson`], [`SeparablePoisson`] for [`Coordinate`]); any Lie algebra.
 //!
 //! References: R. I. McLachlan, "Explicit Lie–Poisson integration and the Euler equations", Physical
 //! Review Letters 71 (1993) 3043–3046,
 //! [doi:10.1103/PhysRevLett.71.3043](https://doi.org/10.1103/PhysRevLett.71.3043); sweeps from the
 //! coefficients of a splitting in two: R. I. McLachlan, "On the numerical integration of ordinary
 //! differential equations by symmetric composition methods", SIAM Journal on Scientific Computing 16
-//! (1995) 151–168, [doi:10.1137/0916010](https://doi.org/10.1137/0916010); for the coefficients see
+//! (1995) 151–168, [doi:10.1137/0916010](https://doi.org/10.1137/0916010); integrals of subalgebras: A. Thimm, "Integrable geodesic
+//! flows on homogeneous spaces", Ergodic Theory and Dynamical Systems 1 (1981) 495–517,
+//! [doi:10.1017/S0143385700001401](https://doi.org/10.1017/S0143385700001401); for the coefficients see
 //! [`Scheme`].
 #![cfg_attr(doc, doc = include_str!("../../docs/katex.html"))]
 
@@ -72,10 +88,10 @@ const SWEEPS: usize = 50;
 /// use lie_core::methods::{Scheme, Splitting2, Splitting4};
 /// let strang = Splitting2::new();
 /// let suzuki = Splitting4::new().scheme(Scheme::Suzuki);
-/// let found = Splitting4::new().found();
+/// let coordinates = Splitting4::new().coordinate();
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Splitting<const ORDER: u32, K = Coordinate> {
+pub struct Splitting<const ORDER: u32, K = Found> {
     scheme: Option<Scheme>,
     pieces: K,
 }
@@ -115,22 +131,23 @@ impl<const ORDER: u32> Splitting<ORDER> {
             );
         }
         let scheme = match ORDER {
-            1 | 2 => None,
+            1 => None,
+            2 => Some(Scheme::Strang),
             4 | 6 => Some(Scheme::BlanesMoan),
             _ => Some(Scheme::of_composition(ORDER)),
         };
         Self {
             scheme,
-            pieces: Coordinate,
+            pieces: Found,
         }
     }
 
-    /// The same with the pieces that were found.
+    /// The same with the functions of one coordinate each that H is the sum of, in ascending order.
     #[must_use]
-    pub const fn found(self) -> Splitting<ORDER, Found> {
+    pub const fn coordinate(self) -> Splitting<ORDER, Coordinate> {
         Splitting {
             scheme: self.scheme,
-            pieces: Found,
+            pieces: Coordinate,
         }
     }
 }
@@ -160,10 +177,7 @@ impl<const ORDER: u32, K: Copy> Splitting<ORDER, K> {
             count += 1;
         };
         let Some(scheme) = self.scheme else {
-            let size = if ORDER == 1 { Parts::ONE } else { Parts::HALF };
-            for _ in 0..ORDER {
-                push(size.number());
-            }
+            push(Parts::ONE.number());
             return count;
         };
         if let Some(half) = scheme.sweeps(ORDER) {
@@ -224,7 +238,7 @@ impl<const ORDER: u32, K> Facts for Splitting<ORDER, K> {
     const PRESERVES: Preserves = Preserves::POISSON;
 }
 
-impl<S, P, const ORDER: u32> Method<S, P> for Splitting<ORDER>
+impl<S, P, const ORDER: u32> Method<S, P> for Splitting<ORDER, Coordinate>
 where
     S: Scalar,
     P: SeparablePoisson<S>,
@@ -239,7 +253,7 @@ where
     }
 }
 
-impl<S, P, const ORDER: u32> Method<S, P> for Splitting<ORDER, Found>
+impl<S, P, const ORDER: u32> Method<S, P> for Splitting<ORDER>
 where
     S: Scalar,
     P: FoundPoisson<S>,
@@ -307,12 +321,12 @@ impl<S: Scalar, F: PieceFlows<S>> SplittingStepper<S, F> {
             ..
         } = self;
         let mut flow = |piece: usize, t: S| {
-            flows.direction(piece, t, next, factor);
-            for entry in factor.as_mut_slice() {
-                *entry = S::select(good, *entry, S::zero());
-            }
-            sink.push(Retraction::Exp, factor);
-            flows.flow(piece, t, next);
+            flows.follow(piece, t, next, factor, &mut |factor| {
+                for entry in factor.as_mut_slice() {
+                    *entry = S::select(good, *entry, S::zero());
+                }
+                sink.push(Retraction::Exp, factor);
+            });
         };
         if pieces < 2 {
             if pieces == 1 {

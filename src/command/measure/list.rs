@@ -69,9 +69,8 @@ pub fn all(model: &Model) -> Vec<Choice> {
     let mut bases: Vec<Choice> = all
         .iter()
         .filter(|choice| {
-            choice
-                .entry()
-                .is_some_and(|method| method.symmetric && method.order == 2)
+            let fits = |method: &Method| method.symmetric && method.order == 2;
+            choice.entry().is_some_and(fits) && !choice.is_near_integrable()
         })
         .cloned()
         .collect();

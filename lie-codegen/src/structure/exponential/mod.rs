@@ -76,6 +76,23 @@ pub fn closed_form(constants: &StructureConstants<Fraction>) -> Option<Exponenti
     Some(Exponential { summands })
 }
 
+/// The closed form for the elements x of a subalgebra that some basis elements span.
+pub fn closed_form_on(
+    constants: &StructureConstants<Fraction>,
+    elements: &[usize],
+) -> Option<Exponential> {
+    if constants.dimension() > LARGEST {
+        return None;
+    }
+    let budget = Budget::new(WORK);
+    let operator = Operator::coadjoint(constants).restricted(elements);
+    let components = operator.components().into_iter();
+    let summands = components.map(|component| summand(&component, &budget).ok()?);
+    Some(Exponential {
+        summands: summands.collect::<Option<_>>()?,
+    })
+}
+
 /// The summands of the operator on coordinates that no others act on: itself, or ideals that share these coordinates.
 fn of_component(operator: Operator, budget: &Budget) -> Result<Option<Vec<Summand>>, Exhausted> {
     if let Some(summand) = summand(&operator, budget)? {

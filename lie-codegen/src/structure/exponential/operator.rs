@@ -33,6 +33,17 @@ impl Operator {
         }
     }
 
+    /// The operator of the elements x with entries at some places alone.
+    pub fn restricted(self, elements: &[usize]) -> Self {
+        let entries = self.entries.into_iter().map(|(j, k, mut form)| {
+            form.retain(|(i, _)| elements.contains(i));
+            (j, k, form)
+        });
+        Self {
+            entries: entries.filter(|(.., form)| !form.is_empty()).collect(),
+        }
+    }
+
     /// The coordinates that it reads or writes.
     pub fn coordinates(&self) -> Vec<usize> {
         let places = self.entries.iter().flat_map(|(j, k, _)| [*j, *k]);

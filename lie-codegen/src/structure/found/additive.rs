@@ -9,6 +9,11 @@ const MOST: usize = 2000;
 /// The terms of an expression in normal form, like terms collected, without a constant number; `None` where there are
 /// too many.
 pub(crate) fn terms(graph: &mut Graph, id: ExprId) -> Option<Vec<ExprId>> {
+    collected(graph, id).map(|(_, terms)| terms)
+}
+
+/// The same with the constant number.
+pub(super) fn collected(graph: &mut Graph, id: ExprId) -> Option<(Rational, Vec<ExprId>)> {
     let normal = graph.normal(id);
     let mut open = vec![normal];
     let mut atoms = Vec::new();
@@ -25,12 +30,12 @@ pub(crate) fn terms(graph: &mut Graph, id: ExprId) -> Option<Vec<ExprId>> {
     }
     let sum = graph.sum(&atoms);
     Some(match graph.node(sum).clone() {
-        Node::Number(_) => Vec::new(),
-        Node::Sum { terms, .. } => {
+        Node::Number(constant) => (constant, Vec::new()),
+        Node::Sum { constant, terms } => {
             let terms = terms.iter().map(|(term, scale)| graph.scale(*term, scale));
-            terms.collect()
+            (constant, terms.collect())
         }
-        _ => vec![sum],
+        _ => (Rational::ZERO, vec![sum]),
     })
 }
 

@@ -1,7 +1,8 @@
-//! What pieces are put together from: functions of linear forms that commute.
+//! What pieces are put together from: functions of linear forms that commute, and of Casimirs of subalgebras that commute with them.
 
 use std::collections::BTreeSet;
 
+use super::invariants::{self, Invariant};
 use crate::check::expression;
 use crate::exact::{Budget, Exhausted, Fraction, Rational};
 use crate::model::Algebra;
@@ -10,12 +11,11 @@ use crate::symbolic::{ExprId, Graph, Symbol};
 /// A linear form `l = sum_i v_i x_i` by the entries of v that do not vanish: the element v of the algebra.
 pub(super) type Form = Vec<(usize, Fraction)>;
 
-/// A part of H that is a function of linear forms whose elements commute, so that they and its gradient are constant
-/// along its flow.
+/// A part of H that is a function of quantities that commute, so that they are constant along its flow.
 #[derive(Clone, Debug)]
 pub(super) enum Atom {
-    /// A sum of terms in the same coordinates.
-    Coordinates(BTreeSet<usize>, Vec<ExprId>),
+    /// A sum of terms in the same arguments: i below the dimension n is a coordinate, n + k the invariant k.
+    Function(BTreeSet<usize>, Vec<ExprId>),
     /// `square l^2/2 + slope l`
     Form {
         form: Form,
@@ -25,14 +25,6 @@ pub(super) enum Atom {
 }
 
 impl Atom {
-    /// The forms of which it is a function.
-    pub(super) fn forms(&self) -> Vec<Form> {
-        match self {
-            Self::Coordinates(coordinates, _) => coordinates.iter().map(|i| unit(*i)).collect(),
-            Self::Form { form, .. } => vec![form.clone()],
-        }
-    }
-
     /// Its terms.
     pub(super) fn terms(&self, graph: &mut Graph) -> Vec<ExprId> {
         let Self::Form {
@@ -41,7 +33,7 @@ impl Atom {
             slope,
         } = self
         else {
-            let Self::Coordinates(_, terms) = self else {
+            let Self::Function(_, terms) = self else {
                 return Vec::new();
             };
             return terms.clone();
@@ -80,71 +72,126 @@ pub(super) fn linear(graph: &mut Graph, form: &Form) -> ExprId {
     graph.sum(&terms)
 }
 
-/// Which elements commute.
+/// Which coordinates and invariants commute.
 #[derive(Clone, Debug)]
 pub(super) struct Commuting<'a> {
     algebra: &'a Algebra,
-    /// Pairs of basis elements that do not.
+    /// Which symbols stand for invariants.
+    symbols: Vec<Symbol>,
+    /// Pairs of arguments that do not.
     pairs: Vec<Vec<bool>>,
 }
 
 impl<'a> Commuting<'a> {
-    pub(super) fn of(algebra: &'a Algebra) -> Self {
+    pub(super) fn of(algebra: &'a Algebra, graph: &mut Graph, invariants: &[Invariant]) -> Self {
         let n = algebra.basis.len();
-        let mut pairs = vec![vec![false; n]; n];
+        let size = n + invariants.len();
+        let mut pairs = vec![vec![false; size]; size];
+        let mut conflict = |i: usize, j: usize| {
+            pairs[i][j] = true;
+            pairs[j][i] = true;
+        };
         for (i, j, ..) in algebra.exact.entries() {
-            pairs[*i][*j] = true;
-            pairs[*j][*i] = true;
+            conflict(*i, *j);
         }
-        Self { algebra, pairs }
+        for (k, invariant) in invariants.iter().enumerate() {
+            for i in &invariant.moved {
+                conflict(n + k, *i);
+            }
+            for (l, other) in invariants.iter().enumerate().take(k) {
+                if !invariants::commute(algebra, graph, invariant, other) {
+                    conflict(n + k, n + l);
+                }
+            }
+        }
+        Self {
+            algebra,
+            symbols: invariants.iter().map(|known| known.symbol).collect(),
+            pairs,
+        }
     }
 
-    /// Whether two basis elements do not commute.
+    /// Number of coordinates.
+    fn dimension(&self) -> usize {
+        self.algebra.basis.len()
+    }
+
+    /// Whether two arguments do not commute.
     pub(super) fn conflict(&self, i: usize, j: usize) -> bool {
         self.pairs[i][j]
     }
 
-    /// With how many others a basis element does not commute.
+    /// With how many other coordinates a coordinate does not commute.
     pub(super) fn degree(&self, i: usize) -> usize {
-        self.pairs[i].iter().filter(|conflict| **conflict).count()
+        let row = self.pairs[i].iter().take(self.dimension());
+        row.filter(|conflict| **conflict).count()
     }
 
-    /// Whether a basis element acts as zero.
-    pub(super) fn is_central(&self, i: usize) -> bool {
+    /// Whether an argument generates no flow.
+    fn is_central(&self, i: usize) -> bool {
         !self.pairs[i].contains(&true)
     }
 
-    /// Whether an atom contains central coordinates alone.
-    pub(super) fn is_idle(&self, atom: &Atom) -> bool {
-        let entries = atom.forms().into_iter().flatten();
-        entries.map(|(i, _)| i).all(|i| self.is_central(i))
+    /// The arguments of an atom; of a form those in it.
+    fn arguments(atom: &Atom) -> Vec<usize> {
+        match atom {
+            Atom::Function(set, _) => set.iter().copied().collect(),
+            Atom::Form { form, .. } => form.iter().map(|(i, _)| *i).collect(),
+        }
     }
 
-    /// The pairs of coordinates in a set that do not commute.
-    pub(super) fn mixed(&self, coordinates: &BTreeSet<usize>) -> Vec<(usize, usize)> {
-        let pairs = coordinates
+    /// Whether an atom generates no flow.
+    pub(super) fn is_idle(&self, atom: &Atom) -> bool {
+        let mut arguments = Self::arguments(atom).into_iter();
+        arguments.all(|i| self.is_central(i))
+    }
+
+    /// Whether an atom is a function of Casimirs of the algebra alone.
+    pub(super) fn is_casimir(&self, atom: &Atom) -> bool {
+        let mut arguments = Self::arguments(atom).into_iter();
+        arguments.all(|i| i >= self.dimension() && self.is_central(i))
+    }
+
+    /// The pairs of arguments in a set that do not commute.
+    pub(super) fn mixed(&self, arguments: &BTreeSet<usize>) -> Vec<(usize, usize)> {
+        let pairs = arguments
             .iter()
-            .flat_map(|i| coordinates.range(i + 1..).map(move |j| (*i, *j)));
+            .flat_map(|i| arguments.range(i + 1..).map(move |j| (*i, *j)));
         pairs.filter(|(i, j)| self.conflict(*i, *j)).collect()
     }
 
-    /// Whether functions of some forms and of others commute.
+    /// Whether two atoms commute.
     pub(super) fn commute(&self, one: &Atom, other: &Atom, budget: &Budget) -> bool {
-        if let (Atom::Coordinates(one, _), Atom::Coordinates(other, _)) = (one, other) {
-            return one
-                .iter()
-                .all(|i| other.iter().all(|j| !self.conflict(*i, *j)));
+        let (left, right) = (Self::arguments(one), Self::arguments(other));
+        let pairwise = left
+            .iter()
+            .all(|i| right.iter().all(|j| !self.conflict(*i, *j)));
+        if pairwise {
+            return true;
         }
-        let (one, other) = (one.forms(), other.forms());
-        one.iter().all(|v| {
-            other
+        let (Some(left), Some(right)) = (self.forms(one), self.forms(other)) else {
+            return false;
+        };
+        left.iter().all(|v| {
+            right
                 .iter()
                 .all(|w| self.bracket_vanishes(v, w, budget).unwrap_or(false))
         })
     }
 
+    /// The forms of which an atom is a function; `None` where it is one of invariants too.
+    fn forms(&self, atom: &Atom) -> Option<Vec<Form>> {
+        match atom {
+            Atom::Function(set, _) => set
+                .iter()
+                .map(|i| (*i < self.dimension()).then(|| unit(*i)))
+                .collect(),
+            Atom::Form { form, .. } => Some(vec![form.clone()]),
+        }
+    }
+
     fn bracket_vanishes(&self, v: &Form, w: &Form, budget: &Budget) -> Result<bool, Exhausted> {
-        let n = self.pairs.len();
+        let n = self.dimension();
         let entry = |form: &Form, i: usize| {
             let found = form.iter().find(|(j, _)| *j == i);
             found.map(|(_, value)| value.clone())
@@ -161,24 +208,32 @@ impl<'a> Commuting<'a> {
         }
         Ok(bracket.iter().all(Fraction::is_zero))
     }
-}
 
-/// Terms by the coordinates that they contain.
-pub(super) fn by_coordinates(graph: &Graph, terms: &[ExprId]) -> Vec<Atom> {
-    let mut sets: Vec<(BTreeSet<usize>, Vec<ExprId>)> = Vec::new();
-    for &term in terms {
-        let set: BTreeSet<usize> = graph.coordinates(term).into_iter().collect();
-        if set.is_empty() {
-            continue;
+    /// Terms by the arguments that they contain.
+    pub(super) fn by_arguments(&self, graph: &Graph, terms: &[ExprId]) -> Vec<Atom> {
+        let mut sets: Vec<(BTreeSet<usize>, Vec<ExprId>)> = Vec::new();
+        for &term in terms {
+            let symbols = graph.symbols(term).into_iter();
+            let arguments = symbols.filter_map(|symbol| match symbol {
+                Symbol::Coordinate(i) => Some(i),
+                other => {
+                    let place = self.symbols.iter().position(|known| *known == other);
+                    place.map(|k| self.dimension() + k)
+                }
+            });
+            let set: BTreeSet<usize> = arguments.collect();
+            if set.is_empty() {
+                continue;
+            }
+            match sets.iter_mut().find(|(known, _)| *known == set) {
+                Some((_, terms)) => terms.push(term),
+                None => sets.push((set, vec![term])),
+            }
         }
-        match sets.iter_mut().find(|(known, _)| *known == set) {
-            Some((_, terms)) => terms.push(term),
-            None => sets.push((set, vec![term])),
-        }
+        sets.sort_by(|(one, _), (other, _)| one.cmp(other));
+        let atoms = sets.into_iter();
+        atoms
+            .map(|(set, terms)| Atom::Function(set, terms))
+            .collect()
     }
-    sets.sort_by(|(one, _), (other, _)| one.cmp(other));
-    let atoms = sets.into_iter();
-    atoms
-        .map(|(set, terms)| Atom::Coordinates(set, terms))
-        .collect()
 }

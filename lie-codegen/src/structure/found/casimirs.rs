@@ -1,12 +1,16 @@
 //! H without a combination of quadratic Casimirs, which generate no flow: the combination that leaves the fewest pieces.
 //!
 //! Of `H = sum_i x_i^2/(2 I_i)` on so(3) the multiple `1/(2 I_2)` of the Casimir takes away one piece of three. The
-//! multiples are those that cancel one second derivative of H that depends on parameters alone.
+//! multiples are those that cancel one second derivative of H that depends on parameters alone. Casimirs of subalgebras have flows of their own, and
+//! may still leave fewer pieces: with `|m|^2/(2 I_2)` taken from the kinetic energy of a top in a field along one of its axes and added as a function of one argument, there
+//! are two.
 
 use super::additive;
-use super::atoms::{self, Atom, Commuting};
-use super::{classes, colouring};
-use crate::exact::{Budget, Rational};
+use super::atoms::{Atom, Commuting};
+use super::colouring;
+use super::invariants::Invariant;
+use super::search::{Work, classes};
+use crate::exact::Rational;
 use crate::model::Model;
 use crate::symbolic::{ExprId, Graph, Symbol};
 
@@ -34,29 +38,34 @@ impl Candidate {
     }
 }
 
-/// H without the Casimirs, where that leaves less to split.
+/// H without multiples of quadratic Casimirs, where that leaves less to split; of a Casimir of a subalgebra the multiple
+/// is added as one of its symbol.
 pub(super) fn without(
     model: &Model,
     commuting: &Commuting<'_>,
     graph: &mut Graph,
-    start: ExprId,
-    budget: &Budget,
+    (start, casimirs): (ExprId, &[&Invariant]),
+    work: Work<'_>,
 ) -> Option<ExprId> {
     if model.dimension() > LARGEST {
         return None;
     }
-    let quadratic = model.casimirs.iter().filter(|c| c.degree == Some(2));
-    let casimirs: Vec<ExprId> = quadratic.map(|c| graph.normal(c.expr)).collect();
     let measure =
-        |graph: &mut Graph, value: ExprId| candidate(model, commuting, graph, value, budget);
+        |graph: &mut Graph, value: ExprId| candidate(model, commuting, graph, value, work);
     let mut value = start;
     let mut current = measure(graph, value)?;
     for _ in 0..casimirs.len() {
-        for &casimir in &casimirs {
+        let before = value;
+        for casimir in casimirs {
+            let mut taken = casimir.value;
+            if !casimir.moved.is_empty() {
+                let symbol = graph.symbol(casimir.symbol);
+                taken = graph.sub(taken, symbol);
+            }
             let mut best = current;
-            for multiple in multiples(model, graph, value, casimir) {
-                let taken = graph.mul(multiple, casimir);
-                let other = graph.sub(value, taken);
+            for multiple in multiples(model, graph, value, casimir.value) {
+                let part = graph.mul(multiple, taken);
+                let other = graph.sub(value, part);
                 let other = graph.normal(other);
                 let Some(other) = measure(graph, other) else {
                     continue;
@@ -67,6 +76,9 @@ pub(super) fn without(
                 }
             }
             (value, current) = (best.value, best);
+        }
+        if value == before {
+            break;
         }
     }
     (value != start).then_some(value)
@@ -104,17 +116,17 @@ fn candidate(
     commuting: &Commuting<'_>,
     graph: &mut Graph,
     value: ExprId,
-    budget: &Budget,
+    work: Work<'_>,
 ) -> Option<Candidate> {
     let terms = additive::terms(graph, value)?;
-    let mut atoms = atoms::by_coordinates(graph, &terms);
+    let mut atoms = commuting.by_arguments(graph, &terms);
     let pairs = |atom: &Atom| match atom {
-        Atom::Coordinates(set, _) => commuting.mixed(set).len(),
+        Atom::Function(set, _) => commuting.mixed(set).len(),
         Atom::Form { .. } => 0,
     };
     let mixed = atoms.iter().map(pairs).sum();
     atoms.retain(|atom| !commuting.is_idle(atom));
-    let pieces = colouring::count(&classes(commuting, &atoms, budget));
+    let pieces = colouring::count(&classes(commuting, &atoms, work));
     let mut spread = 0.0_f64;
     for i in 0..model.dimension() {
         let slope = graph.derivative(value, Symbol::Coordinate(i));

@@ -1,21 +1,37 @@
 //! The fewest classes of things some of which are in conflict: a colouring of their graph.
 
-/// Branches that are looked at; beyond them the best that is known is taken.
-const BRANCHES: usize = 20_000;
+use crate::exact::Budget;
 
-/// A class for each vertex, none with two vertices in conflict: the fewest, where `BRANCHES` allow to prove that, else few.
+/// A class for each vertex, none with two vertices in conflict: the fewest, where the budget allows to prove that, else few.
 /// Classes are numbered by their first vertices.
-pub(super) fn fewest(conflicts: &[Vec<bool>]) -> Vec<usize> {
+pub(super) fn fewest(conflicts: &[Vec<bool>], budget: &Budget) -> Vec<usize> {
     let n = conflicts.len();
     let mut search = Search {
         conflicts,
         classes: vec![None; n],
         best: (0..n).collect(),
         count: n,
-        branches: BRANCHES,
+        least: clique(conflicts),
+        complete: false,
+        budget,
     };
     search.extend(0, 0);
     ordered(&search.best)
+}
+
+/// The size of a set of vertices that are all in conflict: there are as many classes at least.
+fn clique(conflicts: &[Vec<bool>]) -> usize {
+    let n = conflicts.len();
+    let grown = |first: usize| {
+        let mut members = vec![first];
+        for (v, row) in conflicts.iter().enumerate() {
+            if members.iter().all(|member| row[*member]) {
+                members.push(v);
+            }
+        }
+        members.len()
+    };
+    (0..n).map(grown).max().unwrap_or(0)
 }
 
 /// How many classes there are.
@@ -28,19 +44,27 @@ struct Search<'a> {
     classes: Vec<Option<usize>>,
     best: Vec<usize>,
     count: usize,
-    branches: usize,
+    /// No colouring has fewer classes.
+    least: usize,
+    /// Whether there is one; the first is made whatever it costs.
+    complete: bool,
+    budget: &'a Budget,
 }
 
 impl Search<'_> {
     /// All ways to go on after `done` vertices in `used` classes; the vertex with the fewest choices comes first.
     fn extend(&mut self, done: usize, used: usize) {
-        if used >= self.count || self.branches == 0 {
+        if self.count <= self.least || (self.complete && used >= self.count) {
             return;
         }
-        self.branches -= 1;
-        if done == self.classes.len() {
+        let n = self.classes.len();
+        let work = (n - done) * (1 + used) * n;
+        if self.budget.spend(work as u64).is_err() && self.complete {
+            return;
+        }
+        if done == n {
             self.best = self.classes.iter().flatten().copied().collect();
-            self.count = used;
+            (self.count, self.complete) = (used, true);
             return;
         }
         let open = (0..self.classes.len()).filter(|v| self.classes[*v].is_none());
@@ -101,7 +125,7 @@ mod tests {
             conflicts[i][j] = true;
             conflicts[j][i] = true;
         }
-        let found = fewest(&conflicts);
+        let found = fewest(&conflicts, &Budget::new(10_000_000));
         assert!(
             edges.iter().all(|(i, j)| found[*i] != found[*j]),
             "{found:?}"

@@ -1,4 +1,4 @@
-use super::{refusal, terms};
+use super::{Terms, refusal};
 use crate::compile::compile_spec;
 use crate::model::Model;
 
@@ -15,6 +15,13 @@ fn model(algebra: &str, state: &[&str], rest: &str) -> Model {
 
 fn body(rest: &str) -> Model {
     model(SO3, &["x", "y", "z"], rest)
+}
+
+/// The pieces of the first way.
+fn terms(model: &Model) -> Option<Terms> {
+    let searched = model.splitting();
+    let way = searched.ways.first()?;
+    Some(super::terms(model, searched, way))
 }
 
 fn pieces(model: &Model) -> Vec<Vec<String>> {
@@ -71,11 +78,11 @@ fn coordinates_that_commute_are_one_piece() {
 
 #[test]
 fn what_cannot_be_split_is_named() {
-    let body = body(r#""hamiltonian": "sin(x) + sqrt(1 + x^2 + y^2)""#);
+    let body = body(r#""hamiltonian": "sin(x) + sqrt(1 + x^2 + 2*y^2)""#);
     assert_eq!(terms(&body), None);
     let (reason, _) = refusal(&body, 2).expect("a reason");
     assert!(
-        reason.contains("`sqrt(x^2 + y^2 + 1)` contains `x` and `y`"),
+        reason.contains("`sqrt(x^2 + 2*y^2 + 1)` contains `x` and `y`"),
         "{reason}"
     );
     let cubic = self::body(r#""hamiltonian": "x*y*z""#);
@@ -92,4 +99,59 @@ fn divisors_have_values() {
         found.iter().flatten().all(|term| !term.contains("/a")),
         "{found:?}"
     );
+}
+
+const SE3: &str = r#"{"basis": ["J1", "J2", "J3", "P1", "P2", "P3"], "brackets": ["[J1, J2] = J3", "[J2, J3] = J1",
+    "[J3, J1] = J2", "[J1, P2] = P3", "[J2, P3] = P1", "[J3, P1] = P2", "[P1, J2] = P3", "[P2, J3] = P1", "[P3, J1] = P2"]}"#;
+
+fn top(rest: &str) -> Model {
+    model(SE3, &["a", "b", "c", "p", "q", "r"], rest)
+}
+
+/// Casimirs of the algebra are constants: they may be factors, and stand in functions.
+#[test]
+fn casimirs_are_arguments() {
+    let product = body(r#""hamiltonian": "(x^2 + y^2 + z^2)*z""#);
+    assert_eq!(pieces(&product).len(), 1);
+    let both = body(r#""hamiltonian": "(x^2 + y^2 + z^2)*z + cos(x^2 + y^2 + z^2)*x^2""#);
+    assert_eq!(pieces(&both).len(), 2);
+    let root = top(r#""hamiltonian": "sqrt(p^2 + q^2 + r^2)*c""#);
+    assert_eq!(pieces(&root).len(), 1);
+    let mixed = top(r#""hamiltonian": "exp(a*p + b*q + c*r)*r^2 + (p^2 + q^2 + r^2)^2*c""#);
+    assert_eq!(pieces(&mixed).len(), 1);
+    // one of the Casimir and a coordinate
+    let hidden = body(r#""hamiltonian": "(x^2 + y^2 + 2*z^2)*z + sqrt(1 + x^2 + y^2)""#);
+    assert_eq!(pieces(&hidden).len(), 1);
+    // the control: another function of the same degree
+    let other = body(r#""hamiltonian": "(x^2 + 2*y^2 + 3*z^2)*z""#);
+    assert_eq!(terms(&other), None);
+    // a function of Casimirs alone moves nothing
+    let idle = body(r#""hamiltonian": "sin(x^2 + y^2 + z^2)""#);
+    assert_eq!(pieces(&idle).len(), 0);
+}
+
+/// `|m|^2` is no Casimir of se(3), and its flow is exact.
+#[test]
+fn casimirs_of_subalgebras_are_arguments() {
+    let lagrange = top(r#""hamiltonian": "(a^2 + b^2)/2 + c^2/3 + r""#);
+    assert_eq!(pieces(&lagrange).len(), 2);
+    let kinetic = top(r#""hamiltonian": "(a^2 + b^2)/2 + c^2/3""#);
+    assert_eq!(pieces(&kinetic).len(), 1);
+    let heavy = top(r#""parameters": {"i": 1, "j": 2, "k": 3, "g": 1},
+            "hamiltonian": "a^2/(2*i) + b^2/(2*j) + c^2/(2*k) + g*r""#);
+    assert_eq!(pieces(&heavy).len(), 2);
+    let size = top(r#""hamiltonian": "sqrt(1 + a^2 + b^2 + c^2) + q""#);
+    assert_eq!(pieces(&size).len(), 2);
+    // the control: no function of the size
+    let other = top(r#""hamiltonian": "sqrt(1 + a^2 + 2*b^2 + 3*c^2) + q""#);
+    assert_eq!(terms(&other), None);
+}
+
+/// What is declared stays where nothing is gained.
+#[test]
+fn the_declared_pieces_are_kept() {
+    let body = body(r#""hamiltonian": "cos(x) + y^4 + z^3""#);
+    let searched = body.splitting();
+    assert!(searched.ways.len() == 1 && searched.ways[0].declared);
+    assert_eq!(pieces(&body).len(), 3);
 }

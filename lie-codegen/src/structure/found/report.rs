@@ -1,0 +1,73 @@
+//! What is said of the pieces, or of why there are none.
+
+use super::atoms::{Atom, Commuting};
+use super::{Found, Searched, additive};
+use crate::model::Model;
+use crate::structure::separable;
+use crate::symbolic::ExprId;
+
+/// H as the sum of its pieces.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Terms {
+    /// The terms of each piece.
+    pub pieces: Vec<Vec<String>>,
+    /// Whether a combination of Casimirs was taken from H.
+    pub shifted: bool,
+}
+
+/// The pieces of one way to split H, as text.
+pub fn terms(model: &Model, searched: &Searched, found: &Found) -> Terms {
+    let name = |symbol| model.symbol_name(symbol);
+    let text = |term: &ExprId| searched.graph.display(*term, &name);
+    let pieces = found.pieces.iter();
+    Terms {
+        pieces: pieces
+            .map(|piece| piece.terms.iter().map(text).collect())
+            .collect(),
+        shifted: found.rest.is_some(),
+    }
+}
+
+/// How many pieces there are.
+pub fn count(model: &Model) -> usize {
+    let ways = &model.splitting().ways;
+    ways.first().map_or(0, |way| way.pieces.len())
+}
+
+/// Why there are no pieces, with the nearest method for each order.
+pub fn refusal(model: &Model, order: u32) -> Option<(String, String)> {
+    let searched = model.splitting();
+    if !searched.ways.is_empty() {
+        return None;
+    }
+    let mut graph = searched.graph.clone();
+    let nearest = separable::nearest(order);
+    let Some(hamiltonian) = model.energy.expression() else {
+        return separable::refusal(model, order);
+    };
+    let algebra = model.bracket.algebra()?;
+    let Some(terms) = additive::terms(&mut graph, hamiltonian.value) else {
+        return Some((
+            "the Hamiltonian has too many terms to be split".to_owned(),
+            nearest,
+        ));
+    };
+    let commuting = Commuting::of(algebra, &mut graph, &[]);
+    let atoms = commuting.by_arguments(&graph, &terms);
+    let mut entangled = atoms.iter().filter_map(|atom| match atom {
+        Atom::Function(set, terms) => Some((commuting.mixed(set).first().copied()?, terms)),
+        Atom::Form { .. } => None,
+    });
+    let name = |symbol| model.symbol_name(symbol);
+    let reason = match entangled.next() {
+        Some(((i, j), terms)) => format!(
+            "no pieces with exact flows were found: `{}` contains `{}` and `{}`, which do not commute, and no \
+             combination of quadratic Casimirs, of the algebra or of a subalgebra, and no squares of linear forms change that",
+            graph.display(terms[0], &name),
+            model.coordinates[i].text,
+            model.coordinates[j].text,
+        ),
+        None => "no pieces with exact flows were found".to_owned(),
+    };
+    Some((reason, nearest))
+}
