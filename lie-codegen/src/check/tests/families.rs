@@ -261,11 +261,11 @@ fn an_initial_state_is_random_or_a_file() {
         ),
         (
             r#"{"npy": "a.npy", "seed": 1}"#,
-            "schema at \"seed\": unknown key `seed` in `initial`",
+            "schema at seed: unknown key `seed` in `initial`",
         ),
         (
             r#"{"random": "cube"}"#,
-            "schema at \"cube\": unknown distribution `cube`",
+            "schema at cube: unknown distribution `cube`",
         ),
     ] {
         expect(&ring(&[("initial", text)]), &[expected]);
