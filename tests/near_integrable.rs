@@ -110,7 +110,7 @@ fn errors_in_the_step_and_in_the_small_parameter() {
     eighth(slopes!(First, scheme(Scheme::Saba4), long, short));
     eighth(slopes!(Second, scheme(Scheme::Sbab4), long, short));
     let mclachlan = Splitting4::new().scheme(Scheme::McLachlan84).coordinate();
-    let short = (40, [2e-1, 5e-2]);
+    let short = (40, [2e-2, 5e-3]);
     eighth(slopes!(First, mclachlan, long, short));
 }
 
