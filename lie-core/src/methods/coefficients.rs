@@ -225,7 +225,10 @@ const MCLACHLAN_84: [Parts; 5] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Scheme::{BlanesMoan, KahanLi, Suzuki, SuzukiUmeno, TripleJump, Yoshida};
+    use Scheme::{
+        BlanesMoan, KahanLi, McLachlan84, Saba2, Saba4, Sbab2, Sbab4, Strang, Suzuki, SuzukiUmeno,
+        TripleJump, Yoshida,
+    };
 
     /// Sum of powers of the steps of a composition, and of their absolute values.
     fn sums(half: &[Parts], power: i32) -> (f64, f64) {
