@@ -19,7 +19,7 @@ const MAX_BITS_TOGETHER: u64 = 1 << 20;
 const MAX_SIZE: usize = 200_000;
 const TOO_LARGE: &str = "the expressions are too large";
 const FUNCTIONS: &str = "the functions are sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, \
-    asinh, acosh, atanh, cbrt, log1p, expm1, atan2, hypot";
+    asinh, acosh, atanh, cbrt, log1p, expm1, atan2, hypot, abs, min, max, piecewise";
 
 /// An expression in the arena: its normal form, and the form in which it was written.
 #[derive(Clone, Copy)]
@@ -155,6 +155,33 @@ impl<'a, 'b> Lowering<'a, 'b> {
         sum.map(|id| self.graph.pow(id, &half))
     }
 
+    /// `abs(x)`, `min(x, y)`, `max(x, y)`, `piecewise(x < y: a, b)`.
+    fn choice(&mut self, function: &str, arguments: &[Lowered], origin: Origin) -> Option<Lowered> {
+        let (condition, a, b) = match (function, arguments) {
+            ("min", [x, y]) => (self.difference(*y, *x), *y, *x),
+            (_, [x]) => (*x, x.map(|id| self.graph.neg(id)), *x),
+            (_, [x, y]) => (self.difference(*x, *y), *y, *x),
+            (_, [x, y, a, b, ..]) => (self.difference(*x, *y), *a, *b),
+            _ => return None,
+        };
+        if let Some(sign) = self.constant_sign(condition.normal, origin)? {
+            return Some(if sign < 0 { a } else { b });
+        }
+        let mut call = |g, a, b| self.graph.call(Function::Below, &[g, a, b]);
+        Some(Lowered {
+            normal: call(condition.normal, a.normal, b.normal),
+            written: call(condition.written, a.written, b.written),
+        })
+    }
+
+    fn difference(&mut self, a: Lowered, b: Lowered) -> Lowered {
+        let terms = |a, b| [(a, Rational::ONE), (b, Rational::MINUS_ONE)];
+        Lowered {
+            normal: self.graph.linear(&terms(a.normal, b.normal)),
+            written: self.graph.written_sum(&terms(a.written, b.written)),
+        }
+    }
+
     /// A quotient that is raised to a power stays one quantity.
     fn written_base(&mut self, id: ExprId) -> ExprId {
         let (_, product) = self.graph.coefficient(id);
@@ -271,8 +298,9 @@ impl Lower for Lowering<'_, '_> {
         let known = Function::from_name(&function.text);
         let arity = match known {
             Some(known) => known.arity(),
-            None if function.text == "sqrt" => 1,
-            None if function.text == "hypot" => 2,
+            None if matches!(&*function.text, "sqrt" | "abs") => 1,
+            None if matches!(&*function.text, "hypot" | "min" | "max") => 2,
+            None if function.text == "piecewise" => 4,
             None => return self.unknown_function(function, FUNCTIONS),
         };
         if arguments.len() != arity {
@@ -296,8 +324,11 @@ impl Lower for Lowering<'_, '_> {
             .collect::<Option<_>>()?;
         let known = match (known, lowered.as_slice()) {
             (Some(known), _) => known,
-            (None, [x, y]) => return Some(self.hypotenuse(*x, *y)),
-            (None, _) => return self.square_root(lowered[0], place, origin),
+            (None, [x, y]) if function.text == "hypot" => return Some(self.hypotenuse(*x, *y)),
+            (None, _) if function.text == "sqrt" => {
+                return self.square_root(lowered[0], place, origin);
+            }
+            (None, _) => return self.choice(&function.text, &lowered, origin),
         };
         if self.is_undefined(known, lowered[0].normal, place)? {
             return self.fail(

@@ -4,6 +4,7 @@ mod algebra;
 mod parameters;
 mod realization;
 mod run;
+mod tables;
 mod vectors;
 
 use quote::quote;
@@ -12,6 +13,7 @@ use super::json::{self, Type, Value};
 use super::object::{Object, list, string, wrong_type};
 use super::reader::{self, Entries, Line, Read};
 use super::schema::{self, Spec};
+use super::tables::Read as Table;
 use super::vectors::Declared;
 use super::{Names, Parsed, expression, families, file, item, number, prose};
 use crate::ast::{Expr, ExprKind, Name, Realization, RunOption};
@@ -195,6 +197,11 @@ impl Entries for Object<'_> {
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared> {
         let value = self.get("vectors");
         value.map_or_else(Vec::new, |v| vectors::read(v, names, report))
+    }
+
+    fn tables(&self, report: &mut Report) -> Vec<Table> {
+        let value = self.get("functions");
+        value.map_or_else(Vec::new, |v| tables::read(v, report))
     }
 
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {

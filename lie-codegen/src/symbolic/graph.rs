@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::{FxHashMap as HashMap, FxHashSet};
 
-use super::Function;
+use super::{Function, chosen};
 use crate::exact::Rational;
 
 /// A node of a [`Graph`].
@@ -342,7 +342,26 @@ impl Graph {
                 return self.number(value);
             }
         }
+        if let (Function::Below, [condition, branches @ ..]) = (function, arguments)
+            && let Some(place) = self.settled(*condition, branches)
+        {
+            return branches[place];
+        }
         self.intern(Node::Call(function, arguments.into()))
+    }
+
+    /// Which branch is taken, where that is known by the form of the condition.
+    fn settled(&self, condition: ExprId, branches: &[ExprId]) -> Option<usize> {
+        if branches[0] == branches[1] {
+            return Some(0);
+        }
+        let (coefficient, rest) = self.coefficient(condition);
+        let negative = match self.node(rest) {
+            Node::Number(value) => value.is_negative(),
+            Node::Symbol(symbol) if self.is_positive(*symbol) => coefficient.is_negative(),
+            _ => return None,
+        };
+        Some(chosen(negative) - 1)
     }
 
     /// The children of a node.
@@ -362,20 +381,36 @@ impl Graph {
         self.reached(roots, |_| true)
     }
 
+    /// What is evaluated whichever branches are taken, in ascending order.
+    pub fn certain(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        let children = |id: ExprId| match self.node(id) {
+            Node::Call(Function::Below, arguments) => vec![arguments[0]],
+            _ => self.children(id),
+        };
+        closure(roots.to_vec(), children)
+    }
+
+    /// What the values of the roots depend on where the conditions have these signs, in ascending order: of a choice one
+    /// branch, or both where the sign is not known.
+    pub fn taken(
+        &self,
+        roots: &[ExprId],
+        negative: &dyn Fn(ExprId) -> Option<bool>,
+    ) -> Vec<ExprId> {
+        let children = |id: ExprId| match self.node(id) {
+            Node::Call(Function::Below, arguments) => match negative(arguments[0]) {
+                Some(negative) => vec![arguments[0], arguments[chosen(negative)]],
+                None => arguments.to_vec(),
+            },
+            _ => self.children(id),
+        };
+        closure(roots.to_vec(), children)
+    }
+
     /// Everything of the kind that the roots are made of, by way of nodes of the kind, in ascending order.
     fn reached(&self, roots: &[ExprId], kind: impl Fn(ExprId) -> bool) -> Vec<ExprId> {
-        let mut stack: Vec<ExprId> = roots.iter().copied().filter(|id| kind(*id)).collect();
-        let mut seen: FxHashSet<ExprId> = stack.iter().copied().collect();
-        while let Some(id) = stack.pop() {
-            for child in self.children(id) {
-                if kind(child) && seen.insert(child) {
-                    stack.push(child);
-                }
-            }
-        }
-        let mut order: Vec<ExprId> = seen.into_iter().collect();
-        order.sort_unstable();
-        order
+        let of_kind = |parts: Vec<ExprId>| parts.into_iter().filter(|id| kind(*id)).collect();
+        closure(of_kind(roots.to_vec()), |id| of_kind(self.children(id)))
     }
 
     /// The coordinates in an expression, in ascending order.
@@ -398,4 +433,16 @@ impl Graph {
             })
             .collect()
     }
+}
+
+/// What is reached from some nodes, themselves included, in ascending order.
+fn closure(roots: Vec<ExprId>, children: impl Fn(ExprId) -> Vec<ExprId>) -> Vec<ExprId> {
+    let mut stack = roots;
+    let mut seen: FxHashSet<ExprId> = stack.iter().copied().collect();
+    while let Some(id) = stack.pop() {
+        stack.extend(children(id).into_iter().filter(|child| seen.insert(*child)));
+    }
+    let mut order: Vec<ExprId> = seen.into_iter().collect();
+    order.sort_unstable();
+    order
 }

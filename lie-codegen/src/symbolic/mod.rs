@@ -11,5 +11,5 @@ mod written;
 #[cfg(test)]
 mod tests;
 
-pub use function::Function;
+pub use function::{Function, chosen};
 pub use graph::{ExprId, Graph, Node, Symbol};

@@ -39,7 +39,7 @@ impl<'a> Points<'a> {
 
     /// The points for expressions that consist of these parts: those in the domain that reach a side of a branch
     /// that no earlier one reaches, and a few others.
-    pub fn of(&mut self, parts: &[ExprId]) -> Vec<usize> {
+    pub fn of(&mut self, roots: &[ExprId], parts: &[ExprId]) -> Vec<usize> {
         let graph = self.graph;
         let branches = branches(graph, parts);
         let most = if parts.len() > LARGE { ENOUGH } else { POINTS };
@@ -54,7 +54,9 @@ impl<'a> Points<'a> {
             }
             self.evaluate(parts, point);
             let values = &self.values[point];
-            if !parts.iter().all(|id| values[id].is_finite()) {
+            let negative = |id: ExprId| Some(values[&id] < 0.0);
+            let mut taken = graph.taken(roots, &negative).into_iter();
+            if !taken.all(|id| values[&id].is_finite()) {
                 continue;
             }
             let sides = branches.iter().map(|id| (*id, values[id] > 0.0));
