@@ -5,6 +5,7 @@ mod display;
 mod evaluate;
 mod function;
 mod graph;
+mod parts;
 mod power;
 mod written;
 
