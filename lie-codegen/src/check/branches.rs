@@ -27,7 +27,7 @@ fn has_gap(graph: &Graph, function: ExprId) -> bool {
     let joints = smoothness::of_function(graph, function, &|_| String::new());
     joints
         .iter()
-        .any(|joint| !joint.jump.is_some_and(|jump| jump > 0))
+        .any(|joint| joint.jump.is_none_or(|jump| jump == 0))
 }
 
 fn varies(graph: &Graph, id: ExprId) -> bool {

@@ -93,6 +93,8 @@ pub struct Graph {
     pub(super) written: HashMap<ExprId, ExprId>,
     operands: usize,
     positive: BTreeSet<Symbol>,
+    /// Whether there are choices.
+    pub(super) choices: bool,
 }
 
 /// A sum under construction.
@@ -347,6 +349,7 @@ impl Graph {
         {
             return branches[place];
         }
+        self.choices |= function == Function::Below;
         self.intern(Node::Call(function, arguments.into()))
     }
 

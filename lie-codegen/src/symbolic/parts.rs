@@ -34,6 +34,11 @@ impl Graph {
         closure(roots.to_vec(), children)
     }
 
+    /// Whether some expression of the arena is a choice.
+    pub fn has_choices(&self) -> bool {
+        self.choices
+    }
+
     /// What the values of the roots depend on where the conditions have these signs, in ascending order: of a choice one
     /// branch, or both where the sign is not known.
     pub fn taken(

@@ -7,6 +7,7 @@
 mod points;
 mod residues;
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::sync::OnceLock;
 
@@ -157,7 +158,10 @@ impl<'a> Confirmation<'a> {
             }
         }
         let negative = |id: ExprId| Some(known.get(&id)?.as_ref()?.sign()? < 0);
-        let taken = graph.taken(roots, &negative);
+        let taken = match graph.has_choices() {
+            true => Cow::from(graph.taken(roots, &negative)),
+            false => Cow::from(parts),
+        };
         taken.iter().all(|part| known[part].is_some())
     }
 }

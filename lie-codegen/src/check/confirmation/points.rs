@@ -1,5 +1,6 @@
 //! Which points are looked at: some in the domain, on both sides of each branch where there are such.
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 use super::branches;
@@ -55,8 +56,11 @@ impl<'a> Points<'a> {
             self.evaluate(parts, point);
             let values = &self.values[point];
             let negative = |id: ExprId| Some(values[&id] < 0.0);
-            let mut taken = graph.taken(roots, &negative).into_iter();
-            if !taken.all(|id| values[&id].is_finite()) {
+            let taken = match graph.has_choices() {
+                true => Cow::from(graph.taken(roots, &negative)),
+                false => Cow::from(parts),
+            };
+            if !taken.iter().all(|id| values[id].is_finite()) {
                 continue;
             }
             let sides = branches.iter().map(|id| (*id, values[id] > 0.0));

@@ -102,7 +102,7 @@ fn the_end_of_a_table_is_no_joint_but_one_of_a_continued_table() {
         found.into_iter().map(|j| (j.place, j.jump)).collect()
     };
     let knots = ("x = 0, 1/2, 1, 2".to_owned(), Some(3));
-    assert_eq!(places(""), [knots.clone()]);
+    assert_eq!(places(""), std::slice::from_ref(&knots));
     let constant = places(r#", "outside": "constant""#);
     assert!(
         constant.contains(&knots) && constant.contains(&("x = -2, 4".to_owned(), Some(1))),

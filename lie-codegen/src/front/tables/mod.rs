@@ -146,7 +146,8 @@ impl Tables {
     /// Whether nothing stood against it.
     fn write_out(&self, expression: &mut Expr, left: &mut usize) -> bool {
         let mut all = |parts: &mut dyn Iterator<Item = &mut Expr>| {
-            parts.fold(true, |sound, part| self.write_out(part, left) && sound)
+            let mut sound = parts.map(|part| self.write_out(part, left));
+            sound.all(|sound| sound)
         };
         let sound = match &mut expression.kind {
             ExprKind::Number(_) | ExprKind::Name { .. } => return true,
