@@ -124,6 +124,7 @@ fn examine<P: Lift<f64> + Clone + 'static>(
         options: Options {
             seed: 3,
             step: None,
+            reach: None,
         },
     };
     let line = serde_json::to_string(&request).expect("text");

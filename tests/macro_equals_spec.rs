@@ -111,6 +111,25 @@ fn vectors(declared: &Value) -> String {
     format!("vectors {{{} }}\n", each.collect::<String>())
 }
 
+/// The block of functions by tables.
+fn functions(declared: &Value) -> String {
+    let declared = declared.as_object().into_iter().flatten();
+    let each = declared.map(|(name, table)| {
+        let points = table["table"].as_array().into_iter().flatten();
+        let points: Vec<String> = points.map(|point| format!("({})", list(point))).collect();
+        let mut entry = format!(" {name} = table [{}]", points.join(", "));
+        for key in ["degree", "outside"] {
+            match table.get(key) {
+                Some(Value::String(word)) => entry += &format!(", {key} {word}"),
+                Some(number) => entry += &format!(", {key} {number}"),
+                None => {}
+            }
+        }
+        entry + ";"
+    });
+    format!("functions {{{} }}\n", each.collect::<String>())
+}
+
 /// The body of the macro that declares what a spec declares.
 fn declaration(spec: &Map<String, Value>) -> String {
     let text = |key: &str| spec[key].as_str().expect("a string");
@@ -146,6 +165,7 @@ fn declaration(spec: &Map<String, Value>) -> String {
     }
     body += " }\n";
     body += &spec.get("vectors").map_or_else(String::new, vectors);
+    body += &spec.get("functions").map_or_else(String::new, functions);
     for definition in spec.get("let").into_iter().flat_map(strings) {
         body += &format!("let {definition};\n");
     }
@@ -229,6 +249,52 @@ fn macro_and_spec_give_the_same_tokens() {
             "{}",
             path.display()
         );
+    }
+}
+
+#[test]
+fn tables_and_cases_are_the_same_in_both() {
+    for file in ["table", "cases"] {
+        let path = format!("tests/data/declarations/pass/{file}.json");
+        let mut spec = read(Path::new(&path));
+        spec.insert("methods".into(), serde_json::json!(["gauss4"]));
+        let body = declaration(&spec);
+        let (one, other) = (
+            without_docs(from_spec(&spec)).to_string(),
+            without_docs(from_macro(&body)).to_string(),
+        );
+        assert!(!other.contains("compile_error"), "{body}\n{other}");
+        assert_eq!(one, other, "{path}");
+        let changed = without_docs(from_macro(
+            &body.replacen("<", ">=", 1).replacen("(2, 3)", "(2, 4)", 1),
+        ));
+        assert_ne!(one, changed.to_string(), "{path}");
+    }
+}
+
+#[test]
+fn mistakes_in_tables_of_a_macro_have_remedies() {
+    let of = |table: &str| {
+        let body = format!(
+            "pub system Broken; algebra = so(3); state x, y, z; functions {{ f = {table}; }} hamiltonian = x^2 + f(y);"
+        );
+        from_macro(&body).to_string()
+    };
+    assert!(!of("table [(0, 0), (1, 1/2)], degree 1, outside constant").contains("compile_error"));
+    for (table, says) in [
+        ("x^2", "`f` is no table"),
+        ("table [0, 1]", "`f` is no table"),
+        ("table [(0, 0), (1, 1)], order 1", "`f` is no table"),
+        (
+            "table [(0, 0), (1, 1)], degree 1, outside mirror",
+            "does not say what is outside",
+        ),
+        ("table [(1, 0), (0, 1)], degree 1", "do not ascend here"),
+        ("table [(0, 0), (1, 1)]", "too few for degree 3"),
+    ] {
+        let text = of(table);
+        assert_eq!(text.matches("compile_error").count(), 1, "{table}: {text}");
+        assert!(text.contains(says), "{table}: {text}");
     }
 }
 

@@ -20,6 +20,7 @@ FUNCTIONS = {
     "asinh": (1, sp.asinh), "acosh": (1, sp.acosh), "atanh": (1, sp.atanh), "cbrt": (1, lambda x: sp.sign(x) * sp.Abs(x) ** sp.Rational(1, 3)),
     "log1p": (1, lambda x: sp.log(1 + x)), "expm1": (1, lambda x: sp.exp(x) - 1),
     "atan2": (2, sp.atan2), "hypot": (2, lambda x, y: sp.sqrt(x**2 + y**2)),
+    "abs": (1, sp.Abs), "min": (2, sp.Min), "max": (2, sp.Max),
 }
 TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)|([^\W\d]\w*)|(.))", re.DOTALL)
 

@@ -101,6 +101,7 @@ kinds! {
     Checkpoint "checkpoint" "A checkpoint does not fit.",
     Limit "limit" "A size limit is exceeded, or what the compiler can be trusted with.",
     Unused "unused" "Only a warning: a parameter or an abbreviation that nothing uses.",
+    Smoothness "smoothness" "Only a warning: the Hamiltonian or its gradient jumps where branches meet.",
     Motionless "motionless" "Only a warning: all brackets are zero, or the Hamiltonian is constant.",
 }
 impl fmt::Display for Kind {

@@ -1,6 +1,7 @@
 //! `lie check`: what a spec declares, and what can be done with it.
 
 mod casimirs;
+mod joints;
 mod motions;
 mod splitting;
 mod structure;
@@ -12,6 +13,7 @@ use lie_codegen::check::{Effort, motions as search};
 use lie_codegen::compile;
 use lie_codegen::methods::{Choice, applicability, refusal};
 use lie_codegen::model::{CasimirKind, Model};
+use lie_codegen::structure::smoothness::{self, Joint};
 use lie_codegen::structure::{algebra, lifts};
 use serde_json::{Value, json};
 
@@ -95,6 +97,7 @@ struct Report {
     algebra: Option<algebra::Report>,
     motions: Result<search::Motions, &'static str>,
     splitting: Result<splitting::Splitting, String>,
+    joints: Vec<Joint>,
 }
 
 impl Report {
@@ -117,6 +120,7 @@ impl Report {
                 },
             ),
             splitting: splitting::of(model),
+            joints: smoothness::joints(model),
         }
     }
 
@@ -167,6 +171,8 @@ impl Report {
             "killing": self.algebra.as_ref().map(structure::killing),
             "splitting": splitting::json(&self.splitting),
             "splitting_cost": splitting::cost(&self.splitting),
+            "joints": joints::json(&self.joints),
+            "orders": joints::orders(&self.joints, &self.methods),
             "operations": operations,
             "methods": methods,
         })
@@ -185,7 +191,8 @@ impl Report {
         motions::write(model, &self.motions, text)?;
         splitting::write(model, &self.splitting, text)?;
         self.write_operations(text)?;
-        self.write_methods(model, text)
+        self.write_methods(model, text)?;
+        joints::write(&self.joints, &self.methods, text)
     }
 
     /// The operations of each kernel.

@@ -6,6 +6,7 @@
 //! functions are continuous where they are real.
 
 use crate::exact::Rational;
+use crate::structure::smoothness;
 use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
 
 /// Whether a function may jump between points at which it is defined.
@@ -18,6 +19,15 @@ pub fn jumps(graph: &Graph, function: ExprId) -> bool {
             Node::Call(Function::Atan, arguments) => has_pole(graph, arguments[0]),
             _ => false,
         })
+        || has_gap(graph, function)
+}
+
+/// Whether branches are not known to meet at their joints.
+fn has_gap(graph: &Graph, function: ExprId) -> bool {
+    let joints = smoothness::of_function(graph, function, &|_| String::new());
+    joints
+        .iter()
+        .any(|joint| joint.jump.is_none_or(|jump| jump == 0))
 }
 
 fn varies(graph: &Graph, id: ExprId) -> bool {
@@ -80,6 +90,9 @@ mod tests {
                 false,
             ),
             ("1/x + tan(y)", false),
+            ("abs(x) + max(y, z)", false),
+            ("piecewise(x < 0: y, y + x)", false),
+            ("piecewise(x < 0: y, z)", true),
         ] {
             let hamiltonian = format!("{text:?}");
             let spec = so3(&[

@@ -136,8 +136,10 @@ fn functions(model: &Model, scratch: &mut Graph) -> Vec<(ExprId, String)> {
 fn first_part(graph: &mut Graph, root: ExprId, value: &dyn Fn(Symbol) -> f64) -> ExprId {
     let parts = graph.dependencies(&[root]);
     let values = graph.evaluate_all(&parts, value);
-    let first = values.iter().position(|v| !v.is_finite());
-    culprit(graph, first.map_or(root, |i| parts[i]), value)
+    let at = |id: ExprId| Some(values[parts.binary_search(&id).ok()?]);
+    let taken = graph.taken(&[root], &|id| Some(at(id)? < 0.0)).into_iter();
+    let mut not_finite = taken.filter(|id| at(*id).is_some_and(|v| !v.is_finite()));
+    culprit(graph, not_finite.next().unwrap_or(root), value)
 }
 
 /// A group element off the group by more than the digits that someone may have left out. Known for groups of

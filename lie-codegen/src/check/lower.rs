@@ -1,5 +1,6 @@
 //! Lowering of the syntax tree to the symbolic arena.
 
+mod choices;
 mod real;
 
 use std::collections::HashMap;
@@ -19,7 +20,7 @@ const MAX_BITS_TOGETHER: u64 = 1 << 20;
 const MAX_SIZE: usize = 200_000;
 const TOO_LARGE: &str = "the expressions are too large";
 const FUNCTIONS: &str = "the functions are sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, \
-    asinh, acosh, atanh, cbrt, log1p, expm1, atan2, hypot";
+    asinh, acosh, atanh, cbrt, log1p, expm1, atan2, hypot, abs, min, max, piecewise";
 
 /// An expression in the arena: its normal form, and the form in which it was written.
 #[derive(Clone, Copy)]
@@ -271,8 +272,9 @@ impl Lower for Lowering<'_, '_> {
         let known = Function::from_name(&function.text);
         let arity = match known {
             Some(known) => known.arity(),
-            None if function.text == "sqrt" => 1,
-            None if function.text == "hypot" => 2,
+            None if matches!(&*function.text, "sqrt" | "abs") => 1,
+            None if matches!(&*function.text, "hypot" | "min" | "max") => 2,
+            None if function.text == "piecewise" => 4,
             None => return self.unknown_function(function, FUNCTIONS),
         };
         if arguments.len() != arity {
@@ -296,8 +298,11 @@ impl Lower for Lowering<'_, '_> {
             .collect::<Option<_>>()?;
         let known = match (known, lowered.as_slice()) {
             (Some(known), _) => known,
-            (None, [x, y]) => return Some(self.hypotenuse(*x, *y)),
-            (None, _) => return self.square_root(lowered[0], place, origin),
+            (None, [x, y]) if function.text == "hypot" => return Some(self.hypotenuse(*x, *y)),
+            (None, _) if function.text == "sqrt" => {
+                return self.square_root(lowered[0], place, origin);
+            }
+            (None, _) => return self.choice(&function.text, &lowered, origin),
         };
         if self.is_undefined(known, lowered[0].normal, place)? {
             return self.fail(

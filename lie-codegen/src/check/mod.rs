@@ -45,6 +45,7 @@ mod sample;
 mod series;
 mod sign;
 mod size;
+mod smooth;
 mod system;
 mod velocity;
 
@@ -92,6 +93,9 @@ pub fn check_with(declaration: &Declaration, effort: Effort, report: &mut Report
         idle::unused(declaration, &mut own);
     } else if let Some(model) = &model {
         idle::check(declaration, model, &mut own);
+    }
+    if let Some(model) = &model {
+        smooth::check(declaration, model, &mut own);
     }
     let failed = own.has_errors();
     let diagnostics = own.into_diagnostics();

@@ -109,7 +109,7 @@ pub fn independent(
 
 fn multivalued_casimir(name: &str, origin: Origin) -> Diagnostic {
     let message = format!(
-        "the Casimir `{name}` is multi-valued: it jumps with an angle in it, although it is constant between the jumps"
+        "the Casimir `{name}` is multi-valued: it may jump, with an angle or between branches, although it is constant between the jumps"
     );
     Diagnostic::new(Kind::Casimir, origin, message)
         .help("its column is written, but no drift is measured; declare a function of it without jumps, such as its sine, to follow the drift")

@@ -15,6 +15,7 @@
 //! | `y = atanh(u)`, `asinh(u)`, `acosh(u)` | `w Dy = Du`, `w = 1 - u u`, `w w = u u + 1`, `w w = u u - 1` |
 //! | `y = cbrt(u)`, `log1p(u)`, `expm1(u)` | as `u^(1/3)`, `log(1 + u)`, `exp(u)` from order 1 on |
 //! | `y = atan2(u, v)` | `w Dy = v Du - u Dv`, `w = u u + v v` |
+//! | `y = below(g, u, v)` | `y = u` where `g_0 < 0`, else `y = v` |
 
 mod functions;
 

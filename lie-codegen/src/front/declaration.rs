@@ -4,6 +4,7 @@ mod block;
 mod entry;
 mod family;
 mod statement;
+mod tables;
 mod vectors;
 
 use proc_macro2::{Span, TokenStream};
@@ -12,6 +13,7 @@ use self::block::{algebra, is_named, names, parameters, realization};
 use self::entry::{Entry, compact, inside};
 use self::statement::{Statement, statements};
 use super::reader::{self, Entries, Line, Read};
+use super::tables::Read as Table;
 use super::token::{Delimiter, Token, TokenKind, render, span, split_commas};
 use super::vectors::Declared;
 use super::{Body, Names, Parsed, item, rust};
@@ -301,6 +303,11 @@ impl Entries for Parts<'_> {
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared> {
         let block = self.first("vectors").and_then(|s| s.block(report));
         vectors::read(&block.unwrap_or_default(), names, report)
+    }
+
+    fn tables(&self, report: &mut Report) -> Vec<Table> {
+        let block = self.first("functions").and_then(|s| s.block(report));
+        tables::read(&block.unwrap_or_default(), report)
     }
 
     fn initial(&self, _: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {

@@ -33,10 +33,14 @@ pub fn begins_sign(token: &Token) -> bool {
 
 /// `x^2 + y^2 = 1` for a Casimir; whether there is no second side.
 pub fn one_side(tokens: &[Token], report: &mut Report) -> bool {
-    let equals = tokens.iter().position(|token| token.is('='));
-    let Some(equals) = equals.filter(|at| *at > 0) else {
+    let mut cursor = Cursor::new(tokens);
+    // `<=` stands in parentheses
+    let equals = cursor
+        .take_until(|c| c.peek().is_some_and(|t| t.is('=')))
+        .len();
+    if equals == 0 || !cursor.peek().is_some_and(|t| t.is('=')) {
         return true;
-    };
+    }
     let (left, right) = tokens.split_at(equals);
     let place = span(right).unwrap_or(right[0].origin);
     let right = &right[right.iter().take_while(|t| t.is('=')).count()..];

@@ -8,6 +8,7 @@
 //! exponent = "-" exponent | power
 //! primary  = number | name | name "[" index "]" | function "(" sum ("," sum)* ")" | "(" sum ")"
 //!          | "sum" "(" name "in" sum ".." sum ":" sum ")"
+//!          | "piecewise" "(" (sum ("<" | "<=" | ">" | ">=") sum ":" sum ",")+ sum ")"
 //! ```
 //!
 //! Rust's own expression parser gives `x^2/I1 + y` another meaning (`^` binds weaker than `+`
@@ -54,14 +55,15 @@ pub fn parse(tokens: &[Token], names: &Names, report: &mut Report) -> Option<Exp
     }
     let expression = expression.filter(|_| !parser.failed)?;
     let taken = names.may_be_indexed() || families::refuse(&expression, report);
-    vectors::expand(taken.then_some(expression)?, names.vectors(), report)
+    let scalar = vectors::expand(taken.then_some(expression)?, names.vectors(), report)?;
+    names.tables().expand(scalar, report)
 }
 
 /// The parser's state. Methods return `None` after a mistake that they reported and behind which
 /// the text cannot be read.
 pub(super) struct Parser<'a> {
     pub(super) cursor: Cursor<'a>,
-    names: &'a Names,
+    pub(super) names: &'a Names,
     report: &'a mut Report,
     depth: usize,
     /// Whether `..` may follow a number, as in the bounds of an indexed sum.

@@ -12,8 +12,14 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("power", "%A^%B"),
     ("square", "%A^2"),
     ("cube", "%A^3"),
-    ("abs", "sqrt(%A^2)"),
-    ("fabs", "sqrt(%A^2)"),
+    ("fabs", "abs(%a)"),
+    ("fmin", "min(%a, %b)"),
+    ("fmax", "max(%a, %b)"),
+    ("minimum", "min(%a, %b)"),
+    ("maximum", "max(%a, %b)"),
+    ("sign", "piecewise(%a < 0: -1, 1)"),
+    ("sgn", "piecewise(%a < 0: -1, 1)"),
+    ("heaviside", "piecewise(%a < 0: 0, 1)"),
     ("sec", "1/cos(%a)"),
     ("csc", "1/sin(%a)"),
     ("cosec", "1/sin(%a)"),
@@ -42,24 +48,12 @@ const FUNCTIONS: &[(&str, &str)] = &[
 /// Functions that the grammar does not have, by the reason.
 const WITHOUT: &[(&[&str], &str)] = &[
     (
-        &[
-            "max",
-            "min",
-            "sign",
-            "sgn",
-            "floor",
-            "ceil",
-            "round",
-            "mod",
-            "rem",
-            "heaviside",
-            "step",
-            "if",
-            "where",
-            "piecewise",
-            "clip",
-        ],
-        "a Hamiltonian is smooth: write one formula that holds everywhere",
+        &["floor", "ceil", "round", "mod", "rem"],
+        "a Hamiltonian jumps nowhere: cases that fit together are written `piecewise(x < 0: -x, x)`",
+    ),
+    (
+        &["step", "if", "ifelse", "where", "select", "clip", "clamp"],
+        "cases are written `piecewise(x < 0: -x, x)`; there are min(a, b) and max(a, b) too",
     ),
     (
         &[
@@ -100,10 +94,10 @@ const WITHOUT: &[(&[&str], &str)] = &[
 const SIGNS: &[(&str, &str)] = &[
     (
         "<>?",
-        "there are no comparisons: a Hamiltonian is one formula that holds everywhere",
+        "a comparison stands in `piecewise` alone, as in `piecewise(x < 0: -x, x)`",
     ),
     ("&", "there is no logic: a Hamiltonian is one formula"),
-    ("|", "write the absolute value of x as `sqrt(x^2)`"),
+    ("|", "write the absolute value of x as `abs(x)`"),
     ("!", "there is no factorial: write its value"),
     (
         "@",

@@ -85,6 +85,11 @@ pub fn unexpected(token: &Token, before: Option<&Token>, rest: &[Token]) -> Diag
     Diagnostic::new(Kind::Syntax, token.origin, message).help(help)
 }
 
+/// A token as text.
+pub fn render_one(token: &Token) -> String {
+    render(std::slice::from_ref(token))
+}
+
 /// `**` and `//`
 fn doubled(sign: char) -> Option<(String, String)> {
     let help = match sign {
@@ -107,7 +112,7 @@ fn comma(
     let help = if number(before) && rest.first().is_some_and(number) {
         "a decimal number has a point, as in `0.5`"
     } else {
-        "a comma stands between the two arguments of `atan2` only"
+        "a comma stands between the arguments of a function only"
     };
     Some((format!("unexpected `,`{after}"), help.into()))
 }

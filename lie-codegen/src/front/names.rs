@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
+use super::tables::Tables;
 use super::vectors::Vectors;
 use unicode_normalization::{IsNormalized, UnicodeNormalization as _, is_nfc_quick};
 
@@ -28,7 +29,15 @@ pub const FUNCTIONS: &[(&str, usize)] = &[
     ("atanh", 1),
     ("hypot", 2),
     ("atan2", 2),
+    ("abs", 1),
+    ("min", 2),
+    ("max", 2),
+    // of the tree: `x < y: a, b`
+    (PIECEWISE, 4),
 ];
+
+/// The function whose arguments are cases.
+pub const PIECEWISE: &str = "piecewise";
 
 /// A name in normalisation form C, in which rustc compares identifiers: `é` is one name, whether it
 /// is written as one character or as two.
@@ -58,6 +67,7 @@ pub struct Names {
     elsewhere: BTreeSet<String>,
     indexed: bool,
     vectors: Rc<Vectors>,
+    tables: Rc<Tables>,
 }
 
 impl Names {
@@ -87,6 +97,18 @@ impl Names {
         self.here.extend(vectors.names().cloned());
         self.vectors = Rc::new(vectors);
         self
+    }
+
+    /// Adds functions by tables.
+    #[must_use]
+    pub(super) fn with_tables(mut self, tables: Tables) -> Self {
+        self.tables = Rc::new(tables);
+        self
+    }
+
+    /// The functions by tables.
+    pub(super) fn tables(&self) -> &Tables {
+        &self.tables
     }
 
     /// The vectors and matrices that may stand in the expression.
@@ -122,6 +144,7 @@ impl<S: Into<String>> FromIterator<S> for Names {
             elsewhere: BTreeSet::new(),
             indexed: false,
             vectors: Rc::default(),
+            tables: Rc::default(),
         }
     }
 }

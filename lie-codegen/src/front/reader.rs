@@ -4,6 +4,7 @@
 
 use std::borrow::Cow;
 
+use super::tables::{self, Tables};
 use super::token::Token;
 use super::vectors::{self, Declared};
 use super::{Body, Names, Parsed, expression, item};
@@ -73,6 +74,8 @@ pub trait Entries {
     fn realization(&self, parameters: &[String], report: &mut Report) -> Option<Realization>;
     /// The vectors and matrices, whose entries may use `names`.
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared>;
+    /// The functions by tables.
+    fn tables(&self, report: &mut Report) -> Vec<tables::Read>;
     /// The initial state in these names.
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr>;
     /// The initial state of a family.
@@ -137,6 +140,8 @@ fn remainder<E: Entries>(
     let names = in_functions(entries, parsed, &velocity, &lets)
         .with_elsewhere(basis.flat_map(|algebra| texts(&algebra.basis)));
     let names = with_vectors(entries, parsed, names, report);
+    let tables = Tables::new(entries.tables(report), &names, report);
+    let names = names.with_tables(tables);
     let structure = structure(entries, algebra, &names, report);
     let lets = lets.iter();
     let lets = lets.filter_map(|line| abbreviation(line, &names, report));

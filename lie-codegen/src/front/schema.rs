@@ -63,6 +63,8 @@ objects! {
         /// functions `dot(v, w)`, `cross(v, w)`, `norm(v)`, `norm2(v)`, `A*v` and `quad(A, v)` stand for what they are in the
         /// entries.
         "vectors" vectors: Option<BTreeMap<String, VectorOrMatrix>>,
+        /// Functions of one argument by name, which the other functions may call: splines through the points of a table.
+        "functions" functions: Option<BTreeMap<String, TableFunction>>,
         /// Abbreviations `NAME = expression`, each may use the earlier ones.
         "let" lets: Option<Vec<String>>,
         /// The Hamiltonian, an expression in state, parameters and abbreviations.
@@ -88,6 +90,18 @@ objects! {
         "initial" initial: Option<Initial>,
         /// Defaults of `lie run`.
         "run" run: Option<Run>,
+    }
+
+    /// A function by a table: the spline of an odd degree through its points, with continuous derivatives below that
+    /// degree. The points next to the ends are no knots ("not-a-knot").
+    struct TableFunction requires ["table"] {
+        /// The points `[x, y]`, with ascending x.
+        "table" table: Vec<[Constant; 2]>,
+        /// The degree of the spline: 1, 3 (the default), 5 or 7.
+        "degree" degree: Option<u32>,
+        /// What the function is outside of the table: `refuse` (the default: a step that leaves the table fails),
+        /// `constant` or `linear`.
+        "outside" outside: Option<Outside>,
     }
 
     /// A random initial state of a family.
@@ -219,6 +233,19 @@ pub enum Initial {
     Random(Random),
     /// From a file.
     Numbers(Numbers),
+}
+
+/// What a function by a table is outside of it.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "lowercase")]
+#[expect(dead_code, reason = "the variants describe the schema")]
+pub enum Outside {
+    /// Not a number: a step that leaves the table fails.
+    Refuse,
+    /// The value at the end.
+    Constant,
+    /// The tangent at the end.
+    Linear,
 }
 
 /// How the sites of a random state are distributed.

@@ -5,6 +5,7 @@ mod parameters;
 mod realization;
 mod run;
 mod start;
+mod tables;
 mod vectors;
 
 use quote::quote;
@@ -13,6 +14,7 @@ use super::json::{self, Type, Value};
 use super::object::{Object, list, string, wrong_type};
 use super::reader::{self, Entries, Line, Read};
 use super::schema::Spec;
+use super::tables::Read as Table;
 use super::vectors::Declared;
 use super::{Names, Parsed, expression, families, file, item, number, prose};
 use crate::ast::{Expr, ExprKind, Name, Realization, RunOption, Start};
@@ -169,6 +171,11 @@ impl Entries for Object<'_> {
     fn vectors(&self, names: &Names, report: &mut Report) -> Vec<Declared> {
         let value = self.get("vectors");
         value.map_or_else(Vec::new, |v| vectors::read(v, names, report))
+    }
+
+    fn tables(&self, report: &mut Report) -> Vec<Table> {
+        let value = self.get("functions");
+        value.map_or_else(Vec::new, |v| tables::read(v, report))
     }
 
     fn initial(&self, state: &[Name], names: &Names, report: &mut Report) -> Vec<Expr> {

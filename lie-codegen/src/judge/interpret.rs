@@ -52,6 +52,18 @@ impl<T: Number> Scope<T> {
                     ("sqrt", [x]) => x.power(0.5),
                     ("hypot", [x, y]) => x.mul(x).add(&y.mul(y)).power(0.5),
                     ("atan2", [y, x]) => y.atan2(x),
+                    ("abs", [x]) if x.value() < 0.0 => x.neg(),
+                    ("abs", [x]) => x.clone(),
+                    ("min", [x, y]) if y.value() < x.value() => y.clone(),
+                    ("max", [x, y]) if x.value() < y.value() => y.clone(),
+                    ("min" | "max", [x, _]) => x.clone(),
+                    ("piecewise", [x, y, a, b]) => {
+                        if x.value() < y.value() {
+                            a.clone()
+                        } else {
+                            b.clone()
+                        }
+                    }
                     (name, [x]) => match Function::from_name(name) {
                         Some(function) => x.call(function),
                         None => T::rounded(f64::NAN, 0.0),

@@ -126,7 +126,7 @@ impl Number for Series {
             }
             Function::Atanh => self.integral(first, &Self::one().div(&Self::one().sub(&square()))),
             // not in the grammar
-            Function::Stumpff(_) | Function::Phi(_) | Function::Atan2 => {
+            Function::Stumpff(_) | Function::Phi(_) | Function::Atan2 | Function::Below => {
                 Self::rounded(f64::NAN, 0.0)
             }
         }

@@ -162,6 +162,19 @@ fn kernels_with_every_inverse_and_root_are_those_of_the_declaration() {
 }
 
 #[test]
+fn kernels_with_branches_are_those_of_the_declaration() {
+    let text = r#"{
+        "format": 1, "name": "Branches", "algebra": "so(3)", "state": ["x", "y", "z"],
+        "parameters": {"a": 1.3},
+        "hamiltonian":
+            "abs(x - 2*y)*z + max(x*y, z)^2 + min(a*x, y)*x + piecewise(x < -1: y^2, x*y <= 1/9: exp(x), y >= z: z^3, log(3 + x))",
+        "casimirs": ["c = abs(x^2 + y^2 + z^2 - a)"],
+        "initial": ["1/2", "-2/3", "3/4"]
+    }"#;
+    assert!(check_text("branches", text) >= 14);
+}
+
+#[test]
 fn jets_have_the_derivatives_of_all_functions() {
     use crate::symbolic::Function;
     use number::Number;

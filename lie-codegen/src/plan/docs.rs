@@ -113,7 +113,7 @@ pub(super) fn docs(model: &Model) -> Vec<String> {
     }
     for casimir in model.casimirs.iter().filter(|c| c.multivalued) {
         docs.push(format!(
-            "`{}` is multi-valued: an angle in it jumps, and its drift is not measured.",
+            "`{}` is multi-valued: it may jump, and its drift is not measured.",
             casimir.name
         ));
     }

@@ -214,6 +214,7 @@ fn write<P>(operation: &Operation<P>, get: &mut dyn FnMut(&Value<P>) -> Text) ->
             let exponent = number(exponent);
             of_atom(&get(a), |inner| quote! { #inner.powf(#exponent) })
         }
+        Operation::Call(Function::Below, arguments) => choice(arguments, get),
         Operation::Call(function, arguments) => {
             let name = ident(function.name());
             let mut arguments = arguments.iter().map(get);
@@ -226,6 +227,21 @@ fn write<P>(operation: &Operation<P>, get: &mut dyn FnMut(&Value<P>) -> Text) ->
             text.length += rest.iter().map(|text| text.length).sum::<usize>();
             text
         }
+    }
+}
+
+/// Both branches are computed, and one is taken: in every lane its own.
+fn choice<P>(arguments: &[Value<P>], get: &mut dyn FnMut(&Value<P>) -> Text) -> Text {
+    let texts: Vec<Text> = arguments.iter().map(get).collect();
+    let [condition, a, b] = texts.as_slice() else {
+        unreachable!("a choice has a condition and two branches")
+    };
+    let length = texts.iter().map(|text| text.length).sum::<usize>() + 1;
+    let (condition, a, b) = (enclose(condition, Binding::Atom), &a.tokens, &b.tokens);
+    Text {
+        tokens: quote! { S::select(#condition.less(S::zero()), #a, #b) },
+        binding: Binding::Atom,
+        length,
     }
 }
 

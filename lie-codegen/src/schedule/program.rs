@@ -91,7 +91,7 @@ impl<P> Operation<P> {
 /// How many operations a program has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Counts {
-    /// Additions, subtractions and sign changes.
+    /// Additions, subtractions, sign changes and choices.
     pub add: usize,
     /// Multiplications.
     pub mul: usize,
@@ -110,7 +110,10 @@ impl Counts {
     /// Counts one operation.
     pub fn record<P>(&mut self, operation: &Operation<P>) {
         match operation {
-            Operation::Add(..) | Operation::Sub(..) | Operation::Neg(_) => self.add += 1,
+            Operation::Add(..)
+            | Operation::Sub(..)
+            | Operation::Neg(_)
+            | Operation::Call(Function::Below, _) => self.add += 1,
             Operation::Mul(..) => self.mul += 1,
             Operation::Div(..) => self.div += 1,
             Operation::Sqrt(_) | Operation::Power(..) | Operation::Call(..) => self.call += 1,

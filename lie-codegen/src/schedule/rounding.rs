@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap as HashMap;
 use super::points::Point;
 use super::program::{Operation, Program, Value};
 use crate::exact::Rational;
-use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+use crate::symbolic::{ExprId, Function, Graph, Node, Symbol, chosen};
 
 /// A value with the bound of its error, in units of the unit round-off.
 #[derive(Clone, Copy, Debug)]
@@ -102,6 +102,7 @@ impl Rounded {
         let value = function.evaluate(&values);
         let x = values[0];
         let slope = match function {
+            Function::Below => return arguments[chosen(x < 0.0)],
             Function::Exp => value,
             Function::Log => 1.0 / x,
             Function::Sin => libm::cos(x),

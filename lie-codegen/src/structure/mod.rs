@@ -12,6 +12,7 @@ pub mod lifts;
 pub mod matrices;
 pub mod one_parameter;
 pub mod separable;
+pub mod smoothness;
 pub mod spectrum;
 pub mod spins;
 pub mod vectors;

@@ -2,8 +2,8 @@
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::Function;
 use super::graph::{ExprId, Graph, Node, Symbol};
+use super::{Function, chosen};
 use crate::exact::Rational;
 
 impl Graph {
@@ -90,6 +90,11 @@ impl Graph {
                     terms.push((self.power_product(&rest), exponent.clone()));
                 }
                 self.linear(&terms)
+            }
+            // on the joint the derivative is that of the branch that is taken there
+            Node::Call(Function::Below, arguments) => {
+                let [a, b] = [1, 2].map(|branch| self.slope(arguments[branch], symbol, zero));
+                self.call(Function::Below, &[arguments[0], a, b])
             }
             Node::Call(function, arguments) => {
                 let inner = self.slope(arguments[0], symbol, zero);
@@ -190,7 +195,9 @@ impl Graph {
                     (next, Rational::from(-i64::from(k))),
                 ])
             }
-            Function::Atan2 => unreachable!("atan2 has two arguments and its own rule"),
+            Function::Atan2 | Function::Below => {
+                unreachable!("functions of several arguments have rules of their own")
+            }
         }
     }
 
@@ -202,22 +209,34 @@ impl Graph {
     ) -> Vec<ExprId> {
         let nodes = self.dependencies(roots).into_iter();
         let nodes: Vec<(ExprId, Node)> = nodes.map(|id| (id, self.node(id).clone())).collect();
-        self.rebuild(roots, nodes, replace)
+        self.rebuild(roots, nodes, replace, &|_| None)
     }
 
     /// Expressions of another arena.
     pub fn import(&mut self, from: &Self, roots: &[ExprId]) -> Vec<ExprId> {
         let nodes = from.dependencies(roots).into_iter();
         let nodes: Vec<(ExprId, Node)> = nodes.map(|id| (id, from.node(id).clone())).collect();
-        self.rebuild(roots, nodes, &|_| None)
+        self.rebuild(roots, nodes, &|_| None, &|_| None)
     }
 
-    /// Makes nodes again, children first, with symbols replaced.
+    /// The expressions on one side of joints: `side` says of a condition whether it is negative there.
+    pub fn on_side(
+        &mut self,
+        roots: &[ExprId],
+        side: &dyn Fn(ExprId) -> Option<bool>,
+    ) -> Vec<ExprId> {
+        let nodes = self.dependencies(roots).into_iter();
+        let nodes: Vec<(ExprId, Node)> = nodes.map(|id| (id, self.node(id).clone())).collect();
+        self.rebuild(roots, nodes, &|_| None, side)
+    }
+
+    /// Makes nodes again, children first, with symbols replaced, and branches where a side is known.
     fn rebuild(
         &mut self,
         roots: &[ExprId],
         nodes: Vec<(ExprId, Node)>,
         replace: &dyn Fn(Symbol) -> Option<ExprId>,
+        side: &dyn Fn(ExprId) -> Option<bool>,
     ) -> Vec<ExprId> {
         let mut image: HashMap<ExprId, ExprId> = HashMap::default();
         for (id, node) in nodes {
@@ -244,8 +263,14 @@ impl Graph {
                     self.power_product(&factors)
                 }
                 Node::Call(function, arguments) => {
-                    let arguments: Vec<_> = arguments.iter().map(|a| image[a]).collect();
-                    self.call(function, &arguments)
+                    let known = (function == Function::Below).then(|| side(arguments[0]));
+                    match known.flatten() {
+                        Some(negative) => image[&arguments[chosen(negative)]],
+                        None => {
+                            let arguments: Vec<_> = arguments.iter().map(|a| image[a]).collect();
+                            self.call(function, &arguments)
+                        }
+                    }
                 }
             };
             image.insert(id, new);

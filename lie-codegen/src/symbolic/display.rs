@@ -4,11 +4,15 @@ use rustc_hash::FxHashMap as HashMap;
 
 use num_traits::One;
 
+use super::Function;
 use super::graph::{ExprId, Graph, Node, Symbol};
 use crate::exact::Rational;
 
 /// A shared subexpression is printed wherever it occurs, so the text needs a bound of its own.
 const LONGEST: usize = 4000;
+
+/// Longer cases are those of a table.
+const LONGEST_CASES: usize = 300;
 
 /// How tightly a piece of text binds.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -51,6 +55,17 @@ impl Graph {
             Node::Number(value) => number(value),
             Node::Pi => ("pi".into(), Binding::Atom),
             Node::Symbol(symbol) => (name(*symbol), Binding::Atom),
+            Node::Call(Function::Below, arguments) => {
+                let [g, a, b] = [0, 1, 2].map(|place| inside(&arguments[place], Binding::Sum));
+                let absolute =
+                    arguments[0] == arguments[2] && self.is_negative_of(arguments[1], arguments[2]);
+                let text = match absolute {
+                    true => format!("abs({b})"),
+                    false if g.len() + a.len() + b.len() > LONGEST_CASES => "piecewise(…)".into(),
+                    false => format!("piecewise({g} < 0: {a}, {b})"),
+                };
+                (text, Binding::Atom)
+            }
             Node::Call(function, arguments) => {
                 let arguments: Vec<_> = arguments.iter().map(|a| inside(a, Binding::Sum)).collect();
                 (
@@ -62,6 +77,27 @@ impl Graph {
             Node::Written(terms) => self.display_sum(&Rational::ZERO, terms, &inside),
             Node::Sum { constant, terms } => self.display_sum(constant, terms, &inside),
         }
+    }
+
+    /// Whether `a = -b`, by its form.
+    fn is_negative_of(&self, a: ExprId, b: ExprId) -> bool {
+        let ((factor, a), (other, b)) = (self.coefficient(a), self.coefficient(b));
+        if a == b {
+            return factor == -&other;
+        }
+        let (
+            Node::Sum { constant, terms },
+            Node::Sum {
+                constant: last,
+                terms: others,
+            },
+        ) = (self.node(a), self.node(b))
+        else {
+            return false;
+        };
+        let opposite =
+            |((x, c), (y, d)): (&(ExprId, Rational), &(ExprId, Rational))| x == y && *c == -d;
+        *constant == -last && terms.len() == others.len() && terms.iter().zip(others).all(opposite)
     }
 
     fn display_sum(

@@ -13,6 +13,9 @@ macro_rules! functions {
             Stumpff(u8),
             /// `phi_k(z) = sum_n z^n/(n + k)!`; not in the grammar.
             Phi(u8),
+            /// `below(g, a, b)`: a where g is negative, b elsewhere. In the grammar these are `abs`, `min`, `max` and
+            /// `piecewise`.
+            Below,
         }
         impl Function {
             /// Every function of the grammar.
@@ -23,6 +26,7 @@ macro_rules! functions {
                     $(Function::$name => $text,)+
                     Function::Stumpff(k) => STUMPFF[usize::from(k)],
                     Function::Phi(k) => PHI[usize::from(k)],
+                    Function::Below => "below",
                 }
             }
             /// The number of its arguments.
@@ -30,6 +34,7 @@ macro_rules! functions {
                 match self {
                     $(Function::$name => $arity,)+
                     Function::Stumpff(_) | Function::Phi(_) => 1,
+                    Function::Below => 3,
                 }
             }
         }
@@ -43,6 +48,9 @@ functions! {
 
 /// Functions of the grammar that are powers: `sqrt(x) = x^(1/2)`, `hypot(x, y) = (x^2 + y^2)^(1/2)`.
 pub const POWERS: [&str; 2] = ["sqrt", "hypot"];
+
+/// Functions of the grammar that are made of [`Function::Below`].
+pub const CHOICES: [&str; 4] = ["abs", "min", "max", "piecewise"];
 
 /// The names of the functions of closed forms.
 const STUMPFF: [&str; closed::MOST_FUNCTIONS] = [
@@ -71,7 +79,8 @@ impl Function {
 
     /// The names of all functions of the grammar.
     pub fn names() -> impl Iterator<Item = &'static str> {
-        Self::ALL.iter().map(|f| f.name()).chain(POWERS)
+        let own = Self::ALL.iter().map(|f| f.name());
+        own.chain(POWERS).chain(CHOICES)
     }
 
     /// Whether a function of the grammar has that name.
@@ -79,7 +88,7 @@ impl Function {
         Self::names().any(|known| known == name)
     }
 
-    /// The function of that name; those that are powers are none of them.
+    /// The function of that name; those that are powers or choices are none of them.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|f| f.name() == name)
     }
@@ -109,6 +118,12 @@ impl Function {
             Function::Atan2 => libm::atan2(x, arguments[1]),
             Function::Stumpff(k) => closed::stumpff_of(k.into(), x),
             Function::Phi(k) => closed::phi_of(k.into(), x),
+            Function::Below => arguments[chosen(x < 0.0)],
         }
     }
+}
+
+/// Which argument of [`Function::Below`] is its value, by whether the first one is negative.
+pub fn chosen(negative: bool) -> usize {
+    if negative { 1 } else { 2 }
 }

@@ -10,9 +10,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rustc_hash::{FxHashMap as HashMap, FxHashSet};
+use rustc_hash::FxHashMap as HashMap;
 
-use super::Function;
+use super::{Function, chosen};
 use crate::exact::Rational;
 
 /// A node of a [`Graph`].
@@ -93,6 +93,8 @@ pub struct Graph {
     pub(super) written: HashMap<ExprId, ExprId>,
     operands: usize,
     positive: BTreeSet<Symbol>,
+    /// Whether there are choices.
+    pub(super) choices: bool,
 }
 
 /// A sum under construction.
@@ -342,60 +344,26 @@ impl Graph {
                 return self.number(value);
             }
         }
+        if let (Function::Below, [condition, branches @ ..]) = (function, arguments)
+            && let Some(place) = self.settled(*condition, branches)
+        {
+            return branches[place];
+        }
+        self.choices |= function == Function::Below;
         self.intern(Node::Call(function, arguments.into()))
     }
 
-    /// The children of a node.
-    pub fn children(&self, id: ExprId) -> Vec<ExprId> {
-        match self.node(id) {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => Vec::new(),
-            Node::Sum { terms, .. } | Node::Written(terms) => {
-                terms.iter().map(|(t, _)| *t).collect()
-            }
-            Node::Product(factors) => factors.iter().map(|(b, _)| *b).collect(),
-            Node::Call(_, arguments) => arguments.to_vec(),
+    /// Which branch is taken, where that is known by the form of the condition.
+    fn settled(&self, condition: ExprId, branches: &[ExprId]) -> Option<usize> {
+        if branches[0] == branches[1] {
+            return Some(0);
         }
-    }
-
-    /// Everything that the roots are made of, themselves included, in ascending order.
-    pub fn dependencies(&self, roots: &[ExprId]) -> Vec<ExprId> {
-        self.reached(roots, |_| true)
-    }
-
-    /// Everything of the kind that the roots are made of, by way of nodes of the kind, in ascending order.
-    fn reached(&self, roots: &[ExprId], kind: impl Fn(ExprId) -> bool) -> Vec<ExprId> {
-        let mut stack: Vec<ExprId> = roots.iter().copied().filter(|id| kind(*id)).collect();
-        let mut seen: FxHashSet<ExprId> = stack.iter().copied().collect();
-        while let Some(id) = stack.pop() {
-            for child in self.children(id) {
-                if kind(child) && seen.insert(child) {
-                    stack.push(child);
-                }
-            }
-        }
-        let mut order: Vec<ExprId> = seen.into_iter().collect();
-        order.sort_unstable();
-        order
-    }
-
-    /// The coordinates in an expression, in ascending order.
-    pub fn coordinates(&self, id: ExprId) -> Vec<usize> {
-        let symbols = self.symbols(id).into_iter();
-        let coordinates = symbols.filter_map(|symbol| match symbol {
-            Symbol::Coordinate(i) => Some(i),
-            _ => None,
-        });
-        coordinates.collect()
-    }
-
-    /// The symbols in an expression.
-    pub fn symbols(&self, id: ExprId) -> BTreeSet<Symbol> {
-        self.dependencies(&[id])
-            .into_iter()
-            .filter_map(|id| match self.node(id) {
-                Node::Symbol(symbol) => Some(*symbol),
-                _ => None,
-            })
-            .collect()
+        let (coefficient, rest) = self.coefficient(condition);
+        let negative = match self.node(rest) {
+            Node::Number(value) => value.is_negative(),
+            Node::Symbol(symbol) if self.is_positive(*symbol) => coefficient.is_negative(),
+            _ => return None,
+        };
+        Some(chosen(negative) - 1)
     }
 }

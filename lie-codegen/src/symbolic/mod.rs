@@ -5,11 +5,12 @@ mod display;
 mod evaluate;
 mod function;
 mod graph;
+mod parts;
 mod power;
 mod written;
 
 #[cfg(test)]
 mod tests;
 
-pub use function::Function;
+pub use function::{Function, chosen};
 pub use graph::{ExprId, Graph, Node, Symbol};

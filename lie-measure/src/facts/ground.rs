@@ -38,6 +38,8 @@ pub struct Ground<P: Lift<f64>> {
     pub orbit: Option<OrbitDistance<P>>,
     /// The check of the group element, where there are matrices.
     pub group: Option<GroupCheck<P>>,
+    /// The largest order that is left where the motion crosses a joint of H; absent where H has none.
+    pub reach: Option<u32>,
 }
 
 /// The distance of the second state from the orbit of the first.
@@ -128,6 +130,7 @@ impl<P: Lift<f64>> Ground<P> {
             structure,
             orbit: None,
             group: None,
+            reach: None,
         })
     }
 

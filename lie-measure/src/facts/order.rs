@@ -54,6 +54,8 @@ fn measured<P: Lift<f64>>(
     adaptive: Option<&dyn Fn(f64) -> Made<f64, P>>,
 ) -> Finding {
     let order = method.claims().order;
+    // across a joint of H no method has more
+    let order = ground.reach.map_or(order, |reach| reach.min(order));
     let claim = f64::from(order);
     let relative = RELATIVE_SLACK[usize::from(order > 8) + usize::from(order > 12)] * claim;
     let bound = claim - SLACK.max(relative);
@@ -176,7 +178,12 @@ fn by_step<P: Lift<f64>>(
 ) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
     let mut below = 0;
-    for steps in ladder(method.claims().order) {
+    for steps in ladder(
+        ground
+            .reach
+            .map_or(u32::MAX, |reach| reach)
+            .min(method.claims().order),
+    ) {
         let h = exact.span / steps as f64;
         if let Some((error, _)) = error(system, ground, exact, method, h, steps) {
             points.push((h.abs(), error));

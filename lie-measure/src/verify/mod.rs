@@ -37,6 +37,9 @@ pub struct Options {
     pub seed: u64,
     /// The step, where it is not found.
     pub step: Option<f64>,
+    /// The largest order that is left where the motion crosses a joint of H; absent where H has none.
+    #[serde(default)]
+    pub reach: Option<u32>,
 }
 
 talk!(Options, Found);
@@ -226,12 +229,13 @@ impl<P: Lift<f64> + Clone + 'static> Verify<P> {
     fn work(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
         let request = request(line)?;
         let Built { system, mu } = self.blueprint.build(&request.start)?;
-        let Options { seed, step } = request.options;
+        let Options { seed, step, reach } = request.options;
         let all = request.methods.len() as u64;
         session.stage(0, all, "the reference solution")?;
         let ground = Ground::new(&system, &mu, seed, step)
             .map_err(|why| End::refused(Obstacle::Ground, why))?;
         let more = self.grounds.iter();
+        let ground = Ground { reach, ..ground };
         let ground = more.fold(ground, |ground, more| more(ground));
         tell(
             session,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::judge::Judge;
 use lie_codegen::program::Purpose;
+use lie_codegen::structure::smoothness;
 use lie_measure::facts::{Finding, Verdict};
 use lie_measure::verify::{Found, GroundFound as Ground, Options};
 use lie_program::protocol::Obstacle;
@@ -144,11 +145,13 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
     let bed = bed(flags, |spec| list::all(&spec.model))?;
     let interrupt = Interrupt::install();
     let program = bed.program(flags, Purpose::Verify, &interrupt)?;
+    let model = &bed.spec.model;
+    let joints = smoothness::joints(model);
     let options = Options {
         seed: arguments.seed.into(),
         step,
+        reach: (!joints.is_empty()).then(|| smoothness::reached(&joints, u32::MAX).unwrap_or(0)),
     };
-    let model = &bed.spec.model;
     // what a spec of a family declares is one site, and is not interpreted
     let evidence = match model.family {
         Some(_) => Evidence::without_judge(),

@@ -7,12 +7,13 @@
 mod points;
 mod residues;
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::sync::OnceLock;
 
 use super::sample::{Sample, Samples};
 use crate::exact::{Ball, Precision, Rational};
-use crate::symbolic::{ExprId, Function, Graph, Node, Symbol};
+use crate::symbolic::{ExprId, Function, Graph, Node, Symbol, chosen};
 use points::Points;
 use residues::Residues;
 
@@ -73,8 +74,8 @@ impl<'a> Confirmation<'a> {
         let roots: Vec<ExprId> = self.domain.iter().copied().chain([id]).collect();
         let parts = self.graph.dependencies(&roots);
         let mut finding = Finding::Unknown;
-        for point in self.points.of(&parts) {
-            if !self.evaluate(&parts, point) {
+        for point in self.points.of(&roots, &parts) {
+            if !self.evaluate(&roots, &parts, point) {
                 continue;
             }
             if let Some(Some(value)) = self.balls[&point].get(&id) {
@@ -143,11 +144,10 @@ impl<'a> Confirmation<'a> {
     }
 
     /// Computes the balls at a point; whether all of them are defined.
-    fn evaluate(&mut self, parts: &[ExprId], point: usize) -> bool {
+    fn evaluate(&mut self, roots: &[ExprId], parts: &[ExprId], point: usize) -> bool {
         let graph = self.graph;
         let sample = self.points.sample(point);
         let known = self.balls.entry(point).or_default();
-        let mut defined = true;
         for &part in parts {
             if !known.contains_key(&part) {
                 let value = value(graph, part, known, &|symbol| {
@@ -156,9 +156,13 @@ impl<'a> Confirmation<'a> {
                 });
                 known.insert(part, value);
             }
-            defined &= known[&part].is_some();
         }
-        defined
+        let negative = |id: ExprId| Some(known.get(&id)?.as_ref()?.sign()? < 0);
+        let taken = match graph.has_choices() {
+            true => Cow::from(graph.taken(roots, &negative)),
+            false => Cow::from(parts),
+        };
+        taken.iter().all(|part| known[part].is_some())
     }
 }
 
@@ -212,6 +216,10 @@ fn value(
             }
             product.bounded()
         }
+        Node::Call(Function::Below, arguments) => {
+            let negative = of(&arguments[0])?.sign()? < 0;
+            of(&arguments[chosen(negative)]).cloned()
+        }
         Node::Call(function, arguments) => {
             let x = of(&arguments[0])?;
             call(*function, x, arguments.get(1).and_then(of))
@@ -246,7 +254,7 @@ fn call(function: Function, x: &Ball, second: Option<&Ball>) -> Option<Ball> {
         Function::Acosh => x.acosh(precision),
         Function::Atanh => x.atanh(precision),
         Function::Atan2 => x.atan2(second?, precision),
-        Function::Stumpff(_) | Function::Phi(_) => None,
+        Function::Stumpff(_) | Function::Phi(_) | Function::Below => None,
     }
 }
 
@@ -272,6 +280,7 @@ fn branches(graph: &Graph, parts: &[ExprId]) -> Vec<ExprId> {
                 let parts = arguments.iter();
                 parts.for_each(|argument| add(graph.coefficient(*argument).1));
             }
+            Node::Call(Function::Below, arguments) => add(graph.coefficient(arguments[0]).1),
             _ => {}
         }
     }

@@ -1,5 +1,6 @@
 //! Which points are looked at: some in the domain, on both sides of each branch where there are such.
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 use super::branches;
@@ -39,7 +40,7 @@ impl<'a> Points<'a> {
 
     /// The points for expressions that consist of these parts: those in the domain that reach a side of a branch
     /// that no earlier one reaches, and a few others.
-    pub fn of(&mut self, parts: &[ExprId]) -> Vec<usize> {
+    pub fn of(&mut self, roots: &[ExprId], parts: &[ExprId]) -> Vec<usize> {
         let graph = self.graph;
         let branches = branches(graph, parts);
         let most = if parts.len() > LARGE { ENOUGH } else { POINTS };
@@ -54,7 +55,12 @@ impl<'a> Points<'a> {
             }
             self.evaluate(parts, point);
             let values = &self.values[point];
-            if !parts.iter().all(|id| values[id].is_finite()) {
+            let negative = |id: ExprId| Some(values[&id] < 0.0);
+            let taken = match graph.has_choices() {
+                true => Cow::from(graph.taken(roots, &negative)),
+                false => Cow::from(parts),
+            };
+            if !taken.iter().all(|id| values[id].is_finite()) {
                 continue;
             }
             let sides = branches.iter().map(|id| (*id, values[id] > 0.0));

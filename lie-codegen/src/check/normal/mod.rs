@@ -292,6 +292,7 @@ impl<'a> NormalForm<'a> {
                 Ok(product)
             }
             Node::Call(Function::Log, arguments) => self.logarithm(arguments[0]),
+            Node::Call(Function::Below, arguments) => self.choice(arguments),
             Node::Call(function @ (Function::Sin | Function::Cos | Function::Tan), arguments) => {
                 let power = self.rotation_of(arguments[0])?;
                 self.circular(*function, &power)
@@ -302,6 +303,24 @@ impl<'a> NormalForm<'a> {
                 self.call(*function, &arguments)
             }
         }
+    }
+
+    /// `below(g, a, b) = (a + b)/2 + s (b - a)/2` with the sign s of g; what is on the joint has no inner points.
+    fn choice(&mut self, arguments: &[ExprId]) -> Result<Fraction, Stop> {
+        let [condition, a, b] = [0, 1, 2].map(|place| self.values[&arguments[place]].clone());
+        let values = [condition, a, b];
+        if values.iter().any(|value| self.is_complex(value)) {
+            return self.opaque(Function::Below, &values);
+        }
+        let [condition, a, b] = values;
+        if self.vanishes(&condition)? {
+            return Ok(b);
+        }
+        let half = &Rational::ONE / &Rational::from(2);
+        let sign = self.sign(&condition)?.value();
+        let (sum, difference) = (a.add(&b, self.budget)?, b.sub(&a, self.budget)?);
+        let turned = difference.mul(&sign, self.budget)?;
+        Ok(sum.add(&turned, self.budget)?.scale(&half))
     }
 
     fn call(&mut self, function: Function, arguments: &[Fraction]) -> Result<Fraction, Stop> {

@@ -113,7 +113,8 @@ pub(super) enum Fact {
 /// The facts of some expressions.
 pub(super) fn facts(graph: &Graph, roots: &[ExprId]) -> BTreeSet<(ExprId, Fact)> {
     let mut found = BTreeSet::new();
-    for id in graph.dependencies(roots) {
+    // of a branch nothing follows: it need not be taken
+    for id in graph.certain(roots) {
         match graph.node(id) {
             Node::Call(Function::Log, arguments) => {
                 found.insert((arguments[0], Fact::Positive));

@@ -1,5 +1,6 @@
 mod algebra;
 mod casimirs;
+mod choices;
 mod configuration;
 mod domain;
 mod extremes;
@@ -14,6 +15,7 @@ mod poisson;
 mod random;
 mod realization;
 mod soundness;
+mod tables;
 
 use super::*;
 use crate::diagnostic::{Kind, Origin};

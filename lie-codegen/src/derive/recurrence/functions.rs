@@ -39,6 +39,7 @@ impl Lowering {
                 Term::varying(zero, self.exponential(u).row())
             }
             Function::Atan2 => self.angle(u, &arguments[1]),
+            Function::Below => self.choice(arguments),
             Function::Stumpff(_) | Function::Phi(_) => {
                 unreachable!(
                     "functions of closed forms of the exponential stand in no vector field"
@@ -51,6 +52,23 @@ impl Lowering {
     fn at_zero(&mut self, function: Function, arguments: &[Term]) -> Value {
         let zeros = arguments.iter().map(|term| term.zero.clone());
         self.begin.push(Operation::Call(function, zeros.collect()))
+    }
+
+    /// The coefficients of the branch that is taken at order 0.
+    fn choice(&mut self, arguments: &[Term]) -> Term {
+        let zero = self.at_zero(Function::Below, arguments);
+        let [condition, a, b] = arguments else {
+            unreachable!("a choice has a condition and two branches")
+        };
+        if a.row.is_none() && b.row.is_none() {
+            return Term { zero, row: None };
+        }
+        let condition = self.keep(condition.zero.clone());
+        let operands = vec![condition, a.row(), b.row()];
+        let row = self
+            .advance
+            .push(Operation::Call(Function::Below, operands));
+        Term::varying(zero, row)
     }
 
     /// Sine and cosine.

@@ -16,6 +16,7 @@ const KEYWORDS: &[(&str, Follows)] = &[
     ("state", Follows::Name),
     ("parameters", Follows::Block),
     ("vectors", Follows::Block),
+    ("functions", Follows::Block),
     ("let", Follows::Name),
     ("hamiltonian", Follows::Equals),
     ("lagrangian", Follows::Equals),

@@ -1,9 +1,9 @@
 //! Names and calls in expressions, and what looks like one.
 
-use super::super::names::arity;
+use super::super::names::{PIECEWISE, arity};
 use super::super::operand::{begins_factor, operand_text};
 use super::super::token::{Delimiter, Token, TokenKind, render};
-use super::super::{families, habits, mistakes, vectors};
+use super::super::{families, habits, mistakes, piecewise, vectors};
 use super::{CLOSE, OPEN, Parser, zero};
 use crate::ast::{Expr, ExprKind, Name};
 
@@ -12,6 +12,9 @@ impl<'a> Parser<'a> {
         let called = self.cursor.peek().is_some_and(|t| t.kind == OPEN);
         if name == "sum" && called {
             return self.nested(|parser| families::indexed_sum(parser, token));
+        }
+        if name == PIECEWISE && called {
+            return self.nested(|parser| piecewise::cases(parser, token));
         }
         if called
             && self.names.knows(name)
@@ -104,7 +107,9 @@ impl<'a> Parser<'a> {
             }
         }
         let origin = token.origin.to(self.close(open, Delimiter::Parenthesis)?);
-        match arity(function).or_else(|| vectors::arity(function)) {
+        let of_table = || self.names.tables().knows(function).then_some(1);
+        let expected = arity(function).or_else(|| vectors::arity(function));
+        match expected.or_else(of_table) {
             None => self.fail(mistakes::unknown_function(
                 function,
                 &texts,

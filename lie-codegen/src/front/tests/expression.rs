@@ -355,3 +355,48 @@ fn places_go_through_json_escapes() {
         );
     }
 }
+
+#[test]
+fn cases_are_choices_of_the_smaller() {
+    for (text, expected) in [
+        ("piecewise(x < 0: -x, x)", "piecewise(x,0,(-x),x)"),
+        ("piecewise(x <= y: a, b)", "piecewise(y,x,b,a)"),
+        ("piecewise(x > y: a, b)", "piecewise(y,x,a,b)"),
+        ("piecewise(x >= y: a, b)", "piecewise(x,y,b,a)"),
+        (
+            "2*piecewise(x < 0: 1, x < 1: 2, 3)",
+            "(2*piecewise(x,0,1,piecewise(x,1,2,3)))",
+        ),
+        (
+            "abs(x) + min(x, y)*max(2, z)",
+            "(abs(x)+(min(x,y)*max(2,z)))",
+        ),
+    ] {
+        assert_eq!(meaning(text), expected, "{text}");
+    }
+}
+
+#[test]
+fn mistakes_in_cases_have_a_place_and_a_form() {
+    for (text, place) in [
+        ("piecewise(x, y)", "x"),
+        ("piecewise(x)", "x"),
+        ("piecewise(x < 0, y)", ","),
+        ("piecewise(x < 0: y)", ")"),
+        ("piecewise(x < 0: y, z, a)", ","),
+    ] {
+        let (kind, found, help) = mistake(text);
+        assert_eq!((kind, found), (Kind::Syntax, place), "{text}");
+        assert!(help.contains("`piecewise(x < 0: -x, x)`"), "{text}: {help}");
+    }
+    for text in [
+        "piecewise(x == 0: y, z)",
+        "piecewise(x < 0 < y: 1, 2)",
+        "piecewise(x < 0: y, z",
+    ] {
+        assert_eq!(mistakes(text).len(), 1, "{text}: {:?}", mistakes(text));
+    }
+    assert_eq!(mistake("abs(x, y)").0, Kind::Arity);
+    assert_eq!(mistake("max(x)").0, Kind::Arity);
+    assert_eq!(mistakes("piecewise"), [(Kind::Syntax, "piecewise")]);
+}

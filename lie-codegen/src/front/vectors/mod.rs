@@ -205,7 +205,7 @@ fn children(expression: &Expr) -> Vec<&Expr> {
 }
 
 /// The number of nodes of an expression.
-fn nodes(expression: &Expr) -> usize {
+pub(super) fn nodes(expression: &Expr) -> usize {
     let mut pending = vec![expression];
     let mut count = 0;
     while let Some(part) = pending.pop() {

@@ -1,0 +1,70 @@
+//! The key `functions`.
+
+use super::quantity;
+use crate::ast::{Expr, ExprKind};
+use crate::diagnostic::{Origin, Report};
+use crate::exact::Rational;
+use crate::front::item;
+use crate::front::json::{Type, Value};
+use crate::front::object::{Object, list, string, wrong_type};
+use crate::front::schema::TableFunction;
+use crate::front::tables::{Outside, Read, Written};
+
+/// Reads the tables.
+pub fn read(value: Value<'_>, report: &mut Report) -> Vec<Read> {
+    if value.kind() != Type::Object {
+        report.push(wrong_type(&value, "`functions`", "an object"));
+        return Vec::new();
+    }
+    let mut read = Vec::new();
+    for member in value.members(report) {
+        let name = item::name(&member.key.tokens(), member.key.whole(), report);
+        let written = table(member.value, report);
+        read.extend(name.map(|name| (name, written)));
+    }
+    read
+}
+
+fn table(value: Value<'_>, report: &mut Report) -> Option<Written> {
+    let object = Object::read(value, "a function", TableFunction::KEYS, report)?;
+    object.require("a function", TableFunction::REQUIRED, report);
+    let points = list(object.get("table")?, "`table`", report)?;
+    let points = points.into_iter().map(|value| point(value, report));
+    let points: Vec<_> = points.collect::<Option<_>>()?;
+    let degree = match object.get("degree") {
+        Some(value) => (quantity(value, "`degree`", None, report)?, value.origin()),
+        None => (cubic(value.head()), value.head()),
+    };
+    let outside = match object.get("outside") {
+        Some(value) => {
+            let word = string(value, "`outside`", report)?;
+            Outside::read(&word.text, word.whole(), report)?
+        }
+        None => Outside::default(),
+    };
+    Some(Written {
+        points,
+        degree,
+        outside,
+    })
+}
+
+/// The degree where none is given.
+fn cubic(origin: Origin) -> Expr {
+    Expr {
+        kind: ExprKind::Number(Rational::from(3)),
+        origin,
+    }
+}
+
+/// `[x, y]`
+fn point(value: Value<'_>, report: &mut Report) -> Option<(Expr, Expr, Origin)> {
+    let elements = list(value, "a point of a table", report)?;
+    let [x, y] = elements.as_slice() else {
+        report.push(wrong_type(&value, "a point of a table", "a pair `[x, y]`"));
+        return None;
+    };
+    let mut number = |value: &Value<'_>| quantity(*value, "a number of a table", None, report);
+    let (x, y) = (number(x), number(y));
+    Some((x?, y?, value.origin()))
+}

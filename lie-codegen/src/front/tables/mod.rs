@@ -1,0 +1,386 @@
+//! Functions that a declaration gives by a table: `drag(v)` stands for the spline through the points, of which every
+//! coefficient is a choice by `v`. It is written out as soon as it is read, so that every stage sees a formula.
+
+mod spline;
+
+use super::names::{Names, PIECEWISE};
+use super::vectors;
+use crate::ast::{Expr, ExprKind, Name};
+use crate::check::is_reserved;
+use crate::diagnostic::{Diagnostic, Kind, Origin, Report};
+use crate::exact::Rational;
+use spline::Piece;
+
+/// The largest number of points.
+const MOST_POINTS: usize = 200;
+/// The largest degree.
+const MOST_DEGREE: usize = 7;
+/// What tables may write out, in nodes of the tree.
+const MOST_NODES: usize = 200_000;
+
+/// What a table is outside of its points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outside {
+    /// Not a number, so that a step that leaves the table fails.
+    #[default]
+    Refuse,
+    /// The value at the end.
+    Constant,
+    /// The tangent at the end.
+    Linear,
+}
+
+impl Outside {
+    /// The words for them.
+    pub const WORDS: [(&str, Outside); 3] = [
+        ("refuse", Outside::Refuse),
+        ("constant", Outside::Constant),
+        ("linear", Outside::Linear),
+    ];
+
+    /// By its word, which is reported where it is none.
+    pub fn read(word: &str, origin: Origin, report: &mut Report) -> Option<Self> {
+        let found = Self::WORDS.iter().find(|(known, _)| *known == word);
+        if found.is_none() {
+            let message = format!("`{}` does not say what is outside", word.escape_debug());
+            let help = "write `refuse`, `constant` or `linear`";
+            report.push(Diagnostic::new(Kind::Number, origin, message).help(help));
+        }
+        found.map(|(_, outside)| *outside)
+    }
+}
+
+/// A table by its name, `None` where a mistake in it was reported.
+pub type Read = (Name, Option<Written>);
+
+/// A table as it was written.
+#[derive(Clone, Debug)]
+pub struct Written {
+    /// The points, each with its place.
+    pub points: Vec<(Expr, Expr, Origin)>,
+    /// The degree of the spline, and its place.
+    pub degree: (Expr, Origin),
+    /// What it is outside.
+    pub outside: Outside,
+}
+
+/// A function by a table.
+#[derive(Clone, Debug)]
+struct Table {
+    name: String,
+    pieces: Vec<Piece>,
+    /// The first and the last place.
+    ends: [Rational; 2],
+    outside: Outside,
+}
+
+/// All of a declaration.
+#[derive(Clone, Debug, Default)]
+pub struct Tables {
+    tables: Vec<Table>,
+    /// Names of tables with mistakes.
+    broken: Vec<String>,
+}
+
+impl Tables {
+    /// Makes splines of tables; mistakes are reported.
+    pub fn new(read: Vec<Read>, names: &Names, report: &mut Report) -> Self {
+        let mut tables = Self::default();
+        for (name, written) in read {
+            let free = tables.takes(&name, names, report);
+            let table = written.and_then(|written| written.function(&name, report));
+            match table.filter(|_| free) {
+                Some(table) => tables.tables.push(table),
+                None => tables.broken.push(name.text),
+            }
+        }
+        tables
+    }
+
+    /// Reports a name that is another's.
+    fn takes(&self, name: &Name, names: &Names, report: &mut Report) -> bool {
+        let text = &name.text;
+        let (kind, message) = if is_reserved(text) || vectors::arity(text).is_some() {
+            (
+                Kind::ReservedName,
+                format!("`{text}` is a word of the language"),
+            )
+        } else if names.declares(text) || self.knows(text) {
+            (Kind::DuplicateName, format!("`{text}` is declared twice"))
+        } else {
+            return true;
+        };
+        report.push(Diagnostic::new(kind, name.origin, message).help("choose another name"));
+        false
+    }
+
+    /// Whether a function is a table.
+    pub fn knows(&self, function: &str) -> bool {
+        self.of(function).is_some() || self.broken.iter().any(|name| name == function)
+    }
+
+    fn of(&self, function: &str) -> Option<&Table> {
+        self.tables.iter().find(|table| table.name == function)
+    }
+
+    /// The expression with the tables written out.
+    pub fn expand(&self, mut expression: Expr, report: &mut Report) -> Option<Expr> {
+        if self.tables.is_empty() && self.broken.is_empty() {
+            return Some(expression);
+        }
+        let mut left = MOST_NODES;
+        let origin = expression.origin;
+        match self.write_out(&mut expression, &mut left) {
+            true => Some(expression),
+            // said where the table is
+            false if !self.broken.is_empty() => None,
+            false => {
+                let message = format!("the tables expand to more than {MOST_NODES} operations");
+                let help = "give their arguments names with `let`, or use fewer points";
+                report.push(Diagnostic::new(Kind::Limit, origin, message).help(help));
+                None
+            }
+        }
+    }
+
+    /// Whether nothing stood against it.
+    fn write_out(&self, expression: &mut Expr, left: &mut usize) -> bool {
+        let mut all = |parts: &mut dyn Iterator<Item = &mut Expr>| {
+            let mut sound = parts.map(|part| self.write_out(part, left));
+            sound.all(|sound| sound)
+        };
+        let sound = match &mut expression.kind {
+            ExprKind::Number(_) | ExprKind::Name { .. } => return true,
+            ExprKind::Negative(a) => all(&mut [&mut **a].into_iter()),
+            ExprKind::Power(a, b) => all(&mut [&mut **a, &mut **b].into_iter()),
+            ExprKind::Sum(operands) | ExprKind::Product(operands) => {
+                all(&mut operands.iter_mut().map(|(_, operand)| operand))
+            }
+            ExprKind::Call { arguments, .. } => all(&mut arguments.iter_mut()),
+            ExprKind::IndexedSum { body, .. } => all(&mut [&mut **body].into_iter()),
+        };
+        let ExprKind::Call {
+            function,
+            arguments,
+        } = &expression.kind
+        else {
+            return sound;
+        };
+        if !self.knows(&function.text) {
+            return sound;
+        }
+        let (Some(table), [argument]) = (self.of(&function.text), arguments.as_slice()) else {
+            return false;
+        };
+        let nodes = (vectors::nodes(argument) + 6) * table.size();
+        if nodes > *left {
+            return false;
+        }
+        *left -= nodes;
+        *expression = Writer {
+            argument: argument.clone(),
+            origin: expression.origin,
+        }
+        .table(table);
+        sound
+    }
+}
+
+impl Written {
+    /// The function, if nothing is wrong with the table.
+    fn function(&self, name: &Name, report: &mut Report) -> Option<Table> {
+        let mut refuse = |kind, origin, message: String, help: &str| {
+            report.push(Diagnostic::new(kind, origin, message).help(help));
+        };
+        let degree = rational(&self.degree.0).and_then(|degree| degree.to_integer());
+        let degree = degree.and_then(|d| usize::try_from(d).ok());
+        let Some(degree) = degree.filter(|d| d % 2 == 1 && *d <= MOST_DEGREE) else {
+            let message = "the degree of a spline is an odd number up to 7".to_owned();
+            refuse(Kind::Number, self.degree.1, message, "write 1, 3, 5 or 7");
+            return None;
+        };
+        let count = self.points.len();
+        if count <= degree {
+            let message = format!(
+                "`{}` has {count} points, too few for degree {degree}",
+                name.text
+            );
+            let help = format!("give at least {} points, or a lower degree", degree + 1);
+            refuse(Kind::Number, name.origin, message, &help);
+            return None;
+        }
+        if count > MOST_POINTS {
+            let message = format!("`{}` has more than {MOST_POINTS} points", name.text);
+            refuse(Kind::Limit, name.origin, message, "leave some of them out");
+            return None;
+        }
+        let mut points: Vec<(Rational, Rational)> = Vec::new();
+        for (x, y, origin) in &self.points {
+            let (Some(x), Some(y)) = (rational(x), rational(y)) else {
+                let message = "the numbers of a table are rational".to_owned();
+                refuse(
+                    Kind::Number,
+                    *origin,
+                    message,
+                    "write decimal numbers, or quotients",
+                );
+                return None;
+            };
+            if points.last().is_some_and(|(last, _)| *last >= x) {
+                let message = format!("the places of `{}` do not ascend here", name.text);
+                refuse(
+                    Kind::Number,
+                    *origin,
+                    message,
+                    "sort the points by their first number, each of which stands once",
+                );
+                return None;
+            }
+            points.push((x, y));
+        }
+        let ends = [points[0].0.clone(), points[count - 1].0.clone()];
+        Some(Table {
+            name: name.text.clone(),
+            pieces: spline::spline(&points, degree)?,
+            ends,
+            outside: self.outside,
+        })
+    }
+}
+
+impl Table {
+    /// How often the argument is written, about.
+    fn size(&self) -> usize {
+        self.pieces.len() * (self.pieces[0].coefficients.len() + 1) + 8
+    }
+}
+
+/// Writes a table at an argument.
+struct Writer {
+    argument: Expr,
+    origin: Origin,
+}
+
+impl Writer {
+    fn number(&self, value: &Rational) -> Expr {
+        self.expression(ExprKind::Number(value.clone()))
+    }
+
+    fn expression(&self, kind: ExprKind) -> Expr {
+        Expr {
+            kind,
+            origin: self.origin,
+        }
+    }
+
+    fn sum(&self, a: Expr, b: Expr) -> Expr {
+        self.expression(ExprKind::Sum(vec![(false, a), (false, b)]))
+    }
+
+    fn difference(&self, a: Expr, b: Expr) -> Expr {
+        self.expression(ExprKind::Sum(vec![(false, a), (true, b)]))
+    }
+
+    fn product(&self, a: Expr, b: Expr) -> Expr {
+        self.expression(ExprKind::Product(vec![(false, a), (false, b)]))
+    }
+
+    fn call(&self, function: &str, arguments: Vec<Expr>) -> Expr {
+        let function = Name {
+            text: function.to_owned(),
+            origin: self.origin,
+        };
+        self.expression(ExprKind::Call {
+            function,
+            arguments,
+        })
+    }
+
+    /// One of numbers, by the piece in which the argument lies.
+    fn choice(&self, pieces: &[Piece], of: &dyn Fn(&Piece) -> Rational) -> Expr {
+        if let [only] = pieces {
+            return self.number(&of(only));
+        }
+        let (left, right) = pieces.split_at(pieces.len() / 2);
+        let knot = self.number(&right[0].center);
+        let parts = vec![
+            self.argument.clone(),
+            knot,
+            self.choice(left, of),
+            self.choice(right, of),
+        ];
+        self.call(PIECEWISE, parts)
+    }
+
+    /// The spline, by Horner's rule.
+    fn spline(&self, pieces: &[Piece]) -> Expr {
+        let center = self.choice(pieces, &|piece| piece.center.clone());
+        let distance = self.difference(self.argument.clone(), center);
+        let degree = pieces[0].coefficients.len() - 1;
+        let coefficient = |k: usize| self.choice(pieces, &|piece| piece.coefficients[k].clone());
+        let orders = (0..degree).rev();
+        orders.fold(coefficient(degree), |sum, k| {
+            self.sum(coefficient(k), self.product(distance.clone(), sum))
+        })
+    }
+
+    fn table(&self, table: &Table) -> Expr {
+        let [first, last] = [0, table.pieces.len() - 1].map(|k| &table.pieces[k]);
+        let [below, above] = [(0, first), (1, last)].map(|(end, piece)| {
+            let place = &table.ends[end];
+            let [value, slope] = piece.at(place);
+            let place = self.number(place);
+            match table.outside {
+                // not a number beyond the end, with all its derivatives
+                Outside::Refuse if end == 0 => {
+                    let inside = self.difference(self.argument.clone(), place);
+                    self.call("sqrt", vec![inside])
+                }
+                Outside::Refuse => {
+                    let inside = self.difference(place, self.argument.clone());
+                    self.call("sqrt", vec![inside])
+                }
+                Outside::Constant => self.number(&value),
+                Outside::Linear => {
+                    let distance = self.difference(self.argument.clone(), place);
+                    let rise = self.product(self.number(&slope), distance);
+                    self.sum(self.number(&value), rise)
+                }
+            }
+        });
+        let [from, to] = [0, 1].map(|end| self.number(&table.ends[end]));
+        let argument = || self.argument.clone();
+        let inside = self.spline(&table.pieces);
+        let inside = self.call(PIECEWISE, vec![to, argument(), above, inside]);
+        self.call(PIECEWISE, vec![argument(), from, below, inside])
+    }
+}
+
+/// The value of an expression in rational numbers.
+fn rational(expression: &Expr) -> Option<Rational> {
+    match &expression.kind {
+        ExprKind::Number(value) => Some(value.clone()),
+        ExprKind::Negative(a) => Some(-&rational(a)?),
+        ExprKind::Sum(terms) => terms.iter().try_fold(Rational::ZERO, |sum, (minus, term)| {
+            let term = rational(term)?;
+            Some(if *minus { &sum - &term } else { &sum + &term })
+        }),
+        ExprKind::Product(factors) => {
+            factors
+                .iter()
+                .try_fold(Rational::ONE, |product, (divides, factor)| {
+                    let factor = rational(factor)?;
+                    match divides {
+                        true if factor.is_zero() => None,
+                        true => Some(&product / &factor),
+                        false => Some(&product * &factor),
+                    }
+                })
+        }
+        ExprKind::Power(base, exponent) => {
+            let exponent = i32::try_from(rational(exponent)?.to_integer()?).ok()?;
+            rational(base)?.pow(exponent)
+        }
+        _ => None,
+    }
+}
