@@ -29,6 +29,7 @@ where
         options: Options {
             seed: 1,
             step: None,
+            reach: None,
         },
     };
     let (input, mut writer) = io::pipe().expect("a pipe");

@@ -114,7 +114,7 @@ impl Printer<'_> {
         let [of_field, of_summands, of_energy] =
             [&family.field, &family.summands, &family.energy].map(|function| self.docs(function));
         quote! {
-            #[allow(non_snake_case, clippy::many_single_char_names)]
+            #[allow(non_snake_case, clippy::many_single_char_names, clippy::possible_missing_comma)]
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::family::Sites<S, #c, #l, #t> for #sites<S> {
                 type Widened = #sites<S::Wide>;
                 type Lifted = #sites<::lie_runtime::Dual<S>>;

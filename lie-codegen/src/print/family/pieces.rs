@@ -47,13 +47,13 @@ impl Printer<'_> {
         let turns = self.turns(family, pieces);
         let [exchanges, flows] = self.flows_of_pieces(family, pieces);
         quote! {
-            #[allow(non_snake_case, clippy::many_single_char_names)]
+            #[allow(non_snake_case, clippy::many_single_char_names, clippy::possible_missing_comma)]
             impl<S: ::lie_runtime::Scalar> #sites<S> {
                 #(#rates)*
                 #(#turns)*
             }
 
-            #[allow(non_snake_case)]
+            #[allow(non_snake_case, clippy::possible_missing_comma)]
             impl<S: ::lie_runtime::Scalar> ::lie_runtime::family::Pieces<S, #c, #l, #t> for #sites<S> {
                 const KINDS: &'static [::lie_runtime::family::Kind] = &[#(#kinds),*];
 
