@@ -240,7 +240,7 @@ fn a_step_over_a_singularity_stops_the_run() {
         spec["initial"] = serde_json::json!([0.3, 0.7, 0.4]);
     });
     let run = lie(&format!(
-        "run {} --method splitting2 --step 0.3 --until 30 --out {}",
+        "run {} --method splitting2 --pieces coordinate --step 0.3 --until 30 --out {}",
         path.display(),
         out.display()
     ));

@@ -51,14 +51,12 @@ pub fn make(system: &str, method: &str, steps: u32) -> bool {
             "spherical-midpoint" => SphericalMidpoint,
             "splitting2" => Splitting2::new(),
             "splitting2-coordinate" => Splitting2::new().coordinate(),
-            "splitting4" => Splitting4::new(),
             "splitting4-coordinate" => Splitting4::new().coordinate(),
         }),
         "se3_heavy_top" => steps!(method, steps, se3_heavy_top::HeavyTop::new(), {
             "lie-midpoint-cayley" => LieMidpoint::cayley(),
             "splitting2" => Splitting2::new(),
             "splitting2-coordinate" => Splitting2::new().coordinate(),
-            "splitting4" => Splitting4::new(),
             "splitting4-coordinate" => Splitting4::new().coordinate(),
         }),
         "so4_manakov" => steps!(method, steps, so4_manakov::ManakovTop::new(), {
@@ -66,7 +64,6 @@ pub fn make(system: &str, method: &str, steps: u32) -> bool {
             "moser-veselov" => MoserVeselov,
             "splitting2" => Splitting2::new(),
             "splitting2-coordinate" => Splitting2::new().coordinate(),
-            "splitting4" => Splitting4::new(),
             "splitting4-coordinate" => Splitting4::new().coordinate(),
         }),
         "su3_quadratic" => steps!(method, steps, su3_quadratic::Su3Quadratic::new(), {}),
