@@ -69,7 +69,7 @@ pub use size::MAX_DIMENSION;
 pub enum Effort {
     /// So much that a declaration is not slow to compile.
     Declaration,
-    /// So much that a report on a system is there at once.
+    /// So much that a report on a system is there within seconds.
     Report,
     /// So much as somebody waits for who asks for it.
     Deep,
