@@ -90,7 +90,7 @@ pub use realized::{Canonical, Lifting};
 pub use second_kind::{Actions, SecondKind, SeriesActions};
 pub(crate) use series::{Scratch, coadjoint_action_in};
 pub use series::{coadjoint_action, dexp_dual};
-pub use spherical::{Spherical, sphere_ratio, sphere_ratios};
+pub use spherical::{Spherical, sphere_ratio, sphere_ratios, sphere_ratios_into};
 pub use spinors::{flow_of_spinors, flow_over_spins, spinors_of, spins_of};
 pub use stage_momenta::{StageMap, StageMomenta};
 pub use stage_parallel::{Iterated, StageParallel};

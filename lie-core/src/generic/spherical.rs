@@ -27,18 +27,27 @@ pub fn sphere_ratio<S: Scalar>(mu: [S; 3], sum: [S; 3]) -> [S; 2] {
 
 /// [`sphere_ratio`] of all spins, one after the other; K is twice their number.
 pub fn sphere_ratios<S: Scalar, P: SpinPoisson<S>, const K: usize>(
-    _system: &P,
+    system: &P,
     mu: &P::State,
     unknown: &P::State,
 ) -> [S; K] {
-    let (mu, unknown) = (mu.as_slice(), unknown.as_slice());
     let mut ratios = [S::zero(); K];
-    for (index, spin) in _system.spins().iter().enumerate() {
+    sphere_ratios_into(system, mu.as_slice(), unknown.as_slice(), &mut ratios);
+    ratios
+}
+
+/// The same into a slice.
+pub fn sphere_ratios_into<S: Scalar, P: SpinPoisson<S>>(
+    system: &P,
+    mu: &[S],
+    unknown: &[S],
+    ratios: &mut [S],
+) {
+    for (index, spin) in system.spins().iter().enumerate() {
         let sum = spin.map(|k| mu[k] + unknown[k]);
         let of_spin = sphere_ratio(spin.map(|k| mu[k]), sum);
         ratios[2 * index..][..2].copy_from_slice(&of_spin);
     }
-    ratios
 }
 
 /// The spherical midpoint method for a direct sum of algebras so(3).

@@ -1,0 +1,300 @@
+//! The equations of steps: fused ones in code, generic ones with the elimination of the plan.
+
+use crate::elimination::Table;
+use crate::matrix::Matrix;
+use crate::system::{Dynamic, FusedCodes};
+use lie_codegen::methods::Choice;
+use lie_codegen::plan::{Chart, Ending, Fused, Guess, Item, Partner, Solver};
+use lie_core::generic;
+use lie_runtime::methods::Retraction;
+use lie_runtime::{Equation, Mask as _, Poisson, Scalar, StageMatrix, Unknown};
+
+/// Matrices whose first block lies in one piece.
+pub trait Block<S> {
+    /// The first block.
+    fn block(&mut self) -> &mut [S];
+}
+
+impl<S: Scalar> Block<S> for Matrix<S> {
+    fn block(&mut self) -> &mut [S] {
+        self.as_mut_slice()
+    }
+}
+
+impl<S: Scalar, const STAGES: usize> Block<S> for StageMatrix<Matrix<S>, STAGES> {
+    fn block(&mut self) -> &mut [S] {
+        self.0[0][0].as_mut_slice()
+    }
+}
+
+/// A fused equation at work.
+struct Running<'a, S> {
+    codes: &'a FusedCodes,
+    row: &'a Fused,
+    base: Vec<S>,
+    field: Vec<S>,
+    of_step: Vec<S>,
+    ratios: Vec<S>,
+}
+
+/// The equation of the step of a method as the plan has it; the generic one where it has nothing.
+pub struct Planned<'a, S, G> {
+    system: &'a Dynamic<S>,
+    h: S,
+    generic: G,
+    fused: Option<Running<'a, S>>,
+    elimination: Option<&'a Table>,
+}
+
+impl<'a, S: Scalar, G> Planned<'a, S, G> {
+    /// The equation of a step of size h, `generic` being the generic one of the same step.
+    pub fn new(system: &'a Dynamic<S>, choice: &Choice, h: S, generic: G) -> Self {
+        let solver = system.compiled.solvers.get(choice);
+        let (mut fused, mut elimination) = (None, None);
+        match solver {
+            Some(Solver::Fused(suffix)) => {
+                fused = system.compiled.fused.get(suffix).map(|codes| {
+                    let Item::Fused(row) = &system.compiled.plan.items[codes.item] else {
+                        unreachable!("the row of a fused equation")
+                    };
+                    let zero = system.zero_state();
+                    Running {
+                        codes,
+                        row,
+                        field: zero.clone(),
+                        base: zero,
+                        of_step: system.of_step(&codes.step, h),
+                        ratios: vec![S::zero(); 2 * spins(row)],
+                    }
+                });
+            }
+            Some(Solver::Eliminated(_, suffix)) => {
+                elimination = system.compiled.eliminations.get(suffix);
+            }
+            Some(Solver::Generic(_)) | None => {}
+        }
+        Self {
+            system,
+            h,
+            generic,
+            fused,
+            elimination,
+        }
+    }
+}
+
+fn spins(row: &Fused) -> usize {
+    match row.partner {
+        Partner::Spherical(spins) => spins,
+        _ => 0,
+    }
+}
+
+impl<S: Scalar> Running<'_, S> {
+    /// What the runtime computes from the state and the unknown before a kernel.
+    fn prepare(&mut self, system: &Dynamic<S>, unknown: &[S]) {
+        let count = spins(self.row);
+        if count > 0 {
+            generic::sphere_ratios_into(system, &self.base, unknown, &mut self.ratios);
+        }
+    }
+
+    fn run(
+        &self,
+        system: &Dynamic<S>,
+        code: (usize, &str),
+        (h, unknown): (S, &[S]),
+        targets: [&mut [S]; 2],
+    ) {
+        let functions = self.row.functions.iter();
+        let mut named = functions.filter(|function| function.name == code.1);
+        let arguments = named.next().map_or(&[][..], |function| &function.arguments);
+        let inverse = match arguments.iter().any(|argument| argument.name == "inverse") {
+            true => generic::inverse_length(&self.base, &unknown.to_vec()),
+            false => [S::zero()],
+        };
+        let mut places: [&[S]; crate::kernels::ARGUMENTS] = Default::default();
+        for (place, argument) in places.iter_mut().zip(arguments) {
+            *place = match argument.name {
+                "mu" => &self.base,
+                "inverse" => &inverse,
+                "ratios" => &self.ratios,
+                _ => unknown,
+            };
+        }
+        let frame = system.frame(places, &self.of_step, [h, S::zero()]);
+        system.run(code.0, &frame, targets);
+    }
+}
+
+impl<S, G> Equation<S> for Planned<'_, S, G>
+where
+    S: Scalar,
+    G: Equation<S, State = Vec<S>>,
+    G::Matrix: Block<S>,
+{
+    type State = Vec<S>;
+    type Unknown = G::Unknown;
+    type Matrix = G::Matrix;
+
+    fn zero_unknown(&self) -> Self::Unknown {
+        self.generic.zero_unknown()
+    }
+
+    fn zero_matrix(&self) -> Self::Matrix {
+        self.generic.zero_matrix()
+    }
+
+    fn set_base(&mut self, mu: &Vec<S>) {
+        match &mut self.fused {
+            Some(fused) => fused.base.copy_from_slice(mu),
+            None => self.generic.set_base(mu),
+        }
+    }
+
+    fn scale(&self, mu: &Vec<S>) -> S {
+        match &self.fused {
+            Some(_) => mu.max_norm(),
+            None => self.generic.scale(mu),
+        }
+    }
+
+    fn initial_guess(&mut self, unknown: &mut Self::Unknown) {
+        let Some(fused) = &mut self.fused else {
+            return self.generic.initial_guess(unknown);
+        };
+        let factor = match fused.row.guess {
+            Guess::WholeStep => self.h,
+            Guess::HalfStep => self.h * S::from_f64(0.5),
+            Guess::Kernel => {
+                let Some(code) = fused.codes.guess else {
+                    unreachable!("the guess is a kernel")
+                };
+                let targets = [unknown.part_mut(0), &mut []];
+                return fused.run(self.system, (code, "initial_guess"), (self.h, &[]), targets);
+            }
+        };
+        let mut field = std::mem::take(&mut fused.field);
+        self.system.vector_field(&fused.base, &mut field);
+        let entries = unknown.part_mut(0);
+        entries.copy_from_slice(&fused.base);
+        for (entry, slope) in entries.iter_mut().zip(&field) {
+            *entry += factor * *slope;
+        }
+        fused.field = field;
+    }
+
+    fn residual(&mut self, unknown: &Self::Unknown, residual: &mut Self::Unknown) {
+        let Some(fused) = &mut self.fused else {
+            return self.generic.residual(unknown, residual);
+        };
+        let (unknown, code) = (unknown.part(0), fused.codes.residual);
+        fused.prepare(self.system, unknown);
+        let targets = [residual.part_mut(0), &mut []];
+        fused.run(self.system, (code, "residual"), (self.h, unknown), targets);
+    }
+
+    fn linearize(
+        &mut self,
+        unknown: &Self::Unknown,
+        residual: &mut Self::Unknown,
+        matrix: &mut Self::Matrix,
+    ) {
+        let Some(fused) = &mut self.fused else {
+            return self.generic.linearize(unknown, residual, matrix);
+        };
+        let (unknown, code) = (unknown.part(0), fused.codes.linearize);
+        fused.prepare(self.system, unknown);
+        let targets = [residual.part_mut(0), matrix.block()];
+        fused.run(self.system, (code, "linearize"), (self.h, unknown), targets);
+    }
+
+    fn factor(&self, matrix: &mut Self::Matrix) -> S::Mask {
+        match (&self.fused, self.elimination) {
+            (Some(fused), _) => fused.codes.table.factor(matrix),
+            (None, Some(table)) => table.factor(matrix),
+            (None, None) => self.generic.factor(matrix),
+        }
+    }
+
+    fn solve(&self, factors: &Self::Matrix, residual: &mut Self::Unknown) {
+        match (&self.fused, self.elimination) {
+            (Some(fused), _) => fused.codes.table.solve(factors, residual),
+            (None, Some(table)) => table.solve(factors, residual),
+            (None, None) => self.generic.solve(factors, residual),
+        }
+    }
+
+    fn jacobian_cost(&self) -> f64 {
+        let known = self.fused.as_ref().and_then(|fused| fused.codes.cost);
+        known.unwrap_or_else(|| self.generic.jacobian_cost())
+    }
+
+    fn result(&mut self, unknown: &Self::Unknown, mu: &mut Vec<S>) {
+        let Some(fused) = &self.fused else {
+            return self.generic.result(unknown, mu);
+        };
+        match fused.row.ending {
+            Ending::Unknown => mu.copy_from_slice(unknown.part(0)),
+            Ending::Partner => {
+                self.generic.set_base(&fused.base);
+                self.generic.result(unknown, mu);
+            }
+            Ending::Kernel => {
+                let Some(code) = fused.codes.result else {
+                    unreachable!("the ending is a kernel")
+                };
+                let targets = [mu.as_mut_slice(), &mut []];
+                fused.run(
+                    self.system,
+                    (code, "result"),
+                    (self.h, unknown.part(0)),
+                    targets,
+                );
+            }
+        }
+    }
+
+    fn resolved(&mut self, unknown: &Self::Unknown, end: &Vec<S>) -> S::Mask {
+        match &self.fused {
+            Some(_) => S::Mask::splat(true),
+            None => self.generic.resolved(unknown, end),
+        }
+    }
+
+    fn within_chart(&mut self, unknown: &Self::Unknown) -> S::Mask {
+        let Some(fused) = &self.fused else {
+            return self.generic.within_chart(unknown);
+        };
+        match fused.row.chart {
+            None => S::Mask::splat(true),
+            Some(Chart::OfField) => {
+                let point = unknown.part(0).to_vec();
+                generic::cayley_chart_of_step(self.system, self.h, &point)
+            }
+            Some(Chart::OfFactor) => {
+                let mut xi = self.system.zero_state();
+                let _ = self.group_factor(unknown, &mut xi);
+                generic::cayley_chart(self.system, &xi)
+            }
+            Some(Chart::OfPartner) => {
+                self.generic.set_base(&fused.base);
+                self.generic.within_chart(unknown)
+            }
+        }
+    }
+
+    fn group_factor(&mut self, unknown: &Self::Unknown, xi: &mut Vec<S>) -> Option<Retraction> {
+        if let Some(fused) = &self.fused {
+            self.generic.set_base(&fused.base);
+        }
+        self.generic.group_factor(unknown, xi)
+    }
+
+    fn velocity(&mut self, unknown: &Self::Unknown, stage: usize, xi: &mut Vec<S>) -> usize {
+        if let Some(fused) = &self.fused {
+            self.generic.set_base(&fused.base);
+        }
+        self.generic.velocity(unknown, stage, xi)
+    }
+}

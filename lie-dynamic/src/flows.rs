@@ -1,0 +1,254 @@
+//! The flows of the pieces of H.
+
+use crate::code::Code;
+use crate::system::{Dynamic, Making};
+use lie_codegen::derive::{Shape, Update};
+use lie_codegen::plan::{Flow, Found, Plan};
+use lie_core::generic::{CoordinateFlows, piece_direction};
+use lie_runtime::{FoundPoisson, LiePoisson, PieceFlows, Poisson, Scalar, SeparablePoisson};
+
+/// The flow of a function of one coordinate: its code, and what is done with each result. Without it the flow is that of its
+/// series.
+#[derive(Debug)]
+struct FlowCode {
+    coordinate: usize,
+    code: Option<(usize, Vec<(usize, Update)>)>,
+}
+
+#[derive(Debug)]
+struct Part {
+    flows: Option<Vec<FlowCode>>,
+    direction: usize,
+}
+
+#[derive(Debug)]
+struct Piece {
+    parts: Vec<Part>,
+    direction: usize,
+}
+
+/// How H was split.
+#[derive(Debug, Default)]
+pub struct Codes {
+    coordinate: Option<Vec<FlowCode>>,
+    found: Option<(Vec<Piece>, bool)>,
+}
+
+impl Codes {
+    pub(crate) fn new(plan: &Plan, making: &mut Making) -> Self {
+        let splitting = plan.splitting.as_ref();
+        let coordinate = splitting.map(|s| s.flows.iter().map(|f| flow(f, making)).collect());
+        let found = match &plan.found {
+            Some(Found::Pieces { pieces, whole, .. }) => {
+                let pieces = pieces.iter().map(|piece| {
+                    let direction = making.kernel(&piece.direction);
+                    let parts = piece.parts.iter().map(|part| Part {
+                        flows: part
+                            .flows
+                            .as_ref()
+                            .map(|flows| flows.iter().map(|known| flow(known, making)).collect()),
+                        direction: part
+                            .direction
+                            .as_ref()
+                            .map_or(direction, |kernel| making.kernel(kernel)),
+                    });
+                    let parts = parts.collect();
+                    Piece { parts, direction }
+                });
+                Some((pieces.collect(), *whole))
+            }
+            _ => None,
+        };
+        Self { coordinate, found }
+    }
+}
+
+fn flow(flow: &Flow, making: &mut Making) -> FlowCode {
+    let code = flow.function.as_ref().map(|function| {
+        let mut code = Code::of_kernel(function, usize::MAX.isqrt());
+        // the results are updates, not the whole vector
+        code.clear = [None, None];
+        let rows = match &function.shape {
+            Shape::Vector(rows) => rows.clone(),
+            _ => Vec::new(),
+        };
+        for (entry, store) in (0..).zip(&mut code.stores) {
+            store.entry = entry;
+        }
+        let updates = rows.into_iter().zip(flow.updates.iter().copied()).collect();
+        (making.push(code), updates)
+    });
+    FlowCode {
+        coordinate: flow.coordinate,
+        code,
+    }
+}
+
+/// The flows of the pieces of a system.
+pub struct Flows<'a, S: Scalar> {
+    system: &'a Dynamic<S>,
+    series: CoordinateFlows<'a, S, Dynamic<S>>,
+    results: Vec<S>,
+    start: Vec<S>,
+    xi: Vec<S>,
+    found: bool,
+}
+
+impl<'a, S: Scalar> Flows<'a, S> {
+    fn new(system: &'a Dynamic<S>, found: bool) -> Self {
+        let zero = system.zero_state();
+        Self {
+            system,
+            series: CoordinateFlows::new(system),
+            results: zero.clone(),
+            start: zero.clone(),
+            xi: zero,
+            found: found && system.compiled.flows.found.is_some(),
+        }
+    }
+
+    /// Pieces that were found and are not those of the coordinates.
+    fn pieces_found(&self) -> &'a [Piece] {
+        match &self.system.compiled.flows.found {
+            Some((pieces, _)) if self.found => pieces,
+            _ => &[],
+        }
+    }
+
+    fn coordinates(&self) -> Option<&'a [FlowCode]> {
+        self.system.compiled.flows.coordinate.as_deref()
+    }
+
+    fn of_coordinate(&mut self, flow: &FlowCode, t: S, mu: &mut Vec<S>) {
+        let Some((code, updates)) = &flow.code else {
+            self.series.flow(flow.coordinate, t, mu);
+            return;
+        };
+        let frame = self.system.frame([mu, &[], &[], &[]], &[], [S::zero(), t]);
+        self.system.run(*code, &frame, [&mut self.results, &mut []]);
+        for ((row, update), result) in updates.iter().zip(&self.results) {
+            match update {
+                Update::Add => mu[*row] += *result,
+                Update::Subtract => mu[*row] -= *result,
+                Update::Multiply => mu[*row] *= *result,
+                Update::Divide => mu[*row] /= *result,
+            }
+        }
+    }
+
+    fn along(&self, direction: usize, t: S, mu: &[S], xi: &mut [S]) {
+        self.system.call(direction, [mu, &[]], xi, &mut []);
+        for entry in xi {
+            *entry = t * *entry;
+        }
+    }
+
+    fn of_part(&mut self, part: &Part, t: S, mu: &mut Vec<S>) {
+        if let Some(flows) = &part.flows {
+            for flow in flows {
+                self.of_coordinate(flow, t, mu);
+            }
+            return;
+        }
+        self.start.copy_from_slice(mu);
+        let mut xi = std::mem::take(&mut self.xi);
+        self.along(part.direction, t, mu, &mut xi);
+        self.system.coadjoint_action(&xi, &self.start, mu);
+        self.xi = xi;
+    }
+}
+
+impl<S: Scalar> PieceFlows<S> for Flows<'_, S> {
+    type State = Vec<S>;
+
+    fn pieces(&self) -> usize {
+        match (self.found, self.coordinates()) {
+            (true, _) => self.pieces_found().len(),
+            (false, Some(flows)) => flows.len(),
+            (false, None) => self.series.pieces(),
+        }
+    }
+
+    fn direction(&self, piece: usize, t: S, mu: &Vec<S>, xi: &mut Vec<S>) {
+        match (self.found, self.coordinates()) {
+            (true, _) => self.along(self.pieces_found()[piece].direction, t, mu, xi),
+            (false, Some(flows)) => {
+                piece_direction(self.system, flows[piece].coordinate, t, mu, xi);
+            }
+            (false, None) => self.series.direction(piece, t, mu, xi),
+        }
+    }
+
+    fn flow(&mut self, piece: usize, t: S, mu: &mut Vec<S>) {
+        match (self.found, self.coordinates()) {
+            (true, _) => {
+                for part in &self.pieces_found()[piece].parts {
+                    self.of_part(part, t, mu);
+                }
+            }
+            (false, Some(flows)) => self.of_coordinate(&flows[piece], t, mu),
+            (false, None) => self.series.flow(piece, t, mu),
+        }
+    }
+
+    fn follow(
+        &mut self,
+        piece: usize,
+        t: S,
+        mu: &mut Vec<S>,
+        factor: &mut Vec<S>,
+        give: &mut dyn FnMut(&mut Vec<S>),
+    ) {
+        if !self.found {
+            self.direction(piece, t, mu, factor);
+            give(factor);
+            self.flow(piece, t, mu);
+            return;
+        }
+        for part in &self.pieces_found()[piece].parts {
+            self.along(part.direction, t, mu, factor);
+            give(factor);
+            self.of_part(part, t, mu);
+        }
+    }
+
+    fn rest(&self, t: S, mu: &Vec<S>, xi: &mut Vec<S>) -> bool {
+        let whole = self
+            .system
+            .compiled
+            .flows
+            .found
+            .as_ref()
+            .is_none_or(|found| found.1);
+        if !self.found || whole {
+            return false;
+        }
+        let mut part = mu.clone();
+        self.system.gradient(mu, xi);
+        for piece in self.pieces_found() {
+            self.system
+                .call(piece.direction, [mu, &[]], &mut part, &mut []);
+            for (entry, part) in xi.iter_mut().zip(&part) {
+                *entry -= *part;
+            }
+        }
+        for entry in xi.iter_mut() {
+            *entry = t * *entry;
+        }
+        true
+    }
+}
+
+impl<S: Scalar> SeparablePoisson<S> for Dynamic<S> {
+    type Flows<'a> = Flows<'a, S>;
+    fn flows(&self) -> Flows<'_, S> {
+        Flows::new(self, false)
+    }
+}
+
+impl<S: Scalar> FoundPoisson<S> for Dynamic<S> {
+    type Found<'a> = Flows<'a, S>;
+    fn found(&self) -> Flows<'_, S> {
+        Flows::new(self, true)
+    }
+}

@@ -1,0 +1,174 @@
+//! Code run by a loop over its instructions, for every scalar: the reference of all other ways.
+
+use crate::code::{Code, Instruction, Number, Source};
+use crate::kernels::{Engine, Frame, Machine, Targets};
+use lie_codegen::symbolic::Function;
+use lie_core::closed;
+use lie_runtime::Scalar;
+use std::sync::Arc;
+
+/// The engine of the interpreter.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Interpreted;
+
+impl Engine for Interpreted {
+    fn name(&self) -> &'static str {
+        "interpreter"
+    }
+
+    fn machine(&self, codes: &Arc<[Code]>) -> Arc<dyn Machine<f64>> {
+        Arc::new(Interpreter::new(Arc::clone(codes)))
+    }
+}
+
+/// Codes over a scalar.
+#[derive(Clone, Debug)]
+pub struct Interpreter(Arc<[Code]>);
+
+/// Up to so many registers need no memory from the heap.
+const FEW: usize = 128;
+
+impl Interpreter {
+    /// Ready to run these.
+    pub fn new(codes: Arc<[Code]>) -> Self {
+        Self(codes)
+    }
+}
+
+impl<S: Scalar> Machine<S> for Interpreter {
+    fn run(&self, code: usize, frame: &Frame<'_, S>, targets: Targets<'_, S>) {
+        let code = &self.0[code];
+        let count = code.registers as usize;
+        if count <= FEW {
+            run(code, frame, &mut [S::zero(); FEW], targets);
+        } else {
+            run(code, frame, &mut vec![S::zero(); count], targets);
+        }
+    }
+}
+
+impl Number {
+    /// The number over a scalar.
+    pub fn value<S: Scalar>(self) -> S {
+        match self {
+            Self::Exact(value) => S::from_f64(value),
+            Self::Ratio(numerator, denominator) => S::ratio(numerator, denominator),
+            Self::Parts(high, low) => S::constant(high, low),
+        }
+    }
+}
+
+fn load<S: Scalar>(source: &Source, frame: &Frame<'_, S>) -> S {
+    match *source {
+        Source::Argument(argument, entry) => frame.arguments[usize::from(argument)][entry as usize],
+        Source::System(position) => frame.system[position as usize],
+        Source::OfStep(position) => frame.of_step[position as usize],
+        Source::Parameter(position) => frame.parameters[position as usize],
+        Source::Step => frame.scalars[0],
+        Source::Time => frame.scalars[1],
+        Source::Number(number) => number.value(),
+    }
+}
+
+fn run<S: Scalar>(
+    code: &Code,
+    frame: &Frame<'_, S>,
+    registers: &mut [S],
+    mut targets: Targets<'_, S>,
+) {
+    for (register, source) in registers.iter_mut().zip(&code.sources) {
+        *register = load(source, frame);
+    }
+    let mut next = code.sources.len();
+    for instruction in &code.instructions {
+        let at = |register: u32| registers[register as usize];
+        let value = match *instruction {
+            Instruction::Add(a, b) => at(a) + at(b),
+            Instruction::Sub(a, b) => at(a) - at(b),
+            Instruction::Mul(a, b) => at(a) * at(b),
+            Instruction::Div(a, b) => at(a) / at(b),
+            Instruction::Neg(a) => -at(a),
+            Instruction::Sqrt(a) => at(a).sqrt(),
+            Instruction::Power(a, b) => at(a).powf(at(b)),
+            Instruction::Atan2(a, b) => at(a).atan2(at(b)),
+            Instruction::Call(function, a) => call(function, at(a)),
+            Instruction::Below(a, b, c) => S::select(at(a).less(S::zero()), at(b), at(c)),
+            Instruction::Stumpff(count, a) => {
+                let all = stumpff(count, at(a));
+                let count = usize::from(count);
+                registers[next..next + count].copy_from_slice(&all[..count]);
+                next += count;
+                continue;
+            }
+            Instruction::Phi(count, a) => {
+                let all = phi(count, at(a));
+                let count = usize::from(count);
+                registers[next..next + count].copy_from_slice(&all[..count]);
+                next += count;
+                continue;
+            }
+        };
+        registers[next] = value;
+        next += 1;
+    }
+    for (target, clear) in targets.iter_mut().zip(code.clear) {
+        if let Some(count) = clear {
+            target[..count as usize].fill(S::zero());
+        }
+    }
+    for store in &code.stores {
+        targets[usize::from(store.target)][store.entry as usize] =
+            registers[store.register as usize];
+    }
+}
+
+/// An elementary function of one number.
+pub(crate) fn call<S: Scalar>(function: Function, x: S) -> S {
+    match function {
+        Function::Exp => x.exp(),
+        Function::Log => x.log(),
+        Function::Sin => x.sin(),
+        Function::Cos => x.cos(),
+        Function::Tan => x.tan(),
+        Function::Asin => x.asin(),
+        Function::Acos => x.acos(),
+        Function::Atan => x.atan(),
+        Function::Sinh => x.sinh(),
+        Function::Cosh => x.cosh(),
+        Function::Tanh => x.tanh(),
+        Function::Cbrt => x.cbrt(),
+        Function::Log1p => x.log1p(),
+        Function::Expm1 => x.expm1(),
+        Function::Asinh => x.asinh(),
+        Function::Acosh => x.acosh(),
+        Function::Atanh => x.atanh(),
+        other => unreachable!("`{}` has an instruction of its own", other.name()),
+    }
+}
+
+/// All functions of closed forms below an index. Sums begin at the last one asked for, and where they begin is part of the value.
+macro_rules! below {
+    ($name:ident, $function:ident, $($count:literal)+) => {
+        #[doc = "All of these functions below an index, in the first entries."]
+        pub fn $name<S: Scalar>(count: u8, x: S) -> [S; closed::MOST_FUNCTIONS] {
+            let mut all = [S::zero(); closed::MOST_FUNCTIONS];
+            match count {
+                $($count => all[..$count].copy_from_slice(&$function::<S, 0, $count>(x)),)+
+                _ => unreachable!("closed forms have at most 14 functions"),
+            }
+            all
+        }
+    };
+}
+below!(stumpff, stumpff_of, 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
+below!(phi, phi_of, 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
+
+#[inline(never)]
+fn stumpff_of<S: Scalar, const FIRST: usize, const COUNT: usize>(x: S) -> [S; COUNT] {
+    closed::stumpff::<S, FIRST, COUNT>(x)
+}
+
+#[inline(never)]
+fn phi_of<S: Scalar, const FIRST: usize, const COUNT: usize>(x: S) -> [S; COUNT] {
+    closed::phi::<S, FIRST, COUNT>(x)
+}

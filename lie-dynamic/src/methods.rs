@@ -1,0 +1,395 @@
+//! The methods of the catalogue over systems made at run time.
+
+use crate::equation::Planned;
+use crate::generating;
+use crate::gradient;
+use crate::matrix::Matrix;
+use crate::system::Dynamic;
+use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
+use lie_core::generic;
+use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper};
+use lie_runtime::methods::{self as m, Facts, Method as _, Preserves};
+use lie_runtime::newton::NewtonOptions;
+use lie_runtime::{Implicit, Scalar};
+
+/// Tolerances of adaptive methods.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerances {
+    /// Relative tolerance.
+    pub rtol: f64,
+    /// Absolute tolerance.
+    pub atol: f64,
+}
+
+impl Default for Tolerances {
+    fn default() -> Self {
+        Self {
+            rtol: 1e-6,
+            atol: 1e-9,
+        }
+    }
+}
+
+/// The equation of a method: its type, its row in the catalogue, the generic equation.
+macro_rules! planned {
+    ($($method:ty, $choice:expr, $generic:ty;)+) => {
+        $(
+            impl<S: Scalar> Implicit<S, $method> for Dynamic<S> {
+                type Equation<'a> = Planned<'a, S, $generic> where Self: 'a;
+                fn equation<'a>(&'a self, _method: &$method, h: S) -> Self::Equation<'a> {
+                    Planned::new(self, &$choice, h, <$generic>::new(self, h))
+                }
+            }
+        )+
+    };
+}
+
+planned! {
+    m::ImplicitMidpoint, Choice::Midpoint, generic::Midpoint<'a, S, Self>;
+    m::Gauss4, Choice::Gauss(2), generic::Gauss<'a, S, Self, 2>;
+    m::Gauss6, Choice::Gauss(3), generic::Gauss<'a, S, Self, 3>;
+    m::LieMidpoint<m::Exp>, Choice::LieMidpoint(Retraction::Exp), generic::ExpMidpoint<'a, S, Self>;
+    m::LieMidpoint<m::Cayley>, Choice::LieMidpoint(Retraction::Cayley), generic::CayleyMidpoint<'a, S, Self>;
+    m::Gonzalez, Choice::DiscreteGradient(Gradient::Gonzalez, Tensor::Midpoint),
+        generic::DiscreteGradientStep<'a, S, Self, generic::GonzalezGradient<S, Self>>;
+    m::MeanValue, Choice::DiscreteGradient(Gradient::MeanValue, Tensor::Midpoint),
+        generic::DiscreteGradientStep<'a, S, Self, generic::MeanValueGradient<S, Self>>;
+    m::ItohAbe, Choice::DiscreteGradient(Gradient::ItohAbe, Tensor::Midpoint),
+        generic::DiscreteGradientStep<'a, S, Self, generic::ItohAbeGradient<S, Self>>;
+    m::CohenHairer<1>, Choice::CohenHairer(2), generic::CohenHairerStep<'a, S, Self, 1>;
+    m::CohenHairer<2>, Choice::CohenHairer(4), generic::CohenHairerStep<'a, S, Self, 2>;
+    m::CohenHairer<3>, Choice::CohenHairer(6), generic::CohenHairerStep<'a, S, Self, 3>;
+    m::SphericalMidpoint, Choice::SphericalMidpoint, generic::Spherical<'a, S, Self>;
+}
+
+/// Order 2 is the Lie–Poisson midpoint method.
+macro_rules! same {
+    ($($retraction:ident $constructor:ident)+) => {
+        $(
+            impl<S: Scalar> Implicit<S, m::Generating<m::$retraction, 2>> for Dynamic<S> {
+                type Equation<'a> = <Self as Implicit<S, m::LieMidpoint<m::$retraction>>>::Equation<'a> where Self: 'a;
+                fn equation<'a>(&'a self, _method: &m::Generating<m::$retraction, 2>, h: S) -> Self::Equation<'a> {
+                    Implicit::equation(self, &m::LieMidpoint::$constructor(), h)
+                }
+            }
+        )+
+    };
+}
+same!(Exp exp Cayley cayley);
+
+/// Along a generating function of the plan.
+macro_rules! along {
+    ($($retraction:ident $order:literal $equation:ident $function:ident $suffix:literal;)+) => {
+        $(
+            impl<S: Scalar> Implicit<S, m::Generating<m::$retraction, $order>> for Dynamic<S> {
+                type Equation<'a> = Planned<'a, S, generic::$equation<
+                    'a, S, Self, generating::Planned<'a, S, generic::$function<'a, S, Self>>,
+                >> where Self: 'a;
+                fn equation<'a>(&'a self, _method: &m::Generating<m::$retraction, $order>, h: S) -> Self::Equation<'a> {
+                    let function = generic::$function::new(self, h);
+                    let function = generating::Planned::new(self, $suffix, h, function);
+                    let equation = generic::$equation::with_function(self, function, h);
+                    let choice = Choice::Generating($order, Retraction::$retraction);
+                    Planned::new(self, &choice, h, equation)
+                }
+            }
+        )+
+    };
+}
+along! {
+    Exp 4 ExpRetraction Generating4 "Generating4";
+    Exp 6 ExpRetraction Generating6 "Generating6";
+    Cayley 4 CayleyRetraction CayleyGenerating4 "CayleyGenerating4";
+}
+
+/// Momenta at stages over a map.
+macro_rules! stages {
+    ($($stages:literal $order:literal)+) => {
+        $(
+            impl<S: Scalar> Implicit<S, m::Isospectral<$stages>> for Dynamic<S> {
+                type Equation<'a> = Planned<'a, S, generic::StageMomenta<
+                    'a, S, Self, generic::MatrixStages<S, Matrix<S>, $stages>, $stages,
+                >> where Self: 'a;
+                fn equation<'a>(&'a self, _method: &m::Isospectral<$stages>, h: S) -> Self::Equation<'a> {
+                    let equation = generic::StageMomenta::new(self, h);
+                    Planned::new(self, &Choice::Isospectral($order), h, equation)
+                }
+            }
+
+            impl<S: Scalar> Implicit<S, m::Collective<m::Representation, $stages>> for Dynamic<S> {
+                type Equation<'a> = <Self as Implicit<S, m::Isospectral<$stages>>>::Equation<'a> where Self: 'a;
+                fn equation<'a>(&'a self, _method: &m::Collective<m::Representation, $stages>, h: S) -> Self::Equation<'a> {
+                    Implicit::equation(self, &m::Isospectral::<$stages>::new(), h)
+                }
+            }
+
+            impl<S: Scalar> Implicit<S, m::Collective<m::Hopf, $stages>> for Dynamic<S> {
+                type Equation<'a> = Planned<'a, S, generic::StageMomenta<
+                    'a, S, Self, generic::QuaternionStages<S, $stages>, $stages,
+                >> where Self: 'a;
+                fn equation<'a>(&'a self, _method: &m::Collective<m::Hopf, $stages>, h: S) -> Self::Equation<'a> {
+                    let equation = generic::StageMomenta::new(self, h);
+                    Planned::new(self, &Choice::Collective($order, Lift::Hopf), h, equation)
+                }
+            }
+        )+
+    };
+}
+stages!(1 2 2 4 3 6);
+
+/// Along a discrete gradient.
+macro_rules! orbit_energy {
+    ($($gradient:ident)+) => {
+        $(
+            impl<S: Scalar> Implicit<S, m::OrbitEnergy<m::$gradient>> for Dynamic<S> {
+                type Equation<'a> = Planned<'a, S, generic::OrbitEnergyStep<
+                    'a, S, Self, gradient::Planned<S, m::$gradient>,
+                >> where Self: 'a;
+                fn equation<'a>(&'a self, _method: &m::OrbitEnergy<m::$gradient>, h: S) -> Self::Equation<'a> {
+                    let equation = generic::OrbitEnergyStep::new(self, h);
+                    Planned::new(self, &Choice::OrbitEnergy(Gradient::$gradient), h, equation)
+                }
+            }
+        )+
+    };
+}
+orbit_energy!(Gonzalez MeanValue ItohAbe);
+
+impl<S: Scalar> Implicit<S, m::MoserVeselov> for Dynamic<S> {
+    type Equation<'a>
+        = Planned<'a, S, generic::DiscreteTop<'a, S, Self>>
+    where
+        Self: 'a;
+    fn equation<'a>(&'a self, _method: &m::MoserVeselov, h: S) -> Self::Equation<'a> {
+        Planned::new(
+            self,
+            &Choice::MoserVeselov,
+            h,
+            generic::DiscreteTop::new(self, h),
+        )
+    }
+}
+
+impl<S: Scalar> Implicit<S, m::GeneratingSecondKind2> for Dynamic<S> {
+    type Equation<'a>
+        = Planned<
+        'a,
+        S,
+        generic::SecondKind<
+            'a,
+            S,
+            Self,
+            generating::Planned<'a, S, generic::SecondKind2<'a, S, Self>>,
+        >,
+    >
+    where
+        Self: 'a;
+    fn equation<'a>(&'a self, _method: &m::GeneratingSecondKind2, h: S) -> Self::Equation<'a> {
+        let function = generic::SecondKind2::new(self, h);
+        let function = generating::Planned::new(self, "SecondKind2", h, function);
+        let equation = generic::SecondKind::with_function(self, function);
+        Planned::new(self, &Choice::GeneratingSecondKind2, h, equation)
+    }
+}
+
+/// A method whose type is forgotten.
+pub type Method = Box<dyn AnyMethod<f64, Dynamic<f64>>>;
+
+/// A symmetric method of order 2 as the base of compositions.
+struct Base(Method);
+
+impl Facts for Base {
+    const ID: &'static str = "";
+    const ORDER: u32 = 2;
+    const SYMMETRIC: bool = true;
+    const EXPLICIT: bool = false;
+    const PRESERVES: Preserves = Preserves::NOTHING;
+}
+
+impl lie_runtime::methods::Method<f64, Dynamic<f64>> for Base {
+    type Stepper<'a> = ForgottenStepper<'a, Vec<f64>>;
+
+    fn stepper<'a>(
+        &self,
+        system: &'a Dynamic<f64>,
+        h: f64,
+        newton: &NewtonOptions,
+    ) -> Self::Stepper<'a> {
+        Forgotten(self.0.as_ref()).stepper(system, h, newton)
+    }
+}
+
+/// A composition, which claims what its base does but for the order.
+struct Composed {
+    composition: Method,
+    claims: Claims,
+}
+
+impl AnyMethod<f64, Dynamic<f64>> for Composed {
+    fn claims(&self) -> Claims {
+        self.claims
+    }
+
+    fn any_stepper<'a>(
+        &self,
+        system: &'a Dynamic<f64>,
+        h: f64,
+        newton: &NewtonOptions,
+    ) -> Box<dyn AnyStepper<f64, Vec<f64>> + 'a> {
+        self.composition.any_stepper(system, h, newton)
+    }
+}
+
+fn boxed<M: lie_runtime::methods::Method<f64, Dynamic<f64>> + 'static>(
+    method: M,
+) -> Option<Method> {
+    Some(Box::new(method))
+}
+
+fn scheme_of(scheme: Scheme) -> m::Scheme {
+    match scheme {
+        Scheme::Suzuki => m::Scheme::Suzuki,
+        Scheme::TripleJump => m::Scheme::TripleJump,
+        Scheme::Yoshida => m::Scheme::Yoshida,
+        Scheme::KahanLi => m::Scheme::KahanLi,
+        Scheme::SuzukiUmeno => m::Scheme::SuzukiUmeno,
+        Scheme::BlanesMoan => m::Scheme::BlanesMoan,
+        Scheme::Strang => m::Scheme::Strang,
+        Scheme::Saba2 => m::Scheme::Saba2,
+        Scheme::Saba4 => m::Scheme::Saba4,
+        Scheme::Sbab2 => m::Scheme::Sbab2,
+        Scheme::Sbab4 => m::Scheme::Sbab4,
+        Scheme::McLachlan84 => m::Scheme::McLachlan84,
+    }
+}
+
+/// The method of a choice; none where it needs what systems made at run time do not have yet. Whether it applies to a system is
+/// for the catalogue to say.
+pub fn method(choice: &Choice, tolerances: Tolerances) -> Option<Method> {
+    match choice {
+        Choice::Midpoint => boxed(m::ImplicitMidpoint),
+        Choice::Gauss(stages) => gauss(*stages),
+        Choice::LieMidpoint(Retraction::Exp) => boxed(m::LieMidpoint::exp()),
+        Choice::LieMidpoint(Retraction::Cayley) => boxed(m::LieMidpoint::cayley()),
+        Choice::LieEuler => boxed(m::LieEuler),
+        Choice::Rkmk(2) => boxed(m::Rkmk2),
+        Choice::Rkmk(3) => boxed(m::Rkmk3),
+        Choice::Rkmk(4) => boxed(m::Rkmk4),
+        Choice::Rkmk(6) => boxed(m::Rkmk6),
+        Choice::CrouchGrossman3 => boxed(m::CrouchGrossman3),
+        Choice::CommutatorFree4 => boxed(m::CommutatorFree4),
+        Choice::MoserVeselov => boxed(m::MoserVeselov),
+        Choice::Compose(order, scheme, base) => compose(*order, *scheme, base, tolerances),
+        Choice::Generating(2, Retraction::Exp) => boxed(m::Generating2::exp()),
+        Choice::Generating(4, Retraction::Exp) => boxed(m::Generating4::exp()),
+        Choice::Generating(6, Retraction::Exp) => boxed(m::Generating6::exp()),
+        Choice::Generating(2, Retraction::Cayley) => boxed(m::Generating2::cayley()),
+        Choice::Generating(4, Retraction::Cayley) => boxed(m::Generating4::cayley()),
+        Choice::GeneratingSecondKind2 => boxed(m::GeneratingSecondKind2),
+        Choice::Collective(order, lift) => collective(*order, *lift),
+        Choice::Isospectral(4) => boxed(m::Isospectral4::new()),
+        Choice::Isospectral(6) => boxed(m::Isospectral6::new()),
+        Choice::SphericalMidpoint => boxed(m::SphericalMidpoint),
+        Choice::Splitting(order, scheme, pieces) => splitting(*order, *scheme, *pieces),
+        Choice::DiscreteGradient(gradient, Tensor::Midpoint) => match gradient {
+            Gradient::Gonzalez => boxed(m::Gonzalez),
+            Gradient::MeanValue => boxed(m::MeanValue),
+            Gradient::ItohAbe => boxed(m::ItohAbe),
+        },
+        Choice::OrbitEnergy(gradient) => match gradient {
+            Gradient::Gonzalez => boxed(m::OrbitEnergy::gonzalez()),
+            Gradient::MeanValue => boxed(m::OrbitEnergy::mean_value()),
+            Gradient::ItohAbe => boxed(m::OrbitEnergy::itoh_abe()),
+        },
+        Choice::CohenHairer(order) => cohen_hairer(*order),
+        Choice::Exact => boxed(m::Exact),
+        Choice::Rk4 => boxed(m::Rk4),
+        Choice::Dopri5 => boxed(m::Dopri5 {
+            rtol: tolerances.rtol,
+            atol: tolerances.atol,
+        }),
+        _ => None,
+    }
+}
+
+fn gauss(stages: usize) -> Option<Method> {
+    match stages {
+        2 => boxed(m::Gauss4),
+        3 => boxed(m::Gauss6),
+        4 => boxed(m::Gauss8),
+        5 => boxed(m::Gauss10),
+        6 => boxed(m::Gauss12),
+        7 => boxed(m::Gauss14),
+        8 => boxed(m::Gauss16),
+        _ => None,
+    }
+}
+
+fn cohen_hairer(order: u32) -> Option<Method> {
+    match order {
+        2 => boxed(m::CohenHairer2::new()),
+        4 => boxed(m::CohenHairer4::new()),
+        6 => boxed(m::CohenHairer6::new()),
+        8 => boxed(m::CohenHairer8::new()),
+        10 => boxed(m::CohenHairer10::new()),
+        12 => boxed(m::CohenHairer12::new()),
+        14 => boxed(m::CohenHairer14::new()),
+        16 => boxed(m::CohenHairer16::new()),
+        _ => None,
+    }
+}
+
+fn collective(order: u32, lift: Lift) -> Option<Method> {
+    match (order, lift) {
+        (2, Lift::Hopf) => boxed(m::Collective2::hopf()),
+        (4, Lift::Hopf) => boxed(m::Collective4::hopf()),
+        (6, Lift::Hopf) => boxed(m::Collective6::hopf()),
+        (4, Lift::Representation) => boxed(m::Collective4::representation()),
+        (6, Lift::Representation) => boxed(m::Collective6::representation()),
+        _ => None,
+    }
+}
+
+fn compose(order: u32, scheme: Scheme, base: &Choice, tolerances: Tolerances) -> Option<Method> {
+    let base = method(base, tolerances)?;
+    let claims = Claims {
+        order,
+        ..base.claims()
+    };
+    let (base, scheme) = (Base(base), scheme_of(scheme));
+    let composition = match order {
+        4 => boxed(m::Compose4::new(base).scheme(scheme)),
+        6 => boxed(m::Compose6::new(base).scheme(scheme)),
+        8 => boxed(m::Compose8::new(base).scheme(scheme)),
+        _ => None,
+    }?;
+    Some(Box::new(Composed {
+        composition,
+        claims,
+    }))
+}
+
+fn splitting(order: u32, scheme: Scheme, pieces: Pieces) -> Option<Method> {
+    macro_rules! of {
+        ($splitting:expr) => {{
+            let splitting = $splitting;
+            // of order 1 the scheme means nothing
+            let splitting = match order {
+                1 => splitting,
+                _ => splitting.scheme(scheme_of(scheme)),
+            };
+            match pieces {
+                Pieces::Coordinate => boxed(splitting.coordinate()),
+                Pieces::Found => boxed(splitting),
+            }
+        }};
+    }
+    match order {
+        1 => of!(m::Splitting1::new()),
+        2 => of!(m::Splitting2::new()),
+        4 => of!(m::Splitting4::new()),
+        6 => of!(m::Splitting6::new()),
+        8 => of!(m::Splitting8::new()),
+        _ => None,
+    }
+}
