@@ -45,7 +45,7 @@ mod structure;
 mod system;
 
 pub use code::{Code, Instruction, Number, Register, Source, Store};
-pub use interpreter::{Interpreted, Interpreter};
+pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use kernels::{Engine, Frame, Machine, Targets};
 pub use matrix::Matrix;
 pub use methods::{Method, Tolerances, method};

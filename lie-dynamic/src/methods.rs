@@ -8,7 +8,7 @@ use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
 use lie_core::generic;
 use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper};
-use lie_runtime::methods::{self as m, Facts, Method as _, Preserves};
+use lie_runtime::methods::{self as m, Facts, Preserves};
 use lie_runtime::newton::NewtonOptions;
 use lie_runtime::{Implicit, Scalar};
 

@@ -1,0 +1,262 @@
+//! The interpreter, Cranelift and rustc give the same bits: every kernel of every spec on random states, and steps of every
+//! method.
+
+#[path = "common/random.rs"]
+mod random;
+
+use lie_codegen::compile::{compile_spec, with_options};
+use lie_codegen::methods::Choice;
+use lie_codegen::plan::plan;
+use lie_dynamic::{Dynamic, Engine, Interpreted, method};
+use lie_jit::Jit;
+use lie_runtime::diagnostics::AnyMethod;
+use lie_runtime::methods as m;
+use lie_runtime::newton::NewtonOptions;
+use lie_runtime::{LiePoisson, Poisson, SquareMatrix, State};
+use random::Random;
+
+const STATES: usize = 50;
+const STEPS: usize = 40;
+const STEP: f64 = 0.05;
+
+/// A spec as a system made at run time, by an engine.
+fn made(spec: &str, ids: &[&str], engine: &dyn Engine) -> Dynamic<f64> {
+    let path = format!("{}/specs/{spec}.json", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).unwrap();
+    let model = compile_spec(&text).unwrap();
+    let choices: Vec<Choice> = ids.iter().map(|id| Choice::from_id(id).unwrap()).collect();
+    Dynamic::new(plan(&model, &with_options(&model, &choices)), &[], engine).unwrap()
+}
+
+/// What differs, by name.
+#[derive(Default)]
+struct Differences(Vec<String>);
+
+impl Differences {
+    fn compare(&mut self, what: &str, printed: &[f64], made: &[f64]) {
+        // a zero has no sign here: what fills in is negated or subtracted from 0
+        let same = |(a, b): (&f64, &f64)| (a + 0.0).to_bits() == (b + 0.0).to_bits();
+        if !printed.iter().zip(made).all(same) {
+            self.0.push(format!("{what}: {printed:?} {made:?}"));
+        }
+    }
+}
+
+fn entries<M: SquareMatrix<f64>>(matrix: &M) -> Vec<f64> {
+    let n = matrix.dimension();
+    let places = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    places.map(|(i, j)| matrix.get(i, j)).collect()
+}
+
+/// The kernels of a system at a state.
+fn kernels<P: Poisson<f64>>(system: &P, mu: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
+    let mut state = system.zero_state();
+    state.as_mut_slice().copy_from_slice(mu);
+    let (mut out, mut matrix) = (system.zero_state(), system.zero_jacobian());
+    let mut found = vec![
+        ("hamiltonian", vec![system.hamiltonian(&state)]),
+        ("energy", vec![system.energy(&state)]),
+    ];
+    system.gradient(&state, &mut out);
+    found.push(("gradient", out.as_slice().to_vec()));
+    system.vector_field(&state, &mut out);
+    found.push(("vector_field", out.as_slice().to_vec()));
+    system.hessian(&state, &mut matrix);
+    found.push(("hessian", entries(&matrix)));
+    system.poisson_matrix(&state, &mut matrix);
+    found.push(("poisson_matrix", entries(&matrix)));
+    system.jacobian(&state, &mut matrix);
+    found.push(("jacobian", entries(&matrix)));
+    system.linearize(&state, &mut out, &mut matrix);
+    found.push(("linearize", [out.as_slice(), &entries(&matrix)].concat()));
+    let mut casimirs = vec![0.0; system.casimir_count()];
+    system.casimirs(&state, &mut casimirs);
+    found.push(("casimirs", casimirs));
+    for index in 0..system.casimir_count() {
+        system.casimir_gradient(index, &state, &mut out);
+        found.push(("casimir_gradient", out.as_slice().to_vec()));
+    }
+    found
+}
+
+/// Those of a Lie algebra.
+fn algebra<P: LiePoisson<f64>>(
+    system: &P,
+    xi: &[f64],
+    mu: &[f64],
+) -> Vec<(&'static str, Vec<f64>)> {
+    let state = |values: &[f64]| {
+        let mut state = system.zero_state();
+        state.as_mut_slice().copy_from_slice(values);
+        state
+    };
+    let (xi, mu) = (state(xi), state(mu));
+    let (mut out, mut matrix) = (system.zero_state(), system.zero_jacobian());
+    let mut found = Vec::new();
+    system.ad(&xi, &mu, &mut out);
+    found.push(("ad", out.as_slice().to_vec()));
+    system.ad_star(&xi, &mu, &mut out);
+    found.push(("ad_star", out.as_slice().to_vec()));
+    system.ad_star_matrix(&xi, &mut matrix);
+    found.push(("ad_star_matrix", entries(&matrix)));
+    system.coadjoint_action(&xi, &mu, &mut out);
+    found.push(("coadjoint_action", out.as_slice().to_vec()));
+    system.dexp_dual(&xi, &mu, &mut out);
+    found.push(("dexp_dual", out.as_slice().to_vec()));
+    system.dexp_dual_slope(&xi, &mu, &mut out, &mut matrix);
+    found.push((
+        "dexp_dual_slope",
+        [out.as_slice(), &entries(&matrix)].concat(),
+    ));
+    found
+}
+
+/// The states along a trajectory.
+fn trajectory<P: Poisson<f64>>(
+    system: &P,
+    method: &dyn AnyMethod<f64, P>,
+    mu: &[f64],
+) -> Result<Vec<f64>, String> {
+    let mut state = system.zero_state();
+    state.as_mut_slice().copy_from_slice(mu);
+    let mut stepper = method.any_stepper(system, STEP, &NewtonOptions::default());
+    let mut all = Vec::new();
+    for _ in 0..STEPS {
+        stepper
+            .step(&mut state)
+            .map_err(|failure| format!("{failure:?}"))?;
+        all.extend_from_slice(state.as_slice());
+    }
+    Ok(all)
+}
+
+/// Compares a printed system with those made at run time.
+macro_rules! compare {
+    ($differences:ident, $spec:ident, $system:ident, [$($algebra:ident)?], [$($id:literal $method:expr),* $(,)?]) => {{
+        use spec_systems::$spec::$system;
+        let printed = $system::new().system().unwrap();
+        let spec = stringify!($spec);
+        for engine in [&Interpreted as &dyn Engine, &Jit] {
+            let made = made(spec, &spec_systems::methods::METHODS, engine);
+            let start: Vec<f64> = $system::new().initial_state().as_slice().to_vec();
+            let name = |what: &str| format!("{spec} {} {what}", engine.name());
+            let mut random = Random(2018);
+            for _ in 0..STATES {
+                let near = |random: &mut Random| -> Vec<f64> {
+                    start.iter().map(|x| x + 0.5 * random.number()).collect()
+                };
+                let mu = near(&mut random);
+                for ((what, a), (_, b)) in kernels(&printed, &mu).iter().zip(kernels(&made, &mu)) {
+                    $differences.compare(&name(what), a, &b);
+                }
+                $(
+                    let xi = near(&mut random);
+                    let pairs = $algebra(&printed, &xi, &mu);
+                    for ((what, a), (_, b)) in pairs.iter().zip($algebra(&made, &xi, &mu)) {
+                        $differences.compare(&name(what), a, &b);
+                    }
+                )?
+            }
+            $({
+                let choice = Choice::from_id($id).unwrap();
+                let steps = trajectory(&printed, &$method, &start);
+                let method = method(&choice, Default::default()).unwrap();
+                let made = trajectory(&made, method.as_ref(), &start);
+                match (steps, made) {
+                    (Ok(printed), Ok(made)) => $differences.compare(&name($id), &printed, &made),
+                    (printed, made) => $differences.0.push(format!("{} {printed:?} {made:?}", name($id))),
+                }
+            })*
+        }
+    }};
+}
+
+/// The methods of every Poisson system, and those of a Lie algebra, with others.
+macro_rules! each {
+    ($differences:ident, $($spec:ident $system:ident;)+) => {
+        $(compare!($differences, $spec, $system, [], [
+            "midpoint" m::ImplicitMidpoint, "gauss4" m::Gauss4, "gauss6" m::Gauss6, "gauss16" m::Gauss16,
+            "gonzalez" m::Gonzalez, "mean-value" m::MeanValue, "itoh-abe" m::ItohAbe,
+            "cohen-hairer4" m::CohenHairer4::new(), "rk4" m::Rk4, "dopri5" m::Dopri5 { rtol: 1e-6, atol: 1e-9 },
+            "compose4(midpoint)" m::Compose4::new(m::ImplicitMidpoint),
+        ]);)+
+    };
+    ($differences:ident, algebra $($spec:ident $system:ident [$($id:literal $method:expr),* $(,)?];)+) => {
+        $(compare!($differences, $spec, $system, [algebra], [
+            "midpoint" m::ImplicitMidpoint, "gauss4" m::Gauss4, "gauss6" m::Gauss6, "gauss16" m::Gauss16,
+            "lie-midpoint" m::LieMidpoint::exp(), "lie-euler" m::LieEuler, "rkmk4" m::Rkmk4, "cg3" m::CrouchGrossman3,
+            "gonzalez" m::Gonzalez, "mean-value" m::MeanValue, "itoh-abe" m::ItohAbe,
+            "orbit-energy" m::OrbitEnergy::gonzalez(), "cohen-hairer4" m::CohenHairer4::new(),
+            "generating4" m::Generating4::exp(), "generating-second-kind2" m::GeneratingSecondKind2,
+            "rk4" m::Rk4, "dopri5" m::Dopri5 { rtol: 1e-6, atol: 1e-9 },
+            "compose4(lie-midpoint)" m::Compose4::new(m::LieMidpoint::exp()),
+            $($id $method),*
+        ]);)+
+    };
+}
+
+#[test]
+fn rigid_bodies_and_spins() {
+    let mut differences = Differences::default();
+    each! { differences, algebra
+        so3_free_rigid_body FreeRigidBody [
+            "splitting2" m::Splitting2::new(), "spherical-midpoint" m::SphericalMidpoint,
+            "moser-veselov" m::MoserVeselov, "exact" m::Exact, "collective4" m::Collective4::representation(),
+            "isospectral6" m::Isospectral6::new(), "collective6 --lift hopf" m::Collective6::hopf(),
+            "lie-midpoint --retraction cayley" m::LieMidpoint::cayley(),
+        ];
+        so3_nonpolynomial NonpolynomialSpin [
+            "spherical-midpoint" m::SphericalMidpoint, "isospectral4" m::Isospectral4::new(),
+            "collective4 --lift hopf" m::Collective4::hopf(),
+            "lie-midpoint --retraction cayley" m::LieMidpoint::cayley(),
+        ];
+    }
+    assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
+}
+
+#[test]
+fn other_algebras() {
+    let mut differences = Differences::default();
+    each! { differences, algebra
+        se3_heavy_top HeavyTop [
+            "splitting2" m::Splitting2::new(), "lie-midpoint --retraction cayley" m::LieMidpoint::cayley(),
+            "isospectral4" m::Isospectral4::new(),
+        ];
+        se3_kirchhoff KirchhoffBody ["splitting4" m::Splitting4::new()];
+        e2_pendulum Pendulum ["splitting2" m::Splitting2::new()];
+        toda3_solvable TodaLattice [];
+        heisenberg_h3 Heisenberg [];
+    }
+    assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
+}
+
+#[test]
+fn large_algebras() {
+    let mut differences = Differences::default();
+    each! { differences, algebra
+        so4_manakov ManakovTop ["isospectral4" m::Isospectral4::new()];
+        su3_quadratic Su3Quadratic ["isospectral4" m::Isospectral4::new()];
+    }
+    assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
+}
+
+#[test]
+fn brackets_without_an_algebra() {
+    let mut differences = Differences::default();
+    each! { differences, canonical_pendulum CanonicalPendulum; lotka_volterra LotkaVolterra; se2_circulation BodyWithCirculation; }
+    assert!(differences.0.is_empty(), "{}", differences.0.join("\n"));
+}
+
+/// The comparison fails where a bit differs.
+#[test]
+fn a_bit_that_differs_is_seen() {
+    let mut differences = Differences::default();
+    differences.compare("equal", &[0.1, 0.0], &[0.1, -0.0]);
+    assert!(differences.0.is_empty());
+    differences.compare(
+        "different",
+        &[0.1],
+        &[f64::from_bits(0.1_f64.to_bits() + 1)],
+    );
+    assert_eq!(differences.0.len(), 1);
+}
