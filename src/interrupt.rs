@@ -7,7 +7,7 @@
 //! | SIGHUP | a terminal that closes | 129, unless `nohup` has it ignored |
 
 use std::io;
-use std::process::{ChildStdin, Command, Output, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -21,8 +21,8 @@ struct Inner {
     code: AtomicU8,
     /// Set while there is something to end in order.
     busy: AtomicBool,
-    /// The program stops when its standard input ends.
-    lifeline: Mutex<Option<ChildStdin>>,
+    /// What works stops when this end of its input is closed.
+    lifeline: Mutex<Option<Box<dyn Send>>>,
     /// The leader of the group of processes that builds.
     builder: Mutex<Option<u32>>,
 }
@@ -51,9 +51,9 @@ impl Interrupt {
         Some(self.0.code.load(Ordering::SeqCst)).filter(|code| *code != 0)
     }
 
-    /// From now on the program that reads `stdin` is asked to stop.
-    pub fn watch(&self, stdin: ChildStdin) {
-        *lock(&self.0.lifeline) = Some(stdin);
+    /// From now on what reads from the other end of `input` is asked to stop, by closing it.
+    pub fn watch(&self, input: Box<dyn Send>) {
+        *lock(&self.0.lifeline) = Some(input);
         self.0.busy.store(true, Ordering::SeqCst);
         // A signal that came before found nothing to stop.
         if self.seen().is_some() {

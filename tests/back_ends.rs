@@ -5,7 +5,7 @@
 mod random;
 
 use lie_codegen::compile::{compile_spec, with_options};
-use lie_codegen::methods::Choice;
+use lie_codegen::methods::{Choice, Lift, Retraction};
 use lie_codegen::plan::plan;
 use lie_dynamic::{Dynamic, Engine, Interpreted, method};
 use lie_jit::Jit;
@@ -18,6 +18,26 @@ use random::Random;
 const STATES: usize = 50;
 const STEPS: usize = 40;
 const STEP: f64 = 0.05;
+
+/// The choice under a label.
+fn choice_of(label: &str) -> Choice {
+    let id = label.split(" --").next().unwrap_or(label);
+    let Choice::Collective(order, _) = Choice::from_id(id).unwrap() else {
+        return match label.ends_with("--retraction cayley") {
+            true => Choice::LieMidpoint(Retraction::Cayley),
+            false => Choice::from_id(id).unwrap(),
+        };
+    };
+    let hopf = label.ends_with("--lift hopf");
+    Choice::Collective(
+        order,
+        if hopf {
+            Lift::Hopf
+        } else {
+            Lift::Representation
+        },
+    )
+}
 
 /// A spec as a system made at run time, by an engine.
 fn made(spec: &str, ids: &[&str], engine: &dyn Engine) -> Dynamic<f64> {
@@ -158,7 +178,7 @@ macro_rules! compare {
                 )?
             }
             $({
-                let choice = Choice::from_id($id).unwrap();
+                let choice = choice_of($id);
                 let steps = trajectory(&printed, &$method, &start);
                 let method = method(&choice, Default::default()).unwrap();
                 let made = trajectory(&made, method.as_ref(), &start);

@@ -31,6 +31,7 @@
 #![warn(missing_docs)]
 
 mod code;
+mod either;
 mod elimination;
 mod equation;
 mod flows;
@@ -49,4 +50,4 @@ pub use interpreter::{Interpreted, Interpreter, phi, stumpff};
 pub use kernels::{Engine, Frame, Machine, Targets};
 pub use matrix::Matrix;
 pub use methods::{Method, Tolerances, method};
-pub use system::Dynamic;
+pub use system::{Declared, Dynamic};

@@ -1,11 +1,13 @@
 //! The methods of the catalogue over systems made at run time.
 
+use crate::either::Either;
 use crate::equation::Planned;
 use crate::generating;
 use crate::gradient;
 use crate::matrix::Matrix;
 use crate::system::Dynamic;
 use lie_codegen::methods::{Choice, Gradient, Lift, Pieces, Retraction, Scheme, Tensor};
+use lie_codegen::plan::{Partner, Solver};
 use lie_core::generic;
 use lie_runtime::diagnostics::{AnyMethod, AnyStepper, Claims, Forgotten, ForgottenStepper};
 use lie_runtime::methods::{self as m, Facts, Preserves};
@@ -56,10 +58,43 @@ planned! {
         generic::DiscreteGradientStep<'a, S, Self, generic::MeanValueGradient<S, Self>>;
     m::ItohAbe, Choice::DiscreteGradient(Gradient::ItohAbe, Tensor::Midpoint),
         generic::DiscreteGradientStep<'a, S, Self, generic::ItohAbeGradient<S, Self>>;
-    m::CohenHairer<1>, Choice::CohenHairer(2), generic::CohenHairerStep<'a, S, Self, 1>;
-    m::CohenHairer<2>, Choice::CohenHairer(4), generic::CohenHairerStep<'a, S, Self, 2>;
-    m::CohenHairer<3>, Choice::CohenHairer(6), generic::CohenHairerStep<'a, S, Self, 3>;
     m::SphericalMidpoint, Choice::SphericalMidpoint, generic::Spherical<'a, S, Self>;
+}
+
+/// Energy-preserving collocation, which is Gauss collocation where H is quadratic.
+macro_rules! cohen_hairer {
+    ($($stages:literal)+) => {
+        $(
+            impl<S: Scalar> Implicit<S, m::CohenHairer<$stages>> for Dynamic<S> {
+                type Equation<'a> = Planned<'a, S, Either<
+                    generic::CohenHairerStep<'a, S, Self, $stages>, generic::Gauss<'a, S, Self, $stages>,
+                >> where Self: 'a;
+                fn equation<'a>(&'a self, _method: &m::CohenHairer<$stages>, h: S) -> Self::Equation<'a> {
+                    let choice = Choice::CohenHairer(2 * $stages);
+                    let solver = self.compiled.solvers.get(&choice);
+                    let equation = match solver {
+                        Some(Solver::Generic(Partner::Gauss(_)) | Solver::Eliminated(Partner::Gauss(_), _)) => {
+                            Either::Second(generic::Gauss::new(self, h))
+                        }
+                        _ => Either::First(generic::CohenHairerStep::new(self, h)),
+                    };
+                    Planned::new(self, &choice, h, equation)
+                }
+            }
+        )+
+    };
+}
+cohen_hairer!(2 3);
+
+impl<S: Scalar> Implicit<S, m::CohenHairer<1>> for Dynamic<S> {
+    type Equation<'a>
+        = Planned<'a, S, generic::CohenHairerStep<'a, S, Self, 1>>
+    where
+        Self: 'a;
+    fn equation<'a>(&'a self, _method: &m::CohenHairer<1>, h: S) -> Self::Equation<'a> {
+        let equation = generic::CohenHairerStep::new(self, h);
+        Planned::new(self, &Choice::CohenHairer(2), h, equation)
+    }
 }
 
 /// Order 2 is the Lie–Poisson midpoint method.

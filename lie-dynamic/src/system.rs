@@ -266,6 +266,41 @@ impl<S: Scalar> Clone for Dynamic<S> {
     }
 }
 
+/// A plan whose codes are ready to run, before its parameters have values.
+pub struct Declared {
+    compiled: Arc<Compiled>,
+    machine: Arc<dyn Machine<f64>>,
+}
+
+impl Declared {
+    /// Makes the codes of a plan ready.
+    ///
+    /// # Panics
+    /// [`Dynamic::supports`] is false of the plan.
+    pub fn new(plan: Plan, engine: &dyn Engine) -> Self {
+        let supported = Dynamic::supports(&plan);
+        assert!(supported, "no system can be made of this plan");
+        let compiled = Arc::new(Compiled::new(plan));
+        let machine = engine.machine(&compiled.codes);
+        Self { compiled, machine }
+    }
+
+    /// The system of these parameters, in the order of their names; those that are left out have their defaults. Nothing is
+    /// compiled again.
+    ///
+    /// # Errors
+    /// A parameter that must be positive is not, or a constant that the system needs is not finite.
+    pub fn system(&self, parameters: &[f64]) -> Result<Dynamic<f64>, ParameterError> {
+        let system = Dynamic {
+            compiled: Arc::clone(&self.compiled),
+            machine: Arc::clone(&self.machine),
+            parameters: Vec::new(),
+            constants: Vec::new(),
+        };
+        system.with_parameters(parameters)
+    }
+}
+
 impl Dynamic<f64> {
     /// Whether systems can be made of a plan: not of a family, nor where H is the Legendre transform of a Lagrangian, nor over a
     /// realization.
@@ -276,28 +311,19 @@ impl Dynamic<f64> {
             && plan.structure.realization.is_none()
     }
 
-    /// The system of these parameters, in the order of their names; those that are left out have their defaults.
+    /// The system of a plan and of these parameters, see [`Declared`].
     ///
     /// # Errors
-    /// A parameter that must be positive is not, or a constant that the system needs is not finite.
+    /// As of [`Declared::system`].
     ///
     /// # Panics
-    /// [`Dynamic::supports`] is false of the plan.
+    /// As [`Declared::new`].
     pub fn new(
         plan: Plan,
         parameters: &[f64],
         engine: &dyn Engine,
     ) -> Result<Self, ParameterError> {
-        assert!(Self::supports(&plan), "no system can be made of this plan");
-        let compiled = Arc::new(Compiled::new(plan));
-        let machine = engine.machine(&compiled.codes);
-        let system = Self {
-            compiled,
-            machine,
-            parameters: Vec::new(),
-            constants: Vec::new(),
-        };
-        system.with_parameters(parameters)
+        Declared::new(plan, engine).system(parameters)
     }
 
     /// The same system with other parameters: nothing is compiled again.

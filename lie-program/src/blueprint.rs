@@ -7,7 +7,7 @@ type Make<P> = dyn Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync;
 
 /// The parameters of a system, and how it is made of their values.
 pub struct Blueprint<P> {
-    parameters: Vec<(&'static str, f64)>,
+    parameters: Vec<(String, f64)>,
     make: Box<Make<P>>,
 }
 
@@ -22,18 +22,18 @@ pub struct Built<P: Poisson<f64>> {
 impl<P: Poisson<f64>> Blueprint<P> {
     /// From the parameters with their defaults, in the order in which `make` takes their values.
     pub fn new(
-        parameters: &[(&'static str, f64)],
+        parameters: &[(&str, f64)],
         make: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
     ) -> Self {
         Self {
-            parameters: parameters.to_vec(),
+            parameters: parameters.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
             make: Box::new(make),
         }
     }
 
     /// The names of the parameters.
-    pub fn names(&self) -> impl Iterator<Item = &'static str> {
-        self.parameters.iter().map(|(name, _)| *name)
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.parameters.iter().map(|(name, _)| name.as_str())
     }
 
     /// The values of the parameters, in order.
@@ -41,14 +41,14 @@ impl<P: Poisson<f64>> Blueprint<P> {
     /// # Errors
     /// A value is given to none of them.
     pub fn values(&self, start: &Start) -> Result<Vec<f64>, End> {
-        let known = |name: &str| self.parameters.iter().any(|(known, _)| *known == name);
+        let known = |name: &str| self.parameters.iter().any(|(known, _)| known == name);
         if let Some(name) = start.parameters.keys().find(|name| !known(name)) {
             return Err(End::refused(
                 Obstacle::Request,
                 format!("no parameter `{name}` in this program"),
             ));
         }
-        let value = |(name, default): &(&str, f64)| *start.parameters.get(*name).unwrap_or(default);
+        let value = |(name, default): &(String, f64)| *start.parameters.get(name).unwrap_or(default);
         Ok(self.parameters.iter().map(value).collect())
     }
 

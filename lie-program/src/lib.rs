@@ -26,6 +26,7 @@ use blueprint::{Blueprint, Built};
 use lie_runtime::driver::{
     Chart, IntegrateError, Options, Problem, Reconstruction, Stats, Status, integrate,
 };
+use lie_runtime::diagnostics::{AnyMethod, Forgotten};
 use lie_runtime::methods::Method;
 use lie_runtime::{MatrixGroup, ParameterError, Poisson};
 pub use protocol::Tolerances;
@@ -50,13 +51,13 @@ type Integrate<P> = dyn Fn(
 /// A program for one system and some methods.
 pub struct Program<P: Poisson<f64>> {
     blueprint: Blueprint<P>,
-    methods: Vec<(&'static str, Box<Integrate<P>>)>,
+    methods: Vec<(String, Box<Integrate<P>>)>,
 }
 
 impl<P: Poisson<f64>> Program<P> {
     /// A program from the parameters with their defaults and the function that makes a system of their values.
     pub fn new(
-        parameters: &[(&'static str, f64)],
+        parameters: &[(&str, f64)],
         build: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
     ) -> Self {
         Self {
@@ -69,13 +70,28 @@ impl<P: Poisson<f64>> Program<P> {
     #[must_use]
     pub fn method<M: Method<f64, P>>(
         mut self,
-        id: &'static str,
+        id: &str,
         make: impl Fn(&Tolerances) -> M + 'static,
     ) -> Self {
         let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, rows| {
             integrate(problem, make(tolerances), options, rows)
         });
-        self.methods.push((id, run));
+        self.methods.push((id.to_owned(), run));
+        self
+    }
+
+    /// Adds a method whose type is forgotten.
+    #[must_use]
+    pub fn any_method(
+        mut self,
+        id: &str,
+        make: impl Fn(&Tolerances) -> Box<dyn AnyMethod<f64, P>> + 'static,
+    ) -> Self {
+        let run: Box<Integrate<P>> = Box::new(move |tolerances, problem, options, rows| {
+            let method = make(tolerances);
+            integrate(problem, Forgotten(method.as_ref()), options, rows)
+        });
+        self.methods.push((id.to_owned(), run));
         self
     }
 
@@ -83,7 +99,7 @@ impl<P: Poisson<f64>> Program<P> {
     #[must_use]
     pub fn on_group<M: Method<f64, P>>(
         mut self,
-        id: &'static str,
+        id: &str,
         chart: Chart,
         make: impl Fn(&Tolerances) -> M + 'static,
     ) -> Self
@@ -98,7 +114,7 @@ impl<P: Poisson<f64>> Program<P> {
             };
             integrate(problem, make(tolerances), options, &mut rows)
         });
-        self.methods.push((id, run));
+        self.methods.push((id.to_owned(), run));
         self
     }
 
@@ -113,9 +129,13 @@ impl<P: Poisson<f64>> Program<P> {
         session::serve(None, Box::new(input), output, &run)
     }
 
-    fn run(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
+    /// Does what a line asks for.
+    ///
+    /// # Errors
+    /// Why the run did not come to its end.
+    pub fn run(&self, line: &str, session: &mut Session<'_>) -> Result<(), End> {
         let request = Run::read(line)?;
-        let known = self.methods.iter().find(|(id, _)| *id == request.method);
+        let known = self.methods.iter().find(|(id, _)| id == &request.method);
         let (_, run) = known.ok_or_else(|| session::no_method(&request.method))?;
         let Built { system, mu } = self.blueprint.build(&request.start)?;
         let problem = Problem {

@@ -10,6 +10,7 @@
 mod cache;
 mod cause;
 mod entry;
+mod here;
 mod key;
 mod processor;
 mod runtime;
@@ -28,6 +29,7 @@ use crate::message::{Failure, Message};
 use cause::Cause;
 use entry::Entry;
 use key::Key;
+pub use here::here;
 pub use processor::Processor;
 use toolchain::Toolchain;
 

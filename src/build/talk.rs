@@ -1,15 +1,19 @@
-//! Talks with a built program, by the protocol of [`lie_program`]: a request goes in, messages come out.
+//! Talks with what does the work, by the protocol of [`lie_program`]: a request goes in, messages come out. It is a built
+//! program, or a thread of this one.
 
-use std::io::{self, BufRead, BufReader, Read as _, Write as _};
-use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Write as _};
+use std::path::PathBuf;
+use std::process::{Child, ChildStderr, Command, Stdio};
 
+use lie_codegen::diagnostic::Kind;
 use lie_program::listen::listen;
 use lie_program::protocol::{End, Message, Obstacle, Progress, Stop};
+use lie_program::session::{Session, serve};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::interrupt::{Interrupt, own_group};
-use crate::message::INTERRUPTED;
+use crate::message::{Failure, INTERRUPTED};
 
 /// So much of the last words of a program is kept.
 const WORDS: usize = 1000;
@@ -36,11 +40,96 @@ pub enum Outcome {
 /// Takes what a program finds, and what follows it on the output.
 pub type Take<'a, R> = dyn FnMut(R, &mut dyn BufRead) -> io::Result<()> + 'a;
 
+/// What a thread of this program does with the line of a request.
+pub type Work = dyn Fn(&str, &mut Session<'_>) -> Result<(), End> + Send + Sync;
+
+/// What does the work.
+pub enum Worker {
+    /// A built program.
+    Program(PathBuf),
+    /// A thread of this program.
+    Here(Box<Work>),
+}
+
+impl Worker {
+    /// Has a request served to its end.
+    ///
+    /// # Errors
+    /// The program cannot be started.
+    pub fn talk<R: DeserializeOwned>(
+        &self,
+        request: &impl Serialize,
+        interrupt: &Interrupt,
+        found: &mut Take<'_, R>,
+        progress: &mut dyn FnMut(&Progress),
+    ) -> io::Result<Outcome> {
+        match self {
+            Self::Program(program) => {
+                talk(Command::new(program), request, interrupt, found, progress)
+            }
+            Self::Here(work) => talk_here(work, request, interrupt, found, progress),
+        }
+    }
+
+    /// It does what it should not.
+    pub fn broken(&self, how: &str) -> Failure {
+        match self {
+            Self::Program(program) => super::broken(program, how),
+            Self::Here(_) => Failure::surroundings(fault(how)),
+        }
+    }
+
+    /// The system does not start it.
+    pub fn not_started(&self, error: &io::Error) -> Failure {
+        match self {
+            Self::Program(program) => super::not_started(program, error),
+            Self::Here(_) => Failure::surroundings(fault(&error.to_string())),
+        }
+    }
+}
+
+/// A thread that fails.
+fn fault(how: &str) -> crate::message::Message {
+    let text = format!("the run failed: {how}");
+    crate::message::Message::new(Kind::Toolchain, text)
+        .help("`--compile` runs a program that is built by cargo; if that works, report this failure")
+}
+
+/// Has a thread serve a request, by pipes: what is said, and how it is ended, is as with a program.
+fn talk_here<R: DeserializeOwned>(
+    work: &Work,
+    request: &impl Serialize,
+    interrupt: &Interrupt,
+    found: &mut Take<'_, R>,
+    progress: &mut dyn FnMut(&Progress),
+) -> io::Result<Outcome> {
+    let mut line = serde_json::to_vec(request)?;
+    line.push(b'\n');
+    let (questions, mut asks) = io::pipe()?;
+    let (answers, says) = io::pipe()?;
+    let (heard, code) = std::thread::scope(|scope| {
+        let served = scope.spawn(move || {
+            let mut output = BufWriter::with_capacity(1 << 16, says);
+            serve(None, Box::new(BufReader::new(questions)), &mut output, work)
+        });
+        let _ = asks.write_all(&line);
+        interrupt.watch(Box::new(asks));
+        let heard = hear(answers, found, progress);
+        interrupt.stop();
+        (heard, served.join().ok())
+    });
+    Ok(match heard {
+        Ok(end) => outcome(code.map(i32::from), end, "the thread of the run ended", interrupt),
+        Err(Deaf::NotUnderstood(error)) => Outcome::Broken(error.to_string()),
+        Err(Deaf::NotTaken(error)) => Outcome::NotTaken(error),
+    })
+}
+
 /// Runs a program to its end.
 ///
 /// # Errors
 /// It cannot be started.
-pub fn talk<R: DeserializeOwned>(
+fn talk<R: DeserializeOwned>(
     mut command: Command,
     request: &impl Serialize,
     interrupt: &Interrupt,
@@ -58,12 +147,12 @@ pub fn talk<R: DeserializeOwned>(
     if let Some(mut stdin) = child.stdin.take() {
         // A program that has died already says why on its stderr.
         let _ = stdin.write_all(&line).and_then(|()| stdin.flush());
-        interrupt.watch(stdin);
+        interrupt.watch(Box::new(stdin));
     }
     let stderr = child.stderr.take();
     let (heard, words) = std::thread::scope(|scope| {
         let words = scope.spawn(|| stderr.map(last_words));
-        let heard = hear(&mut child, found, progress);
+        let heard = hear_child(&mut child, found, progress);
         if heard.is_err() {
             interrupt.stop();
             // The program may be waiting for us to read.
@@ -74,7 +163,13 @@ pub fn talk<R: DeserializeOwned>(
     let status = child.wait()?;
     interrupt.stop();
     Ok(match heard {
-        Ok(end) => outcome(status, end, &words, interrupt),
+        Ok(end) => {
+            let words = match words.as_str() {
+                "" => status.to_string(),
+                words => format!("{status}: {words}"),
+            };
+            outcome(status.code(), end, &words, interrupt)
+        }
         Err(Deaf::NotUnderstood(error)) => Outcome::Broken(error.to_string()),
         Err(Deaf::NotTaken(error)) => Outcome::NotTaken(error),
     })
@@ -86,16 +181,24 @@ enum Deaf {
     NotTaken(io::Error),
 }
 
-/// Hands on what a program says; answers its last message, if there was one.
-fn hear<R: DeserializeOwned>(
+fn hear_child<R: DeserializeOwned>(
     child: &mut Child,
     found: &mut Take<'_, R>,
     progress: &mut dyn FnMut(&Progress),
 ) -> Result<Option<End>, Deaf> {
-    let Some(stdout) = child.stdout.take() else {
-        return Ok(None);
-    };
-    let mut stdout = BufReader::with_capacity(1 << 16, stdout);
+    match child.stdout.take() {
+        Some(stdout) => hear(stdout, found, progress),
+        None => Ok(None),
+    }
+}
+
+/// Hands on what is said; answers the last message, if there was one.
+fn hear<R: DeserializeOwned>(
+    output: impl Read,
+    found: &mut Take<'_, R>,
+    progress: &mut dyn FnMut(&Progress),
+) -> Result<Option<End>, Deaf> {
+    let mut stdout = BufReader::with_capacity(1 << 16, output);
     let (mut last, mut refused) = (None, false);
     let heard = listen(&mut stdout, &mut |message, rest| {
         match message {
@@ -128,8 +231,12 @@ fn last_words(mut pipe: ChildStderr) -> String {
 }
 
 /// What exit code and last message amount to. They have to agree.
-fn outcome(status: ExitStatus, end: Option<End>, words: &str, interrupt: &Interrupt) -> Outcome {
-    let code = status.code();
+fn outcome(
+    code: Option<i32>,
+    end: Option<End>,
+    words: &str,
+    interrupt: &Interrupt,
+) -> Outcome {
     match interrupt.seen() {
         Some(signal) if code == Some(i32::from(INTERRUPTED)) => {
             return Outcome::Interrupted(signal);
@@ -144,10 +251,7 @@ fn outcome(status: ExitStatus, end: Option<End>, words: &str, interrupt: &Interr
         Some(End::Refused { what, why }) => return Outcome::Refused(what, why),
         Some(End::Interrupted | End::Unwritten { .. }) | None => {}
     }
-    Outcome::Broken(match words {
-        "" => status.to_string(),
-        words => format!("{status}: {words}"),
-    })
+    Outcome::Broken(words.to_owned())
 }
 
 #[cfg(all(test, unix))]

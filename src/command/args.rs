@@ -180,9 +180,13 @@ pub struct Run {
     /// Says nothing on stderr unless something fails
     #[arg(long)]
     pub quiet: bool,
-    /// Which processor to compile for (the results are the same, bit for bit)
-    #[arg(long, value_enum, default_value_t)]
-    pub cpu: Cpu,
+    /// Build a program with cargo and run that, in place of machine code made here: for very long runs (the results are the
+    /// same, bit for bit; systems by a Lagrangian, families, --group and some methods are always built)
+    #[arg(long)]
+    pub compile: bool,
+    /// Which processor to compile for (the results are the same, bit for bit); as --fma, implies --compile
+    #[arg(long, value_enum)]
+    pub cpu: Option<Cpu>,
     /// Rounds a product and its sum once (faster; other digits than on a processor without it)
     #[arg(long)]
     pub fma: bool,

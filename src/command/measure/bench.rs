@@ -74,7 +74,7 @@ pub fn run(arguments: &args::Bench) -> Result<u8, Failure> {
         budget,
         measure,
     };
-    let ended = bed.measure(flags, program, options, &interrupt, &mut |found| {
+    let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
         results.take(found);
     })?;
     if let Ended::Refused(what, why) = &ended {

@@ -11,9 +11,6 @@ pub mod stress;
 mod table;
 pub mod verify;
 
-use std::path::PathBuf;
-use std::process::Command;
-
 use lie_codegen::diagnostic::Kind;
 use lie_codegen::methods::Choice;
 use lie_codegen::program::{Purpose, program};
@@ -25,7 +22,7 @@ use super::args::{self, Measured};
 use super::run::bar::Bar;
 use super::run::impossible;
 use super::run::plan::{self, Point};
-use crate::build::talk::{Outcome, talk};
+use crate::build::talk::{Outcome, Worker};
 use crate::build::{self, Processor, Request};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
@@ -136,7 +133,7 @@ impl Bed {
         flags: &Measured,
         purpose: Purpose,
         interrupt: &Interrupt,
-    ) -> Result<PathBuf, Failure> {
+    ) -> Result<Worker, Failure> {
         let request = Request {
             name: &self.spec.model.name,
             source: &program(&self.spec.model, &self.choices, purpose),
@@ -144,7 +141,7 @@ impl Bed {
             quiet: flags.quiet,
             purpose,
         };
-        build::program(&request, interrupt)
+        Ok(Worker::Program(build::program(&request, interrupt)?))
     }
 
     /// Has a program measure everything; `found` takes what it finds.
@@ -154,7 +151,7 @@ impl Bed {
     pub fn measure<O: Serialize, R: DeserializeOwned>(
         &self,
         flags: &Measured,
-        program: PathBuf,
+        worker: &Worker,
         options: O,
         interrupt: &Interrupt,
         found: &mut dyn FnMut(R),
@@ -165,8 +162,7 @@ impl Bed {
             options,
         };
         let bar = Bar::of_stages(!flags.quiet);
-        let outcome = talk(
-            Command::new(&program),
+        let outcome = worker.talk(
             &request,
             interrupt,
             &mut |what, _| {
@@ -179,14 +175,14 @@ impl Bed {
             },
         );
         bar.clear();
-        match outcome.map_err(|error| build::not_started(&program, &error))? {
+        match outcome.map_err(|error| worker.not_started(&error))? {
             Outcome::Done => Ok(Ended::Done),
             Outcome::Interrupted(code) => Ok(Ended::Interrupted(code)),
             Outcome::Parameter(name, why) => Err(impossible(&name, &why)),
             Outcome::Refused(what, why) => Ok(Ended::Refused(what, why)),
-            Outcome::Broken(how) => Err(build::broken(&program, &how)),
-            Outcome::Stopped(stop) => Err(build::broken(&program, &stop.reason)),
-            Outcome::NotTaken(error) => Err(build::broken(&program, &error.to_string())),
+            Outcome::Broken(how) => Err(worker.broken(&how)),
+            Outcome::Stopped(stop) => Err(worker.broken(&stop.reason)),
+            Outcome::NotTaken(error) => Err(worker.broken(&error.to_string())),
         }
     }
 }

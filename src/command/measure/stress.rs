@@ -128,7 +128,7 @@ pub fn run(arguments: &args::Stress) -> Result<u8, Failure> {
         step: f64::NAN,
     };
     let options = Options { steps };
-    let ended = bed.measure(flags, program, options, &interrupt, &mut |found| {
+    let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
         results.take(found);
     })?;
     if let Ended::Refused(_, why) = &ended {

@@ -166,7 +166,7 @@ pub fn run(arguments: &args::Verify) -> Result<u8, Failure> {
         rows: Vec::new(),
         evidence,
     };
-    let ended = bed.measure(flags, program, options, &interrupt, &mut |found| {
+    let ended = bed.measure(flags, &program, options, &interrupt, &mut |found| {
         results.take(found);
     })?;
     if let Ended::Refused(what, why) = &ended {

@@ -9,8 +9,6 @@ mod summary;
 pub mod values;
 
 use std::io::{self, IsTerminal as _};
-use std::path::Path;
-use std::process::Command;
 use std::time::Instant;
 
 use lie_codegen::diagnostic::Kind;
@@ -19,7 +17,7 @@ use lie_program::protocol::{Obstacle, Stop};
 use lie_runtime::driver::Pace;
 
 use super::args::{self, Format};
-use crate::build::talk::{Outcome, talk};
+use crate::build::talk::{Outcome, Worker};
 use crate::build::{self, Processor, Request};
 use crate::compiler::{self, Spec};
 use crate::interrupt::Interrupt;
@@ -41,7 +39,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         let help = "run them one after the other; `lie check` takes several";
         return Err(Message::option("SPEC", text).help(help).into());
     };
-    let processor = Processor::of(flags.cpu, flags.fma)?;
+    Processor::of(flags.cpu.unwrap_or_default(), flags.fma)?;
     let spec = compiler::load(path)?;
     let plan = plan::plan(&spec, flags).map_err(Failure::invalid)?;
     let format = outputs::format(flags, path)?;
@@ -50,6 +48,22 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
     }
     let outputs = Outputs::open(flags)?;
     let interrupt = Interrupt::install();
+    let worker = worker(&spec, &plan, flags, &interrupt)?;
+    integrate(&spec, &plan, flags, format, outputs, &worker, &interrupt)
+}
+
+/// What runs the method: this program, or one that is built where that is asked for or has to be.
+fn worker(
+    spec: &Spec,
+    plan: &Plan,
+    flags: &args::Run,
+    interrupt: &Interrupt,
+) -> Result<Worker, Failure> {
+    let processor = Processor::of(flags.cpu.unwrap_or_default(), flags.fma)?;
+    let compiled = flags.compile || flags.fma || flags.cpu.is_some() || plan.chart.is_some();
+    if !compiled && let Some(worker) = build::here(&spec.model, &plan.method) {
+        return Ok(worker);
+    }
     let purpose = plan.chart.map_or(Purpose::Run, Purpose::OnGroup);
     let request = Request {
         name: &spec.model.name,
@@ -58,8 +72,7 @@ pub fn run(flags: &args::Run) -> Result<u8, Failure> {
         quiet: flags.quiet,
         purpose,
     };
-    let program = build::program(&request, &interrupt)?;
-    integrate(&spec, &plan, flags, format, outputs, &program, &interrupt)
+    Ok(Worker::Program(build::program(&request, interrupt)?))
 }
 
 fn integrate(
@@ -68,7 +81,7 @@ fn integrate(
     flags: &args::Run,
     format: Format,
     outputs: Outputs,
-    program: &Path,
+    worker: &Worker,
     interrupt: &Interrupt,
 ) -> Result<u8, Failure> {
     let lost = |error: io::Error| match (error.kind(), &flags.out) {
@@ -82,8 +95,7 @@ fn integrate(
     let scrolls = flags.out.is_none() && io::stdout().is_terminal();
     let bar = Bar::new(!flags.quiet && !scrolls);
     let clock = Instant::now();
-    let outcome = talk(
-        Command::new(program),
+    let outcome = worker.talk(
         &request,
         interrupt,
         &mut |found, rest| reception.take(found, rest),
@@ -98,7 +110,7 @@ fn integrate(
         Ok(outcome) => outcome,
         Err(error) => {
             reception.finish("failed").map_err(lost)?;
-            return Err(build::not_started(program, &error));
+            return Err(worker.not_started(&error));
         }
     };
     let mut received = reception.finish(word(&outcome)).map_err(lost)?;
@@ -122,7 +134,7 @@ fn integrate(
             let help = "give a step by `--step`, or another tolerance";
             Err(Message::option("--tol", why).help(help).into())
         }
-        outcome => ended(outcome, &received.drift, flags.quiet, program),
+        outcome => ended(outcome, &received.drift, flags.quiet, worker),
     }
 }
 
@@ -179,7 +191,7 @@ fn say_of_tolerance(plan: &Plan, received: &Received) {
 }
 
 /// Says how the run ended; answers the exit code.
-fn ended(outcome: Outcome, drift: &Drift, quiet: bool, program: &Path) -> Result<u8, Failure> {
+fn ended(outcome: Outcome, drift: &Drift, quiet: bool, worker: &Worker) -> Result<u8, Failure> {
     match outcome {
         Outcome::Done => Ok(0),
         Outcome::Interrupted(code) => {
@@ -194,9 +206,9 @@ fn ended(outcome: Outcome, drift: &Drift, quiet: bool, program: &Path) -> Result
             Ok(STOPPED)
         }
         Outcome::Parameter(name, why) => Err(impossible(&name, &why)),
-        Outcome::Refused(what, why) => Err(build::broken(program, &format!("{what:?}: {why}"))),
-        Outcome::Broken(how) => Err(build::broken(program, &how)),
-        Outcome::NotTaken(error) => Err(build::broken(program, &error.to_string())),
+        Outcome::Refused(what, why) => Err(worker.broken(&format!("{what:?}: {why}"))),
+        Outcome::Broken(how) => Err(worker.broken(&how)),
+        Outcome::NotTaken(error) => Err(worker.broken(&error.to_string())),
     }
 }
 
