@@ -26,7 +26,10 @@ impl<P: Poisson<f64>> Blueprint<P> {
         make: impl Fn(&[f64]) -> Result<P, ParameterError> + Send + Sync + 'static,
     ) -> Self {
         Self {
-            parameters: parameters.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
+            parameters: parameters
+                .iter()
+                .map(|(name, value)| ((*name).to_owned(), *value))
+                .collect(),
             make: Box::new(make),
         }
     }
@@ -48,7 +51,8 @@ impl<P: Poisson<f64>> Blueprint<P> {
                 format!("no parameter `{name}` in this program"),
             ));
         }
-        let value = |(name, default): &(String, f64)| *start.parameters.get(name).unwrap_or(default);
+        let value =
+            |(name, default): &(String, f64)| *start.parameters.get(name).unwrap_or(default);
         Ok(self.parameters.iter().map(value).collect())
     }
 

@@ -23,10 +23,10 @@ pub mod session;
 pub mod sources;
 
 use blueprint::{Blueprint, Built};
+use lie_runtime::diagnostics::{AnyMethod, Forgotten};
 use lie_runtime::driver::{
     Chart, IntegrateError, Options, Problem, Reconstruction, Stats, Status, integrate,
 };
-use lie_runtime::diagnostics::{AnyMethod, Forgotten};
 use lie_runtime::methods::Method;
 use lie_runtime::{MatrixGroup, ParameterError, Poisson};
 pub use protocol::Tolerances;

@@ -26,14 +26,18 @@ pub fn here(model: &Model, choice: &Choice) -> Option<Worker> {
     let (choice, label) = (choice.clone(), choice.label());
     let work = move |line: &str, session: &mut Session<'_>| -> Result<(), End> {
         let declared = Declared::new(plan.clone(), &Jit);
-        let parameters = parameters.iter().map(|(name, value)| (name.as_str(), *value));
+        let parameters = parameters
+            .iter()
+            .map(|(name, value)| (name.as_str(), *value));
         let parameters: Vec<(&str, f64)> = parameters.collect();
         let program = Program::new(&parameters, move |values| declared.system(values));
         let choice = choice.clone();
         let make = move |tolerances: &Tolerances| {
             let (rtol, atol) = (tolerances.rtol, tolerances.atol);
             let made = method(&choice, lie_dynamic::Tolerances { rtol, atol });
-            made.unwrap_or_else(|| unreachable!("whether there is the method does not depend on tolerances"))
+            made.unwrap_or_else(|| {
+                unreachable!("whether there is the method does not depend on tolerances")
+            })
         };
         program.any_method(&label, make).run(line, session)
     };

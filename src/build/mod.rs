@@ -28,8 +28,8 @@ use crate::interrupt::Interrupt;
 use crate::message::{Failure, Message};
 use cause::Cause;
 use entry::Entry;
-use key::Key;
 pub use here::here;
+use key::Key;
 pub use processor::Processor;
 use toolchain::Toolchain;
 

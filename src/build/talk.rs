@@ -91,8 +91,9 @@ impl Worker {
 /// A thread that fails.
 fn fault(how: &str) -> crate::message::Message {
     let text = format!("the run failed: {how}");
-    crate::message::Message::new(Kind::Toolchain, text)
-        .help("`--compile` runs a program that is built by cargo; if that works, report this failure")
+    crate::message::Message::new(Kind::Toolchain, text).help(
+        "`--compile` runs a program that is built by cargo; if that works, report this failure",
+    )
 }
 
 /// Has a thread serve a request, by pipes: what is said, and how it is ended, is as with a program.
@@ -119,7 +120,12 @@ fn talk_here<R: DeserializeOwned>(
         (heard, served.join().ok())
     });
     Ok(match heard {
-        Ok(end) => outcome(code.map(i32::from), end, "the thread of the run ended", interrupt),
+        Ok(end) => outcome(
+            code.map(i32::from),
+            end,
+            "the thread of the run ended",
+            interrupt,
+        ),
         Err(Deaf::NotUnderstood(error)) => Outcome::Broken(error.to_string()),
         Err(Deaf::NotTaken(error)) => Outcome::NotTaken(error),
     })
@@ -231,12 +237,7 @@ fn last_words(mut pipe: ChildStderr) -> String {
 }
 
 /// What exit code and last message amount to. They have to agree.
-fn outcome(
-    code: Option<i32>,
-    end: Option<End>,
-    words: &str,
-    interrupt: &Interrupt,
-) -> Outcome {
+fn outcome(code: Option<i32>, end: Option<End>, words: &str, interrupt: &Interrupt) -> Outcome {
     match interrupt.seen() {
         Some(signal) if code == Some(i32::from(INTERRUPTED)) => {
             return Outcome::Interrupted(signal);
